@@ -1,0 +1,47 @@
+# `make` lists the targets.
+VENV    := .venv
+PYTHON  := python3
+BIN     := $(VENV)/bin
+READY   := $(VENV)/.ready
+OUT     := out
+
+.DEFAULT_GOAL := help
+.PHONY: help setup demo test checks unit lint types contracts format bench clean
+
+help:          ## list the targets
+	@awk -F':.*## ' '/^[a-z]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+setup: $(READY) ## virtual environment in .venv with viscorig and its tools
+
+$(READY): pyproject.toml scripts/setup.sh
+	@PYTHON=$(PYTHON) VENV=$(VENV) sh scripts/setup.sh
+	@touch $@
+
+demo: $(READY) ## identify the paper's core material from its measured sweep; figures in out/
+	@$(BIN)/viscorig demo --out $(OUT)
+
+test: checks unit ## all checks and tests
+
+checks: lint types contracts ## style, types and import directions
+
+lint: $(READY)
+	@$(BIN)/ruff check .
+	@$(BIN)/ruff format --check .
+
+types: $(READY)
+	@$(BIN)/mypy
+
+contracts: $(READY)
+	@$(BIN)/lint-imports
+
+unit: $(READY) ## the test suite with coverage
+	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 --cov --cov-report=term
+
+format: $(READY) ## rewrite the sources in the project's style
+	@$(BIN)/ruff check --fix . ; $(BIN)/ruff format .
+
+bench: $(READY) ## the performance table
+	@$(BIN)/viscorig bench
+
+clean:         ## remove what make has made
+	rm -rf $(VENV) $(OUT) .coverage .mypy_cache .pytest_cache .ruff_cache .import_linter_cache .hypothesis
