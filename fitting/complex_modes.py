@@ -1,0 +1,125 @@
+"""Complex modes of the plate with its frequency-dependent core.
+
+lambda_r is an eigenvalue of K_0 + G*(omega_r) K_1 with the law taken at the real
+omega_r = sqrt(Re lambda_r), found by fixed point; eta_r = Im lambda_r / Re lambda_r.
+Convention of Johnson and Kienholz, and of Cupial and Niziol.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg as la
+from numpy.typing import NDArray
+
+from fitting.errors import OutsideModel
+from fitting.laws import CoreLaw
+from fitting.linear import factorise
+from fitting.plate import Plate
+from fitting.real_modes import real_modes
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_SPARE = 4
+"""Real modes kept beyond those asked for, so that the last ones are spanned too."""
+_STEPS = 100
+_TOLERANCE = 1e-12
+
+
+@dataclass(frozen=True)
+class ComplexMode:
+    """One mode: lambda in (rad/s)^2 and its full shape."""
+
+    eigenvalue: complex
+    shape: Complex
+
+    @property
+    def frequency_hz(self) -> float:
+        """omega_r / 2 pi."""
+        return float(np.sqrt(self.eigenvalue.real) / (2 * np.pi))
+
+    @property
+    def loss_factor(self) -> float:
+        """Im lambda / Re lambda."""
+        return float(self.eigenvalue.imag / self.eigenvalue.real)
+
+
+def complex_modes(
+    plate: Plate,
+    law: CoreLaw | None,
+    count: int,
+    progress: Callable[[float], None] = lambda fraction: None,
+) -> list[ComplexMode]:
+    """The first `count` elastic modes; `law` None for a bare plate.
+
+    Real modes at a few moduli span the start; each mode is then corrected on the full plate.
+    """
+    if not 0 < count <= plate.size // 2:
+        raise OutsideModel(f"{count} modes asked for, expected 1 to {plate.size // 2}")
+    modulus = _modulus_of(law)
+    V = _span(plate, modulus, count)
+    K_0, K_1, M = (V.T @ (A @ V) for A in (plate.K_0, plate.K_1, plate.M))
+    modes = []
+    for r in range(count):
+        omega, u = _fixed_point(K_0, K_1, M, modulus, r)
+        modes.append(_correct(plate, modulus, omega, V @ u))
+        progress((r + 1) / count)
+    return modes
+
+
+def _modulus_of(law: CoreLaw | None) -> Callable[[float], complex]:
+    if law is None:
+        return lambda omega: 0j
+    return lambda omega: complex(law.modulus(np.array([omega]))[0])
+
+
+def _span(plate: Plate, modulus: Callable[[float], complex], count: int) -> Array:
+    """Real modes at the moduli the law takes over the band of the modes, orthonormal. Shape (n, k)."""
+    wanted = min(count + _SPARE, plate.size - 8)
+    G = abs(modulus(2 * np.pi * 100.0))
+    modes = real_modes(plate, G, wanted)
+    if G == 0:
+        return modes.shapes
+    ends = [abs(modulus(omega)) for omega in (modes.omega[0], modes.omega[-1])]
+    tan = max(abs(modulus(o).imag / modulus(o).real) for o in (modes.omega[0], modes.omega[-1]))
+    # A lossy core's complex shapes lie between the shapes of stiffer and softer real cores.
+    spread = 1 + min(tan, 1.0)
+    moduli = [min(ends) / spread, max(ends) * spread]
+    shapes = [modes.shapes, *(real_modes(plate, g, wanted).shapes for g in moduli)]
+    U, s, _ = la.svd(np.hstack(shapes), full_matrices=False)
+    return np.asarray(U[:, s > 1e-10 * s[0]])
+
+
+def _fixed_point(
+    K_0: Complex, K_1: Array, M: Array, modulus: Callable[[float], complex], r: int
+) -> tuple[float, Complex]:
+    """omega_r and the reduced shape of the r-th mode in frequency order."""
+    omega = 2 * np.pi * 100.0
+    for _ in range(_STEPS):
+        values, vectors = la.eig(K_0 + modulus(omega) * K_1, M)
+        order = np.argsort(values.real)
+        found = float(np.sqrt(values[order[r]].real))
+        u = vectors[:, order[r]]
+        if abs(found / omega - 1) < 1e-9:
+            return found, u
+        omega = found
+    return omega, u
+
+
+def _correct(plate: Plate, modulus: Callable[[float], complex], omega: float, u: Complex) -> ComplexMode:
+    """Inverse iteration on the full plate, the law followed along: one factorisation a mode."""
+    G = modulus(omega)
+    K = plate.K_0 + G * plate.K_1
+    value = complex((u @ (K @ u)) / (u @ (plate.M @ u)))
+    solve = factorise((K - value * (1 + 1e-7) * plate.M).astype(complex))
+    for _ in range(_STEPS):
+        u = solve(plate.M @ u)
+        u = u / np.sqrt(u @ (plate.M @ u))
+        k_0, k_1 = complex(u @ (plate.K_0 @ u)), complex(u @ (plate.K_1 @ u))
+        new = k_0 + modulus(omega) * k_1
+        omega = float(np.sqrt(new.real))
+        if abs(new / value - 1) < _TOLERANCE:
+            break
+        value = new
+    return ComplexMode(new, u)

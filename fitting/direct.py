@@ -1,0 +1,38 @@
+"""The equation of motion solved as it stands, on every degree of freedom: Eq. (3)."""
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from fitting.damping import ViscousDamping
+from fitting.linear import factorise
+from fitting.plate import Plate
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+def solve_direct(A: sp.sparray, omega: float, damping: ViscousDamping, loads: Array) -> Complex:
+    """X of (A + i omega C_1) X = loads, A = -omega^2 M + K_0 + G K_1. Shape of `loads`, (n, k).
+
+    C_1 has the rank of a few modes: it enters by the Woodbury identity, the matrix stays sparse.
+    """
+    k = loads.shape[1]
+    X = factorise(A.astype(complex))(np.column_stack([loads, damping.U]).astype(complex))
+    X_0, Z = X[:, :k], X[:, k:]
+    if not damping.d.size:
+        return X_0
+    U, d = damping.U, damping.d
+    small = np.diag(1 / (1j * omega * d)) + U.T @ Z
+    return np.asarray(X_0 - Z @ np.linalg.solve(small, U.T @ X_0))
+
+
+def displacement_direct(plate: Plate, damping: ViscousDamping, omega: Array, G: Complex) -> Complex:
+    """Relative displacement at the pickup for a base acceleration of 1 m/s^2, in m. Shape of `omega`."""
+    load = plate.base_load[:, None]
+    return np.array(
+        [
+            plate.pickup @ solve_direct(plate.dynamic_stiffness(w, g), w, damping, load)[:, 0]
+            for w, g in zip(omega, G, strict=True)
+        ]
+    )

@@ -1,0 +1,179 @@
+"""The paper's layer-wise rectangular element: four nodes, seven degrees of freedom each.
+
+Degrees of freedom of a node, in this order: u_c, v_c, u_b, v_b, w, theta_x, theta_y, with
+theta_x = dw/dy and theta_y = -dw/dx. In-plane displacements are bilinear, the deflection is
+the twelve-term polynomial of Adini, Clough and Melosh. The core follows its faces: the
+interfaces are continuous, so its displacement and shear strain follow from the seven.
+
+Source: the paper's Eq. (15) to (18), with the thickness restored in Eq. (16) and
+1/(1 - mu) in Eq. (17b).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.specimen import Core, Face
+
+Array = NDArray[np.float64]
+
+U_C, V_C, U_B, V_B, W, THETA_X, THETA_Y = range(7)
+DOFS = 7
+CORNERS = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
+"""Local corners of the element, counter-clockwise, in fractions of its sides."""
+
+_POWERS = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2), (3, 0), (2, 1), (1, 2), (0, 3), (3, 1), (1, 3))
+
+
+def _monomials(x: float, y: float, dx: int = 0, dy: int = 0) -> Array:
+    """The twelve terms x^p y^q of the deflection, differentiated `dx` and `dy` times."""
+
+    def term(t: float, p: int, d: int) -> float:
+        factor = 1.0
+        for k in range(d):
+            factor *= p - k
+        return factor * t ** (p - d) if p >= d else 0.0
+
+    return np.array([term(x, p, dx) * term(y, q, dy) for p, q in _POWERS])
+
+
+def _bilinear(a: float, b: float, x: float, y: float, dx: int = 0, dy: int = 0) -> Array:
+    """Bilinear shape functions of the four corners, or their derivative."""
+    along_x = {0: (1 - x / a, x / a), 1: (-1 / a, 1 / a)}[dx]
+    along_y = {0: (1 - y / b, y / b), 1: (-1 / b, 1 / b)}[dy]
+    return np.array([along_x[int(cx)] * along_y[int(cy)] for cx, cy in CORNERS])
+
+
+@dataclass(frozen=True)
+class Shape:
+    """Shape function vectors of one element of sides `a_m`, `b_m`.
+
+    Every method takes local coordinates from corner one and returns rows over the element's
+    28 degrees of freedom.
+    """
+
+    a_m: float
+    b_m: float
+
+    def inplane(self, dof: int, x: float, y: float, dx: int = 0, dy: int = 0) -> Array:
+        """N_1 to N_4: one of u_c, v_c, u_b, v_b (or its derivative). Shape (28,)."""
+        row = np.zeros(4 * DOFS)
+        row[dof::DOFS] = _bilinear(self.a_m, self.b_m, x, y, dx, dy)
+        return row
+
+    def deflection(self, x: float, y: float, dx: int = 0, dy: int = 0) -> Array:
+        """N_5: w, or its derivative. Shape (28,)."""
+        a, b = self.a_m, self.b_m
+        nodal = []
+        for cx, cy in CORNERS:
+            nodal.append(_monomials(cx * a, cy * b))
+            nodal.append(_monomials(cx * a, cy * b, dy=1))
+            nodal.append(-_monomials(cx * a, cy * b, dx=1))
+        values = np.linalg.solve(np.array(nodal).T, _monomials(x, y, dx, dy))
+        row = np.zeros((4, DOFS))
+        row[:, W:] = values.reshape(4, 3)
+        return row.ravel()
+
+    def membrane(self, u: int, v: int, x: float, y: float) -> Array:
+        """B_b or B_c: strains (xx, yy, xy) of a face's neutral plane. Shape (3, 28)."""
+        return np.array(
+            [
+                self.inplane(u, x, y, dx=1),
+                self.inplane(v, x, y, dy=1),
+                self.inplane(u, x, y, dy=1) + self.inplane(v, x, y, dx=1),
+            ]
+        )
+
+    def bending(self, x: float, y: float) -> Array:
+        """B: curvatures (-w_xx, -w_yy, -2 w_xy), shared by all layers. Shape (3, 28)."""
+        w = self.deflection
+        return -np.array([w(x, y, dx=2), w(x, y, dy=2), 2 * w(x, y, dx=1, dy=1)])
+
+
+def plane_stress(modulus: float, poisson: float) -> Array:
+    """D of Eq. (17): `modulus` is E/(1 - mu^2), for the core 2 G/(1 - mu). Shape (3, 3)."""
+    return modulus * np.array([[1, poisson, 0], [poisson, 1, 0], [0, 0, (1 - poisson) / 2]])
+
+
+def _gauss(side: float) -> tuple[Array, Array]:
+    """Four Gauss points on (0, side): exact for the squares of every shape function used."""
+    t, weight = np.polynomial.legendre.leggauss(4)
+    return side * (t + 1) / 2, side * weight / 2
+
+
+def _points(shape: Shape) -> list[tuple[float, float, float]]:
+    xs, wx = _gauss(shape.a_m)
+    ys, wy = _gauss(shape.b_m)
+    return [(x, y, px * py) for x, px in zip(xs, wx, strict=True) for y, py in zip(ys, wy, strict=True)]
+
+
+def face_stiffness(shape: Shape, face: Face, u: int, v: int) -> Array:
+    """Eq. (15a): stretching and bending of a face. Real, loss factor left out. Shape (28, 28)."""
+    D = plane_stress(face.young_pa / (1 - face.poisson**2), face.poisson)
+    H = face.thickness_m
+    K = np.zeros((4 * DOFS, 4 * DOFS))
+    for x, y, dA in _points(shape):
+        B_i, B = shape.membrane(u, v, x, y), shape.bending(x, y)
+        K += (H * B_i.T @ D @ B_i + H**3 / 12 * B.T @ D @ B) * dA
+    return K
+
+
+def core_stiffness(shape: Shape, core: Core, substrate: Face, constraining: Face) -> Array:
+    """Eq. (15b) for G* = 1: stretching, bending and transverse shear. Shape (28, 28)."""
+    D = plane_stress(2 / (1 - core.poisson), core.poisson)
+    H = core.thickness_m
+    K = np.zeros((4 * DOFS, 4 * DOFS))
+    for x, y, dA in _points(shape):
+        B_v, B = _core_membrane(shape, substrate, constraining, x, y), shape.bending(x, y)
+        N_10, N_11 = core_shear(shape, core, substrate, constraining, x, y)
+        K += (H * B_v.T @ D @ B_v + H**3 / 12 * B.T @ D @ B) * dA
+        K += H * (np.outer(N_10, N_10) + np.outer(N_11, N_11)) * dA
+    return K
+
+
+def core_shear(
+    shape: Shape, core: Core, substrate: Face, constraining: Face, x: float, y: float
+) -> tuple[Array, Array]:
+    """N_10, N_11: transverse shear strains, gamma_xz = (u_c - u_b + d w_x)/H_v. Shape (28,) each."""
+    H_v = core.thickness_m
+    d = H_v + (constraining.thickness_m + substrate.thickness_m) / 2
+    N_10 = shape.inplane(U_C, x, y) - shape.inplane(U_B, x, y) + d * shape.deflection(x, y, dx=1)
+    N_11 = shape.inplane(V_C, x, y) - shape.inplane(V_B, x, y) + d * shape.deflection(x, y, dy=1)
+    return N_10 / H_v, N_11 / H_v
+
+
+def _core_displacement(
+    shape: Shape, substrate: Face, constraining: Face, x: float, y: float
+) -> tuple[Array, Array]:
+    """N_8, N_9: displacements of the core's neutral plane, the mean of its two interfaces."""
+    e = (constraining.thickness_m - substrate.thickness_m) / 2
+    N_8 = shape.inplane(U_C, x, y) + shape.inplane(U_B, x, y) + e * shape.deflection(x, y, dx=1)
+    N_9 = shape.inplane(V_C, x, y) + shape.inplane(V_B, x, y) + e * shape.deflection(x, y, dy=1)
+    return N_8 / 2, N_9 / 2
+
+
+def _core_membrane(shape: Shape, substrate: Face, constraining: Face, x: float, y: float) -> Array:
+    """B_v: strains of the core's neutral plane, derivatives of N_8 and N_9. Shape (3, 28)."""
+    e = (constraining.thickness_m - substrate.thickness_m) / 2
+    faces = shape.membrane(U_C, V_C, x, y) + shape.membrane(U_B, V_B, x, y)
+    return (faces - e * shape.bending(x, y)) / 2
+
+
+def face_mass(shape: Shape, face: Face, u: int, v: int) -> Array:
+    """Eq. (16a), (16c), times the thickness. Shape (28, 28)."""
+    M = np.zeros((4 * DOFS, 4 * DOFS))
+    for x, y, dA in _points(shape):
+        rows = np.array([shape.inplane(u, x, y), shape.inplane(v, x, y), shape.deflection(x, y)])
+        M += face.density_kg_m3 * face.thickness_m * rows.T @ rows * dA
+    return M
+
+
+def core_mass(shape: Shape, core: Core, substrate: Face, constraining: Face) -> Array:
+    """Eq. (16b), times the thickness. Shape (28, 28)."""
+    M = np.zeros((4 * DOFS, 4 * DOFS))
+    for x, y, dA in _points(shape):
+        N_8, N_9 = _core_displacement(shape, substrate, constraining, x, y)
+        rows = np.array([N_8, N_9, shape.deflection(x, y)])
+        M += core.density_kg_m3 * core.thickness_m * rows.T @ rows * dA
+    return M

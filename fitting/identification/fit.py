@@ -1,0 +1,30 @@
+"""What both methods return before anything is said about it: a law and how it was reached."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.laws import CoreLaw
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Fit:
+    """The end of a fit.
+
+    `residuals` and `jacobian` are whitened, derivatives to the log parameters:
+    shapes (data,) and (data, parameters).
+    """
+
+    law: CoreLaw
+    residuals: Array
+    jacobian: Array
+    velocity_m_s: NDArray[np.complex128]
+    """Predicted at the sweep's points."""
+    iterations: int
+    evaluations: int
+    converged: bool
+    criterion_met: bool | None = None
+    """The paper's 5 % criterion, where its method was asked for."""

@@ -1,0 +1,61 @@
+"""What a law predicts at the points of a sweep, and how that changes with its parameters."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.laws import CoreLaw
+from fitting.rational import RationalSweep
+from fitting.specimen import Reading
+from fitting.sweep import Sweep
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+def velocity(omega: Array, displacement: Complex, reads: Reading) -> Complex:
+    """Velocity per base acceleration, in s: i omega x, and 1/(i omega) more where the reading is absolute."""
+    relative = 1j * omega * displacement
+    return relative + 1 / (1j * omega) if reads == "absolute" else relative
+
+
+@dataclass(frozen=True)
+class SweepModel:
+    """The plate's response at a sweep's points; several points may share a frequency."""
+
+    rational: RationalSweep
+    index: NDArray[np.intp]
+    """Grid frequency of every point. Shape (points,)."""
+    acceleration_m_s2: Array
+    """Commanded base acceleration. Shape (points,)."""
+    reads: Reading
+
+    @classmethod
+    def of(cls, sweep: Sweep, rational: RationalSweep, reads: Reading) -> "SweepModel":
+        """`rational` must hold every frequency of the sweep."""
+        index = np.argmin(np.abs(rational.omega[None, :] - sweep.omega[:, None]), axis=1)
+        return cls(rational, index, sweep.commanded_m_s2, reads)
+
+    def velocity(self, law: CoreLaw) -> Complex:
+        """Phasors in m/s. Shape (points,)."""
+        return self.velocities(self.rational.displacement(law.modulus(self.rational.omega)))
+
+    def velocities(self, displacement: Complex) -> Complex:
+        """Phasors in m/s from displacements on the grid. Shapes (..., grid) to (..., points)."""
+        v = velocity(self.rational.omega, displacement, self.reads)
+        return np.asarray(v[..., self.index] * self.acceleration_m_s2)
+
+    def with_derivatives(self, law: CoreLaw) -> tuple[Complex, Complex]:
+        """Phasors and their derivatives to the log parameters. Shapes (points,), (parameters, points)."""
+        omega = self.rational.omega
+        x, dx_dG = self.rational.with_derivative(law.modulus(omega))
+        dG = law.jacobian(omega) * law.values[:, None]
+        v = self.velocities(x)
+        dv = (1j * omega * dx_dG * dG)[:, self.index] * self.acceleration_m_s2
+        return v, dv
+
+    def take(self, points: NDArray[np.intp] | NDArray[np.bool_]) -> "SweepModel":
+        """The model at some of the points."""
+        used, index = np.unique(self.index[points], return_inverse=True)
+        return SweepModel(self.rational.at(used), index, self.acceleration_m_s2[points], self.reads)

@@ -1,0 +1,148 @@
+"""The one result of an identification, whichever method found it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.identification.fit import Fit
+from fitting.identification.uncertainty import Uncertainty, uncertainty_of
+from fitting.identification.validation import Validation, rms
+from fitting.laws import CoreLaw
+from fitting.noise import Noise
+from fitting.sweep import Sweep
+
+Array = NDArray[np.float64]
+
+REFERENCE_FREQUENCIES_HZ = (20.0, 100.0, 280.0)
+"""Where the band is always stated, as far as they lie inside the measured range."""
+_BAND_POINTS = 41
+_STRONG_CORRELATION = 0.99
+_MISFIT = 1.5
+"""Chi-square per degree of freedom that noise alone does not explain."""
+
+
+@dataclass(frozen=True)
+class LawBand:
+    """G' and eta over the measured range with their standard errors. Shape (frequencies,) each."""
+
+    frequency_hz: Array
+    storage_modulus_pa: Array
+    loss_factor: Array
+    storage_modulus_standard_error_pa: Array
+    loss_factor_standard_error: Array
+
+
+@dataclass(frozen=True)
+class Identification:
+    """What was found, how well it is known, and what the data do not say."""
+
+    method: str
+    law: CoreLaw
+    fit: Fit
+    uncertainty: Uncertainty
+    noise: Noise
+    measured_m_s: Array
+    """Amplitudes, over measured base acceleration times the commanded one. Shape (points,)."""
+    predicted_m_s: Array
+    difference_percent: Array
+    validation: Validation
+    band: LawBand
+    warnings: tuple[str, ...]
+
+    @property
+    def standard_errors(self) -> dict[str, float]:
+        """In the parameters' own units; NaN for one at its limit."""
+        size = self.uncertainty.standard_errors * self.law.values
+        fixed = self.uncertainty.at_bound
+        return {
+            n: float("nan") if n in fixed else float(s) for n, s in zip(self.law.names, size, strict=True)
+        }
+
+    @property
+    def rms_percent(self) -> float:
+        """Of the differences in amplitude."""
+        return rms(self.difference_percent)
+
+    @property
+    def max_percent(self) -> float:
+        """Largest difference in amplitude."""
+        return float(np.max(np.abs(self.difference_percent)))
+
+
+def differences_percent(sweep: Sweep, velocity_m_s: NDArray[np.complex128]) -> Array:
+    """100 (|predicted| - |measured|) / |measured|. Shape (points,)."""
+    measured = np.abs(sweep.response_m_s)
+    return np.asarray(100 * (np.abs(velocity_m_s) - measured) / measured)
+
+
+def summarise(
+    method: str,
+    sweep: Sweep,
+    noise: Noise,
+    fit: Fit,
+    validation: Validation,
+    further_warnings: tuple[str, ...] = (),
+) -> Identification:
+    """Put the facts of a fit together."""
+    known = noise.is_known and method == "direct"
+    uncertainty = uncertainty_of(fit, noise_is_known=known)
+    return Identification(
+        method=method,
+        law=fit.law,
+        fit=fit,
+        uncertainty=uncertainty,
+        noise=noise,
+        measured_m_s=np.abs(sweep.response_m_s),
+        predicted_m_s=np.abs(fit.velocity_m_s),
+        difference_percent=differences_percent(sweep, fit.velocity_m_s),
+        validation=validation,
+        band=law_band(sweep, fit.law, uncertainty),
+        warnings=(*_warnings(sweep, fit, uncertainty, known), *further_warnings),
+    )
+
+
+def law_band(sweep: Sweep, law: CoreLaw, uncertainty: Uncertainty) -> LawBand:
+    """The law over the measured range, logarithmic in frequency, with the reference frequencies inside it."""
+    low, high = float(sweep.frequency_hz.min()), float(sweep.frequency_hz.max())
+    inside = [f for f in REFERENCE_FREQUENCIES_HZ if low <= f <= high]
+    f = np.unique(np.concatenate([np.geomspace(low, high, _BAND_POINTS), inside]))
+    omega = 2 * np.pi * f
+    G, eta = law.storage_and_loss(omega)
+    return LawBand(f, G, eta, *uncertainty.law_band(law, omega))
+
+
+def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: bool) -> list[str]:
+    law, said = fit.law, []
+    data = len(sweep) * (2 if sweep.has_phase else 1)
+    if data <= len(law.names):
+        said.append(
+            f"too few points: {len(sweep)} ({data} numbers) for {len(law.names)} parameters, more than "
+            "that are needed; the parameters found are one choice of many and carry no standard error"
+        )
+    for name, side in uncertainty.at_bound.items():
+        said.append(f"{name} sits at its {side} bound: the data do not fix it on that side")
+    said.extend(_correlation_warnings(law, uncertainty))
+    said.extend(law.objections())
+    if not fit.converged:
+        said.append(f"not converged after {fit.iterations} iterations: take the values as provisional")
+    if fit.criterion_met is False:
+        said.append("the 5 % criterion is not met: some point differs by more than 5 %")
+    if noise_is_known and uncertainty.chi2_per_dof > _MISFIT:
+        said.append(
+            f"the residual is {uncertainty.chi2_per_dof:.3g} times what the noise explains "
+            "(chi-square per degree of freedom): the model lacks something, "
+            "and the law may be biased beyond its band"
+        )
+    return said
+
+
+def _correlation_warnings(law: CoreLaw, uncertainty: Uncertainty) -> list[str]:
+    C, names = uncertainty.correlations, law.names
+    return [
+        f"{names[i]} and {names[j]} are correlated {C[i, j]:+.3f}: the data fix a combination of them, "
+        "not each; rely on G'(f) and eta(f) inside the measured band"
+        for i in range(len(names))
+        for j in range(i + 1, len(names))
+        if abs(C[i, j]) > _STRONG_CORRELATION
+    ]

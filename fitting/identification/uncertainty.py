@@ -1,0 +1,88 @@
+"""How well a fit knows what it found: covariance of the log parameters and what follows from it."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.identification.fit import Fit
+from fitting.laws import CoreLaw
+
+Array = NDArray[np.float64]
+
+_AT_BOUND = 1e-5
+"""Distance to a limit, in the log parameter, that counts as sitting on it."""
+
+
+@dataclass(frozen=True)
+class Uncertainty:
+    """First-order uncertainty of a fit."""
+
+    covariance: Array
+    """Of the log parameters; zero rows for those at a limit, NaN where the data do not suffice."""
+    at_bound: dict[str, str]
+    """Parameter name to "lower" or "upper"."""
+    chi2_per_dof: float
+    """Sum of squares of the whitened residuals per degree of freedom; NaN without any."""
+
+    @property
+    def standard_errors(self) -> Array:
+        """Of the log parameters. Shape (parameters,)."""
+        return np.sqrt(np.diag(self.covariance))
+
+    @property
+    def correlations(self) -> Array:
+        """Shape (parameters, parameters); NaN for parameters at a limit."""
+        size = self.standard_errors
+        with np.errstate(invalid="ignore", divide="ignore"):
+            return np.asarray(self.covariance / np.outer(size, size))
+
+    def law_band(self, law: CoreLaw, omega: Array) -> tuple[Array, Array]:
+        """Standard errors of G' in Pa and of eta at `omega`. Shape of `omega` each."""
+        dG = law.jacobian(omega) * law.values[:, None]
+        G, eta = law.storage_and_loss(omega)
+        d_eta = (dG.imag - eta * dG.real) / G
+        return self._propagate(dG.real), self._propagate(d_eta)
+
+    def _propagate(self, gradient: Array) -> Array:
+        return np.sqrt(np.maximum(np.einsum("if,ij,jf->f", gradient, self.covariance, gradient), 0))
+
+
+def uncertainty_of(fit: Fit, *, noise_is_known: bool) -> Uncertainty:
+    """Covariance (J^T J)^-1, scaled by the residual.
+
+    Always where the noise is unknown; where it is known only upwards, since a misfit must not look certain.
+    """
+    names = fit.law.names
+    at_bound = _at_bound(fit.law)
+    free = np.array([name not in at_bound for name in names])
+    dof = len(fit.residuals) - len(names)
+    chi2_per_dof = float(fit.residuals @ fit.residuals / dof) if dof > 0 else float("nan")
+    covariance = np.zeros((len(names), len(names)))
+    if dof > 0:
+        scale = max(1.0, chi2_per_dof) if noise_is_known else chi2_per_dof
+        covariance[np.ix_(free, free)] = scale * _inverse(fit.jacobian[:, free])
+    else:
+        covariance[:] = np.nan
+    return Uncertainty(covariance, at_bound, chi2_per_dof)
+
+
+def _inverse(J: Array) -> Array:
+    """(J^T J)^-1 by singular values, columns scaled first."""
+    scale = np.linalg.norm(J, axis=0)
+    scale = np.where(scale > 0, scale, 1.0)
+    _, s, Vt = np.linalg.svd(J / scale, full_matrices=False)
+    half = Vt.T / np.maximum(s, 1e-14 * s.max()) / scale[:, None]
+    return np.asarray(half @ half.T)
+
+
+def _at_bound(law: CoreLaw) -> dict[str, str]:
+    lower, upper = law.log_limits
+    logs = np.log(np.maximum(law.values, 1e-300))
+    found = {}
+    for name, p, low, high in zip(law.names, logs, lower, upper, strict=True):
+        if p - low < _AT_BOUND:
+            found[name] = "lower"
+        elif high - p < _AT_BOUND:
+            found[name] = "upper"
+    return found

@@ -1,0 +1,67 @@
+"""Error on data the fit has not seen: one point at a time, or whole segments where there are many."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.laws import CoreLaw
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+Refit = Callable[[Mask], CoreLaw]
+"""Points to learn from, to the law that fits them."""
+Differences = Callable[[CoreLaw], Array]
+"""A law, to 100 (|predicted| - |measured|)/|measured| at every point."""
+
+MOST_POINTS_ONE_BY_ONE = 30
+
+
+@dataclass(frozen=True)
+class HeldOutSegment:
+    """A segment predicted from the others."""
+
+    segment: int
+    rms_percent: float
+    noise_percent: float
+    """Rms of the noise over the reading; NaN where it is not known."""
+
+
+@dataclass(frozen=True)
+class Validation:
+    """Either figure is None where it does not apply."""
+
+    leave_one_out_rms_percent: float | None = None
+    held_out: tuple[HeldOutSegment, ...] = ()
+    held_out_rms_percent: float | None = None
+
+
+def validate(
+    segment: NDArray[np.intp],
+    parameters: int,
+    refit: Refit,
+    differences_percent: Differences,
+    noise_percent: Array,
+) -> Validation:
+    """Leave-one-out up to 30 points, else every segment from the others."""
+    count = len(segment)
+    if count <= MOST_POINTS_ONE_BY_ONE:
+        if count - 1 < parameters:
+            return Validation()
+        left_out = [differences_percent(refit(np.arange(count) != k))[k] for k in range(count)]
+        return Validation(leave_one_out_rms_percent=rms(np.array(left_out)))
+    numbers = np.unique(segment)
+    if len(numbers) < 2:
+        return Validation()
+    held_out, all_differences = [], np.empty(count)
+    for number in numbers:
+        inside = segment == number
+        all_differences[inside] = differences_percent(refit(~inside))[inside]
+        held_out.append(HeldOutSegment(int(number), rms(all_differences[inside]), rms(noise_percent[inside])))
+    return Validation(held_out=tuple(held_out), held_out_rms_percent=rms(all_differences))
+
+
+def rms(values: Array) -> float:
+    """Root mean square."""
+    return float(np.sqrt(np.mean(np.square(values))))

@@ -1,0 +1,144 @@
+"""What every core law is: a frozen dataclass of parameters that gives G*(omega) and its derivatives.
+
+A law lives in one file of this folder: a dataclass derived from `CoreLaw`, its fields made
+with `quantity`. Everything else (file keys, names in results, bounds of a fit) follows
+from those fields.
+"""
+
+from dataclasses import dataclass, field, fields, replace
+from functools import cache
+from typing import Any, ClassVar, Self, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.errors import OutsideModel
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """What a parameter is: its key in files, its factor to SI and its physical range in SI."""
+
+    file_key: str
+    to_si: float
+    lower: float
+    upper: float
+    search: tuple[float, float]
+    """Where a fit without a good start looks, in SI."""
+    zero_allowed: bool = False
+    """A file may say 0 (a lossless core), though a fit in log parameters cannot reach it."""
+
+    def holds(self, value: float) -> bool:
+        """Whether `value` (SI) is physical."""
+        return self.lower <= value <= self.upper or (self.zero_allowed and value == 0)
+
+
+def quantity(
+    file_key: str,
+    *,
+    to_si: float = 1.0,
+    lower: float,
+    upper: float,
+    search: tuple[float, float],
+    zero_allowed: bool = False,
+) -> Any:
+    """A dataclass field that is a parameter of a law."""
+    return field(metadata={"quantity": Quantity(file_key, to_si, lower, upper, search, zero_allowed)})
+
+
+@dataclass(frozen=True)
+class CoreLaw:
+    """Complex shear modulus G*(omega) = G'(omega) (1 + i eta(omega)) of the core, in Pa."""
+
+    kind: ClassVar[str]
+    source: ClassVar[str]
+
+    def __post_init__(self) -> None:
+        for name, value, limits in zip(self.names, self.values, self.limits, strict=True):
+            if not limits.holds(value):
+                low, high = limits.lower / limits.to_si, limits.upper / limits.to_si
+                raise OutsideModel(
+                    f"core law {self.kind}: {limits.file_key} = {value / limits.to_si:g} ({name}), "
+                    f"expected {low:g} to {high:g}"
+                )
+
+    def modulus(self, omega: Array) -> Complex:
+        """G* in Pa at real angular frequencies `omega` in rad/s. Shape of `omega`."""
+        raise NotImplementedError
+
+    def jacobian(self, omega: Array) -> Complex:
+        """dG*/dp for every parameter, in the order of `names`. Shape (parameters, frequencies)."""
+        raise NotImplementedError
+
+    def objections(self) -> list[str]:
+        """What is unphysical about the parameters together, in words."""
+        return []
+
+    @classmethod
+    @cache
+    def quantities(cls) -> dict[str, Quantity]:
+        """The fields of the law and what they are."""
+        return {f.name: f.metadata["quantity"] for f in fields(cls) if "quantity" in f.metadata}
+
+    @property
+    def names(self) -> list[str]:
+        """Parameters in SI units, a list's items numbered: g_pa -> g_1_pa, g_2_pa."""
+        return [
+            _numbered(name, k) if isinstance(values, tuple) else name
+            for name, values in self._fields()
+            for k, _ in enumerate(_as_tuple(values))
+        ]
+
+    @property
+    def values(self) -> Array:
+        """Parameters in SI units, in the order of `names`. Shape (parameters,)."""
+        return np.array([float(v) for _, values in self._fields() for v in _as_tuple(values)])
+
+    @property
+    def limits(self) -> list[Quantity]:
+        """The physical range of every parameter, in the order of `names`."""
+        quantities = self.quantities()
+        return [quantities[name] for name, values in self._fields() for _ in _as_tuple(values)]
+
+    def with_values(self, values: Array) -> Self:
+        """The same law with other parameters, in the order of `names`."""
+        rest = [float(v) for v in values]
+        changed: dict[str, Any] = {}
+        for name, old in self._fields():
+            count = len(_as_tuple(old))
+            taken, rest = rest[:count], rest[count:]
+            changed[name] = tuple(taken) if isinstance(old, tuple) else taken[0]
+        return replace(self, **changed)
+
+    @property
+    def log_limits(self) -> tuple[Array, Array]:
+        """Logarithms of the physical limits. Shape (parameters,) each."""
+        lower, upper = np.log([(q.lower, q.upper) for q in self.limits]).T
+        return lower, upper
+
+    def with_logs(self, logs: Array) -> Self:
+        """The same law with the exponentials of `logs` as parameters, kept within their limits."""
+        limits = self.limits
+        return self.with_values(
+            np.array([min(max(np.exp(p), q.lower), q.upper) for p, q in zip(logs, limits, strict=True)])
+        )
+
+    def storage_and_loss(self, omega: Array) -> tuple[Array, Array]:
+        """G' in Pa and eta, dimensionless. Shape of `omega` each."""
+        G = self.modulus(omega)
+        return G.real, G.imag / G.real
+
+    def _fields(self) -> list[tuple[str, Any]]:
+        return [(name, getattr(self, name)) for name in self.quantities()]
+
+
+def _as_tuple(values: Any) -> tuple[float, ...]:
+    return values if isinstance(values, tuple) else (cast(float, values),)
+
+
+def _numbered(name: str, k: int) -> str:
+    stem, unit = name.rsplit("_", 1)
+    return f"{stem}_{k + 1}_{unit}"

@@ -1,0 +1,99 @@
+"""How noisy each point of a sweep is: stated, seen as local scatter, or unknown.
+
+Local scatter is what a cubic through seven neighbours leaves of the middle one: narrower than a
+peak, so the peak itself is not taken for noise. Within a segment the variance is
+alpha^2 + beta^2 |v|^2: a floor and a share of the response.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import nnls
+
+from fitting.sweep import Sweep
+
+Array = NDArray[np.float64]
+
+WINDOW = 7
+_DEGREE = 3
+FEWEST = 15
+"""Points a segment needs before its scatter says anything."""
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Standard deviation of every point (of each part of a phasor)."""
+
+    std_m_s: Array
+    source: Literal["stated", "local scatter", "unknown"]
+    """`unknown`: relative to the reading, known up to a common factor only."""
+
+    @property
+    def is_known(self) -> bool:
+        """Whether chi-square means anything."""
+        return self.source != "unknown"
+
+
+def noise_of(sweep: Sweep) -> Noise:
+    """Stated where the file says it, local scatter where segments are dense, else unknown."""
+    stated = sweep.response_std_m_s
+    if stated is not None:
+        return Noise(stated, "stated")
+    relative = np.abs(sweep.response_m_s)
+    std = np.zeros(len(sweep))
+    for group in _groups(sweep):
+        if len(np.unique(sweep.frequency_hz[group])) < FEWEST:
+            return Noise(relative, "unknown")
+        std[group] = _scatter(sweep.frequency_hz[group], sweep.response_m_s[group])
+    return Noise(std, "local scatter")
+
+
+def _groups(sweep: Sweep) -> list[NDArray[np.intp]]:
+    """Points of one segment, one pass and one level."""
+    keys = np.column_stack([sweep.segment, sweep.sweep, np.round(sweep.commanded_m_s2, 9)])
+    _, which = np.unique(keys, axis=0, return_inverse=True)
+    return [np.flatnonzero(which.ravel() == k) for k in range(int(which.max()) + 1)]
+
+
+def _scatter(frequency_hz: Array, response: NDArray[np.complex128] | Array) -> Array:
+    order = np.argsort(frequency_hz, kind="stable")
+    f, v = frequency_hz[order], response[order]
+    middle, left_over = _local_residuals(f, v)
+    parts = 2 if np.iscomplexobj(v) else 1
+    square = np.abs(left_over) ** 2 / parts
+    variance = _variance_model(np.abs(v[middle]) ** 2, square)
+    floor, share = variance
+    std = np.empty(len(f))
+    std[order] = np.sqrt(floor + share * np.abs(v) ** 2)
+    return std
+
+
+def _local_residuals(f: Array, v: NDArray[np.complex128] | Array) -> tuple[NDArray[np.intp], Array]:
+    """Middle points of the windows and what a local cubic leaves there, scaled to unit gain of noise."""
+    half = WINDOW // 2
+    middles, residuals = [], []
+    for k in range(half, len(f) - half):
+        window = slice(k - half, k + half + 1)
+        t = (f[window] - f[k]) / max(f[window][-1] - f[window][0], 1e-12)
+        Q, _ = np.linalg.qr(np.vander(t, _DEGREE + 1))
+        row = -Q @ Q[half]
+        row[half] += 1
+        middles.append(k)
+        residuals.append(row @ v[window] / max(np.sqrt(row[half]), 1e-6))
+    return np.array(middles), np.array(residuals)
+
+
+def _variance_model(size_squared: Array, square: Array) -> tuple[float, float]:
+    """Floor and share of variance = floor + share |v|^2, by reweighted non-negative least squares."""
+    mean = float(np.mean(square))
+    tiny = 1e-12 * float(np.max(size_squared)) + 1e-300
+    floor, share = mean, 0.0
+    for _ in range(10):
+        weight = 1 / (floor + share * size_squared + tiny)
+        columns = np.column_stack([np.ones_like(size_squared), size_squared])
+        scale = np.abs(columns).max(axis=0)
+        found, _ = nnls(columns / scale * weight[:, None], square * weight)
+        floor, share = (float(x) for x in found / scale)
+    return floor + tiny, share

@@ -1,0 +1,206 @@
+"""The plate: mesh, boundary and the affine matrices of the equation of motion.
+
+    (-omega^2 M + i omega C_1 + K_0 + G*(omega) K_1) X = -M r a        Eq. (3) to (5), (18)
+
+K_0 holds the faces, K_1 the core for unit modulus: G* stays outside. Assembled once a specimen.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from fitting import element
+from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
+from fitting.errors import OutsideModel
+from fitting.specimen import Specimen
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+_HELD_ON_X_EDGES = (V_C, V_B, W, THETA_X)
+_HELD_ON_Y_EDGES = (U_C, U_B, W, THETA_Y)
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """A regular grid of elements; node (i, j) has number i (n_y + 1) + j."""
+
+    length_m: float
+    width_m: float
+    n_x: int
+    n_y: int
+
+    @property
+    def nodes(self) -> int:
+        """How many nodes there are."""
+        return (self.n_x + 1) * (self.n_y + 1)
+
+    @property
+    def sides_m(self) -> tuple[float, float]:
+        """Sides of an element."""
+        return self.length_m / self.n_x, self.width_m / self.n_y
+
+    def element_dofs(self) -> Indices:
+        """Degrees of freedom of every element, corners in the element's order. Shape (elements, 28)."""
+        i, j = np.meshgrid(np.arange(self.n_x), np.arange(self.n_y), indexing="ij")
+        stride = self.n_y + 1
+        corners = [(i + int(cx)) * stride + j + int(cy) for cx, cy in element.CORNERS]
+        nodes = np.stack([c.ravel() for c in corners], axis=1)
+        dofs = nodes[:, :, None] * DOFS + np.arange(DOFS)
+        return np.asarray(dofs.reshape(len(nodes), -1), dtype=np.intp)
+
+    def node_positions(self) -> Array:
+        """Positions (x, y) of every node in m. Shape (nodes, 2)."""
+        x, y = np.meshgrid(
+            np.linspace(0, self.length_m, self.n_x + 1),
+            np.linspace(0, self.width_m, self.n_y + 1),
+            indexing="ij",
+        )
+        return np.stack([x.ravel(), y.ravel()], axis=1)
+
+
+class Plate:
+    """The assembled specimen, held degrees of freedom removed.
+
+    Attributes
+    ----------
+    M, K_substrate, K_constraining, K_1 : sparse (n, n), real symmetric
+        Mass in kg; stiffness in N/m, the core's for G* = 1 Pa.
+    K_0 : sparse (n, n)
+        The faces' stiffness, complex where a face has a loss factor.
+    """
+
+    def __init__(self, specimen: Specimen) -> None:
+        self.specimen = specimen
+        self.mesh = Mesh(specimen.length_m, specimen.width_m, *specimen.mesh)
+        self._free = np.flatnonzero(~self._held())
+        self._assemble()
+
+    @property
+    def size(self) -> int:
+        """How many degrees of freedom are free."""
+        return len(self._free)
+
+    def _held(self) -> NDArray[np.bool_]:
+        held = np.zeros((self.mesh.nodes, DOFS), dtype=bool)
+        x, y = self.mesh.node_positions().T
+        if self.specimen.core is None:
+            held[:, [U_C, V_C]] = True
+        if self.specimen.boundary == "cantilever":
+            held[x == 0] = True
+        elif self.specimen.boundary == "simply-supported":
+            on_y = (x == 0) | (x == self.mesh.length_m)
+            on_x = (y == 0) | (y == self.mesh.width_m)
+            for dofs, edge in ((_HELD_ON_X_EDGES, on_y), (_HELD_ON_Y_EDGES, on_x)):
+                held[np.ix_(edge, dofs)] = True
+        return held.ravel()
+
+    def _assemble(self) -> None:
+        s = self.specimen
+        shape = element.Shape(*self.mesh.sides_m)
+        M = element.face_mass(shape, s.substrate, U_B, V_B)
+        K_b = element.face_stiffness(shape, s.substrate, U_B, V_B)
+        K_c = np.zeros_like(K_b)
+        K_v = np.zeros_like(K_b)
+        if s.core is not None and s.constraining is not None:
+            M = M + element.face_mass(shape, s.constraining, U_C, V_C)
+            M = M + element.core_mass(shape, s.core, s.substrate, s.constraining)
+            K_c = element.face_stiffness(shape, s.constraining, U_C, V_C)
+            K_v = element.core_stiffness(shape, s.core, s.substrate, s.constraining)
+        self.M, self.K_substrate, self.K_constraining, self.K_1 = (
+            self._scatter(Ae) for Ae in (M, K_b, K_c, K_v)
+        )
+        loss_b = s.substrate.loss_factor
+        loss_c = s.constraining.loss_factor if s.constraining is not None else 0.0
+        faces = self.K_substrate + self.K_constraining
+        if loss_b or loss_c:
+            faces = faces + 1j * (loss_b * self.K_substrate + loss_c * self.K_constraining)
+        self.K_0 = faces.tocsc()
+
+    def _scatter(self, Ae: Array) -> sp.csc_array:
+        dofs = self.mesh.element_dofs()
+        rows = np.repeat(dofs, dofs.shape[1], axis=1).ravel()
+        columns = np.tile(dofs, (1, dofs.shape[1])).ravel()
+        n = self.mesh.nodes * DOFS
+        full = sp.coo_array((np.tile(Ae.ravel(), len(dofs)), (rows, columns)), shape=(n, n)).tocsr()
+        return full[self._free][:, self._free].tocsc()
+
+    def dynamic_stiffness(self, omega: float, G: complex) -> sp.csc_array:
+        """A = -omega^2 M + K_0 + G K_1, the viscous damping left out. Shape (n, n)."""
+        return sp.csc_array(self.K_0 + G * self.K_1 - omega**2 * self.M)
+
+    @cached_property
+    def base_load(self) -> Array:
+        """-M r: the load of a unit base acceleration along +w, Eq. (5). Shape (n,)."""
+        if self.specimen.boundary == "free":
+            raise OutsideModel("a free plate has no base to be excited by, expected another boundary")
+        r = np.zeros((self.mesh.nodes, DOFS))
+        r[:, W] = 1.0
+        # The held nodes move with the base too: their inertia couples to their neighbours.
+        return -np.asarray(self._unheld_mass_times(r.ravel()))[self._free]
+
+    def _unheld_mass_times(self, r: Array) -> Array:
+        s = self.specimen
+        shape = element.Shape(*self.mesh.sides_m)
+        M = element.face_mass(shape, s.substrate, U_B, V_B)
+        if s.core is not None and s.constraining is not None:
+            M = M + element.face_mass(shape, s.constraining, U_C, V_C)
+            M = M + element.core_mass(shape, s.core, s.substrate, s.constraining)
+        dofs = self.mesh.element_dofs()
+        result = np.zeros(self.mesh.nodes * DOFS)
+        np.add.at(result, dofs, r[dofs] @ M)
+        return result
+
+    @cached_property
+    def even(self) -> sp.csc_array:
+        """P, orthonormal: motions even in y, the only ones a base can excite. Shape (n, about n/2)."""
+        return self._of_parity(1.0)
+
+    @cached_property
+    def odd(self) -> sp.csc_array:
+        """P, orthonormal: motions odd in y. Shape (n, about n/2)."""
+        return self._of_parity(-1.0)
+
+    def _of_parity(self, parity: float) -> sp.csc_array:
+        # In an even motion u_b, u_c, w and theta_y repeat at the mirrored node, v_b, v_c and theta_x turn.
+        node = np.arange(self.mesh.nodes)
+        i, j = np.divmod(node, self.mesh.n_y + 1)
+        mirror = i * (self.mesh.n_y + 1) + self.mesh.n_y - j
+        sign = np.full(DOFS, parity)
+        sign[[V_C, V_B, THETA_X]] *= -1
+        kept = np.repeat(node <= mirror, DOFS)
+        twin = (mirror[:, None] * DOFS + np.arange(DOFS)).ravel()[kept]
+        signs = np.tile(sign, self.mesh.nodes)[kept]
+        column = np.arange(len(twin))
+        shape = (self.mesh.nodes * DOFS, len(twin))
+        P = sp.coo_array((np.ones(len(twin)), (np.flatnonzero(kept), column)), shape)
+        P = (P + sp.coo_array((signs, (twin, column)), shape)).tocsr()[self._free]
+        norm = np.sqrt(np.asarray((P * P).sum(axis=0)))
+        moving = norm > 0
+        return sp.csc_array(P.tocsc()[:, moving] @ sp.diags_array(1 / norm[moving]))
+
+    @cached_property
+    def pickup(self) -> Array:
+        """The row that reads w at the specimen's pickup. Shape (n,)."""
+        if self.specimen.pickup_m is None:
+            raise OutsideModel("[pickup] is missing, expected x_mm and y_mm of the measured spot")
+        return self.observe(*self.specimen.pickup_m)
+
+    def observe(self, x_m: float, y_m: float) -> Array:
+        """The row that reads w at a point, by the shape functions; a unit force there too. Shape (n,)."""
+        L, B = self.mesh.length_m, self.mesh.width_m
+        if not (0 <= x_m <= L and 0 <= y_m <= B):
+            raise OutsideModel(
+                f"point ({x_m * 1e3:g}, {y_m * 1e3:g}) mm is off the plate, "
+                f"expected 0 to {L * 1e3:g} mm and 0 to {B * 1e3:g} mm"
+            )
+        a, b = self.mesh.sides_m
+        i = min(int(x_m / a), self.mesh.n_x - 1)
+        j = min(int(y_m / b), self.mesh.n_y - 1)
+        row = np.zeros(self.mesh.nodes * DOFS)
+        dofs = self.mesh.element_dofs()[i * self.mesh.n_y + j]
+        row[dofs] = element.Shape(a, b).deflection(x_m - i * a, y_m - j * b)
+        return row[self._free]

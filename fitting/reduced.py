@@ -1,0 +1,163 @@
+"""The reduced model: the plate projected once on a few certified vectors, G* still outside.
+
+The basis holds responses to the base and to the pickup (the adjoint) over a whole domain of
+frequency and modulus, so one basis serves every law. What is missed is judged by
+the residuals of both: the pickup's error is r_adjoint^T A^-1 r, quadratic in what the basis lacks.
+"""
+
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
+
+from fitting.damping import ViscousDamping
+from fitting.direct import solve_direct
+from fitting.domain import Domain
+from fitting.linear import factorise
+from fitting.plate import Plate
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+TOLERANCE = 1e-6
+"""Relative error of the pickup's reading that the basis is built for."""
+LARGEST_BASIS = 60
+
+
+@dataclass(frozen=True)
+class ReducedPlate:
+    """The plate on its basis of k vectors, for a unit base acceleration, read at the pickup."""
+
+    M: Array
+    K_0: Complex
+    K_1: Array
+    U: Array
+    d: Array
+    load: Array
+    observe: Array
+    domain: Domain
+    gram: Array
+    """Inner products, in the inverse stiffness, of load, pickup, M V, K_0' V, K_0'' V, K_1 V and U."""
+
+    def matrices(self, omega: Array, G: Complex) -> Complex:
+        """A = -omega^2 M + i omega C_1 + K_0 + G K_1. Shape (points, k, k)."""
+        w, g = np.asarray(omega)[:, None, None], np.asarray(G)[:, None, None]
+        C_1 = (self.U * self.d) @ self.U.T
+        return np.asarray(self.K_0 + g * self.K_1 - w**2 * self.M + 1j * w * C_1)
+
+    def displacement(self, omega: Array, G: Complex) -> Complex:
+        """Relative displacement at the pickup for a base acceleration of 1 m/s^2, in m. Shape (points,)."""
+        return np.asarray(self._solve(omega, G)[0])
+
+    def estimated_error(self, omega: Array, G: Complex) -> Array:
+        """Estimated relative error of `displacement`, by its residuals. Shape (points,)."""
+        return np.asarray(self._solve(omega, G)[1])
+
+    def _solve(self, omega: Array, G: Complex) -> tuple[Complex, Array]:
+        displacement, error = [], []
+        for start in range(0, len(omega), 256):
+            w, g = np.asarray(omega)[start : start + 256], np.asarray(G)[start : start + 256]
+            rhs = np.stack([self.load, self.observe], axis=1).astype(complex)
+            both = np.broadcast_to(rhs, (len(w), *rhs.shape))
+            q: Complex = np.linalg.solve(self.matrices(w, g), both).astype(complex, copy=False)
+            x = q[:, :, 0] @ self.observe
+            displacement.append(x)
+            norms = [self._residual_norm(w, g, q[:, :, side], side) for side in (0, 1)]
+            error.append(norms[0] * norms[1] / np.abs(x))
+        return np.concatenate(displacement), np.concatenate(error)
+
+    def _residual_norm(self, omega: Array, G: Complex, q: Complex, side: int) -> Array:
+        """Norm of load (side 0) or pickup (side 1) minus A V q in the inverse stiffness."""
+        w, g = omega[:, None], G[:, None]
+        given = np.zeros((len(omega), 2))
+        given[:, side] = 1.0
+        C_1q = 1j * w * (q @ self.U) * self.d
+        c = np.concatenate([given, w**2 * q, -q, -1j * q, -g * q, -C_1q], axis=1)
+        return np.sqrt(np.abs(((c.conj() @ self.gram) * c).sum(axis=1)))
+
+
+def reduce_plate(
+    plate: Plate,
+    damping: ViscousDamping,
+    domain: Domain,
+    progress: Callable[[float], None] = lambda fraction: None,
+) -> ReducedPlate:
+    """Build the basis: a few spread snapshots, then two at a time where the residual is worst.
+
+    Stops at `TOLERANCE` or at `LARGEST_BASIS` vectors; `estimated_error` says what was reached.
+    """
+    builder = _Builder(plate, damping, domain)
+    with threadpool_limits(1, "blas"), ThreadPoolExecutor(2) as pool:
+        points = [domain.point((0.5 + k * 0.7549) % 1, (0.5 + k * 0.5698) % 1, 0.5) for k in range(8)]
+        while True:
+            for snapshot in pool.map(builder.snapshot, points):
+                builder.extend(snapshot)
+            reduced = builder.project()
+            points, worst = builder.worst_points(reduced)
+            size = builder.V.shape[1]
+            progress(min(1.0, size / LARGEST_BASIS))
+            if worst < TOLERANCE or size + 4 > LARGEST_BASIS:
+                return reduced
+
+
+class _Builder:
+    """The growing basis and its products, all in the subspace even in y."""
+
+    def __init__(self, plate: Plate, damping: ViscousDamping, domain: Domain) -> None:
+        P = plate.even
+        self.domain = domain
+        self.damping = damping.projected(P)
+        self.M, self.K_0, self.K_1 = (sp.csc_array(P.T @ A @ P) for A in (plate.M, plate.K_0, plate.K_1))
+        self.load = np.asarray(P.T @ plate.base_load)
+        self.observe = np.asarray(P.T @ plate.pickup)
+        self.stiffness = self.K_0.real + np.sqrt(domain.modulus[0] * domain.modulus[1]) * self.K_1
+        self.unload = factorise(self.stiffness)
+        self.V = np.empty((len(self.load), 0))
+        self.training = domain.grid(40, 7, (0.02, 0.2, 1.0))
+
+    def snapshot(self, point: tuple[float, complex]) -> Complex:
+        """Responses to base and pickup, in full. Shape (n, 2)."""
+        omega, G = point
+        A = self.K_0 + G * self.K_1 - omega**2 * self.M
+        return solve_direct(A, omega, self.damping, np.column_stack([self.load, self.observe]))
+
+    def extend(self, X: Complex) -> None:
+        """Add real and imaginary parts, orthonormal in the stiffness."""
+        W = np.hstack([X.real, X.imag])
+        for _ in range(2):
+            W = W - self.V @ (self.V.T @ (self.stiffness @ W))
+            W = W / np.sqrt(np.einsum("ij,ij->j", W, self.stiffness @ W))
+        values, vectors = np.linalg.eigh(W.T @ (self.stiffness @ W))
+        keep = values > 1e-10
+        self.V = np.hstack([self.V, W @ (vectors[:, keep] / np.sqrt(values[keep]))])
+
+    def project(self) -> ReducedPlate:
+        """The reduced plate of the present basis."""
+        V, U = self.V, self.damping.U
+        products = [self.M @ V, self.K_0.real @ V, self.K_0.imag @ V, self.K_1 @ V]
+        columns = np.hstack([self.load[:, None], self.observe[:, None], *products, U])
+        gram = columns.T @ self.unload(columns)
+        return ReducedPlate(
+            M=V.T @ products[0],
+            K_0=V.T @ products[1] + 1j * (V.T @ products[2]),
+            K_1=V.T @ products[3],
+            U=V.T @ U,
+            d=self.damping.d,
+            load=V.T @ self.load,
+            observe=V.T @ self.observe,
+            domain=self.domain,
+            gram=(gram + gram.T) / 2,
+        )
+
+    def worst_points(self, reduced: ReducedPlate) -> tuple[list[tuple[float, complex]], float]:
+        """The worst training point and the worst one away from it, and the worst estimate."""
+        omega, G = self.training
+        error = reduced.estimated_error(omega, G)
+        first = int(np.argmax(error))
+        far = np.abs(omega - omega[first]) > 0.1 * (omega.max() - omega.min())
+        second = int(np.argmax(np.where(far, error, 0)))
+        return [(float(omega[k]), complex(G[k])) for k in (first, second)], float(error[first])
