@@ -1,0 +1,86 @@
+"""Models kept on disk, named by a digest of everything they depend on.
+
+A file that is damaged, of another version or not writable is never an error: the model is built again.
+"""
+
+import hashlib
+import json
+import os
+import tempfile
+import zipfile
+from collections.abc import Callable
+from dataclasses import asdict
+from functools import cache
+from pathlib import Path
+from typing import Any, TypeVar
+
+import numpy as np
+import platformdirs
+
+import fitting
+from instrument.arrays import pack, unpack
+
+T = TypeVar("T")
+
+_DAMAGED = (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, NotImplementedError)
+
+
+def cache_folder() -> Path:
+    """`VISCORIG_CACHE`, or the user's cache folder."""
+    return Path(os.environ.get("VISCORIG_CACHE") or platformdirs.user_cache_dir("viscorig"))
+
+
+def cached(name: str, depends_on: Any, cls: type[T], build: Callable[[], T]) -> T:
+    """A `cls` from the cache, or built and kept.
+
+    `depends_on` is anything JSON or dataclasses can say; the sources of `fitting` count too.
+    """
+    digest = _digest([name, depends_on])
+    path = cache_folder() / f"{name}-{digest[:32]}.npz"
+    found = _load(path, digest, cls)
+    if found is None:
+        found = build()
+        _store(path, digest, found)
+    return found
+
+
+def _load(path: Path, digest: str, cls: type[T]) -> T | None:
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            packed = {key: file[key] for key in file.files}
+        if str(packed.pop("digest")[()]) != digest:
+            return None
+        return unpack(cls, packed)
+    except _DAMAGED:
+        return None
+
+
+def _store(path: Path, digest: str, value: Any) -> None:
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        # Written beside and renamed: a reader sees the whole file or none.
+        with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".tmp", delete=False) as file:
+            arrays: dict[str, Any] = {"digest": np.asarray(digest), **pack(value)}
+            np.savez(file, **arrays)
+        os.replace(file.name, path)
+    except OSError:
+        return
+
+
+def _digest(depends_on: Any) -> str:
+    said = json.dumps([_sources(), np.__version__, depends_on], default=_plain, sort_keys=True)
+    return hashlib.sha256(said.encode()).hexdigest()
+
+
+def _plain(value: Any) -> Any:
+    return [type(value).__name__, asdict(value)] if hasattr(value, "__dataclass_fields__") else value.tolist()
+
+
+@cache
+def _sources() -> str:
+    """A digest of the code that builds models: an older version's files are stale."""
+    folder = Path(fitting.__file__).parent
+    digest = hashlib.sha256()
+    for file in sorted(folder.rglob("*.py")):
+        digest.update(file.read_bytes())
+    return digest.hexdigest()

@@ -1,0 +1,32 @@
+"""`viscorig modes`: complex modes of a specimen."""
+
+from pathlib import Path
+
+import click
+
+from fitting.complex_modes import complex_modes
+from fitting.plate import Plate
+from instrument.cli.options import file_argument, json_option
+from instrument.cli.output import Output
+from instrument.files.specimen_file import read_specimen
+from instrument.progress import bar
+
+
+@click.command()
+@file_argument("specimen")
+@click.option("--count", type=click.IntRange(1, 100), default=8, show_default=True, help="How many modes.")
+@json_option
+def modes(specimen: Path, count: int, json_path: str | None) -> None:
+    """Natural frequencies and modal loss factors of SPECIMEN.toml.
+
+    The core's law is taken at each mode's own frequency. Layer loss factors count, the remaining viscous
+    damping does not; rigid modes of a free plate are left out.
+    """
+    out = Output(json_path)
+    read = read_specimen(specimen)
+    law = read.core.law if read.core is not None else None
+    with bar("modes") as report:
+        found = complex_modes(Plate(read), law, count, report)
+    rows = [[str(k + 1), f"{m.frequency_hz:.3f}", f"{m.loss_factor:.5f}"] for k, m in enumerate(found)]
+    out.table("", ["mode", "frequency/Hz", "loss factor"], rows)
+    out.result({"modes": [{"frequency_hz": m.frequency_hz, "loss_factor": m.loss_factor} for m in found]})

@@ -1,0 +1,57 @@
+"""Options and arguments shared by commands."""
+
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+import numpy as np
+from numpy.typing import NDArray
+
+F = TypeVar("F")
+
+_MOST_FREQUENCIES = 100_000
+
+
+def file_argument(name: str) -> Any:
+    """A file to read; whether it can be read is found out on reading."""
+    return click.argument(name, type=click.Path(path_type=Path))
+
+
+json_option: Any = click.option(
+    "--json",
+    "json_path",
+    metavar="PATH",
+    help="Write the result as JSON; - for standard output and nothing else.",
+)
+
+
+class Frequencies(click.ParamType):  # type: ignore[type-arg]
+    """`A:B:STEP` (B included) or a list `F1,F2,...`, in Hz."""
+
+    name = "A:B:STEP or F1,F2,..."
+
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> NDArray[np.float64]:
+        """Frequencies in Hz, as given."""
+        if isinstance(value, np.ndarray):
+            return value
+        try:
+            f = _range(value) if ":" in value else np.array([float(part) for part in value.split(",")])
+        except ValueError:
+            self.fail(f"{value!r}, expected A:B:STEP or F1,F2,... in Hz", param, ctx)
+        if not np.all(np.isfinite(f)) or np.any(f <= 0):
+            self.fail(f"{value!r}, expected frequencies above 0 Hz", param, ctx)
+        return f
+
+
+def _range(text: str) -> NDArray[Any]:
+    low, high, step = (float(part) for part in text.split(":"))
+    if not (np.isfinite([low, high, step]).all() and step > 0 and high >= low):
+        raise ValueError
+    count = int(np.floor((high - low) / step * (1 + 1e-12) + 1e-9)) + 1
+    if count > _MOST_FREQUENCIES:
+        raise ValueError
+    f = low + step * np.arange(count)
+    # B belongs to the range even where no whole number of steps reaches it.
+    return f if np.isclose(f[-1], high, rtol=1e-9) else np.append(f, high)

@@ -1,0 +1,67 @@
+"""What a command prints: a table for people, the same facts as JSON."""
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import click
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from instrument.errors import BadInput
+
+
+class Output:
+    """Where a command's results go, as `--json` decides."""
+
+    def __init__(self, json_path: str | None) -> None:
+        self._json_path = json_path
+        self._console = Console(highlight=False, quiet=json_path == "-", soft_wrap=True)
+
+    def say(self, text: str = "") -> None:
+        """A line for people."""
+        self._console.print(text, markup=False)
+
+    def table(self, title: str, columns: list[str], rows: list[list[str]]) -> None:
+        """A table for people, numbers to the right."""
+        table = Table(title=title or None, title_justify="left", title_style="bold", box=None, pad_edge=False)
+        for k, column in enumerate(columns):
+            table.add_column(column, justify="left" if k == 0 and not _numeric(rows, k) else "right")
+        for row in rows:
+            table.add_row(*row)
+        Console(highlight=False, quiet=self._json_path == "-", width=200).print(table)
+
+    def result(self, facts: dict[str, Any]) -> None:
+        """The facts as JSON, where they were asked for."""
+        if self._json_path is None:
+            return
+        text = json.dumps(plain(facts), indent=1, allow_nan=False)
+        if self._json_path == "-":
+            click.echo(text)
+            return
+        try:
+            Path(self._json_path).write_text(text + "\n", encoding="utf-8")
+        except OSError as error:
+            raise BadInput(f"{self._json_path}: {error.strerror or error}") from None
+
+
+def plain(value: Any) -> Any:
+    """Numbers, lists and objects that JSON knows; NaN and infinity become null."""
+    if isinstance(value, dict):
+        return {str(key): plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple | np.ndarray):
+        return [plain(item) for item in value]
+    if isinstance(value, np.generic):
+        return plain(value.item())
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value
+
+
+def _numeric(rows: list[list[str]], column: int) -> bool:
+    try:
+        return all(math.isfinite(float(row[column])) for row in rows)
+    except ValueError:
+        return False

@@ -1,0 +1,75 @@
+"""An identification as people read it."""
+
+from fitting.identification.result import Identification
+from fitting.sweep import Sweep
+from instrument.cli.output import Output
+from instrument.identification import Identified
+
+_MOST_ROWS = 30
+
+
+def print_identification(out: Output, found: Identified, sweep: Sweep) -> None:
+    """What was found, how well it is known, and what the data do not say."""
+    r = found.result
+    errors = r.standard_errors
+    rows = [[n, f"{v:.5g}", _relative(errors[n], v)] for n, v in zip(r.law.names, r.law.values, strict=True)]
+    out.table(f"{r.law.kind} by {r.method}", ["parameter", "value", "standard error"], rows)
+    out.say()
+    _print_band(out, r)
+    if len(sweep) <= _MOST_ROWS:
+        out.say()
+        _print_points(out, r, sweep)
+    out.say()
+    out.say(f"difference in amplitude: rms {r.rms_percent:.2f} %, largest {r.max_percent:.2f} %")
+    _print_validation(out, r)
+    for warning in r.warnings:
+        out.say(f"note: {warning}")
+    out.say(
+        f"{len(sweep)} points, {r.fit.iterations} iterations; set-up {found.setup_seconds:.2f} s, "
+        f"fit {found.seconds * 1e3:.0f} ms, validation {found.validation_seconds * 1e3:.0f} ms"
+    )
+
+
+def _relative(error: float, value: float) -> str:
+    return f"{error:.2g} ({100 * error / value:.2g} %)" if error == error else "-"
+
+
+def _print_band(out: Output, r: Identification) -> None:
+    b = r.band
+    every = max(1, len(b.frequency_hz) // 6)
+    shown = sorted({*range(0, len(b.frequency_hz), every), len(b.frequency_hz) - 1})
+    rows = [
+        [
+            f"{b.frequency_hz[k]:.1f}",
+            f"{b.storage_modulus_pa[k] / 1e6:.4f} +- {b.storage_modulus_standard_error_pa[k] / 1e6:.4f}",
+            f"{b.loss_factor[k]:.4f} +- {b.loss_factor_standard_error[k]:.4f}",
+        ]
+        for k in shown
+    ]
+    out.table("the law in the measured band", ["frequency/Hz", "G'/MPa", "loss factor"], rows)
+
+
+def _print_points(out: Output, r: Identification, sweep: Sweep) -> None:
+    rows = [
+        [f"{f:g}", f"{m:.5g}", f"{p:.5g}", f"{d:+.2f}"]
+        for f, m, p, d in zip(
+            sweep.frequency_hz, r.measured_m_s, r.predicted_m_s, r.difference_percent, strict=True
+        )
+    ]
+    columns = ["frequency/Hz", "measured/(m/s)", "predicted/(m/s)", "difference/%"]
+    out.table("point by point", columns, rows)
+
+
+def _print_validation(out: Output, r: Identification) -> None:
+    v = r.validation
+    if v.leave_one_out_rms_percent is not None:
+        out.say(f"each point predicted from the others: rms {v.leave_one_out_rms_percent:.2f} %")
+    for h in v.held_out:
+        out.say(
+            f"segment {h.segment} predicted from the others: rms {h.rms_percent:.2f} % "
+            f"(noise {h.noise_percent:.2f} %)"
+        )
+    if r.noise.is_known:
+        out.say(
+            f"chi-square per degree of freedom {r.uncertainty.chi2_per_dof:.3g}, noise by {r.noise.source}"
+        )

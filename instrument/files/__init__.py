@@ -1,0 +1,1 @@
+"""Files at the border: read, checked as a whole, turned into the dataclasses of `fitting`."""

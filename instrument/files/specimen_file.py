@@ -1,0 +1,196 @@
+"""SPECIMEN.toml: its keys, units and limits, and the `Specimen` it describes."""
+
+import tomllib
+from pathlib import Path
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, create_model, model_validator
+
+from fitting.errors import OutsideModel
+from fitting.laws import LAWS, CoreLaw
+from fitting.specimen import Boundary, Core, Face, Reading, Specimen
+from instrument.errors import BadInput
+from instrument.files.text import read_text
+
+Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+Poisson = Annotated[float, Field(gt=-1, lt=0.5, allow_inf_nan=False)]
+Percent = Annotated[float, Field(ge=0, lt=100, allow_inf_nan=False)]
+Elements = Annotated[int, Field(ge=2, le=400)]
+
+
+class _Table(BaseModel):
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+
+class _Plate(_Table):
+    length_mm: Positive
+    width_mm: Positive
+    boundary: Boundary
+
+
+class _Layer(_Table):
+    thickness_mm: Positive
+    young_gpa: Positive
+    poisson: Poisson
+    density_kg_m3: Positive
+    loss_factor: NotNegative = 0.0
+
+    def face(self) -> Face:
+        return Face(
+            thickness_m=self.thickness_mm * 1e-3,
+            young_pa=self.young_gpa * 1e9,
+            poisson=self.poisson,
+            density_kg_m3=self.density_kg_m3,
+            loss_factor=self.loss_factor,
+        )
+
+
+class _Core(_Table):
+    thickness_mm: Positive
+    poisson: Poisson
+    density_kg_m3: Positive
+    law: dict[str, Any]
+
+
+class _Damping(_Table):
+    modal_percent: list[Percent] = Field(max_length=50)
+
+
+class _Pickup(_Table):
+    x_mm: NotNegative
+    y_mm: NotNegative
+    reads: Reading = "relative"
+
+
+class _Base(_Table):
+    acceleration_m_s2: Positive
+
+
+class _Mesh(_Table):
+    elements_x: Elements
+    elements_y: Elements
+
+
+class _Tolerances(_Table):
+    """Standard deviations in percent of what was measured or looked up."""
+
+    substrate_young_percent: NotNegative | None = None
+    substrate_thickness_percent: NotNegative | None = None
+    substrate_density_percent: NotNegative | None = None
+    constraining_young_percent: NotNegative | None = None
+    constraining_thickness_percent: NotNegative | None = None
+    constraining_density_percent: NotNegative | None = None
+    core_thickness_percent: NotNegative | None = None
+    core_density_percent: NotNegative | None = None
+
+
+class _Document(_Table):
+    plate: _Plate
+    substrate: _Layer
+    constraining: _Layer | None = None
+    core: _Core | None = None
+    damping: _Damping | None = None
+    pickup: _Pickup | None = None
+    base: _Base = _Base(acceleration_m_s2=9.81)
+    mesh: _Mesh | None = None
+    tolerances: _Tolerances | None = None
+
+    @model_validator(mode="after")
+    def _whole(self) -> "_Document":
+        if (self.core is None) != (self.constraining is None):
+            missing = "constraining" if self.constraining is None else "core"
+            raise ValueError(f"[{missing}] is missing, expected [core] and [constraining] both or neither")
+        if self.pickup is not None:
+            for name, at, side in (
+                ("x_mm", self.pickup.x_mm, self.plate.length_mm),
+                ("y_mm", self.pickup.y_mm, self.plate.width_mm),
+            ):
+                if at > side:
+                    raise ValueError(f"pickup.{name} = {at:g} is off the plate, expected 0 to {side:g}")
+        return self
+
+
+def read_specimen(path: Path) -> Specimen:
+    """Read and check a specimen. Raises `BadInput` with one line."""
+    text = read_text(path)
+    try:
+        document = _Document.model_validate(tomllib.loads(text))
+        return _specimen(document)
+    except tomllib.TOMLDecodeError as error:
+        raise BadInput(f"{path}: not TOML: {error}") from None
+    except ValidationError as error:
+        raise BadInput(f"{path}: {_one_line(error)}") from None
+    except OutsideModel as error:
+        raise BadInput(f"{path}: {error}") from None
+
+
+def _specimen(d: _Document) -> Specimen:
+    core = None
+    if d.core is not None:
+        core = Core(d.core.thickness_mm * 1e-3, d.core.poisson, d.core.density_kg_m3, _law(d.core.law))
+    return Specimen(
+        length_m=d.plate.length_mm * 1e-3,
+        width_m=d.plate.width_mm * 1e-3,
+        boundary=d.plate.boundary,
+        substrate=d.substrate.face(),
+        constraining=d.constraining.face() if d.constraining is not None else None,
+        core=core,
+        modal_ratios=tuple(p / 100 for p in d.damping.modal_percent) if d.damping else (),
+        pickup_m=(d.pickup.x_mm * 1e-3, d.pickup.y_mm * 1e-3) if d.pickup else None,
+        reads=d.pickup.reads if d.pickup else "relative",
+        base_acceleration_m_s2=d.base.acceleration_m_s2,
+        elements=(d.mesh.elements_x, d.mesh.elements_y) if d.mesh else None,
+    )
+
+
+def _law(table: dict[str, Any]) -> CoreLaw:
+    """The law of `[core.law]`: `kind` decides the other keys."""
+    known = ", ".join(sorted(LAWS))
+    kind = table.get("kind")
+    if not isinstance(kind, str) or kind not in LAWS:
+        raise OutsideModel(f"core.law.kind: {kind!r}, expected one of {known}")
+    law = LAWS[kind]
+    fields: dict[str, Any] = {}
+    for name, quantity in law.quantities().items():
+        one = Annotated[float, Field(allow_inf_nan=False)]
+        is_list = law.__annotations__[name] is not float
+        fields[quantity.file_key] = (list[one] if is_list else one, ...)
+    model = create_model("core.law", __base__=_Table, **fields)
+    try:
+        given = model.model_validate({k: v for k, v in table.items() if k != "kind"})
+    except ValidationError as error:
+        raise OutsideModel(_one_line(error, prefix="core.law.")) from None
+    values = {}
+    for name, quantity in law.quantities().items():
+        value = getattr(given, quantity.file_key)
+        scaled = (
+            tuple(v * quantity.to_si for v in value) if isinstance(value, list) else value * quantity.to_si
+        )
+        values[name] = scaled
+    built = law(**values)
+    for objection in built.objections():
+        raise OutsideModel(f"core.law: {objection}")
+    return built
+
+
+_MOST_SHOWN = 3
+
+
+def _one_line(error: ValidationError, prefix: str = "") -> str:
+    """What is wrong where, the first few faults in one line."""
+    said = []
+    for fault in error.errors():
+        place = prefix + ".".join(str(part) for part in fault["loc"])
+        message = fault["msg"].removeprefix("Value error, ")
+        found = "" if isinstance(fault["input"], dict | list) else f"{fault['input']!r}, "
+        if fault["type"] == "missing":
+            said.append(f"{place}: missing")
+        elif fault["type"] == "extra_forbidden":
+            said.append(f"{place}: unknown key")
+        elif place == prefix:
+            said.append(message)
+        else:
+            said.append(f"{place}: {found}{message.lower()}")
+    more = len(said) - _MOST_SHOWN
+    return "; ".join(said[:_MOST_SHOWN]) + (f"; and {more} more" if more > 0 else "")

@@ -1,0 +1,26 @@
+"""Reading a text file, or saying in one line why not."""
+
+from pathlib import Path
+
+from instrument.errors import BadInput
+
+LARGEST_BYTES = 200_000_000
+
+
+def read_text(path: Path) -> str:
+    """The file as UTF-8 text, a byte order mark dropped. Raises `BadInput`."""
+    try:
+        if path.stat().st_size > LARGEST_BYTES:
+            raise BadInput(f"{path}: {path.stat().st_size} bytes, expected at most {LARGEST_BYTES}")
+        text = path.read_bytes().decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise BadInput(
+            f"{path}: byte {error.start}: not UTF-8 text ({error.reason}), expected a text file"
+        ) from None
+    except OSError as error:
+        raise BadInput(f"{path}: {error.strerror or error}") from None
+    if "\0" in text:
+        raise BadInput(f"{path}: byte {text.index(chr(0))}: a NUL byte, expected a text file")
+    if not text.strip():
+        raise BadInput(f"{path}: the file is empty")
+    return text

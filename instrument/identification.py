@@ -1,0 +1,114 @@
+"""Identify a core from a sweep: models, fit, validation and result in one go, each timed."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from time import perf_counter
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
+
+from fitting.errors import OutsideModel
+from fitting.identification import direct, paper
+from fitting.identification.fit import Fit
+from fitting.identification.model import SweepModel
+from fitting.identification.residuals import Residuals
+from fitting.identification.result import Identification, differences_percent, summarise
+from fitting.identification.validation import Refit, Validation, validate
+from fitting.laws import CoreLaw
+from fitting.noise import Noise, noise_of
+from fitting.specimen import Specimen
+from fitting.sweep import Sweep
+from instrument.models import Models
+from instrument.progress import Progress, quiet
+
+Array = NDArray[np.float64]
+Method = Literal["direct", "paper"]
+
+_MOST_WIDENINGS = 2
+
+
+@dataclass(frozen=True)
+class Identified:
+    """An identification and how long its parts took."""
+
+    result: Identification
+    setup_seconds: float
+    """Models made or loaded."""
+    seconds: float
+    """The fit."""
+    validation_seconds: float
+
+
+def identify(
+    sweep: Sweep, specimen: Specimen, method: Method = "direct", progress: Progress = quiet
+) -> Identified:
+    """The core's law from a sweep, the specimen's own law as the start.
+
+    The reduced model is certified where the fit ends; beyond that it is widened and the fit repeated.
+    """
+    if specimen.core is None:
+        raise OutsideModel("a bare plate has no core to identify, expected [core] and [constraining]")
+    start, noise = specimen.core.law, noise_of(sweep)
+    models = Models.of(specimen, sweep.frequency_hz, progress)
+    setup = seconds = 0.0
+    further: tuple[str, ...] = ()
+    for widened in range(_MOST_WIDENINGS + 1):
+        began = perf_counter()
+        task = _Direct(sweep, noise, models) if method == "direct" else _Paper(sweep, models)
+        ready = perf_counter()
+        with threadpool_limits(1, "blas"), progress(f"fitting ({method})") as report:
+            fit = task.fit(start, report)
+        setup, seconds = setup + ready - began, seconds + perf_counter() - ready
+        if not models.uncertified(fit.law, sweep.frequency_hz):
+            break
+        if widened == _MOST_WIDENINGS:
+            further = ("the law found lies where the reduced model is not certified: take it as provisional",)
+        models = replace(models, domain=models.domain.widened(fit.law, sweep.frequency_hz))
+    began = perf_counter()
+    with threadpool_limits(1, "blas"):
+        validation = _validate(sweep, noise, task, fit)
+    result = summarise(method, sweep, noise, fit, validation, further)
+    return Identified(result, setup, seconds, perf_counter() - began)
+
+
+class _Direct:
+    def __init__(self, sweep: Sweep, noise: Noise, models: Models) -> None:
+        rational = models.rational(np.unique(sweep.omega))
+        model = SweepModel.of(sweep, rational, models.specimen.reads)
+        self.residuals = Residuals.of(sweep, noise, model)
+
+    def fit(self, start: CoreLaw, report: Callable[[float], None]) -> Fit:
+        return direct.fit_direct(self.residuals, start)
+
+    def refit_from(self, law: CoreLaw) -> Refit:
+        return lambda points: direct.refit(self.residuals.take(points), law)
+
+    def velocity(self, law: CoreLaw) -> NDArray[np.complex128]:
+        return self.residuals.model.velocity(law)
+
+
+class _Paper:
+    def __init__(self, sweep: Sweep, models: Models) -> None:
+        self.problem = paper.PaperProblem.of(sweep, models.real_modes, models.specimen.reads)
+
+    def fit(self, start: CoreLaw, report: Callable[[float], None]) -> Fit:
+        return paper.fit_paper(self.problem, start, lambda step: report(step / paper.MOST_STEPS))
+
+    def refit_from(self, law: CoreLaw) -> Refit:
+        return lambda points: paper.refit(self.problem.take(points), law)
+
+    def velocity(self, law: CoreLaw) -> NDArray[np.complex128]:
+        return self.problem.velocity([law])[0]
+
+
+def _validate(sweep: Sweep, noise: Noise, task: _Direct | _Paper, fit: Fit) -> Validation:
+    size = np.abs(sweep.response_m_s)
+    return validate(
+        segment=sweep.segment,
+        parameters=len(fit.law.names),
+        refit=task.refit_from(fit.law),
+        differences_percent=lambda law: differences_percent(sweep, task.velocity(law)),
+        noise_percent=100 * noise.std_m_s / size if noise.is_known else np.full(len(sweep), np.nan),
+    )

@@ -1,0 +1,71 @@
+"""An identification as JSON holds it."""
+
+from typing import Any
+
+from fitting.identification.result import Identification
+from fitting.sweep import Sweep
+from instrument.identification import Identified
+
+
+def identification_facts(found: Identified, sweep: Sweep) -> dict[str, Any]:
+    """The JSON of `identify`."""
+    r = found.result
+    names, v = r.law.names, r.validation
+    return {
+        "method": r.method,
+        "law_kind": r.law.kind,
+        "parameters": dict(zip(names, r.law.values, strict=True)),
+        "standard_errors": r.standard_errors,
+        "correlations": {
+            a: dict(zip(names, row, strict=True))
+            for a, row in zip(names, r.uncertainty.correlations, strict=True)
+        },
+        "points": [
+            {
+                "frequency_hz": f,
+                "segment": segment,
+                "measured_m_s": measured,
+                "predicted_m_s": predicted,
+                "difference_percent": difference,
+            }
+            for f, segment, measured, predicted, difference in zip(
+                sweep.frequency_hz,
+                sweep.segment,
+                r.measured_m_s,
+                r.predicted_m_s,
+                r.difference_percent,
+                strict=True,
+            )
+        ],
+        "rms_percent": r.rms_percent,
+        "max_percent": r.max_percent,
+        "chi2_per_dof": r.uncertainty.chi2_per_dof if r.noise.is_known else None,
+        "noise": r.noise.source,
+        "leave_one_out_rms_percent": v.leave_one_out_rms_percent,
+        "held_out": [
+            {"segment": h.segment, "rms_percent": h.rms_percent, "noise_percent": h.noise_percent}
+            for h in v.held_out
+        ],
+        "held_out_rms_percent": v.held_out_rms_percent,
+        "iterations": r.fit.iterations,
+        "evaluations": r.fit.evaluations,
+        "seconds": found.seconds,
+        "setup_seconds": found.setup_seconds,
+        "validation_seconds": found.validation_seconds,
+        "converged": r.fit.converged,
+        "criterion_met": r.fit.criterion_met,
+        "warnings": list(r.warnings),
+        "law": _law_facts(r),
+    }
+
+
+def _law_facts(r: Identification) -> list[dict[str, Any]]:
+    b = r.band
+    keys = (
+        "frequency_hz",
+        "storage_modulus_pa",
+        "loss_factor",
+        "storage_modulus_standard_error_pa",
+        "loss_factor_standard_error",
+    )
+    return [dict(zip(keys, row, strict=True)) for row in zip(*(getattr(b, k) for k in keys), strict=True)]
