@@ -24,7 +24,7 @@ Complex = NDArray[np.complex128]
 _SPARE = 4
 """Real modes kept beyond those asked for, so that the last ones are spanned too."""
 _STEPS = 100
-_TOLERANCE = 1e-12
+_TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True)

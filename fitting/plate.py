@@ -62,6 +62,35 @@ class Mesh:
         return np.stack([x.ravel(), y.ravel()], axis=1)
 
 
+@dataclass(frozen=True)
+class ElementMatrices:
+    """Matrices of one element, shape (28, 28); all elements of the regular mesh are alike."""
+
+    M: Array
+    K_substrate: Array
+    K_constraining: Array
+    K_1: Array
+
+    @property
+    def K_0(self) -> Array:
+        """Both faces, loss factors left out."""
+        return self.K_substrate + self.K_constraining
+
+
+def element_matrices(specimen: Specimen, mesh: Mesh) -> ElementMatrices:
+    """The element of a specimen; the treatment's parts are zero for a bare plate."""
+    s, shape = specimen, element.Shape(*mesh.sides_m)
+    M = element.face_mass(shape, s.substrate, U_B, V_B)
+    K_b = element.face_stiffness(shape, s.substrate, U_B, V_B)
+    K_c, K_v = np.zeros_like(K_b), np.zeros_like(K_b)
+    if s.core is not None and s.constraining is not None:
+        M = M + element.face_mass(shape, s.constraining, U_C, V_C)
+        M = M + element.core_mass(shape, s.core, s.substrate, s.constraining)
+        K_c = element.face_stiffness(shape, s.constraining, U_C, V_C)
+        K_v = element.core_stiffness(shape, s.core, s.substrate, s.constraining)
+    return ElementMatrices(M, K_b, K_c, K_v)
+
+
 class Plate:
     """The assembled specimen, held degrees of freedom removed.
 
@@ -99,19 +128,9 @@ class Plate:
         return held.ravel()
 
     def _assemble(self) -> None:
-        s = self.specimen
-        shape = element.Shape(*self.mesh.sides_m)
-        M = element.face_mass(shape, s.substrate, U_B, V_B)
-        K_b = element.face_stiffness(shape, s.substrate, U_B, V_B)
-        K_c = np.zeros_like(K_b)
-        K_v = np.zeros_like(K_b)
-        if s.core is not None and s.constraining is not None:
-            M = M + element.face_mass(shape, s.constraining, U_C, V_C)
-            M = M + element.core_mass(shape, s.core, s.substrate, s.constraining)
-            K_c = element.face_stiffness(shape, s.constraining, U_C, V_C)
-            K_v = element.core_stiffness(shape, s.core, s.substrate, s.constraining)
+        s, e = self.specimen, element_matrices(self.specimen, self.mesh)
         self.M, self.K_substrate, self.K_constraining, self.K_1 = (
-            self._scatter(Ae) for Ae in (M, K_b, K_c, K_v)
+            self._scatter(Ae) for Ae in (e.M, e.K_substrate, e.K_constraining, e.K_1)
         )
         loss_b = s.substrate.loss_factor
         loss_c = s.constraining.loss_factor if s.constraining is not None else 0.0
@@ -140,19 +159,16 @@ class Plate:
         r = np.zeros((self.mesh.nodes, DOFS))
         r[:, W] = 1.0
         # The held nodes move with the base too: their inertia couples to their neighbours.
-        return -np.asarray(self._unheld_mass_times(r.ravel()))[self._free]
-
-    def _unheld_mass_times(self, r: Array) -> Array:
-        s = self.specimen
-        shape = element.Shape(*self.mesh.sides_m)
-        M = element.face_mass(shape, s.substrate, U_B, V_B)
-        if s.core is not None and s.constraining is not None:
-            M = M + element.face_mass(shape, s.constraining, U_C, V_C)
-            M = M + element.core_mass(shape, s.core, s.substrate, s.constraining)
         dofs = self.mesh.element_dofs()
-        result = np.zeros(self.mesh.nodes * DOFS)
-        np.add.at(result, dofs, r[dofs] @ M)
-        return result
+        inertia = np.zeros(self.mesh.nodes * DOFS)
+        np.add.at(inertia, dofs, r.ravel()[dofs] @ element_matrices(self.specimen, self.mesh).M)
+        return -inertia[self._free]
+
+    def on_elements(self, V: Array) -> Array:
+        """Vectors over the free degrees of freedom, gathered element by element. Shape (elements, 28, k)."""
+        full = np.zeros((self.mesh.nodes * DOFS, V.shape[1]))
+        full[self._free] = V
+        return np.asarray(full[self.mesh.element_dofs()])
 
     @cached_property
     def even(self) -> sp.csc_array:

@@ -17,8 +17,10 @@ from threadpoolctl import threadpool_limits
 from fitting.damping import ViscousDamping
 from fitting.direct import solve_direct
 from fitting.domain import Domain
+from fitting.element import DOFS, W
 from fitting.linear import factorise
-from fitting.plate import Plate
+from fitting.plate import Plate, element_matrices
+from fitting.properties import PROPERTIES, with_property_scaled
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -40,6 +42,15 @@ class ReducedPlate:
     load: Array
     observe: Array
     domain: Domain
+    dM: Array
+    """Derivative of M to the logarithm of each of `PROPERTIES`; so of K_0', K_1 and load below.
+
+    Shape (properties, k, k).
+    """
+    dK_0: Array
+    dK_1: Array
+    dload: Array
+    """Shape (properties, k)."""
     gram: Array
     """Inner products, in the inverse stiffness, of load, pickup, M V, K_0' V, K_0'' V, K_1 V and U."""
 
@@ -56,6 +67,25 @@ class ReducedPlate:
     def estimated_error(self, omega: Array, G: Complex) -> Array:
         """Estimated relative error of `displacement`, by its residuals. Shape (points,)."""
         return np.asarray(self._solve(omega, G)[1])
+
+    def derivatives(self, omega: Array, G: Complex) -> tuple[Complex, Complex]:
+        """Derivatives of `displacement` to what the plate is made of, the viscous damping kept.
+
+        To the logarithm of all natural frequencies, shape (points,), and to that of each of
+        `PROPERTIES`, shape (properties, points).
+        """
+        rhs = np.stack([self.load, self.observe], axis=1).astype(complex)
+        both = np.broadcast_to(rhs, (len(omega), *rhs.shape))
+        q, z = np.moveaxis(np.linalg.solve(self.matrices(omega, G), both), 2, 0)
+
+        def between(A: Array | Complex) -> Complex:
+            return np.einsum("pi,...ij,pj->...p", z, A, q, optimize=True)
+
+        to_stiffness = -(between(self.K_0) + G * between(self.K_1))
+        to_properties = np.einsum("pi,ni->np", z, self.dload) - (
+            between(self.dK_0) + G * between(self.dK_1) - omega**2 * between(self.dM)
+        )
+        return 2 * to_stiffness, np.asarray(to_properties)
 
     def _solve(self, omega: Array, G: Complex) -> tuple[Complex, Array]:
         displacement, error = [], []
@@ -101,7 +131,7 @@ def reduce_plate(
             size = builder.V.shape[1]
             progress(min(1.0, size / LARGEST_BASIS))
             if worst < TOLERANCE or size + 4 > LARGEST_BASIS:
-                return reduced
+                return builder.project(final=True)
 
 
 class _Builder:
@@ -109,6 +139,7 @@ class _Builder:
 
     def __init__(self, plate: Plate, damping: ViscousDamping, domain: Domain) -> None:
         P = plate.even
+        self.plate = plate
         self.domain = domain
         self.damping = damping.projected(P)
         self.M, self.K_0, self.K_1 = (sp.csc_array(P.T @ A @ P) for A in (plate.M, plate.K_0, plate.K_1))
@@ -135,12 +166,13 @@ class _Builder:
         keep = values > 1e-10
         self.V = np.hstack([self.V, W @ (vectors[:, keep] / np.sqrt(values[keep]))])
 
-    def project(self) -> ReducedPlate:
-        """The reduced plate of the present basis."""
+    def project(self, *, final: bool = False) -> ReducedPlate:
+        """The reduced plate of the present basis; its derivatives to properties when `final`."""
         V, U = self.V, self.damping.U
         products = [self.M @ V, self.K_0.real @ V, self.K_0.imag @ V, self.K_1 @ V]
         columns = np.hstack([self.load[:, None], self.observe[:, None], *products, U])
         gram = columns.T @ self.unload(columns)
+        dM, dK_0, dK_1, dload = self._derivatives() if final else (np.empty(0),) * 4
         return ReducedPlate(
             M=V.T @ products[0],
             K_0=V.T @ products[1] + 1j * (V.T @ products[2]),
@@ -150,8 +182,31 @@ class _Builder:
             load=V.T @ self.load,
             observe=V.T @ self.observe,
             domain=self.domain,
+            dM=dM,
+            dK_0=dK_0,
+            dK_1=dK_1,
+            dload=dload,
             gram=(gram + gram.T) / 2,
         )
+
+    def _derivatives(self) -> tuple[Array, Array, Array, Array]:
+        """Central differences of the element's matrices, projected; shapes as in `ReducedPlate`."""
+        plate, h = self.plate, 1e-4
+        V = plate.on_elements(plate.even @ self.V)
+        w = np.tile(np.eye(DOFS)[W], 4)
+        found: list[list[Array]] = [[], [], [], []]
+        for name in PROPERTIES:
+            up, down = (
+                element_matrices(with_property_scaled(plate.specimen, name, 1 + s), plate.mesh)
+                for s in (h, -h)
+            )
+            for k, part in enumerate(("M", "K_0", "K_1")):
+                dAe = (getattr(up, part) - getattr(down, part)) / (2 * h)
+                found[k].append(np.tensordot(V, dAe @ V, axes=([0, 1], [0, 1])))
+            dMe = (up.M - down.M) / (2 * h)
+            found[3].append(-np.einsum("eik,i->k", V, dMe @ w))
+        dM, dK_0, dK_1, dload = (np.array(f) for f in found)
+        return dM, dK_0, dK_1, dload
 
     def worst_points(self, reduced: ReducedPlate) -> tuple[list[tuple[float, complex]], float]:
         """The worst training point and the worst one away from it, and the worst estimate."""

@@ -3,7 +3,8 @@
 Frozen data only. Files and their units are translated at the border (`instrument.specimen_file`).
 """
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from fitting.laws import CoreLaw
@@ -54,6 +55,8 @@ class Specimen:
     pickup_m: tuple[float, float] | None = None
     reads: Reading = "relative"
     base_acceleration_m_s2: float = 9.81
+    tolerances: Mapping[str, float] = field(default_factory=dict)
+    """Relative standard deviations of properties (`fitting.properties`) that were measured or looked up."""
     elements: tuple[int, int] | None = None
     """Elements along x and y; None for the default mesh."""
 

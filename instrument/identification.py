@@ -1,6 +1,5 @@
 """Identify a core from a sweep: models, fit, validation and result in one go, each timed."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from time import perf_counter
 from typing import Literal
@@ -15,13 +14,14 @@ from fitting.identification.fit import Fit
 from fitting.identification.model import SweepModel
 from fitting.identification.residuals import Residuals
 from fitting.identification.result import Identification, differences_percent, summarise
+from fitting.identification.systematic import Systematic, systematic_of
 from fitting.identification.validation import Refit, Validation, validate
 from fitting.laws import CoreLaw
 from fitting.noise import Noise, noise_of
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.models import Models
-from instrument.progress import Progress, quiet
+from instrument.progress import Progress, Report, quiet
 
 Array = NDArray[np.float64]
 Method = Literal["direct", "paper"]
@@ -67,9 +67,9 @@ def identify(
             further = ("the law found lies where the reduced model is not certified: take it as provisional",)
         models = replace(models, domain=models.domain.widened(fit.law, sweep.frequency_hz))
     began = perf_counter()
-    with threadpool_limits(1, "blas"):
-        validation = _validate(sweep, noise, task, fit)
-    result = summarise(method, sweep, noise, fit, validation, further)
+    with threadpool_limits(1, "blas"), progress("validating") as report:
+        validation = _validate(sweep, noise, task, fit, report)
+    result = summarise(method, sweep, noise, fit, validation, task.systematic(fit.law), further)
     return Identified(result, setup, seconds, perf_counter() - began)
 
 
@@ -78,9 +78,15 @@ class _Direct:
         rational = models.rational(np.unique(sweep.omega))
         model = SweepModel.of(sweep, rational, models.specimen.reads)
         self.residuals = Residuals.of(sweep, noise, model)
+        self._sweep, self._models = sweep, models
 
-    def fit(self, start: CoreLaw, report: Callable[[float], None]) -> Fit:
+    def fit(self, start: CoreLaw, report: Report) -> Fit:
         return direct.fit_direct(self.residuals, start)
+
+    def systematic(self, law: CoreLaw) -> Systematic:
+        return systematic_of(
+            self.residuals, self._sweep.segment, self._models.reduced, self._models.specimen, law
+        )
 
     def refit_from(self, law: CoreLaw) -> Refit:
         return lambda points: direct.refit(self.residuals.take(points), law)
@@ -93,8 +99,11 @@ class _Paper:
     def __init__(self, sweep: Sweep, models: Models) -> None:
         self.problem = paper.PaperProblem.of(sweep, models.real_modes, models.specimen.reads)
 
-    def fit(self, start: CoreLaw, report: Callable[[float], None]) -> Fit:
+    def fit(self, start: CoreLaw, report: Report) -> Fit:
         return paper.fit_paper(self.problem, start, lambda step: report(step / paper.MOST_STEPS))
+
+    def systematic(self, law: CoreLaw) -> None:
+        """None stated: the real modes' own error is larger than any of these, and not estimated."""
 
     def refit_from(self, law: CoreLaw) -> Refit:
         return lambda points: paper.refit(self.problem.take(points), law)
@@ -103,12 +112,13 @@ class _Paper:
         return self.problem.velocity([law])[0]
 
 
-def _validate(sweep: Sweep, noise: Noise, task: _Direct | _Paper, fit: Fit) -> Validation:
+def _validate(sweep: Sweep, noise: Noise, task: _Direct | _Paper, fit: Fit, report: Report) -> Validation:
     size = np.abs(sweep.response_m_s)
     return validate(
         segment=sweep.segment,
         parameters=len(fit.law.names),
         refit=task.refit_from(fit.law),
         differences_percent=lambda law: differences_percent(sweep, task.velocity(law)),
+        progress=report,
         noise_percent=100 * noise.std_m_s / size if noise.is_known else np.full(len(sweep), np.nan),
     )

@@ -39,7 +39,7 @@ def identification_facts(found: Identified, sweep: Sweep) -> dict[str, Any]:
         ],
         "rms_percent": r.rms_percent,
         "max_percent": r.max_percent,
-        "chi2_per_dof": r.uncertainty.chi2_per_dof if r.noise.is_known else None,
+        "chi2_per_dof": r.uncertainty.chi2_per_dof if r.chi2_means_something else None,
         "noise": r.noise.source,
         "leave_one_out_rms_percent": v.leave_one_out_rms_percent,
         "held_out": [

@@ -13,7 +13,7 @@ Array = NDArray[np.float64]
 
 CANDIDATES = 64
 """Laws looked at before the first step."""
-STARTS = 3
+STARTS = 2
 """Of those, how many are followed, beside the start given."""
 _LOOK_AT = 24
 _MOST_EVALUATIONS = 200
@@ -79,7 +79,7 @@ def _minimise(residuals: Residuals, start: CoreLaw, *, rough: bool = False) -> O
         x_scale="jac",
         xtol=1e-4 if rough else 1e-9,
         ftol=1e-4 if rough else 1e-12,
-        max_nfev=15 if rough else _MOST_EVALUATIONS,
+        max_nfev=8 if rough else _MOST_EVALUATIONS,
     )
 
 

@@ -45,9 +45,13 @@ class Residuals:
     def with_jacobian(self, law: CoreLaw) -> tuple[Array, Array]:
         """Residuals and their derivatives to the log parameters. Shapes (count,), (count, parameters)."""
         v, dv = self.model.with_derivatives(law)
+        return self._stack(self._compare(v)), self.whiten(v, dv).T
+
+    def whiten(self, v: NDArray[np.complex128], dv: NDArray[np.complex128]) -> Array:
+        """How residuals change with changes `dv` of the prediction `v`. Shape (..., count)."""
         # d|v| = Re(conj(v) dv)/|v|
         change = dv if self.has_phase else np.real(np.conj(v) * dv) / np.abs(v)
-        return self._stack(self._compare(v)), self._stack(change / self.sigma_m_s).T
+        return self._stack(change / self.sigma_m_s)
 
     def take(self, points: Points) -> "Residuals":
         """Some of the points."""

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.identification.fit import Fit
+from fitting.identification.systematic import Systematic
 from fitting.identification.uncertainty import Uncertainty, uncertainty_of
 from fitting.identification.validation import Validation, rms
 from fitting.laws import CoreLaw
@@ -60,6 +61,11 @@ class Identification:
         }
 
     @property
+    def chi2_means_something(self) -> bool:
+        """Whether residuals are in units of a known noise."""
+        return self.noise.is_known and self.method == "direct"
+
+    @property
     def rms_percent(self) -> float:
         """Of the differences in amplitude."""
         return rms(self.difference_percent)
@@ -82,11 +88,12 @@ def summarise(
     noise: Noise,
     fit: Fit,
     validation: Validation,
+    systematic: Systematic | None = None,
     further_warnings: tuple[str, ...] = (),
 ) -> Identification:
     """Put the facts of a fit together."""
     known = noise.is_known and method == "direct"
-    uncertainty = uncertainty_of(fit, noise_is_known=known)
+    uncertainty = uncertainty_of(fit, systematic, noise_is_known=known)
     return Identification(
         method=method,
         law=fit.law,

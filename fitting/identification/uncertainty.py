@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.identification.fit import Fit
+from fitting.identification.systematic import Systematic
 from fitting.laws import CoreLaw
 
 Array = NDArray[np.float64]
@@ -19,7 +20,9 @@ class Uncertainty:
     """First-order uncertainty of a fit."""
 
     covariance: Array
-    """Of the log parameters; zero rows for those at a limit, NaN where the data do not suffice."""
+    """By noise, of the log parameters; zero rows for those at a limit, NaN where the data do not suffice."""
+    systematic: Array
+    """By the model's own error and the specimen's tolerances; it adds to `covariance` in the law's band."""
     at_bound: dict[str, str]
     """Parameter name to "lower" or "upper"."""
     chi2_per_dof: float
@@ -45,10 +48,11 @@ class Uncertainty:
         return self._propagate(dG.real), self._propagate(d_eta)
 
     def _propagate(self, gradient: Array) -> Array:
-        return np.sqrt(np.maximum(np.einsum("if,ij,jf->f", gradient, self.covariance, gradient), 0))
+        C = self.covariance + self.systematic
+        return np.sqrt(np.maximum(np.einsum("if,ij,jf->f", gradient, C, gradient), 0))
 
 
-def uncertainty_of(fit: Fit, *, noise_is_known: bool) -> Uncertainty:
+def uncertainty_of(fit: Fit, systematic: Systematic | None, *, noise_is_known: bool) -> Uncertainty:
     """Covariance (J^T J)^-1, scaled by the residual.
 
     Always where the noise is unknown; where it is known only upwards, since a misfit must not look certain.
@@ -58,22 +62,25 @@ def uncertainty_of(fit: Fit, *, noise_is_known: bool) -> Uncertainty:
     free = np.array([name not in at_bound for name in names])
     dof = len(fit.residuals) - len(names)
     chi2_per_dof = float(fit.residuals @ fit.residuals / dof) if dof > 0 else float("nan")
-    covariance = np.zeros((len(names), len(names)))
+    covariance, by_systematic = np.zeros((2, len(names), len(names)))
     if dof > 0:
         scale = max(1.0, chi2_per_dof) if noise_is_known else chi2_per_dof
-        covariance[np.ix_(free, free)] = scale * _inverse(fit.jacobian[:, free])
+        solve = _pseudo_inverse(fit.jacobian[:, free])
+        covariance[np.ix_(free, free)] = scale * solve @ solve.T
+        if systematic is not None:
+            moved = solve @ systematic.B
+            by_systematic[np.ix_(free, free)] = moved @ moved.T
     else:
         covariance[:] = np.nan
-    return Uncertainty(covariance, at_bound, chi2_per_dof)
+    return Uncertainty(covariance, by_systematic, at_bound, chi2_per_dof)
 
 
-def _inverse(J: Array) -> Array:
-    """(J^T J)^-1 by singular values, columns scaled first."""
+def _pseudo_inverse(J: Array) -> Array:
+    """J^+ by singular values, columns scaled first. Shape (parameters, data)."""
     scale = np.linalg.norm(J, axis=0)
     scale = np.where(scale > 0, scale, 1.0)
-    _, s, Vt = np.linalg.svd(J / scale, full_matrices=False)
-    half = Vt.T / np.maximum(s, 1e-14 * s.max()) / scale[:, None]
-    return np.asarray(half @ half.T)
+    U, s, Vt = np.linalg.svd(J / scale, full_matrices=False)
+    return np.asarray((Vt.T / np.maximum(s, 1e-14 * s.max()) / scale[:, None]) @ U.T)
 
 
 def _at_bound(law: CoreLaw) -> dict[str, str]:

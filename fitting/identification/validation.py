@@ -43,21 +43,27 @@ def validate(
     refit: Refit,
     differences_percent: Differences,
     noise_percent: Array,
+    progress: Callable[[float], None] = lambda fraction: None,
 ) -> Validation:
     """Leave-one-out up to 30 points, else every segment from the others."""
     count = len(segment)
     if count <= MOST_POINTS_ONE_BY_ONE:
         if count - 1 < parameters:
             return Validation()
-        left_out = [differences_percent(refit(np.arange(count) != k))[k] for k in range(count)]
-        return Validation(leave_one_out_rms_percent=rms(np.array(left_out)))
+        left_out = np.empty(count)
+        for k in range(count):
+            left_out[k] = differences_percent(refit(np.arange(count) != k))[k]
+            progress((k + 1) / count)
+        return Validation(leave_one_out_rms_percent=rms(left_out))
     numbers = np.unique(segment)
     if len(numbers) < 2:
         return Validation()
-    held_out, all_differences = [], np.empty(count)
+    held_out: list[HeldOutSegment] = []
+    all_differences = np.empty(count)
     for number in numbers:
         inside = segment == number
         all_differences[inside] = differences_percent(refit(~inside))[inside]
+        progress(len(held_out) / len(numbers))
         held_out.append(HeldOutSegment(int(number), rms(all_differences[inside]), rms(noise_percent[inside])))
     return Validation(held_out=tuple(held_out), held_out_rms_percent=rms(all_differences))
 

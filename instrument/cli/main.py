@@ -1,30 +1,42 @@
 """The command `viscorig`: its commands, and one line instead of a traceback."""
 
 import sys
+from importlib import import_module
 from importlib.metadata import version
 
 import click
 
 from fitting.errors import FittingError
-from instrument.cli.bench import bench
-from instrument.cli.demo import demo
-from instrument.cli.identify import identify
-from instrument.cli.modes import modes
-from instrument.cli.predict import predict
 from instrument.errors import BadInput
 
 BAD_INPUT = 2
 STOPPED_BY_USER = 130
 
+COMMANDS = ("modes", "predict", "identify", "demo", "bench")
+"""Each is a function of that name in the module of that name beside this file."""
 
-@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+
+class _Commands(click.Group):
+    """Loads a command when it is asked for: the program answers at once."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """In the order of the work."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
+        """The command, or None where there is none of that name."""
+        if name not in COMMANDS:
+            return None
+        found = getattr(import_module(f"instrument.cli.{name}"), name)
+        return found if isinstance(found, click.Command) else None
+
+
+@click.group(
+    cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100}
+)
 @click.version_option(version("viscorig"), prog_name="viscorig")
 def viscorig() -> None:
     """Measure damping materials: a core's complex shear modulus from a plate's response."""
-
-
-for _command in (modes, predict, identify, bench, demo):
-    viscorig.add_command(_command)
 
 
 def main(arguments: list[str] | None = None) -> None:

@@ -46,7 +46,11 @@ def _print_band(out: Output, r: Identification) -> None:
         ]
         for k in shown
     ]
-    out.table("the law in the measured band", ["frequency/Hz", "G'/MPa", "loss factor"], rows)
+    out.table(
+        "the law in the measured band, +- one standard error (noise, model error, tolerances)",
+        ["frequency/Hz", "G'/MPa", "loss factor"],
+        rows,
+    )
 
 
 def _print_points(out: Output, r: Identification, sweep: Sweep) -> None:
@@ -69,7 +73,7 @@ def _print_validation(out: Output, r: Identification) -> None:
             f"segment {h.segment} predicted from the others: rms {h.rms_percent:.2f} % "
             f"(noise {h.noise_percent:.2f} %)"
         )
-    if r.noise.is_known:
+    if r.chi2_means_something:
         out.say(
             f"chi-square per degree of freedom {r.uncertainty.chi2_per_dof:.3g}, noise by {r.noise.source}"
         )

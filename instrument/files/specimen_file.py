@@ -140,8 +140,14 @@ def _specimen(d: _Document) -> Specimen:
         pickup_m=(d.pickup.x_mm * 1e-3, d.pickup.y_mm * 1e-3) if d.pickup else None,
         reads=d.pickup.reads if d.pickup else "relative",
         base_acceleration_m_s2=d.base.acceleration_m_s2,
+        tolerances=_tolerances(d),
         elements=(d.mesh.elements_x, d.mesh.elements_y) if d.mesh else None,
     )
+
+
+def _tolerances(d: _Document) -> dict[str, float]:
+    given = d.tolerances.model_dump(exclude_none=True) if d.tolerances is not None else {}
+    return {name.removesuffix("_percent"): percent / 100 for name, percent in given.items() if percent > 0}
 
 
 def _law(table: dict[str, Any]) -> CoreLaw:
