@@ -1,12 +1,12 @@
 """How noisy each point of a sweep is: stated, seen as local scatter, or unknown.
 
-Local scatter is what a cubic through seven neighbours leaves of the middle one: narrower than a
-peak, so the peak itself is not taken for noise. Within a segment the variance is
-alpha^2 + beta^2 |v|^2: a floor and a share of the response.
+Local scatter is what a model of seven neighbours leaves of the middle one. The model is one pole over
+a parabola (the local rational method), so that a peak, however coarsely stepped, is not taken for
+noise. Within a segment the variance is alpha^2 + beta^2 |v|^2: a floor and a share of the response.
 """
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,6 @@ from fitting.sweep import Sweep
 Array = NDArray[np.float64]
 
 WINDOW = 7
-_DEGREE = 3
 FEWEST = 15
 """Points a segment needs before its scatter says anything."""
 
@@ -70,19 +69,26 @@ def _scatter(frequency_hz: Array, response: NDArray[np.complex128] | Array) -> A
     return std
 
 
-def _local_residuals(f: Array, v: NDArray[np.complex128] | Array) -> tuple[NDArray[np.intp], Array]:
-    """Middle points of the windows and what a local cubic leaves there, scaled to unit gain of noise."""
+def _local_residuals(f: Array, v: NDArray[Any]) -> tuple[NDArray[np.intp], NDArray[Any]]:
+    """Middle points of the windows and what the local model leaves there, scaled to unit gain of noise."""
     half = WINDOW // 2
-    middles, residuals = [], []
-    for k in range(half, len(f) - half):
+    middles = np.arange(half, len(f) - half)
+    residuals = np.empty(len(middles), dtype=v.dtype)
+    for n, k in enumerate(middles):
         window = slice(k - half, k + half + 1)
         t = (f[window] - f[k]) / max(f[window][-1] - f[window][0], 1e-12)
-        Q, _ = np.linalg.qr(np.vander(t, _DEGREE + 1))
-        row = -Q @ Q[half]
-        row[half] += 1
-        middles.append(k)
-        residuals.append(row @ v[window] / max(np.sqrt(row[half]), 1e-6))
-    return np.array(middles), np.array(residuals)
+        Q, _ = np.linalg.qr(_local_model(t, v[window]))
+        left_over = v[k] - Q[half] @ (Q.conj().T @ v[window])
+        gain = 1 - np.vdot(Q[half], Q[half]).real
+        residuals[n] = left_over / np.sqrt(max(gain, 1e-6))
+    return middles, residuals
+
+
+def _local_model(t: Array, v: NDArray[Any]) -> NDArray[Any]:
+    """Columns of (a + b t + c t^2)/(1 + d t), linearised, for phasors; a quintic for amplitudes."""
+    if np.iscomplexobj(v):
+        return np.column_stack([np.ones_like(t), t, t**2, v * t])
+    return np.vander(t, 6)
 
 
 def _variance_model(size_squared: Array, square: Array) -> tuple[float, float]:

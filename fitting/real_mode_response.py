@@ -22,8 +22,8 @@ MODES = 8
 """The paper superposes the first eight, odd ones counted though a base does not excite them."""
 _MODULI = 6
 _SPARE = 3
-_INDEPENDENT = 1e-9
-"""Share of the largest singular value, squared, below which a direction adds nothing."""
+_INDEPENDENT = 1e-8
+"""Share of the strain energy below which a direction adds nothing."""
 
 
 @dataclass(frozen=True)
@@ -83,16 +83,21 @@ def real_mode_plate(
     ratios = np.zeros(MODES)
     given = np.array(plate.specimen.modal_ratios[:MODES])
     ratios[: len(given)] = given
-    return RealModePlate(
-        even=_span(plate, plate.even, shapes), odd=_span(plate, plate.odd, shapes), ratios=ratios
-    )
+    middle = float(np.sqrt(modulus[0] * modulus[1]))
+    even, odd = (_span(plate, P, shapes, middle) for P in (plate.even, plate.odd))
+    return RealModePlate(even, odd, ratios)
 
 
-def _span(plate: Plate, P: sp.csc_array, shapes: Array) -> _Span:
+def _span(plate: Plate, P: sp.csc_array, shapes: Array, G: float) -> _Span:
     V = P @ (P.T @ shapes)
-    values, vectors = np.linalg.eigh(V.T @ (plate.M @ V))
-    keep = values > _INDEPENDENT * values.max()
-    V = V @ (vectors[:, keep] / np.sqrt(values[keep]))
+    # Independence is judged by stiffness: what weighs little may still bend a mode.
+    K = (plate.K_0.real + G * plate.K_1).tocsc()
+    energy = np.einsum("ij,ij->j", V, K @ V)
+    V = V[:, energy > _INDEPENDENT * energy.max()]
+    V = V / np.sqrt(np.einsum("ij,ij->j", V, K @ V))
+    values, vectors = np.linalg.eigh(V.T @ (K @ V))
+    V = V @ (vectors[:, values > _INDEPENDENT] / np.sqrt(values[values > _INDEPENDENT]))
+    V = np.linalg.solve(np.linalg.cholesky(V.T @ (plate.M @ V)), V.T).T
     return _Span(
         K_0=V.T @ (plate.K_0.real @ V),
         K_0_loss=V.T @ (plate.K_0.imag @ V),

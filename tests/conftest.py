@@ -1,0 +1,76 @@
+"""Specimens and models the tests share; models are cached in a folder of the test run."""
+
+import os
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from hypothesis import settings
+
+from fitting.domain import domain_of
+from fitting.laws.constant import ConstantModulus
+from fitting.laws.fractional_zener import FractionalZener
+from fitting.plate import Plate
+from fitting.specimen import Core, Face, Specimen
+from instrument.files.specimen_file import read_specimen
+from instrument.files.sweep_file import read_sweep
+from instrument.models import Models
+from instrument.paper_case import case_file
+
+settings.register_profile("ci", deadline=None, max_examples=40, derandomize=True)
+settings.load_profile("ci")
+
+TABLE_4 = FractionalZener(g0_pa=0.27e6, ginf_pa=4.1e6, tau_s=1.21e-4, alpha=0.83)
+DATA = Path(__file__).parent / "data"
+
+
+@pytest.fixture(scope="session", autouse=True)
+def cache_of_this_run(tmp_path_factory):
+    folder = tmp_path_factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        folder = folder.parent
+    os.environ["VISCORIG_CACHE"] = str(folder / "cache")
+
+
+@pytest.fixture(scope="session")
+def zn1() -> Specimen:
+    return read_specimen(case_file("zn1.toml"))
+
+
+@pytest.fixture(scope="session")
+def zn1_table4(zn1) -> Specimen:
+    return zn1.with_law(TABLE_4)
+
+
+@pytest.fixture(scope="session")
+def coarse(zn1) -> Specimen:
+    """The paper's plate on its own 10 x 10 mesh: quick."""
+    return replace(zn1, elements=(10, 10))
+
+
+@pytest.fixture(scope="session")
+def coarse_plate(coarse) -> Plate:
+    return Plate(coarse)
+
+
+@pytest.fixture(scope="session")
+def zn1_plate(zn1) -> Plate:
+    return Plate(zn1)
+
+
+@pytest.fixture(scope="session")
+def table5(zn1):
+    return read_sweep(case_file("table5.csv")).sweep(zn1.base_acceleration_m_s2)
+
+
+@pytest.fixture(scope="session")
+def zn1_models(zn1, table5) -> Models:
+    return Models(zn1, domain_of(zn1, table5.frequency_hz))
+
+
+@pytest.fixture(scope="session")
+def johnson_kienholz() -> Specimen:
+    """Simply supported sandwich plate, Johnson and Kienholz 1982."""
+    face = Face(thickness_m=0.762e-3, young_pa=68.9e9, poisson=0.3, density_kg_m3=2740.0)
+    core = Core(0.254e-3, 0.49, 999.0, ConstantModulus(0.896e6, 0.5))
+    return Specimen(0.348, 0.3048, "simply-supported", face, face, core)

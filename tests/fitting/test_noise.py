@@ -1,0 +1,86 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from conftest import DATA
+from fitting.noise import noise_of
+from fitting.sweep import Sweep, resonance_points, segments_by_gap
+from instrument.files.sweep_file import read_sweep
+
+
+def peak(f, resonance=19.0, loss=0.1):
+    return 0.1 / ((1 - (f / resonance) ** 2) + 1j * loss)
+
+
+def sweep_of(f, v, **more):
+    n = len(f)
+    ones = np.ones(n, dtype=int)
+    return Sweep(f, v, np.full(n, 9.81), segment=ones, sweep=ones, **more)
+
+
+def test_scatter_recovers_a_floor_and_a_share():
+    rng = np.random.default_rng(0)
+    f = np.linspace(14, 26, 121)
+    v = peak(f)
+    true = np.hypot(0.002, 0.004 * np.abs(v))
+    ratios = []
+    for _ in range(40):
+        noisy = v + true * (rng.normal(size=121) + 1j * rng.normal(size=121))
+        ratios.append(noise_of(sweep_of(f, noisy)).std_m_s / true)
+    assert np.median(ratios) == pytest.approx(1, abs=0.05)
+    assert np.all(np.abs(np.mean(ratios, axis=0) - 1) < 0.15)
+
+
+@pytest.mark.parametrize("points", [121, 61, 31])
+def test_a_noiseless_peak_is_not_taken_for_noise(points):
+    f = np.linspace(14, 26, points)
+    v = peak(f) + 0.03 * f
+    assert noise_of(sweep_of(f, v)).std_m_s.max() < 1e-5 * np.abs(v).max()
+
+
+def test_a_noiseless_peak_of_amplitudes_is_hardly_taken_for_noise():
+    f = np.linspace(14, 26, 121)
+    v = np.abs(peak(f))
+    assert noise_of(sweep_of(f, v)).std_m_s.max() < 1e-4 * v.max()
+
+
+def test_stated_noise_is_taken_and_carried_to_the_response():
+    f = np.array([10.0, 20.0])
+    stated = sweep_of(f, np.array([1.0, 2.0]), std_m_s=np.array([0.1, 0.2]))
+    assert noise_of(stated).source == "stated"
+    halved = replace(stated, base_m_s2=np.array([2 * 9.81, 2 * 9.81], dtype=complex))
+    np.testing.assert_allclose(halved.response_m_s, [0.5, 1.0])
+    np.testing.assert_allclose(noise_of(halved).std_m_s, [0.05, 0.1])
+
+
+def test_few_points_leave_the_noise_unknown(table5):
+    noise = noise_of(table5)
+    assert noise.source == "unknown"
+    assert not noise.is_known
+
+
+def test_levels_and_passes_are_judged_apart():
+    rng = np.random.default_rng(1)
+    f = np.tile(np.linspace(14, 26, 61), 2)
+    level = np.repeat([9.81, 98.1], 61)
+    v = peak(f) * level + 0.01 * (rng.normal(size=122) + 1j * rng.normal(size=122))
+    ones = np.ones(122, dtype=int)
+    noise = noise_of(Sweep(f, v, level, segment=ones, sweep=ones))
+    assert np.median(noise.std_m_s) == pytest.approx(0.01, rel=0.2)
+
+
+def test_reference_channel_removes_the_scatter_of_the_drive():
+    sweep = read_sweep(DATA / "practice-002.csv").sweep(9.81)
+    without = replace(sweep, base_m_s2=None)
+    assert np.median(noise_of(without).std_m_s / noise_of(sweep).std_m_s) > 1.02
+
+
+def test_segments_are_told_apart_by_their_gaps(table5):
+    order = np.array([4, 0, 8, 1, 5, 2, 6, 3, 7])
+    np.testing.assert_array_equal(segments_by_gap(table5.frequency_hz), table5.segment)
+    np.testing.assert_array_equal(segments_by_gap(table5.frequency_hz[order]), table5.segment[order])
+
+
+def test_resonance_points_are_the_papers(table5):
+    assert list(table5.frequency_hz[resonance_points(table5)]) == [19.3, 100.5, 281.1]
