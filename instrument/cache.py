@@ -46,7 +46,7 @@ def cached(name: str, depends_on: Any, cls: type[T], build: Callable[[], T]) -> 
 
 def _load(path: Path, digest: str, cls: type[T]) -> T | None:
     try:
-        with np.load(path, allow_pickle=False) as file:
+        with open(path, "rb") as opened, np.load(opened, allow_pickle=False) as file:
             packed = {key: file[key] for key in file.files}
         if str(packed.pop("digest")[()]) != digest:
             return None

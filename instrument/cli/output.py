@@ -18,6 +18,9 @@ class Output:
 
     def __init__(self, json_path: str | None) -> None:
         self._json_path = json_path
+        if json_path not in (None, "-") and not Path(str(json_path)).parent.is_dir():
+            # Said before the work, not after it.
+            raise BadInput(f"{json_path}: no such folder to write to")
         self._console = Console(highlight=False, quiet=json_path == "-", soft_wrap=True)
 
     def say(self, text: str = "") -> None:

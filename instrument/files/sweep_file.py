@@ -67,7 +67,6 @@ class SweepFile:
 def read_sweep(path: Path) -> SweepFile:
     """Read and check a sweep. Raises `BadInput` naming file, line and column."""
     header, rows = _rows(path)
-    _check_header(path, header)
     columns: dict[str, Array] = {}
     for k, name in enumerate(header):
         if name in _NUMBERS:
@@ -88,6 +87,7 @@ def _rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     for line, row in _fields(path):
         if header is None:
             header = row
+            _check_header(path, header)
             continue
         if len(row) != len(header):
             raise BadInput(

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from fitting import element
-from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W, Shape
+from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, Shape, W
 from fitting.laws.constant import ConstantModulus
 from fitting.specimen import Core, Face
 

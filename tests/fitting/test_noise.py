@@ -2,8 +2,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-
 from conftest import DATA
+
 from fitting.noise import noise_of
 from fitting.sweep import Sweep, resonance_points, segments_by_gap
 from instrument.files.sweep_file import read_sweep

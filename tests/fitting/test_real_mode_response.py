@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
-
 from conftest import TABLE_4
+
 from fitting.damping import viscous_damping
 from fitting.direct import displacement_direct
 from fitting.plate import Plate

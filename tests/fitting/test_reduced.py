@@ -11,7 +11,7 @@ from fitting.laws.constant import ConstantModulus
 from fitting.plate import Plate
 from fitting.properties import PROPERTIES, with_property_scaled
 from fitting.rational import rational_sweep
-from fitting.reduced import LARGEST_BASIS
+from fitting.reduced import LARGEST_BASIS, reduce_plate
 
 
 def random_points(count, seed):
@@ -87,8 +87,6 @@ def test_bare_plate_reduces_too(zn1):
     bare = replace(zn1.bare, elements=(16, 10))
     plate = Plate(bare)
     damping = viscous_damping(plate)
-    from fitting.reduced import reduce_plate
-
     reduced = reduce_plate(plate, damping, domain_of(bare, np.array([10.0, 100.0])))
     omega = 2 * np.pi * np.array([12.0, 17.7, 90.0, 400.0])
     zero = np.zeros(4, dtype=complex)
@@ -98,8 +96,6 @@ def test_bare_plate_reduces_too(zn1):
 
 
 def test_layer_loss_factors_reach_the_reduced_plate(coarse):
-    from fitting.reduced import reduce_plate
-
     lossy = replace(coarse, substrate=replace(coarse.substrate, loss_factor=0.02), modal_ratios=())
     plate = Plate(lossy)
     damping = viscous_damping(plate)

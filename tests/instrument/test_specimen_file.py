@@ -1,0 +1,114 @@
+import re
+
+import pytest
+
+from fitting.laws import LAWS
+from instrument.errors import BadInput
+from instrument.files.specimen_file import read_specimen
+from instrument.paper_case import case_file
+
+GOOD = case_file("zn1.toml").read_text(encoding="utf-8")
+
+
+def write(tmp_path, text):
+    path = tmp_path / "specimen.toml"
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return path
+
+
+def test_shipped_specimen_is_the_papers():
+    s = read_specimen(case_file("zn1.toml"))
+    assert (s.length_m, s.width_m, s.boundary) == (pytest.approx(0.3002), pytest.approx(0.1999), "cantilever")
+    assert s.substrate.young_pa == pytest.approx(68.9e9)
+    assert s.constraining.thickness_m == pytest.approx(0.3e-3)
+    assert s.modal_ratios[0] == pytest.approx(0.0029)
+    assert s.pickup_m == pytest.approx((0.06, 0.06))
+    assert s.mesh == (40, 26)
+    # the printed start values are Young's moduli
+    assert s.core.law.g0_pa == pytest.approx(1.2e6 / (2 * 1.49), rel=1e-4)
+    assert s.core.law.ginf_pa == pytest.approx(12.5e6 / (2 * 1.49), rel=1e-4)
+
+
+LAW_TABLES = {
+    "fractional-zener": "g0_mpa = 0.3\nginf_mpa = 4.0\ntau_s = 1e-4\nalpha = 0.8",
+    "constant": "g_mpa = 0.5\nloss_factor = 0.0",
+    "isd112": "",
+    "generalised-maxwell": "g_inf_mpa = 0.2\ng_mpa = [0.3, 1.0]\ntau_s = [1e-3, 1e-4]",
+}
+
+
+@pytest.mark.parametrize("kind", sorted(LAWS))
+def test_every_law_can_be_read(tmp_path, kind):
+    text = re.sub(
+        r"\[core\.law\].*?\n\n", f'[core.law]\nkind = "{kind}"\n{LAW_TABLES[kind]}\n\n', GOOD, flags=re.S
+    )
+    assert read_specimen(write(tmp_path, text)).core.law.kind == kind
+
+
+def test_optional_parts(tmp_path):
+    bare = re.sub(r"\[constraining\].*?\[damping\]", "[damping]", GOOD, flags=re.S)
+    s = read_specimen(write(tmp_path, bare))
+    assert s.core is None
+    assert s.constraining is None
+    more = GOOD + "\n[mesh]\nelements_x = 10\nelements_y = 10\n[tolerances]\nsubstrate_young_percent = 2.0\n"
+    s = read_specimen(write(tmp_path, more.replace("y_mm = 60.0", 'y_mm = 60.0\nreads = "absolute"')))
+    assert s.mesh == (10, 10)
+    assert s.tolerances == {"substrate_young": 0.02}
+    assert s.reads == "absolute"
+    whole = GOOD.replace("length_mm = 300.2", "length_mm = 300")
+    assert read_specimen(write(tmp_path, whole)).length_m == 0.3
+
+
+BAD = {
+    "empty": ("", "empty"),
+    "binary": (b"\x89PNG\r\n\x1a\n\xff\xfe", "not UTF-8"),
+    "nul": (b"[plate]\0", "NUL"),
+    "not toml": ("plate = = 1", "not TOML"),
+    "negative thickness": (
+        GOOD.replace("thickness_mm = 1.9", "thickness_mm = -1.9"),
+        "substrate.thickness_mm: -1.9",
+    ),
+    "zero width": (GOOD.replace("width_mm = 199.9", "width_mm = 0.0"), "plate.width_mm"),
+    "nan": (GOOD.replace("young_gpa = 68.9", "young_gpa = nan"), "substrate.young_gpa"),
+    "infinite": (GOOD.replace("young_gpa = 68.9", "young_gpa = inf"), "substrate.young_gpa"),
+    "text for a number": (GOOD.replace("young_gpa = 68.9", 'young_gpa = "68.9"'), "substrate.young_gpa"),
+    "unknown key": (
+        GOOD.replace("young_gpa = 68.9", "young_gpa = 68.9\nyuong = 1"),
+        "substrate.yuong: unknown key",
+    ),
+    "unknown table": (GOOD + "\n[coer]\nx = 1\n", "coer: unknown key"),
+    "missing key": (GOOD.replace("density_kg_m3 = 2700.0\n", ""), "substrate.density_kg_m3: missing"),
+    "missing plate": (GOOD.replace("[plate]", "[plates]"), "plate: missing"),
+    "poisson": (GOOD.replace("poisson = 0.49", "poisson = 0.5"), "core.poisson"),
+    "boundary": (GOOD.replace('"cantilever"', '"clamped"'), "plate.boundary"),
+    "law kind": (GOOD.replace('"fractional-zener"', '"zener"'), "core.law.kind: 'zener'"),
+    "law out of bounds": (GOOD.replace("alpha = 0.89", "alpha = 1.5"), "alpha = 1.5"),
+    "law negative": (GOOD.replace("g0_mpa = 0.40268", "g0_mpa = -0.4"), "g0_mpa = -0.4"),
+    "law key": (GOOD.replace("alpha = 0.89", "alpah = 0.89"), "core.law.alpha: missing"),
+    "law not passive": (GOOD.replace("ginf_mpa = 4.1946", "ginf_mpa = 0.1"), "give energy back"),
+    "spot off the plate": (GOOD.replace("x_mm = 60.0", "x_mm = 600.0"), "pickup.x_mm = 600 is off the plate"),
+    "core alone": (
+        re.sub(r"\[constraining\].*?\[core\]", "[core]", GOOD, flags=re.S),
+        "[constraining] is missing",
+    ),
+    "ratio over 100 %": (GOOD.replace("0.29,", "290.0,"), "damping.modal_percent.0"),
+    "mesh": (GOOD + "\n[mesh]\nelements_x = 1\nelements_y = 10\n", "mesh.elements_x"),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_bad_specimen_is_refused_in_one_line(tmp_path, case):
+    text, expected = BAD[case]
+    path = write(tmp_path, text)
+    with pytest.raises(BadInput) as refused:
+        read_specimen(path)
+    message = str(refused.value)
+    assert message.startswith(str(path))
+    assert expected in message
+    assert "\n" not in message
+
+
+def test_missing_file_and_folder_are_refused(tmp_path):
+    for path in (tmp_path / "none.toml", tmp_path):
+        with pytest.raises(BadInput, match=re.escape(str(path))):
+            read_specimen(path)

@@ -1,0 +1,109 @@
+import numpy as np
+import pytest
+from conftest import DATA
+
+from instrument.errors import BadInput
+from instrument.files.sweep_file import read_sweep
+
+AMPLITUDES = "frequency_hz,velocity_m_s\n18.4,0.0726\n19.3,0.1112\n"
+PHASORS = "frequency_hz,velocity_re_m_s,velocity_im_m_s\n18.4,-0.01,0.07\n19.3,0.0,0.11\n"
+
+
+def write(tmp_path, text):
+    path = tmp_path / "sweep.csv"
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return path
+
+
+def test_amplitudes(tmp_path):
+    sweep = read_sweep(write(tmp_path, AMPLITUDES)).sweep(9.81)
+    assert not sweep.has_phase
+    np.testing.assert_array_equal(sweep.velocity_m_s, [0.0726, 0.1112])
+    np.testing.assert_array_equal(sweep.commanded_m_s2, 9.81)
+    assert sweep.base_m_s2 is None
+
+
+def test_phasors_in_any_column_order_with_comments_and_unknown_columns(tmp_path):
+    text = (
+        "\ufeff# shaker 2\n\nvelocity_im_m_s, note ,frequency_hz,velocity_re_m_s,level_g\r\n"
+        '0.07,"a, b",18.4,-0.01,0.5\r\n# break\r\n0.11,,19.3,0.0,2\r\n'
+    )
+    file = read_sweep(write(tmp_path, text))
+    sweep = file.sweep(9.81)
+    np.testing.assert_array_equal(sweep.velocity_m_s, [-0.01 + 0.07j, 0.11j])
+    np.testing.assert_allclose(sweep.commanded_m_s2, [4.905, 19.62])
+    assert file.unknown == {"note": ["a, b", ""]}
+
+
+def test_reference_channel_scales_the_response(tmp_path):
+    text = (
+        "frequency_hz,velocity_re_m_s,velocity_im_m_s,base_accel_re_m_s2,base_accel_im_m_s2\n"
+        "18.4,0.0,0.07,0.0,9.0\n"
+    )
+    sweep = read_sweep(write(tmp_path, text)).sweep(9.81)
+    assert sweep.response_m_s[0] == pytest.approx(0.07 / 9 * 9.81)
+
+
+def test_repeated_frequencies_are_kept_where_level_sweep_or_time_tells_them_apart(tmp_path):
+    for column, values in (("level_g", "12"), ("sweep", "12"), ("time_s", "12")):
+        text = f"frequency_hz,velocity_m_s,{column}\n18.4,0.07,{values[0]}\n18.4,0.07,{values[1]}\n"
+        assert len(read_sweep(write(tmp_path, text)).columns["frequency_hz"]) == 2
+
+
+def test_practice_sweep_is_read_whole():
+    sweep = read_sweep(DATA / "practice-002.csv").sweep(9.81)
+    assert len(sweep) == 353
+    assert sorted(set(sweep.segment)) == [1, 2, 3]
+    assert sweep.has_phase
+
+
+BAD = {
+    "empty": ("", "empty"),
+    "comments only": ("# nothing\n", "no header"),
+    "header only": ("frequency_hz,velocity_m_s\n", "no rows"),
+    "binary": (b"\x00\xff\xfe\x89", "not UTF-8"),
+    "nul": (b"frequency_hz\0", "NUL"),
+    "no frequency": ("f,velocity_m_s\n1,2\n", "column frequency_hz missing"),
+    "no velocity": ("frequency_hz\n1\n", "no velocity"),
+    "half a phasor": ("frequency_hz,velocity_re_m_s,velocity_m_s\n1,2,3\n", "velocity_im_m_s missing"),
+    "half a reference": (
+        AMPLITUDES.replace("velocity_m_s", "velocity_m_s,base_accel_re_m_s2", 1),
+        "base_accel_im_m_s2 missing",
+    ),
+    "column twice": ("frequency_hz,velocity_m_s,frequency_hz\n1,2,1\n", "twice"),
+    "nan": (AMPLITUDES.replace("0.0726", "nan"), "line 2: velocity_m_s = nan"),
+    "infinite": (AMPLITUDES.replace("0.0726", "inf"), "line 2: velocity_m_s = inf"),
+    "text": (AMPLITUDES.replace("0.0726", "loud"), "line 2: velocity_m_s = 'loud'"),
+    "missing value": (AMPLITUDES.replace("0.0726", ""), "line 2: velocity_m_s = ''"),
+    "ragged": (AMPLITUDES.replace("19.3,", "19.3,1,"), "line 3: 3 columns, expected 2"),
+    "negative frequency": (AMPLITUDES.replace("18.4", "-18.4"), "line 2: frequency_hz = -18.4"),
+    "zero frequency": (AMPLITUDES.replace("18.4", "0"), "line 2: frequency_hz = 0"),
+    "zero amplitude": (AMPLITUDES.replace("0.0726", "0"), "line 2: velocity_m_s = 0"),
+    "zero phasor": (PHASORS.replace("-0.01,0.07", "0,0"), "line 2: velocity is zero"),
+    "row twice": (AMPLITUDES + "18.4,0.0726\n", "line 4: the same point as line 2"),
+    "segment": (
+        AMPLITUDES.replace("velocity_m_s", "velocity_m_s,segment")
+        .replace("0.0726", "0.0726,1.5")
+        .replace("0.1112", "0.1112,1"),
+        "whole number",
+    ),
+    "weight": (
+        AMPLITUDES.replace("velocity_m_s", "velocity_m_s,weight")
+        .replace("0.0726", "0.0726,-1")
+        .replace("0.1112", "0.1112,1"),
+        "weight = -1",
+    ),
+    "open quote": (AMPLITUDES.replace("0.0726", '"0.07'), "line 2"),
+}
+
+
+@pytest.mark.parametrize("case", BAD)
+def test_bad_sweep_is_refused_in_one_line(tmp_path, case):
+    text, expected = BAD[case]
+    path = write(tmp_path, text)
+    with pytest.raises(BadInput) as refused:
+        read_sweep(path)
+    message = str(refused.value)
+    assert message.startswith(str(path))
+    assert expected in message
+    assert "\n" not in message
