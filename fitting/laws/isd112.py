@@ -9,7 +9,7 @@ from fitting.errors import OutsideModel
 from fitting.laws.base import Array, Complex, CoreLaw
 
 LOWEST_HZ = 1.0
-"""Eq. (19b) turns negative below about 0.03 Hz and is a fit to data from hertz upwards."""
+"""Eq. (19b) turns negative below 0.27 Hz and is a fit to data from hertz upwards."""
 
 
 @dataclass(frozen=True)
