@@ -35,7 +35,8 @@ contracts: $(READY)
 	@$(BIN)/lint-imports
 
 unit: $(READY) ## the test suite with coverage
-	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 --cov --cov-report=term
+	@$(BIN)/pytest -m timing
+	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 -m "not timing" --cov --cov-report=term
 
 format: $(READY) ## rewrite the sources in the project's style
 	@$(BIN)/ruff check --fix . ; $(BIN)/ruff format .

@@ -1,8 +1,11 @@
 import json
 
+import pytest
+
 from instrument.cli.main import run
 
 
+@pytest.mark.timing
 def test_bench_shows_the_required_ratios(capsys):
     assert run(["bench", "--json", "-"]) == 0
     rows = json.loads(capsys.readouterr().out)["rows"]
