@@ -17,7 +17,7 @@ MODULI_PA = (1e4, 2e7)
 LOSS_FACTOR = 2.0
 _MARGIN = 3.0
 """A law's modulus is expected to move by this factor in a fit."""
-_ELEMENTS_A_WAVE = 6
+_ELEMENTS_A_WAVE = 5
 
 
 @dataclass(frozen=True)

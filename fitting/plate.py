@@ -20,6 +20,8 @@ from fitting.specimen import Specimen
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
+_STILL = 1e-9
+"""A reading row below this reads nothing but rounding."""
 _HELD_ON_X_EDGES = (V_C, V_B, W, THETA_X)
 _HELD_ON_Y_EDGES = (U_C, U_B, W, THETA_Y)
 
@@ -203,7 +205,11 @@ class Plate:
         """The row that reads w at the specimen's pickup. Shape (n,)."""
         if self.specimen.pickup_m is None:
             raise OutsideModel("[pickup] is missing, expected x_mm and y_mm of the measured spot")
-        return self.observe(*self.specimen.pickup_m)
+        row = self.observe(*self.specimen.pickup_m)
+        if self.specimen.reads == "relative" and np.abs(row).max() < _STILL:
+            x, y = (1e3 * v for v in self.specimen.pickup_m)
+            raise OutsideModel(f"pickup ({x:g}, {y:g}) mm lies on a held edge, expected a point that moves")
+        return row
 
     def observe(self, x_m: float, y_m: float) -> Array:
         """The row that reads w at a point, by the shape functions; a unit force there too. Shape (n,)."""

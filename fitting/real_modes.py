@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse.linalg import LinearOperator, eigsh
 
+from fitting.errors import OutsideModel
 from fitting.linear import factorise
 from fitting.plate import Plate
 
@@ -24,6 +25,8 @@ class RealModes:
 
 def real_modes(plate: Plate, G: float, count: int) -> RealModes:
     """The first `count` elastic modes at the real core modulus `G` in Pa."""
+    if count + 8 > plate.size:
+        raise OutsideModel(f"{count} modes asked of a mesh of {plate.size} degrees of freedom, refine [mesh]")
     K = (plate.K_0.real + G * plate.K_1).tocsc()
     # A free plate has six motions without energy: shift off them so that K - shift M can be factorised.
     rigid = 6 if plate.specimen.boundary == "free" else 0

@@ -161,7 +161,9 @@ class _Builder:
         W = np.hstack([X.real, X.imag])
         for _ in range(2):
             W = W - self.V @ (self.V.T @ (self.stiffness @ W))
-            W = W / np.sqrt(np.einsum("ij,ij->j", W, self.stiffness @ W))
+            size = np.sqrt(np.einsum("ij,ij->j", W, self.stiffness @ W))
+            # A lossless plate's response has no imaginary part.
+            W = W[:, size > 0] / size[size > 0]
         values, vectors = np.linalg.eigh(W.T @ (self.stiffness @ W))
         keep = values > 1e-10
         self.V = np.hstack([self.V, W @ (vectors[:, keep] / np.sqrt(values[keep]))])

@@ -54,6 +54,8 @@ def identify(
     models = Models.of(specimen, sweep.frequency_hz, progress)
     setup = seconds = 0.0
     further: tuple[str, ...] = ()
+    if method == "paper" and specimen.tolerances:
+        further = ("the paper's method leaves the stated tolerances out of its band",)
     for widened in range(_MOST_WIDENINGS + 1):
         began = perf_counter()
         task = _Direct(sweep, noise, models) if method == "direct" else _Paper(sweep, models)
@@ -64,7 +66,9 @@ def identify(
         if not models.uncertified(fit.law, sweep.frequency_hz):
             break
         if widened == _MOST_WIDENINGS:
-            further = ("the law found lies where the reduced model is not certified: take it as provisional",)
+            further += (
+                "the law found lies where the reduced model is not certified: take it as provisional",
+            )
         models = replace(models, domain=models.domain.widened(fit.law, sweep.frequency_hz))
     began = perf_counter()
     with threadpool_limits(1, "blas"), progress("validating") as report:
@@ -79,6 +83,7 @@ class _Direct:
         model = SweepModel.of(sweep, rational, models.specimen.reads)
         self.residuals = Residuals.of(sweep, noise, model)
         self._sweep, self._models = sweep, models
+        self.uses_phase = sweep.has_phase
 
     def fit(self, start: CoreLaw, report: Report) -> Fit:
         return direct.fit_direct(self.residuals, start)
@@ -96,6 +101,8 @@ class _Direct:
 
 
 class _Paper:
+    uses_phase = False
+
     def __init__(self, sweep: Sweep, models: Models) -> None:
         self.problem = paper.PaperProblem.of(sweep, models.real_modes, models.specimen.reads)
 
@@ -116,7 +123,7 @@ def _validate(sweep: Sweep, noise: Noise, task: _Direct | _Paper, fit: Fit, repo
     size = np.abs(sweep.response_m_s)
     return validate(
         segment=sweep.segment,
-        parameters=len(fit.law.names),
+        points_needed=-(-len(fit.law.names) // (2 if task.uses_phase else 1)),
         refit=task.refit_from(fit.law),
         differences_percent=lambda law: differences_percent(sweep, task.velocity(law)),
         progress=report,

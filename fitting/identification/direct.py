@@ -25,6 +25,7 @@ def fit_direct(residuals: Residuals, start: CoreLaw) -> Fit:
     Raises `TooFewPoints` for a law without parameters or a single point.
     """
     check_determined(residuals, start)
+    start = start.lifted()
     runs = [_minimise(residuals, start)]
     for candidate in _candidates(residuals, start):
         # Far from the start a rough descent decides whether this valley is worth following.
@@ -42,6 +43,7 @@ def fit_direct(residuals: Residuals, start: CoreLaw) -> Fit:
         iterations=int(best.njev),
         evaluations=sum(int(run.nfev) for run in runs) + CANDIDATES,
         converged=bool(best.status > 0),
+        weights=residuals.weights,
     )
 
 
@@ -73,7 +75,7 @@ def _minimise(residuals: Residuals, start: CoreLaw, *, rough: bool = False) -> O
 
     return least_squares(
         lambda p: both(p)[0],
-        np.clip(np.log(np.maximum(start.values, 1e-300)), lower, upper),
+        np.clip(np.log(start.values), lower, upper),
         jac=lambda p: both(p)[1],
         bounds=(lower, upper),
         x_scale="jac",

@@ -26,5 +26,7 @@ class Fit:
     iterations: int
     evaluations: int
     converged: bool
+    weights: Array | None = None
+    """What `residuals` and `jacobian` were multiplied by beyond the noise; None for nothing."""
     criterion_met: bool | None = None
     """The paper's 5 % criterion, where its method was asked for."""

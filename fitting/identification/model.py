@@ -33,8 +33,8 @@ class SweepModel:
 
     @classmethod
     def of(cls, sweep: Sweep, rational: RationalSweep, reads: Reading) -> "SweepModel":
-        """`rational` must hold every frequency of the sweep."""
-        index = np.argmin(np.abs(rational.omega[None, :] - sweep.omega[:, None]), axis=1)
+        """`rational` must hold every frequency of the sweep, ascending."""
+        index = np.searchsorted(rational.omega, sweep.omega * (1 - 1e-12))
         return cls(rational, index, sweep.commanded_m_s2, reads)
 
     def velocity(self, law: CoreLaw) -> Complex:

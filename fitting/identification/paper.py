@@ -30,7 +30,7 @@ WEIGHT_ELSEWHERE = 0.06
 WEIGHT_OF_PARAMETERS = 0.25
 CRITERION = 0.05
 """Largest relative difference at which the paper stops."""
-MOST_STEPS = 4000
+MOST_STEPS = 1000
 PLAIN_STEPS = 60
 """So many steps are exactly the printed ones; later every `_HURRY_EVERY`-th is extrapolated."""
 _HURRY_EVERY = 10
@@ -86,6 +86,7 @@ def fit_paper(
         raise TooFewPoints(f"core law {start.kind} has no parameter to identify, choose another law")
     if len(problem.sweep) < 2:
         raise TooFewPoints(f"1 point cannot carry {len(start.names)} parameters, expected more than that")
+    start = start.lifted()
     W_x = problem.weight[:, None]
     W_b = WEIGHT_OF_PARAMETERS * np.eye(len(start.names))
     change: Array = np.zeros(len(start.names))
@@ -110,6 +111,7 @@ def fit_paper(
         iterations=steps,
         evaluations=(steps + 1) * (1 + len(start.names)),
         converged=met or at_rest,
+        weights=problem.weight,
         criterion_met=met,
     )
 
@@ -140,7 +142,12 @@ def refit(problem: PaperProblem, start: CoreLaw) -> CoreLaw:
         return problem.weight[:, None] * problem.linearise(start.with_logs(logs))[1]
 
     found = least_squares(
-        residuals, np.log(start.values), jac=jacobian, bounds=(lower, upper), x_scale="jac", max_nfev=100
+        residuals,
+        np.clip(np.log(start.values), lower, upper),
+        jac=jacobian,
+        bounds=(lower, upper),
+        x_scale="jac",
+        max_nfev=100,
     )
     return start.with_logs(found.x)
 

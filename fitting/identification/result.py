@@ -129,6 +129,7 @@ def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: 
         )
     for name, side in uncertainty.at_bound.items():
         said.append(f"{name} sits at its {side} bound: the data do not fix it on that side")
+    said.extend(_looseness_warnings(law, uncertainty))
     said.extend(_correlation_warnings(law, uncertainty))
     said.extend(law.objections())
     if not fit.converged:
@@ -141,6 +142,21 @@ def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: 
             "(chi-square per degree of freedom): the model lacks something, "
             "and the law may be biased beyond its band"
         )
+    return said
+
+
+def _looseness_warnings(law: CoreLaw, uncertainty: Uncertainty) -> list[str]:
+    said = []
+    lower, upper = law.log_limits
+    logs = np.log(np.maximum(law.values, 1e-300))
+    for k, (name, error) in enumerate(zip(law.names, uncertainty.standard_errors, strict=True)):
+        if name in uncertainty.at_bound or not error > 0:
+            continue
+        if error > 1:
+            said.append(f"{name} is not fixed by the data: its standard error is larger than itself")
+        for side, distance in (("lower", logs[k] - lower[k]), ("upper", upper[k] - logs[k])):
+            if distance < 2 * error < 2:
+                said.append(f"{name} lies within two standard errors of its {side} bound")
     return said
 
 

@@ -61,16 +61,20 @@ def uncertainty_of(fit: Fit, systematic: Systematic | None, *, noise_is_known: b
     at_bound = _at_bound(fit.law)
     free = np.array([name not in at_bound for name in names])
     dof = len(fit.residuals) - len(names)
-    chi2_per_dof = float(fit.residuals @ fit.residuals / dof) if dof > 0 else float("nan")
+    weights = np.ones(len(fit.residuals)) if fit.weights is None else fit.weights
+    noise = fit.residuals / weights
+    chi2_per_dof = float(noise @ noise / dof) if dof > 0 else float("nan")
     covariance, by_systematic = np.zeros((2, len(names), len(names)))
-    if dof > 0:
+    if dof > 0 and free.any():
         scale = max(1.0, chi2_per_dof) if noise_is_known else chi2_per_dof
         solve = _pseudo_inverse(fit.jacobian[:, free])
-        covariance[np.ix_(free, free)] = scale * solve @ solve.T
+        # Weights choose among the points; the noise they let through is still the points' own.
+        let_through = solve * weights
+        covariance[np.ix_(free, free)] = scale * let_through @ let_through.T
         if systematic is not None:
             moved = solve @ systematic.B
             by_systematic[np.ix_(free, free)] = moved @ moved.T
-    else:
+    elif dof <= 0:
         covariance[:] = np.nan
     return Uncertainty(covariance, by_systematic, at_bound, chi2_per_dof)
 

@@ -39,7 +39,7 @@ class Validation:
 
 def validate(
     segment: NDArray[np.intp],
-    parameters: int,
+    points_needed: int,
     refit: Refit,
     differences_percent: Differences,
     noise_percent: Array,
@@ -48,7 +48,7 @@ def validate(
     """Leave-one-out up to 30 points, else every segment from the others."""
     count = len(segment)
     if count <= MOST_POINTS_ONE_BY_ONE:
-        if count - 1 < parameters:
+        if count - 1 < points_needed:
             return Validation()
         left_out = np.empty(count)
         for k in range(count):

@@ -113,6 +113,14 @@ class CoreLaw:
             changed[name] = tuple(taken) if isinstance(old, tuple) else taken[0]
         return replace(self, **changed)
 
+    def lifted(self) -> Self:
+        """The same law with zeros raised to where a search begins: a fit in logarithms cannot leave zero."""
+        return self.with_values(
+            np.array(
+                [v if v >= q.lower else q.search[0] for v, q in zip(self.values, self.limits, strict=True)]
+            )
+        )
+
     @property
     def log_limits(self) -> tuple[Array, Array]:
         """Logarithms of the physical limits. Shape (parameters,) each."""

@@ -12,7 +12,7 @@ from instrument.errors import BadInput
 BAD_INPUT = 2
 STOPPED_BY_USER = 130
 
-COMMANDS = ("modes", "predict", "identify", "demo", "bench")
+COMMANDS = ("modes", "predict", "damping", "identify", "demo", "bench")
 """Each is a function of that name in the module of that name beside this file."""
 
 

@@ -12,8 +12,8 @@ from fitting.specimen import Boundary, Core, Face, Reading, Specimen
 from instrument.errors import BadInput
 from instrument.files.text import read_text
 
-Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
-NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False)]
+Positive = Annotated[float, Field(gt=0, le=1e9, allow_inf_nan=False)]
+NotNegative = Annotated[float, Field(ge=0, le=1e9, allow_inf_nan=False)]
 Poisson = Annotated[float, Field(gt=-1, lt=0.5, allow_inf_nan=False)]
 Percent = Annotated[float, Field(ge=0, lt=100, allow_inf_nan=False)]
 Elements = Annotated[int, Field(ge=2, le=400)]
@@ -123,6 +123,8 @@ def read_specimen(path: Path) -> Specimen:
         raise BadInput(f"{path}: {_one_line(error)}") from None
     except OutsideModel as error:
         raise BadInput(f"{path}: {error}") from None
+    except (RecursionError, OverflowError, ValueError) as error:
+        raise BadInput(f"{path}: not a specimen: {str(error)[:_LONGEST]}") from None
 
 
 def _specimen(d: _Document) -> Specimen:
@@ -181,6 +183,7 @@ def _law(table: dict[str, Any]) -> CoreLaw:
 
 
 _MOST_SHOWN = 3
+_LONGEST = 80
 
 
 def _one_line(error: ValidationError, prefix: str = "") -> str:
@@ -189,7 +192,7 @@ def _one_line(error: ValidationError, prefix: str = "") -> str:
     for fault in error.errors():
         place = prefix + ".".join(str(part) for part in fault["loc"])
         message = fault["msg"].removeprefix("Value error, ")
-        found = "" if isinstance(fault["input"], dict | list) else f"{fault['input']!r}, "
+        found = "" if isinstance(fault["input"], dict | list) else f"{fault['input']!r}"[:_LONGEST] + ", "
         if fault["type"] == "missing":
             said.append(f"{place}: missing")
         elif fault["type"] == "extra_forbidden":

@@ -1,8 +1,5 @@
 """A sweep as CSV: columns with their units in the name, `#` comments, any order."""
 
-import csv
-import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -11,7 +8,7 @@ from numpy.typing import NDArray
 
 from fitting.sweep import Sweep, segments_by_gap
 from instrument.errors import BadInput
-from instrument.files.text import read_text
+from instrument.files.table import number, read_rows
 
 Array = NDArray[np.float64]
 
@@ -31,6 +28,7 @@ _NUMBERS = (
 )
 _ABOVE_ZERO = ("frequency_hz", "velocity_m_s", "level_g", "velocity_std_m_s", "weight")
 _WHOLE = ("segment", "sweep")
+_LARGEST_WHOLE = 1e9
 _IDENTITY = ("sweep", "segment", "level_g", "frequency_hz", "time_s")
 """Two rows equal in all of these are one measurement written twice."""
 
@@ -66,7 +64,7 @@ class SweepFile:
 
 def read_sweep(path: Path) -> SweepFile:
     """Read and check a sweep. Raises `BadInput` naming file, line and column."""
-    header, rows = _rows(path)
+    header, rows = read_rows(path, lambda header: _check_header(path, header))
     columns: dict[str, Array] = {}
     for k, name in enumerate(header):
         if name in _NUMBERS:
@@ -80,40 +78,7 @@ def read_sweep(path: Path) -> SweepFile:
     return SweepFile(path, columns, unknown)
 
 
-def _rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
-    """The header and the rows with their line numbers, all equally long."""
-    header: list[str] | None = None
-    rows = []
-    for line, row in _fields(path):
-        if header is None:
-            header = row
-            _check_header(path, header)
-            continue
-        if len(row) != len(header):
-            raise BadInput(
-                f"{path}: line {line}: {len(row)} columns, expected {len(header)} as in the header"
-            )
-        rows.append((line, row))
-    if header is None:
-        raise BadInput(f"{path}: no header, expected a line of column names")
-    if not rows:
-        raise BadInput(f"{path}: no rows below the header")
-    return header, rows
-
-
-def _fields(path: Path) -> Iterator[tuple[int, list[str]]]:
-    for line, text in enumerate(read_text(path).splitlines(), start=1):
-        if text.strip() and not text.lstrip().startswith("#"):
-            try:
-                yield line, [field.strip() for field in next(csv.reader([text], strict=True))]
-            except csv.Error as error:
-                raise BadInput(f"{path}: line {line}: {error}") from None
-
-
 def _check_header(path: Path, header: list[str]) -> None:
-    for name in header:
-        if name and header.count(name) > 1:
-            raise BadInput(f"{path}: header: column {name} twice")
     if "frequency_hz" not in header:
         raise BadInput(f"{path}: header: column frequency_hz missing, found {', '.join(header)[:120]}")
     has_phasor = "velocity_re_m_s" in header and "velocity_im_m_s" in header
@@ -129,16 +94,11 @@ def _check_header(path: Path, header: list[str]) -> None:
 
 
 def _number(path: Path, line: int, name: str, text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        raise BadInput(f"{path}: line {line}: {name} = {text!r}, expected a number") from None
-    if not math.isfinite(value):
-        raise BadInput(f"{path}: line {line}: {name} = {text}, expected a finite number")
+    value = number(path, line, name, text)
     if name in _ABOVE_ZERO and value <= 0:
         raise BadInput(f"{path}: line {line}: {name} = {text}, expected more than 0")
-    if name in _WHOLE and value != int(value):
-        raise BadInput(f"{path}: line {line}: {name} = {text}, expected a whole number")
+    if name in _WHOLE and (value != int(value) or abs(value) > _LARGEST_WHOLE):
+        raise BadInput(f"{path}: line {line}: {name} = {text}, expected a whole number below 1e9")
     return value
 
 

@@ -7,12 +7,12 @@ from instrument.errors import BadInput
 LARGEST_BYTES = 200_000_000
 
 
-def read_text(path: Path) -> str:
-    """The file as UTF-8 text, a byte order mark dropped. Raises `BadInput`."""
+def read_text(path: Path, encoding: str = "utf-8-sig") -> str:
+    """The file as text (UTF-8, a byte order mark dropped). Raises `BadInput`."""
     try:
         if path.stat().st_size > LARGEST_BYTES:
             raise BadInput(f"{path}: {path.stat().st_size} bytes, expected at most {LARGEST_BYTES}")
-        text = path.read_bytes().decode("utf-8-sig")
+        text = path.read_bytes().decode(encoding)
     except UnicodeDecodeError as error:
         raise BadInput(
             f"{path}: byte {error.start}: not UTF-8 text ({error.reason}), expected a text file"

@@ -174,6 +174,16 @@ def test_clamped_pickup_does_not_move(coarse_plate):
     assert np.abs(coarse_plate.observe(0.0, 0.1)).max() < 1e-12
 
 
+def test_pickup_on_a_held_edge_is_refused(coarse):
+    with pytest.raises(OutsideModel, match="held edge"):
+        _ = Plate(replace(coarse, pickup_m=(0.0, 0.1))).pickup
+
+
+def test_more_modes_than_the_mesh_has_are_refused(coarse):
+    with pytest.raises(OutsideModel, match="refine"):
+        viscous_damping(Plate(replace(coarse, elements=(2, 2), modal_ratios=(0.001,) * 50)))
+
+
 @pytest.mark.parametrize("point", [(-0.001, 0.1), (0.31, 0.1), (0.1, -1e-9), (0.1, 0.2)])
 def test_point_off_the_plate_is_refused(coarse_plate, point):
     with pytest.raises(OutsideModel, match="off the plate"):

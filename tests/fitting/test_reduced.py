@@ -122,5 +122,18 @@ def test_domain_stretches_to_stiff_cores_and_high_frequencies(zn1):
 def test_frequency_beyond_the_mesh_is_refused(zn1):
     limit = highest_frequency_hz(zn1)
     assert 5e3 < limit < 2e4
+    # the paper's own mesh carries its figure to 600 Hz
+    assert highest_frequency_hz(replace(zn1, elements=(10, 10))) > 600
     with pytest.raises(OutsideModel, match="mesh"):
         domain_of(zn1, np.array([10.0, 1.1 * limit]))
+
+
+def test_lossless_plate_without_damping_reduces(zn1):
+    bare = replace(zn1.bare, elements=(16, 10), modal_ratios=())
+    plate = Plate(bare)
+    none = viscous_damping(plate)
+    reduced = reduce_plate(plate, none, domain_of(bare, np.array([10.0, 100.0])))
+    omega, zero = 2 * np.pi * np.array([15.0, 20.0, 100.0, 280.0]), np.zeros(4, dtype=complex)
+    exact = displacement_direct(plate, none, omega, zero)
+    np.testing.assert_allclose(reduced.displacement(omega, zero), exact, rtol=1e-5)
+    np.testing.assert_allclose(rational_sweep(reduced, omega).displacement(zero), exact, rtol=1e-5)

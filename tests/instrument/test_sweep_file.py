@@ -87,6 +87,10 @@ BAD = {
         .replace("0.1112", "0.1112,1"),
         "whole number",
     ),
+    "huge segment": (
+        "frequency_hz,velocity_m_s,segment\n18.4,0.07,1e20\n19.3,0.11,1\n",
+        "segment = 1e20",
+    ),
     "weight": (
         AMPLITUDES.replace("velocity_m_s", "velocity_m_s,weight")
         .replace("0.0726", "0.0726,-1")

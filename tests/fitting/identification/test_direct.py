@@ -197,7 +197,54 @@ def test_levels_scale_the_prediction(many, zn1_models):
     )
 
 
-def test_weight_zero_point_five_counts_a_quarter(many, zn1_models):
-    weighted = replace(many, weight=np.full(353, 0.5))
-    full, half = residuals_of(many, zn1_models), residuals_of(weighted, zn1_models)
-    np.testing.assert_allclose(half(TABLE_4), 0.5 * full(TABLE_4))
+def test_equal_weights_change_nothing(many, zn1_models, zn1):
+    weighted = replace(many, weight=np.full(353, 0.06))
+    plain, alike = (
+        summarise(
+            "direct",
+            s,
+            noise_of(s),
+            direct.fit_direct(residuals_of(s, zn1_models), zn1.core.law),
+            Validation(),
+        )
+        for s in (many, weighted)
+    )
+    np.testing.assert_allclose(alike.law.values, plain.law.values, rtol=1e-6)
+    assert alike.standard_errors == pytest.approx(plain.standard_errors, rel=1e-4)
+    assert alike.uncertainty.chi2_per_dof == pytest.approx(plain.uncertainty.chi2_per_dof, rel=1e-6)
+
+
+def test_unequal_weights_choose_and_pay_for_it(many, zn1_models):
+    # A weight of almost nothing on a segment: the rest decides, the errors are those of the rest.
+    weight = np.where(many.segment == 1, 1e-4, 1.0)
+    weighted = residuals_of(replace(many, weight=weight), zn1_models)
+    rest = many.segment != 1
+    alone = residuals_of(many, zn1_models).take(rest)
+    found, expected = (direct.fit_direct(r, TABLE_4) for r in (weighted, alone))
+    np.testing.assert_allclose(found.law.values, expected.law.values, rtol=1e-3)
+    errors = [uncertainty_of(f, None, noise_is_known=True).standard_errors for f in (found, expected)]
+    np.testing.assert_allclose(errors[0], errors[1], rtol=0.1)
+
+
+def test_a_lossless_start_is_lifted_off_zero(many, zn1_models):
+    fit = direct.fit_direct(
+        residuals_of(many.take(many.segment == 1), zn1_models), ConstantModulus(0.4e6, 0.0)
+    )
+    assert fit.law.loss_factor == pytest.approx(0.35, abs=0.05)
+
+
+def test_all_parameters_at_their_bounds_leave_no_covariance(many, zn1_models):
+    residuals = residuals_of(many, zn1_models)
+    law = ConstantModulus(1e2, 1e-6)
+    r, J = residuals.with_jacobian(law)
+    u = uncertainty_of(
+        direct.Fit(law, r, J, residuals.model.velocity(law), 1, 1, converged=True), None, noise_is_known=True
+    )
+    assert set(u.at_bound.values()) == {"lower"}
+    assert not u.covariance.any()
+
+
+def test_a_parameter_the_data_leave_open_is_named(table5, nine, zn1):
+    sweep = table5.take(np.array([0, 1, 3, 4, 5]))
+    said = warnings_of(sweep, nine.take(np.array([0, 1, 3, 4, 5])), zn1.core.law)
+    assert "bound" in said or "not fixed" in said

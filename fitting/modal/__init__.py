@@ -1,0 +1,1 @@
+"""Natural frequencies and damping ratios from a frequency response function, three ways."""

@@ -1,0 +1,58 @@
+"""A frequency response function and what an estimator says of a mode in it."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+Motion = Literal["displacement", "velocity", "acceleration"]
+
+
+@dataclass(frozen=True)
+class Frf:
+    """Motion over force on evenly or unevenly spaced lines, ascending."""
+
+    frequency_hz: Array
+    H: Complex
+    """Receptance, mobility or accelerance. Shape (lines,)."""
+    motion: Motion
+    added_decay_1_s: float = 0.0
+    """Decay rate an exponential window has added to every mode, in 1/s."""
+
+    @property
+    def omega(self) -> Array:
+        """rad/s."""
+        return 2 * np.pi * self.frequency_hz
+
+    def between(self, low_hz: float, high_hz: float) -> "Frf":
+        """The lines in a closed band."""
+        inside = (self.frequency_hz >= low_hz) & (self.frequency_hz <= high_hz)
+        return Frf(self.frequency_hz[inside], self.H[inside], self.motion, self.added_decay_1_s)
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """Damping of one mode by one method, what a window added taken off."""
+
+    frequency_hz: float
+    """Undamped natural frequency."""
+    ratio: float
+    """Fraction of critical."""
+    standard_error: float
+    """Of `ratio`, by the scatter of the data about the method's model; NaN where it has none."""
+
+
+@dataclass(frozen=True)
+class Refusal:
+    """Why a method gives no value."""
+
+    why: str
+
+
+def corrected(frequency_hz: float, ratio: float, added_decay_1_s: float) -> float:
+    """Measured ratio less what an exponential window exp(-t/T_w) added: 1/(2 pi f T_w)."""
+    return ratio - added_decay_1_s / (2 * np.pi * frequency_hz)

@@ -1,0 +1,85 @@
+"""Least squares complex frequency: common-denominator poles at rising orders, kept where stable.
+
+H = B(z)/A(z) in z = e^{i omega dt} over a band, coefficients of A real to all channels together, the
+last of them one. A pole is stable where it returns in the next orders within 1 % in frequency and
+5 % in damping; the mode is the median of its longest such row.
+
+Source: Peeters, Van der Auweraer, Guillaume, Leuridan, Shock and Vibration 11 (2004) 395.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.modal.frf import Estimate, Frf, Refusal, corrected
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+ORDERS = tuple(range(2, 31))
+FREQUENCY_STABLE = 0.005
+RATIO_STABLE = 0.05
+FEWEST_ORDERS = 5
+_MOST_RATIO = 0.5
+
+
+def lscf_poles(frfs: list[Frf], orders: tuple[int, ...] = ORDERS) -> list[Complex]:
+    """Decaying poles in rad/s at every order; all channels on the same lines."""
+    f = frfs[0].frequency_hz
+    low, high = float(f[0]), float(f[-1])
+    # The band mapped onto the upper half circle: well conditioned however narrow it is.
+    dt = 1 / (2 * (high - low)) * 0.98
+    z = np.exp(-2j * np.pi * (f - low) * dt)
+    top = max(orders)
+    P = z[:, None] ** np.arange(top + 1)
+    products = []
+    R_inverse_cache: dict[int, Complex] = {}
+    for frf in frfs:
+        products.append((P, -frf.H[:, None] * P))
+    poles = []
+    for n in orders:
+        M = np.zeros((n + 1, n + 1), dtype=complex)
+        for X, Y in products:
+            X_n, Y_n = X[:, : n + 1], Y[:, : n + 1]
+            if n not in R_inverse_cache:
+                R_inverse_cache[n] = np.linalg.pinv(X_n)
+            Y_left = Y_n - X_n @ (R_inverse_cache[n] @ Y_n)
+            M += Y_left.conj().T @ Y_left
+        a = np.append(-np.linalg.lstsq(M[:n, :n], M[:n, n], rcond=None)[0], 1.0)
+        roots = np.roots(a[::-1])
+        roots = roots[np.abs(roots) > 1e-12]
+        s = -np.log(roots) / dt
+        # modulo 2 pi / dt, the band begins at `low`
+        imaginary = np.mod(s.imag, 2 * np.pi / dt) + 2 * np.pi * low
+        s = s.real + 1j * imaginary
+        inside = (s.real < 0) & (imaginary > 2 * np.pi * low) & (imaginary < 2 * np.pi * high)
+        poles.append(s[inside])
+        R_inverse_cache.pop(n, None)
+    return poles
+
+
+def lscf(
+    poles: list[Complex], near_hz: float, added_decay_1_s: float, within_hz: float
+) -> Estimate | Refusal:
+    """The stable mode nearest to `near_hz`, within `within_hz` of it."""
+    row: list[complex] = []
+    best: list[complex] = []
+    for found in poles:
+        candidates = found[np.abs(np.abs(found) / (2 * np.pi) - near_hz) <= within_hz]
+        candidates = candidates[-candidates.real < _MOST_RATIO * np.abs(candidates)]
+        if len(candidates) == 0:
+            row = []
+            continue
+        pole = complex(candidates[np.argmin(np.abs(np.abs(candidates) / (2 * np.pi) - near_hz))])
+        row = [*row, pole] if row and _stable(row[-1], pole) else [pole]
+        best = max(best, row, key=len)
+    if len(best) < FEWEST_ORDERS:
+        return Refusal(f"stable over {len(best)} orders, expected {FEWEST_ORDERS} or more")
+    omega_n = np.abs(best)
+    ratios = np.array([-p.real / abs(p) for p in best])
+    f_n = float(np.median(omega_n) / (2 * np.pi))
+    return Estimate(f_n, corrected(f_n, float(np.median(ratios)), added_decay_1_s), float(np.std(ratios)))
+
+
+def _stable(before: complex, now: complex) -> bool:
+    ratio_before, ratio = -before.real / abs(before), -now.real / abs(now)
+    return abs(abs(now) / abs(before) - 1) < FREQUENCY_STABLE and abs(ratio / ratio_before - 1) < RATIO_STABLE

@@ -1,0 +1,102 @@
+"""Local rational fit: poles and smooth remainder in a window of lines about a mode.
+
+    H(omega) = sum_m R_m/(i omega - lambda_m) + c_0 + c_1 (omega - omega_0)
+
+On the lines of a plain (not padded) transform of a decay cut off at T, every mode keeps exactly its
+pole: the cut multiplies its residue only. So truncation does no harm under a rectangular window.
+The residues are linear: variable projection leaves the poles to a small least squares.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+from fitting.modal.frf import Estimate, Frf, Refusal, corrected
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_HALF_WIDTH_LINES = 8
+_HALF_WIDTH_BANDWIDTHS = 6.0
+_MOST_RATIO = 0.5
+_MOST_RELATIVE_ERROR = 0.3
+
+
+@dataclass(frozen=True)
+class RationalFit:
+    """The fit about one mode, for drawing and judging."""
+
+    frequency_hz: Array
+    H: Complex
+    """Fitted response on the window's lines."""
+    poles: Complex
+    """rad/s, the mode's own first."""
+    noise: float
+    """Standard deviation of a line about the fit, each part."""
+    estimate: Estimate
+
+
+def rational_fit(
+    frf: Frf, near_hz: float, start_ratio: float, neighbours_hz: tuple[float, ...] = ()
+) -> RationalFit | Refusal:
+    """Fit the mode near `near_hz`; other modes that fall into its window get poles of their own."""
+    step = float(np.median(np.diff(frf.frequency_hz)))
+    reach = max(_HALF_WIDTH_LINES * step, _HALF_WIDTH_BANDWIDTHS * 2 * start_ratio * near_hz)
+    window = frf.between(near_hz - reach, near_hz + reach)
+    inside = [f for f in neighbours_hz if abs(f - near_hz) < reach * 1.2 and f != near_hz]
+    starts = [near_hz, *inside]
+    unknowns = 2 * (2 * len(starts) + 2)
+    if 2 * len(window.H) < unknowns + 4:
+        return Refusal(
+            f"{len(window.H)} lines about the mode, expected more than {unknowns // 2 + 2} "
+            f"for {len(starts)} poles"
+        )
+    omega = window.omega
+    start = np.array([complex(-max(start_ratio, 1e-4) * 2 * np.pi * f, 2 * np.pi * f) for f in starts])
+    scale = float(np.abs(start[0].real))
+    found = least_squares(
+        lambda p: _stack(_remainder(omega, window.H, _poles(p, start, scale))),
+        np.zeros(2 * len(start)),
+        x_scale="jac",
+        xtol=1e-12,
+        ftol=1e-12,
+        max_nfev=200,
+    )
+    poles = _poles(found.x, start, scale)
+    own = complex(poles[0])
+    omega_n = abs(own)
+    ratio = -own.real / omega_n
+    dof = 2 * len(window.H) - unknowns
+    noise = float(np.sqrt(2 * found.cost / dof))
+    if not 0 < ratio < _MOST_RATIO or abs(omega_n / (2 * np.pi) - near_hz) > reach:
+        return Refusal("the fit found no decaying pole at the peak")
+    covariance = noise**2 * np.linalg.pinv(found.jac.T @ found.jac)
+    # zeta = -Re/|lambda|: with Re << |lambda| its error is that of the real part
+    error = float(scale * np.sqrt(covariance[0, 0]) / omega_n)
+    f_n = omega_n / (2 * np.pi)
+    adopted = corrected(f_n, ratio, frf.added_decay_1_s)
+    if error > _MOST_RELATIVE_ERROR * abs(adopted):
+        return Refusal(f"its own standard error is {100 * error / abs(adopted):.0f} % of the ratio")
+    fitted = window.H - _remainder(omega, window.H, poles)
+    return RationalFit(window.frequency_hz, fitted, poles, noise, Estimate(f_n, adopted, error))
+
+
+def _poles(p: Array, start: Complex, scale: float) -> Complex:
+    n = len(start)
+    return np.asarray(start + scale * (p[:n] + 1j * p[n:]))
+
+
+def _remainder(omega: Array, H: Complex, poles: Complex) -> Complex:
+    """What residues and background, chosen best, leave of H."""
+    middle, half = omega.mean(), (omega[-1] - omega[0]) / 2
+    t = (omega - middle) / half
+    columns = [np.abs(p.real) / (1j * omega - p) for p in poles]
+    X = np.column_stack([*columns, np.ones_like(t), t])
+    Q, _ = np.linalg.qr(X)
+    return np.asarray(H - Q @ (Q.conj().T @ H))
+
+
+def _stack(z: Complex) -> Array:
+    return np.concatenate([z.real, z.imag])

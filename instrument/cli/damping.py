@@ -1,0 +1,167 @@
+"""`viscorig damping`: natural frequencies and damping ratios from impact tests."""
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from fitting.modal.frf import Estimate, Refusal
+from instrument.cli.options import json_option
+from instrument.cli.output import Output
+from instrument.errors import BadInput
+from instrument.files.records import Named, read_records
+from instrument.impact.damping import Damping, damping_of_frfs, damping_of_hits
+from instrument.impact.judge import judge
+from instrument.impact.record import Hit
+from instrument.impact.spectra import Estimator
+
+
+def _band(_: click.Context, __: click.Parameter, text: str | None) -> tuple[float, float] | None:
+    if text is None:
+        return None
+    try:
+        low, high = (float(part) for part in text.split(":"))
+    except ValueError:
+        raise click.BadParameter(f"{text!r}, expected LOW:HIGH in Hz") from None
+    if not 0 <= low < high < float("inf"):
+        raise click.BadParameter(f"{text!r}, expected LOW below HIGH, both in Hz")
+    return low, high
+
+
+def _at(_: click.Context, __: click.Parameter, text: str | None) -> tuple[float, ...]:
+    if text is None:
+        return ()
+    try:
+        found = tuple(float(part) for part in text.split(","))
+    except ValueError:
+        raise click.BadParameter(f"{text!r}, expected F1,F2,... in Hz") from None
+    if not all(0 < f < float("inf") for f in found):
+        raise click.BadParameter(f"{text!r}, expected frequencies above 0 Hz")
+    return found
+
+
+@click.command()
+@click.argument("records", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="RECORD...")
+@click.option("--band", callback=_band, metavar="LOW:HIGH", help="Where to look for modes, in Hz.")
+@click.option(
+    "--at", callback=_at, metavar="F1,F2,...", help="Modes by name, in Hz, instead of looking for them."
+)
+@click.option("--force", metavar="NAME", help="The force channel, where the file does not say.")
+@click.option(
+    "--response", metavar="NAME[:UNIT],...", help="The response channels, where the file does not say."
+)
+@click.option(
+    "--rate",
+    type=click.FloatRange(min=0, min_open=True),
+    help="Samples a second, where the file does not say.",
+)
+@click.option("--estimator", type=click.Choice(["h1", "h2", "hv"]), default="h1", show_default=True)
+@click.option(
+    "--exponential",
+    type=click.FloatRange(0, 100, min_open=True, max_open=True),
+    metavar="PERCENT",
+    help="Exponential window ending at this, its damping taken off again. Half power always has one (1 %).",
+)
+@click.option("--figures", type=click.Path(path_type=Path, file_okay=False), help="Folder for figures.")
+@json_option
+def damping(
+    records: tuple[Path, ...],
+    band: tuple[float, float] | None,
+    at: tuple[float, ...],
+    force: str | None,
+    response: str | None,
+    rate: float | None,
+    estimator: Estimator,
+    exponential: float | None,
+    figures: Path | None,
+    json_path: str | None,
+) -> None:
+    """Natural frequencies and damping ratios of impact RECORDs (averaged) or of one FRF.
+
+    Half power, a local rational fit and LSCF side by side; the rational fit is adopted.
+    Files: .csv, .lvm, .uff, .unv, .mat.
+    """
+    out = Output(json_path)
+    named = Named(force, tuple(response.split(",")) if response else (), rate)
+    read = [read_records(path, named) for path in records]
+    if any(isinstance(r, dict) for r in read):
+        if len(read) > 1 or not isinstance(read[0], dict):
+            raise BadInput("FRFs are read one file at a time, and not beside records")
+        found = damping_of_frfs(read[0], band_hz=band, at_hz=at)
+    else:
+        hits = [hit for r in read for hit in r if isinstance(hit, Hit)]
+        _check_alike(hits)
+        end = exponential / 100 if exponential else None
+        judged = [judge(hit) for hit in hits]
+        found = damping_of_hits(judged, band_hz=band, at_hz=at, estimator=estimator, end_value=end)
+    _print(out, found)
+    if figures is not None:
+        from instrument.impact.figures import save_figures
+
+        for path in save_figures(found, figures):
+            out.say(f"saved {path}")
+    out.result(damping_facts(found))
+
+
+def damping_facts(found: Damping) -> dict[str, Any]:
+    """The JSON of `damping`."""
+    return {
+        "modes": [
+            {
+                "frequency_hz": m.frequency_hz,
+                "damping_ratio": m.damping_ratio,
+                "channel": m.channel,
+                "half_power": _estimate(m.half_power),
+                "rational_fit": _estimate(m.rational_fit),
+                "lscf": _estimate(m.lscf),
+                "lines_in_bandwidth": m.lines_in_bandwidth,
+                "bandwidths_to_next": m.bandwidths_to_next,
+                "accepted": m.accepted,
+                "why": m.why,
+            }
+            for m in found.modes
+        ],
+        "hits": [{"source": j.hit.source, "accepted": j.accepted, "why": j.why} for j in found.hits],
+        "warnings": list(found.warnings),
+    }
+
+
+def _estimate(e: Estimate | Refusal) -> dict[str, float] | None:
+    return {"ratio": e.ratio, "standard_error": e.standard_error} if isinstance(e, Estimate) else None
+
+
+def _check_alike(hits: list[Hit]) -> None:
+    first = hits[0]
+    for hit in hits[1:]:
+        if len(hit.force_n) != len(first.force_n) or hit.sample_rate_hz != first.sample_rate_hz:
+            raise BadInput(
+                f"{hit.source}: {len(hit.force_n)} samples at {hit.sample_rate_hz:g}/s, expected "
+                f"{len(first.force_n)} at {first.sample_rate_hz:g}/s as in {first.source}"
+            )
+        if [c.name for c in hit.responses] != [c.name for c in first.responses]:
+            raise BadInput(f"{hit.source}: other channels than {first.source}")
+
+
+def _print(out: Output, found: Damping) -> None:
+    rows = [
+        [
+            f"{m.frequency_hz:.3f}",
+            _percent(m.rational_fit),
+            _percent(m.half_power),
+            _percent(m.lscf),
+            f"{m.lines_in_bandwidth:.1f}",
+            m.channel,
+            m.why or "-",
+        ]
+        for m in found.modes
+    ]
+    columns = ["f/Hz", "rational fit/%", "half power/%", "LSCF/%", "lines", "channel", "remarks"]
+    out.table("damping ratio by three methods, +- one standard error", columns, rows)
+    for warning in found.warnings:
+        out.say(f"note: {warning}")
+
+
+def _percent(e: Estimate | Refusal) -> str:
+    if isinstance(e, Refusal):
+        return "refused"
+    return f"{100 * e.ratio:.4f} +- {100 * e.standard_error:.4f}"

@@ -1,0 +1,120 @@
+"""Impact records and FRFs as CSV."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.modal.frf import Frf, Motion
+from instrument.errors import BadInput
+from instrument.files.table import number, read_rows
+from instrument.files.text import read_text
+from instrument.impact.record import Channel, Hit
+
+Array = NDArray[np.float64]
+
+MOTIONS: dict[str, Motion] = {
+    "acceleration_m_s2": "acceleration",
+    "velocity_m_s": "velocity",
+    "displacement_m": "displacement",
+}
+FRF_STEMS: dict[str, Motion] = {
+    "accelerance": "acceleration",
+    "mobility": "velocity",
+    "receptance": "displacement",
+}
+_RATE = re.compile(r"^#\s*sample_rate_hz\s*:\s*(\S+)", re.M)
+_UNEVEN = 1e-3
+
+
+def is_frf(header: list[str]) -> bool:
+    """Whether a header is that of an FRF."""
+    return "frequency_hz" in header
+
+
+def read_impact_csv(path: Path, rate_hz: float | None = None) -> list[Hit] | dict[str, Frf]:
+    """Hits of a record, or the FRFs of a file that begins with `frequency_hz`. Raises `BadInput`."""
+    header, rows = read_rows(path, lambda header: None)
+    if is_frf(header):
+        return _frfs(path, header, rows)
+    names = [n for n in header if n in MOTIONS]
+    if "force_n" not in header or not names:
+        raise BadInput(
+            f"{path}: header: found {', '.join(header)[:100]}, expected force_n and one of "
+            f"{', '.join(MOTIONS)} (units are part of the name), or an FRF with frequency_hz"
+        )
+    columns = {n: _column(path, header, rows, n) for n in ("force_n", *names, "time_s", "hit") if n in header}
+    rate = rate_hz or _stated_rate(path) or _rate_of(path, columns)
+    which = columns.get("hit", np.ones(len(rows)))
+    hits = []
+    for number_of_hit in np.unique(which):
+        inside = which == number_of_hit
+        source = f"{path.name} hit {number_of_hit:g}" if "hit" in columns else path.name
+        channels = tuple(Channel(n, MOTIONS[n], columns[n][inside]) for n in names)
+        hits.append(Hit(source, rate, columns["force_n"][inside], channels))
+    return hits
+
+
+def write_impact_csv(path: Path, hits: list[Hit]) -> None:
+    """The hits of one test in one file."""
+    channels = [c.name for c in hits[0].responses]
+    lines = [f"# sample_rate_hz: {hits[0].sample_rate_hz!r}", ",".join(["hit", "force_n", *channels])]
+    for k, hit in enumerate(hits, start=1):
+        table = np.column_stack([hit.force_n, *(c.samples for c in hit.responses)])
+        lines += [",".join([str(k), *(repr(float(v)) for v in row)]) for row in table]
+    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def write_frf_csv(path: Path, frf: Frf, coherence: Array | None = None) -> None:
+    """One FRF."""
+    stem = next(s for s, motion in FRF_STEMS.items() if motion == frf.motion)
+    header = ["frequency_hz", f"{stem}_re", f"{stem}_im"] + (["coherence"] if coherence is not None else [])
+    table = [frf.frequency_hz, frf.H.real, frf.H.imag] + ([coherence] if coherence is not None else [])
+    rows = [",".join(repr(float(v)) for v in row) for row in np.column_stack(table)]
+    path.write_text("\n".join([",".join(header), *rows]) + "\n", encoding="utf-8")
+
+
+def _frfs(path: Path, header: list[str], rows: list[tuple[int, list[str]]]) -> dict[str, Frf]:
+    f = _column(path, header, rows, "frequency_hz")
+    if np.any(np.diff(f) <= 0) or len(f) < 5 or f[0] < 0:
+        raise BadInput(f"{path}: frequency_hz, expected 5 or more lines, ascending from 0 or above")
+    found = {}
+    for stem, motion in FRF_STEMS.items():
+        if f"{stem}_re" in header and f"{stem}_im" in header:
+            H = _column(path, header, rows, f"{stem}_re") + 1j * _column(path, header, rows, f"{stem}_im")
+            found[stem] = Frf(f, H, motion)
+    if not found:
+        raise BadInput(
+            f"{path}: header: no FRF, expected accelerance_re and accelerance_im, "
+            "or mobility_*, or receptance_*"
+        )
+    return found
+
+
+def _column(path: Path, header: list[str], rows: list[tuple[int, list[str]]], name: str) -> Array:
+    k = header.index(name)
+    return np.array([number(path, line, name, row[k]) for line, row in rows])
+
+
+def _stated_rate(path: Path) -> float | None:
+    found = _RATE.search(read_text(path))
+    if found is None:
+        return None
+    rate = number(path, 1, "sample_rate_hz", found.group(1))
+    if rate <= 0:
+        raise BadInput(f"{path}: sample_rate_hz: {rate:g}, expected more than 0")
+    return rate
+
+
+def _rate_of(path: Path, columns: dict[str, Array]) -> float:
+    if "time_s" not in columns:
+        raise BadInput(f"{path}: no sample rate, expected time_s, a line '# sample_rate_hz: ...' or --rate")
+    t = columns["time_s"]
+    if "hit" in columns:
+        t = t[columns["hit"] == columns["hit"][0]]
+    steps = np.diff(t)
+    step = float(np.median(steps)) if len(steps) else 0.0
+    if step <= 0 or np.max(np.abs(steps - step)) > _UNEVEN * step + 1e-9:
+        raise BadInput(f"{path}: time_s is not evenly spaced, expected a constant step")
+    return float((len(t) - 1) / (t[-1] - t[0]))

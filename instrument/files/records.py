@@ -1,0 +1,139 @@
+"""Impact records and FRFs of any kind, by the file's ending; what a file does not say, options do."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.io import loadmat
+
+from fitting.modal.frf import Frf, Motion
+from instrument.errors import BadInput
+from instrument.files.impact_csv import MOTIONS, read_impact_csv
+from instrument.files.lvm import read_lvm
+from instrument.files.uff58 import read_uff58
+from instrument.impact.record import Channel, Hit
+
+Array = NDArray[np.float64]
+
+_STANDARD_GRAVITY = 9.80665
+_UNITS: dict[str, tuple[Motion, float]] = {
+    "m/s^2": ("acceleration", 1.0),
+    "m/s2": ("acceleration", 1.0),
+    "g": ("acceleration", _STANDARD_GRAVITY),
+    "m/s": ("velocity", 1.0),
+    "mm/s": ("velocity", 1e-3),
+    "m": ("displacement", 1.0),
+    "mm": ("displacement", 1e-3),
+}
+
+
+@dataclass(frozen=True)
+class Named:
+    """Channels named on the command line, where the file does not say which is which."""
+
+    force: str | None = None
+    responses: tuple[str, ...] = ()
+    """NAME or NAME:UNIT."""
+    rate_hz: float | None = None
+
+
+def read_records(path: Path, named: Named) -> list[Hit] | dict[str, Frf]:
+    """Hits, or FRFs. Raises `BadInput` with one line."""
+    ending = path.suffix.lower()
+    if not path.is_file():
+        raise BadInput(f"{path}: no such file")
+    if ending == ".csv":
+        return read_impact_csv(path, named.rate_hz)
+    if ending in (".uff", ".unv"):
+        return read_uff58(path)
+    if ending == ".lvm":
+        return [
+            _hit(
+                path,
+                k,
+                s.names,
+                dict(zip(s.names, s.units, strict=True)),
+                s.samples.T,
+                s.sample_rate_hz,
+                named,
+            )
+            for k, s in enumerate(read_lvm(path), start=1)
+        ]
+    if ending == ".mat":
+        return [_mat(path, named)]
+    raise BadInput(f"{path}: unknown ending {ending!r}, expected .csv, .lvm, .uff, .unv or .mat")
+
+
+def _hit(
+    path: Path,
+    k: int,
+    names: tuple[str, ...],
+    units: dict[str, str],
+    samples: Array,
+    rate: float,
+    named: Named,
+) -> Hit:
+    columns = dict(zip(names, samples, strict=True))
+    force = named.force or next((n for n in names if n.lower() in ("f", "force", "hammer")), None)
+    if force is None or force not in columns:
+        raise BadInput(f"{path}: which channel is the force? found {', '.join(names)}, say --force NAME")
+    wanted = named.responses or tuple(n for n in names if n != force and n)
+    channels = tuple(_channel(path, columns, units, w) for w in wanted)
+    if not channels:
+        raise BadInput(f"{path}: no response beside {force}, say --response NAME:UNIT")
+    return Hit(f"{path.name} hit {k}", named.rate_hz or rate, columns[force], channels)
+
+
+def _channel(path: Path, columns: dict[str, Array], units: dict[str, str], wanted: str) -> Channel:
+    name, _, unit = wanted.partition(":")
+    if name not in columns:
+        raise BadInput(f"{path}: no channel {name}, found {', '.join(columns)}")
+    unit = unit or units.get(name, "")
+    if unit not in _UNITS:
+        raise BadInput(
+            f"{path}: channel {name} has unit {unit or 'missing'!r}, say --response {name}:UNIT "
+            f"with one of {', '.join(_UNITS)}"
+        )
+    motion, factor = _UNITS[unit]
+    return Channel(name, motion, columns[name] * factor)
+
+
+def _mat(path: Path, named: Named) -> Hit:
+    """MATLAB 5 to 7.2: numeric vectors only. Names carry the unit (`acceleration_m_s2`) or the options do."""
+    try:
+        content: dict[str, Any] = loadmat(str(path), squeeze_me=True, struct_as_record=True)
+    except Exception as error:
+        raise BadInput(f"{path}: not a MATLAB file that can be read: {error}") from None
+    vectors = {
+        name: np.asarray(v, float)
+        for name, v in content.items()
+        if isinstance(v, np.ndarray) and v.ndim == 1 and v.dtype.kind in "fiu"
+    }
+    rate = named.rate_hz or _mat_rate(content, vectors)
+    if rate is None:
+        raise BadInput(
+            f"{path}: no sample rate, expected sample_rate_hz or time_s among its variables, or --rate"
+        )
+    force = named.force or ("force_n" if "force_n" in vectors else None)
+    if force is None or force not in vectors:
+        raise BadInput(f"{path}: which variable is the force? found {', '.join(vectors)}, say --force NAME")
+    lengths = {n: v for n, v in vectors.items() if len(v) == len(vectors[force])}
+    units = {n: u for n in lengths for u in [_unit_in_name(n)] if u}
+    named_here = Named(force, named.responses or tuple(n for n in units if n != force), rate)
+    return _hit(path, 1, tuple(lengths), units, np.array(list(lengths.values())), rate, named_here)
+
+
+def _mat_rate(content: dict[str, Any], vectors: dict[str, Array]) -> float | None:
+    if "sample_rate_hz" in content and np.ndim(content["sample_rate_hz"]) == 0:
+        return float(content["sample_rate_hz"])
+    if "time_s" in vectors and len(vectors["time_s"]) > 1:
+        t = vectors["time_s"]
+        return float((len(t) - 1) / (t[-1] - t[0]))
+    return None
+
+
+def _unit_in_name(name: str) -> str:
+    units = {"acceleration": "m/s^2", "velocity": "m/s", "displacement": "m"}
+    return units[MOTIONS[name]] if name in MOTIONS else ""

@@ -1,0 +1,245 @@
+"""Natural frequencies and damping ratios from hits or FRFs: three methods side by side, one adopted."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import find_peaks
+
+from fitting.modal.frf import Estimate, Frf, Refusal
+from fitting.modal.half_power import half_power, half_power_marks
+from fitting.modal.lscf import lscf, lscf_poles
+from fitting.modal.rational_fit import RationalFit, rational_fit
+from instrument.errors import BadInput
+from instrument.impact.judge import Judged
+from instrument.impact.spectra import Estimator, Spectra, rolloff_hz, spectra
+
+Array = NDArray[np.float64]
+
+PADDING = 8
+"""Half power is read on lines so many times finer."""
+HALF_POWER_END = 0.01
+"""Where its exponential window ends."""
+DISAGREEMENT = 0.10
+PROMINENCE_DB = 12.0
+MOST_MODES = 30
+_UNDECAYED = 0.2
+"""A record that ends at more than this share of a mode's start gives no half-power value."""
+_START_RATIO = 2e-3
+_LSCF_BAND = 0.15
+
+
+@dataclass(frozen=True)
+class Mode:
+    """One mode: what each method says, what is adopted, and what speaks against it."""
+
+    frequency_hz: float
+    damping_ratio: float
+    """NaN where no method gives one."""
+    channel: str
+    half_power: Estimate | Refusal
+    rational_fit: Estimate | Refusal
+    lscf: Estimate | Refusal
+    lines_in_bandwidth: float
+    bandwidths_to_next: float
+    """Distance to the nearest other mode; infinite for a single one."""
+    accepted: bool
+    why: str
+    fit: RationalFit | None = None
+    """For drawing."""
+
+
+@dataclass(frozen=True)
+class Damping:
+    """The result of an impact test."""
+
+    modes: tuple[Mode, ...]
+    hits: tuple[Judged, ...]
+    warnings: tuple[str, ...]
+    plain: dict[str, Frf]
+    """By channel, as the rational fit sees them."""
+    fine: dict[str, Frf]
+    """By channel, padded and windowed, as half power sees them."""
+    coherence: dict[str, Array] | None
+
+
+def damping_of_hits(
+    hits: list[Judged],
+    *,
+    band_hz: tuple[float, float] | None = None,
+    at_hz: tuple[float, ...] = (),
+    estimator: Estimator = "h1",
+    end_value: float | None = None,
+) -> Damping:
+    """Average the accepted hits and find their modes.
+
+    `end_value` puts an exponential window on what the rational fit and LSCF see; half power always has one.
+    Raises `BadInput` where no hit is left.
+    """
+    good = [j for j in hits if j.accepted]
+    if not good:
+        raise BadInput("no good hit: " + "; ".join(f"{j.hit.source}: {j.why}" for j in hits))
+    plain = spectra(good, estimator=estimator, end_value=end_value)
+    fine = spectra(good, estimator=estimator, end_value=end_value or HALF_POWER_END, padding=PADDING)
+    seconds = good[0].hit.seconds
+    band = band_hz or (3 / seconds, min(rolloff_hz(plain), 0.45 * good[0].hit.sample_rate_hz))
+    modes = _modes(plain.frfs, fine.frfs, band, at_hz, seconds)
+    said = [f"{j.hit.source}: {note}" for j in hits for note in j.notes]
+    said += [f"{j.hit.source} left out: {j.why}" for j in hits if not j.accepted]
+    if len(good) == 1:
+        said.append("one hit: coherence says nothing, and nothing is averaged")
+    return Damping(
+        modes, tuple(hits), (*said, *_advice(modes, plain, seconds)), plain.frfs, fine.frfs, plain.coherence
+    )
+
+
+def damping_of_frfs(
+    frfs: dict[str, Frf], *, band_hz: tuple[float, float] | None = None, at_hz: tuple[float, ...] = ()
+) -> Damping:
+    """The same from FRFs of another instrument: nothing is padded, half power reads their own lines."""
+    any_frf = next(iter(frfs.values()))
+    f = any_frf.frequency_hz
+    band = band_hz or (float(f[0]), float(f[-1]))
+    modes = _modes(frfs, frfs, band, at_hz, 1 / float(np.median(np.diff(f))))
+    return Damping(modes, (), (), frfs, frfs, None)
+
+
+def _modes(
+    plain: dict[str, Frf],
+    fine: dict[str, Frf],
+    band: tuple[float, float],
+    at_hz: tuple[float, ...],
+    seconds: float,
+) -> tuple[Mode, ...]:
+    found = {name: _peaks(frf, band) for name, frf in fine.items()}
+    centres = sorted(at_hz) if at_hz else _merged(found, 2 / seconds)
+    modes = []
+    for f in centres:
+        candidates = [_mode(name, plain[name], fine[name], f, centres, seconds) for name in plain]
+        modes.append(min(candidates, key=_doubt))
+    return tuple(modes)
+
+
+def _doubt(mode: Mode) -> float:
+    """The channel whose own error is smallest speaks for a mode."""
+    if isinstance(mode.rational_fit, Estimate):
+        return mode.rational_fit.standard_error / mode.rational_fit.ratio
+    return np.inf
+
+
+def _peaks(frf: Frf, band: tuple[float, float]) -> list[float]:
+    inside = frf.between(*band)
+    if len(inside.H) < 5:
+        raise BadInput(f"band {band[0]:g} to {band[1]:g} Hz holds {len(inside.H)} lines, expected 5 or more")
+    level = 20 * np.log10(np.maximum(np.abs(inside.H), 1e-300))
+    where, facts = find_peaks(level, prominence=PROMINENCE_DB)
+    strongest = where[np.argsort(-facts["prominences"])[:MOST_MODES]]
+    return [float(inside.frequency_hz[k]) for k in strongest]
+
+
+def _merged(found: dict[str, list[float]], apart_hz: float) -> list[float]:
+    centres: list[float] = []
+    for f in sorted(f for peaks in found.values() for f in peaks):
+        if not centres or f - centres[-1] > apart_hz:
+            centres.append(f)
+    return centres
+
+
+def _mode(name: str, plain: Frf, fine: Frf, f: float, centres: list[float], seconds: float) -> Mode:
+    start = half_power(fine, f)
+    guess = max(start.ratio, 1e-4) if isinstance(start, Estimate) else _START_RATIO
+    fit = rational_fit(plain, f, guess, tuple(c for c in centres if c != f))
+    rational = fit.estimate if isinstance(fit, RationalFit) else fit
+    best = rational if isinstance(rational, Estimate) else start
+    f_n = best.frequency_hz if isinstance(best, Estimate) else f
+    ratio = best.ratio if isinstance(best, Estimate) else float("nan")
+    lines = 2 * ratio * f_n * seconds
+    others = [abs(c - f) for c in centres if c != f]
+    apart = min(others, default=np.inf) / (2 * ratio * f_n)
+    noise = fit.noise / np.sqrt(PADDING) if isinstance(fit, RationalFit) else 0.0
+    half = _half_power(fine, f, ratio, f_n, lines, apart, seconds, noise)
+    third = lscf(
+        lscf_poles([plain.between(f_n * (1 - _LSCF_BAND), f_n * (1 + _LSCF_BAND))]),
+        f_n,
+        plain.added_decay_1_s,
+        max(2 * ratio * f_n, 2 / seconds) if ratio == ratio else 2 / seconds,
+    )
+    accepted, why = _verdict(half, rational, third, lines, apart, seconds, f_n)
+    return Mode(
+        f_n, ratio, name, half, rational, third, lines, apart, accepted, why,
+        fit if isinstance(fit, RationalFit) else None,
+    )  # fmt: skip
+
+
+def _half_power(
+    fine: Frf,
+    f: float,
+    ratio: float,
+    f_n: float,
+    lines: float,
+    apart: float,
+    seconds: float,
+    noise: float,
+) -> Estimate | Refusal:
+    if ratio == ratio:
+        remains = float(np.exp(-2 * np.pi * ratio * f_n * seconds))
+        if lines < 1:
+            return Refusal(f"{lines:.1f} lines in its bandwidth, expected 1 or more")
+        if remains > _UNDECAYED:
+            return Refusal(f"the record ends at {100 * remains:.0f} % of the decay, expected 20 % or less")
+        if apart < 2:
+            return Refusal(f"a neighbour {apart:.1f} bandwidths away, expected 2 or more")
+    return half_power(fine, f, noise)
+
+
+def _verdict(
+    half: Estimate | Refusal,
+    rational: Estimate | Refusal,
+    third: Estimate | Refusal,
+    lines: float,
+    apart: float,
+    seconds: float,
+    f_n: float,
+) -> tuple[bool, str]:
+    said = []
+    if isinstance(rational, Refusal):
+        said.append(f"rational fit: {rational.why}")
+    else:
+        for name, other in (("half power", half), ("LSCF", third)):
+            if isinstance(other, Estimate) and abs(other.ratio / rational.ratio - 1) > DISAGREEMENT:
+                said.append(f"{name} differs by {100 * (other.ratio / rational.ratio - 1):+.0f} %")
+    if isinstance(half, Refusal):
+        said.append(f"half power refused: {half.why}")
+    if lines < 2:
+        said.append(
+            f"{lines:.1f} lines in its bandwidth: record {seconds * 2 / max(lines, 0.05):.0f} s or more"
+        )
+    if apart < 5:
+        said.append(f"a neighbour {apart:.1f} bandwidths away")
+    return isinstance(rational, Estimate), "; ".join(said)
+
+
+def _advice(modes: tuple[Mode, ...], spectrum: Spectra, seconds: float) -> list[str]:
+    said = []
+    narrow = [m for m in modes if m.lines_in_bandwidth < 2]
+    if narrow:
+        worst = min(narrow, key=lambda m: m.lines_in_bandwidth)
+        needed = seconds * 2 / max(worst.lines_in_bandwidth, 0.05)
+        said.append(
+            f"{worst.frequency_hz:.2f} Hz has {worst.lines_in_bandwidth:.1f} lines in its bandwidth: "
+            f"record {needed:.0f} s instead of {seconds:.3g} s to read it by half power"
+        )
+    edge = rolloff_hz(spectrum)
+    beyond = [m for m in modes if m.frequency_hz > edge]
+    if beyond:
+        said.append(
+            f"the blow excites little above {edge:.0f} Hz: "
+            f"use a harder tip for {beyond[0].frequency_hz:.0f} Hz"
+        )
+    return said
+
+
+def marks(frf: Frf, mode: Mode) -> tuple[float, float, float] | None:
+    """Half-power frequencies and peak for drawing."""
+    found = half_power_marks(frf, mode.frequency_hz)
+    return None if isinstance(found, Refusal) else found[:3]

@@ -1,0 +1,36 @@
+"""One hit as it was recorded: force and one or more responses on one clock."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.modal.frf import Motion
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Channel:
+    """A response: its name and what it measures."""
+
+    name: str
+    motion: Motion
+    samples: Array
+    """SI units of `motion`."""
+
+
+@dataclass(frozen=True)
+class Hit:
+    """Force in N and responses, all of one length."""
+
+    source: str
+    """File and number, as messages name it."""
+    sample_rate_hz: float
+    force_n: Array
+    responses: tuple[Channel, ...]
+
+    @property
+    def seconds(self) -> float:
+        """Length of the record."""
+        return len(self.force_n) / self.sample_rate_hz

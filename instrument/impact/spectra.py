@@ -1,0 +1,87 @@
+"""From accepted hits to frequency response functions and coherence."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.modal.frf import Frf
+from instrument.impact.judge import Judged
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Estimator = Literal["h1", "h2", "hv"]
+
+_TAPER = 0.5
+"""The force window closes over this share of its own length, a half cosine."""
+_PULSES = 4
+"""The force is kept for so many lengths of the blow after its end."""
+
+
+@dataclass(frozen=True)
+class Spectra:
+    """Averages over hits, one FRF and coherence a response channel."""
+
+    frfs: dict[str, Frf]
+    coherence: dict[str, Array] | None
+    """None for one hit: it is one by definition."""
+    force: Array
+    """Mean magnitude of the force spectrum, N s. Shape (lines,)."""
+    frequency_hz: Array
+
+
+def spectra(
+    hits: list[Judged], *, estimator: Estimator = "h1", end_value: float | None = None, padding: int = 1
+) -> Spectra:
+    """Average hits of one length and rate.
+
+    `end_value` is where an exponential window, the same on force and response, ends; None for none.
+    The window starts with the record; what it adds to each mode's decay is kept in the `Frf`.
+    """
+    first = hits[0].hit
+    n, rate = len(first.force_n), first.sample_rate_hz
+    t = np.arange(n) / rate
+    decay = -np.log(end_value) / first.seconds if end_value else 0.0
+    w = np.exp(-decay * t)
+    F = np.array([np.fft.rfft(force_window(j) * j.hit.force_n * w, n * padding) for j in hits]) / rate
+    f = np.asarray(np.fft.rfftfreq(n * padding, 1 / rate), dtype=np.float64)
+    S_ff = (np.abs(F) ** 2).mean(axis=0)
+    frfs, coherence = {}, {}
+    for k, channel in enumerate(first.responses):
+        X = np.array([np.fft.rfft(j.hit.responses[k].samples * w, n * padding) for j in hits]) / rate
+        S_xx, S_xf = (np.abs(X) ** 2).mean(axis=0), (X * F.conj()).mean(axis=0)
+        frfs[channel.name] = Frf(f, frf_of(S_ff, S_xx, S_xf, estimator), channel.motion, decay)
+        coherence[channel.name] = np.abs(S_xf) ** 2 / np.maximum(S_ff * S_xx, 1e-300)
+    return Spectra(frfs, coherence if len(hits) > 1 else None, np.sqrt(S_ff), f)
+
+
+def frf_of(S_ff: Array, S_xx: Array, S_xf: Complex, estimator: Estimator) -> Complex:
+    """H1 (noise on the response), H2 (on the force) or Hv, their geometric mean in size with H1's phase."""
+    h1 = S_xf / np.maximum(S_ff, 1e-300)
+    if estimator == "h1":
+        return np.asarray(h1)
+    h2 = S_xx / np.where(np.abs(S_xf) > 0, S_xf.conj(), 1e-300)
+    return np.asarray(
+        h2 if estimator == "h2" else np.sqrt(np.abs(h1) * np.abs(h2)) * np.exp(1j * np.angle(h1))
+    )
+
+
+def force_window(judged: Judged) -> Array:
+    """One over the blow and a little after it, then a half cosine to zero: the rest of the force is noise."""
+    n, pulse = len(judged.hit.force_n), judged.pulse
+    width = pulse.stop - pulse.start
+    stop = min(n, pulse.stop + _PULSES * width)
+    taper = max(1, int(_TAPER * (stop - pulse.start)))
+    w = np.zeros(n)
+    w[:stop] = 1.0
+    end = min(n, stop + taper)
+    w[stop:end] = 0.5 * (1 + np.cos(np.pi * (np.arange(end - stop) + 1) / (taper + 1)))
+    return w
+
+
+def rolloff_hz(spectrum: Spectra, drop_db: float = 20.0) -> float:
+    """Where the force spectrum first falls by `drop_db` from its low end."""
+    low = float(np.median(spectrum.force[1 : max(3, len(spectrum.force) // 100)]))
+    below = np.flatnonzero(spectrum.force < low * 10 ** (-drop_db / 20))
+    return float(spectrum.frequency_hz[below[0]] if below.size else spectrum.frequency_hz[-1])
