@@ -2,7 +2,9 @@
 
 from typing import Any
 
+from fitting.identification.bare_plate import BarePlateFit
 from fitting.identification.result import Identification
+from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.identification import Identified
 
@@ -56,6 +58,22 @@ def identification_facts(found: Identified, sweep: Sweep) -> dict[str, Any]:
         "criterion_met": r.fit.criterion_met,
         "warnings": list(r.warnings),
         "law": _law_facts(r),
+    }
+
+
+def bare_plate_facts(bare: BarePlateFit, specimen: Specimen) -> dict[str, Any]:
+    """What the hammer test gave; `specimen` already has its stiffness."""
+    young = specimen.substrate.young_pa
+    return {
+        "substrate_young_pa": young,
+        "substrate_young_standard_error_pa": young * bare.standard_error,
+        "substrate_young_over_stated": bare.young_scale,
+        "clamp_percent_of_mode_1": bare.clamp_percent,
+        "modes": [
+            {"measured_hz": m, "fitted_hz": f} for m, f in zip(bare.measured_hz, bare.fitted_hz, strict=True)
+        ],
+        "left_out_hz": list(bare.left_out_hz),
+        "modal_ratios": list(bare.ratios),
     }
 
 

@@ -19,6 +19,7 @@ REFERENCE_FREQUENCIES_HZ = (20.0, 100.0, 280.0)
 """Where the band is always stated, as far as they lie inside the measured range."""
 _BAND_POINTS = 41
 _STRONG_CORRELATION = 0.99
+_LOST_PERCENT = 30.0
 _MISFIT = 1.5
 """Chi-square per degree of freedom that noise alone does not explain."""
 
@@ -136,6 +137,9 @@ def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: 
         said.append(f"not converged after {fit.iterations} iterations: take the values as provisional")
     if fit.criterion_met is False:
         said.append("the 5 % criterion is not met: some point differs by more than 5 %")
+    off = rms(differences_percent(sweep, fit.velocity_m_s))
+    if off > _LOST_PERCENT:
+        said.append(f"the fit does not follow the data (rms {off:.3g} %): check units, level and pickup")
     if noise_is_known and uncertainty.chi2_per_dof > _MISFIT:
         said.append(
             f"the residual is {uncertainty.chi2_per_dof:.3g} times what the noise explains "

@@ -15,7 +15,7 @@ from fitting.modal.frf import Estimate, Frf, Refusal, corrected
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-ORDERS = tuple(range(2, 31))
+ORDERS = tuple(range(2, 25))
 FREQUENCY_STABLE = 0.005
 RATIO_STABLE = 0.05
 FEWEST_ORDERS = 5
@@ -25,36 +25,31 @@ _MOST_RATIO = 0.5
 def lscf_poles(frfs: list[Frf], orders: tuple[int, ...] = ORDERS) -> list[Complex]:
     """Decaying poles in rad/s at every order; all channels on the same lines."""
     f = frfs[0].frequency_hz
+    orders = tuple(n for n in orders if 2 * (n + 1) <= len(f))
     low, high = float(f[0]), float(f[-1])
-    # The band mapped onto the upper half circle: well conditioned however narrow it is.
-    dt = 1 / (2 * (high - low)) * 0.98
+    # The band mapped onto half a circle: well conditioned however narrow it is.
+    dt = 0.49 / (high - low)
     z = np.exp(-2j * np.pi * (f - low) * dt)
-    top = max(orders)
-    P = z[:, None] ** np.arange(top + 1)
-    products = []
-    R_inverse_cache: dict[int, Complex] = {}
-    for frf in frfs:
-        products.append((P, -frf.H[:, None] * P))
-    poles = []
-    for n in orders:
-        M = np.zeros((n + 1, n + 1), dtype=complex)
-        for X, Y in products:
-            X_n, Y_n = X[:, : n + 1], Y[:, : n + 1]
-            if n not in R_inverse_cache:
-                R_inverse_cache[n] = np.linalg.pinv(X_n)
-            Y_left = Y_n - X_n @ (R_inverse_cache[n] @ Y_n)
-            M += Y_left.conj().T @ Y_left
-        a = np.append(-np.linalg.lstsq(M[:n, :n], M[:n, n], rcond=None)[0], 1.0)
-        roots = np.roots(a[::-1])
-        roots = roots[np.abs(roots) > 1e-12]
-        s = -np.log(roots) / dt
-        # modulo 2 pi / dt, the band begins at `low`
-        imaginary = np.mod(s.imag, 2 * np.pi / dt) + 2 * np.pi * low
-        s = s.real + 1j * imaginary
-        inside = (s.real < 0) & (imaginary > 2 * np.pi * low) & (imaginary < 2 * np.pi * high)
-        poles.append(s[inside])
-        R_inverse_cache.pop(n, None)
-    return poles
+    P = z[:, None] ** np.arange(max(orders, default=0) + 1)
+    Q, _ = np.linalg.qr(P)
+    # The numerators go out by projection: lower orders use the leading columns of the same Q.
+    products = [(Y.conj().T @ Y, Q.conj().T @ Y) for Y in (frf.H[:, None] * P for frf in frfs)]
+    return [_poles_of_order(products, n, low, high, dt) for n in orders]
+
+
+def _poles_of_order(
+    products: list[tuple[Complex, Complex]], n: int, low: float, high: float, dt: float
+) -> Complex:
+    M = np.zeros((n + 1, n + 1), dtype=complex)
+    for YY, QY in products:
+        inside = QY[: n + 1, : n + 1]
+        M += YY[: n + 1, : n + 1] - inside.conj().T @ inside
+    a = np.append(-np.linalg.lstsq(M[:n, :n], M[:n, n], rcond=None)[0], 1.0)
+    roots = np.roots(a[::-1])
+    s = -np.log(roots[np.abs(roots) > 1e-12]) / dt
+    # Modulo 2 pi / dt; the band begins at `low`.
+    s = s.real + 1j * (np.mod(s.imag, 2 * np.pi / dt) + 2 * np.pi * low)
+    return np.asarray(s[(s.real < 0) & (s.imag > 2 * np.pi * low) & (s.imag < 2 * np.pi * high)])
 
 
 def lscf(

@@ -20,6 +20,7 @@ Complex = NDArray[np.complex128]
 
 _HALF_WIDTH_LINES = 8
 _HALF_WIDTH_BANDWIDTHS = 6.0
+_MOST_LINES = 400
 _MOST_RATIO = 0.5
 _MOST_RELATIVE_ERROR = 0.3
 
@@ -44,6 +45,7 @@ def rational_fit(
     """Fit the mode near `near_hz`; other modes that fall into its window get poles of their own."""
     step = float(np.median(np.diff(frf.frequency_hz)))
     reach = max(_HALF_WIDTH_LINES * step, _HALF_WIDTH_BANDWIDTHS * 2 * start_ratio * near_hz)
+    reach = min(reach, _MOST_LINES / 2 * step)
     window = frf.between(near_hz - reach, near_hz + reach)
     inside = [f for f in neighbours_hz if abs(f - near_hz) < reach * 1.2 and f != near_hz]
     starts = [near_hz, *inside]
@@ -59,6 +61,7 @@ def rational_fit(
     found = least_squares(
         lambda p: _stack(_remainder(omega, window.H, _poles(p, start, scale))),
         np.zeros(2 * len(start)),
+        jac=lambda p: scale * _jacobian(omega, window.H, _poles(p, start, scale)),
         x_scale="jac",
         xtol=1e-12,
         ftol=1e-12,
@@ -90,12 +93,25 @@ def _poles(p: Array, start: Complex, scale: float) -> Complex:
 
 def _remainder(omega: Array, H: Complex, poles: Complex) -> Complex:
     """What residues and background, chosen best, leave of H."""
-    middle, half = omega.mean(), (omega[-1] - omega[0]) / 2
-    t = (omega - middle) / half
-    columns = [np.abs(p.real) / (1j * omega - p) for p in poles]
-    X = np.column_stack([*columns, np.ones_like(t), t])
-    Q, _ = np.linalg.qr(X)
+    Q, _ = np.linalg.qr(_columns(omega, poles))
     return np.asarray(H - Q @ (Q.conj().T @ H))
+
+
+def _jacobian(omega: Array, H: Complex, poles: Complex) -> Array:
+    """Kaufman's: the columns' change, residues kept, projected. To the poles' real, then imaginary parts."""
+    X = _columns(omega, poles)
+    Q, R = np.linalg.qr(X)
+    c = np.linalg.solve(R, Q.conj().T @ H)[: len(poles)]
+    change = -(c * np.abs(poles.real) / (1j * omega[:, None] - poles) ** 2)
+    change = change - Q @ (Q.conj().T @ change)
+    both = np.hstack([change, 1j * change])
+    return np.concatenate([both.real, both.imag])
+
+
+def _columns(omega: Array, poles: Complex) -> Complex:
+    t = (omega - omega.mean()) / ((omega[-1] - omega[0]) / 2)
+    resonances = np.abs(poles.real) / (1j * omega[:, None] - poles)
+    return np.column_stack([resonances, np.ones_like(t), t])
 
 
 def _stack(z: Complex) -> Array:

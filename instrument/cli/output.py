@@ -34,7 +34,9 @@ class Output:
             table.add_column(column, justify="left" if k == 0 and not _numeric(rows, k) else "right")
         for row in rows:
             table.add_row(*row)
-        Console(highlight=False, quiet=self._json_path == "-", width=200).print(table)
+        Console(highlight=False, quiet=self._json_path == "-", width=max(self._console.width, 120)).print(
+            table
+        )
 
     def result(self, facts: dict[str, Any]) -> None:
         """The facts as JSON, where they were asked for."""

@@ -1,6 +1,10 @@
 """An identification as people read it."""
 
+import numpy as np
+
+from fitting.identification.bare_plate import BarePlateFit
 from fitting.identification.result import Identification
+from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.cli.output import Output
 from instrument.identification import Identified
@@ -28,6 +32,20 @@ def print_identification(out: Output, found: Identified, sweep: Sweep) -> None:
         f"{len(sweep)} points, {r.fit.iterations} iterations; set-up {found.setup_seconds:.2f} s, "
         f"fit {found.seconds * 1e3:.0f} ms, validation {found.validation_seconds * 1e3:.0f} ms"
     )
+
+
+def print_bare_plate(out: Output, bare: BarePlateFit, specimen: Specimen) -> None:
+    """What the hammer test gave; `specimen` already has its stiffness."""
+    young, error = specimen.substrate.young_pa / 1e9, 100 * bare.standard_error
+    worst = 100 * np.max(np.abs(bare.measured_hz / bare.fitted_hz - 1))
+    out.say(
+        f"hammer test: substrate {young:.2f} GPa +- {error:.2f} %, "
+        f"{100 * (bare.young_scale - 1):+.2f} % from the stated; "
+        f"its own clamp takes {bare.clamp_percent:.2f} % off mode 1; "
+        f"{len(bare.measured_hz)} modes within {worst:.2f} %"
+    )
+    if bare.left_out_hz:
+        out.say(f"note: hammer modes that match none: {', '.join(f'{f:.2f}' for f in bare.left_out_hz)} Hz")
 
 
 def _relative(error: float, value: float) -> str:

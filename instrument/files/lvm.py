@@ -44,7 +44,7 @@ def read_lvm(path: Path) -> list[Segment]:
     for k, end in enumerate(ends[1:], start=1):
         header = _header(lines, ends[k - 1] + 1, end, separator)
         stop = _next_header(lines, end + 1)
-        segments.append(_segment(path, header, lines, end + 1, stop, separator, facts, comma=comma))
+        segments += _segments(path, header, lines, end + 1, stop, separator, facts, comma=comma)
     return segments
 
 
@@ -65,7 +65,7 @@ def _next_header(lines: list[str], start: int) -> int:
     return len(lines)
 
 
-def _segment(
+def _segments(
     path: Path,
     header: dict[str, list[str]],
     lines: list[str],
@@ -75,7 +75,7 @@ def _segment(
     facts: dict[str, str],
     *,
     comma: bool,
-) -> Segment:
+) -> list[Segment]:
     try:
         count = int(header["Channels"][0])
         step = _float(header["Delta_X"][0], comma=comma)
@@ -102,7 +102,11 @@ def _segment(
             ) from None
     if len(rows) < 8:
         raise BadInput(f"{path}: line {start}: {len(rows)} samples in the segment, expected more")
-    return Segment(titles, units, 1 / step, np.array(rows))
+    samples = np.array(rows)
+    # One header may stand for several segments: `Samples` says how long each is.
+    length = int(header.get("Samples", ["0"])[0] or 0)
+    pieces = len(samples) // length if length > 0 and len(samples) % length == 0 else 1
+    return [Segment(titles, units, 1 / step, piece) for piece in np.split(samples, pieces)]
 
 
 def _float(text: str, *, comma: bool) -> float:

@@ -137,4 +137,7 @@ def _common(name: str, *, binary: bool) -> dict[str, Any]:
 
 def _write(path: Path, sets: list[dict[str, Any]]) -> None:
     path.unlink(missing_ok=True)
-    pyuff.UFF(str(path)).write_sets(sets, mode="overwrite")
+    # The library's "overwrite" wipes a binary set's header; closing its file it leaves to the collector.
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ResourceWarning)
+        pyuff.UFF(str(path)).write_sets(sets, mode="add")

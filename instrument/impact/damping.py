@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import find_peaks
+from threadpoolctl import threadpool_limits
 
 from fitting.modal.frf import Estimate, Frf, Refusal
 from fitting.modal.half_power import half_power, half_power_marks
@@ -21,12 +22,15 @@ PADDING = 8
 HALF_POWER_END = 0.01
 """Where its exponential window ends."""
 DISAGREEMENT = 0.10
-PROMINENCE_DB = 12.0
+PROMINENCE_DB = 15.0
 MOST_MODES = 30
 _UNDECAYED = 0.2
 """A record that ends at more than this share of a mode's start gives no half-power value."""
 _START_RATIO = 2e-3
-_LSCF_BAND = 0.15
+_LSCF_LINES = 40
+_LSCF_BANDWIDTHS = 15
+_SAME = 2e-3
+"""Relative distance within which two channels' peaks are one mode."""
 
 
 @dataclass(frozen=True)
@@ -111,13 +115,15 @@ def _modes(
     at_hz: tuple[float, ...],
     seconds: float,
 ) -> tuple[Mode, ...]:
-    found = {name: _peaks(frf, band) for name, frf in fine.items()}
+    """Modes asked for by name are all reported; of those found, the ones a pole explains."""
+    found = [peak for frf in fine.values() for peak in _peaks(frf, band)]
     centres = sorted(at_hz) if at_hz else _merged(found, 2 / seconds)
     modes = []
-    for f in centres:
-        candidates = [_mode(name, plain[name], fine[name], f, centres, seconds) for name in plain]
-        modes.append(min(candidates, key=_doubt))
-    return tuple(modes)
+    with threadpool_limits(1, "blas"):
+        for f in centres:
+            candidates = [_mode(name, plain[name], fine[name], f, centres, seconds) for name in plain]
+            modes.append(min(candidates, key=_doubt))
+    return tuple(m for m in modes if at_hz or m.accepted)
 
 
 def _doubt(mode: Mode) -> float:
@@ -127,22 +133,26 @@ def _doubt(mode: Mode) -> float:
     return np.inf
 
 
-def _peaks(frf: Frf, band: tuple[float, float]) -> list[float]:
+def _peaks(frf: Frf, band: tuple[float, float]) -> list[tuple[float, float]]:
+    """Frequency and prominence in dB of the strongest peaks."""
     inside = frf.between(*band)
     if len(inside.H) < 5:
         raise BadInput(f"band {band[0]:g} to {band[1]:g} Hz holds {len(inside.H)} lines, expected 5 or more")
     level = 20 * np.log10(np.maximum(np.abs(inside.H), 1e-300))
     where, facts = find_peaks(level, prominence=PROMINENCE_DB)
-    strongest = where[np.argsort(-facts["prominences"])[:MOST_MODES]]
-    return [float(inside.frequency_hz[k]) for k in strongest]
+    strongest = np.argsort(-facts["prominences"])[:MOST_MODES]
+    return [(float(inside.frequency_hz[where[k]]), float(facts["prominences"][k])) for k in strongest]
 
 
-def _merged(found: dict[str, list[float]], apart_hz: float) -> list[float]:
-    centres: list[float] = []
-    for f in sorted(f for peaks in found.values() for f in peaks):
-        if not centres or f - centres[-1] > apart_hz:
-            centres.append(f)
-    return centres
+def _merged(peaks: list[tuple[float, float]], apart_hz: float) -> list[float]:
+    """One frequency a mode: channels see the same one a little apart."""
+    kept: list[tuple[float, float]] = []
+    for f, prominence in sorted(peaks):
+        if kept and f - kept[-1][0] < max(apart_hz, _SAME * f):
+            kept[-1] = max(kept[-1], (f, prominence), key=lambda peak: peak[1])
+        else:
+            kept.append((f, prominence))
+    return [f for f, _ in kept]
 
 
 def _mode(name: str, plain: Frf, fine: Frf, f: float, centres: list[float], seconds: float) -> Mode:
@@ -158,11 +168,13 @@ def _mode(name: str, plain: Frf, fine: Frf, f: float, centres: list[float], seco
     apart = min(others, default=np.inf) / (2 * ratio * f_n)
     noise = fit.noise / np.sqrt(PADDING) if isinstance(fit, RationalFit) else 0.0
     half = _half_power(fine, f, ratio, f_n, lines, apart, seconds, noise)
+    width = 2 * ratio * f_n if ratio == ratio else 2 / seconds
+    reach = max(_LSCF_LINES / seconds, _LSCF_BANDWIDTHS * width)
     third = lscf(
-        lscf_poles([plain.between(f_n * (1 - _LSCF_BAND), f_n * (1 + _LSCF_BAND))]),
+        lscf_poles([plain.between(f_n - reach, f_n + reach)]),
         f_n,
         plain.added_decay_1_s,
-        max(2 * ratio * f_n, 2 / seconds) if ratio == ratio else 2 / seconds,
+        max(width, 2 / seconds),
     )
     accepted, why = _verdict(half, rational, third, lines, apart, seconds, f_n)
     return Mode(

@@ -1,0 +1,143 @@
+"""What the bare plate's hammer test fixes: the substrate's stiffness, and a ratio for each mode.
+
+Every natural frequency of a bare plate goes with the root of its Young's modulus. The clamp of the hammer
+test is a mounting of its own: its compliance is a nuisance with a prior, and is not carried to the sweep.
+
+    ln f_measured - ln f_model = 1/2 ln(E/E_stated) - kappa s_r + scatter
+
+s_r is a mode's fall for a soft root, from the bending moment it hands to the clamp, scaled to one for mode 1.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.element import DOFS, THETA_Y
+from fitting.errors import TooFewPoints
+from fitting.plate import Plate, element_matrices
+from fitting.real_modes import RealModes, real_modes
+from fitting.specimen import Specimen
+
+Array = NDArray[np.float64]
+
+FREQUENCY_SCATTER = 7e-4
+"""Standard deviation of ln f: remounting and reading 0.05 %, the plate model 0.05 %."""
+DEFAULT_TOLERANCE = 0.2
+"""Of the stiffness, where the specimen states none: wide enough to leave it to the test."""
+CLAMP = 0.01
+"""Prior standard deviation of kappa: a soft root may take 1 % off mode 1."""
+_MATCH = 0.15
+"""A measured mode further than this from every predicted one is left out."""
+_SPARE = 4
+
+
+@dataclass(frozen=True)
+class BarePlateFit:
+    """The substrate's stiffness as the hammer test has it."""
+
+    young_scale: float
+    """Over the stated one."""
+    standard_error: float
+    """Of its logarithm."""
+    clamp_percent: float
+    """What the root's compliance takes off mode 1."""
+    measured_hz: Array
+    fitted_hz: Array
+    ratios: tuple[float, ...]
+    """For the modes in order: the measured one where there is one, else the specimen's."""
+    left_out_hz: tuple[float, ...]
+
+
+def fit_bare_plate(specimen: Specimen, measured_hz: Array, measured_ratios: Array) -> BarePlateFit:
+    """Stiffness and ratios from a hammer test of `specimen.bare`. Raises `TooFewPoints`."""
+    bare = specimen.bare
+    plate = Plate(bare)
+    count = max(len(measured_hz), len(specimen.modal_ratios)) + _SPARE
+    modes = real_modes(plate, 0.0, count)
+    model_hz = modes.omega / (2 * np.pi)
+    order = np.argsort(measured_hz)
+    pairs = _matched(measured_hz[order], model_hz)
+    if len(pairs) < 2:
+        raise TooFewPoints(
+            f"{len(pairs)} of {len(measured_hz)} hammer modes lie within {100 * _MATCH:.0f} % of the "
+            f"bare plate's ({', '.join(f'{f:.4g}' for f in model_hz[:5])}, ... Hz), expected 2 or more"
+        )
+    which, index = (np.array(side) for side in zip(*pairs, strict=True))
+    f, ratio = measured_hz[order][which], measured_ratios[order][which]
+    softness = clamp_softness(plate, modes)
+    scale, error, kappa = _solve(
+        np.log(f / model_hz[index]),
+        softness[index],
+        specimen.tolerances.get("substrate_young", DEFAULT_TOLERANCE),
+    )
+    return BarePlateFit(
+        young_scale=scale,
+        standard_error=error,
+        clamp_percent=100 * kappa * softness[0],
+        measured_hz=f,
+        fitted_hz=model_hz[index] * np.sqrt(scale) * np.exp(-kappa * softness[index]),
+        ratios=_ratios(specimen, index, ratio),
+        left_out_hz=tuple(float(x) for x in np.delete(measured_hz[order], which)),
+    )
+
+
+def with_bare_plate(specimen: Specimen, fit: BarePlateFit) -> Specimen:
+    """The specimen with the hammer test's stiffness, what is left of its tolerance, and its ratios."""
+    substrate = replace(specimen.substrate, young_pa=specimen.substrate.young_pa * fit.young_scale)
+    tolerances = {**specimen.tolerances, "substrate_young": fit.standard_error}
+    return replace(specimen, substrate=substrate, tolerances=tolerances, modal_ratios=fit.ratios)
+
+
+def clamp_softness(plate: Plate, modes: RealModes) -> Array:
+    """Fall of ln f for a root that yields in rotation, one for mode 1; zero without a clamp."""
+    if plate.specimen.boundary != "cantilever":
+        return np.zeros(len(modes.omega))
+    mesh = plate.mesh
+    dofs = mesh.element_dofs()
+    K = element_matrices(plate.specimen, mesh).K_0
+    moment = np.zeros((mesh.nodes * DOFS, len(modes.omega)))
+    np.add.at(moment, dofs, np.einsum("ij,ejk->eik", K, plate.on_elements(modes.shapes)))
+    root = np.arange(mesh.n_y + 1) * DOFS + THETA_Y
+    width = np.full(mesh.n_y + 1, mesh.sides_m[1])
+    width[[0, -1]] /= 2
+    energy = (moment[root] ** 2 / width[:, None]).sum(axis=0) / modes.omega**2
+    return np.asarray(energy / energy[0])
+
+
+def _matched(measured: Array, model: Array) -> list[tuple[int, int]]:
+    """Pairs (measured, model), each at most once, the stiffness' common shift taken out first."""
+    shift = _common_shift(measured, model)
+    pairs: list[tuple[int, int]] = []
+    for k, f in enumerate(measured):
+        distance = np.abs(np.log(f / model) - shift)
+        best = int(np.argmin(distance))
+        if distance[best] < _MATCH / 2 and best not in {index for _, index in pairs}:
+            pairs.append((k, best))
+    return pairs
+
+
+def _common_shift(measured: Array, model: Array) -> float:
+    """The shift of ln f within the tolerance of a match that brings most modes onto the model's."""
+    trials = np.linspace(-_MATCH, _MATCH, 121)
+    distance = np.abs(np.log(measured[:, None, None] / model[None, :, None]) - trials).min(axis=1)
+    return float(trials[np.argmin(np.minimum(distance, _MATCH / 2).sum(axis=0))])
+
+
+def _solve(shift: Array, softness: Array, tolerance: float) -> tuple[float, float, float]:
+    """E/E_stated, the standard error of its logarithm, kappa: least squares with two priors."""
+    J = np.column_stack([np.full(len(shift), 0.5), -softness]) / FREQUENCY_SCATTER
+    A = J.T @ J + np.diag([1 / tolerance**2, 1 / CLAMP**2])
+    found = np.linalg.solve(A, J.T @ (shift / FREQUENCY_SCATTER))
+    left = shift / FREQUENCY_SCATTER - J @ found
+    covariance = np.linalg.inv(A) * max(1.0, float(left @ left) / max(1, len(shift) - 2))
+    return float(np.exp(found[0])), float(np.sqrt(covariance[0, 0])), float(found[1])
+
+
+def _ratios(specimen: Specimen, index: NDArray[np.intp], ratio: Array) -> tuple[float, ...]:
+    length = max(len(specimen.modal_ratios), int(index.max()) + 1)
+    ratios = np.zeros(length)
+    ratios[: len(specimen.modal_ratios)] = specimen.modal_ratios
+    known = np.isfinite(ratio) & (ratio > 0)
+    ratios[index[known]] = ratio[known]
+    return tuple(float(r) for r in ratios)

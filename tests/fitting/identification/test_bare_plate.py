@@ -1,0 +1,121 @@
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import TABLE_4
+
+from fitting.errors import TooFewPoints
+from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
+from fitting.plate import Plate
+from fitting.properties import with_property_scaled
+from fitting.real_modes import real_modes
+from instrument.bench import synthetic_sweep
+from instrument.cli.main import run
+from instrument.identification import identify
+from instrument.paper_case import case_file
+
+OMEGA = 2 * np.pi * np.array([20.0, 100.0, 280.0])
+
+
+@pytest.fixture(scope="module")
+def stiff(zn1):
+    """The plate as it is: its substrate 6 % stiffer than the specimen file says."""
+    return with_property_scaled(zn1, "substrate_young", 1.06)
+
+
+@pytest.fixture(scope="module")
+def bare_hz(stiff):
+    return real_modes(Plate(stiff.bare), 0.0, 8).omega / (2 * np.pi)
+
+
+def hammer(bare_hz, seed):
+    return bare_hz * (1 + 5e-4 * np.random.default_rng(seed).normal(size=8))
+
+
+def test_stiffness_is_found_within_half_a_percent_and_its_error_is_honest(zn1, bare_hz):
+    fits = [fit_bare_plate(zn1, hammer(bare_hz, seed), np.array(zn1.modal_ratios)) for seed in range(30)]
+    error = np.log([f.young_scale for f in fits]) - np.log(1.06)
+    assert np.max(np.abs(error)) < 5e-3
+    stated = np.mean([f.standard_error for f in fits])
+    assert 0.4 * stated < np.std(error) < 1.3 * stated
+
+
+def test_joint_with_the_hammer_the_core_is_right_and_without_it_wrong(zn1, stiff, bare_hz):
+    sweep = synthetic_sweep(stiff)
+    G_true = TABLE_4.storage_and_loss(OMEGA)[0]
+    bare = fit_bare_plate(zn1, hammer(bare_hz, 0), np.array(zn1.modal_ratios))
+    joint = identify(sweep, with_bare_plate(zn1, bare)).result
+    alone = identify(sweep, zn1).result
+    error = [np.abs(r.law.storage_and_loss(OMEGA)[0] / G_true - 1) for r in (joint, alone)]
+    assert np.all(error[0] < 0.01)
+    assert np.all(error[1] > 0.05)
+
+
+def test_a_soft_clamp_of_the_hammer_test_is_not_taken_for_a_soft_plate(zn1, bare_hz):
+    from fitting.identification.bare_plate import clamp_softness
+
+    plate = Plate(zn1.bare)
+    softness = clamp_softness(plate, real_modes(plate, 0.0, 8))
+    assert softness[0] == 1
+    soft = bare_hz * np.exp(-0.008 * softness)
+    fit = fit_bare_plate(zn1, soft, np.array(zn1.modal_ratios))
+    assert fit.young_scale == pytest.approx(1.06, rel=5e-3)
+    assert fit.clamp_percent == pytest.approx(0.8, abs=0.15)
+
+
+def test_ratios_go_to_their_modes_though_some_are_missing(zn1, bare_hz):
+    measured = np.array([0.31, 0.20, 0.10]) / 100
+    fit = fit_bare_plate(zn1, bare_hz[[0, 3, 6]], measured)
+    expected = np.array(zn1.modal_ratios)
+    expected[[0, 3, 6]] = measured
+    np.testing.assert_allclose(fit.ratios, expected)
+
+
+def test_foreign_modes_are_left_out_or_refused(zn1, bare_hz):
+    fit = fit_bare_plate(zn1, np.append(bare_hz, 30.0), np.append(zn1.modal_ratios, 0.01))
+    assert fit.left_out_hz == (30.0,)
+    with pytest.raises(TooFewPoints, match="expected 2 or more"):
+        fit_bare_plate(zn1, np.array([3.0, 30.0]), np.array([0.01, 0.01]))
+
+
+def test_identify_takes_the_hammers_json(zn1, stiff, bare_hz, tmp_path, capsys):
+    modes = [
+        {"frequency_hz": f, "damping_ratio": z, "accepted": True}
+        for f, z in zip(hammer(bare_hz, 1), zn1.modal_ratios, strict=True)
+    ]
+    (tmp_path / "h.json").write_text(
+        json.dumps({"modes": [*modes, {"frequency_hz": 1.0, "accepted": False}]})
+    )
+    sweep = synthetic_sweep(stiff)
+    rows = [
+        f"{f!r},{v.real!r},{v.imag!r}"
+        for f, v in zip(sweep.frequency_hz.tolist(), sweep.velocity_m_s.tolist(), strict=True)
+    ]
+    (tmp_path / "s.csv").write_text("\n".join(["frequency_hz,velocity_re_m_s,velocity_im_m_s", *rows]))
+    call = ["identify", str(tmp_path / "s.csv"), "--specimen", str(case_file("zn1.toml"))]
+    assert run([*call, "--hammer", str(tmp_path / "h.json"), "--json", "-"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["hammer"]["substrate_young_over_stated"] == pytest.approx(1.06, rel=5e-3)
+    (at_100,) = (row for row in found["law"] if row["frequency_hz"] == 100)
+    assert at_100["storage_modulus_pa"] == pytest.approx(TABLE_4.storage_and_loss(OMEGA)[0][1], rel=1e-2)
+
+
+@pytest.mark.parametrize(
+    "text", ["", "{", '{"modes": 3}', '{"modes": []}', '{"modes": [{"frequency_hz": -1}]}']
+)
+def test_bad_hammer_json_is_refused_in_one_line(tmp_path, capsys, text):
+    path: Path = tmp_path / "h.json"
+    path.write_text(text)
+    call = ["identify", str(case_file("table5.csv")), "--specimen", str(case_file("zn1.toml"))]
+    assert run([*call, "--hammer", str(path)]) == 2
+    err = capsys.readouterr().err
+    assert err.count("\n") == 1
+    assert "h.json" in err
+
+
+def test_tolerance_left_after_the_test_enters_the_band(zn1, bare_hz):
+    bare = fit_bare_plate(zn1, bare_hz, np.array(zn1.modal_ratios))
+    after = with_bare_plate(replace(zn1, tolerances={"core_thickness": 0.05}), bare)
+    assert after.tolerances == {"core_thickness": 0.05, "substrate_young": bare.standard_error}
