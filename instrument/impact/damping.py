@@ -26,6 +26,8 @@ PROMINENCE_DB = 15.0
 MOST_MODES = 30
 _UNDECAYED = 0.2
 """A record that ends at more than this share of a mode's start gives no half-power value."""
+_CUT = 0.05
+"""What of a mode may be left at the end before the record counts as cut off."""
 _START_RATIO = 2e-3
 _LSCF_LINES = 40
 _LSCF_BANDWIDTHS = 15
@@ -232,14 +234,22 @@ def _verdict(
 
 
 def _advice(modes: tuple[Mode, ...], spectrum: Spectra, seconds: float) -> list[str]:
+    """What to change in the next test: record length, window, tip."""
     said = []
-    narrow = [m for m in modes if m.lines_in_bandwidth < 2]
-    if narrow:
-        worst = min(narrow, key=lambda m: m.lines_in_bandwidth)
-        needed = seconds * 2 / max(worst.lines_in_bandwidth, 0.05)
+    known = [m for m in modes if m.damping_ratio > 0]
+    narrow = min(known, key=lambda m: m.lines_in_bandwidth, default=None)
+    if narrow is not None and narrow.lines_in_bandwidth < 2:
         said.append(
-            f"{worst.frequency_hz:.2f} Hz has {worst.lines_in_bandwidth:.1f} lines in its bandwidth: "
-            f"record {needed:.0f} s instead of {seconds:.3g} s to read it by half power"
+            f"{narrow.frequency_hz:.2f} Hz has {narrow.lines_in_bandwidth:.1f} lines in its bandwidth: "
+            f"record {_seconds_for(narrow, seconds):.0f} s instead of {seconds:.3g} s "
+            "to read it by half power"
+        )
+    slow = max(known, key=lambda m: _remains(m, seconds), default=None)
+    if slow is not None and _remains(slow, seconds) > _CUT:
+        said.append(
+            f"the record is cut off: {slow.frequency_hz:.2f} Hz still has "
+            f"{100 * _remains(slow, seconds):.0f} % of its start at the end; "
+            "the rational fit bears that, half power wants a longer record"
         )
     edge = rolloff_hz(spectrum)
     beyond = [m for m in modes if m.frequency_hz > edge]
@@ -249,6 +259,15 @@ def _advice(modes: tuple[Mode, ...], spectrum: Spectra, seconds: float) -> list[
             f"use a harder tip for {beyond[0].frequency_hz:.0f} Hz"
         )
     return said
+
+
+def _remains(mode: Mode, seconds: float) -> float:
+    return float(np.exp(-2 * np.pi * mode.damping_ratio * mode.frequency_hz * seconds))
+
+
+def _seconds_for(mode: Mode, seconds: float) -> float:
+    """Record length that puts two lines into the bandwidth."""
+    return seconds * 2 / max(mode.lines_in_bandwidth, 0.05)
 
 
 def marks(frf: Frf, mode: Mode) -> tuple[float, float, float] | None:

@@ -18,6 +18,12 @@ DOUBLE_HIT = 0.05
 """Share of the peak at which a later blow counts."""
 FLAT_SAMPLES = 4
 """Equal samples in a row at an extreme that no free motion makes."""
+_JUMP = 3.0
+"""Steps of the converter that make the edge of a flat top a jump."""
+_COARSEST = 0.05
+"""No converter's step is a larger share of what it measures."""
+_IMPULSE = 2
+"""A blow so short may begin with the record: nothing of it is cut off."""
 _SILENT = 10.0
 """A channel peaks at least so many times above its own scatter before the blow."""
 _LONG_PULSE = 0.05
@@ -82,7 +88,7 @@ def _force_faults(hit: Hit, pulse: slice) -> list[str]:
     faults = []
     if _is_flat(force):
         faults.append(f"the force is overloaded (flat top at {peak:.3g} N)")
-    if pulse.start == 0:
+    if pulse.start == 0 and pulse.stop > _IMPULSE:
         faults.append("the record begins inside the blow: no pre-trigger")
     # The pulse's own tail may undershoot and ring a little: look again after twice its length.
     width = pulse.stop - pulse.start
@@ -111,11 +117,19 @@ def _scatter(samples: Array) -> float:
 
 
 def _is_flat(samples: Array) -> bool:
-    """Whether the samples stand still at their maximum."""
+    """Whether the samples stand still at their maximum, entered or left by a jump.
+
+    A coarsely digitised but smooth peak stands still too; it is entered by single steps of the converter.
+    """
     top = float(samples.max())
-    at_top = samples >= top - 1e-6 * abs(top)
-    run = longest = 0
-    for flag in at_top:
-        run = run + 1 if flag else 0
-        longest = max(longest, run)
-    return longest >= FLAT_SAMPLES
+    at_top = samples >= top - 1e-9 * abs(top)
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], at_top, [False]]).astype(int)))
+    steps = np.diff(np.unique(samples))
+    step = float(steps.min()) if steps.size else 0.0
+    for start, stop in zip(edges[::2], edges[1::2], strict=True):
+        if stop - start >= FLAT_SAMPLES:
+            before = top - samples[start - 1] if start > 0 else 0.0
+            after = top - samples[stop] if stop < len(samples) else 0.0
+            if max(before, after) > min(_JUMP * step, _COARSEST * top):
+                return True
+    return False

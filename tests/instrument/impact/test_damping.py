@@ -51,7 +51,7 @@ def test_exponential_windows_give_the_same_corrected_ratio(clean, end):
     for mode, zeta in zip(found.modes, TABLE_3[1:], strict=True):
         assert mode.rational_fit.ratio == pytest.approx(zeta, rel=1e-2)
         if isinstance(mode.half_power, Estimate):
-            assert mode.half_power.ratio == pytest.approx(zeta, rel=3e-2)
+            assert mode.half_power.ratio == pytest.approx(zeta, rel=1e-2)
 
 
 @pytest.mark.parametrize("estimator", ["h1", "h2", "hv"])
@@ -117,7 +117,8 @@ def faulty(clean, fault):
         top = int(np.argmax(response))
         response[top : top + 6] = response[top]
     elif fault == "no pre-trigger":
-        force, response = force[peak:], response[peak:]
+        force, response = force[peak:].copy(), response[peak:]
+        force[:6] = force.max() * np.cos(np.arange(6) * np.pi / 12)  # the second half of a softer blow
     elif fault == "silent response":
         response[:] = 0.0
     elif fault == "silent force":
@@ -171,3 +172,27 @@ def test_short_record_is_advised_to_be_longer(clean):
     assert isinstance(found.modes[0].half_power, Refusal)
     assert any("record" in w and "instead of 2 s" in w for w in found.warnings)
     assert any("one hit" in w for w in found.warnings)
+
+
+def test_truncated_record_is_named_and_still_read(clean):
+    n = int(3 * RATE)
+    found = found_in([hit_of(clean[0][:n], clean[1][:n])], at_hz=(17.71, 110.12))
+    assert any("cut off" in w for w in found.warnings)
+    assert found.modes[0].damping_ratio == pytest.approx(TABLE_3[0], rel=2e-2)
+
+
+def test_an_impulse_may_begin_the_record():
+    force = np.zeros(4096)
+    force[0] = 1.0
+    t = np.arange(4096) / 1024
+    response = np.exp(-0.003 * 2 * np.pi * 100 * t) * np.sin(2 * np.pi * 100 * t)
+    found = found_in([hit_of(force, response, motion="displacement", rate=1024.0)], at_hz=(100.0,))
+    assert found.modes[0].damping_ratio == pytest.approx(0.003, rel=1e-2)
+
+
+def test_coarse_digits_are_no_overload(clean):
+    force, response = clean
+    step = np.abs(response).max() / 2000
+    assert judge(hit_of(force, np.round(response / step) * step)).accepted
+    slow = np.abs(response).max() * 2 * np.sin(2 * np.pi * 2 * np.arange(len(response)) / RATE)
+    assert judge(hit_of(force, np.round((response + slow) / step) * step)).accepted
