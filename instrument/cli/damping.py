@@ -164,4 +164,4 @@ def _print(out: Output, found: Damping) -> None:
 def _percent(e: Estimate | Refusal) -> str:
     if isinstance(e, Refusal):
         return "refused"
-    return f"{100 * e.ratio:.4f} +- {100 * e.standard_error:.4f}"
+    return f"{100 * e.ratio:.4f} +- {100 * e.standard_error:.1g}"

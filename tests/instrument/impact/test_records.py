@@ -77,6 +77,13 @@ def test_mat_with_named_variables(tmp_path, hits):
     same_hits(read_records(tmp_path / "b.mat", Named()), [h])
 
 
+def test_times_written_with_few_digits_give_the_rate(tmp_path):
+    rows = [f"{k / 5120:.6f},0.0,{k}" for k in range(100)]
+    (tmp_path / "a.csv").write_text("\n".join(["time_s,force_n,velocity_m_s", *rows]))
+    (hit,) = read_records(tmp_path / "a.csv", Named())
+    assert hit.sample_rate_hz == pytest.approx(5120, rel=1e-3)
+
+
 def lvm_text(hits, *, separator="\t", comma=False, repeat_header=True):
     def text(x):
         return repr(float(x)).replace(".", ",") if comma else repr(float(x))
