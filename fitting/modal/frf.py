@@ -53,6 +53,11 @@ class Refusal:
     why: str
 
 
+def is_near(frequency_hz: float, near_hz: float) -> bool:
+    """Whether a mode found is the one asked for: within 5 %."""
+    return abs(frequency_hz - near_hz) <= 0.05 * near_hz
+
+
 def corrected(frequency_hz: float, ratio: float, added_decay_1_s: float) -> float:
     """Measured ratio less what an exponential window exp(-t/T_w) added: 1/(2 pi f T_w)."""
     return ratio - added_decay_1_s / (2 * np.pi * frequency_hz)

@@ -13,7 +13,7 @@ zero padding makes n large. A neighbour 5 bandwidths away still adds some 5 %.
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.modal.frf import Estimate, Frf, Motion, Refusal, corrected
+from fitting.modal.frf import Estimate, Frf, Motion, Refusal, corrected, is_near
 
 Array = NDArray[np.float64]
 
@@ -30,6 +30,8 @@ def half_power(frf: Frf, near_hz: float, noise: float = 0.0) -> Estimate | Refus
     if isinstance(marks, Refusal):
         return marks
     f1, f_peak, f2, inside = marks
+    if not is_near(f_peak, near_hz):
+        return Refusal(f"no peak near {near_hz:g} Hz: the nearest is at {f_peak:.4g} Hz")
     if inside < _FEWEST_POINTS:
         return Refusal(f"{inside} lines between the half-power points, expected {_FEWEST_POINTS} or more")
     ratio, f_n = ratio_of(f1, f2, frf.motion)

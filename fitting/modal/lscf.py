@@ -19,12 +19,15 @@ ORDERS = tuple(range(2, 25))
 FREQUENCY_STABLE = 0.005
 RATIO_STABLE = 0.05
 FEWEST_ORDERS = 5
+_FEWEST_LINES = 8
 _MOST_RATIO = 0.5
 
 
 def lscf_poles(frfs: list[Frf], orders: tuple[int, ...] = ORDERS) -> list[Complex]:
     """Decaying poles in rad/s at every order; all channels on the same lines."""
     f = frfs[0].frequency_hz
+    if len(f) < _FEWEST_LINES:
+        return []
     orders = tuple(n for n in orders if 2 * (n + 1) <= len(f))
     low, high = float(f[0]), float(f[-1])
     # The band mapped onto half a circle: well conditioned however narrow it is.

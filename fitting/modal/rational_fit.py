@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
-from fitting.modal.frf import Estimate, Frf, Refusal, corrected
+from fitting.modal.frf import Estimate, Frf, Refusal, corrected, is_near
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -21,8 +21,8 @@ Complex = NDArray[np.complex128]
 _HALF_WIDTH_LINES = 8
 _HALF_WIDTH_BANDWIDTHS = 6.0
 _MOST_LINES = 400
-_MOST_RATIO = 0.5
-_MOST_RELATIVE_ERROR = 0.3
+_MOST_RATIO = 0.3
+_MOST_RELATIVE_ERROR = 0.15
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ def rational_fit(
     ratio = -own.real / omega_n
     dof = 2 * len(window.H) - unknowns
     noise = float(np.sqrt(2 * found.cost / dof))
-    if not 0 < ratio < _MOST_RATIO or abs(omega_n / (2 * np.pi) - near_hz) > reach:
+    if not 0 < ratio < _MOST_RATIO or not is_near(omega_n / (2 * np.pi), near_hz):
         return Refusal("the fit found no decaying pole at the peak")
     covariance = noise**2 * np.linalg.pinv(found.jac.T @ found.jac)
     # zeta = -Re/|lambda|: with Re << |lambda| its error is that of the real part

@@ -91,6 +91,10 @@ def damping_of_hits(
     band = band_hz or (3 / seconds, min(rolloff_hz(plain), 0.45 * good[0].hit.sample_rate_hz))
     modes = _modes(plain.frfs, fine.frfs, band, at_hz, seconds)
     said = [f"{j.hit.source}: {note}" for j in hits for note in j.notes]
+    if not modes:
+        said.append(
+            f"no mode found between {band[0]:.3g} and {band[1]:.4g} Hz: name it with --at, or see --band"
+        )
     said += [f"{j.hit.source} left out: {j.why}" for j in hits if not j.accepted]
     if len(good) == 1:
         said.append("one hit: coherence says nothing, and nothing is averaged")
@@ -118,8 +122,14 @@ def _modes(
     seconds: float,
 ) -> tuple[Mode, ...]:
     """Modes asked for by name are all reported; of those found, the ones a pole explains."""
-    found = [peak for frf in fine.values() for peak in _peaks(frf, band)]
-    centres = sorted(at_hz) if at_hz else _merged(found, 2 / seconds)
+    highest = min(float(frf.frequency_hz[-1]) for frf in plain.values())
+    for f in at_hz:
+        if f >= highest:
+            raise BadInput(f"--at {f:g} Hz is beyond the data, expected less than {highest:g} Hz")
+    if at_hz:
+        centres = sorted(at_hz)
+    else:
+        centres = _merged([peak for frf in fine.values() for peak in _peaks(frf, band)], 2 / seconds)
     modes = []
     with threadpool_limits(1, "blas"):
         for f in centres:
@@ -180,9 +190,18 @@ def _mode(name: str, plain: Frf, fine: Frf, f: float, centres: list[float], seco
     )
     accepted, why = _verdict(half, rational, third, lines, apart, seconds, f_n)
     return Mode(
-        f_n, ratio, name, half, rational, third, lines, apart, accepted, why,
-        fit if isinstance(fit, RationalFit) else None,
-    )  # fmt: skip
+        frequency_hz=f_n if accepted else f,
+        damping_ratio=ratio if accepted else float("nan"),
+        channel=name,
+        half_power=half,
+        rational_fit=rational,
+        lscf=third,
+        lines_in_bandwidth=lines,
+        bandwidths_to_next=apart,
+        accepted=accepted,
+        why=why,
+        fit=fit if isinstance(fit, RationalFit) else None,
+    )
 
 
 def _half_power(

@@ -196,3 +196,21 @@ def test_coarse_digits_are_no_overload(clean):
     assert judge(hit_of(force, np.round(response / step) * step)).accepted
     slow = np.abs(response).max() * 2 * np.sin(2 * np.pi * 2 * np.arange(len(response)) / RATE)
     assert judge(hit_of(force, np.round((response + slow) / step) * step)).accepted
+
+
+def test_a_named_mode_that_is_not_there_is_refused_not_replaced(clean):
+    (mode,) = found_in([hit_of(*clean)], at_hz=(30.0,)).modes
+    assert not mode.accepted
+    assert np.isnan(mode.damping_ratio)
+    assert mode.frequency_hz == 30.0
+
+
+def test_a_named_mode_beyond_the_data_is_bad_input(clean):
+    with pytest.raises(BadInput, match="beyond the data"):
+        found_in([hit_of(*clean)], at_hz=(5000.0,))
+
+
+def test_an_empty_band_says_so(clean):
+    found = found_in([hit_of(*clean)], band_hz=(1.0, 3.0))
+    assert found.modes == ()
+    assert any("no mode found" in w for w in found.warnings)
