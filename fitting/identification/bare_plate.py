@@ -27,6 +27,7 @@ DEFAULT_TOLERANCE = 0.2
 """Of the stiffness, where the specimen states none: wide enough to leave it to the test."""
 CLAMP = 0.01
 """Prior standard deviation of kappa: a soft root may take 1 % off mode 1."""
+_MOST_PRIORS = 5
 _MATCH = 0.15
 """A measured mode further than this from every predicted one is left out."""
 _SPARE = 4
@@ -63,6 +64,10 @@ def fit_bare_plate(specimen: Specimen, measured_hz: Array, measured_ratios: Arra
             f"{len(pairs)} of {len(measured_hz)} hammer modes lie within {100 * _MATCH:.0f} % of the "
             f"bare plate's ({', '.join(f'{f:.4g}' for f in model_hz[:5])}, ... Hz), expected 2 or more"
         )
+    if 2 * len(pairs) <= len(measured_hz):
+        raise TooFewPoints(
+            f"only {len(pairs)} of {len(measured_hz)} hammer modes match the bare plate: is it this specimen?"
+        )
     which, index = (np.array(side) for side in zip(*pairs, strict=True))
     f, ratio = measured_hz[order][which], measured_ratios[order][which]
     softness = clamp_softness(plate, modes)
@@ -71,6 +76,11 @@ def fit_bare_plate(specimen: Specimen, measured_hz: Array, measured_ratios: Arra
         softness[index],
         specimen.tolerances.get("substrate_young", DEFAULT_TOLERANCE),
     )
+    if abs(kappa) > _MOST_PRIORS * CLAMP:
+        raise TooFewPoints(
+            f"the hammer modes want a clamp that moves mode 1 by {-100 * kappa:+.1f} %, "
+            f"expected at most {100 * _MOST_PRIORS * CLAMP:.0f} %: is it this specimen?"
+        )
     return BarePlateFit(
         young_scale=scale,
         standard_error=error,

@@ -20,6 +20,8 @@ Complex = NDArray[np.complex128]
 
 _HALF_WIDTH_LINES = 8
 _HALF_WIDTH_BANDWIDTHS = 6.0
+_LEAST_HEIGHT = 6.0
+"""Of a resonance over the scatter of a line: noise alone reaches 4."""
 _MOST_LINES = 400
 _MOST_RATIO = 0.3
 _MOST_RELATIVE_ERROR = 0.15
@@ -82,6 +84,9 @@ def rational_fit(
     adopted = corrected(f_n, ratio, frf.added_decay_1_s)
     if error > _MOST_RELATIVE_ERROR * abs(adopted):
         return Refusal(f"its own standard error is {100 * error / abs(adopted):.0f} % of the ratio")
+    height = float(np.abs(_coefficients(omega, window.H, poles)[0]))
+    if height < _LEAST_HEIGHT * noise:
+        return Refusal(f"it stands only {height / noise:.1f} times above the scatter of the lines")
     fitted = window.H - _remainder(omega, window.H, poles)
     return RationalFit(window.frequency_hz, fitted, poles, noise, Estimate(f_n, adopted, error))
 
@@ -97,11 +102,16 @@ def _remainder(omega: Array, H: Complex, poles: Complex) -> Complex:
     return np.asarray(H - Q @ (Q.conj().T @ H))
 
 
+def _coefficients(omega: Array, H: Complex, poles: Complex) -> Complex:
+    """Heights of the resonances at their poles, then the background."""
+    Q, R = np.linalg.qr(_columns(omega, poles))
+    return np.asarray(np.linalg.solve(R, Q.conj().T @ H))
+
+
 def _jacobian(omega: Array, H: Complex, poles: Complex) -> Array:
     """Kaufman's: the columns' change, residues kept, projected. To the poles' real, then imaginary parts."""
-    X = _columns(omega, poles)
-    Q, R = np.linalg.qr(X)
-    c = np.linalg.solve(R, Q.conj().T @ H)[: len(poles)]
+    Q, _ = np.linalg.qr(_columns(omega, poles))
+    c = _coefficients(omega, H, poles)[: len(poles)]
     change = -(c * np.abs(poles.real) / (1j * omega[:, None] - poles) ** 2)
     change = change - Q @ (Q.conj().T @ change)
     both = np.hstack([change, 1j * change])

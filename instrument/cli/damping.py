@@ -15,6 +15,8 @@ from instrument.impact.judge import judge
 from instrument.impact.record import Hit
 from instrument.impact.spectra import Estimator
 
+_HIGHEST_RATE = 1e8
+
 
 def _band(_: click.Context, __: click.Parameter, text: str | None) -> tuple[float, float] | None:
     if text is None:
@@ -82,6 +84,8 @@ def damping(
     Files: .csv, .lvm, .uff, .unv, .mat.
     """
     out = Output(json_path)
+    if rate is not None and not rate < _HIGHEST_RATE:
+        raise BadInput(f"--rate {rate:g}, expected samples a second below {_HIGHEST_RATE:g}")
     named = Named(force, tuple(response.split(",")) if response else (), rate)
     read = [read_records(path, named) for path in records]
     if any(isinstance(r, dict) for r in read):
@@ -133,7 +137,8 @@ def _estimate(e: Estimate | Refusal) -> dict[str, float] | None:
 def _check_alike(hits: list[Hit]) -> None:
     first = hits[0]
     for hit in hits[1:]:
-        if len(hit.force_n) != len(first.force_n) or hit.sample_rate_hz != first.sample_rate_hz:
+        same_rate = abs(hit.sample_rate_hz / first.sample_rate_hz - 1) < 1e-4
+        if len(hit.force_n) != len(first.force_n) or not same_rate:
             raise BadInput(
                 f"{hit.source}: {len(hit.force_n)} samples at {hit.sample_rate_hz:g}/s, expected "
                 f"{len(first.force_n)} at {first.sample_rate_hz:g}/s as in {first.source}"

@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 class _Mode(BaseModel):
     frequency_hz: float = Field(gt=0, allow_inf_nan=False)
-    damping_ratio: float | None = None
+    damping_ratio: float | None = Field(default=None, ge=0, lt=0.2, allow_inf_nan=False)
     accepted: bool = True
 
 
@@ -32,7 +32,8 @@ def read_hammer(path: Path) -> tuple[Array, Array]:
     except (ValidationError, RecursionError) as error:
         first = error.errors()[0] if isinstance(error, ValidationError) else None
         place = ".".join(str(p) for p in first["loc"]) if first else "nesting"
-        raise BadInput(f"{path}: {place}: not the JSON of 'viscorig damping'") from None
+        said = f": {first['msg'].lower()}" if first else ""
+        raise BadInput(f"{path}: {place}{said}, expected the JSON of 'viscorig damping'") from None
     modes = [m for m in document.modes if m.accepted]
     if not modes:
         raise BadInput(f"{path}: no accepted mode")

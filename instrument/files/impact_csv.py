@@ -26,6 +26,7 @@ FRF_STEMS: dict[str, Motion] = {
 }
 _RATE = re.compile(r"^#\s*sample_rate_hz\s*:\s*(\S+)", re.M)
 _OFF_GRID = 0.2
+_CONTRADICTION = 2e-3
 
 
 def is_frf(header: list[str]) -> bool:
@@ -45,7 +46,7 @@ def read_impact_csv(path: Path, rate_hz: float | None = None) -> list[Hit] | dic
             f"{', '.join(MOTIONS)} (units are part of the name), or an FRF with frequency_hz"
         )
     columns = {n: _column(path, header, rows, n) for n in ("force_n", *names, "time_s", "hit") if n in header}
-    rate = rate_hz or _stated_rate(path) or _rate_of(path, columns)
+    rate = _rate(path, columns, rate_hz)
     which = columns.get("hit", np.ones(len(rows)))
     hits = []
     for number_of_hit in np.unique(which):
@@ -105,6 +106,20 @@ def _stated_rate(path: Path) -> float | None:
     if rate <= 0:
         raise BadInput(f"{path}: sample_rate_hz: {rate:g}, expected more than 0")
     return rate
+
+
+def _rate(path: Path, columns: dict[str, Array], rate_hz: float | None) -> float:
+    """The rate the file states or its times give; the option where neither does. They must not contradict."""
+    stated = _stated_rate(path)
+    said = [r for r in (rate_hz, stated) if r is not None]
+    if "time_s" in columns or not said:
+        said.append(_rate_of(path, columns))
+    if max(said) > min(said) * (1 + _CONTRADICTION):
+        raise BadInput(
+            f"{path}: sample rates contradict: {', '.join(f'{r:.6g}' for r in said)} Hz "
+            "(--rate, sample_rate_hz, time_s)"
+        )
+    return said[0]
 
 
 def _rate_of(path: Path, columns: dict[str, Array]) -> float:

@@ -44,6 +44,8 @@ def read_records(path: Path, named: Named) -> list[Hit] | dict[str, Frf]:
     ending = path.suffix.lower()
     if not path.is_file():
         raise BadInput(f"{path}: no such file")
+    if ending == ".csv" and (named.force or named.responses):
+        raise BadInput(f"{path}: the columns of a CSV say what they are; --force and --response do not apply")
     if ending == ".csv":
         return read_impact_csv(path, named.rate_hz)
     if ending in (".uff", ".unv"):

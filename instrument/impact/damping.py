@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.ndimage import median_filter
 from scipy.signal import find_peaks
 from threadpoolctl import threadpool_limits
 
@@ -22,8 +23,10 @@ PADDING = 8
 HALF_POWER_END = 0.01
 """Where its exponential window ends."""
 DISAGREEMENT = 0.10
-PROMINENCE_DB = 15.0
-MOST_MODES = 30
+PROMINENCE = 6.0
+"""Of a peak over the scatter of the lines."""
+_SCATTER_LINES = 101
+MOST_MODES = 60
 _UNDECAYED = 0.2
 """A record that ends at more than this share of a mode's start gives no half-power value."""
 _CUT = 0.05
@@ -126,16 +129,29 @@ def _modes(
     for f in at_hz:
         if f >= highest:
             raise BadInput(f"--at {f:g} Hz is beyond the data, expected less than {highest:g} Hz")
-    if at_hz:
-        centres = sorted(at_hz)
-    else:
-        centres = _merged([peak for frf in fine.values() for peak in _peaks(frf, band)], 2 / seconds)
+    centres = sorted(set(at_hz)) if at_hz else _found(plain, fine, band, seconds)
     modes = []
     with threadpool_limits(1, "blas"):
         for f in centres:
             candidates = [_mode(name, plain[name], fine[name], f, centres, seconds) for name in plain]
             modes.append(min(candidates, key=_doubt))
     return tuple(m for m in modes if at_hz or m.accepted)
+
+
+def _found(
+    plain: dict[str, Frf], fine: dict[str, Frf], band: tuple[float, float], seconds: float
+) -> list[float]:
+    """Peaks that a pole of their own explains. The others are noise, and no neighbours to reckon with."""
+    explained = []
+    with threadpool_limits(1, "blas"):
+        for name, frf in fine.items():
+            for f, prominence in _peaks(plain[name], frf, band):
+                start = half_power(frf, f)
+                guess = max(start.ratio, 1e-4) if isinstance(start, Estimate) else _START_RATIO
+                fits = (rational_fit(plain[name], f, ratio) for ratio in (guess, _START_RATIO))
+                if any(isinstance(fit, RationalFit) for fit in fits):
+                    explained.append((f, prominence))
+    return _merged(explained, 2 / seconds)
 
 
 def _doubt(mode: Mode) -> float:
@@ -145,15 +161,25 @@ def _doubt(mode: Mode) -> float:
     return np.inf
 
 
-def _peaks(frf: Frf, band: tuple[float, float]) -> list[tuple[float, float]]:
-    """Frequency and prominence in dB of the strongest peaks."""
-    inside = frf.between(*band)
-    if len(inside.H) < 5:
+def _peaks(plain: Frf, fine: Frf, band: tuple[float, float]) -> list[tuple[float, float]]:
+    """Frequency and height over the scatter of the most outstanding peaks.
+
+    Not in decibels: noise has deep nulls, and its peaks stand higher above those than modes do.
+    """
+    inside = fine.between(*band)
+    if len(inside.H) < 5 or len(plain.between(*band).H) < 5:
         raise BadInput(f"band {band[0]:g} to {band[1]:g} Hz holds {len(inside.H)} lines, expected 5 or more")
-    level = 20 * np.log10(np.maximum(np.abs(inside.H), 1e-300))
-    where, facts = find_peaks(level, prominence=PROMINENCE_DB)
-    strongest = np.argsort(-facts["prominences"])[:MOST_MODES]
-    return [(float(inside.frequency_hz[where[k]]), float(facts["prominences"][k])) for k in strongest]
+    where, facts = find_peaks(np.abs(inside.H), prominence=0)
+    height = facts["prominences"] / _scatter(plain, inside.frequency_hz[where])
+    best = [k for k in np.argsort(-height)[:MOST_MODES] if height[k] > PROMINENCE]
+    return [(float(inside.frequency_hz[where[k]]), float(height[k])) for k in best]
+
+
+def _scatter(frf: Frf, at_hz: Array) -> Array:
+    """Typical departure of a line from its neighbours' mean, nearby: noise, not modes."""
+    away = np.abs(frf.H[1:-1] - (frf.H[:-2] + frf.H[2:]) / 2)
+    typical = median_filter(away, size=_SCATTER_LINES, mode="nearest")
+    return np.interp(at_hz, frf.frequency_hz[1:-1], np.maximum(typical, 1e-12 * np.abs(frf.H).max()))
 
 
 def _merged(peaks: list[tuple[float, float]], apart_hz: float) -> list[float]:

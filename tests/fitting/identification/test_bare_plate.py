@@ -80,6 +80,11 @@ def test_foreign_modes_are_left_out_or_refused(zn1, bare_hz):
         fit_bare_plate(zn1, np.array([3.0, 30.0]), np.array([0.01, 0.01]))
 
 
+def test_another_plates_modes_are_refused(zn1, bare_hz):
+    with pytest.raises(TooFewPoints, match="is it this specimen"):
+        fit_bare_plate(zn1, 1.6 * bare_hz, np.array(zn1.modal_ratios))
+
+
 def test_identify_takes_the_hammers_json(zn1, stiff, bare_hz, tmp_path, capsys):
     modes = [
         {"frequency_hz": f, "damping_ratio": z, "accepted": True}

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from impact_cases import BARE_HZ, RATE, SECONDS, TABLE_3, clean_hit, hit_of, noisy_hits
@@ -214,3 +216,19 @@ def test_an_empty_band_says_so(clean):
     found = found_in([hit_of(*clean)], band_hz=(1.0, 3.0))
     assert found.modes == ()
     assert any("no mode found" in w for w in found.warnings)
+
+
+@pytest.mark.parametrize("motion", ["displacement", "velocity"])
+def test_modes_are_found_in_noise_whatever_is_measured(motion):
+    clean = clean_hit(BARE_HZ[:6], TABLE_3[:6], np.ones(6), motion=motion)
+    hits = [
+        replace(h, responses=(replace(h.responses[0], motion=motion),))
+        for h in noisy_hits(clean, np.random.default_rng(0))
+    ]
+    np.testing.assert_allclose([m.frequency_hz for m in found_in(hits).modes], BARE_HZ[:6], rtol=1e-3)
+
+
+def test_a_strongly_damped_mode_is_found():
+    clean = clean_hit(np.array([100.0]), np.array([0.03]), np.ones(1))
+    (mode,) = found_in(noisy_hits(clean, np.random.default_rng(0))).modes
+    assert mode.damping_ratio == pytest.approx(0.03, rel=1e-2)

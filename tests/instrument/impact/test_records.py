@@ -117,6 +117,11 @@ BAD = {
     "units.csv": ("force,acceleration\n1,2\n", "units are part of the name"),
     "rate.csv": ("force_n,acceleration_m_s2\n" + "1,2\n" * 20, "no sample rate"),
     "uneven.csv": ("time_s,force_n,velocity_m_s\n0,1,1\n1,1,1\n5,1,1\n", "evenly"),
+    "rates.csv": (
+        "# sample_rate_hz: 48000\ntime_s,force_n,velocity_m_s\n"
+        + "".join(f"{k / 1000},0,1\n" for k in range(20)),
+        "contradict",
+    ),
     "nan.csv": ("# sample_rate_hz: 10\nforce_n,velocity_m_s\nnan,1\n", "line 3: force_n = nan"),
     "empty.csv": ("", "empty"),
     "frf.csv": ("frequency_hz,accelerance_re\n1,2\n", "frequency_hz, expected 5"),
