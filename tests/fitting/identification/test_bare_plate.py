@@ -108,7 +108,15 @@ def test_identify_takes_the_hammers_json(zn1, stiff, bare_hz, tmp_path, capsys):
 
 
 @pytest.mark.parametrize(
-    "text", ["", "{", '{"modes": 3}', '{"modes": []}', '{"modes": [{"frequency_hz": -1}]}']
+    "text",
+    [
+        "",
+        "{",
+        '{"modes": 3}',
+        '{"modes": []}',
+        '{"modes": [{"frequency_hz": -1}]}',
+        '{"modes": [{"frequency_hz": 17.7, "damping_ratio": 0.29}]}',  # percent for a fraction
+    ],
 )
 def test_bad_hammer_json_is_refused_in_one_line(tmp_path, capsys, text):
     path: Path = tmp_path / "h.json"
