@@ -1,7 +1,6 @@
 """`viscorig damping`: natural frequencies and damping ratios from impact tests."""
 
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -11,6 +10,7 @@ from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.files.records import Named, read_records
 from instrument.impact.damping import Damping, damping_of_frfs, damping_of_hits
+from instrument.impact.facts import damping_facts
 from instrument.impact.judge import judge
 from instrument.impact.record import Hit
 from instrument.impact.spectra import Estimator
@@ -105,33 +105,6 @@ def damping(
         for path in save_figures(found, figures):
             out.say(f"saved {path}")
     out.result(damping_facts(found))
-
-
-def damping_facts(found: Damping) -> dict[str, Any]:
-    """The JSON of `damping`."""
-    return {
-        "modes": [
-            {
-                "frequency_hz": m.frequency_hz,
-                "damping_ratio": m.damping_ratio,
-                "channel": m.channel,
-                "half_power": _estimate(m.half_power),
-                "rational_fit": _estimate(m.rational_fit),
-                "lscf": _estimate(m.lscf),
-                "lines_in_bandwidth": m.lines_in_bandwidth,
-                "bandwidths_to_next": m.bandwidths_to_next,
-                "accepted": m.accepted,
-                "why": m.why,
-            }
-            for m in found.modes
-        ],
-        "hits": [{"source": j.hit.source, "accepted": j.accepted, "why": j.why} for j in found.hits],
-        "warnings": list(found.warnings),
-    }
-
-
-def _estimate(e: Estimate | Refusal) -> dict[str, float] | None:
-    return {"ratio": e.ratio, "standard_error": e.standard_error} if isinstance(e, Estimate) else None
 
 
 def _check_alike(hits: list[Hit]) -> None:

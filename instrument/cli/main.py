@@ -1,19 +1,40 @@
 """The command `viscorig`: its commands, and one line instead of a traceback."""
 
 import sys
+from contextlib import suppress
 from importlib import import_module
 from importlib.metadata import version
+from keyword import iskeyword
 
 import click
 
+from drivers.errors import DriverError
 from fitting.errors import FittingError
-from instrument.errors import BadInput
+from instrument.errors import BadInput, RigStopped
 
 BAD_INPUT = 2
+RIG_STOPPED = 3
 STOPPED_BY_USER = 130
 
-COMMANDS = ("modes", "predict", "damping", "identify", "demo", "bench")
-"""Each is a function of that name in the module of that name beside this file."""
+COMMANDS = (
+    "demo",
+    "check",
+    "run",
+    "hammer",
+    "sweep",
+    "simulate",
+    "replay",
+    "recover",
+    "modes",
+    "predict",
+    "damping",
+    "identify",
+    "report",
+    "export",
+    "import",
+    "bench",
+)
+"""Each is a function of that name in the module of that name beside this file (or `import_`)."""
 
 
 class _Commands(click.Group):
@@ -27,7 +48,8 @@ class _Commands(click.Group):
         """The command, or None where there is none of that name."""
         if name not in COMMANDS:
             return None
-        found = getattr(import_module(f"instrument.cli.{name}"), name)
+        known = f"{name}_" if iskeyword(name) else name
+        found = getattr(import_module(f"instrument.cli.{known}"), known)
         return found if isinstance(found, click.Command) else None
 
 
@@ -40,7 +62,7 @@ def viscorig() -> None:
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Run and exit: 0 done, 2 bad input or usage, 130 stopped by the user."""
+    """Run and exit: 0 done, 2 bad input or usage, 3 the rig stopped itself, 130 stopped by the user."""
     sys.exit(run(arguments))
 
 
@@ -56,8 +78,11 @@ def run(arguments: list[str] | None = None) -> int:
         return _refuse(error.format_message())
     except (BadInput, FittingError) as error:
         return _refuse(str(error))
-    except (click.Abort, KeyboardInterrupt):
-        click.echo("viscorig: stopped", err=True)
+    except (RigStopped, DriverError) as error:
+        _say(str(error))
+        return RIG_STOPPED
+    except (click.Abort, KeyboardInterrupt) as stop:
+        _say(": ".join(["stopped", *(str(a) for a in stop.args)]))
         return STOPPED_BY_USER
     except BrokenPipeError:
         # The reader of our output has gone; nothing is left to say.
@@ -66,5 +91,11 @@ def run(arguments: list[str] | None = None) -> int:
 
 
 def _refuse(message: str) -> int:
-    click.echo("viscorig: " + " ".join(message.split()), err=True)
+    _say(message)
     return BAD_INPUT
+
+
+def _say(message: str) -> None:
+    """One line on standard error; a terminal that is gone hears nothing."""
+    with suppress(OSError):
+        click.echo("viscorig: " + " ".join(message.split()), err=True)

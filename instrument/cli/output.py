@@ -6,11 +6,11 @@ from pathlib import Path
 from typing import Any
 
 import click
-import numpy as np
 from rich.console import Console
 from rich.table import Table
 
 from instrument.errors import BadInput
+from instrument.plain import plain
 
 
 class Output:
@@ -50,19 +50,6 @@ class Output:
             Path(self._json_path).write_text(text + "\n", encoding="utf-8")
         except OSError as error:
             raise BadInput(f"{self._json_path}: {error.strerror or error}") from None
-
-
-def plain(value: Any) -> Any:
-    """Numbers, lists and objects that JSON knows; NaN and infinity become null."""
-    if isinstance(value, dict):
-        return {str(key): plain(item) for key, item in value.items()}
-    if isinstance(value, list | tuple | np.ndarray):
-        return [plain(item) for item in value]
-    if isinstance(value, np.generic):
-        return plain(value.item())
-    if isinstance(value, float) and not math.isfinite(value):
-        return None
-    return value
 
 
 def _numeric(rows: list[list[str]], column: int) -> bool:

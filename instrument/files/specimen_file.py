@@ -1,35 +1,27 @@
 """SPECIMEN.toml: its keys, units and limits, and the `Specimen` it describes."""
 
-import tomllib
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, create_model, model_validator
+from pydantic import Field, ValidationError, create_model, model_validator
 
 from fitting.errors import OutsideModel
 from fitting.laws import LAWS, CoreLaw
 from fitting.specimen import Boundary, Core, Face, Reading, Specimen
 from instrument.errors import BadInput
-from instrument.files.text import read_text
+from instrument.files.toml import NotNegative, Percent, Positive, Table, one_line, read_document
 
-Positive = Annotated[float, Field(gt=0, le=1e9, allow_inf_nan=False)]
-NotNegative = Annotated[float, Field(ge=0, le=1e9, allow_inf_nan=False)]
 Poisson = Annotated[float, Field(gt=-1, lt=0.5, allow_inf_nan=False)]
-Percent = Annotated[float, Field(ge=0, lt=100, allow_inf_nan=False)]
 Elements = Annotated[int, Field(ge=2, le=400)]
 
 
-class _Table(BaseModel):
-    model_config = ConfigDict(extra="forbid", strict=True)
-
-
-class _Plate(_Table):
+class _Plate(Table):
     length_mm: Positive
     width_mm: Positive
     boundary: Boundary
 
 
-class _Layer(_Table):
+class _Layer(Table):
     thickness_mm: Positive
     young_gpa: Positive
     poisson: Poisson
@@ -46,33 +38,33 @@ class _Layer(_Table):
         )
 
 
-class _Core(_Table):
+class _Core(Table):
     thickness_mm: Positive
     poisson: Poisson
     density_kg_m3: Positive
     law: dict[str, Any]
 
 
-class _Damping(_Table):
+class _Damping(Table):
     modal_percent: list[Percent] = Field(max_length=50)
 
 
-class _Pickup(_Table):
+class _Pickup(Table):
     x_mm: NotNegative
     y_mm: NotNegative
     reads: Reading = "relative"
 
 
-class _Base(_Table):
+class _Base(Table):
     acceleration_m_s2: Positive
 
 
-class _Mesh(_Table):
+class _Mesh(Table):
     elements_x: Elements
     elements_y: Elements
 
 
-class _Tolerances(_Table):
+class _Tolerances(Table):
     """Standard deviations in percent of what was measured or looked up."""
 
     substrate_young_percent: NotNegative | None = None
@@ -85,7 +77,9 @@ class _Tolerances(_Table):
     core_density_percent: NotNegative | None = None
 
 
-class _Document(_Table):
+class SpecimenDocument(Table):
+    """SPECIMEN.toml."""
+
     plate: _Plate
     substrate: _Layer
     constraining: _Layer | None = None
@@ -97,7 +91,7 @@ class _Document(_Table):
     tolerances: _Tolerances | None = None
 
     @model_validator(mode="after")
-    def _whole(self) -> "_Document":
+    def _whole(self) -> "SpecimenDocument":
         if (self.core is None) != (self.constraining is None):
             missing = "constraining" if self.constraining is None else "core"
             raise ValueError(f"[{missing}] is missing, expected [core] and [constraining] both or neither")
@@ -113,21 +107,14 @@ class _Document(_Table):
 
 def read_specimen(path: Path) -> Specimen:
     """Read and check a specimen. Raises `BadInput` with one line."""
-    text = read_text(path)
     try:
-        document = _Document.model_validate(tomllib.loads(text))
-        return _specimen(document)
-    except tomllib.TOMLDecodeError as error:
-        raise BadInput(f"{path}: not TOML: {error}") from None
-    except ValidationError as error:
-        raise BadInput(f"{path}: {_one_line(error)}") from None
+        return specimen_of(read_document(path, SpecimenDocument))
     except OutsideModel as error:
         raise BadInput(f"{path}: {error}") from None
-    except (RecursionError, OverflowError, ValueError) as error:
-        raise BadInput(f"{path}: not a specimen: {str(error)[:_LONGEST]}") from None
 
 
-def _specimen(d: _Document) -> Specimen:
+def specimen_of(d: SpecimenDocument) -> Specimen:
+    """The specimen a document describes. Raises `OutsideModel`."""
     core = None
     if d.core is not None:
         core = Core(d.core.thickness_mm * 1e-3, d.core.poisson, d.core.density_kg_m3, _law(d.core.law))
@@ -147,7 +134,7 @@ def _specimen(d: _Document) -> Specimen:
     )
 
 
-def _tolerances(d: _Document) -> dict[str, float]:
+def _tolerances(d: SpecimenDocument) -> dict[str, float]:
     given = d.tolerances.model_dump(exclude_none=True) if d.tolerances is not None else {}
     return {name.removesuffix("_percent"): percent / 100 for name, percent in given.items() if percent > 0}
 
@@ -164,11 +151,11 @@ def _law(table: dict[str, Any]) -> CoreLaw:
         one = Annotated[float, Field(allow_inf_nan=False)]
         is_list = law.__annotations__[name] is not float
         fields[quantity.file_key] = (list[one] if is_list else one, ...)
-    model = create_model("core.law", __base__=_Table, **fields)
+    model = create_model("core.law", __base__=Table, **fields)
     try:
         given = model.model_validate({k: v for k, v in table.items() if k != "kind"})
     except ValidationError as error:
-        raise OutsideModel(_one_line(error, prefix="core.law.")) from None
+        raise OutsideModel(one_line(error, prefix="core.law.")) from None
     values = {}
     for name, quantity in law.quantities().items():
         value = getattr(given, quantity.file_key)
@@ -180,26 +167,3 @@ def _law(table: dict[str, Any]) -> CoreLaw:
     for objection in built.objections():
         raise OutsideModel(f"core.law: {objection}")
     return built
-
-
-_MOST_SHOWN = 3
-_LONGEST = 80
-
-
-def _one_line(error: ValidationError, prefix: str = "") -> str:
-    """What is wrong where, the first few faults in one line."""
-    said = []
-    for fault in error.errors():
-        place = prefix + ".".join(str(part) for part in fault["loc"])
-        message = fault["msg"].removeprefix("Value error, ")
-        found = "" if isinstance(fault["input"], dict | list) else f"{fault['input']!r}"[:_LONGEST] + ", "
-        if fault["type"] == "missing":
-            said.append(f"{place}: missing")
-        elif fault["type"] == "extra_forbidden":
-            said.append(f"{place}: unknown key")
-        elif place == prefix:
-            said.append(message)
-        else:
-            said.append(f"{place}: {found}{message.lower()}")
-    more = len(said) - _MOST_SHOWN
-    return "; ".join(said[:_MOST_SHOWN]) + (f"; and {more} more" if more > 0 else "")

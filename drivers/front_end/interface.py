@@ -1,0 +1,77 @@
+"""The front-end as the rest of the program sees it: blocks of samples on one clock."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class InputChannel:
+    """An input to record."""
+
+    number: int
+    """As printed on the device, from 1."""
+    name: str
+    iepe: bool = False
+    """Feed the sensor."""
+    range_v: float = 10.0
+    """Peak. The device takes the next larger one it has; `Block.full_scale_v` says which."""
+
+
+@dataclass(frozen=True)
+class Block:
+    """Samples in a row from every channel, as the converters gave them."""
+
+    first_sample: int
+    """Index of the first one since `start`."""
+    counts: NDArray[np.int32]
+    """Shape (channels, samples), in the order the channels were asked for."""
+    volts_per_count: NDArray[np.float64]
+    """Shape (channels,)."""
+    full_scale_v: NDArray[np.float64]
+    """Shape (channels,)."""
+    overload: NDArray[np.bool_]
+    """Shape (channels,): somewhere in the block."""
+    cable_fault: NDArray[np.bool_]
+    """Shape (channels,): an open or shorted sensor."""
+
+    @property
+    def samples(self) -> int:
+        """How many there are of each channel."""
+        return int(self.counts.shape[1])
+
+    @property
+    def volts(self) -> NDArray[np.float64]:
+        """Shape (channels, samples)."""
+        return self.counts * self.volts_per_count[:, None]
+
+
+class FrontEnd(Protocol):
+    """Every method returns within a bounded time or raises a `DriverError`."""
+
+    @property
+    def sample_rate_hz(self) -> float:
+        """As the device runs, after `start`."""
+        ...
+
+    def identity(self) -> str:
+        """Model and serial number, as the device states them."""
+        ...
+
+    def start(self, channels: tuple[InputChannel, ...], sample_rate_hz: float) -> None:
+        """Begin to sample; index 0 is the first sample after it. Refused where the rate is not to be had."""
+        ...
+
+    def read(self, samples: int) -> Block:
+        """The next `samples` of each channel, none lost, or a `DriverError`."""
+        ...
+
+    def stop(self) -> None:
+        """End sampling. Works in any state, also twice."""
+        ...
+
+    def close(self) -> None:
+        """Let go of the connection."""
+        ...

@@ -1,0 +1,286 @@
+"""An HBK LAN-XI module, over its open interface: JSON over HTTP to set it, a TCP stream of samples.
+
+One rule: the module is taken over as it is found. A program that was killed leaves it open or even recording;
+it is stopped, finished and closed first.
+
+With `paced_by_reader` the driver reads from the simulated module in virtual time: before it waits for samples
+it sends, on the stream's own connection, how many it lacks as a 32-bit little-endian number. That is the
+simulator's extension; a real module is never sent anything.
+"""
+
+import socket
+import struct
+import time
+from collections.abc import Mapping
+from contextlib import suppress
+from typing import Any, NoReturn
+from urllib.parse import urlsplit
+
+import httpx
+import numpy as np
+
+from drivers.errors import DriverError, Garbled, Refused, TimedOut, Unreachable
+from drivers.front_end import lan_xi_documents as documents
+from drivers.front_end.interface import Block, InputChannel
+from drivers.front_end.lan_xi_documents import ChannelSetup
+from drivers.front_end.lan_xi_frames import Decoder
+from drivers.front_end.lan_xi_stream import StreamReader
+
+_DETECTION_S = 60.0
+"""Sensors with a chip are read one by one; longer than this the module hangs."""
+_POLL_S = 0.05
+_PIECE_BYTES = 1 << 20
+_CREDIT = struct.Struct("<I")
+
+
+class LanXiFrontEnd:
+    """A `FrontEnd`.
+
+    Parameters
+    ----------
+    url
+        `http://<address>`.
+    timeout_s
+        For one request, and for silence of the stream.
+    retries
+        More attempts to connect.
+    paced_by_reader
+        Of the simulated module only, see the module's docstring.
+
+    Raises
+    ------
+    Unreachable, TimedOut, Garbled, Refused
+    """
+
+    def __init__(
+        self, url: str, *, timeout_s: float = 5.0, retries: int = 2, paced_by_reader: bool = False
+    ) -> None:
+        self._url, self._timeout_s, self._paced = url.rstrip("/"), timeout_s, paced_by_reader
+        parts = urlsplit(self._url)
+        if parts.scheme != "http" or not parts.hostname:
+            raise Refused(f"{self._me}: expected http://<address>")
+        self._host = parts.hostname
+        # Instruments sit on the local network: a proxy from the environment leads away from them. They
+        # know no HTTPS, so there are no certificates to read.
+        self._http = httpx.Client(
+            base_url=f"{self._url}/rest/rec",
+            timeout=timeout_s,
+            transport=httpx.HTTPTransport(verify=False, retries=retries),
+            trust_env=False,
+        )
+        self._socket: socket.socket | None = None
+        self._reader: StreamReader | None = None
+        self._decoder = Decoder()
+        self._sample_rate_hz = 0.0
+        self.transducers: tuple[str | None, ...] = ()
+        """Type and serial number of the sensors that say who they are, by input."""
+        try:
+            self._info = documents.read_module_info(self._json("GET", "/module/info"))
+            self._take_over()
+            self.transducers = self._detect()
+        except BaseException:
+            self._http.close()
+            raise
+
+    @property
+    def sample_rate_hz(self) -> float:
+        """As the device runs, after `start`."""
+        return self._sample_rate_hz
+
+    def identity(self) -> str:
+        """Model and serial number, as the device states them."""
+        return f"LAN-XI {self._info.type}, serial number {self._info.serial}"
+
+    def start(self, channels: tuple[InputChannel, ...], sample_rate_hz: float) -> None:
+        """Begin to sample; index 0 is the first sample after it. Refused where the rate is not to be had."""
+        if self._reader is not None:
+            raise Refused(f"{self._me}: it is sampling: stop it first")
+        rate_hz = documents.choose_rate(self._info, sample_rate_hz)
+        setups = self._setups(channels)
+        self._request("PUT", "/create")
+        try:
+            default = self._json("GET", "/channels/input/default")
+            self._request("PUT", "/channels/input", documents.fill_setup(default, setups, rate_hz))
+            self._connect(documents.read_port(self._json("GET", "/destination/socket")))
+            self._decoder = Decoder()
+            # The device counts its signals in the order of its inputs, whatever the order asked for.
+            order = sorted(range(len(setups)), key=lambda k: setups[k].number)
+            self._order = np.argsort(order)
+            full_scale_v = np.array([setups[k].range_v for k in order])
+            self._reader = StreamReader(full_scale_v, rate_hz)
+            self._sample_rate_hz = rate_hz
+            self._request("POST", "/measurements")
+        except BaseException:
+            with suppress(DriverError):
+                self._stop()
+            raise
+
+    def read(self, samples: int) -> Block:
+        """The next `samples` of each channel, none lost, or a `DriverError`."""
+        reader = self._reader
+        if reader is None:
+            raise Refused(f"{self._me}: it is not sampling: start it first")
+        if self._paced and reader.available < samples:
+            self._send_credit(samples - reader.available)
+        while reader.available < samples:
+            for message in self._decoder.feed(self._receive()):
+                reader.take(message)
+        return _in_order(reader.block(samples), self._order)
+
+    def stop(self) -> None:
+        """End sampling. Works in any state, also twice."""
+        if self._reader is not None:
+            self._stop()
+
+    def close(self) -> None:
+        """Let go of the connection; the module goes back to idle if it still answers."""
+        if self._http.is_closed:
+            return
+        with suppress(DriverError):
+            self.stop()
+        with suppress(DriverError):
+            self._request("PUT", "/close")
+        self._disconnect()
+        self._http.close()
+
+    @property
+    def _me(self) -> str:
+        return f"front-end at {self._url}"
+
+    def _setups(self, channels: tuple[InputChannel, ...]) -> list[ChannelSetup]:
+        numbers = [channel.number for channel in channels]
+        if not numbers or len(set(numbers)) < len(numbers):
+            raise Refused(f"{self._me}: channels {numbers}: expected one or more, each once")
+        for number in numbers:
+            if not 1 <= number <= self._info.inputs:
+                raise Refused(
+                    f"{self._me}: channel {number}: {self._info.type} has inputs 1 to {self._info.inputs}"
+                )
+        return [
+            ChannelSetup(c.number, c.name, documents.choose_range(self._info, c.range_v), c.iepe)
+            for c in channels
+        ]
+
+    def _take_over(self) -> None:
+        """Bring the module, whatever state a program left it in, to an open recorder."""
+        state, _, _ = documents.read_status(self._json("GET", "/onchange"))
+        undo = {
+            documents.RECORDING: ("/measurements/stop", "/finish", "/close"),
+            documents.STREAMING: ("/finish", "/close"),
+            documents.CONFIGURING: ("/finish", "/close"),
+            documents.OPENED: ("/close",),
+        }
+        for path in undo.get(state, ()):
+            # States this driver does not know of lie between: what matters is that it opens in the end.
+            with suppress(Refused):
+                self._request("PUT", path)
+        self._request("PUT", "/open", documents.OPEN_PARAMETERS)
+
+    def _detect(self) -> tuple[str | None, ...]:
+        self._request("POST", "/channels/input/all/transducers/detect")
+        deadline = time.monotonic() + _DETECTION_S
+        tag, active = 0, True
+        while True:
+            _, tag, active = documents.read_status(self._json("GET", "/onchange", last=tag))
+            if not active:
+                return documents.read_transducers(self._json("GET", "/channels/input/all/transducers"))
+            if time.monotonic() > deadline:
+                raise TimedOut(
+                    f"{self._me}: detecting sensors took over {_DETECTION_S:g} s: restart the module"
+                )
+            time.sleep(_POLL_S)
+
+    def _stop(self) -> None:
+        """The measurement first: a module whose reader goes away while it measures reports lost data."""
+        problem: DriverError | None = None
+        for path in ("/measurements/stop", "/finish"):
+            try:
+                self._request("PUT", path)
+            except Refused:
+                # Nothing to stop or to finish: a start that failed half way.
+                continue
+            except DriverError as error:
+                problem = error
+                break
+        self._disconnect()
+        self._reader = None
+        if problem is not None:
+            raise problem
+
+    def _connect(self, port: int) -> None:
+        self._disconnect()
+        try:
+            self._socket = socket.create_connection((self._host, port), self._timeout_s)
+        except TimeoutError as error:
+            raise TimedOut(f"{self._me}: no stream at port {port} in {self._timeout_s:g} s") from error
+        except OSError as error:
+            raise Unreachable(f"{self._me}: no stream at port {port}: {error}") from error
+        self._socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+
+    def _disconnect(self) -> None:
+        if self._socket is not None:
+            # Closing alone does not wake a thread that waits in `recv`.
+            with suppress(OSError):
+                self._socket.shutdown(socket.SHUT_RDWR)
+            self._socket.close()
+        self._socket = None
+
+    def _send_credit(self, samples: int) -> None:
+        try:
+            self._stream().sendall(_CREDIT.pack(samples))
+        except OSError as error:
+            self._lost(error)
+
+    def _receive(self) -> bytes:
+        try:
+            received = self._stream().recv(_PIECE_BYTES)
+        except TimeoutError as error:
+            raise TimedOut(f"{self._me}: the stream is silent for {self._timeout_s:g} s") from error
+        except OSError as error:
+            self._lost(error)
+        if not received:
+            self._lost("it was closed by the module")
+        return received
+
+    def _stream(self) -> socket.socket:
+        if self._socket is None:
+            raise OSError("it is not connected")
+        return self._socket
+
+    def _lost(self, why: object) -> NoReturn:
+        raise Unreachable(f"{self._me}: the stream broke off: {why}: samples are lost")
+
+    def _json(self, method: str, path: str, **query: int) -> Any:
+        response = self._request(method, path, query=query)
+        try:
+            return response.json()
+        except ValueError as error:
+            raise Garbled(f"{self._me}: {method} {path}: {response.text[:60]!r} is no JSON") from error
+
+    def _request(
+        self, method: str, path: str, body: Any = None, query: Mapping[str, int] | None = None
+    ) -> httpx.Response:
+        what = f"{self._me}: {method} {path}"
+        try:
+            response = self._http.request(method, path, json=body, params=query)
+        except httpx.TimeoutException as error:
+            raise TimedOut(f"{what}: no answer in {self._timeout_s:g} s") from error
+        except httpx.RequestError as error:
+            raise Unreachable(f"{what}: {error}: is the module switched on and in this network?") from error
+        if response.is_error:
+            raise Refused(f"{what}: status {response.status_code}: {response.text.strip()[:100]}")
+        return response
+
+
+def _in_order(block: Block, order: Any) -> Block:
+    """Rows by the order asked for."""
+    if np.array_equal(order, np.arange(len(order))):
+        return block
+    return Block(
+        first_sample=block.first_sample,
+        counts=block.counts[order],
+        volts_per_count=block.volts_per_count[order],
+        full_scale_v=block.full_scale_v[order],
+        overload=block.overload[order],
+        cable_fault=block.cable_fault[order],
+    )

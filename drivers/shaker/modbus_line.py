@@ -1,0 +1,133 @@
+"""Modbus transactions, each bounded in time, over a connection that is made again where it is lost.
+
+One transaction at a time, in the order of arrival, and between two attempts the line is free: so a stop asked
+on another thread waits for one attempt at most.
+"""
+
+import logging
+import struct
+import time
+from collections.abc import Callable, Sequence
+
+from pymodbus.client import ModbusSerialClient, ModbusTcpClient
+from pymodbus.constants import ExcCodes
+from pymodbus.exceptions import ConnectionException, ModbusIOException
+from pymodbus.pdu import ModbusPDU
+
+from drivers.errors import DriverError, Garbled, Refused, TimedOut, Unreachable
+from drivers.shaker.turns import Turns
+
+# What goes wrong is raised, in one line; the library's own log is for those who ask for it.
+logging.getLogger("pymodbus").addHandler(logging.NullHandler())
+
+FIRST_PAUSE_S = 0.05
+"""Before the second attempt; it doubles with each further one."""
+
+
+class ModbusLine:
+    """A device on a Modbus connection. Opens when first used.
+
+    A transaction takes at most (retries + 1) x 3 timeout_s (connect, and an answer that trickles in) and the
+    pauses between the attempts. Repeating one must do no harm: an answer may be lost after the deed.
+    """
+
+    def __init__(
+        self,
+        client: ModbusTcpClient | ModbusSerialClient,
+        where: str,
+        *,
+        unit: int,
+        timeout_s: float,
+        retries: int,
+    ) -> None:
+        self.where = where
+        self._client = client
+        self._unit = unit
+        self._timeout_s = timeout_s
+        self._attempts = retries + 1
+        self._turns = Turns()
+
+    @classmethod
+    def tcp(cls, host: str, port: int, *, unit: int, timeout_s: float, retries: int) -> "ModbusLine":
+        """Modbus TCP."""
+        client = ModbusTcpClient(host, port=port, timeout=timeout_s, retries=0)
+        return cls(client, f"{host}:{port} unit {unit}", unit=unit, timeout_s=timeout_s, retries=retries)
+
+    @classmethod
+    def rtu(
+        cls, port: str, *, baud: int, parity: str, stop_bits: int, unit: int, timeout_s: float, retries: int
+    ) -> "ModbusLine":
+        """Modbus RTU on a serial port."""
+        client = ModbusSerialClient(
+            port, baudrate=baud, parity=parity, stopbits=stop_bits, timeout=timeout_s, retries=0
+        )
+        return cls(client, f"{port} unit {unit}", unit=unit, timeout_s=timeout_s, retries=retries)
+
+    def read(self, what: str, address: int, count: int) -> list[int]:
+        """Holding registers; `what` is for messages.
+
+        Raises
+        ------
+        Unreachable, TimedOut, Garbled
+            As the last attempt ended.
+        Refused
+            The device answered with a Modbus exception.
+        """
+        answer = self._transact(
+            f"reading {what}",
+            lambda: self._client.read_holding_registers(address, count=count, device_id=self._unit),
+        )
+        return list(answer.registers)
+
+    def write(self, what: str, address: int, words: Sequence[int]) -> None:
+        """Holding registers, in one piece. Raises as `read` does."""
+        self._transact(
+            f"writing {what}",
+            lambda: self._client.write_registers(address, list(words), device_id=self._unit),
+        )
+
+    def close(self) -> None:
+        """Let go of the connection; a later transaction opens it again."""
+        with self._turns:
+            self._client.close()  # type: ignore[no-untyped-call]
+
+    def _transact(self, what: str, ask: Callable[[], ModbusPDU]) -> ModbusPDU:
+        for attempt in range(self._attempts):
+            if attempt:
+                time.sleep(FIRST_PAUSE_S * 2 ** (attempt - 1))
+            with self._turns:
+                try:
+                    return self._once(what, ask)
+                except (Unreachable, TimedOut, Garbled) as problem:
+                    self._client.close()  # type: ignore[no-untyped-call]
+                    last: DriverError = problem
+        raise last
+
+    def _once(self, what: str, ask: Callable[[], ModbusPDU]) -> ModbusPDU:
+        here = f"shaker at {self.where}, {what}"
+        tried = f"in each of {self._attempts} attempts"
+        if not self._client.connect():
+            raise Unreachable(
+                f"{here}: no connection within {self._timeout_s:g} s {tried}: check power, cable and address"
+            )
+        try:
+            answer = ask()
+        except (ConnectionException, OSError) as problem:
+            raise Unreachable(f"{here}: the connection was lost {tried}: {problem}") from problem
+        except ModbusIOException as problem:
+            if "No response" in str(problem):
+                raise TimedOut(
+                    f"{here}: an answer expected, none came within {self._timeout_s:g} s {tried}"
+                ) from problem
+            raise Garbled(f"{here}: a Modbus answer expected: {problem}") from problem
+        except struct.error as problem:
+            raise Garbled(f"{here}: a Modbus answer expected: {problem}") from problem
+        if answer.isError():
+            raise Refused(f"{here}: refused with {_exception_name(answer)}")
+        return answer
+
+
+def _exception_name(answer: ModbusPDU) -> str:
+    code = answer.exception_code
+    name = ExcCodes(code).name if code in tuple(ExcCodes) else "unknown"
+    return f"Modbus exception {code} ({name})"

@@ -1,0 +1,131 @@
+"""The simulated rig: one world behind a Modbus shaker, a serial vibrometer and a LAN-XI front-end."""
+
+import json
+import threading
+from contextlib import ExitStack
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from drivers.shaker.register_map import DEFAULT, RegisterMap
+from drivers.simulated.lan_xi_server import LanXiServer
+from drivers.simulated.modbus_server import ModbusShakerServer
+from drivers.simulated.shaker_device import LogEntry, ShakerDevice
+from drivers.simulated.vibrometer_server import Head, VibrometerServer
+from drivers.simulated.world import World
+from drivers.vibrometer.interface import Range
+
+SAMPLE_RATES_HZ = tuple(131072.0 / 2**k for k in range(10))
+_TICK_S = 0.02
+_LONGEST_RAMP_S = 60.0
+
+
+@dataclass(frozen=True)
+class Ports:
+    """Where to listen; 0 for free ones."""
+
+    modbus: int = 0
+    front_end: int = 0
+
+
+class SimulatedRig:
+    """Stands from entering to leaving the context."""
+
+    def __init__(
+        self,
+        world: World,
+        *,
+        model: str,
+        signal_level: float,
+        delay_s: dict[str, float],
+        limit_v: float,
+        registers: RegisterMap = DEFAULT,
+        unit: int = 1,
+        heartbeat_timeout_s: float = 2.0,
+        ports: Ports = Ports(),
+        log: Path | None = None,
+    ) -> None:
+        self._world, self._ports, self._log_path = world, ports, log
+        self._written = 0
+        self._registers, self._unit = registers, unit
+        self.device = ShakerDevice(
+            world.drive,
+            limit_v=limit_v,
+            heartbeat_timeout_s=heartbeat_timeout_s,
+            # Virtual time may stand still for good once a program has hung: then there is no time for a ramp.
+            emergency_ramp_s=0.0 if world.virtual else 0.1,
+        )
+        world.advance = self.device.advance
+        self._head = Head(model=model, signal_level=signal_level, delay_s=delay_s, on_range=self._on_range)
+        self._ending = threading.Event()
+        self._stack = ExitStack()
+
+    def __enter__(self) -> dict[str, str]:
+        """Addresses by the names `viscorig simulate` prints."""
+        world = self._world
+        with ExitStack() as stack:
+            self._on_range(self._head.range)
+            vibrometer = stack.enter_context(VibrometerServer(self._head, lock=world.lock))
+            inputs = max(8, *world.wiring.inputs)
+            front_end = stack.enter_context(
+                LanXiServer(
+                    world,
+                    channels=inputs,
+                    sample_rates=SAMPLE_RATES_HZ,
+                    port=self._ports.front_end,
+                    pace="asked" if world.virtual else "real",
+                    side_door=world.at_side_door,
+                )
+            )
+            modbus = stack.enter_context(
+                ModbusShakerServer(
+                    self.device,
+                    self._registers,
+                    clock=world.clock,
+                    lock=world.lock,
+                    port=self._ports.modbus,
+                    rtu=True,
+                    unit=self._unit,
+                )
+            )
+            ticking = threading.Thread(target=self._tick, name="simulated rig", daemon=True)
+            ticking.start()
+            stack.callback(ticking.join)
+            stack.callback(self._ending.set)
+            self._stack = stack.pop_all()
+        self.front_end, self.vibrometer = front_end, vibrometer
+        host, port = modbus.address
+        return {
+            "modbus_tcp": f"{host}:{port}",
+            "modbus_rtu": modbus.rtu_path or "",
+            "vibrometer_tty": vibrometer.path,
+            "frontend_url": front_end.url,
+        }
+
+    def __exit__(self, *_: object) -> None:
+        self._stack.close()
+        # A ramp to rest ends, as it would have, though nobody watches.
+        now_s = self._world.clock()[1]
+        self.device.advance(now_s + _LONGEST_RAMP_S)
+        self._write_log()
+
+    def _on_range(self, chosen: Range) -> None:
+        laser = self._world.laser
+        laser.scale_m_s_v, laser.full_scale_v = chosen.scale_m_s_v, chosen.full_scale_v
+
+    def _tick(self) -> None:
+        while not self._ending.wait(_TICK_S):
+            with self._world.lock:
+                _, now_s = self._world.clock()
+                status = self.device.status(now_s)
+                self._world.tick(status.ramping and not status.running)
+                self._write_log()
+
+    def _write_log(self) -> None:
+        """The rig's own record of its shaker, a line an entry."""
+        if self._log_path is None:
+            return
+        new: list[LogEntry] = self.device.log[self._written :]
+        if new:
+            with self._log_path.open("a", encoding="utf-8") as file:
+                file.writelines(json.dumps(asdict(entry)) + "\n" for entry in new)
+            self._written += len(new)

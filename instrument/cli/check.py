@@ -1,0 +1,50 @@
+"""`viscorig check`: an experiment before it is run."""
+
+from pathlib import Path
+
+import click
+
+from instrument.check import all_faults, dry_run
+from instrument.cli.options import file_argument, json_option
+from instrument.cli.output import Output
+from instrument.errors import BadInput
+from instrument.progress import bar
+
+
+@click.command()
+@file_argument("experiment")
+@json_option
+def check(experiment: Path, json_path: str | None) -> None:
+    """Everything wrong with EXPERIMENT.toml and the files it names; then a dry run on the model.
+
+    Predicted response, vibrometer range, travel and time of every segment. Nothing is connected.
+    """
+    out = Output(json_path)
+    faults = all_faults(experiment)
+    if faults:
+        for fault in faults:
+            click.echo(fault, err=True)
+        raise BadInput(f"{len(faults)} fault{'s' if len(faults) > 1 else ''}, nothing can be run")
+    with bar("dry run"):
+        run = dry_run(experiment)
+    rows = [
+        [
+            f"{s.segment}",
+            f"{s.low_hz:g} to {s.high_hz:g}",
+            f"{s.steps}",
+            f"{1e3 * s.velocity_m_s:.3g}",
+            s.range_name,
+            f"{1e3 * s.travel_m:.3g}",
+            f"{s.seconds:.0f}",
+        ]
+        for s in run.segments
+    ]
+    columns = ["segment", "f/Hz", "steps", "velocity/(mm/s)", "range", "base travel/mm", "at most/s"]
+    out.table("predicted", columns, rows)
+    out.say("modes expected at " + ", ".join(f"{f:.4g}" for f in run.mode_hz) + " Hz")
+    if run.hammer_record_s is not None:
+        out.say(f"hammer: records of {run.hammer_record_s:g} s")
+    out.say(f"about {run.seconds / 60:.0f} min in all, calibration and sentinel included")
+    for warning in run.warnings:
+        out.say(f"warning: {warning}")
+    out.result(run.facts())

@@ -1,0 +1,41 @@
+"""`viscorig export`: a session to the files of another program."""
+
+from pathlib import Path
+
+import click
+
+from instrument.cli.options import file_argument, json_option
+from instrument.cli.output import Output
+from instrument.interchange.contents import contents_of
+from instrument.interchange.exporting import FORMATS, Format, export_session
+from instrument.session.storage import SessionFile
+
+
+@click.command()
+@file_argument("session")
+@click.option(
+    "--to",
+    "to",
+    type=click.Choice(FORMATS),
+    required=True,
+    help="uff: data sets 58, 151, 164. csv: for 'viscorig identify' and 'viscorig damping'. mat: MATLAB.",
+)
+@click.option(
+    "--out",
+    "folder",
+    type=click.Path(path_type=Path, file_okay=False),
+    default=Path(),
+    help="Where the files go; the current folder otherwise.",
+)
+@json_option
+def export(session: Path, to: Format, folder: Path, json_path: str | None) -> None:
+    """SESSION.h5 as universal files, CSV or MATLAB: sweep, hits, damping. Prints the files written."""
+    out = Output(json_path)
+    with SessionFile(session) as file:
+        contents = contents_of(file)
+    written = export_session(contents, to, folder)
+    for path in written.files:
+        out.say(f"wrote {path}")
+    for note in written.notes:
+        out.say(f"note: {note}")
+    out.result({"files": [str(path) for path in written.files], "notes": list(written.notes)})

@@ -1,0 +1,32 @@
+"""`viscorig import`: another program's data to CSV files this one reads."""
+
+from pathlib import Path
+
+import click
+
+from instrument.cli.options import file_argument, json_option
+from instrument.cli.output import Output
+from instrument.interchange.importing import import_file
+
+
+@click.command("import")
+@file_argument("file")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, dir_okay=False),
+    help="Where it goes (.csv); the file's own name in the current folder otherwise.",
+)
+@json_option
+def import_(file: Path, out: Path | None, json_path: str | None) -> None:
+    """FILE (.uff, .unv, .mat, .csv) as CSV for 'viscorig identify' and 'viscorig damping'.
+
+    Velocity over base acceleration becomes a sweep, motion over force an FRF, a force with its responses an
+    impact record. What is found is listed.
+    """
+    output = Output(json_path)
+    imported = import_file(file, out)
+    for line in imported.said:
+        output.say(line)
+    for path in imported.files:
+        output.say(f"wrote {path}")
+    output.result({"files": [str(path) for path in imported.files], "found": list(imported.said)})

@@ -1,0 +1,96 @@
+"""A finished run as a person sees it, and as JSON."""
+
+from typing import Any
+
+import numpy as np
+
+from instrument.cli.output import Output
+from instrument.experiment_run import Finished
+from instrument.stream.derived import DampingFound, FitUpdated, PointMeasured
+
+
+def run_facts(finished: Finished) -> dict[str, Any]:
+    """The JSON of `run`, `hammer` and `sweep`."""
+    return {
+        "session": str(finished.session),
+        "points": len(finished.points),
+        "damping": finished.damping.facts_json if finished.damping else None,
+        "identify": finished.fit.facts_json if finished.fit and finished.fit.facts_json else None,
+    }
+
+
+def print_finished(out: Output, finished: Finished) -> None:
+    """Damping, quality of the points, law, and where the session is."""
+    if finished.damping is not None:
+        print_damping(out, finished.damping)
+    if finished.points:
+        print_quality(out, list(finished.points))
+    if finished.fit is not None:
+        print_fit(out, finished.fit)
+    out.say(f"session: {finished.session}")
+
+
+def print_damping(out: Output, found: DampingFound) -> None:
+    """The bare plate's modes, three methods side by side."""
+    rows = [
+        [
+            f"{m['frequency_hz']:.3f}",
+            *(_percent(m[k]) for k in ("rational_fit", "half_power", "lscf")),
+            m["why"] or "-",
+        ]
+        for m in found.facts_json["modes"]
+    ]
+    out.table(
+        "bare plate: damping ratio by three methods, +- one standard error",
+        ["f/Hz", "rational fit/%", "half power/%", "LSCF/%", "remarks"],
+        rows,
+    )
+
+
+def print_quality(out: Output, points: list[PointMeasured]) -> None:
+    """A line for the whole sweep."""
+    steps = [p for p in points if p.purpose == "step"]
+    off = max(abs(p.control_error_percent) for p in steps)
+    noise = float(np.median([100 * p.velocity_std_m_s / abs(p.velocity_m_s) for p in steps]))
+    marked = sum(bool(p.remarks) for p in steps)
+    seconds = sum(p.settle_s + p.dwell_s for p in steps)
+    out.say(
+        f"{len(steps)} steps in {seconds:.0f} s of samples; base within {off:.2f} % of its level; "
+        f"noise {noise:.3f} % (median); {marked} steps with remarks"
+    )
+
+
+def print_fit(out: Output, fit: FitUpdated) -> None:
+    """The law over the band."""
+    if not fit.facts_json:
+        out.say(f"no law identified: {fit.message}")
+        return
+    facts = fit.facts_json
+    law = facts["law"]
+    shown = [law[k] for k in sorted({0, len(law) - 1, *_near(law, (20.0, 50.0, 100.0, 200.0, 280.0))})]
+    rows = [
+        [
+            f"{r['frequency_hz']:.4g}",
+            f"{r['storage_modulus_pa'] / 1e6:.4f} +- {r['storage_modulus_standard_error_pa'] / 1e6:.2g}",
+            f"{r['loss_factor']:.4f} +- {r['loss_factor_standard_error']:.2g}",
+        ]
+        for r in shown
+    ]
+    out.table("core: shear modulus with one standard error", ["f/Hz", "G'/MPa", "loss factor"], rows)
+    chi2 = facts["chi2_per_dof"]
+    held = facts["held_out_rms_percent"]
+    out.say(
+        f"residual {facts['rms_percent']:.2f} % rms"
+        + (f", each segment from the others {held:.2f} %" if held is not None else "")
+        + (f", chi2 per degree {chi2:.2f}" if chi2 is not None else "")
+    )
+    for warning in facts["warnings"]:
+        out.say(f"note: {warning}")
+
+
+def _near(law: list[dict[str, float]], wanted: tuple[float, ...]) -> list[int]:
+    return [k for k, r in enumerate(law) if any(abs(r["frequency_hz"] - f) < 1e-9 * f for f in wanted)]
+
+
+def _percent(e: dict[str, float] | None) -> str:
+    return f"{100 * e['ratio']:.4f} +- {100 * e['standard_error']:.1g}" if e else "refused"

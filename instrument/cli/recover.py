@@ -1,0 +1,36 @@
+"""`viscorig recover`: the session of a run that was killed."""
+
+from pathlib import Path
+
+import click
+
+from instrument.cli.options import json_option
+from instrument.cli.output import Output
+from instrument.errors import BadInput
+from instrument.session.journal import Journal
+from instrument.session.storage import write_session
+
+
+@click.command()
+@click.argument("folder", type=click.Path(path_type=Path))
+@json_option
+def recover(folder: Path, json_path: str | None) -> None:
+    """Put together the session of a run that was killed, from its FOLDER (NAME.running).
+
+    The folder stays, so that the run can be carried on with --resume.
+    """
+    out = Output(json_path)
+    journal = Journal(folder)
+    configuration = journal.configuration()
+    entries = journal.entries()
+    if not entries:
+        raise BadInput(f"{folder}: nothing was completed, there is no session to put together")
+    path = folder.parent / f"{folder.name.removesuffix('.running')}.h5"
+    try:
+        write_session(path, configuration, [folder / e.file for e in entries])
+    except OSError as error:
+        raise BadInput(f"{path}: {error.strerror or error}") from None
+    steps = [step for e in entries for step in e.steps]
+    out.say(f"{len(steps)} completed steps in {len(entries)} parts, all whole: {path}")
+    out.say(f"to go on: viscorig run {'EXPERIMENT.toml'} --resume {folder}")
+    out.result({"session": str(path), "parts": len(entries), "steps": steps})

@@ -1,0 +1,55 @@
+"""`viscorig replay`: a recorded session through the same code again."""
+
+from pathlib import Path
+
+import click
+
+from instrument.cli.options import file_argument, json_option
+from instrument.cli.output import Output
+from instrument.cli.print_run import print_fit, print_quality
+from instrument.cli.watching import Watcher
+from instrument.progress import bar
+from instrument.replay import replay as replay_session
+from instrument.session.storage import SessionFile
+from instrument.stream.event import Event
+
+
+@click.command()
+@file_argument("session")
+@click.option(
+    "--speed",
+    type=click.FloatRange(min=0, min_open=True),
+    help="Times as fast as it was; as fast as it goes where none is given.",
+)
+@json_option
+def replay(session: Path, speed: float | None, json_path: str | None) -> None:
+    """Run SESSION.h5 again: every derived event is computed from the recorded samples and compared."""
+    out = Output(json_path)
+    with SessionFile(session) as file:
+        if speed is None:
+            with bar("replaying"):
+                again = replay_session(file)
+        else:
+            with Watcher() as watch:
+
+                def one(event: Event) -> None:
+                    watch([event])
+
+                again = replay_session(file, speed=speed, watch=one)
+    if again.points:
+        print_quality(out, again.points)
+    if again.fit is not None:
+        print_fit(out, again.fit)
+    verdict = "all equal to the recorded ones" if again.equal else "NOT all equal to the recorded ones"
+    out.say(f"{again.derived} derived events computed again: {verdict}")
+    for difference in again.differences:
+        out.say(f"  {difference}")
+    out.result(
+        {
+            "identify": again.fit.facts_json if again.fit and again.fit.facts_json else None,
+            "diagnose": None,
+            "equal_to_recorded": again.equal,
+            "derived_events": again.derived,
+            "differences": again.differences,
+        }
+    )

@@ -1,0 +1,49 @@
+"""`viscorig run`, `viscorig hammer`, `viscorig sweep`: an experiment on its rig, whole or in part."""
+
+from pathlib import Path
+
+import click
+
+from instrument.cli.options import file_argument, json_option
+from instrument.cli.output import Output
+from instrument.cli.print_run import print_finished, run_facts
+from instrument.cli.stopping import safe_stop
+from instrument.cli.watching import Watcher
+from instrument.experiment_run import Part, run_experiment
+from instrument.progress import bar
+from instrument.session.configuration import read_whole_experiment
+
+out_option = click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    default=Path(),
+    help="Where the session goes; the current folder otherwise.",
+)
+resume_option = click.option(
+    "--resume",
+    type=click.Path(path_type=Path, file_okay=False),
+    metavar="FOLDER",
+    help="Carry on a run that was broken off: the steps it completed are not measured again.",
+)
+
+
+@click.command()
+@file_argument("experiment")
+@out_option
+@resume_option
+@json_option
+def run(experiment: Path, out: Path, resume: Path | None, json_path: str | None) -> None:
+    """The whole EXPERIMENT.toml on the rig it names: hammer test, sweep, live identification, session."""
+    run_parts(experiment, out, resume, json_path, ("hammer", "sweep"))
+
+
+def run_parts(
+    path: Path, out: Path, resume: Path | None, json_path: str | None, parts: tuple[Part, ...]
+) -> None:
+    """Run some parts of an experiment and print what they gave."""
+    output = Output(json_path)
+    experiment = read_whole_experiment(path)
+    with safe_stop(), Watcher() as watch:
+        finished = run_experiment(experiment, out, parts, watch=watch, resume=resume, progress=bar)
+    print_finished(output, finished)
+    output.result(run_facts(finished))

@@ -1,0 +1,41 @@
+"""`viscorig simulate`: the simulated instruments on loopback and pseudo-terminals, for any client."""
+
+import json
+import sys
+import threading
+from pathlib import Path
+
+import click
+
+from instrument.files.rig_file import RigDocument
+from instrument.files.toml import read_document
+from instrument.simulation import simulated_rig
+
+
+@click.command()
+@click.argument("rig", type=click.Path(path_type=Path))
+@click.option(
+    "--virtual-time",
+    is_flag=True,
+    help="Make samples only as a reader asks for them, as fast as it asks. Real time otherwise.",
+)
+@click.option(
+    "--log", type=click.Path(path_type=Path), help="The rig's own record of its shaker, JSON lines."
+)
+@click.option("--modbus-port", type=click.IntRange(0, 65535), default=0, help="0 for a free one.")
+@click.option("--frontend-port", type=click.IntRange(0, 65535), default=0, help="0 for a free one.")
+def simulate(rig: Path, virtual_time: bool, log: Path | None, modbus_port: int, frontend_port: int) -> None:
+    """Stand up the instruments of RIG.toml's [simulation] until interrupted.
+
+    The first line of output is JSON: modbus_tcp, modbus_rtu, vibrometer_tty, frontend_url. Everything is
+    bound to loopback. Where standard input is a pipe, its end is the end.
+    """
+    document = read_document(rig, RigDocument)
+    ports = modbus_port, frontend_port
+    with simulated_rig(document, rig, virtual_time=virtual_time, log=log, ports=ports) as addresses:
+        click.echo(json.dumps(addresses))
+        sys.stdout.flush()
+        if virtual_time:
+            sys.stdin.read()
+        else:
+            threading.Event().wait()

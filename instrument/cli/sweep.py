@@ -1,0 +1,18 @@
+"""`viscorig sweep`: the sweep of an experiment alone."""
+
+from pathlib import Path
+
+import click
+
+from instrument.cli.options import file_argument, json_option
+from instrument.cli.run import out_option, resume_option, run_parts
+
+
+@click.command()
+@file_argument("experiment")
+@out_option
+@resume_option
+@json_option
+def sweep(experiment: Path, out: Path, resume: Path | None, json_path: str | None) -> None:
+    """The stepped sine of EXPERIMENT.toml, identified as it goes."""
+    run_parts(experiment, out, resume, json_path, ("sweep",))

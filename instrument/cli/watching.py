@@ -1,0 +1,100 @@
+"""What a run tells a person as it goes: one line a hit, a progress bar a segment, every remark."""
+
+from collections.abc import Callable
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from instrument.stream.derived import (
+    CalibrationFound,
+    DampingFound,
+    FitUpdated,
+    HitJudged,
+    LimitWarned,
+    PointMeasured,
+    SentinelCompared,
+)
+from instrument.stream.event import Event
+from instrument.stream.raw import SegmentBegan
+
+
+class Watcher:
+    """Consumes events once they are on the disk. Use as a context."""
+
+    def __init__(self) -> None:
+        self._console = Console(stderr=True, highlight=False)
+        self._bars = Progress(
+            TextColumn("{task.description}"),
+            BarColumn(),
+            MofNCompleteColumn(),
+            TimeElapsedColumn(),
+            console=self._console,
+            transient=True,
+            disable=not self._console.is_terminal,
+        )
+        self._task = self._bars.add_task("", total=1, visible=False)
+
+    def __enter__(self) -> Callable[[list[Event]], None]:
+        self._bars.start()
+        return self.watch
+
+    def __exit__(self, *_: object) -> None:
+        self._bars.stop()
+
+    def watch(self, events: list[Event]) -> None:
+        """Show what is worth showing."""
+        for event in events:
+            if isinstance(event, SegmentBegan):
+                name = f"sweep {event.sweep} " if event.sweep > 1 else ""
+                what = "calibration" if event.sweep == 0 else f"{name}segment {event.segment}"
+                self._bars.reset(
+                    self._task,
+                    total=event.steps,
+                    description=f"{what}: {event.low_hz:g} to {event.high_hz:g} Hz",
+                    visible=True,
+                )
+            elif isinstance(event, PointMeasured) and event.purpose != "sentinel":
+                self._bars.advance(self._task)
+            line = said_of(event)
+            if line:
+                self._console.print(line, markup=False, soft_wrap=True)
+
+
+def said_of(event: Event) -> str | None:
+    """One line for people; None for what speaks for itself."""
+    match event:
+        case HitJudged():
+            verdict = "good" if event.accepted else f"left out: {event.why}"
+            return f"hit {event.hit}: {event.peak_n:.0f} N, {verdict}"
+        case DampingFound():
+            modes = [m for m in event.facts_json["modes"] if m["accepted"]]
+            return f"bare plate: {len(modes)} modes, {modes[0]['frequency_hz']:.2f} Hz on" if modes else None
+        case CalibrationFound():
+            return (
+                f"vibrometer in {event.range_name}: gain {event.gain:.5f} +- {event.gain_std:.1g}, "
+                f"delay {1e6 * event.delay_s:.2f} +- {1e6 * event.delay_std_s:.1g} us"
+            )
+        case SentinelCompared():
+            change = f"{event.change_percent:+.3f} %, {event.change_degree:+.3f} deg"
+            return f"sentinel {event.frequency_hz:g} Hz: {change} since the first time"
+        case LimitWarned():
+            value = f"{event.value:.4g} of {event.limit:.4g} {event.unit}"
+            return f"warning: step {event.step}: {event.what} {value}"
+        case PointMeasured() if event.remarks:
+            return f"{event.frequency_hz:g} Hz: {'; '.join(event.remarks)}"
+        case FitUpdated():
+            return _fit_said(event)
+    return None
+
+
+def _fit_said(event: FitUpdated) -> str:
+    if not event.facts_json:
+        return f"fit {event.number}: not yet: {event.message}"
+    law = event.facts_json["law"]
+    middle = min(law, key=lambda row: abs(row["frequency_hz"] - 100))
+    g, s = 1e-6 * middle["storage_modulus_pa"], 1e-6 * middle["storage_modulus_standard_error_pa"]
+    eta, e = middle["loss_factor"], middle["loss_factor_standard_error"]
+    return (
+        f"fit {event.number}, {len(event.facts_json['points'])} points: at {middle['frequency_hz']:.4g} Hz "
+        f"G' {g:.4f} +- {s:.2g} MPa, eta {eta:.4f} +- {e:.2g}; rms {event.facts_json['rms_percent']:.2f} %"
+    )

@@ -1,0 +1,226 @@
+"""A whole experiment: hammer test, calibration, sweep, live identification, one session."""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Literal
+
+from drivers.errors import DriverError
+from drivers.shaker import Alarm
+from instrument.control import Control
+from instrument.errors import BadInput, RigStopped
+from instrument.files.specimen_file import specimen_of
+from instrument.forecast import Forecast, calibration_segments, distinct, planned_segments, with_next_coarser
+from instrument.live_fit import LiveFit
+from instrument.progress import Progress, quiet
+from instrument.rig import Rig, open_rig
+from instrument.runner import Runner
+from instrument.session.configuration import Experiment, setup_of
+from instrument.session.journal import Journal
+from instrument.session.recorder import Recorder
+from instrument.session.storage import part_events, write_session
+from instrument.stepped_sine.plan import Done, Planner
+from instrument.stream.analysis import Analysis
+from instrument.stream.derived import DampingFound, FitUpdated, PointMeasured
+from instrument.stream.event import Derived, Event
+from instrument.stream.raw import SegmentEnded, SessionBegan, SessionEnded
+
+Part = Literal["hammer", "sweep"]
+Watch = Callable[[list[Event]], None]
+"""Told of events once they are on the disk, on the recorder's thread."""
+
+
+@dataclass(frozen=True)
+class Finished:
+    """What a run left."""
+
+    session: Path
+    damping: DampingFound | None
+    fit: FitUpdated | None
+    points: tuple[PointMeasured, ...]
+
+
+def run_experiment(
+    experiment: Experiment,
+    out: Path,
+    parts: tuple[Part, ...],
+    *,
+    control: Control | None = None,
+    watch: Watch | None = None,
+    resume: Path | None = None,
+    progress: Progress = quiet,
+) -> Finished:
+    """Run the parts and leave a session file in `out`. Raises `BadInput`, `RigStopped`, `KeyboardInterrupt`.
+
+    Whatever ends the run, the shaker is silent and what is complete is kept; the message says where.
+    """
+    with progress("forecasting the sweep"):
+        forecast = Forecast.of(specimen_of(experiment.specimen))
+    journal, name = _journal(experiment, out, resume)
+    entries = journal.entries()
+    earlier = [event for e in entries for event in part_events(journal.folder / e.file)]
+    session = _Session(experiment, journal, forecast, control or Control(), earlier, parts)
+    path = journal.folder.parent / f"{name}.h5"
+    try:
+        with Recorder(journal, entries, watch) as recorder:
+            session.run(recorder)
+        recorder.check()
+    except (RigStopped, DriverError) as error:
+        raise RigStopped(f"{' '.join(str(error).split())}; {_kept(journal, path)}") from error
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(_kept(journal, path)) from None
+    finish_session(journal, path)
+    return Finished(path, session.analysis.damping, session.fit, tuple(session.analysis.points))
+
+
+def finish_session(journal: Journal, path: Path) -> int:
+    """Put a session file together from what is sealed and remove the folder; how many parts there were."""
+    entries = journal.entries()
+    if not entries:
+        raise BadInput(f"{journal.folder}: nothing was completed, there is no session to put together")
+    write_session(path, journal.configuration(), [journal.folder / e.file for e in entries])
+    for file in journal.folder.iterdir():
+        file.unlink()
+    journal.folder.rmdir()
+    return len(entries)
+
+
+class _Session:
+    def __init__(
+        self,
+        experiment: Experiment,
+        journal: Journal,
+        forecast: Forecast,
+        control: Control,
+        earlier: list[Event],
+        parts: tuple[Part, ...],
+    ) -> None:
+        self._experiment, self._forecast, self._control = experiment, forecast, control
+        self._parts, self._resumed = parts, bool(earlier)
+        self._configuration = journal.configuration()
+        self._setup = setup_of(self._configuration)
+        self.analysis = Analysis(self._setup)
+        for event in earlier:
+            self.analysis.restore(event)
+        self._last_step = max((getattr(e, "step", 0) for e in earlier), default=0)
+        self._calibration_points = tuple(
+            e for e in earlier if isinstance(e, PointMeasured) and e.purpose == "calibration"
+        )
+        self.fit: FitUpdated | None = None
+
+    def run(self, recorder: Recorder) -> None:
+        """Everything that needs the rig; the recorder hears of its end whatever it is."""
+        self._recorder = recorder
+        try:
+            document = self._experiment.document
+            with open_rig(self._experiment.rig, self._experiment.rig_path, document.hammer) as rig:
+                self._go(rig)
+        except (RigStopped, DriverError) as error:
+            self._end("stopped safely", " ".join(str(error).split()))
+            raise
+        except KeyboardInterrupt:
+            self._end("stopped by the user", "")
+            raise
+        self._end("done", "")
+
+    def _go(self, rig: Rig) -> None:
+        self._emit(
+            SessionBegan(
+                datetime.now(UTC).isoformat(timespec="seconds"),
+                self._configuration.versions["viscorig"],
+                rig.identities(),
+                tuple(r.name for r in distinct(rig.vibrometer.ranges)),
+                self._resumed,
+            )
+        )
+        _clear_heartbeat_alarm(rig)
+        runner = Runner(rig, self.analysis, self._emit, self._control, self._setup.sweep.control.ramp_s)
+        if "hammer" in self._parts and self.analysis.damping is None:
+            self._hammer(rig, runner)
+        if "sweep" in self._parts:
+            self._sweep(rig, runner)
+
+    def _hammer(self, rig: Rig, runner: Runner) -> None:
+        settings, hammer = self._setup.hammer, self._experiment.document.hammer
+        if settings is None or hammer is None:
+            return
+        self._emit(rig.operator.mount("bare"))
+        runner.hammer(settings.hits, hammer.wait_s)
+        if self.analysis.damping is None:
+            raise RigStopped(f"no good hit within {hammer.wait_s:g} s: is the hammer's channel connected?")
+
+    def _sweep(self, rig: Rig, runner: Runner) -> None:
+        table = self._experiment.document.sweep
+        if table is None:
+            return
+        self._emit(rig.operator.mount("damped"))
+        settings, ranges = self._setup.sweep, distinct(rig.vibrometer.ranges)
+        segments, sentinel = planned_segments(self._forecast, table, ranges)
+        used = [s.range_name for s in segments] + ([sentinel[1]] if sentinel else [])
+        names = [n for n in with_next_coarser(used, ranges) if n not in self.analysis.calibrations]
+        done = Done((*self.analysis.points, *self._calibration_points))
+        planner = Planner(settings, self._forecast.decay_1_s, sentinel, self._last_step + 1, done)
+        calibration = calibration_segments(table, names, ranges, settings)
+        if calibration:
+            self._emit(rig.operator.aim("base"))
+            runner.sweep("calibration", planner.plan(calibration))
+        self._emit(rig.operator.aim("pickup"))
+        self._live = LiveFit(self._configuration.the_specimen(), self._record)
+        with self._live:
+            runner.sweep("sweep", planner.plan(segments))
+        self.fit = self._live.latest
+
+    def _emit(self, event: Event) -> list[Derived]:
+        """Into the stream: recorded, analysed, what follows recorded too."""
+        self._recorder.record(event)
+        derived = self.analysis.feed(event)
+        for one in derived:
+            self._recorder.record(one)
+        if isinstance(event, SegmentEnded) and self.analysis.points and event.sweep > 0:
+            self._live.offer(self.analysis.points, self.analysis.damping)
+        return derived
+
+    def _record(self, event: Event) -> None:
+        self._recorder.record(event)
+
+    def _end(self, why: Literal["done", "stopped by the user", "stopped safely"], message: str) -> None:
+        try:
+            self._recorder.record(SessionEnded(why, message))
+        except RigStopped:
+            # The recorder itself is what failed; its own message is on the way already.
+            return
+
+
+def _clear_heartbeat_alarm(rig: Rig) -> None:
+    """A heartbeat that stopped with an earlier program is back. Other alarms are a person's matter."""
+    if rig.shaker.status().alarm == Alarm.HEARTBEAT:
+        rig.shaker.reset_alarm()
+
+
+def _journal(experiment: Experiment, out: Path, resume: Path | None) -> tuple[Journal, str]:
+    if resume is not None:
+        journal = Journal(resume)
+        journal.configuration()
+        journal.truncate(journal.entries())
+        return journal, resume.name.removesuffix(".running")
+    now = datetime.now(UTC)
+    stem = re.sub(r"[^A-Za-z0-9_-]+", "-", experiment.path.stem).strip("-") or "session"
+    name = f"{stem}-{now:%Y%m%dT%H%M%SZ}"
+    journal = Journal(out / f"{name}.running")
+    journal.begin(experiment.configuration(name, now.isoformat(timespec="seconds")))
+    return journal, name
+
+
+def _kept(journal: Journal, path: Path) -> str:
+    """Put together what is complete; where it is."""
+    try:
+        entries = journal.entries()
+        steps = sum(len(e.steps) for e in entries)
+        if not entries:
+            return "nothing was completed"
+        write_session(path, journal.configuration(), [journal.folder / e.file for e in entries])
+        return f"{steps} steps kept in {path}, to go on: --resume {journal.folder}"
+    except (OSError, ValueError, RuntimeError):
+        return f"what is complete is in {journal.folder}: viscorig recover {journal.folder}"

@@ -1,0 +1,157 @@
+"""EXPERIMENT.toml: which plate on which rig, which hits and which frequencies."""
+
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, model_validator
+
+from instrument.files.toml import NotNegative, Positive, Table, document_faults, read_document
+
+Count = Annotated[int, Field(ge=1, le=1000)]
+
+
+class Mounting(Table):
+    """How the plate is held: two mountings are two clamps."""
+
+    bolts: Annotated[int, Field(ge=0, le=100)] = 0
+    torque_n_m: NotNegative = 0.0
+    remount: Annotated[int, Field(ge=0)] = 0
+    """How often it was taken out and put back."""
+
+
+class Hammer(Table):
+    """The bare plate's hammer test."""
+
+    hits: Count = 5
+    hit_x_mm: NotNegative
+    hit_y_mm: NotNegative
+    response_x_mm: NotNegative
+    response_y_mm: NotNegative
+    band_hz: Annotated[list[Positive], Field(min_length=2, max_length=2)] = Field(
+        default_factory=lambda: [10.0, 550.0]
+    )
+    record_s: Positive | Literal["auto"] = "auto"
+    """auto: until the most lightly damped mode has decayed to 1 %."""
+    pre_trigger_s: Positive = 0.05
+    wait_s: Positive = 60.0
+    """For a hit, before the test gives up."""
+
+
+class Segment(Table):
+    """A resonance region: from low to high, or around a mode of the specimen as it is known."""
+
+    low_hz: Positive | None = None
+    high_hz: Positive | None = None
+    mode: Annotated[int, Field(ge=1, le=30)] | None = None
+    span_percent: Annotated[float, Field(gt=0, le=100)] = 40.0
+    """Of the mode's frequency, low to high."""
+    points: Annotated[int, Field(ge=2, le=2000)] | None = None
+    step_hz: Positive | None = None
+    range: str | None = None
+    """Of the vibrometer; chosen from the predicted response where none is given."""
+
+    @model_validator(mode="after")
+    def _whole(self) -> "Segment":
+        by_edges = self.low_hz is not None and self.high_hz is not None
+        if by_edges == (self.mode is not None) or (self.low_hz is None) != (self.high_hz is None):
+            raise ValueError("expected either low_hz and high_hz, or mode")
+        if by_edges and not self.low_hz < self.high_hz:  # type: ignore[operator]
+            raise ValueError(f"low_hz = {self.low_hz:g} is not below high_hz = {self.high_hz:g}")
+        if (self.points is None) == (self.step_hz is None):
+            raise ValueError("expected either points or step_hz")
+        return self
+
+
+class ControlTable(Table):
+    """Level control."""
+
+    tolerance_percent: Annotated[float, Field(gt=0, le=20)] = 1.0
+    abort_percent: Annotated[float, Field(gt=0, le=500)] = 50.0
+    ramp_s: Annotated[float, Field(gt=0, le=10)] = 0.05
+
+
+class SettleTable(Table):
+    """When a response counts as steady."""
+
+    tolerance_percent: Annotated[float, Field(gt=0, le=20)] = 0.1
+    most_s: Positive = 8.0
+
+
+class DwellTable(Table):
+    """How long it is read then."""
+
+    cycles: Positive = 20.0
+    least_s: Positive = 0.3
+    most_s: Positive = 4.0
+
+
+class LimitsTable(Table):
+    """Limits of this experiment; the rig's own hold besides."""
+
+    base_m_s2: Positive | None = None
+    velocity_m_s: Positive | None = None
+    travel_mm: Positive | None = None
+    drive_v: Positive | None = None
+
+
+class SentinelTable(Table):
+    """One frequency, measured again after every segment: it shows whether the plate drifts."""
+
+    frequency_hz: Positive | None = None
+    """The first segment's middle where none is given."""
+
+
+class CalibrationTable(Table):
+    """The vibrometer against the accelerometer, the laser on the base."""
+
+    frequencies_hz: Annotated[list[Positive], Field(min_length=3, max_length=100)] = Field(
+        default_factory=lambda: [40.0, 80.0, 120.0, 160.0, 200.0, 240.0, 280.0]
+    )
+    level_g: Positive = 1.0
+
+
+class SweepTable(Table):
+    """The stepped sine."""
+
+    level_g: Positive = 1.0
+    sweeps: Count = 1
+    segments: Annotated[list[Segment], Field(min_length=1, max_length=100)]
+    control: ControlTable = ControlTable()
+    settle: SettleTable = SettleTable()
+    dwell: DwellTable = DwellTable()
+    limits: LimitsTable = LimitsTable()
+    sentinel: SentinelTable | None = SentinelTable()
+    calibration: CalibrationTable | None = CalibrationTable()
+    """Leave it out with `calibration = false` in favour of nothing measured in place."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _switches(cls, given: Any) -> Any:
+        """`sentinel = false` and `calibration = false` leave them out."""
+        if not isinstance(given, dict):
+            return given
+        off = {k: None for k in ("sentinel", "calibration") if given.get(k) is False}
+        return {**given, **off}
+
+
+class ExperimentDocument(Table):
+    """EXPERIMENT.toml. Paths are relative to it."""
+
+    title: str = ""
+    operator: str = ""
+    specimen: str
+    rig: str
+    mounting: Mounting = Mounting()
+    hammer: Hammer | None = None
+    sweep: SweepTable | None = None
+    reference_temperature_c: Annotated[float, Field(ge=-100, le=300)] | None = None
+
+
+def read_experiment(path: Path) -> ExperimentDocument:
+    """Read and check an experiment. Raises `BadInput`."""
+    return read_document(path, ExperimentDocument)
+
+
+def experiment_faults(path: Path) -> list[str]:
+    """Everything wrong with it at once."""
+    return document_faults(path, ExperimentDocument)

@@ -1,0 +1,152 @@
+"""What an experiment is going to look like, from the specimen as it is known: modes, response, decay, times.
+
+On a coarse mesh: a range or a waiting time needs no third digit.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drivers.vibrometer import Range
+from fitting.complex_modes import complex_modes
+from fitting.plate import Plate
+from fitting.specimen import Specimen
+from instrument.errors import BadInput
+from instrument.files.experiment_file import Segment, SweepTable
+from instrument.models import Models
+from instrument.stepped_sine.plan import PlannedSegment
+from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2, SweepSettings
+
+Array = NDArray[np.float64]
+
+_COARSE = (20, 14)
+_MODES = 12
+_REACH = 1.3
+"""Modes up to this times the frequency count for the transient: higher ones decay faster."""
+_ROOM = 2.0
+"""A range holds so many times the predicted response."""
+_CALIBRATION_SHARE = 0.5
+"""Of a range's full scale, in calibration."""
+_OWN_RATIO = 1e-3
+"""Viscous damping assumed where the specimen states none."""
+
+
+@dataclass(frozen=True)
+class Forecast:
+    """Of one specimen."""
+
+    specimen: Specimen
+    mode_hz: Array
+    mode_decay_1_s: Array
+    """sigma of each mode's free decay."""
+
+    @classmethod
+    def of(cls, specimen: Specimen) -> "Forecast":
+        """Modes of the specimen with the law it starts from."""
+        coarse = replace(specimen, elements=specimen.elements or _COARSE)
+        law = specimen.core.law if specimen.core is not None else None
+        modes = complex_modes(Plate(coarse), law, _MODES)
+        f = np.array([m.frequency_hz for m in modes])
+        ratios = np.full(_MODES, specimen.modal_ratios[-1] if specimen.modal_ratios else _OWN_RATIO)
+        ratios[: len(specimen.modal_ratios)] = specimen.modal_ratios[:_MODES]
+        loss = np.array([m.loss_factor for m in modes])
+        return cls(coarse, f, 2 * np.pi * f * (loss / 2 + ratios))
+
+    def decay_1_s(self, frequency_hz: float) -> float:
+        """Of the slowest transient that a step near this frequency stirs."""
+        near = self.mode_hz <= _REACH * frequency_hz
+        return float(self.mode_decay_1_s[near].min() if near.any() else self.mode_decay_1_s[0])
+
+    def velocity_m_s(self, frequency_hz: Array, level_m_s2: float) -> Array:
+        """Amplitude the laser will see."""
+        law = self.specimen.core.law if self.specimen.core is not None else None
+        v = Models.of(self.specimen, frequency_hz).predict(law, frequency_hz)
+        return np.asarray(np.abs(v) * level_m_s2 / self.specimen.base_acceleration_m_s2)
+
+    def frequencies_hz(self, segment: Segment) -> tuple[float, ...]:
+        """Of a segment's steps. Raises `BadInput`."""
+        low, high = segment.low_hz, segment.high_hz
+        if segment.mode is not None:
+            if segment.mode > len(self.mode_hz):
+                raise BadInput(f"sweep.segments: mode {segment.mode}, expected at most {len(self.mode_hz)}")
+            centre = self.mode_hz[segment.mode - 1]
+            low, high = (centre * (1 + sign * segment.span_percent / 200) for sign in (-1, 1))
+        assert low is not None
+        assert high is not None
+        count = segment.points or round((high - low) / (segment.step_hz or 1.0)) + 1
+        return tuple(round(float(f), 4) for f in np.linspace(low, high, max(2, count)))
+
+
+def planned_segments(
+    forecast: Forecast, sweep: SweepTable, ranges: tuple[Range, ...]
+) -> tuple[list[PlannedSegment], tuple[float, str] | None]:
+    """Every segment of every sweep with its range, and the sentinel. Raises `BadInput`."""
+    level = sweep.level_g * STANDARD_GRAVITY_M_S2
+    planned = []
+    for number, segment in enumerate(sweep.segments, start=1):
+        f = forecast.frequencies_hz(segment)
+        name = segment.range or range_for(forecast.velocity_m_s(np.array(f), level).max(), ranges).name
+        if name not in {r.name for r in ranges}:
+            known = ", ".join(r.name for r in ranges)
+            raise BadInput(f"sweep.segments.{number - 1}.range: {name!r}, expected one of {known}")
+        planned.append((number, f, name))
+    whole = [
+        PlannedSegment(number, turn, f, (level,) * len(f), name)
+        for turn in range(1, sweep.sweeps + 1)
+        for number, f, name in planned
+    ]
+    if sweep.sentinel is None:
+        return whole, None
+    first = whole[0]
+    sentinel = sweep.sentinel.frequency_hz or first.frequencies_hz[len(first.frequencies_hz) // 2]
+    name = range_for(float(forecast.velocity_m_s(np.array([sentinel]), level)[0]), ranges).name
+    return whole, (sentinel, name)
+
+
+def calibration_segments(
+    sweep: SweepTable, names: list[str], ranges: tuple[Range, ...], settings: SweepSettings
+) -> list[PlannedSegment]:
+    """The laser on the base, in every range the sweep is going to use."""
+    if sweep.calibration is None:
+        return []
+    f = tuple(sweep.calibration.frequencies_hz)
+    highest = sweep.calibration.level_g * STANDARD_GRAVITY_M_S2
+    segments = []
+    for number, name in enumerate(names, start=1):
+        full = next(r for r in ranges if r.name == name).full_scale_m_s
+        level = tuple(min(highest, _CALIBRATION_SHARE * full * 2 * np.pi * x) for x in f)
+        segments.append(PlannedSegment(number, 0, f, level, name, "calibration"))
+    return segments
+
+
+def distinct(ranges: tuple[Range, ...]) -> tuple[Range, ...]:
+    """One range a full scale: of those that differ in their low-pass alone, the first."""
+    return tuple({r.full_scale_m_s: r for r in reversed(ranges)}[full] for full in _scales(ranges))
+
+
+def _scales(ranges: tuple[Range, ...]) -> list[float]:
+    return sorted({r.full_scale_m_s for r in ranges})
+
+
+def with_next_coarser(names: list[str], ranges: tuple[Range, ...]) -> list[str]:
+    """Ranges to calibrate: those planned and the next one up, where an overload would lead."""
+    chosen = {k + up for k, r in enumerate(ranges) if r.name in names for up in (0, 1)}
+    return [r.name for k, r in enumerate(ranges) if k in chosen]
+
+
+def range_for(velocity_m_s: float, ranges: tuple[Range, ...]) -> Range:
+    """The most sensitive range with room for a response; the coarsest where none has."""
+    return next((r for r in ranges if r.full_scale_m_s >= _ROOM * velocity_m_s), ranges[-1])
+
+
+def least_seconds(forecast: Forecast, planned: list[PlannedSegment], settings: SweepSettings) -> float:
+    """Time that settling from scratch to the tolerance at every step, and the dwell, would take."""
+    wait = np.log(1 / settings.settle.tolerance)
+    return float(
+        sum(
+            min(wait / forecast.decay_1_s(f), settings.settle.most_s) + settings.dwell_s(f)
+            for segment in planned
+            for f in segment.frequencies_hz
+        )
+    )

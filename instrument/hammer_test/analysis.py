@@ -1,0 +1,133 @@
+"""The hammer test as it goes on: samples and the operator's word in, hits and modes out. Pure."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from instrument.errors import BadInput
+from instrument.hammer_test.trigger import Trigger
+from instrument.impact.damping import damping_of_hits
+from instrument.impact.facts import damping_facts
+from instrument.impact.judge import Judged, judge
+from instrument.impact.record import Channel, Hit
+from instrument.plain import plain
+from instrument.stream.derived import DampingFound, HitJudged, HitRevised
+from instrument.stream.event import Derived
+from instrument.stream.raw import BlockAcquired, HammerTestEnded, OperatorDid
+
+WEAK = 0.3
+"""Share of the median blow below which one is too weak to average with the others."""
+
+
+@dataclass(frozen=True)
+class HammerSettings:
+    """How hits are recorded and read."""
+
+    hits: int
+    """Good ones wanted."""
+    record_s: float
+    pre_trigger_s: float
+    band_hz: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class HammerChannels:
+    """Which row of a block is what, and how volts become units."""
+
+    force: int
+    response: int
+    force_n_v: float
+    response_m_s2_v: float
+
+
+@dataclass
+class _Caught:
+    judged: Judged
+    accepted: bool
+
+
+class HammerAnalysis:
+    """Follows a hammer test."""
+
+    def __init__(self, settings: HammerSettings, channels: HammerChannels, sample_rate_hz: float) -> None:
+        self._settings, self._channels, self._rate = settings, channels, sample_rate_hz
+        self._trigger = Trigger(sample_rate_hz, settings.record_s, settings.pre_trigger_s)
+        self._hits: list[_Caught] = []
+
+    @property
+    def accepted(self) -> int:
+        """Good hits so far."""
+        return sum(h.accepted for h in self._hits)
+
+    @property
+    def complete(self) -> bool:
+        """Whether there are as many as wanted."""
+        return self.accepted >= self._settings.hits
+
+    @property
+    def caught(self) -> int:
+        """Hits so far, good or not."""
+        return len(self._hits)
+
+    @property
+    def ready(self) -> bool:
+        """Whether the trigger has heard enough quiet for a first blow."""
+        return self._trigger.level is not None
+
+    @property
+    def record_s(self) -> float:
+        """Length of a record."""
+        return self._settings.record_s
+
+    def wanted(self) -> int:
+        """Samples worth waiting for."""
+        return self._trigger.wanted
+
+    def block(self, block: BlockAcquired) -> list[Derived]:
+        """Samples in; the hits that are whole now."""
+        c = self._channels
+        volts = block.volts
+        rows = np.stack([volts[c.force] * c.force_n_v, volts[c.response] * c.response_m_s2_v])
+        overload = np.array([block.overload[c.force], block.overload[c.response]])
+        return [
+            self._judged(first, record, flags)
+            for first, record, flags in self._trigger.feed(block.first_sample, rows, overload)
+        ]
+
+    def operator(self, did: OperatorDid) -> list[Derived]:
+        """Accept, reject or undo one hit; 0 means the last one."""
+        number = did.hit or len(self._hits)
+        if did.what not in ("accepted", "rejected", "undone") or not 1 <= number <= len(self._hits):
+            return []
+        hit = self._hits[number - 1]
+        hit.accepted = hit.judged.accepted if did.what == "undone" else did.what == "accepted"
+        return [HitRevised(number, hit.accepted)]
+
+    def ended(self, _: HammerTestEnded) -> list[Derived]:
+        """The plate's modes from the accepted hits; none where no hit is good."""
+        hits = [
+            Judged(h.judged.hit, h.accepted, h.judged.why or "rejected", h.judged.notes, h.judged.pulse)
+            for h in self._hits
+        ]
+        try:
+            found = damping_of_hits(hits, band_hz=self._settings.band_hz)
+        except BadInput:
+            return []
+        return [DampingFound(plain(damping_facts(found)))]
+
+    def _judged(self, first: int, record: np.ndarray, overload: np.ndarray) -> HitJudged:
+        number = len(self._hits) + 1
+        hit = Hit(f"hit {number}", self._rate, record[0], (Channel("response", "acceleration", record[1]),))
+        judged = judge(hit)
+        faults = [judged.why] if judged.why else []
+        faults += [
+            f"overload of the {n}" for n, over in zip(("force", "response"), overload, strict=True) if over
+        ]
+        peak = self._trigger.peaks[-1]
+        earlier = self._trigger.peaks[:-1]
+        if earlier and peak < WEAK * float(np.median(earlier)):
+            faults.append(f"weak: {peak:.3g} N, the others about {np.median(earlier):.3g} N")
+        good = not faults
+        judged = Judged(judged.hit, good, "; ".join(faults), judged.notes, judged.pulse)
+        self._hits.append(_Caught(judged, good))
+        return HitJudged(number, first, record.shape[1], peak, good, "; ".join(faults))

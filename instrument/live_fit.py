@@ -1,0 +1,108 @@
+"""The live identification: on a thread of its own, with the newest points, its results back as events."""
+
+import threading
+from collections.abc import Callable
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from fitting.errors import FittingError
+from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
+from fitting.specimen import Specimen
+from instrument.identification import identify
+from instrument.identification_facts import bare_plate_facts, identification_facts
+from instrument.plain import plain
+from instrument.points import sweep_of
+from instrument.stream.derived import DampingFound, FitUpdated, PointMeasured
+from instrument.stream.event import Event
+from instrument.stream.raw import FitStarted
+
+_SECONDS = ("seconds", "setup_seconds", "validation_seconds")
+
+
+def fit_points(
+    number: int,
+    last_step: int,
+    points: list[PointMeasured],
+    damping: DampingFound | None,
+    specimen: Specimen,
+) -> FitUpdated:
+    """Identify from all points up to a step, jointly with the hammer test. Pure: the same in a replay."""
+    used = [p for p in points if p.step <= last_step]
+    try:
+        # One thread: sums in another order would differ in the last bit.
+        with threadpool_limits(1):
+            return FitUpdated(number, last_step, _facts(used, damping, specimen))
+    except FittingError as error:
+        return FitUpdated(number, last_step, {}, " ".join(str(error).split()))
+
+
+def _facts(used: list[PointMeasured], damping: DampingFound | None, specimen: Specimen) -> dict[str, object]:
+    hammer: dict[str, object] = {}
+    if damping is not None and any(m["accepted"] for m in damping.facts_json["modes"]):
+        modes = [m for m in damping.facts_json["modes"] if m["accepted"]]
+        ratios = [np.nan if m["damping_ratio"] is None else m["damping_ratio"] for m in modes]
+        bare = fit_bare_plate(specimen, np.array([m["frequency_hz"] for m in modes]), np.array(ratios))
+        specimen = with_bare_plate(specimen, bare)
+        hammer = {"hammer": bare_plate_facts(bare, specimen)}
+    sweep = sweep_of(used, specimen.base_acceleration_m_s2)
+    facts = identification_facts(identify(sweep, specimen), sweep)
+    kept = {key: value for key, value in facts.items() if key not in _SECONDS}
+    return dict(plain({**kept, **hammer}))
+
+
+class LiveFit:
+    """Fits while the run goes on. Points may come faster than fits: then fits are skipped, never points.
+
+    Use as a context around the sweep.
+    """
+
+    def __init__(self, specimen: Specimen, emit: Callable[[Event], object]) -> None:
+        self._specimen, self._emit = specimen, emit
+        self._wake = threading.Condition()
+        self._newest: tuple[list[PointMeasured], DampingFound | None] | None = None
+        self._ended = False
+        self._failure: Exception | None = None
+        self.latest: FitUpdated | None = None
+        self._number = 0
+        self._thread = threading.Thread(target=self._work, name="live fit", daemon=True)
+        self._thread.start()
+
+    def offer(self, points: list[PointMeasured], damping: DampingFound | None) -> None:
+        """Points there are now. Returns at once."""
+        with self._wake:
+            self._newest = list(points), damping
+            self._wake.notify()
+
+    def __enter__(self) -> "LiveFit":
+        return self
+
+    def __exit__(self, kind: object, *_: object) -> None:
+        """Wait for the fit of the newest points; after an error wait for nothing."""
+        with self._wake:
+            self._ended = True
+            if kind is not None:
+                self._newest = None
+            self._wake.notify()
+        if kind is None:
+            self._thread.join()
+            if self._failure is not None:
+                raise self._failure
+
+    def _work(self) -> None:
+        try:
+            while (task := self._next()) is not None:
+                points, damping = task
+                self._number += 1
+                last = max(p.step for p in points)
+                self._emit(FitStarted(self._number, last))
+                self.latest = fit_points(self._number, last, points, damping, self._specimen)
+                self._emit(self.latest)
+        except Exception as error:  # raised on leaving: a fit must not end a measurement
+            self._failure = error
+
+    def _next(self) -> tuple[list[PointMeasured], DampingFound | None] | None:
+        with self._wake:
+            self._wake.wait_for(lambda: self._newest is not None or self._ended)
+            task, self._newest = self._newest, None
+            return task

@@ -1,0 +1,205 @@
+"""Session files: every path inside them is here, writer and reader side by side. Layout version 1.
+
+    /                     format, layout_version
+    /configuration        one string: JSON of `Configuration`
+    /parts/000001/events  one JSON line an event, in order
+    /parts/000001/samples int32 (channels, samples): the counts of the part's blocks, end to end
+    /points/<quantity>    one value a point, with `units`
+    /calibration/<range>  gain, delay_s, their standard deviations (attributes)
+
+While a run goes on each part is a sealed file of its own (`part-000001.h5`, the same two data sets), named in
+a journal with its checksum. A file is written under another name, flushed to the disk and renamed, so that it
+is whole or not there. What the journal does not name does not count.
+"""
+
+import hashlib
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from instrument.errors import BadInput
+from instrument.session.configuration import Configuration
+from instrument.stream.derived import CalibrationFound, PointMeasured
+from instrument.stream.event import Event, from_line, to_line
+from instrument.stream.raw import BlockAcquired
+
+FORMAT = "viscorig session"
+LAYOUT_VERSION = 1
+
+_UNITS = {
+    "frequency_hz": "Hz",
+    "level_m_s2": "m/s^2",
+    "base_accel_re_m_s2": "m/s^2",
+    "base_accel_im_m_s2": "m/s^2",
+    "base_accel_std_m_s2": "m/s^2",
+    "velocity_re_m_s": "m/s",
+    "velocity_im_m_s": "m/s",
+    "velocity_std_m_s": "m/s",
+    "settle_s": "s",
+    "dwell_s": "s",
+    "drive_v": "V",
+    "control_error_percent": "%",
+    "base_distortion_percent": "%",
+    "velocity_distortion_percent": "%",
+    "signal_level": "1",
+    "temperature_c": "degC",
+    "step": "1",
+    "segment": "1",
+    "sweep": "1",
+    "sample": "1",
+}
+
+
+def write_part(path: Path, events: list[Event]) -> str:
+    """Seal some events in a file of their own; its SHA-256."""
+    temporary = path.with_suffix(".tmp")
+    with h5py.File(temporary, "w") as file:
+        file.attrs["format"], file.attrs["layout_version"] = FORMAT, LAYOUT_VERSION
+        _write_events(file, events)
+    return seal(temporary, path)
+
+
+def write_session(path: Path, configuration: Configuration, parts: list[Path]) -> None:
+    """Put a session together from its sealed parts."""
+    temporary = path.with_suffix(".tmp")
+    points: list[PointMeasured] = []
+    calibrations: list[CalibrationFound] = []
+    with h5py.File(temporary, "w") as file:
+        file.attrs["format"], file.attrs["layout_version"] = FORMAT, LAYOUT_VERSION
+        file["configuration"] = configuration.model_dump_json()
+        for number, part in enumerate(parts, start=1):
+            with h5py.File(part, "r") as source:
+                group = file.create_group(f"parts/{number:06d}")
+                for name in source:
+                    source.copy(name, group)
+                for event in _events(group, with_samples=False):
+                    if isinstance(event, PointMeasured):
+                        points.append(event)
+                    elif isinstance(event, CalibrationFound):
+                        calibrations.append(event)
+        _write_points(file, points)
+        for found in calibrations:
+            group = file.require_group(f"calibration/{found.range_name.replace('/', ' per ')}")
+            group.attrs.update({k: v for k, v in found.facts().items() if k != "range_name"})
+    seal(temporary, path)
+
+
+class SessionFile:
+    """A recorded session, read. Use as a context."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        try:
+            self._file = h5py.File(path, "r")
+        except OSError as error:
+            if not path.exists():
+                raise BadInput(f"{path}: no such file") from None
+            raise BadInput(f"{path}: not a session file: {str(error).splitlines()[0][:80]}") from None
+        if self._file.attrs.get("format") != FORMAT or "configuration" not in self._file:
+            self._file.close()
+            raise BadInput(f"{path}: an HDF5 file, but not a session of this program")
+        version = int(self._file.attrs["layout_version"])
+        if version > LAYOUT_VERSION:
+            self._file.close()
+            raise BadInput(
+                f"{path}: layout version {version}, expected at most {LAYOUT_VERSION}: update viscorig"
+            )
+
+    def __enter__(self) -> "SessionFile":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._file.close()
+
+    @property
+    def configuration(self) -> Configuration:
+        """What it was made with. Raises `BadInput`."""
+        try:
+            return Configuration.model_validate_json(_text(self._file["configuration"][()]))
+        except ValueError as error:
+            raise BadInput(f"{self.path}: configuration: {str(error).splitlines()[0]}") from None
+
+    def events(self, *, with_samples: bool = True) -> Iterator[Event]:
+        """Every event in order. Raises `BadInput` where the file is damaged."""
+        try:
+            for number in sorted(self._file["parts"]):
+                yield from _events(self._file["parts"][number], with_samples)
+        except (OSError, KeyError, ValueError, TypeError) as error:
+            raise BadInput(f"{self.path}: damaged: {str(error).splitlines()[0][:100]}") from None
+
+
+def part_events(path: Path) -> list[Event]:
+    """The events of a sealed part, without samples."""
+    with h5py.File(path, "r") as file:
+        return list(_events(file, with_samples=False))
+
+
+def checksum(path: Path) -> str:
+    """SHA-256 of a file."""
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+def seal(temporary: Path, path: Path) -> str:
+    """Flush a closed file to the disk and give it its name: whole or not there. Its SHA-256."""
+    with temporary.open("rb") as file:
+        digest = hashlib.file_digest(file, "sha256").hexdigest()
+        os.fsync(file.fileno())
+    temporary.replace(path)
+    sync_folder(path.parent)
+    return digest
+
+
+def sync_folder(folder: Path) -> None:
+    """Flush the names in a folder."""
+    if os.name != "posix":
+        return
+    handle = os.open(folder, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)
+
+
+def _write_events(group: Any, events: list[Event]) -> None:
+    lines = [to_line(event) for event in events]
+    group.create_dataset(
+        "events", data=lines, dtype=h5py.string_dtype(), compression="gzip", compression_opts=1
+    )
+    counts = [e.counts for e in events if isinstance(e, BlockAcquired)]
+    if counts:
+        samples = np.concatenate(counts, axis=1)
+        data = group.create_dataset(
+            "samples", data=samples, compression="gzip", compression_opts=1, shuffle=True, fletcher32=True
+        )
+        data.attrs["units"] = "converter counts; volts_per_count of the block gives V"
+
+
+def _events(group: Any, with_samples: bool) -> Iterator[Event]:
+    samples = group["samples"][()] if with_samples and "samples" in group else None
+    at = 0
+    for line in group["events"][()]:
+        event = from_line(_text(line))
+        if isinstance(event, BlockAcquired) and samples is not None:
+            counts = samples[:, at : at + event.samples]
+            at += event.samples
+            facts = {**event.facts(), "counts": counts}
+            event = BlockAcquired(**facts)
+        yield event
+
+
+def _write_points(file: Any, points: list[PointMeasured]) -> None:
+    group = file.create_group("points")
+    for name, unit in _UNITS.items():
+        values = [getattr(p, name) for p in points]
+        group[name] = np.array([np.nan if v is None else v for v in values], dtype=float)
+        group[name].attrs["units"] = unit
+    group.create_dataset("purpose", data=[p.purpose for p in points], dtype=h5py.string_dtype())
+
+
+def _text(value: Any) -> str:
+    return value.decode() if isinstance(value, bytes) else str(value)

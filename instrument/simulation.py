@@ -1,0 +1,158 @@
+"""From RIG.toml's [simulation] to the simulated rig: its plates, sensors, and what it hides."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import fields
+from pathlib import Path
+from typing import Any, get_args, get_type_hints
+
+from drivers.simulated.plates import BarePlate, DampedPlate
+
+from drivers.shaker.register_map import DEFAULT
+from drivers.simulated.plant.effects import CoreLaw, Effects
+from drivers.simulated.plant.law import MaxwellLaw
+from drivers.simulated.rig import Ports, SimulatedRig
+from drivers.simulated.sensors import Sensor
+from drivers.simulated.world import Laser, Wiring, World
+from drivers.vibrometer.models import model_named
+from instrument.errors import BadInput
+from instrument.files.rig_file import Channels, RigDocument, Simulation
+
+_QUANTITIES = {
+    "base": "base_acceleration",
+    "velocity": "laser",
+    "force": "force",
+    "response": "response_acceleration",
+    "temperature": "temperature",
+}
+_NOISE_V = 1e-5
+"""Of a sensor and its cable, broadband, at noise 1."""
+_LASER_NOISE_V = 1e-3
+"""Of the vibrometer's output in good light: speckle."""
+_SENSOR_LIMIT_V = 10.0
+
+CHANNEL_EFFECTS = {
+    "channel_delay": ("delay_s",),
+    "gain_error": ("factor",),
+    "level_error": ("factor",),
+    "mains_hum": ("amplitude_v",),
+    "absolute_velocity": (),
+}
+"""What the channels may do undeclared; the plate's own are in `drivers.simulated.plant.effects`."""
+
+
+@contextmanager
+def simulated_rig(
+    document: RigDocument,
+    path: Path,
+    *,
+    virtual_time: bool,
+    log: Path | None = None,
+    ports: tuple[int, int] = (0, 0),
+) -> Iterator[dict[str, str]]:
+    """Stand up the rig a file describes; its addresses. Raises `BadInput`."""
+    simulation = document.simulation
+    if simulation is None:
+        raise BadInput(f"{path}: [simulation] is missing, expected it for a rig to simulate; it may be empty")
+    try:
+        world = _world(document, simulation, virtual_time)
+        registers = DEFAULT.with_addresses(document.shaker.registers)
+    except (ValueError, TypeError) as error:
+        raise BadInput(f"{path}: simulation: {error}") from None
+    rig = SimulatedRig(
+        world,
+        model=document.vibrometer.model,
+        signal_level=simulation.signal_level,
+        delay_s={},
+        limit_v=document.limits.drive_v,
+        registers=registers,
+        unit=document.shaker.unit,
+        ports=Ports(*ports),
+        log=log,
+    )
+    with rig as addresses:
+        yield addresses
+
+
+def _world(document: RigDocument, simulation: Simulation, virtual_time: bool) -> World:
+    plate, channel = _effects(simulation)
+    delay = simulation.vibrometer_delay_s + channel.get("channel_delay", {}).get("delay_s", 0.0)
+    gain = channel.get("gain_error", {}).get("factor", 1.0)
+    absolute = document.vibrometer.reads == "absolute" or "absolute_velocity" in channel
+    chosen = model_named(document.vibrometer.model).ranges[0]
+    laser = Laser(
+        chosen.scale_m_s_v,
+        chosen.full_scale_v,
+        delay,
+        simulation.signal_level,
+        gain=gain,
+        rides_with_base=not absolute,
+    )
+    response = document.channels.response
+    plates = {
+        "damped": DampedPlate(plate),
+        "bare": BarePlate(
+            sensor_mass_kg=1e-3 * response.mass_g if response else 0.0,
+            double_hit_every=simulation.double_hit_every,
+            seed=simulation.seed,
+            substrate_stiffness=plate.substrate_stiffness,
+        ),
+    }
+    wiring = Wiring(
+        _inputs(document.channels, simulation, channel.get("level_error", {}).get("factor", 1.0)),
+        simulation.skew_samples,
+        simulation.hum_v + channel.get("mains_hum", {}).get("amplitude_v", 0.0),
+        simulation.mains_hz,
+        simulation.seed,
+    )
+    return World(plates, wiring, laser, virtual_time)
+
+
+def _inputs(channels: Channels, simulation: Simulation, level_factor: float) -> dict[int, Sensor]:
+    """What hangs on each input, in the plant's units."""
+    inputs = {}
+    for name, sensor in channels.named().items():
+        laser = name == "velocity"
+        per_unit = (-1.0 if sensor.invert else 1.0) if laser else 1 / sensor.units_per_volt
+        if name == "base":
+            per_unit *= level_factor
+        noise = simulation.noise * (_LASER_NOISE_V if laser else _NOISE_V)
+        inputs[sensor.input] = Sensor(_QUANTITIES[name], per_unit, noise, _SENSOR_LIMIT_V)
+    return inputs
+
+
+def _effects(simulation: Simulation) -> tuple[Effects, dict[str, dict[str, Any]]]:
+    """The plate's and the channels'. Raises `ValueError`, `TypeError` naming what is wrong."""
+    kinds = {name: get_args(hint)[0] for name, hint in get_type_hints(Effects).items()}
+    plate: dict[str, Any] = {}
+    channel: dict[str, dict[str, Any]] = {}
+    for name, values in simulation.effects.items():
+        if name in CHANNEL_EFFECTS:
+            unknown = set(values) ^ set(CHANNEL_EFFECTS[name])
+            if unknown:
+                raise ValueError(f"effects.{name}: {', '.join(sorted(unknown))} missing or unknown")
+            channel[name] = values
+        elif name == "core_law":
+            plate[name] = CoreLaw(_law(values))
+        elif name in kinds:
+            known = {f.name for f in fields(kinds[name])}
+            if not set(values) <= known:
+                raise ValueError(
+                    f"effects.{name}: expected {', '.join(sorted(known))}, found {', '.join(values)}"
+                )
+            plate[name] = kinds[name](**values)
+        else:
+            known_names = ", ".join(sorted([*kinds, *CHANNEL_EFFECTS]))
+            raise ValueError(f"effects.{name}: unknown, expected one of {known_names}")
+    if simulation.core:
+        plate["core_law"] = CoreLaw(_law(simulation.core))
+    return Effects(**plate), channel
+
+
+def _law(values: dict[str, Any]) -> MaxwellLaw:
+    """A Maxwell series from g_inf_mpa, g_mpa, tau_s."""
+    if set(values) != {"g_inf_mpa", "g_mpa", "tau_s"}:
+        raise ValueError(f"core: expected g_inf_mpa, g_mpa, tau_s, found {', '.join(values)}")
+    return MaxwellLaw(
+        1e6 * values["g_inf_mpa"], tuple(1e6 * g for g in values["g_mpa"]), tuple(values["tau_s"])
+    )

@@ -1,0 +1,1 @@
+"""The stepped sine: which frequency next, at which drive, when it has settled, what it reads. Pure."""

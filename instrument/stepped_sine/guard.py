@@ -1,0 +1,54 @@
+"""The limits of a step: base, response, travel. Looked at in every block, ramps included."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from instrument.stepped_sine.settings import SweepSettings
+from instrument.stream.derived import LimitExceeded, LimitWarned
+from instrument.stream.event import Derived
+from instrument.stream.raw import StepBegan
+
+
+class Guard:
+    """Warns once a step and quantity, stops where a limit is exceeded."""
+
+    def __init__(self, began: StepBegan, settings: SweepSettings) -> None:
+        self._began, self._settings = began, settings
+        self._warned: set[str] = set()
+
+    def look(self, x: NDArray[np.float64], drive_v: float) -> list[Derived]:
+        """Peaks of base acceleration and velocity (rows of x, SI) and the drive against their limits."""
+        limits = self._settings.limits
+        base, velocity = np.ptp(x, axis=1) / 2
+        travel = base / (2 * np.pi * self._began.frequency_hz) ** 2
+        watched = [
+            ("base acceleration", base, limits.base_m_s2, "m/s^2", "lower the level"),
+            ("velocity", velocity, limits.velocity_m_s, "m/s", "lower the level"),
+            ("travel of the base", travel, limits.travel_m, "m", "lower the level or leave low frequencies"),
+        ]
+        events: list[Derived] = []
+        for what, value, limit, unit, remedy in watched:
+            if value > limit:
+                return [self.stop(what, float(value), limit, unit, remedy)]
+            events += self._near(what, float(value), limit, unit)
+        return events + self._near("drive", drive_v, limits.drive_v, "V")
+
+    def stop(self, what: str, value: float, limit: float, unit: str, remedy: str) -> LimitExceeded:
+        """The event that ends the run."""
+        return LimitExceeded(self._began.step, what, value, limit, unit, remedy)
+
+    def level(self, base_m_s2: float) -> list[Derived]:
+        """The fitted base acceleration against the abort band around its level."""
+        if self._began.level_m_s2 is None:
+            return []
+        highest = self._began.level_m_s2 * (1 + self._settings.control.abort)
+        if base_m_s2 <= highest:
+            return []
+        remedy = "the drive does not follow its model; check the loop, or widen control.abort_percent"
+        return [self.stop("base acceleration over its level", base_m_s2, highest, "m/s^2", remedy)]
+
+    def _near(self, what: str, value: float, limit: float, unit: str) -> list[Derived]:
+        if value <= self._settings.limits.warn * limit or what in self._warned:
+            return []
+        self._warned.add(what)
+        return [LimitWarned(self._began.step, what, value, limit, unit)]

@@ -1,0 +1,313 @@
+"""One step: samples in, events out. No clock, file, thread or device.
+
+    commanded -> settling -> dwelling -> measured
+        ^            |           |
+        +-- drive or range requested
+
+A new command makes what came before worthless: blocks count from the end of its ramp.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from instrument.stepped_sine.calibration import Calibration
+from instrument.stepped_sine.guard import Guard
+from instrument.stepped_sine.samples import Samples
+from instrument.stepped_sine.settings import SweepSettings
+from instrument.stepped_sine.settling import Settling
+from instrument.stepped_sine.sine_fit import SineFit, sine_fit
+from instrument.stream.derived import (
+    DriveRequested,
+    LimitExceeded,
+    LoopChecked,
+    PointMeasured,
+    RangeRequested,
+    SettlingTimedOut,
+    StepSettled,
+)
+from instrument.stream.event import Derived
+from instrument.stream.raw import RangeSet, ShakerCommanded, StepBegan
+
+Array = NDArray[np.float64]
+
+_TRIM = 0.5
+"""Share of the control tolerance at which the drive is corrected: drift has room until the point is read."""
+_CLIPPED = 0.98
+"""Share of the vibrometer's full scale from which its output counts as clipped."""
+
+
+@dataclass(frozen=True)
+class Channels:
+    """Which row of a block is what, and how volts become units."""
+
+    base: int
+    velocity: int
+    base_m_s2_v: float
+    """Signed: negative where the sensor faces the other way."""
+    velocity_sign: float = 1.0
+    temperature: int | None = None
+    temperature_c_v: float = 0.0
+
+
+class StepAnalysis:
+    """Follows one step from its command to its point."""
+
+    def __init__(
+        self,
+        began: StepBegan,
+        settings: SweepSettings,
+        channels: Channels,
+        sample_rate_hz: float,
+        vibrometer: RangeSet,
+        wider: tuple[str, ...],
+        calibration: Callable[[str], Calibration | None] | None,
+        signal_level: float | None,
+        latest: int,
+    ) -> None:
+        self._began, self._settings, self._channels = began, settings, channels
+        self._rate = sample_rate_hz
+        self._range, self._wider = vibrometer, wider
+        self._calibration = calibration
+        self._signal_level = signal_level
+        self._guard = Guard(began, settings)
+        self._samples = Samples(3)
+        self._command: ShakerCommanded | None = None
+        self._from = latest
+        self._latest = latest
+        self._corrections = 0
+        self._phase: Literal["settling", "dwelling", "done"] = "settling"
+        self._remarks: list[str] = []
+        self._base: float | None = None
+        self._settle_s = 0.0
+        self._restart()
+
+    # What the runner asks
+
+    @property
+    def done(self) -> bool:
+        """Whether the point is measured."""
+        return self._phase == "done"
+
+    def wanted(self) -> int:
+        """Samples that complete the next reading, counted from the last one received."""
+        missing = max(0, self._from - self._latest) if self._samples.first is None else 0
+        return max(1, missing + self._next_length() - self._samples.count)
+
+    # What happened
+
+    def commanded(self, command: ShakerCommanded) -> list[Derived]:
+        """A new drive: everything before it is worthless."""
+        at = command.sample
+        if at is None:
+            at = self._latest + round(self._settings.latency_s * self._rate)
+        self._command = command
+        self._from = at + int(np.ceil(command.ramp_s * self._rate)) + 1
+        self._restart()
+        return []
+
+    def range_set(self, vibrometer: RangeSet, wider: tuple[str, ...]) -> list[Derived]:
+        """Another range: its first samples may still be the old one's."""
+        self._range, self._wider = vibrometer, wider
+        self._from = self._latest + round(self._settings.latency_s * self._rate)
+        self._restart()
+        return []
+
+    def block(self, first_sample: int, volts: Array, overload: tuple[bool, ...]) -> list[Derived]:
+        """Samples of all channels in V, shape (channels, samples)."""
+        self._latest = first_sample + volts.shape[1]
+        if self._command is None or self.done:
+            return []
+        c = self._channels
+        if overload[c.velocity] and self._latest > self._from:
+            return self._overloaded()
+        if overload[c.base]:
+            return [self._guard.stop("base acceleration channel overload", 1.0, 0.0, "", "raise its range")]
+        self._samples.add(first_sample, self._in_units(volts), self._from)
+        events: list[Derived] = []
+        while not self.done and self._samples.count >= self._next_length() and not _final(events):
+            events += self._reading(*self._samples.take(self._next_length()))
+        return events
+
+    # Readings
+
+    def _reading(self, first: int, x: Array) -> list[Derived]:
+        events: list[Derived] = self._guard.look(x[:2], self._command_drive())
+        fit = sine_fit(x, first, self._rate, self._began.frequency_hz)
+        events += self._guard.level(abs(fit.phasor[0]))
+        if _final(events):
+            return events
+        if np.abs(x[1]).max() > _CLIPPED * self._range.scale_m_s_v * self._range.full_scale_v:
+            return events + self._overloaded()
+        if self._began.purpose == "loop-check":
+            return events + self._loop_checked(fit)
+        if self._phase == "dwelling":
+            return events + self._dwelt(first, x, fit)
+        return events + self._followed(first + x.shape[1], x.shape[1], fit)
+
+    def _followed(self, end: int, count: int, fit: SineFit) -> list[Derived]:
+        """A block on the way to rest: correct the level, or see whether it has settled."""
+        base, velocity = fit.phasor[:2]
+        error = abs(base) / self._level - 1
+        before, self._base = self._base, abs(base)
+        steady = before is not None and abs(abs(base) / before - 1) < max(abs(error) / 2, self._trim / 2)
+        if abs(error) > self._trim and steady and self._may_correct():
+            return self._correct(abs(base), error)
+        noise = float(np.hypot(fit.std[1] / abs(velocity), fit.std[0] / abs(base)))
+        block_s = count / self._rate
+        waited = (end - self._from) / self._rate
+        settled = self._settling.add(complex(velocity / base), noise, block_s)
+        held = abs(error) <= self._settings.control.tolerance or not self._may_correct()
+        if settled and held:
+            self._phase = "dwelling"
+            self._settle_s = waited
+            return [
+                StepSettled(
+                    self._began.step,
+                    end,
+                    waited,
+                    100 * self._settling.remaining,
+                    self._settling.predicted_s,
+                )
+            ]
+        if waited > self._settings.settle.most_s:
+            self._phase = "dwelling"
+            self._settle_s = waited
+            remaining, limit = 100 * self._settling.remaining, 100 * self._settings.settle.tolerance
+            if not settled:
+                self._remarks.append(f"not settled: {remaining:.2g} % left, limit {limit:.2g} %")
+            return [SettlingTimedOut(self._began.step, waited, min(remaining, 1e6), limit)]
+        return []
+
+    def _dwelt(self, first: int, x: Array, fit: SineFit) -> list[Derived]:
+        """The reading itself."""
+        error = abs(fit.phasor[0]) / self._level - 1
+        if abs(error) > self._settings.control.tolerance:
+            if self._may_correct():
+                return self._correct(abs(fit.phasor[0]), error)
+            self._remarks.append(f"level {100 * error:+.2g} % off, limit {self._tolerance_percent:.2g} %")
+        self._phase = "done"
+        return [self._point(first, x, fit, error)]
+
+    def _point(self, first: int, x: Array, fit: SineFit, error: float) -> PointMeasured:
+        b, f = self._began, self._began.frequency_hz
+        velocity, velocity_std = fit.phasor[1], fit.std[1]
+        if self._calibration is not None:
+            calibration = self._calibration(self._range.name)
+            if calibration is None:
+                self._remarks.append(f"range {self._range.name} is not calibrated")
+            else:
+                velocity = calibration.true_velocity(f, velocity)
+                velocity_std = velocity_std / calibration.gain
+        if self._signal_level is not None and self._signal_level < self._settings.least_signal_level:
+            self._remarks.append(f"weak light: signal level {self._signal_level:.2f}")
+        return PointMeasured(
+            step=b.step,
+            purpose=b.purpose,
+            segment=b.segment,
+            sweep=b.sweep,
+            frequency_hz=f,
+            level_m_s2=self._level,
+            sample=first,
+            dwell_s=x.shape[1] / self._rate,
+            settle_s=self._settle_s,
+            drive_v=self._command_drive(),
+            base_accel_re_m_s2=float(fit.phasor[0].real),
+            base_accel_im_m_s2=float(fit.phasor[0].imag),
+            base_accel_std_m_s2=float(fit.std[0]),
+            velocity_re_m_s=float(velocity.real),
+            velocity_im_m_s=float(velocity.imag),
+            velocity_std_m_s=float(velocity_std),
+            control_error_percent=100 * float(error),
+            base_distortion_percent=100 * float(fit.distortion[0]),
+            velocity_distortion_percent=100 * float(fit.distortion[1]),
+            range_name=self._range.name,
+            signal_level=self._signal_level,
+            temperature_c=float(fit.mean[2]) if self._channels.temperature is not None else None,
+            remarks=tuple(self._remarks),
+        )
+
+    def _loop_checked(self, fit: SineFit) -> list[Derived]:
+        self._phase = "done"
+        base, need = abs(fit.phasor[0]), self._settings.control.signal_over_noise
+        ratio = float(base / max(fit.std[0], np.finfo(float).tiny))
+        if ratio < need:
+            what = "loop check: base acceleration over its noise"
+            remedy = "is the accelerometer connected, the amplifier on, its gain up?"
+            return [self._guard.stop(what, ratio, need, "", remedy)]
+        f = self._began.frequency_hz
+        return [LoopChecked(self._began.step, f, float(base / self._command_drive()), ratio)]
+
+    # Corrections
+
+    def _overloaded(self) -> list[Derived]:
+        if not self._wider:
+            what = "velocity at the vibrometer's coarsest range"
+            full = self._range.scale_m_s_v * self._range.full_scale_v
+            return [self._guard.stop(what, full, full, "m/s", "lower the level")]
+        self._samples.clear()
+        return [RangeRequested(self._began.step, self._wider[0], f"overload in {self._range.name}")]
+
+    def _correct(self, base: float, error: float) -> list[Derived]:
+        self._corrections += 1
+        wanted = self._command_drive() * self._level / base
+        drive = min(wanted, self._settings.limits.drive_v)
+        if drive < wanted:
+            self._remarks.append(f"drive held at its limit of {drive:.3g} V")
+            self._corrections = self._settings.control.most_corrections
+        return [DriveRequested(self._began.step, drive, f"base {100 * error:+.2g} % off its level")]
+
+    def _may_correct(self) -> bool:
+        return self._corrections < self._settings.control.most_corrections
+
+    def _restart(self) -> None:
+        self._samples.clear()
+        self._settling = Settling(self._began.decay_1_s, self._settings.settle.tolerance)
+        self._base = None
+        if self._phase == "dwelling":
+            self._phase = "settling"
+
+    # Small things
+
+    @property
+    def _level(self) -> float:
+        return self._began.level_m_s2 or 0.0
+
+    @property
+    def _trim(self) -> float:
+        return _TRIM * self._settings.control.tolerance
+
+    @property
+    def _tolerance_percent(self) -> float:
+        return 100 * self._settings.control.tolerance
+
+    def _command_drive(self) -> float:
+        return self._command.drive_v if self._command is not None else 0.0
+
+    def _next_length(self) -> int:
+        f, s = self._began.frequency_hz, self._settings
+        seconds = s.dwell_s(f) if self._phase == "dwelling" or self._checks else s.block_s(f)
+        return int(np.ceil(seconds * self._rate))
+
+    @property
+    def _checks(self) -> bool:
+        return self._began.purpose == "loop-check"
+
+    def _in_units(self, volts: Array) -> Array:
+        """m/s^2, m/s and degree Celsius. Shape (3, samples)."""
+        c = self._channels
+        temperature = (
+            volts[c.temperature] * c.temperature_c_v
+            if c.temperature is not None
+            else np.zeros(volts.shape[1])
+        )
+        velocity = volts[c.velocity] * c.velocity_sign * self._range.scale_m_s_v
+        return np.stack([volts[c.base] * c.base_m_s2_v, velocity, temperature])
+
+
+def _final(events: list[Derived]) -> bool:
+    """Whether the runner has to act before more samples are worth looking at."""
+    return any(isinstance(e, DriveRequested | RangeRequested | LimitExceeded) for e in events)

@@ -1,0 +1,205 @@
+"""From raw events to derived ones. Live runs and replays go through this and nothing else."""
+
+import cmath
+from dataclasses import dataclass
+
+from fitting.errors import TooFewPoints
+from instrument.files.rig_file import Channels as Sensors
+from instrument.hammer_test.analysis import HammerAnalysis, HammerChannels, HammerSettings
+from instrument.stepped_sine.calibration import Calibration, calibrate
+from instrument.stepped_sine.settings import SweepSettings
+from instrument.stepped_sine.step import Channels, StepAnalysis
+from instrument.stream.derived import CalibrationFound, DampingFound, PointMeasured, SentinelCompared
+from instrument.stream.event import Derived, Event
+from instrument.stream.raw import (
+    AcquisitionBegan,
+    BlockAcquired,
+    HammerTestEnded,
+    OperatorDid,
+    RangeSet,
+    SegmentEnded,
+    SessionBegan,
+    ShakerCommanded,
+    SignalLevelRead,
+    StepBegan,
+)
+
+
+@dataclass(frozen=True)
+class Setup:
+    """What the analysis has to know beside the events; all of it is kept with a session."""
+
+    sensors: Sensors
+    sweep: SweepSettings
+    hammer: HammerSettings | None
+
+
+class Analysis:
+    """Follows a whole session."""
+
+    def __init__(self, setup: Setup) -> None:
+        self._setup = setup
+        self._acquisition: AcquisitionBegan | None = None
+        self._range: RangeSet | None = None
+        self._range_names: tuple[str, ...] = ()
+        self._signal_level: float | None = None
+        self._latest = 0
+        self._calibration_points: list[PointMeasured] = []
+        self.step: StepAnalysis | None = None
+        self.hammer: HammerAnalysis | None = None
+        self.points: list[PointMeasured] = []
+        """Of the sweep, sentinels included."""
+        self.calibrations: dict[str, CalibrationFound] = {}
+        self.damping: DampingFound | None = None
+
+    def feed(self, event: Event) -> list[Derived]:
+        """Take a raw event; what follows from it."""
+        derived = self._follow(event)
+        for one in derived:
+            derived = derived + self._keep(one)
+        return derived
+
+    def restore(self, event: Event) -> None:
+        """Take an event of an earlier run of this session, so that this one can carry on."""
+        if isinstance(event, Derived):
+            self._keep(event)
+
+    @property
+    def wanted(self) -> int:
+        """Samples worth waiting for before the next look."""
+        if self._acquisition is not None and self._acquisition.part == "hammer" and self.hammer is not None:
+            return self.hammer.wanted()
+        return self.step.wanted() if self.step is not None else 1
+
+    def _follow(self, event: Event) -> list[Derived]:
+        match event:
+            case BlockAcquired():
+                return self._block(event)
+            case ShakerCommanded():
+                return self.step.commanded(event) if self.step is not None else []
+            case StepBegan():
+                self.step = self._begin(event)
+            case SessionBegan():
+                self._range_names = event.ranges
+            case AcquisitionBegan():
+                self._acquire(event)
+            case RangeSet():
+                self._range = event
+                return self.step.range_set(event, self._wider()) if self.step is not None else []
+            case SignalLevelRead():
+                self._signal_level = event.value
+            case SegmentEnded():
+                self.step = None
+                return self._calibrated()
+            case OperatorDid() if self.hammer is not None:
+                return self.hammer.operator(event)
+            case HammerTestEnded() if self.hammer is not None:
+                return self.hammer.ended(event)
+        return []
+
+    def _keep(self, event: Derived) -> list[Derived]:
+        """What is remembered of derived events, and what follows from them in turn."""
+        match event:
+            case PointMeasured() if event.purpose == "calibration":
+                self._calibration_points.append(event)
+            case PointMeasured():
+                self.points.append(event)
+                return self._compared(event)
+            case CalibrationFound():
+                self.calibrations[event.range_name] = event
+            case DampingFound():
+                self.damping = event
+        return []
+
+    def _block(self, block: BlockAcquired) -> list[Derived]:
+        if self._acquisition is None:
+            return []
+        self._latest = block.first_sample + block.samples
+        if self._acquisition.part == "hammer":
+            return self.hammer.block(block) if self.hammer is not None else []
+        if self.step is None:
+            return []
+        return self.step.block(block.first_sample, block.volts, block.overload)
+
+    def _acquire(self, event: AcquisitionBegan) -> None:
+        self._acquisition, self.step, self._latest = event, None, 0
+        if event.part == "hammer" and self._setup.hammer is not None:
+            self.hammer = HammerAnalysis(self._setup.hammer, self._hammer_channels(), event.sample_rate_hz)
+
+    def _begin(self, began: StepBegan) -> StepAnalysis:
+        assert self._acquisition is not None
+        assert self._range is not None
+        return StepAnalysis(
+            began,
+            self._setup.sweep,
+            self._step_channels(),
+            self._acquisition.sample_rate_hz,
+            self._range,
+            self._wider(),
+            None if began.purpose == "calibration" else self._calibration,
+            self._signal_level,
+            self._latest,
+        )
+
+    def _calibration(self, range_name: str) -> Calibration | None:
+        found = self.calibrations.get(range_name)
+        return Calibration(found.gain, found.delay_s) if found is not None else None
+
+    def _calibrated(self) -> list[Derived]:
+        points, self._calibration_points = self._calibration_points, []
+        try:
+            return [calibrate(points)] if points else []
+        except TooFewPoints:
+            return []
+
+    def _compared(self, point: PointMeasured) -> list[Derived]:
+        """A sentinel against the first time it was measured."""
+        if point.purpose != "sentinel":
+            return []
+        first = next(
+            p for p in self.points if p.purpose == "sentinel" and p.frequency_hz == point.frequency_hz
+        )
+        if first is point:
+            return []
+        return [sentinel_compared(first, point)]
+
+    def _wider(self) -> tuple[str, ...]:
+        """Ranges coarser than the one in use, next first."""
+        names = self._range_names
+        if self._range is None or self._range.name not in names:
+            return ()
+        return names[names.index(self._range.name) + 1 :]
+
+    def _step_channels(self) -> Channels:
+        assert self._acquisition is not None
+        row = self._acquisition.channels.index
+        sensors = self._setup.sensors
+        temperature = sensors.temperature
+        return Channels(
+            base=row("base"),
+            velocity=row("velocity"),
+            base_m_s2_v=sensors.base.units_per_volt,
+            velocity_sign=-1.0 if sensors.velocity.invert else 1.0,
+            temperature=row("temperature") if temperature is not None else None,
+            temperature_c_v=temperature.units_per_volt if temperature is not None else 0.0,
+        )
+
+    def _hammer_channels(self) -> HammerChannels:
+        assert self._acquisition is not None
+        row = self._acquisition.channels.index
+        sensors = self._setup.sensors
+        assert sensors.force is not None
+        assert sensors.response is not None
+        return HammerChannels(
+            force=row("force"),
+            response=row("response"),
+            force_n_v=sensors.force.units_per_volt,
+            response_m_s2_v=sensors.response.units_per_volt,
+        )
+
+
+def sentinel_compared(first: PointMeasured, again: PointMeasured) -> SentinelCompared:
+    """How far the response over the base moved."""
+    ratio = (again.velocity_m_s / again.base_m_s2) / (first.velocity_m_s / first.base_m_s2)
+    change = 100 * (abs(ratio) - 1), 180 / cmath.pi * cmath.phase(ratio)
+    return SentinelCompared(again.step, again.frequency_hz, *change)

@@ -1,0 +1,190 @@
+"""Derived events: what follows from the raw ones. Computed live, recorded, and computed again on replay."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from instrument.stream.event import Derived
+
+
+@dataclass(frozen=True)
+class DriveRequested(Derived):
+    """The level at the base wants another drive."""
+
+    step: int
+    drive_v: float
+    why: str
+
+
+@dataclass(frozen=True)
+class RangeRequested(Derived):
+    """The vibrometer's range does not fit; the step begins again with this one."""
+
+    step: int
+    name: str
+    why: str
+
+
+@dataclass(frozen=True)
+class LoopChecked(Derived):
+    """A small drive gave a clean answer at the base."""
+
+    step: int
+    frequency_hz: float
+    gain_m_s2_v: float
+    """Base acceleration per volt of drive."""
+    signal_over_noise: float
+
+
+@dataclass(frozen=True)
+class StepSettled(Derived):
+    """What is left of the transient is below the tolerance."""
+
+    step: int
+    sample: int
+    seconds: float
+    """Since the last command took effect."""
+    remaining_percent: float
+    predicted_seconds: float
+
+
+@dataclass(frozen=True)
+class SettlingTimedOut(Derived):
+    """The response did not come to rest in time; the point is measured and marked."""
+
+    step: int
+    seconds: float
+    remaining_percent: float
+    limit_percent: float
+
+
+@dataclass(frozen=True)
+class PointMeasured(Derived):
+    """One frequency measured. Phasors of e^{+i omega t}, zero to peak, time from the acquisition's start."""
+
+    step: int
+    purpose: str
+    segment: int
+    sweep: int
+    frequency_hz: float
+    level_m_s2: float
+    sample: int
+    """First of the dwell."""
+    dwell_s: float
+    settle_s: float
+    drive_v: float
+    base_accel_re_m_s2: float
+    base_accel_im_m_s2: float
+    base_accel_std_m_s2: float
+    """Of each part."""
+    velocity_re_m_s: float
+    """As the laser sees it, gain and delay of the calibration taken off."""
+    velocity_im_m_s: float
+    velocity_std_m_s: float
+    control_error_percent: float
+    base_distortion_percent: float
+    velocity_distortion_percent: float
+    range_name: str
+    signal_level: float | None
+    temperature_c: float | None
+    remarks: tuple[str, ...]
+    """What speaks against the point; empty for a good one."""
+
+    @property
+    def base_m_s2(self) -> complex:
+        """Base acceleration."""
+        return complex(self.base_accel_re_m_s2, self.base_accel_im_m_s2)
+
+    @property
+    def velocity_m_s(self) -> complex:
+        """Velocity at the pickup."""
+        return complex(self.velocity_re_m_s, self.velocity_im_m_s)
+
+
+@dataclass(frozen=True)
+class LimitWarned(Derived):
+    """A quantity comes near its limit."""
+
+    step: int
+    what: str
+    value: float
+    limit: float
+    unit: str
+
+
+@dataclass(frozen=True)
+class LimitExceeded(Derived):
+    """A quantity is beyond its limit: the run stops."""
+
+    step: int
+    what: str
+    value: float
+    limit: float
+    unit: str
+    remedy: str
+
+    @property
+    def message(self) -> str:
+        """One line for people."""
+        value = f"{self.value:.4g} {self.unit}".strip()
+        return f"step {self.step}: {self.what} {value}, limit {self.limit:.4g}: {self.remedy}"
+
+
+@dataclass(frozen=True)
+class CalibrationFound(Derived):
+    """The vibrometer against the accelerometer on one point, in one range."""
+
+    range_name: str
+    gain: float
+    """Reading over true velocity."""
+    delay_s: float
+    gain_std: float
+    delay_std_s: float
+    points: int
+
+
+@dataclass(frozen=True)
+class SentinelCompared(Derived):
+    """The sentinel frequency again: how far the response moved since the first time."""
+
+    step: int
+    frequency_hz: float
+    change_percent: float
+    change_degree: float
+
+
+@dataclass(frozen=True)
+class HitJudged(Derived):
+    """A blow was caught and looked at."""
+
+    hit: int
+    first_sample: int
+    samples: int
+    peak_n: float
+    accepted: bool
+    why: str
+
+
+@dataclass(frozen=True)
+class HitRevised(Derived):
+    """A hit's standing after the operator's word."""
+
+    hit: int
+    accepted: bool
+
+
+@dataclass(frozen=True)
+class DampingFound(Derived):
+    """Natural frequencies and ratios of the accepted hits: the JSON of `viscorig damping`."""
+
+    facts_json: dict[str, Any]
+
+
+@dataclass(frozen=True)
+class FitUpdated(Derived):
+    """The live identification's result: the JSON of `viscorig identify` without its seconds."""
+
+    number: int
+    last_step: int
+    facts_json: dict[str, Any]
+    """Empty where no fit was possible; `message` says why."""
+    message: str = ""

@@ -1,0 +1,161 @@
+"""Raw events: what the runner did and what the instruments gave."""
+
+from dataclasses import dataclass, field, fields
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from instrument.stream.event import Event
+
+Part = Literal["hammer", "calibration", "sweep"]
+Purpose = Literal["loop-check", "calibration", "step", "sentinel"]
+
+
+@dataclass(frozen=True)
+class SessionBegan(Event):
+    """A run, or its continuation after a break."""
+
+    utc: str
+    version: str
+    instruments: dict[str, str]
+    """Identity of each, as it states itself."""
+    ranges: tuple[str, ...]
+    """Of the vibrometer, from the most sensitive to the coarsest."""
+    resumed: bool = False
+
+
+@dataclass(frozen=True)
+class AcquisitionBegan(Event):
+    """Sampling began: the sample counter is zero."""
+
+    number: int
+    part: Part
+    sample_rate_hz: float
+    channels: tuple[str, ...]
+    """What each measures: base, velocity, force, response, temperature."""
+
+
+@dataclass(frozen=True)
+class BlockAcquired(Event):
+    """Samples in a row from every channel."""
+
+    first_sample: int
+    samples: int
+    volts_per_count: tuple[float, ...]
+    full_scale_v: tuple[float, ...]
+    overload: tuple[bool, ...]
+    cable_fault: tuple[bool, ...]
+    counts: NDArray[np.int32] = field(
+        default_factory=lambda: np.zeros((0, 0), dtype=np.int32), compare=False, repr=False
+    )
+    """Shape (channels, samples); kept beside the JSON."""
+
+    def facts(self) -> dict[str, Any]:
+        """All but the samples."""
+        return {f.name: getattr(self, f.name) for f in fields(self) if f.name != "counts"}
+
+    @property
+    def volts(self) -> NDArray[np.float64]:
+        """Shape (channels, samples)."""
+        return self.counts * np.array(self.volts_per_count)[:, None]
+
+
+@dataclass(frozen=True)
+class RangeSet(Event):
+    """The vibrometer's range, as read back."""
+
+    name: str
+    scale_m_s_v: float
+    full_scale_v: float
+    highest_hz: float
+    delay_s: float | None
+
+
+@dataclass(frozen=True)
+class SignalLevelRead(Event):
+    """How much light came back to the vibrometer, 0 to 1."""
+
+    value: float
+
+
+@dataclass(frozen=True)
+class SegmentBegan(Event):
+    """A resonance region begins."""
+
+    segment: int
+    sweep: int
+    low_hz: float
+    high_hz: float
+    steps: int
+
+
+@dataclass(frozen=True)
+class StepBegan(Event):
+    """One frequency begins."""
+
+    step: int
+    """Counts through the session."""
+    purpose: Purpose
+    segment: int
+    sweep: int
+    frequency_hz: float
+    level_m_s2: float | None
+    """Base acceleration asked for; None where the drive itself is (a loop check)."""
+    drive_v: float
+    """To begin with."""
+    decay_1_s: float
+    """Of the slowest transient expected here, by what is known of the plate at this moment."""
+
+
+@dataclass(frozen=True)
+class ShakerCommanded(Event):
+    """A command and its receipt."""
+
+    sequence: int
+    frequency_hz: float
+    drive_v: float
+    """Accepted: the device's own limit may hold it below what was asked."""
+    ramp_s: float
+    sample: int | None
+    """At which it took effect; None where the device does not know."""
+
+
+@dataclass(frozen=True)
+class SegmentEnded(Event):
+    """All its steps are measured."""
+
+    segment: int
+    sweep: int
+
+
+@dataclass(frozen=True)
+class OperatorDid(Event):
+    """Something only a person can do or decide."""
+
+    what: Literal["mounted", "aimed", "accepted", "rejected", "undone"]
+    detail: str
+    """The plate mounted, the point aimed at; empty for hits."""
+    hit: int = 0
+
+
+@dataclass(frozen=True)
+class HammerTestEnded(Event):
+    """Enough hits, or the operator says so."""
+
+
+@dataclass(frozen=True)
+class FitStarted(Event):
+    """The live identification took up the points there were."""
+
+    number: int
+    last_step: int
+    """Points of this and all earlier steps take part."""
+
+
+@dataclass(frozen=True)
+class SessionEnded(Event):
+    """The run is over, and why."""
+
+    why: Literal["done", "stopped by the user", "stopped safely"]
+    message: str
