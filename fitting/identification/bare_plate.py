@@ -11,10 +11,12 @@ s_r is a mode's fall for a soft root, from the bending moment it hands to the cl
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy.linalg as la
 from numpy.typing import NDArray
 
 from fitting.element import DOFS, THETA_Y
 from fitting.errors import TooFewPoints
+from fitting.linear import factorise
 from fitting.plate import Plate, element_matrices
 from fitting.real_modes import RealModes, real_modes
 from fitting.specimen import Specimen
@@ -34,6 +36,15 @@ _SPARE = 4
 
 
 @dataclass(frozen=True)
+class Sensor:
+    """The accelerometer on the bare plate: a gram at the tip takes half a percent off mode 1."""
+
+    mass_kg: float
+    x_m: float
+    y_m: float
+
+
+@dataclass(frozen=True)
 class BarePlateFit:
     """The substrate's stiffness as the hammer test has it."""
 
@@ -50,12 +61,19 @@ class BarePlateFit:
     left_out_hz: tuple[float, ...]
 
 
-def fit_bare_plate(specimen: Specimen, measured_hz: Array, measured_ratios: Array) -> BarePlateFit:
-    """Stiffness and ratios from a hammer test of `specimen.bare`. Raises `TooFewPoints`."""
+def fit_bare_plate(
+    specimen: Specimen, measured_hz: Array, measured_ratios: Array, sensor: Sensor | None = None
+) -> BarePlateFit:
+    """Stiffness and ratios from a hammer test of `specimen.bare`. Raises `TooFewPoints`, `OutsideModel`.
+
+    `sensor` is what sat on the plate in the test; the model's modes are those of the plate with it.
+    """
     bare = specimen.bare
     plate = Plate(bare)
     count = max(len(measured_hz), len(specimen.modal_ratios)) + _SPARE
     modes = real_modes(plate, 0.0, count)
+    if sensor is not None:
+        modes = loaded_modes(plate, modes, sensor)
     model_hz = modes.omega / (2 * np.pi)
     order = np.argsort(measured_hz)
     pairs = _matched(measured_hz[order], model_hz)
@@ -97,6 +115,20 @@ def with_bare_plate(specimen: Specimen, fit: BarePlateFit) -> Specimen:
     substrate = replace(specimen.substrate, young_pa=specimen.substrate.young_pa * fit.young_scale)
     tolerances = {**specimen.tolerances, "substrate_young": fit.standard_error}
     return replace(specimen, substrate=substrate, tolerances=tolerances, modal_ratios=fit.ratios)
+
+
+def loaded_modes(plate: Plate, modes: RealModes, sensor: Sensor) -> RealModes:
+    """The modes with the sensor on the plate, as many: in the span of the unloaded ones and of its own push.
+
+    (K - omega^2 (M + m w^T w)) x = 0, w reading the deflection under the sensor.
+    """
+    row = plate.observe(sensor.x_m, sensor.y_m)
+    K = plate.K_0.real.tocsc()
+    V = np.column_stack([modes.shapes, factorise(K)(row)])
+    w = row @ V
+    squared, q = la.eigh(V.T @ (K @ V), V.T @ (plate.M @ V) + sensor.mass_kg * np.outer(w, w))
+    count = len(modes.omega)
+    return RealModes(np.sqrt(squared[:count]), V @ q[:, :count])
 
 
 def clamp_softness(plate: Plate, modes: RealModes) -> Array:

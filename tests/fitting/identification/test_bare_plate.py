@@ -4,10 +4,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+import scipy.sparse as sp
 from conftest import TABLE_4
+from scipy.sparse.linalg import eigsh
 
 from fitting.errors import TooFewPoints
-from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
+from fitting.identification.bare_plate import Sensor, fit_bare_plate, loaded_modes, with_bare_plate
 from fitting.plate import Plate
 from fitting.properties import with_property_scaled
 from fitting.real_modes import real_modes
@@ -132,3 +134,30 @@ def test_tolerance_left_after_the_test_enters_the_band(zn1, bare_hz):
     bare = fit_bare_plate(zn1, bare_hz, np.array(zn1.modal_ratios))
     after = with_bare_plate(replace(zn1, tolerances={"core_thickness": 0.05}), bare)
     assert after.tolerances == {"core_thickness": 0.05, "substrate_young": bare.standard_error}
+
+
+def with_sensor_hz(plate, sensor, count=8):
+    """Frequencies of the full plate with a point mass on it, solved as such."""
+    row = sp.csc_array(plate.observe(sensor.x_m, sensor.y_m)[None])
+    squared = eigsh(
+        plate.K_0.real.tocsc(), count, (plate.M + sensor.mass_kg * (row.T @ row)).tocsc(), sigma=0.0
+    )[0]
+    return np.sqrt(np.sort(squared)) / (2 * np.pi)
+
+
+def test_a_gram_at_the_tip_takes_half_a_percent_off_mode_1(zn1, stiff, bare_hz):
+    plate = Plate(stiff.bare)
+    tip = Sensor(1e-3, zn1.length_m, zn1.width_m / 2)
+    loaded = loaded_modes(plate, real_modes(plate, 0.0, 12), tip).omega[:8] / (2 * np.pi)
+    np.testing.assert_allclose(loaded, with_sensor_hz(plate, tip), rtol=2e-5)
+    assert 100 * (1 - loaded[0] / bare_hz[0]) == pytest.approx(0.64, abs=0.1)
+
+
+def test_the_sensors_mass_is_not_taken_for_a_soft_plate(zn1, stiff):
+    sensor = Sensor(2e-3, 0.25, 0.03)
+    measured = with_sensor_hz(Plate(stiff.bare), sensor)
+    ratios = np.array(zn1.modal_ratios)
+    told = fit_bare_plate(zn1, measured, ratios, sensor)
+    untold = fit_bare_plate(zn1, measured, ratios)
+    assert told.young_scale == pytest.approx(1.06, rel=1e-4)
+    assert untold.young_scale < 1.055

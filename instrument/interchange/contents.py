@@ -1,0 +1,272 @@
+"""What a session holds, gathered from its events in one pass."""
+
+from dataclasses import dataclass, field
+from datetime import datetime
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.specimen import Specimen
+from instrument.errors import BadInput
+from instrument.files.rig_file import Channels
+from instrument.impact.judge import Judged, judge
+from instrument.impact.record import Channel, Hit
+from instrument.session.configuration import Configuration
+from instrument.session.storage import SessionFile
+from instrument.stream.derived import (
+    CalibrationFound,
+    DampingFound,
+    FitUpdated,
+    HitJudged,
+    HitRevised,
+    LimitExceeded,
+    LimitWarned,
+    PointMeasured,
+    SentinelCompared,
+)
+from instrument.stream.event import Event
+from instrument.stream.raw import (
+    AcquisitionBegan,
+    BlockAcquired,
+    OperatorDid,
+    SegmentBegan,
+    SegmentEnded,
+    SessionBegan,
+    SessionEnded,
+)
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class TimedPoint:
+    """A point of the sweep and when it was read."""
+
+    point: PointMeasured
+    time_s: float
+    """Since the session's first sample; across a break as the clock had it."""
+
+
+@dataclass(frozen=True)
+class RecordedHit:
+    """A blow as it was caught, in units, nothing set right."""
+
+    number: int
+    accepted: bool
+    """The operator's word counts."""
+    why: str
+    peak_n: float
+    record: Hit
+
+    def judged(self) -> Judged:
+        """Set right as it was for the hammer test."""
+        found = judge(self.record)
+        why = self.why if self.accepted else self.why or "rejected"
+        return Judged(found.hit, self.accepted, why, found.notes, found.pulse)
+
+
+@dataclass(frozen=True)
+class SegmentRun:
+    """A segment that was begun."""
+
+    segment: int
+    sweep: int
+    """0 for calibration."""
+    low_hz: float
+    high_hz: float
+    steps: int
+    """Planned."""
+    ended: bool
+
+
+@dataclass
+class Contents:
+    """Everything a report, an export or an identification asks of a session."""
+
+    path: Path
+    configuration: Configuration
+    began: list[SessionBegan] = field(default_factory=list)
+    """Several where the run was broken off and resumed."""
+    ended: SessionEnded | None = None
+    """None where the program was killed."""
+    sample_rate_hz: float | None = None
+    """Of the sweep."""
+    points: list[TimedPoint] = field(default_factory=list)
+    """Steps and sentinels, as they were measured."""
+    segments: dict[tuple[int, int], SegmentRun] = field(default_factory=dict)
+    """By sweep and segment; calibration not among them."""
+    calibrations: dict[str, CalibrationFound] = field(default_factory=dict)
+    calibration_points: list[PointMeasured] = field(default_factory=list)
+    sentinels: list[SentinelCompared] = field(default_factory=list)
+    hits: list[RecordedHit] = field(default_factory=list)
+    """Of the last hammer test; empty where contents were gathered without samples."""
+    hammer_rate_hz: float | None = None
+    damping: DampingFound | None = None
+    fit: FitUpdated | None = None
+    """The last one of the run itself."""
+    limits: list[LimitWarned | LimitExceeded] = field(default_factory=list)
+    operator: list[OperatorDid] = field(default_factory=list)
+
+    @property
+    def specimen(self) -> Specimen:
+        """The session's own, read as its rig's laser does. Raises `OutsideModel`."""
+        return self.configuration.the_specimen()
+
+    @property
+    def measured(self) -> list[PointMeasured]:
+        """The sweep's points without their times."""
+        return [p.point for p in self.points]
+
+    @property
+    def good_hits(self) -> list[RecordedHit]:
+        """Those that count."""
+        return [h for h in self.hits if h.accepted]
+
+
+def contents_of(session: SessionFile, *, with_hits: bool = True) -> Contents:
+    """Gather a session. Without hits no samples are read. Raises `BadInput` where the file is damaged."""
+    gather = _Gather(Contents(session.path, session.configuration), with_hits)
+    for event in session.events(with_samples=with_hits):
+        gather.take(event)
+    return gather.contents
+
+
+class _Gather:
+    def __init__(self, contents: Contents, with_hits: bool) -> None:
+        self.contents = contents
+        self._clock = _Clock()
+        self._tape = _Tape(contents.configuration.rig.channels) if with_hits else None
+
+    def take(self, event: Event) -> None:
+        """One event into its place."""
+        c = self.contents
+        self._clock.take(event)
+        if self._tape is not None:
+            self._tape.take(event)
+        match event:
+            case SessionBegan():
+                c.began.append(event)
+                c.ended = None
+            case SessionEnded():
+                c.ended = event
+            case AcquisitionBegan():
+                self._acquire(event)
+            case SegmentBegan() | SegmentEnded():
+                self._segment(event)
+            case PointMeasured() if event.purpose == "calibration":
+                c.calibration_points.append(event)
+            case PointMeasured():
+                c.points.append(TimedPoint(event, self._clock.at(event.sample)))
+            case HitJudged() | HitRevised():
+                self._hit(event)
+            case _:
+                self._keep(event)
+
+    def _keep(self, event: Event) -> None:
+        c = self.contents
+        match event:
+            case CalibrationFound():
+                c.calibrations[event.range_name] = event
+            case SentinelCompared():
+                c.sentinels.append(event)
+            case DampingFound():
+                c.damping = event
+            case FitUpdated():
+                c.fit = event
+            case LimitWarned() | LimitExceeded():
+                c.limits.append(event)
+            case OperatorDid():
+                c.operator.append(event)
+
+    def _acquire(self, event: AcquisitionBegan) -> None:
+        if event.part == "hammer":
+            # A test that was broken off begins again: its hits are numbered from 1.
+            self.contents.hits = []
+            self.contents.hammer_rate_hz = event.sample_rate_hz
+        elif event.part == "sweep":
+            self.contents.sample_rate_hz = event.sample_rate_hz
+
+    def _segment(self, event: SegmentBegan | SegmentEnded) -> None:
+        if event.sweep == 0:
+            return
+        key, runs = (event.sweep, event.segment), self.contents.segments
+        if isinstance(event, SegmentBegan):
+            runs[key] = SegmentRun(
+                event.segment, event.sweep, event.low_hz, event.high_hz, event.steps, ended=False
+            )
+        elif key in runs:
+            runs[key] = SegmentRun(**{**vars(runs[key]), "ended": True})
+
+    def _hit(self, event: HitJudged | HitRevised) -> None:
+        hits = self.contents.hits
+        if isinstance(event, HitRevised):
+            hits[:] = [
+                RecordedHit(**{**vars(h), "accepted": event.accepted}) if h.number == event.hit else h
+                for h in hits
+            ]
+        elif self._tape is not None:
+            record = self._tape.cut(event)
+            hits.append(RecordedHit(event.hit, event.accepted, event.why, event.peak_n, record))
+
+
+class _Clock:
+    """Seconds since the session's first sample. A later acquisition begins when the one before has ended."""
+
+    def __init__(self) -> None:
+        self._first: datetime | None = None
+        self._since_first_s = self._offset_s = self._end_s = 0.0
+        self._rate = 1.0
+
+    def take(self, event: Event) -> None:
+        match event:
+            case SessionBegan():
+                now = datetime.fromisoformat(event.utc)
+                self._first = self._first or now
+                self._since_first_s = (now - self._first).total_seconds()
+            case AcquisitionBegan():
+                self._rate = event.sample_rate_hz
+                # A run that went through virtual time is ahead of the clock.
+                self._offset_s = max(self._end_s, self._since_first_s)
+            case BlockAcquired():
+                self._end_s = self.at(event.first_sample + event.samples)
+
+    def at(self, sample: int) -> float:
+        return self._offset_s + sample / self._rate
+
+
+class _Tape:
+    """Samples of the hammer test from the last hit on."""
+
+    def __init__(self, sensors: Channels) -> None:
+        self._sensors = sensors
+        self._acquisition: AcquisitionBegan | None = None
+        self._blocks: list[BlockAcquired] = []
+
+    def take(self, event: Event) -> None:
+        if isinstance(event, AcquisitionBegan):
+            self._acquisition, self._blocks = (event if event.part == "hammer" else None), []
+        elif isinstance(event, BlockAcquired) and self._acquisition is not None:
+            self._blocks.append(event)
+
+    def cut(self, hit: HitJudged) -> Hit:
+        """The samples of a hit."""
+        if self._acquisition is None or not self._blocks:
+            raise BadInput(f"hit {hit.hit}: its samples are missing, expected them before its verdict")
+        rows = self._acquisition.channels.index
+        volts = np.concatenate([b.volts for b in self._blocks], axis=1)
+        start = hit.first_sample - self._blocks[0].first_sample
+        record = volts[:, start : start + hit.samples]
+        # Records do not overlap: what lies before the end of this one is done with.
+        end = hit.first_sample + hit.samples
+        self._blocks = [b for b in self._blocks if b.first_sample + b.samples > end]
+        s = self._sensors
+        assert s.force is not None
+        assert s.response is not None
+        response = record[rows("response")] * s.response.units_per_volt
+        return Hit(
+            f"hit {hit.hit}",
+            self._acquisition.sample_rate_hz,
+            record[rows("force")] * s.force.units_per_volt,
+            (Channel("response", "acceleration", response),),
+        )

@@ -1,0 +1,79 @@
+"""A session as CSV: the sweep, each hit, and what `viscorig identify` needs beside them."""
+
+import csv
+import io
+import json
+from pathlib import Path
+
+import numpy as np
+
+from instrument.interchange.contents import Contents, RecordedHit
+from instrument.interchange.point_table import Column, columns
+from instrument.interchange.provenance import one_line, provenance, reading
+from instrument.interchange.specimen_toml import specimen_toml
+
+
+def export_csv(contents: Contents, folder: Path) -> list[Path]:
+    """Sweep, hits, the damping they gave, the specimen as read here. What is not there is not written."""
+    name, texts = contents.configuration.name, dict[str, str]()
+    if contents.points:
+        texts[f"{name}.csv"] = sweep_text(contents)
+    for hit in contents.hits:
+        verdict = "" if hit.accepted else "-rejected"
+        texts[f"{name}-hit-{hit.number:02d}{verdict}.csv"] = hit_text(contents, hit)
+    if contents.damping is not None:
+        texts[f"{name}-damping.json"] = json.dumps(contents.damping.facts_json, indent=1) + "\n"
+    texts[f"{name}-specimen.toml"] = specimen_toml(contents)
+    for file, text in texts.items():
+        (folder / file).write_text(text, encoding="utf-8")
+    return [folder / file for file in texts]
+
+
+def sweep_text(contents: Contents) -> str:
+    """The sweep CSV. Floats are written so that they come back to the bit."""
+    reference, table = contents.specimen.base_acceleration_m_s2, columns(contents)
+    said = [
+        *provenance(contents),
+        *reading(contents),
+        f"level_g times [base] acceleration_m_s2 = {reference!r} is the commanded level",
+        "velocity_std_m_s is of each part of the phasor, the base channel's noise carried over",
+        one_line(f"viscorig identify {_read_back(contents)}"),
+    ]
+    return "".join(f"# {line}\n" for line in said) + _rows(table)
+
+
+def hit_text(contents: Contents, hit: RecordedHit) -> str:
+    """One hit as it was caught, in N and m/s^2, nothing set right."""
+    record = hit.record
+    verdict = "accepted" if hit.accepted else f"not accepted: {hit.why or 'rejected by the operator'}"
+    said = [
+        *provenance(contents),
+        f"hit {hit.number}, {verdict}",
+        f"sample_rate_hz: {record.sample_rate_hz!r}",
+    ]
+    table = [
+        Column("force_n", "N", record.force_n),
+        Column("acceleration_m_s2", "m/s^2", record.responses[0].samples),
+    ]
+    return "".join(f"# {line}\n" for line in said) + _rows(table)
+
+
+def _read_back(contents: Contents) -> str:
+    """The arguments that give the session's own result again."""
+    name = contents.configuration.name
+    hammer = f" --hammer {name}-damping.json" if contents.damping is not None else ""
+    return f"{name}.csv --specimen {name}-specimen.toml{hammer}"
+
+
+def _rows(table: list[Column]) -> str:
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([c.name for c in table])
+    writer.writerows(zip(*([_cell(v) for v in c.values] for c in table), strict=True))
+    return text.getvalue()
+
+
+def _cell(value: object) -> str:
+    if isinstance(value, np.generic):
+        value = value.item()
+    return "" if value is None or value != value else str(value)

@@ -1,0 +1,112 @@
+"""What a foreign file holds once it is understood: sweeps, FRFs, hits, in SI units."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.modal.frf import Frf, Motion
+from instrument.errors import BadInput
+from instrument.impact.record import Channel, Hit
+from instrument.interchange.units import DERIVATIVE, Quantity
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Columns = dict[str, Array]
+"""Of the sweep CSV, by their names."""
+
+REFERENCE_M_S2 = 9.81
+"""Base acceleration a ratio is stated at where its level is not known: it cancels in the fit."""
+_CSV_NAMES: dict[Motion, str] = {
+    "acceleration": "acceleration_m_s2",
+    "velocity": "velocity_m_s",
+    "displacement": "displacement_m",
+}
+
+
+@dataclass(frozen=True)
+class Ratio:
+    """One signal over another on lines of frequency: an FRF as a foreign file has it, in SI units."""
+
+    name: str
+    frequency_hz: Array
+    H: Complex
+    quantity: Quantity
+    per: Quantity
+    level_m_s2: float | None = None
+    """Base acceleration it was measured at."""
+    place: tuple[int, int] | None = None
+    """Sweep and segment, where the file says."""
+
+
+@dataclass
+class Found:
+    """Everything a file gave."""
+
+    sweeps: list[Columns] = field(default_factory=list)
+    frfs: list[tuple[str, Frf, Array | None]] = field(default_factory=list)
+    """Name, motion over force, coherence."""
+    hits: list[Hit] = field(default_factory=list)
+    said: list[str] = field(default_factory=list)
+    """What was found, and what was passed over and why: one line each."""
+
+    def add_ratio(self, ratio: Ratio, coherence: Array | None = None) -> None:
+        """To the sweeps where it is over a base's motion, to the FRFs where it is over a force."""
+        f = ratio.frequency_hz
+        good = (f > 0) & np.isfinite(ratio.H) & (ratio.H != 0)
+        left = f"; {np.sum(~good)} lines at 0 Hz or without a value left out" if not good.all() else ""
+        if not good.any():
+            self.said.append(f"passed over: {ratio.name}: no line with a value above 0 Hz")
+            return
+        what = f"{ratio.quantity} over {'base ' if ratio.per != 'force' else ''}{ratio.per}"
+        band = f"{good.sum()} lines, {f[good].min():.5g} to {f[good].max():.5g} Hz"
+        self.said.append(f"{ratio.name}: {what}, {band}{left}")
+        if ratio.per == "force":
+            self._add_frf(ratio, good, coherence)
+        else:
+            self.sweeps.append(_columns(ratio, good))
+
+    def _add_frf(self, ratio: Ratio, good: NDArray[np.bool_], coherence: Array | None) -> None:
+        motion = motion_of(ratio.name, ratio.quantity)
+        kept = coherence[good] if coherence is not None and len(coherence) == len(good) else None
+        self.frfs.append((ratio.name, Frf(ratio.frequency_hz[good], ratio.H[good], motion), kept))
+
+    def add_hit(
+        self, source: str, rate_hz: float, force: Array, responses: list[tuple[Motion, Array]]
+    ) -> None:
+        """A blow and its responses."""
+        if not np.isfinite(rate_hz) or rate_hz <= 0:
+            raise BadInput(f"{source}: sample rate {rate_hz:g} Hz, expected more than 0")
+        channels = tuple(Channel(_CSV_NAMES[motion], motion, x) for motion, x in responses)
+        self.hits.append(Hit(source, rate_hz, force, channels))
+        motions = ", ".join(motion for motion, _ in responses)
+        length = f"{len(force)} samples at {rate_hz:g} Hz ({len(force) / rate_hz:.3g} s)"
+        self.said.append(f"{source}: force and {motions}, {length}")
+
+
+def motion_of(name: str, quantity: Quantity) -> Motion:
+    """A response has to be a motion. Raises `BadInput`."""
+    if quantity == "force":
+        raise BadInput(f"{name}: a force as response, expected displacement, velocity or acceleration")
+    return quantity
+
+
+def _columns(ratio: Ratio, good: NDArray[np.bool_]) -> Columns:
+    """Velocity over acceleration, whatever motions the ratio is of: each derivative is i omega."""
+    name = ratio.name
+    f, H = ratio.frequency_hz[good], ratio.H[good]
+    turns = 1 - DERIVATIVE[motion_of(name, ratio.quantity)] + DERIVATIVE[motion_of(name, ratio.per)] - 2
+    base = ratio.level_m_s2 or REFERENCE_M_S2
+    v = H * (2j * np.pi * f) ** turns * base
+    columns = {
+        "frequency_hz": f,
+        "velocity_re_m_s": v.real,
+        "velocity_im_m_s": v.imag,
+        "base_accel_re_m_s2": np.full(len(f), base),
+        "base_accel_im_m_s2": np.zeros(len(f)),
+    }
+    if ratio.level_m_s2 is not None:
+        columns["level_g"] = np.full(len(f), ratio.level_m_s2 / REFERENCE_M_S2)
+    if ratio.place is not None:
+        columns["sweep"], columns["segment"] = (np.full(len(f), float(n)) for n in ratio.place)
+    return columns

@@ -1,0 +1,166 @@
+"""Foreign data to this program's CSV files: sweeps, FRFs, impact records."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.sweep import segments_by_gap
+from instrument.errors import BadInput
+from instrument.files.impact_csv import write_frf_csv, write_impact_csv
+from instrument.files.sweep_file import read_sweep
+from instrument.impact.record import Hit
+from instrument.interchange.found import Columns, Found
+from instrument.interchange.provenance import one_line
+from instrument.interchange.read_csv import read_csv
+from instrument.interchange.read_mat import read_mat
+from instrument.interchange.read_uff import read_uff
+
+Array = NDArray[np.float64]
+
+_READERS = {".uff": read_uff, ".unv": read_uff, ".mat": read_mat, ".csv": read_csv, ".txt": read_csv}
+_UNSAID: dict[str, float] = {"sweep": 1.0, "level_g": 1.0}
+"""What a column means where only other tables of the file have it."""
+_MOTION_NAMES = {"displacement": "receptance", "velocity": "mobility", "acceleration": "accelerance"}
+
+
+@dataclass(frozen=True)
+class Imported:
+    """Files written, and what was found in the foreign one."""
+
+    files: tuple[Path, ...]
+    said: tuple[str, ...]
+
+
+def import_file(path: Path, out: Path | None) -> Imported:
+    """Read a foreign file and write what it holds. Raises `BadInput` where there is nothing of use in it.
+
+    One kind of thing goes to `out` itself; several get its name with `-sweep`, `-frf` or `-hits` behind it.
+    """
+    found = read_foreign(path)
+    target = out if out is not None else Path(f"{path.stem}.csv")
+    if target.suffix.lower() != ".csv":
+        raise BadInput(f"{target}: ending {target.suffix!r}, expected .csv")
+    kinds: dict[str, list[Any]] = {
+        "sweep": [_sweep_text(found.sweeps)] if found.sweeps else [],
+        "frf": found.frfs,
+        "hits": _alike(found.hits),
+    }
+    plan = _names(target, {kind: len(items) for kind, items in kinds.items()})
+    if any(p.exists() and p.samefile(path) for p in plan.values()):
+        raise BadInput(f"{path}: would be written over, expected another --out")
+    try:
+        for (kind, k), file in plan.items():
+            _write(file, kind, kinds[kind][k])
+            _say_where_from(file, path)
+    except OSError as error:
+        raise BadInput(f"{target}: {error.strerror or error}") from None
+    if found.sweeps:
+        # What was written has to be what the program reads.
+        read_sweep(plan["sweep", 0])
+        found.said.append(
+            "relative to the clamp or absolute velocity? [pickup] reads in the specimen says it"
+        )
+    return Imported(tuple(plan.values()), tuple(found.said))
+
+
+def read_foreign(path: Path) -> Found:
+    """What a file holds, by its ending. Raises `BadInput`."""
+    if not path.is_file():
+        raise BadInput(f"{path}: no such file")
+    reader = _READERS.get(path.suffix.lower())
+    if reader is None:
+        raise BadInput(f"{path}: unknown ending {path.suffix!r}, expected one of {', '.join(_READERS)}")
+    found = reader(path)
+    if not (found.sweeps or found.frfs or found.hits):
+        said = "; ".join(found.said) or "no array that says what it is"
+        raise BadInput(f"{path}: nothing to import: {one_line(said)[:160]}")
+    return found
+
+
+def _names(target: Path, counts: dict[str, int]) -> dict[tuple[str, int], Path]:
+    """A file for each thing found."""
+    several = sum(counts.values()) > 1
+    kinds = sum(count > 0 for count in counts.values())
+    names = {}
+    for kind, count in counts.items():
+        for k in range(count):
+            tail = (f"-{kind}" if kinds > 1 else "") + (f"-{k + 1}" if count > 1 else "")
+            names[kind, k] = target.with_name(target.stem + tail + ".csv") if several else target
+    return names
+
+
+def _write(file: Path, kind: str, item: object) -> None:
+    if isinstance(item, str):
+        file.write_text(item, encoding="utf-8")
+    elif isinstance(item, list):
+        write_impact_csv(file, item)
+    elif isinstance(item, tuple):
+        write_frf_csv(file, item[1], item[2])
+
+
+def _say_where_from(file: Path, source: Path) -> None:
+    file.write_text(
+        f"# imported from {one_line(source.name)}\n" + file.read_text(encoding="utf-8"), encoding="utf-8"
+    )
+
+
+def _alike(hits: list[Hit]) -> list[list[Hit]]:
+    """Hits of one rate, length and kind share a file; a second response of a kind gets its own file."""
+    groups: dict[tuple[object, ...], list[Hit]] = {}
+    for hit in hits:
+        for n, channels in enumerate(_layers(hit)):
+            one = Hit(hit.source, hit.sample_rate_hz, hit.force_n, channels)
+            key = n, hit.sample_rate_hz, len(hit.force_n), tuple(c.name for c in channels)
+            groups.setdefault(key, []).append(one)
+    return list(groups.values())
+
+
+def _layers(hit: Hit) -> list[tuple]:  # type: ignore[type-arg]
+    """Responses so that no name occurs twice."""
+    layers: list[dict[str, object]] = []
+    for channel in hit.responses:
+        free = next((layer for layer in layers if channel.name not in layer), None)
+        if free is None:
+            layers.append(free := {})
+        free[channel.name] = channel
+    return [tuple(layer.values()) for layer in layers]
+
+
+def _sweep_text(sweeps: list[Columns]) -> str:
+    """All sweeps of a file in one table; overlapping ones that say nothing are passes of their own."""
+    sweeps = _told_apart(sweeps)
+    names = list(dict.fromkeys(name for s in sweeps for name in s))
+    missing = [n for n in names if n not in _UNSAID and not all(n in s for s in sweeps)]
+    if missing:
+        raise BadInput(
+            f"its sweeps differ in {', '.join(missing)}: expected all of one kind, import them apart"
+        )
+    table = {
+        n: np.concatenate([s.get(n, np.full(len(s["frequency_hz"]), _UNSAID.get(n, 0.0))) for s in sweeps])
+        for n in names
+    }
+    rows = (
+        ",".join(_text(n, v) for n, v in zip(names, row, strict=True))
+        for row in zip(*table.values(), strict=True)
+    )
+    return "\n".join([",".join(names), *rows]) + "\n"
+
+
+def _told_apart(sweeps: list[Columns]) -> list[Columns]:
+    if len(sweeps) == 1 or any("sweep" in s for s in sweeps):
+        return sweeps
+    return [
+        s
+        | {
+            "sweep": np.full(len(s["frequency_hz"]), float(k)),
+            "segment": segments_by_gap(s["frequency_hz"]).astype(float),
+        }
+        for k, s in enumerate(sweeps, start=1)
+    ]
+
+
+def _text(name: str, value: float) -> str:
+    return str(int(value)) if name in ("sweep", "segment") else repr(float(value))

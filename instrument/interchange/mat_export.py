@@ -1,0 +1,102 @@
+"""A session as a MATLAB file: one struct a part, and the same structs again in `units`."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.io import savemat
+
+from instrument.impact.spectra import spectra
+from instrument.interchange.contents import Contents
+from instrument.interchange.point_table import Column, columns
+from instrument.interchange.provenance import provenance, reading
+
+
+def export_mat(contents: Contents, folder: Path) -> list[Path]:
+    """`sweep`, `hits`, `hammer_frf`, `damping`, `calibration`: what there is, and `units` and `about`."""
+    parts = {
+        "sweep": _sweep(contents) if contents.points else [],
+        "hits": _hits(contents),
+        "hammer_frf": _hammer_frf(contents),
+        "damping": _damping(contents),
+        "calibration": _calibration(contents),
+    }
+    there = {name: table for name, table in parts.items() if table}
+    content: dict[str, Any] = {name: {c.name: c.values for c in table} for name, table in there.items()}
+    content["units"] = {name: {c.name: c.unit or "text" for c in table} for name, table in there.items()}
+    content["about"] = np.array([*provenance(contents), *reading(contents)], dtype=object)
+    path = folder / f"{contents.configuration.name}.mat"
+    savemat(path, content, oned_as="column", do_compression=True)
+    return [path]
+
+
+def _sweep(contents: Contents) -> list[Column]:
+    """As in the CSV, phasors complex."""
+    by_name = {c.name: c for c in columns(contents)}
+    table = []
+    for name, c in by_name.items():
+        if "_re_" in name:
+            imaginary = by_name[name.replace("_re_", "_im_")].values
+            table.append(Column(name.replace("_re_", "_"), c.unit, c.values + 1j * imaginary))
+        elif "_im_" not in name:
+            table.append(c)
+    return table
+
+
+def _hits(contents: Contents) -> list[Column]:
+    """Samples as columns, a column a hit."""
+    if not contents.hits:
+        return []
+    records = [h.record for h in contents.hits]
+    return [
+        Column("sample_rate_hz", "Hz", np.array(records[0].sample_rate_hz)),
+        Column("accepted", "1", np.array([h.accepted for h in contents.hits])),
+        Column("why", "", np.array([h.why for h in contents.hits], dtype=object)),
+        Column("force_n", "N", np.column_stack([r.force_n for r in records])),
+        Column("acceleration_m_s2", "m/s^2", np.column_stack([r.responses[0].samples for r in records])),
+    ]
+
+
+def _hammer_frf(contents: Contents) -> list[Column]:
+    good = [h.judged() for h in contents.good_hits]
+    if not good:
+        return []
+    found = spectra(good)
+    frf = found.frfs["response"]
+    table = [
+        Column("frequency_hz", "Hz", frf.frequency_hz),
+        Column("accelerance", "(m/s^2)/N", frf.H),
+    ]
+    if found.coherence is not None and len(good) > 1:
+        table.append(Column("coherence", "1", found.coherence["response"]))
+    return table
+
+
+def _damping(contents: Contents) -> list[Column]:
+    """Adopted values and each method's, NaN where a method refused."""
+    if contents.damping is None or not contents.damping.facts_json["modes"]:
+        return []
+    modes = contents.damping.facts_json["modes"]
+    table = [
+        Column("frequency_hz", "Hz", _floats([m["frequency_hz"] for m in modes])),
+        Column("damping_ratio", "1", _floats([m["damping_ratio"] for m in modes])),
+        Column("accepted", "1", np.array([m["accepted"] for m in modes])),
+    ]
+    for method in ("rational_fit", "half_power", "lscf"):
+        for key, suffix in (("ratio", "ratio"), ("standard_error", "std")):
+            values = _floats([m[method][key] if m[method] else None for m in modes])
+            table.append(Column(f"{method}_{suffix}", "1", values))
+    return table
+
+
+def _calibration(contents: Contents) -> list[Column]:
+    found = list(contents.calibrations.values())
+    if not found:
+        return []
+    keys = (("gain", "1"), ("gain_std", "1"), ("delay_s", "s"), ("delay_std_s", "s"))
+    table = [Column(key, unit, _floats([getattr(c, key) for c in found])) for key, unit in keys]
+    return [Column("range", "", np.array([c.range_name for c in found], dtype=object)), *table]
+
+
+def _floats(values: list[Any]) -> np.ndarray:
+    return np.array([np.nan if v is None else v for v in values], dtype=float)

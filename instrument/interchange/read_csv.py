@@ -1,0 +1,103 @@
+"""CSV of any origin: comma, semicolon or tab; decimal comma; units in the names or in a row of their own."""
+
+import csv
+import re
+from pathlib import Path
+
+import numpy as np
+
+from instrument.errors import BadInput
+from instrument.files.text import read_text
+from instrument.interchange.found import Found
+from instrument.interchange.read_table import Named, read_table
+
+_RATE = re.compile(r"^#\s*sample_rate_hz\s*:\s*(\S+)\s*$", re.M)
+_SEPARATORS = (";", "\t", ",")
+
+
+def read_csv(path: Path) -> Found:
+    """The table's sweep, FRF or record. Raises `BadInput` naming file and line."""
+    text = read_text(path)
+    table = _table(path, text)
+    rate = _RATE.search(text)
+    if rate is not None:
+        table["sample_rate_hz"] = np.array([_number(path, 1, rate[1], comma=False)])
+    found = Found()
+    for name, part in _hits_apart(path, table):
+        if not read_table(name, part, found):
+            raise BadInput(
+                f"{path}: header: found {', '.join(table)[:100]}, expected a frequency with a velocity or "
+                "an FRF, or a force with a response and times; units in the names, as in velocity_mm_s or "
+                "'Force [N]'"
+            )
+    return found
+
+
+def _hits_apart(path: Path, table: Named) -> list[tuple[str, Named]]:
+    """Where hits share a file each is a table of its own."""
+    if "hit" not in table:
+        return [(path.name, table)]
+    which = table["hit"]
+    return [
+        (
+            f"{path.name} hit {n:g}",
+            {k: v[which == n] if v.shape == which.shape else v for k, v in table.items()},
+        )
+        for n in np.unique(which)
+    ]
+
+
+def _table(path: Path, text: str) -> Named:
+    lines = [
+        (k, s) for k, s in enumerate(text.splitlines(), 1) if s.strip() and not s.lstrip().startswith("#")
+    ]
+    if len(lines) < 2:
+        raise BadInput(f"{path}: {len(lines)} lines, expected a header and rows below it")
+    separator = next((s for s in _SEPARATORS if s in lines[0][1]), ",")
+    header, *rows = ((k, _fields(path, k, s, separator)) for k, s in lines)
+    names = header[1]
+    if len(set(names)) < len(names):
+        raise BadInput(f"{path}: line {header[0]}: a column twice, expected each once")
+    if _is_units(rows[0][1]):
+        names = [f"{n} [{u.strip('[]()')}]" if u else n for n, u in zip(names, rows[0][1], strict=False)]
+        rows = rows[1:]
+    return _numbers(path, names, rows, comma=separator != ",")
+
+
+def _fields(path: Path, line: int, text: str, separator: str) -> list[str]:
+    try:
+        return [f.strip() for f in next(csv.reader([text], delimiter=separator, strict=True))]
+    except csv.Error as error:
+        raise BadInput(f"{path}: line {line}: {error}") from None
+
+
+def _is_units(row: list[str]) -> bool:
+    """A second row without a number in it, below the names, holds units."""
+    return not any(re.search(r"\d", re.sub(r"s\^?2|s²", "", field)) for field in row)
+
+
+def _numbers(path: Path, names: list[str], rows: list[tuple[int, list[str]]], *, comma: bool) -> Named:
+    """Columns of numbers; a column whose first value is none is text and passed over."""
+    for line, row in rows:
+        if len(row) != len(names):
+            raise BadInput(f"{path}: line {line}: {len(row)} columns, expected {len(names)} as in the header")
+    if not rows:
+        raise BadInput(f"{path}: no rows below the header")
+    numeric = [k for k, name in enumerate(names) if name and _is_number(rows[0][1][k], comma=comma)]
+    return {
+        names[k]: np.array([_number(path, line, row[k], comma=comma) for line, row in rows]) for k in numeric
+    }
+
+
+def _is_number(text: str, *, comma: bool) -> bool:
+    try:
+        float(text.replace(",", ".") if comma else text)
+    except ValueError:
+        return False
+    return True
+
+
+def _number(path: Path, line: int, text: str, *, comma: bool) -> float:
+    if not _is_number(text, comma=comma):
+        raise BadInput(f"{path}: line {line}: {text!r}, expected a number")
+    return float(text.replace(",", ".") if comma else text)

@@ -1,0 +1,133 @@
+"""MATLAB files: named arrays, structs of them, and the structs of an LMS Test.Lab export."""
+
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.io import loadmat
+
+from fitting.modal.frf import Motion
+from instrument.errors import BadInput
+from instrument.interchange.found import Found, Ratio, motion_of
+from instrument.interchange.read_table import Named, read_table
+from instrument.interchange.units import DERIVATIVE, KNOWN, Unit, unit_of
+
+Array = NDArray[np.float64]
+
+_DEPTH = 4
+_OUR_OWN = ("units", "about")
+
+
+def read_mat(path: Path) -> Found:
+    """What its variables hold. Raises `BadInput`."""
+    try:
+        content: dict[str, Any] = loadmat(str(path), simplify_cells=True)
+    except NotImplementedError:
+        raise BadInput(f"{path}: a MATLAB 7.3 file (HDF5), expected one saved with -v7 or earlier") from None
+    except Exception as error:  # the library raises whatever it meets
+        said = " ".join(str(error).split())[:80]
+        raise BadInput(f"{path}: not a MATLAB file that can be read: {said}") from None
+    variables = {n: v for n, v in content.items() if not n.startswith("__") and n not in _OUR_OWN}
+    found = Found()
+    _walk(path, path.name, variables, found, 0)
+    _testlab(path, variables, found)
+    return found
+
+
+def _walk(path: Path, source: str, struct: dict[str, Any], found: Found, depth: int) -> None:
+    """Arrays of one struct belong together."""
+    table: Named = {n: np.asarray(v) for n, v in struct.items() if _is_numeric(v)}
+    if table and not read_table(source, table, found):
+        found.said.append(f"passed over: {source}: {', '.join(table)[:100]}")
+    for name, value in struct.items():
+        if isinstance(value, dict) and not _is_function(value) and depth < _DEPTH:
+            _walk(path, f"{source} {name}", value, found, depth + 1)
+
+
+def _is_numeric(value: Any) -> bool:
+    return np.asarray(value).dtype.kind in "fciub" and np.asarray(value).size > 0 and np.ndim(value) <= 2
+
+
+# LMS Test.Lab: a struct a function, with its axis in x_values and its ordinate, unit and all, in y_values.
+
+
+def _is_function(value: Any) -> bool:
+    return isinstance(value, dict) and {"x_values", "y_values"} <= set(value)
+
+
+def _testlab(path: Path, variables: dict[str, Any], found: Found) -> None:
+    """FRFs as they are; a force's time record with the responses of its length and rate."""
+    records: list[tuple[str, Unit, float, Array]] = []
+    for name, function in variables.items():
+        for k, one in enumerate(function if isinstance(function, list | np.ndarray) else [function], start=1):
+            if _is_function(one):
+                _function(path, name if one is function else f"{name} {k}", one, found, records)
+    forces = [r for r in records if r[1].quantity == "force"]
+    if len(forces) > 1:
+        raise BadInput(
+            f"{path}: {', '.join(f[0] for f in forces)}: {len(forces)} forces, expected one a file"
+        )
+    if not forces:
+        if records:
+            found.said.append(f"passed over: {', '.join(r[0] for r in records)}: no force among them")
+        return
+    name, _, rate, force = forces[0]
+    responses: list[tuple[Motion, Array]] = [
+        (motion_of(n, unit.quantity), samples)
+        for n, unit, its_rate, samples in records
+        if unit.quantity in DERIVATIVE and len(samples) == len(force) and abs(its_rate / rate - 1) < 1e-6
+    ]
+    if not responses:
+        raise BadInput(f"{path}: {name}: no response of its length and rate beside the force")
+    found.add_hit(path.name, rate, force, responses)
+
+
+def _function(
+    path: Path,
+    name: str,
+    function: dict[str, Any],
+    found: Found,
+    records: list[tuple[str, Unit, float, Array]],
+) -> None:
+    where = f"{path}: {name}"
+    values = np.asarray(function["y_values"].get("values"))
+    x = _abscissa(where, function["x_values"], values.shape[0])
+    label = _label(function["y_values"])
+    unit = unit_of(label)
+    if unit is None:
+        raise BadInput(f"{where}: ordinate in {label!r}, expected one of {KNOWN}, or one over another")
+    columns = values[:, None] if values.ndim == 1 else values
+    is_time = _label(function["x_values"]).lower() in ("s", "sec")
+    for k in range(columns.shape[1]):
+        one = name if columns.shape[1] == 1 else f"{name} column {k + 1}"
+        if unit.per is not None:
+            H = columns[:, k].astype(np.complex128) * unit.factor
+            found.add_ratio(Ratio(one, x, H, unit.quantity, unit.per))
+        elif is_time:
+            records.append((one, unit, 1 / (x[1] - x[0]), np.asarray(columns[:, k].real * unit.factor)))
+        else:
+            found.said.append(f"passed over: {one}: a spectrum in {label}, expected one signal over another")
+
+
+def _abscissa(where: str, axis: dict[str, Any], count: int) -> Array:
+    """`start_value`, `increment`, `number_of_values`, or the values themselves where they are uneven."""
+    values = np.asarray(axis.get("values", []), float).ravel()
+    if values.size == count:
+        return values
+    try:
+        start, step = float(axis["start_value"]), float(axis["increment"])
+    except (KeyError, TypeError, ValueError):
+        raise BadInput(f"{where}: x_values without start_value and increment, and no values") from None
+    if count < 2 or not step > 0:
+        raise BadInput(
+            f"{where}: {count} values at a step of {step:g}, expected 2 or more and a step above 0"
+        )
+    return np.asarray(start + step * np.arange(count), dtype=np.float64)
+
+
+def _label(axis: dict[str, Any]) -> str:
+    quantity = axis.get("quantity", {})
+    label = quantity.get("label", "") if isinstance(quantity, dict) else ""
+    return re.sub(r"\s+", "", str(label))
