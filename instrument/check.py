@@ -84,7 +84,7 @@ def all_faults(path: Path) -> list[str]:
 def dry_run(path: Path) -> DryRun:
     """Predicted levels, ranges, travel and times. Raises `BadInput`."""
     experiment = read_whole_experiment(path)
-    specimen = read_specimen(path.parent / experiment.document.specimen)
+    specimen = experiment.the_specimen()
     configuration = experiment.configuration("check", "")
     settings = setup_of(configuration).sweep
     hammer = hammer_settings(configuration)

@@ -11,9 +11,8 @@ from drivers.errors import DriverError
 from drivers.shaker import Alarm
 from instrument.control import Control
 from instrument.errors import BadInput, RigStopped
-from instrument.files.specimen_file import specimen_of
 from instrument.forecast import Forecast, calibration_segments, distinct, planned_segments, with_next_coarser
-from instrument.live_fit import LiveFit
+from instrument.live_fit import Fitter, LiveFit, fit_points
 from instrument.progress import Progress, quiet
 from instrument.rig import Rig, open_rig
 from instrument.runner import Runner
@@ -51,17 +50,18 @@ def run_experiment(
     watch: Watch | None = None,
     resume: Path | None = None,
     progress: Progress = quiet,
+    fit: Fitter = fit_points,
 ) -> Finished:
     """Run the parts and leave a session file in `out`. Raises `BadInput`, `RigStopped`, `KeyboardInterrupt`.
 
     Whatever ends the run, the shaker is silent and what is complete is kept; the message says where.
     """
     with progress("forecasting the sweep"):
-        forecast = Forecast.of(specimen_of(experiment.specimen))
+        forecast = Forecast.of(experiment.the_specimen())
     journal, name = _journal(experiment, out, resume)
     entries = journal.entries()
     earlier = [event for e in entries for event in part_events(journal.folder / e.file)]
-    session = _Session(experiment, journal, forecast, control or Control(), earlier, parts)
+    session = _Session(experiment, journal, forecast, control or Control(), earlier, parts, fit)
     path = journal.folder.parent / f"{name}.h5"
     try:
         with Recorder(journal, entries, watch) as recorder:
@@ -96,7 +96,9 @@ class _Session:
         control: Control,
         earlier: list[Event],
         parts: tuple[Part, ...],
+        fit: Fitter,
     ) -> None:
+        self._fitter = fit
         self._experiment, self._forecast, self._control = experiment, forecast, control
         self._parts, self._resumed = parts, bool(earlier)
         self._configuration = journal.configuration()
@@ -167,7 +169,7 @@ class _Session:
             self._emit(rig.operator.aim("base"))
             runner.sweep("calibration", planner.plan(calibration))
         self._emit(rig.operator.aim("pickup"))
-        self._live = LiveFit(self._configuration.the_specimen(), self._record)
+        self._live = LiveFit(self._configuration.the_specimen(), self._record, self._fitter)
         with self._live:
             runner.sweep("sweep", planner.plan(segments))
         self.fit = self._live.latest

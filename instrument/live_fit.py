@@ -3,12 +3,13 @@
 import threading
 from collections.abc import Callable
 
-import numpy as np
+from pydantic import ValidationError
 from threadpoolctl import threadpool_limits
 
 from fitting.errors import FittingError
 from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
 from fitting.specimen import Specimen
+from instrument.files.hammer_file import hammer_modes
 from instrument.identification import identify
 from instrument.identification_facts import bare_plate_facts, identification_facts
 from instrument.plain import plain
@@ -17,6 +18,8 @@ from instrument.stream.derived import DampingFound, FitUpdated, PointMeasured
 from instrument.stream.event import Event
 from instrument.stream.raw import FitStarted
 
+Fitter = Callable[[int, int, list[PointMeasured], DampingFound | None, Specimen], FitUpdated]
+"""Number, last step, points, hammer test, specimen."""
 _SECONDS = ("seconds", "setup_seconds", "validation_seconds")
 
 
@@ -33,19 +36,18 @@ def fit_points(
         # One thread: sums in another order would differ in the last bit.
         with threadpool_limits(1):
             return FitUpdated(number, last_step, _facts(used, damping, specimen))
-    except FittingError as error:
+    except (FittingError, ValidationError) as error:
+        # A hammer test may give a mode that no bare plate has: said, not fatal.
         return FitUpdated(number, last_step, {}, " ".join(str(error).split()))
 
 
 def _facts(used: list[PointMeasured], damping: DampingFound | None, specimen: Specimen) -> dict[str, object]:
     hammer: dict[str, object] = {}
     if damping is not None and any(m["accepted"] for m in damping.facts_json["modes"]):
-        modes = [m for m in damping.facts_json["modes"] if m["accepted"]]
-        ratios = [np.nan if m["damping_ratio"] is None else m["damping_ratio"] for m in modes]
-        bare = fit_bare_plate(specimen, np.array([m["frequency_hz"] for m in modes]), np.array(ratios))
+        bare = fit_bare_plate(specimen, *hammer_modes(damping.facts_json))
         specimen = with_bare_plate(specimen, bare)
         hammer = {"hammer": bare_plate_facts(bare, specimen)}
-    sweep = sweep_of(used, specimen.base_acceleration_m_s2)
+    sweep = sweep_of(used)
     facts = identification_facts(identify(sweep, specimen), sweep)
     kept = {key: value for key, value in facts.items() if key not in _SECONDS}
     return dict(plain({**kept, **hammer}))
@@ -57,8 +59,9 @@ class LiveFit:
     Use as a context around the sweep.
     """
 
-    def __init__(self, specimen: Specimen, emit: Callable[[Event], object]) -> None:
+    def __init__(self, specimen: Specimen, emit: Callable[[Event], object], fit: Fitter) -> None:
         self._specimen, self._emit = specimen, emit
+        self._fit = fit
         self._wake = threading.Condition()
         self._newest: tuple[list[PointMeasured], DampingFound | None] | None = None
         self._ended = False
@@ -96,7 +99,7 @@ class LiveFit:
                 self._number += 1
                 last = max(p.step for p in points)
                 self._emit(FitStarted(self._number, last))
-                self.latest = fit_points(self._number, last, points, damping, self._specimen)
+                self.latest = self._fit(self._number, last, points, damping, self._specimen)
                 self._emit(self.latest)
         except Exception as error:  # raised on leaving: a fit must not end a measurement
             self._failure = error

@@ -6,8 +6,8 @@ from fitting.sweep import Sweep
 from instrument.stream.derived import PointMeasured
 
 
-def sweep_of(points: list[PointMeasured], reference_m_s2: float) -> Sweep:
-    """The points as a `Sweep`. `reference_m_s2` is the specimen's `[base] acceleration_m_s2` for level 1 g.
+def sweep_of(points: list[PointMeasured]) -> Sweep:
+    """The points as a `Sweep`, each at its own level.
 
     The reading's standard deviation holds the reference channel's too: both blur the response over the base.
     """
@@ -18,10 +18,9 @@ def sweep_of(points: list[PointMeasured], reference_m_s2: float) -> Sweep:
     return Sweep(
         frequency_hz=np.array([p.frequency_hz for p in points]),
         velocity_m_s=velocity,
-        commanded_m_s2=np.full(len(points), reference_m_s2),
+        commanded_m_s2=np.array([p.level_m_s2 for p in points]),
         segment=np.array([p.segment for p in points], dtype=np.intp),
         sweep=np.array([p.sweep for p in points], dtype=np.intp),
         base_m_s2=base,
         std_m_s=np.hypot(velocity_std, np.abs(velocity / base) * base_std),
-        time_s=np.array([float(p.step) for p in points]),
     )

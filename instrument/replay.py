@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from time import monotonic, sleep
 
-from instrument.live_fit import fit_points
+from instrument.live_fit import Fitter, fit_points
 from instrument.session.configuration import setup_of
 from instrument.session.storage import SessionFile
 from instrument.stream.analysis import Analysis
@@ -34,7 +34,11 @@ class Replayed:
 
 
 def replay(
-    session: SessionFile, *, speed: float | None = None, watch: Watch = lambda event: None
+    session: SessionFile,
+    *,
+    speed: float | None = None,
+    watch: Watch = lambda event: None,
+    fit: Fitter = fit_points,
 ) -> Replayed:
     """Run a session again. `speed` 1 is as it was; None as fast as it goes."""
     configuration = session.configuration
@@ -61,7 +65,7 @@ def replay(
         derived = analysis.feed(event)
         expected += derived
         if isinstance(event, FitStarted):
-            again.fit = fit_points(event.number, event.last_step, analysis.points, analysis.damping, specimen)
+            again.fit = fit(event.number, event.last_step, analysis.points, analysis.damping, specimen)
             fits[event.number] = again.fit
             derived = [*derived, again.fit]
         for one in derived:

@@ -60,8 +60,8 @@ class Addresses:
 def open_rig(document: RigDocument, path: Path, hammer: Hammer | None) -> Iterator[Rig]:
     """Connect everything; let go of it again at the end. Raises `DriverError`."""
     with ExitStack() as stack:
-        virtual = document.is_simulated
-        if virtual:
+        virtual = document.is_simulated or document.front_end.paced_by_reader
+        if document.is_simulated:
             addresses = stack.enter_context(simulator(path))
             document = _at(document, addresses)
         shaker = _shaker(document)

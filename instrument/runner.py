@@ -30,6 +30,7 @@ from instrument.stream.raw import (
     AcquisitionBegan,
     BlockAcquired,
     HammerTestEnded,
+    Held,
     Part,
     RangeSet,
     SegmentBegan,
@@ -137,6 +138,7 @@ class Runner:
 
     def _hold(self) -> None:
         """Silent until resumed. Samples go on, so that nothing times out."""
+        self._emit(Held())
         self.silence()
         while self._control.held:
             self._read(round(_BEAT_S * self._rig.front_end.sample_rate_hz))

@@ -6,14 +6,13 @@ from dataclasses import fields
 from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
-from drivers.simulated.plates import BarePlate, DampedPlate
-
 from drivers.shaker.register_map import DEFAULT
 from drivers.simulated.plant.effects import CoreLaw, Effects
 from drivers.simulated.plant.law import MaxwellLaw
+from drivers.simulated.plates import BarePlate, DampedPlate
 from drivers.simulated.rig import Ports, SimulatedRig
 from drivers.simulated.sensors import Sensor
-from drivers.simulated.world import Laser, Wiring, World
+from drivers.simulated.world import Laser, Plate, Wiring, World
 from drivers.vibrometer.models import model_named
 from instrument.errors import BadInput
 from instrument.files.rig_file import Channels, RigDocument, Simulation
@@ -89,13 +88,13 @@ def _world(document: RigDocument, simulation: Simulation, virtual_time: bool) ->
         rides_with_base=not absolute,
     )
     response = document.channels.response
-    plates = {
+    plates: dict[str, Plate] = {
         "damped": DampedPlate(plate),
         "bare": BarePlate(
+            _of_the_bare_plate(plate),
             sensor_mass_kg=1e-3 * response.mass_g if response else 0.0,
             double_hit_every=simulation.double_hit_every,
             seed=simulation.seed,
-            substrate_stiffness=plate.substrate_stiffness,
         ),
     }
     wiring = Wiring(
@@ -106,6 +105,11 @@ def _world(document: RigDocument, simulation: Simulation, virtual_time: bool) ->
         simulation.seed,
     )
     return World(plates, wiring, laser, virtual_time)
+
+
+def _of_the_bare_plate(effects: Effects) -> Effects:
+    """What the bare plate shares: its metal and the air. The clamp is another mounting."""
+    return Effects(substrate_stiffness=effects.substrate_stiffness, air_added_mass=effects.air_added_mass)
 
 
 def _inputs(channels: Channels, simulation: Simulation, level_factor: float) -> dict[int, Sensor]:

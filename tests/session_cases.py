@@ -8,6 +8,7 @@ import numpy as np
 from conftest import TABLE_4
 from impact_cases import TABLE_3, clean_hit
 
+from fitting.identification.bare_plate import loaded_modes
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
 from instrument.files.experiment_file import ExperimentDocument
@@ -100,6 +101,15 @@ def configuration(**changes):
     )
 
 
+def bare_modes_hz(specimen, hammer):
+    """The bare plate's first modes, the accelerometer on it."""
+    plate = Plate(specimen.bare)
+    modes = real_modes(plate, 0.0, 12)
+    if hammer is not None and hammer.sensor is not None:
+        modes = loaded_modes(plate, modes, hammer.sensor)
+    return modes.omega[:8] / (2 * np.pi)
+
+
 class Tape:
     """Emits events, raw ones through the analysis; what is kept becomes a session."""
 
@@ -111,7 +121,7 @@ class Tape:
         self._sample = self._step = 0
         truth = specimen_of(config.specimen).with_law(TABLE_4)
         self._truth = replace(truth, reads=config.rig.vibrometer.reads)
-        self._bare_hz = real_modes(Plate(truth.bare), 0.0, 8).omega / (2 * np.pi)
+        self._bare_hz = bare_modes_hz(truth, setup_of(config).hammer)
         self._models = Models.of(self._truth, np.array([18.0, 230.0]))
 
     def emit(self, event):

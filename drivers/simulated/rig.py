@@ -2,6 +2,7 @@
 
 import json
 import threading
+import time
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -44,7 +45,7 @@ class SimulatedRig:
         ports: Ports = Ports(),
         log: Path | None = None,
     ) -> None:
-        self._world, self._ports, self._log_path = world, ports, log
+        self.world, self._ports, self._log_path = world, ports, log
         self._written = 0
         self._registers, self._unit = registers, unit
         self.device = ShakerDevice(
@@ -61,7 +62,7 @@ class SimulatedRig:
 
     def __enter__(self) -> dict[str, str]:
         """Addresses by the names `viscorig simulate` prints."""
-        world = self._world
+        world = self.world
         with ExitStack() as stack:
             self._on_range(self._head.range)
             vibrometer = stack.enter_context(VibrometerServer(self._head, lock=world.lock))
@@ -92,7 +93,7 @@ class SimulatedRig:
             stack.callback(ticking.join)
             stack.callback(self._ending.set)
             self._stack = stack.pop_all()
-        self.front_end, self.vibrometer = front_end, vibrometer
+        self.front_end, self.vibrometer, self.modbus = front_end, vibrometer, modbus
         host, port = modbus.address
         return {
             "modbus_tcp": f"{host}:{port}",
@@ -104,20 +105,22 @@ class SimulatedRig:
     def __exit__(self, *_: object) -> None:
         self._stack.close()
         # A ramp to rest ends, as it would have, though nobody watches.
-        now_s = self._world.clock()[1]
+        now_s = self.world.clock()[1]
         self.device.advance(now_s + _LONGEST_RAMP_S)
         self._write_log()
 
     def _on_range(self, chosen: Range) -> None:
-        laser = self._world.laser
+        laser = self.world.laser
         laser.scale_m_s_v, laser.full_scale_v = chosen.scale_m_s_v, chosen.full_scale_v
 
     def _tick(self) -> None:
         while not self._ending.wait(_TICK_S):
-            with self._world.lock:
-                _, now_s = self._world.clock()
+            with self.world.lock:
+                _, now_s = self.world.clock()
+                # The device's own watch, whether or not anybody is connected.
+                self.device.check_heartbeat(time.monotonic(), now_s)
                 status = self.device.status(now_s)
-                self._world.tick(status.ramping and not status.running)
+                self.world.tick(status.ramping and not status.running)
                 self._write_log()
 
     def _write_log(self) -> None:

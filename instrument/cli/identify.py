@@ -5,8 +5,6 @@ from pathlib import Path
 from typing import Any
 
 import click
-import numpy as np
-from numpy.typing import NDArray
 
 from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
 from fitting.specimen import Specimen
@@ -14,18 +12,16 @@ from fitting.sweep import Sweep
 from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_identification import print_bare_plate, print_identification
-from instrument.files.hammer_file import read_hammer
+from instrument.files.hammer_file import HammerModes, read_hammer
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.identification import Identified, Method
 from instrument.identification import identify as identify_sweep
 from instrument.identification_facts import bare_plate_facts, identification_facts
-from instrument.interchange.contents import Contents, contents_of
+from instrument.interchange.contents import contents_of
 from instrument.interchange.identified import session_modes, session_sweep
 from instrument.progress import bar
 from instrument.session.storage import SessionFile
-
-Modes = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 _SESSION_ENDINGS = (".h5", ".hdf5")
 
@@ -74,10 +70,11 @@ def identify(
     if hammer is not None and no_hammer:
         raise click.UsageError("--hammer and --no-hammer exclude each other")
     is_session = data.suffix.lower() in _SESSION_ENDINGS
-    given = _of_session(out, data, specimen) if is_session else _of_csv(data, specimen)
+    own_hammer = hammer is None and not no_hammer
+    given = _of_session(out, data, specimen, own_hammer=own_hammer) if is_session else _of_csv(data, specimen)
     read, bare = given.specimen, None
     modes = read_hammer(hammer) if hammer is not None else given.modes
-    if modes is not None and not no_hammer:
+    if modes is not None:
         bare = fit_bare_plate(read, *modes)
         read = with_bare_plate(read, bare)
     if no_viscous_damping:
@@ -95,8 +92,8 @@ def identify(
 class _Given:
     specimen: Specimen
     sweep: Sweep
-    modes: Modes | None
-    """Of the data's own hammer test."""
+    modes: HammerModes | None
+    """Of the data's own hammer test, where it is to take part."""
     facts: dict[str, Any]
 
 
@@ -107,19 +104,14 @@ def _of_csv(data: Path, specimen: Path | None) -> _Given:
     return _Given(read, read_sweep(data).sweep(read.base_acceleration_m_s2), None, {})
 
 
-def _of_session(out: Output, data: Path, specimen: Path | None) -> _Given:
+def _of_session(out: Output, data: Path, specimen: Path | None, *, own_hammer: bool) -> _Given:
     with SessionFile(data) as session:
         contents = contents_of(session, with_hits=False)
     reads = contents.configuration.rig.vibrometer.reads
     read = contents.specimen if specimen is None else replace(read_specimen(specimen), reads=reads)
-    modes = session_modes(contents)
+    modes = session_modes(contents) if own_hammer else None
     sweep = session_sweep(contents, read)
-    out.say(_said(contents, len(sweep), modes))
-    about = {"session": contents.configuration.name, "reads": reads}
-    return _Given(read, sweep, modes, about)
-
-
-def _said(contents: Contents, points: int, modes: Modes | None) -> str:
-    hammer = "no hammer test" if modes is None else f"hammer test with {len(modes[0])} modes"
-    reads = contents.configuration.rig.vibrometer.reads
-    return f"session {contents.configuration.name}: {points} points, velocity {reads}, {hammer}\n"
+    name = contents.configuration.name
+    hammer = f", its hammer test with {len(modes.frequency_hz)} modes" if modes is not None else ""
+    out.say(f"session {name}: {len(sweep)} points, velocity {reads}{hammer}\n")
+    return _Given(read, sweep, modes, {"session": name, "reads": reads})

@@ -2,11 +2,14 @@
 
 import json
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, Field, ValidationError
 
+from fitting.errors import TooFewPoints
+from fitting.identification.bare_plate import Sensor
 from instrument.errors import BadInput
 from instrument.files.text import read_text
 
@@ -19,14 +22,31 @@ class _Mode(BaseModel):
     accepted: bool = True
 
 
+class _Sensor(BaseModel):
+    mass_kg: float = Field(ge=0, le=1, allow_inf_nan=False)
+    x_m: float = Field(ge=0, allow_inf_nan=False)
+    y_m: float = Field(ge=0, allow_inf_nan=False)
+
+
 class _Document(BaseModel):
     modes: list[_Mode]
+    sensor: _Sensor | None = None
 
 
-def read_hammer(path: Path) -> tuple[Array, Array]:
-    """Frequencies in Hz and ratios (NaN where there is none) of the accepted modes. Raises `BadInput`."""
+class HammerModes(NamedTuple):
+    """The accepted modes of a bare plate's hammer test: arguments of `fit_bare_plate`."""
+
+    frequency_hz: Array
+    ratios: Array
+    """NaN where there is none."""
+    sensor: Sensor | None
+    """What sat on the plate."""
+
+
+def read_hammer(path: Path) -> HammerModes:
+    """The JSON of `viscorig damping`. Raises `BadInput`."""
     try:
-        document = _Document.model_validate(json.loads(read_text(path)))
+        return hammer_modes(json.loads(read_text(path)))
     except json.JSONDecodeError as error:
         raise BadInput(f"{path}: line {error.lineno}: not JSON: {error.msg}") from None
     except (ValidationError, RecursionError) as error:
@@ -34,8 +54,17 @@ def read_hammer(path: Path) -> tuple[Array, Array]:
         place = ".".join(str(p) for p in first["loc"]) if first else "nesting"
         said = f": {first['msg'].lower()}" if first else ""
         raise BadInput(f"{path}: {place}{said}, expected the JSON of 'viscorig damping'") from None
+    except TooFewPoints as error:
+        raise BadInput(f"{path}: {error}") from None
+
+
+def hammer_modes(facts: Any) -> HammerModes:
+    """The same from the facts themselves. Raises `ValidationError`, `TooFewPoints`."""
+    document = _Document.model_validate(facts)
     modes = [m for m in document.modes if m.accepted]
     if not modes:
-        raise BadInput(f"{path}: no accepted mode")
+        raise TooFewPoints("no accepted mode")
     ratios = [np.nan if m.damping_ratio is None else m.damping_ratio for m in modes]
-    return np.array([m.frequency_hz for m in modes]), np.array(ratios)
+    s = document.sensor
+    sensor = Sensor(s.mass_kg, s.x_m, s.y_m) if s is not None and s.mass_kg > 0 else None
+    return HammerModes(np.array([m.frequency_hz for m in modes]), np.array(ratios), sensor)

@@ -60,7 +60,7 @@ def read_impact_csv(path: Path, rate_hz: float | None = None) -> list[Hit] | dic
 def write_impact_csv(path: Path, hits: list[Hit]) -> None:
     """The hits of one test in one file."""
     channels = [c.name for c in hits[0].responses]
-    lines = [f"# sample_rate_hz: {hits[0].sample_rate_hz!r}", ",".join(["hit", "force_n", *channels])]
+    lines = [f"# sample_rate_hz: {float(hits[0].sample_rate_hz)!r}", ",".join(["hit", "force_n", *channels])]
     for k, hit in enumerate(hits, start=1):
         table = np.column_stack([hit.force_n, *(c.samples for c in hit.responses)])
         lines += [",".join([str(k), *(repr(float(v)) for v in row)]) for row in table]

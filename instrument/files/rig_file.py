@@ -44,6 +44,8 @@ class FrontEnd(Table):
     address: str
     """URL, or the name of the device."""
     sample_rate_hz: Positive = 8192.0
+    paced_by_reader: bool = False
+    """Of a `viscorig simulate --virtual-time` alone: it makes samples as they are asked for."""
 
 
 class Sensor(Table):

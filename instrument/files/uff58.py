@@ -75,6 +75,12 @@ def _sets(path: Path) -> list[dict[str, Any]]:
 
 
 def _frf(path: Path, s: dict[str, Any]) -> Frf:
+    denominator = s.get("orddenom_spec_data_type", 0)
+    if denominator not in (0, 1, _FORCE):
+        raise BadInput(
+            f"{path}: FRF over data type {denominator}, expected over a force: "
+            "'viscorig import' takes a response over a base motion"
+        )
     motion = _MOTIONS.get(s["ordinate_spec_data_type"])
     if motion is None:
         raise BadInput(

@@ -1,9 +1,10 @@
 """The hammer test as it goes on: samples and the operator's word in, hits and modes out. Pure."""
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
+from fitting.identification.bare_plate import Sensor
 from instrument.errors import BadInput
 from instrument.hammer_test.trigger import Trigger
 from instrument.impact.damping import damping_of_hits
@@ -28,6 +29,8 @@ class HammerSettings:
     record_s: float
     pre_trigger_s: float
     band_hz: tuple[float, float]
+    sensor: Sensor | None = None
+    """The response sensor on the plate."""
 
 
 @dataclass(frozen=True)
@@ -113,7 +116,8 @@ class HammerAnalysis:
             found = damping_of_hits(hits, band_hz=self._settings.band_hz)
         except BadInput:
             return []
-        return [DampingFound(plain(damping_facts(found)))]
+        sensor = {"sensor": asdict(self._settings.sensor)} if self._settings.sensor else {}
+        return [DampingFound(plain({**damping_facts(found), **sensor}))]
 
     def _judged(self, first: int, record: np.ndarray, overload: np.ndarray) -> HitJudged:
         number = len(self._hits) + 1

@@ -45,7 +45,7 @@ def frf_figure(found: Damping) -> Figure:
         axes = list(figure.subplots(2, 1, sharex=True, height_ratios=(3, 1)))
     highest = 1.25 * max((m.frequency_hz for m in found.modes), default=0.0)
     for name, frf in found.plain.items():
-        axes[0].semilogy(frf.frequency_hz, np.abs(frf.H), linewidth=1, label=name)
+        axes[0].semilogy(frf.frequency_hz[1:], np.abs(frf.H[1:]), linewidth=1, label=name)
     for mode in found.modes:
         axes[0].axvline(mode.frequency_hz, color=_MARK if mode.accepted else _FIT, linewidth=0.8, alpha=0.6)
     first = next(iter(found.plain.values()))

@@ -54,7 +54,7 @@ class Found:
         """To the sweeps where it is over a base's motion, to the FRFs where it is over a force."""
         f = ratio.frequency_hz
         good = (f > 0) & np.isfinite(ratio.H) & (ratio.H != 0)
-        left = f"; {np.sum(~good)} lines at 0 Hz or without a value left out" if not good.all() else ""
+        left = f"; left out at 0 Hz or without a value: {np.sum(~good)}" if not good.all() else ""
         if not good.any():
             self.said.append(f"passed over: {ratio.name}: no line with a value above 0 Hz")
             return
@@ -78,7 +78,7 @@ class Found:
         if not np.isfinite(rate_hz) or rate_hz <= 0:
             raise BadInput(f"{source}: sample rate {rate_hz:g} Hz, expected more than 0")
         channels = tuple(Channel(_CSV_NAMES[motion], motion, x) for motion, x in responses)
-        self.hits.append(Hit(source, rate_hz, force, channels))
+        self.hits.append(Hit(source, float(rate_hz), force, channels))
         motions = ", ".join(motion for motion, _ in responses)
         length = f"{len(force)} samples at {rate_hz:g} Hz ({len(force) / rate_hz:.3g} s)"
         self.said.append(f"{source}: force and {motions}, {length}")

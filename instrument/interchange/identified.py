@@ -1,21 +1,20 @@
 """The law from a recorded session: its points, its specimen, its hammer test."""
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from pydantic import ValidationError
 
 from fitting.identification.bare_plate import BarePlateFit, fit_bare_plate, with_bare_plate
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.errors import BadInput
+from instrument.files.hammer_file import HammerModes, hammer_modes
+from instrument.files.toml import one_line
 from instrument.identification import Identified, identify
 from instrument.interchange.contents import Contents
 from instrument.points import sweep_of
 from instrument.progress import Progress, quiet
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -47,18 +46,15 @@ def session_sweep(contents: Contents, specimen: Specimen) -> Sweep:
     """Steps and sentinels, each at its commanded level. Raises `BadInput` where there are none."""
     if not contents.points:
         raise BadInput(f"{contents.path}: no point of a sweep in this session, expected a measured sweep")
-    return replace(
-        sweep_of(contents.measured, specimen.base_acceleration_m_s2),
-        commanded_m_s2=np.array([p.level_m_s2 for p in contents.measured]),
-        time_s=np.array([p.time_s for p in contents.points]),
-    )
+    return replace(sweep_of(contents.measured), time_s=np.array([p.time_s for p in contents.points]))
 
 
-def session_modes(contents: Contents) -> tuple[Array, Array] | None:
-    """Frequencies in Hz and ratios (NaN where there is none) of the hammer test's accepted modes, if any."""
-    found: dict[str, Any] = contents.damping.facts_json if contents.damping is not None else {"modes": []}
-    modes = [m for m in found["modes"] if m["accepted"]]
-    if not modes:
+def session_modes(contents: Contents) -> HammerModes | None:
+    """The hammer test's accepted modes, if any. Raises `BadInput` where they are beyond what can be used."""
+    found = contents.damping.facts_json if contents.damping is not None else {"modes": ()}
+    if not any(m["accepted"] for m in found["modes"]):
         return None
-    ratios = [np.nan if m["damping_ratio"] is None else m["damping_ratio"] for m in modes]
-    return np.array([m["frequency_hz"] for m in modes]), np.array(ratios)
+    try:
+        return hammer_modes(found)
+    except ValidationError as error:
+        raise BadInput(f"{contents.path}: {one_line(error, prefix='hammer test: ')}") from None

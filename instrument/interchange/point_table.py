@@ -46,7 +46,7 @@ def columns(contents: Contents) -> list[Column]:
     """
     points = contents.points
     reference = contents.specimen.base_acceleration_m_s2
-    sweep = sweep_of(contents.measured, reference)
+    sweep = sweep_of(contents.measured)
     assert sweep.base_m_s2 is not None
     assert sweep.std_m_s is not None
     first = min((p.time_s for p in points), default=0.0)

@@ -18,7 +18,7 @@ _SEPARATORS = (";", "\t", ",")
 def read_csv(path: Path) -> Found:
     """The table's sweep, FRF or record. Raises `BadInput` naming file and line."""
     text = read_text(path)
-    table = _table(path, text)
+    header, table = _table(path, text)
     rate = _RATE.search(text)
     if rate is not None:
         table["sample_rate_hz"] = np.array([_number(path, 1, rate[1], comma=False)])
@@ -26,7 +26,7 @@ def read_csv(path: Path) -> Found:
     for name, part in _hits_apart(path, table):
         if not read_table(name, part, found):
             raise BadInput(
-                f"{path}: header: found {', '.join(table)[:100]}, expected a frequency with a velocity or "
+                f"{path}: header: found {', '.join(header)[:100]}, expected a frequency with a velocity or "
                 "an FRF, or a force with a response and times; units in the names, as in velocity_mm_s or "
                 "'Force [N]'"
             )
@@ -47,7 +47,8 @@ def _hits_apart(path: Path, table: Named) -> list[tuple[str, Named]]:
     ]
 
 
-def _table(path: Path, text: str) -> Named:
+def _table(path: Path, text: str) -> tuple[list[str], Named]:
+    """All names, and the columns of numbers."""
     lines = [
         (k, s) for k, s in enumerate(text.splitlines(), 1) if s.strip() and not s.lstrip().startswith("#")
     ]
@@ -59,9 +60,9 @@ def _table(path: Path, text: str) -> Named:
     if len(set(names)) < len(names):
         raise BadInput(f"{path}: line {header[0]}: a column twice, expected each once")
     if _is_units(rows[0][1]):
-        names = [f"{n} [{u.strip('[]()')}]" if u else n for n, u in zip(names, rows[0][1], strict=False)]
+        names = [f"{n} [{u.strip('[]')}]" if u else n for n, u in zip(names, rows[0][1], strict=False)]
         rows = rows[1:]
-    return _numbers(path, names, rows, comma=separator != ",")
+    return names, _numbers(path, names, rows, comma=separator != ",")
 
 
 def _fields(path: Path, line: int, text: str, separator: str) -> list[str]:

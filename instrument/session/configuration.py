@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 from pydantic import BaseModel
 
+from fitting.identification.bare_plate import Sensor
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
 from fitting.specimen import Specimen
@@ -36,7 +37,7 @@ class Configuration(BaseModel):
 
     def the_specimen(self) -> Specimen:
         """The plate as the model is told, read as this rig's laser does."""
-        return replace(specimen_of(self.specimen), reads=self.rig.vibrometer.reads)
+        return _as_read(self.specimen, self.rig)
 
 
 @dataclass(frozen=True)
@@ -49,6 +50,10 @@ class Experiment:
     specimen: SpecimenDocument
     rig_path: Path
 
+    def the_specimen(self) -> Specimen:
+        """The plate as the model is told, read as this rig's laser does."""
+        return _as_read(self.specimen, self.rig)
+
     def configuration(self, name: str, created_utc: str) -> Configuration:
         """What is kept with its session."""
         return Configuration(
@@ -59,6 +64,10 @@ class Experiment:
             rig=self.rig.without_simulation(),
             specimen=self.specimen,
         )
+
+
+def _as_read(specimen: SpecimenDocument, rig: RigDocument) -> Specimen:
+    return replace(specimen_of(specimen), reads=rig.vibrometer.reads)
 
 
 def read_whole_experiment(path: Path) -> Experiment:
@@ -104,7 +113,10 @@ def hammer_settings(configuration: Configuration) -> HammerSettings | None:
         if getattr(configuration.rig.channels, name) is None:
             raise BadInput(f"rig: channels.{name}: missing, the hammer test needs it")
     record_s = record_length_s(specimen_of(configuration.specimen)) if h.record_s == "auto" else h.record_s
-    return HammerSettings(h.hits, record_s, h.pre_trigger_s, (h.band_hz[0], h.band_hz[1]))
+    response = configuration.rig.channels.response
+    mass_kg = 1e-3 * response.mass_g if response else 0.0
+    sensor = Sensor(mass_kg, 1e-3 * h.response_x_mm, 1e-3 * h.response_y_mm) if mass_kg else None
+    return HammerSettings(h.hits, record_s, h.pre_trigger_s, (h.band_hz[0], h.band_hz[1]), sensor)
 
 
 def record_length_s(specimen: Specimen) -> float:

@@ -1,4 +1,4 @@
-"""A whole experiment on the simulated rig: the published plate, hammer test and a sweep of three resonances."""
+"""A whole experiment on the simulated rig: the published plate, hammer test, sweep of three resonances."""
 
 from pathlib import Path
 

@@ -4,7 +4,7 @@ It knows no device: walked with made-up results it is the dry run.
 """
 
 from collections.abc import Callable, Collection, Generator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from instrument.stepped_sine.drive import DriveModel
 from instrument.stepped_sine.settings import SweepSettings
@@ -38,18 +38,14 @@ class Done:
 
     points: tuple[PointMeasured, ...] = ()
 
-    def find(
-        self, purpose: str, planned: PlannedSegment, frequency_hz: float, times: int
-    ) -> PointMeasured | None:
-        """The point, where it is there already: the `times`-th of its kind, counted from 0."""
-        alike = [
-            p
-            for p in self.points
-            if (p.purpose, p.segment, p.sweep, p.frequency_hz)
-            == (purpose, planned.segment, planned.sweep, frequency_hz)
-            and (planned.purpose != "calibration" or p.range_name == planned.range_name)
-        ]
-        return alike[times] if times < len(alike) else None
+    def find(self, planned: PlannedSegment, frequency_hz: float) -> PointMeasured | None:
+        """The point of a step, where it is there already."""
+        wanted = (planned.purpose, planned.segment, planned.sweep, frequency_hz)
+        for p in self.points:
+            same_range = planned.purpose != "calibration" or p.range_name == planned.range_name
+            if (p.purpose, p.segment, p.sweep, p.frequency_hz) == wanted and same_range:
+                return p
+        return None
 
 
 Action = RangeWanted | SegmentBegan | StepBegan | SegmentEnded
@@ -69,34 +65,42 @@ class Planner:
     next_step: int = 1
     done: Done = field(default_factory=Done)
     drive: DriveModel = field(default_factory=DriveModel)
+    _regions: tuple[PlannedSegment, ...] = ()
+    _sentinels: int = 0
 
     def plan(self, segments: Collection[PlannedSegment]) -> Plan:
         """Segments in order, the sentinel before the first and after each."""
+        self._regions, self._sentinels = tuple(segments), 0
         for k, planned in enumerate(segments):
             if k == 0:
-                yield from self._watch(planned, times=0)
+                yield from self._watch(planned)
             yield from self._segment(planned)
-            yield from self._watch(planned, times=1 if k == 0 else 0)
+            yield from self._watch(planned)
 
     def _segment(self, planned: PlannedSegment) -> Plan:
         f = planned.frequencies_hz
-        if all(self.done.find(planned.purpose, planned, x, 0) for x in f):
+        if all(self.done.find(planned, x) for x in f):
             return
         yield RangeWanted(planned.range_name)
         yield SegmentBegan(planned.segment, planned.sweep, min(f), max(f), len(f))
         for frequency, level in zip(f, planned.level_m_s2, strict=True):
-            if self.done.find(planned.purpose, planned, frequency, 0) is None:
+            if self.done.find(planned, frequency) is None:
                 yield from self._step(planned, planned.purpose, frequency, level)
         yield SegmentEnded(planned.segment, planned.sweep)
 
-    def _watch(self, planned: PlannedSegment, times: int) -> Plan:
-        """The sentinel frequency, where there is one and it was not measured here `times` + 1 times."""
+    def _watch(self, planned: PlannedSegment) -> Plan:
+        """The sentinel frequency once more, where there is one and it is not measured yet."""
         if self.sentinel is None or planned.purpose == "calibration":
             return
+        self._sentinels += 1
+        if sum(p.purpose == "sentinel" for p in self.done.points) >= self._sentinels:
+            return
         frequency, range_name = self.sentinel
-        if self.done.find("sentinel", planned, frequency, times) is None:
-            yield RangeWanted(range_name)
-            yield from self._step(planned, "sentinel", frequency, planned.level_m_s2[0])
+        yield RangeWanted(range_name)
+        # It belongs to the region its frequency lies in, and is held out with it.
+        near = [s for s in self._regions if min(s.frequencies_hz) <= frequency <= max(s.frequencies_hz)]
+        region = replace(near[0] if near else planned, sweep=planned.sweep)
+        yield from self._step(region, "sentinel", frequency, planned.level_m_s2[0])
 
     def _step(self, planned: PlannedSegment, purpose: Purpose, frequency: float, level: float) -> Plan:
         if not self.drive.knows(frequency):

@@ -15,6 +15,7 @@ from instrument.stream.raw import (
     AcquisitionBegan,
     BlockAcquired,
     HammerTestEnded,
+    Held,
     OperatorDid,
     RangeSet,
     SegmentEnded,
@@ -88,6 +89,8 @@ class Analysis:
                 return self.step.range_set(event, self._wider()) if self.step is not None else []
             case SignalLevelRead():
                 self._signal_level = event.value
+            case Held():
+                self.step = None
             case SegmentEnded():
                 self.step = None
                 return self._calibrated()

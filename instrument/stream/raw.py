@@ -122,6 +122,11 @@ class ShakerCommanded(Event):
 
 
 @dataclass(frozen=True)
+class Held(Event):
+    """The run waits, the shaker silent; the step it was at begins again afterwards."""
+
+
+@dataclass(frozen=True)
 class SegmentEnded(Event):
     """All its steps are measured."""
 

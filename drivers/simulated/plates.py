@@ -1,0 +1,82 @@
+"""The plant's plates as the world mounts them: outputs by the names of what hangs on them."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drivers.simulated.drive import DrivePiece
+from drivers.simulated.plant.bare import Pulse, StruckPlate
+from drivers.simulated.plant.effects import Effects
+from drivers.simulated.plant.shaken import ShakenPlate
+
+Array = NDArray[np.float64]
+
+_OUTPUTS = {"velocity": "spot_velocity", "response_acceleration": "acceleration"}
+_LIFTS_S = 0.1
+"""From being asked until the hammer strikes."""
+_WIDTH_S = 1e-3
+_PEAK_N = (60.0, 120.0)
+_BOUNCE_S, _BOUNCE_SHARE = 0.04, 0.4
+AMBIENT_C = 22.0
+
+
+class DampedPlate:
+    """The plate with its treatment, on the shaker."""
+
+    def __init__(self, effects: Effects) -> None:
+        self.plant = ShakenPlate(effects)
+        self._drift = effects.temperature_drift
+
+    def drive(self, piece: DrivePiece) -> None:
+        """The shaker's output from now on."""
+        self.plant.drive(piece)
+
+    def at(self, output: str, first_s: float, step_s: float, count: int) -> Array:
+        """An output by its name; force and response are not there."""
+        if output == "temperature":
+            return self._temperature_c(np.asarray(first_s + step_s * np.arange(count), dtype=float))
+        if output in ("force", "response_acceleration"):
+            return np.zeros(count)
+        return np.asarray(self.plant.at(first_s, step_s, count, (_OUTPUTS.get(output, output),))[0])
+
+    def _temperature_c(self, t: Array) -> Array:
+        drift = self._drift
+        if drift is None:
+            return np.full(len(t), AMBIENT_C)
+        return np.asarray(AMBIENT_C + drift.kelvin * (1 - np.exp(-t / drift.time_constant_s)))
+
+
+class BarePlate:
+    """The plate before its treatment, struck by a hammer that now and then bounces."""
+
+    def __init__(self, effects: Effects, *, sensor_mass_kg: float, double_hit_every: int, seed: int) -> None:
+        self._effects, self._sensor_mass_kg = effects, sensor_mass_kg
+        self._double_hit_every = double_hit_every
+        self._random = np.random.default_rng((seed, 1))
+        self._hits = 0
+        self.plant: StruckPlate | None = None
+
+    def drive(self, piece: DrivePiece) -> None:
+        """Not on the shaker."""
+
+    def place(self, hit_m: tuple[float, float], response_m: tuple[float, float]) -> None:
+        """Where the hammer strikes and the sensor sits."""
+        self.plant = StruckPlate(hit_m, response_m, self._sensor_mass_kg, self._effects)
+
+    def hit(self, now_s: float) -> None:
+        """One blow soon, a little harder or softer than the last."""
+        if self.plant is None:
+            raise ValueError("nobody said where to hit")
+        self._hits += 1
+        peak = float(self._random.uniform(*_PEAK_N))
+        begin = now_s + _LIFTS_S
+        self.plant.strike(Pulse(begin, _WIDTH_S, peak))
+        if self._double_hit_every and self._hits % self._double_hit_every == 0:
+            self.plant.strike(Pulse(begin + _BOUNCE_S, _WIDTH_S, _BOUNCE_SHARE * peak))
+
+    def at(self, output: str, first_s: float, step_s: float, count: int) -> Array:
+        """Force and the response sensor's acceleration; nothing else is there."""
+        if output == "temperature":
+            return np.full(count, AMBIENT_C)
+        if self.plant is None or output not in ("force", "response_acceleration"):
+            return np.zeros(count)
+        return np.asarray(self.plant.at(first_s, step_s, count, (_OUTPUTS.get(output, output),))[0])

@@ -1,0 +1,1 @@
+"""A session as one page: blocks of sentences, tables and figures, rendered without a network."""

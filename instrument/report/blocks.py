@@ -1,0 +1,61 @@
+"""What a page is made of. The template knows how these look, nothing else does."""
+
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+
+@dataclass(frozen=True)
+class Sentence:
+    """One line of text; a note or a warning stands out."""
+
+    kind: ClassVar[str] = "sentence"
+    text: str
+    tone: Literal["plain", "note", "warning"] = "plain"
+
+
+@dataclass(frozen=True)
+class Facts:
+    """Names and values in two columns."""
+
+    kind: ClassVar[str] = "facts"
+    title: str
+    rows: tuple[tuple[str, str], ...]
+
+
+@dataclass(frozen=True)
+class Table:
+    """Columns with their units in the head."""
+
+    kind: ClassVar[str] = "table"
+    title: str
+    columns: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    folded: bool = False
+    """Shut until it is asked for: long ones."""
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A figure, held in the page itself."""
+
+    kind: ClassVar[str] = "picture"
+    source: str
+    """data: URI."""
+    title: str
+    """Below it, and read aloud in its place."""
+
+
+Block = Sentence | Facts | Table | Picture
+
+
+@dataclass(frozen=True)
+class Section:
+    """A heading and what stands under it."""
+
+    title: str
+    blocks: tuple[Block, ...]
+
+    @property
+    def anchor(self) -> str:
+        """For links inside the page."""
+        return "-".join("".join(c if c.isalnum() else " " for c in self.title.lower()).split())

@@ -1,0 +1,51 @@
+"""The identification behind the page, made when the page is written."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.errors import FittingError
+from instrument.errors import BadInput
+from instrument.identification_facts import identification_facts
+from instrument.interchange.contents import Contents
+from instrument.interchange.identified import SessionFit, identify_session
+from instrument.models import Models
+from instrument.progress import Progress, quiet
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A fit, or why there is none."""
+
+    fit: SessionFit | None
+    why: str = ""
+
+    @classmethod
+    def of(cls, contents: Contents, progress: Progress = quiet) -> "Fitted":
+        """Identify, and never fail: a page without a law says so."""
+        try:
+            return cls(identify_session(contents, progress))
+        except (FittingError, BadInput) as error:
+            return cls(None, " ".join(str(error).removeprefix(f"{contents.path}: ").split()))
+
+    @cached_property
+    def facts(self) -> dict[str, object]:
+        """The JSON of `viscorig identify`; empty without a fit."""
+        return identification_facts(self.fit.identified, self.fit.sweep) if self.fit is not None else {}
+
+    @cached_property
+    def _models(self) -> Models | None:
+        return Models.of(self.fit.specimen, self.fit.sweep.frequency_hz) if self.fit is not None else None
+
+    def over_base(self, frequency_hz: Array) -> Complex | None:
+        """The model's velocity over base acceleration in s at any frequency."""
+        if self.fit is None:
+            return None
+        assert self._models is not None
+        v = self._models.predict(self.fit.identified.result.law, frequency_hz)
+        return np.asarray(v / self.fit.specimen.base_acceleration_m_s2)

@@ -1,0 +1,121 @@
+"""The hammer test: hits, modes by three methods, FRF."""
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from instrument.errors import BadInput
+from instrument.impact.damping import Damping, damping_of_hits
+from instrument.impact.facts import damping_facts
+from instrument.interchange.contents import Contents
+from instrument.report.blocks import Block, Section, Sentence, Table
+from instrument.report.drawing import DATA, MARK, label, panels, picture
+from instrument.report.numbers import plain
+
+_METHODS = ("rational_fit", "half_power", "lscf")
+
+
+def hammer_section(contents: Contents) -> Section:
+    """Computed again from the hits as they were recorded."""
+    title = "Hammer test of the bare plate"
+    if not contents.hits:
+        return Section(title, (Sentence("There is no hammer test in this session.", "note"),))
+    blocks: list[Block] = [_hits(contents)]
+    try:
+        found = damping_of_hits([h.judged() for h in contents.hits], band_hz=_band_hz(contents))
+    except BadInput as error:
+        return Section(title, (*blocks, Sentence(f"No damping: {error}.", "warning")))
+    facts = damping_facts(found)
+    blocks += [_modes(facts), _agreement(contents, facts), _frf(contents, found)]
+    blocks += [Sentence(warning, "note") for warning in found.warnings]
+    return Section(title, tuple(blocks))
+
+
+def _band_hz(contents: Contents) -> tuple[float, float] | None:
+    hammer = contents.configuration.experiment.hammer
+    return (hammer.band_hz[0], hammer.band_hz[1]) if hammer is not None else None
+
+
+def _hits(contents: Contents) -> Table:
+    rows = tuple(
+        (
+            str(h.number),
+            plain(h.peak_n),
+            f"{h.record.seconds:.3g}",
+            "accepted" if h.accepted else "left out",
+            h.why or ("" if h.accepted else "by the operator"),
+        )
+        for h in contents.hits
+    )
+    return Table("Hits", ("hit", "peak / N", "record / s", "verdict", "why"), rows)
+
+
+def _modes(facts: dict[str, Any]) -> Table:
+    rows = tuple(
+        (
+            f"{m['frequency_hz']:.3f}",
+            *(_percent(m[method]) for method in _METHODS),
+            plain(m["lines_in_bandwidth"], 2),
+            m["why"] or "",
+        )
+        for m in facts["modes"]
+    )
+    columns = ("f / Hz", "rational fit / %", "half power / %", "LSCF / %", "lines in bandwidth", "remarks")
+    return Table(
+        "Damping ratios by three methods, ± one standard error; the rational fit is adopted", columns, rows
+    )
+
+
+def _percent(e: dict[str, float] | None) -> str:
+    return f"{100 * e['ratio']:.4f} ± {100 * e['standard_error']:.1g}" if e else "refused"
+
+
+def _agreement(contents: Contents, facts: dict[str, Any]) -> Sentence:
+    """What the run itself had found from the same hits."""
+    if contents.damping is None:
+        return Sentence(
+            "The run itself kept no result of this test: the table was computed for this page.", "note"
+        )
+    recorded = [m["damping_ratio"] for m in contents.damping.facts_json["modes"]]
+    now = [m["damping_ratio"] for m in facts["modes"]]
+    same = len(recorded) == len(now) and all(
+        a is None or abs(a - b) <= 1e-9 * abs(b) for a, b in zip(recorded, now, strict=True)
+    )
+    if same:
+        return Sentence("The run itself had found the same from these hits.")
+    return Sentence(
+        "The run itself had found other values: another version, or hits judged differently.", "warning"
+    )
+
+
+def _frf(contents: Contents, found: Damping) -> Block:
+    good = len(contents.good_hits)
+    coherence = f", with the coherence of {good} hits" if good > 1 else "; one hit has no coherence"
+    return picture(
+        _figure(found, _band_hz(contents)), f"Accelerance of the bare plate, its modes marked{coherence}"
+    )
+
+
+def _figure(found: Damping, band_hz: tuple[float, float] | None) -> Figure:
+    """Magnitude over the band, and coherence below it where there are several hits."""
+    (name, frf), *_ = found.plain.items()
+    low, high = band_hz or (
+        frf.frequency_hz[1],
+        1.25 * max((m.frequency_hz for m in found.modes), default=1e3),
+    )
+    inside = (frf.frequency_hz >= low) & (frf.frequency_hz <= high)
+    with_coherence = found.coherence is not None and sum(j.accepted for j in found.hits) > 1
+    figure, rows = panels(2 if with_coherence else 1, 1, 5.0 if with_coherence else 3.6)
+    above = rows[0][0]
+    above.semilogy(frf.frequency_hz[inside], np.abs(frf.H[inside]), color=DATA, linewidth=0.9)
+    for mode in found.modes:
+        above.axvline(mode.frequency_hz, color=MARK, linewidth=0.8, alpha=0.6)
+    label(above, y="Accelerance / (m/s²/N)")
+    if with_coherence and found.coherence is not None:
+        below = rows[1][0]
+        below.plot(frf.frequency_hz[inside], found.coherence[name][inside], color=DATA, linewidth=0.8)
+        below.set_ylim(0, 1.05)
+        label(below, y="Coherence")
+    label(rows[-1][0], x="Frequency / Hz")
+    return figure

@@ -1,0 +1,165 @@
+"""The identification: law, parameters, residual, and what stays unexplained."""
+
+import numpy as np
+
+from fitting.identification.result import REFERENCE_FREQUENCIES_HZ, Identification
+from instrument.interchange.contents import Contents
+from instrument.interchange.identified import SessionFit
+from instrument.report.blocks import Block, Facts, Section, Sentence, Table
+from instrument.report.drawing import picture
+from instrument.report.fitted import Fitted
+from instrument.report.law_figures import law_figure, residual_figures
+from instrument.report.measured import segments_of
+from instrument.report.numbers import plain, with_error
+
+_SAME = 1e-6
+"""Relative difference to the run's own fit that is rounding."""
+_ROWS = 9
+
+
+def identification_section(contents: Contents, fitted: Fitted) -> Section:
+    """The core's law, how well it is known, and how it follows the points."""
+    title = "Identification of the core"
+    if fitted.fit is None:
+        return Section(title, (Sentence(f"No law could be identified: {fitted.why}.", "warning"),))
+    fit = fitted.fit
+    r = fit.identified.result
+    blocks: list[Block] = [
+        Sentence(
+            f"{r.law.kind} law from {len(fit.sweep)} points by {r.method} least squares, {_hammer(fit)}."
+        ),
+        *(Sentence(warning, "note") for warning in r.warnings),
+        picture(law_figure(fit), f"Shear modulus and loss factor in the measured band, {_banded(r)}"),
+        _band(r),
+        _parameters(r),
+        _correlations(r),
+        _live(contents, r),
+    ]
+    blocks += [
+        picture(f, "Residual: model less measurement, by segment")
+        for f in residual_figures(segments_of(contents), fitted)
+    ]
+    return Section(title, tuple(blocks))
+
+
+def result_in_short(fitted: Fitted) -> str:
+    """The law at the reference frequencies and what is left, in a line."""
+    if fitted.fit is None:
+        return f"no law identified: {fitted.why}"
+    r = fitted.fit.identified.result
+    b = r.band
+    at = [int(np.argmin(np.abs(b.frequency_hz - f))) for f in REFERENCE_FREQUENCIES_HZ]
+    said = [
+        f"{b.frequency_hz[k]:.4g} Hz: G' {with_error(b.storage_modulus_pa[k], s, 1e-6)} MPa, "
+        f"η {with_error(b.loss_factor[k], b.loss_factor_standard_error[k])}"
+        for k in sorted(set(at))
+        for s in [b.storage_modulus_standard_error_pa[k]]
+    ]
+    return "; ".join([*said, f"rms of the fit {r.rms_percent:.3g} %"])
+
+
+def unexplained_section(fitted: Fitted) -> Section:
+    """What is left, in three numbers, and by segment."""
+    title = "What the fit cannot explain"
+    if fitted.fit is None:
+        return Section(title, (Sentence("There is no fit to say it of.", "note"),))
+    r = fitted.fit.identified.result
+    v = r.validation
+    chi2 = plain(r.uncertainty.chi2_per_dof, 3) if r.chi2_means_something else "not known: the noise is not"
+    rows = [
+        ("rms difference in amplitude", f"{r.rms_percent:.3g} %"),
+        ("largest difference in amplitude", f"{r.max_percent:.3g} %"),
+        ("chi² per degree of freedom", chi2),
+    ]
+    if v.held_out_rms_percent is not None:
+        rows.append(("each segment predicted from the others", f"{v.held_out_rms_percent:.3g} % rms"))
+    if v.leave_one_out_rms_percent is not None:
+        rows.append(("each point predicted from the others", f"{v.leave_one_out_rms_percent:.3g} % rms"))
+    blocks: list[Block] = [
+        Sentence(
+            "Before: the model has no further effects than the plate, its core and its viscous damping."
+        ),
+        Facts("", tuple(rows)),
+    ]
+    if v.held_out:
+        table = tuple(
+            (str(h.segment), plain(h.rms_percent, 3), plain(h.noise_percent, 3)) for h in v.held_out
+        )
+        blocks.append(Table("Held out: each segment predicted from the others", _HELD_OUT, table))
+    return Section(title, tuple(blocks))
+
+
+_HELD_OUT = ("segment", "rms / %", "its noise / %")
+
+
+def _hammer(fit: SessionFit) -> str:
+    if fit.bare is None:
+        return "without a hammer test: stiffness and viscous damping as the specimen states them"
+    young = with_error(
+        fit.specimen.substrate.young_pa, fit.specimen.substrate.young_pa * fit.bare.standard_error, 1e-9
+    )
+    return f"jointly with the hammer test: substrate {young} GPa, {len(fit.bare.measured_hz)} modes"
+
+
+def _banded(r: Identification) -> str:
+    known = np.isfinite(r.band.storage_modulus_standard_error_pa).all()
+    return "with 95 % bands" if known else "without bands: these points carry no standard error"
+
+
+def _band(r: Identification) -> Table:
+    b = r.band
+    every = max(1, -(-len(b.frequency_hz) // _ROWS))
+    shown = sorted({*range(0, len(b.frequency_hz), every), len(b.frequency_hz) - 1})
+    rows = tuple(
+        (
+            f"{b.frequency_hz[k]:.4g}",
+            with_error(b.storage_modulus_pa[k], b.storage_modulus_standard_error_pa[k], 1e-6),
+            with_error(b.loss_factor[k], b.loss_factor_standard_error[k]),
+        )
+        for k in shown
+    )
+    title = "The law in the band, ± one standard error (noise, model error, tolerances)"
+    return Table(title, ("f / Hz", "G' / MPa", "loss factor"), rows)
+
+
+def _parameters(r: Identification) -> Table:
+    errors = r.standard_errors
+    rows = []
+    for name, value in zip(r.law.names, r.law.values, strict=True):
+        error = errors[name]
+        bound = r.uncertainty.at_bound.get(name)
+        percent = f"{100 * error / abs(value):.2g}" if np.isfinite(error) and value else "-"
+        rows.append(
+            (name, with_error(float(value), error), percent, f"at its {bound} bound" if bound else "")
+        )
+    return Table(
+        "Parameters (SI units), ± one standard error",
+        ("parameter", "value", "error / %", "remark"),
+        tuple(rows),
+    )
+
+
+def _correlations(r: Identification) -> Table:
+    C, names = r.uncertainty.correlations, r.law.names
+    rows = tuple(
+        (name, *(f"{c:+.3f}" if np.isfinite(c) else "-" for c in row))
+        for name, row in zip(names, C, strict=True)
+    )
+    return Table("Correlations of the logarithms of the parameters", ("", *names), rows)
+
+
+def _live(contents: Contents, r: Identification) -> Sentence:
+    """The fit the run itself ended with."""
+    live = contents.fit
+    if live is None:
+        return Sentence("The run itself made no fit; this one was made for the page.", "note")
+    if not live.facts_json:
+        return Sentence(f"The run's own last fit failed: {live.message}.", "note")
+    points = live.facts_json["points"]
+    if len(points) != len(contents.points):
+        return Sentence(f"The run's own last fit had {len(points)} of {len(contents.points)} points.", "note")
+    recorded = live.facts_json["parameters"]
+    worst = max(abs(recorded[n] / v - 1) for n, v in zip(r.law.names, r.law.values, strict=True))
+    if worst <= _SAME:
+        return Sentence("The live identification of the run ended with the same parameters.")
+    return Sentence(f"The run's own fit differs by up to {100 * worst:.2g} % in a parameter.", "warning")

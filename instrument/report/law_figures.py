@@ -1,0 +1,88 @@
+"""Figures of an identification: the law with its bands, and what is left of the points."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from instrument.interchange.identified import SessionFit
+from instrument.report.drawing import (
+    DATA,
+    MODEL,
+    from_zero,
+    in_rows,
+    label,
+    legend,
+    legend_above,
+    panels,
+)
+from instrument.report.fitted import Fitted
+from instrument.report.measured import Measured
+
+_BAND_95 = 1.96
+_TWO_STD = 2.0
+
+
+def law_figure(fit: SessionFit) -> Figure:
+    """G' and eta over the measured range with 95 % bands, ticks where it was measured."""
+    figure, ((left, right),) = panels(1, 2, 3.9)
+    b = fit.identified.result.band
+    for ax, value, error, scale, y in (
+        (left, b.storage_modulus_pa, b.storage_modulus_standard_error_pa, 1e-6, "Storage modulus G' / MPa"),
+        (right, b.loss_factor, b.loss_factor_standard_error, 1.0, "Loss factor η"),
+    ):
+        low, high = (value - _BAND_95 * error) * scale, (value + _BAND_95 * error) * scale
+        if np.isfinite(error).all():
+            ax.fill_between(b.frequency_hz, low, high, color=DATA, alpha=0.2, linewidth=0, label="95 % band")
+        ax.plot(b.frequency_hz, value * scale, color=DATA, label="identified")
+        ax.plot(
+            fit.sweep.frequency_hz,
+            np.full(len(fit.sweep), 0.015),
+            "|",
+            color="#222222",
+            markersize=6,
+            transform=ax.get_xaxis_transform(),
+            label="measured here",
+        )
+        if np.isfinite(error).all() and low.min() >= 0:
+            from_zero(ax, high)
+        label(ax, x="Frequency / Hz", y=y)
+    legend(left)
+    return figure
+
+
+def residual_figures(segments: list[Measured], fitted: Fitted) -> list[Figure]:
+    """Model less measurement, amplitude above phase, a column a segment."""
+    return [_residuals(row, fitted) for row in in_rows(segments)]
+
+
+def _residuals(segments: Sequence[Measured], fitted: Fitted) -> Figure:
+    figure, (above, below) = panels(2, len(segments), 4.4)
+    for amplitude, phase, m in zip(above, below, segments, strict=True):
+        model = fitted.over_base(m.frequency_hz)
+        assert model is not None
+        noise = _TWO_STD * m.std / np.abs(m.over_base)
+        ratio = model / m.over_base
+        for ax, rest, band in (
+            (amplitude, 100 * (np.abs(ratio) - 1), 100 * noise),
+            (phase, np.degrees(np.angle(ratio)), np.degrees(noise)),
+        ):
+            ax.fill_between(
+                m.frequency_hz, -band, band, color=DATA, alpha=0.2, linewidth=0, label="± 2 std of the noise"
+            )
+            ax.plot(
+                m.frequency_hz,
+                rest,
+                "o-",
+                color=MODEL,
+                markersize=3,
+                linewidth=0.8,
+                label="model less measured",
+            )
+            ax.axhline(0, color="#888888", linewidth=0.8)
+        label(amplitude, title=f"Segment {m.segment}")
+        label(phase, x="Frequency / Hz")
+    label(above[0], y="Amplitude / %")
+    label(below[0], y="Phase / degree")
+    legend_above(figure, above[0])
+    return figure

@@ -1,0 +1,71 @@
+"""The page: every section of a session, rendered to one HTML text that needs nothing beside it."""
+
+from importlib.metadata import version
+from pathlib import Path
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+from instrument.interchange.contents import Contents
+from instrument.progress import Progress, quiet
+from instrument.report.blocks import Section
+from instrument.report.calibration import calibration_section
+from instrument.report.ending import ending_section
+from instrument.report.fitted import Fitted
+from instrument.report.hammer import hammer_section
+from instrument.report.identification import (
+    identification_section,
+    result_in_short,
+    unexplained_section,
+)
+from instrument.report.setting import rig_section, specimen_section, versions_section
+from instrument.report.sweep import sweep_section
+
+_TEMPLATE = "page.html"
+_PACKAGES = ("viscorig", "numpy", "scipy", "h5py", "matplotlib")
+
+
+def report_page(contents: Contents, progress: Progress = quiet) -> str:
+    """The report of a session as HTML. Law and damping are computed here, from what was recorded."""
+    fitted = Fitted.of(contents, progress)
+    with progress("drawing"):
+        sections = sections_of(contents, fitted)
+    c = contents.configuration
+    return (
+        _environment()
+        .get_template(_TEMPLATE)
+        .render(
+            title=c.experiment.title or c.name,
+            session=c.name,
+            operator=c.experiment.operator or "not stated",
+            date=c.created_utc.replace("T", " ").replace("+00:00", " UTC"),
+            specimen=c.experiment.specimen,
+            result=result_in_short(fitted),
+            sections=sections,
+        )
+    )
+
+
+def sections_of(contents: Contents, fitted: Fitted) -> list[Section]:
+    """In the order in which it was done."""
+    return [
+        ending_section(contents),
+        specimen_section(contents),
+        rig_section(contents),
+        hammer_section(contents),
+        calibration_section(contents),
+        sweep_section(contents, fitted),
+        identification_section(contents, fitted),
+        unexplained_section(fitted),
+        versions_section(contents, {package: version(package) for package in _PACKAGES}),
+    ]
+
+
+def _environment() -> Environment:
+    """Escapes everything: titles and remarks are foreign text."""
+    return Environment(
+        loader=FileSystemLoader(Path(__file__).parent),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )

@@ -1,0 +1,110 @@
+"""What was measured with what: specimen, rig, sensors, mounting, versions."""
+
+from instrument.files.rig_file import Response, Sensor
+from instrument.files.specimen_file import SpecimenDocument
+from instrument.interchange.contents import Contents
+from instrument.report.blocks import Block, Facts, Section, Sentence, Table
+from instrument.report.numbers import plain
+
+_SENSITIVITY_UNITS = {
+    "base": "mV/(m/s²)",
+    "response": "mV/(m/s²)",
+    "force": "mV/N",
+    "temperature": "mV/°C",
+}
+_LAYERS = ("substrate", "core", "constraining")
+
+
+def specimen_section(contents: Contents) -> Section:
+    """Geometry, layers, the law identification starts from."""
+    s = contents.configuration.specimen
+    blocks: list[Block] = [_layers(s), Facts("Plate", tuple(_plate(contents, s)))]
+    if s.core is not None:
+        rows = [(k, str(v)) for k, v in s.core.law.items()]
+        blocks.append(Facts("Core law to start from", tuple(rows)))
+    if s.tolerances is not None:
+        known = s.tolerances.model_dump(exclude_none=True)
+        rows = [(k.removesuffix("_percent").replace("_", " "), f"{v:g} %") for k, v in known.items()]
+        if rows:
+            blocks.append(Facts("Stated tolerances (one standard deviation)", tuple(rows)))
+    return Section("Specimen", tuple(blocks))
+
+
+def _layers(s: SpecimenDocument) -> Table:
+    rows = []
+    for name in _LAYERS:
+        layer = getattr(s, name)
+        if layer is not None:
+            young = getattr(layer, "young_gpa", None)
+            loss = getattr(layer, "loss_factor", None)
+            numbers = (layer.thickness_mm, young, layer.poisson, layer.density_kg_m3, loss)
+            rows.append((name, *(plain(v, 6) for v in numbers)))
+    columns = ("layer", "thickness / mm", "E / GPa", "Poisson's ratio", "density / (kg/m³)", "loss factor")
+    return Table("Layers", columns, tuple(rows))
+
+
+def _plate(contents: Contents, s: SpecimenDocument) -> list[tuple[str, str]]:
+    reads = contents.configuration.rig.vibrometer.reads
+    rows = [
+        ("length x width", f"{s.plate.length_mm:g} x {s.plate.width_mm:g} mm"),
+        ("boundary", s.plate.boundary),
+    ]
+    if s.pickup is not None:
+        rows.append(("pickup", f"x = {s.pickup.x_mm:g} mm, y = {s.pickup.y_mm:g} mm; velocity {reads}"))
+    if s.damping is not None:
+        rows.append(("stated modal damping", ", ".join(f"{p:g}" for p in s.damping.modal_percent) + " %"))
+    return rows
+
+
+def rig_section(contents: Contents) -> Section:
+    """Instruments as they name themselves, sensors, mounting."""
+    c = contents.configuration
+    m = c.experiment.mounting
+    mounting = [
+        ("bolts", str(m.bolts) if m.bolts else "not stated"),
+        ("torque", f"{m.torque_n_m:g} N m" if m.torque_n_m else "not stated"),
+        ("remounted", f"{m.remount} times" if m.remount != 1 else "once"),
+    ]
+    mounting += [("operator", f"{did.what} {did.detail}".strip()) for did in contents.operator if not did.hit]
+    instruments: Block = Sentence("The session holds no instrument's identity.", "note")
+    if contents.began:
+        named = {**contents.began[-1].instruments, "sampled at": _rates(contents)}
+        named |= {"vibrometer's model in the rig file": c.rig.vibrometer.model}
+        rows = tuple((k.replace("_", " "), v) for k, v in named.items() if v)
+        instruments = Facts(f"Instruments of {c.rig.name!r}", rows)
+    return Section("Rig", (instruments, _sensors(contents), Facts("Mounting", tuple(mounting))))
+
+
+def _rates(contents: Contents) -> str:
+    rates = {"sweep": contents.sample_rate_hz, "hammer test": contents.hammer_rate_hz}
+    return ", ".join(f"{rate:g} Hz ({part})" for part, rate in rates.items() if rate is not None)
+
+
+def _sensors(contents: Contents) -> Table:
+    rows = [_sensor(name, s) for name, s in contents.configuration.rig.channels.named().items()]
+    columns = ("channel", "input", "sensitivity", "range / V", "IEPE", "inverted", "serial", "calibrated")
+    return Table("Sensors", columns, tuple(rows))
+
+
+def _sensor(name: str, s: Sensor) -> tuple[str, ...]:
+    unit = _SENSITIVITY_UNITS.get(name)
+    sensitivity = f"{s.sensitivity_mv_per_unit:g} {unit}" if unit else "by the vibrometer's range"
+    mass = f" ({s.mass_g:g} g)" if isinstance(s, Response) and s.mass_g else ""
+    return (
+        name + mass,
+        str(s.input),
+        sensitivity,
+        f"{s.range_v:g}",
+        "yes" if s.iepe else "no",
+        "yes" if s.invert else "no",
+        s.serial or "not stated",
+        s.calibrated.isoformat() if s.calibrated else "not stated",
+    )
+
+
+def versions_section(contents: Contents, now: dict[str, str]) -> Section:
+    """Of the run, and of the program that wrote this page."""
+    recorded = contents.configuration.versions
+    names = list(dict.fromkeys([*recorded, *now]))
+    rows = tuple((n, recorded.get(n, "-"), now.get(n, "-")) for n in names)
+    return Section("Versions", (Table("", ("package", "at the run", "of this page"), rows),))

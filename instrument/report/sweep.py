@@ -1,0 +1,100 @@
+"""The sweep: response, quality of its points, remarks, drift of the sentinel."""
+
+import numpy as np
+
+from instrument.interchange.contents import Contents
+from instrument.report.blocks import Block, Section, Sentence, Table
+from instrument.report.drawing import picture
+from instrument.report.fitted import Fitted
+from instrument.report.measured import noise_of, segments_of
+from instrument.report.numbers import plain, signed
+from instrument.report.sweep_figures import quality_figure, response_figures
+from instrument.stream.derived import PointMeasured
+
+
+def sweep_section(contents: Contents, fitted: Fitted) -> Section:
+    """What was measured of the damped plate."""
+    title = "Sweep of the damped plate"
+    if not contents.points:
+        return Section(title, (Sentence("There is no point of a sweep in this session.", "note"),))
+    blocks: list[Block] = [Sentence(_summary(contents))]
+    segments = segments_of(contents)
+    reads = contents.configuration.rig.vibrometer.reads
+    drawn = f"{reads.capitalize()} velocity v at the pickup over base acceleration a, by segment"
+    drawn += "" if fitted.fit is not None else "; no model is drawn, as there is no fit"
+    blocks += [picture(f, drawn) for f in response_figures(segments, fitted)]
+    blocks.append(
+        picture(quality_figure(contents), "How well each point was measured, in the order of measuring")
+    )
+    blocks += [*_sentinels(contents), *_remarks(contents.measured), _points(contents)]
+    return Section(title, tuple(blocks))
+
+
+def _summary(contents: Contents) -> str:
+    steps = [p for p in contents.measured if p.purpose == "step"]
+    if not steps:
+        return "Only sentinel points were measured."
+    off = max(abs(p.control_error_percent) for p in steps)
+    noise = 100 * float(np.median(noise_of(steps, "velocity")))
+    levels = sorted({round(p.level_m_s2, 6) for p in steps})
+    seconds = sum(p.settle_s + p.dwell_s for p in contents.measured)
+    marked = sum(bool(p.remarks) for p in steps)
+    segments, sweeps = len({p.segment for p in steps}), len({p.sweep for p in steps})
+    return (
+        f"{_counted(len(steps), 'step')} in {_counted(segments, 'segment')} and {_counted(sweeps, 'sweep')} "
+        f"at {', '.join(f'{v:g}' for v in levels)} m/s², {seconds:.0f} s of settling and reading. "
+        f"The base was within {off:.2f} % of its level, the velocity's noise is {noise:.2g} % (median); "
+        f"{_counted(marked, 'step')} with remarks."
+    )
+
+
+def _counted(count: int, what: str) -> str:
+    return f"{count} {what}" if count == 1 else f"{count} {what}s"
+
+
+def _sentinels(contents: Contents) -> list[Block]:
+    """The sentinel against its first time."""
+    if not contents.sentinels:
+        return [Sentence("The sentinel was not measured twice: nothing is said about drift.", "note")]
+    at = {p.point.step: p for p in contents.points}
+    rows = []
+    for s in contents.sentinels:
+        timed = at.get(s.step)
+        when = f"{(timed.time_s - contents.points[0].time_s) / 60:.1f}" if timed else "-"
+        temperature = plain(timed.point.temperature_c, 4) if timed else "-"
+        change = (signed(s.change_percent, 3), signed(s.change_degree, 3))
+        rows.append((str(s.step), f"{s.frequency_hz:g}", when, *change, temperature))
+    columns = ("step", "f / Hz", "after / min", "amplitude / %", "phase / degree", "plate / °C")
+    return [Table("Drift of the sentinel, against its first time", columns, tuple(rows))]
+
+
+def _remarks(points: list[PointMeasured]) -> list[Block]:
+    marked = [p for p in points if p.remarks]
+    if not marked:
+        return [Sentence("No point carries a remark.")]
+    rows = tuple((str(p.step), f"{p.frequency_hz:g}", str(p.segment), "; ".join(p.remarks)) for p in marked)
+    return [Table("Points with remarks", ("step", "f / Hz", "segment", "remark"), rows)]
+
+
+def _points(contents: Contents) -> Table:
+    rows = tuple(
+        (
+            str(p.step),
+            "sentinel" if p.purpose == "sentinel" else f"{p.sweep}.{p.segment}",
+            f"{p.frequency_hz:g}",
+            plain(p.level_m_s2),
+            f"{abs(p.velocity_m_s):.5g}",
+            plain(100 * p.velocity_std_m_s / abs(p.velocity_m_s), 2),
+            signed(p.control_error_percent),
+            plain(p.velocity_distortion_percent, 2),
+            f"{p.settle_s:.2f}",
+            f"{p.dwell_s:.2f}",
+            p.range_name,
+        )
+        for p in contents.measured
+    )
+    columns = (
+        *("step", "sweep.segment", "f / Hz", "level / (m/s²)", "|v| / (m/s)", "noise / %", "control / %"),
+        *("distortion / %", "settling / s", "dwell / s", "range"),
+    )
+    return Table(f"All {len(rows)} points", columns, rows, folded=True)

@@ -1,0 +1,127 @@
+"""Figures of a sweep: response by segment, and how well each point was measured."""
+
+from collections.abc import Sequence
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from instrument.interchange.contents import Contents
+from instrument.report.drawing import (
+    DATA,
+    MARK,
+    MODEL,
+    SECOND,
+    from_zero,
+    in_rows,
+    label,
+    legend,
+    legend_above,
+    panels,
+)
+from instrument.report.fitted import Fitted
+from instrument.report.measured import Measured, noise_of
+from instrument.stream.derived import PointMeasured
+
+Array = NDArray[np.float64]
+
+_MS = 1e3
+"""(m/s)/(m/s²) is a second; a millisecond reads better."""
+_TWO_STD = 2.0
+
+
+def response_figures(segments: list[Measured], fitted: Fitted) -> list[Figure]:
+    """Amplitude above phase, a column a segment."""
+    return [_response(row, fitted) for row in in_rows(segments)]
+
+
+def _response(segments: Sequence[Measured], fitted: Fitted) -> Figure:
+    figure, (above, below) = panels(2, len(segments), 5.2)
+    for amplitude, phase, measured in zip(above, below, segments, strict=True):
+        _draw_segment(amplitude, phase, measured, fitted)
+    label(above[0], y="|v / a| / ms")
+    label(below[0], y="Phase / degree")
+    legend_above(figure, above[0])
+    return figure
+
+
+def _draw_segment(amplitude: Axes, phase: Axes, m: Measured, fitted: Fitted) -> None:
+    f, size = m.frequency_hz, np.abs(m.over_base)
+    model = fitted.over_base(m.grid_hz)
+    if model is None:
+        angle = np.unwrap(np.angle(m.over_base))
+    else:
+        course = np.unwrap(np.angle(model))
+        at = np.interp(f, m.grid_hz, course)
+        # Turns are the model's: what is measured lies beside it.
+        angle = at + np.angle(m.over_base * np.exp(-1j * at))
+        amplitude.plot(m.grid_hz, _MS * np.abs(model), "-", color=MODEL, linewidth=1.3, label="model fitted")
+        phase.plot(m.grid_hz, np.degrees(course), "-", color=MODEL, linewidth=1.3)
+    bars: dict[str, Any] = {"fmt": "o", "markersize": 3.5, "color": DATA, "capsize": 2, "elinewidth": 0.8}
+    amplitude.errorbar(
+        f, _MS * size, _MS * _TWO_STD * m.std, label="measured, ± 2 standard deviations", **bars
+    )
+    phase.errorbar(f, np.degrees(angle), np.degrees(_TWO_STD * m.std / size), **bars)
+    from_zero(amplitude, _MS * (size if model is None else np.concatenate([size, np.abs(model)])))
+    label(amplitude, title=f"Segment {m.segment}")
+    label(phase, x="Frequency / Hz")
+
+
+def quality_figure(contents: Contents) -> Figure:
+    """Noise, control error, distortion and settling time, point after point as they were measured."""
+    figure, columns = panels(4, 1, 7.2)
+    noise, control, distortion, settle = (row[0] for row in columns)
+    points = contents.measured
+    n = np.array([p.step for p in points])
+    sentinel = np.array([p.purpose == "sentinel" for p in points])
+    _dots(noise, n, 100 * noise_of(points, "velocity"), DATA, "velocity")
+    _dots(noise, n, 100 * noise_of(points, "base"), SECOND, "base acceleration")
+    noise.set_yscale("log")
+    _dots(control, n, _all(points, "control_error_percent"), SECOND, "")
+    _draw_tolerance(control, contents)
+    _dots(distortion, n, _all(points, "velocity_distortion_percent"), DATA, "velocity")
+    _dots(distortion, n, _all(points, "base_distortion_percent"), SECOND, "base acceleration")
+    _dots(settle, n, _all(points, "settle_s"), DATA, "")
+    if sentinel.any():
+        settle.plot(
+            n[sentinel], _all(points, "settle_s")[sentinel], "s", color=MARK, markersize=5, label="sentinel"
+        )
+    from_zero(settle, _all(points, "settle_s"))
+    for ax, y in zip(
+        (noise, control, distortion, settle),
+        ("Noise / %", "Control error / %", "Distortion / %", "Settling / s"),
+        strict=True,
+    ):
+        label(ax, y=y)
+        _segment_edges(ax, points)
+        legend(ax)
+    label(settle, x="Step")
+    return figure
+
+
+def _dots(ax: Axes, x: Array, y: Array, colour: str, name: str) -> None:
+    ax.plot(x, y, ".", color=colour, markersize=5, label=name or None)
+
+
+def _draw_tolerance(ax: Axes, contents: Contents) -> None:
+    table = contents.configuration.experiment.sweep
+    if table is not None:
+        tolerance = table.control.tolerance_percent
+        for side in (-tolerance, tolerance):
+            ax.axhline(
+                side, color=MODEL, linewidth=0.8, label=f"tolerance {tolerance:g} %" if side > 0 else None
+            )
+
+
+def _segment_edges(ax: Axes, points: list[PointMeasured]) -> None:
+    """A line where another segment or sweep begins."""
+    for before, after in pairwise(points):
+        if (before.segment, before.sweep) != (after.segment, after.sweep):
+            ax.axvline((before.step + after.step) / 2, color="#888888", linewidth=0.8, linestyle=":")
+
+
+def _all(points: list[PointMeasured], name: str) -> Array:
+    return np.array([getattr(p, name) for p in points], dtype=float)

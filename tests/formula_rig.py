@@ -1,0 +1,139 @@
+"""The simulated instruments over their real wires, with plates made of formulas."""
+
+from contextlib import contextmanager
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from drivers.simulated.drive import DrivePiece
+from drivers.simulated.rig import SimulatedRig
+from drivers.simulated.sensors import Sensor
+from drivers.simulated.world import Laser, Wiring, World
+from instrument.session.configuration import Experiment, read_whole_experiment
+from instrument.simulated_case import case_file
+
+MODES = ((19.4, 0.1), (55.5, 0.1), (100.8, 0.14))
+BARE = ((17.72, 0.0029), (59.8, 0.0013), (110.1, 0.0018), (201.6, 0.0021))
+PULSE_S = 1e-3
+SWEEP = """
+[[sweep.segments]]
+low_hz = 95.0
+high_hz = 107.0
+points = 9
+[[sweep.segments]]
+low_hz = 180.0
+high_hz = 190.0
+points = 6
+"""
+HAMMER = """
+[hammer]
+hits = 2
+hit_x_mm = 285.0
+hit_y_mm = 25.0
+response_x_mm = 270.0
+response_y_mm = 170.0
+record_s = 6.0
+"""
+
+
+class FormulaPlate:
+    """Always at its steady state: no transients."""
+
+    def __init__(self):
+        self._pieces = [DrivePiece(0.0, 10.0, 0.0, 0.0, 0.0)]
+
+    def drive(self, piece: DrivePiece) -> None:
+        self._pieces = [*self._pieces[-3:], piece]
+
+    def at(self, output: str, first_s: float, step_s: float, count: int) -> NDArray[np.float64]:
+        t = first_s + step_s * np.arange(count)
+        y = np.zeros(count)
+        ends = [p.begin_s for p in self._pieces[1:]] + [np.inf]
+        for piece, end in zip(self._pieces, ends, strict=True):
+            inside = (t >= piece.begin_s) & (t < end)
+            amplitude = piece.amplitude_v + piece.slope_v_s * (t[inside] - piece.begin_s)
+            angle = 2 * np.pi * piece.frequency_hz * (t[inside] - piece.begin_s) + piece.phase_rad
+            y[inside] = (gain(output, piece.frequency_hz) * amplitude * np.exp(1j * angle)).imag
+        return y
+
+
+def gain(output: str, frequency_hz: float) -> complex:
+    """Output per volt of drive."""
+    w = 2 * np.pi * frequency_hz
+    base = 5 * (1 + frequency_hz / 300)
+    if output == "base_acceleration":
+        return base
+    if output == "base_velocity":
+        return base / (1j * w)
+    relative = sum(
+        w**2 / ((2 * np.pi * f) ** 2 * (1 + 1j * eta) - w**2) / (k + 1) for k, (f, eta) in enumerate(MODES)
+    )
+    return base / (1j * w) * (1 + relative)
+
+
+class FormulaBare:
+    """Rings after a blow."""
+
+    def __init__(self):
+        self._hits: list[float] = []
+
+    def drive(self, piece: DrivePiece) -> None:
+        """Not shaken."""
+
+    def hit(self, now_s: float) -> None:
+        self._hits.append(now_s + 0.1)
+
+    def at(self, output: str, first_s: float, step_s: float, count: int) -> NDArray[np.float64]:
+        t = first_s + step_s * np.arange(count)
+        y = np.zeros(count)
+        for hit in self._hits:
+            if output == "force":
+                inside = (t >= hit) & (t < hit + PULSE_S)
+                y += np.where(inside, 50 * (1 - np.cos(2 * np.pi * (t - hit) / PULSE_S)), 0)
+                continue
+            since = np.maximum(t - hit - PULSE_S / 2, 0)
+            for f, ratio in BARE:
+                w = 2 * np.pi * f
+                y += 2 * np.exp(-ratio * w * since) * np.cos(w * since) * (since > 0)
+        return y
+
+
+@contextmanager
+def formula_rig(folder: Path, *, sweep: str = SWEEP, hammer: bool = False, virtual: bool = True, **options):
+    """The rig and an experiment on it."""
+    inputs = {
+        1: Sensor("base_acceleration", 0.01, 1e-5, 10.0),
+        2: Sensor("laser", 1.0, 1e-3, 10.0),
+        3: Sensor("force", 0.02, 1e-5, 10.0),
+        4: Sensor("response_acceleration", 0.005, 1e-5, 10.0),
+    }
+    world = World(
+        {"damped": FormulaPlate(), "bare": FormulaBare()}, Wiring(inputs), Laser(5e-3, 10.0, 1.1e-3), virtual
+    )
+    rig = SimulatedRig(world, model="OFV-5000", signal_level=0.8, delay_s={}, limit_v=5.0, **options)
+    with rig as addresses:
+        yield rig, write_experiment(folder, addresses, sweep, hammer, virtual)
+
+
+def write_experiment(folder: Path, addresses, sweep: str, hammer: bool, virtual: bool) -> Experiment:
+    """Files as a lab would have them, with these addresses."""
+    rig = case_file("rig.toml").read_text().split("\n[simulation]")[0]
+    for device, address in (
+        ("[shaker]", addresses["modbus_tcp"]),
+        ("[vibrometer]", addresses["vibrometer_tty"]),
+        ("[front_end]", addresses["frontend_url"]),
+    ):
+        head, tail = rig.split(device)
+        rig = head + device + tail.replace('"simulated"', f'"{address}"', 1)
+    if virtual:
+        rig = rig.replace("[front_end]", "[front_end]\npaced_by_reader = true")
+    (folder / "rig.toml").write_text(rig)
+    (folder / "specimen.toml").write_text(case_file("specimen.toml").read_text())
+    (folder / "experiment.toml").write_text(
+        'specimen = "specimen.toml"\nrig = "rig.toml"\n'
+        + (HAMMER if hammer else "")
+        + "[sweep]\nsentinel = false\ncalibration = false\n"
+        + sweep
+    )
+    return read_whole_experiment(folder / "experiment.toml")

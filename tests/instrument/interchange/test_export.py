@@ -1,0 +1,213 @@
+"""A session written for other programs, and read back."""
+
+import json
+import tomllib
+
+import numpy as np
+import pytest
+import pyuff
+from scipy.io import loadmat
+from session_cases import LEVEL_G, RATE, Tape, configuration
+
+from instrument.cli.main import run
+from instrument.files.impact_csv import read_impact_csv
+from instrument.files.specimen_file import SpecimenDocument
+from instrument.files.sweep_file import read_sweep
+from instrument.interchange.contents import contents_of
+from instrument.interchange.exporting import export_session
+from instrument.interchange.specimen_toml import specimen_toml
+from instrument.session.storage import SessionFile
+
+NAME = "zn1-20260401T080000Z"
+
+
+def read(path):
+    with SessionFile(path) as file:
+        return contents_of(file)
+
+
+@pytest.fixture(scope="module")
+def contents(session_path):
+    return read(session_path)
+
+
+@pytest.fixture(scope="module")
+def exported(contents, tmp_path_factory):
+    """Folder with all three formats in it."""
+    folder = tmp_path_factory.mktemp("exported")
+    for to in ("csv", "uff", "mat"):
+        export_session(contents, to, folder)
+    return folder
+
+
+def facts(capsys, *arguments):
+    status = run([str(a) for a in (*arguments, "--json", "-")])
+    captured = capsys.readouterr()
+    assert status == 0, captured.err
+    return json.loads(captured.out)
+
+
+# CSV
+
+
+def test_csv_identifies_to_the_same_result(capsys, session_path, exported):
+    direct = facts(capsys, "identify", session_path)
+    specimen, hammer = exported / f"{NAME}-specimen.toml", exported / f"{NAME}-damping.json"
+    read_back = facts(
+        capsys, "identify", exported / f"{NAME}.csv", "--specimen", specimen, "--hammer", hammer
+    )
+    for key in ("parameters", "standard_errors", "points", "law", "held_out", "chi2_per_dof", "hammer"):
+        assert read_back[key] == direct[key], key
+
+
+def test_level_g_times_the_specimens_acceleration_is_the_level(contents, tmp_path):
+    """Also where the specimen's `[base]` is not 1 g."""
+    specimen = contents.configuration.specimen.model_copy(deep=True)
+    specimen.base.acceleration_m_s2 = 3.0
+    contents.configuration.specimen, kept = specimen, contents.configuration.specimen
+    try:
+        export_session(contents, "csv", tmp_path)
+    finally:
+        contents.configuration.specimen = kept
+    sweep = read_sweep(tmp_path / f"{NAME}.csv").sweep(3.0)
+    np.testing.assert_allclose(sweep.commanded_m_s2, LEVEL_G * 9.81, rtol=1e-15)
+
+
+def test_csv_says_where_it_comes_from_and_keeps_remarks(exported):
+    text = (exported / f"{NAME}.csv").read_text()
+    comments = [line for line in text.splitlines() if line.startswith("#")]
+    assert any(NAME in line for line in comments)
+    assert any('reads = "absolute"' in line for line in comments)
+    unknown = read_sweep(exported / f"{NAME}.csv").unknown
+    assert "weak light: signal level 0.05" in unknown["remarks"]
+    assert set(unknown["purpose"]) == {"step", "sentinel"}
+
+
+def test_a_title_with_line_breaks_stays_in_its_comment(contents, tmp_path):
+    experiment = contents.configuration.experiment
+    kept, experiment.title = experiment.title, "two\nlines"
+    try:
+        export_session(contents, "csv", tmp_path)
+    finally:
+        experiment.title = kept
+    assert read_sweep(tmp_path / f"{NAME}.csv").columns["frequency_hz"].size == 31
+
+
+def test_hits_as_csv_give_the_same_damping(capsys, contents, exported):
+    hits = [exported / f"{NAME}-hit-{k:02d}.csv" for k in (1, 3)]
+    found = facts(capsys, "damping", *hits, "--band", "10:550")["modes"]
+    recorded = contents.damping.facts_json["modes"]
+    for a, b in zip(found, recorded, strict=True):
+        assert a["frequency_hz"] == pytest.approx(b["frequency_hz"], rel=1e-12)
+        assert a["damping_ratio"] == pytest.approx(b["damping_ratio"], rel=1e-9)
+
+
+def test_each_hit_has_a_file_and_a_rejected_one_says_so(contents, exported):
+    rejected = exported / f"{NAME}-hit-02-rejected.csv"
+    (hit,) = read_impact_csv(rejected)
+    np.testing.assert_array_equal(hit.force_n, contents.hits[1].record.force_n)
+    assert hit.sample_rate_hz == RATE
+    assert "double hit" in rejected.read_text()[:400]
+
+
+def test_specimen_toml_is_the_specimen_as_it_was_read(contents):
+    read_back = SpecimenDocument.model_validate(tomllib.loads(specimen_toml(contents)))
+    assert read_back.pickup.reads == "absolute"
+    read_back.pickup.reads = contents.configuration.specimen.pickup.reads
+    assert read_back == contents.configuration.specimen
+
+
+# Universal files
+
+
+def sets_of(path):
+    return pyuff.UFF(str(path)).read_sets()
+
+
+@pytest.mark.filterwarnings("ignore::ResourceWarning")
+def test_uff_sweep_is_velocity_over_base_acceleration(contents, exported):
+    header, units, *frfs = sets_of(exported / f"{NAME}-sweep.uff")
+    assert (header["type"], units["type"], units["units_code"]) == (151, 164, 1)
+    assert len(frfs) == 3
+    for k, s in enumerate(frfs, start=1):
+        assert (s["type"], s["func_type"], s["ord_data_type"], s["abscissa_spacing"]) == (58, 4, 6, 0)
+        assert (s["ordinate_spec_data_type"], s["orddenom_spec_data_type"]) == (11, 12)
+        assert s["binary"] == 1
+        steps = [p for p in contents.measured if p.segment == k and p.purpose == "step"]
+        np.testing.assert_array_equal(s["x"], [p.frequency_hz for p in steps])
+        np.testing.assert_array_equal(s["data"], [p.velocity_m_s / p.base_m_s2 for p in steps])
+
+
+@pytest.mark.filterwarnings("ignore::ResourceWarning")
+def test_uff_hammer_has_an_frf_and_its_coherence(exported):
+    _, _, frf, coherence = sets_of(exported / f"{NAME}-hammer-frf.uff")
+    assert (frf["func_type"], frf["ordinate_spec_data_type"], frf["orddenom_spec_data_type"]) == (4, 12, 13)
+    assert coherence["func_type"] == 6
+    assert 0.99 < np.median(coherence["data"]) <= 1 + 1e-9
+
+
+def test_uff_hits_give_the_same_damping(capsys, contents, exported):
+    found = facts(capsys, "damping", exported / f"{NAME}-hits.uff", "--band", "10:550")
+    assert len(found["hits"]) == 2
+    for a, b in zip(found["modes"], contents.damping.facts_json["modes"], strict=True):
+        # The header keeps six digits of the sampling interval.
+        assert a["frequency_hz"] == pytest.approx(b["frequency_hz"], rel=1e-5)
+        assert a["damping_ratio"] == pytest.approx(b["damping_ratio"], rel=1e-4)
+
+
+def test_uff_says_what_it_leaves_out(contents, tmp_path):
+    assert any("4 sentinel points" in note for note in export_session(contents, "uff", tmp_path).notes)
+
+
+# MATLAB
+
+
+def test_mat_has_arrays_and_a_unit_for_each(contents, exported):
+    mat = loadmat(str(exported / f"{NAME}.mat"), simplify_cells=True)
+    sweep = mat["sweep"]
+    np.testing.assert_array_equal(sweep["velocity_m_s"], [p.velocity_m_s for p in contents.measured])
+    np.testing.assert_array_equal(sweep["base_accel_m_s2"], [p.base_m_s2 for p in contents.measured])
+    assert mat["hits"]["force_n"].shape == (len(contents.hits[0].record.force_n), 3)
+    for part in ("sweep", "hits", "hammer_frf", "damping", "calibration"):
+        assert set(mat["units"][part]) == set(mat[part])
+    assert mat["units"]["sweep"]["velocity_m_s"] == "m/s"
+    assert mat["units"]["hammer_frf"]["accelerance"] == "(m/s^2)/N"
+    assert any(NAME in line for line in mat["about"])
+
+
+# The command
+
+
+def test_the_command_prints_every_file_it_wrote(capsys, session_path, tmp_path):
+    for to in ("csv", "uff", "mat"):
+        assert run(["export", str(session_path), "--to", to, "--out", str(tmp_path)]) == 0
+    said = capsys.readouterr().out
+    for path in tmp_path.iterdir():
+        assert f"wrote {path}" in said
+
+
+def test_a_session_stopped_early_exports_what_there_is(capsys, tmp_path):
+    tape = Tape(configuration())
+    tape.begin()
+    tape.sweep(segments=(1,), steps=1)
+    path = tape.save(tmp_path)
+    for to, files in (("csv", {".csv", ".toml"}), ("uff", set()), ("mat", {".mat"})):
+        folder = tmp_path / to
+        assert run(["export", str(path), "--to", to, "--out", str(folder)]) == 0
+        assert {p.suffix for p in folder.iterdir()} == files
+    assert "too few for a data set" in capsys.readouterr().out
+
+
+def test_nothing_to_export_is_refused(capsys, tmp_path):
+    tape = Tape(configuration())
+    tape.begin()
+    tape.end("stopped safely", "the door was open")
+    assert run(["export", str(tape.save(tmp_path)), "--to", "csv", "--out", str(tmp_path)]) == 2
+    assert "nothing to export" in capsys.readouterr().err
+
+
+def test_a_folder_that_cannot_be_made_is_refused(capsys, session_path, tmp_path):
+    (tmp_path / "taken").write_text("a file")
+    status = run(["export", str(session_path), "--to", "mat", "--out", str(tmp_path / "taken" / "below")])
+    assert status == 2
+    assert capsys.readouterr().err.count("\n") == 1

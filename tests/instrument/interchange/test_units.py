@@ -1,0 +1,38 @@
+"""Units as other programs spell them."""
+
+import pytest
+
+from instrument.interchange.units import STANDARD_GRAVITY_M_S2, unit_of
+
+G = STANDARD_GRAVITY_M_S2
+
+
+@pytest.mark.parametrize(
+    ("text", "quantity", "factor", "per"),
+    [
+        ("m/s", "velocity", 1.0, None),
+        ("mm/s", "velocity", 1e-3, None),
+        ("m/s²", "acceleration", 1.0, None),
+        ("m/s^2", "acceleration", 1.0, None),
+        ("m/s2", "acceleration", 1.0, None),
+        ("m/s/s", "acceleration", 1.0, None),
+        ("[ g ]", "acceleration", G, None),
+        ("µm", "displacement", 1e-6, None),
+        ("N", "force", 1.0, None),
+        ("g/N", "acceleration", G, "force"),
+        ("(m/s^2)/N", "acceleration", 1.0, "force"),
+        ("m/s/N", "velocity", 1.0, "force"),
+        ("mm/s/g", "velocity", 1e-3 / G, "acceleration"),
+        ("(m/s)/(m/s^2)", "velocity", 1.0, "acceleration"),
+        ("s", "velocity", 1.0, "acceleration"),
+    ],
+)
+def test_known_units(text, quantity, factor, per):
+    unit = unit_of(text)
+    assert (unit.quantity, unit.per) == (quantity, per)
+    assert unit.factor == pytest.approx(factor, rel=1e-12)
+
+
+@pytest.mark.parametrize("text", ["", "V", "Pa", "furlong/s", "m/s/V", "dB", "g/g/g"])
+def test_unknown_units_are_not_guessed(text):
+    assert unit_of(text) is None

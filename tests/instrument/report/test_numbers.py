@@ -1,0 +1,31 @@
+"""Numbers with as many digits as their uncertainty leaves."""
+
+import math
+
+import pytest
+
+from instrument.report.numbers import plain, signed, with_error
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "scale", "text"),
+    [
+        (0.27123, 0.0131, 1.0, "0.271 ± 0.013"),
+        (270003.3, 13.33, 1.0, "270003 ± 13"),
+        (4.0959e6, 5.03e3, 1.0, "(4.0959 ± 0.0050)e6"),
+        (1.2119673e-4, 2.32e-7, 1.0, "(1.2120 ± 0.0023)e-4"),
+        (1.10015e-3, 1.1e-7, 1e6, "1100.15 ± 0.11"),
+        (123456.0, 2345.0, 1.0, "123456 ± 2345"),
+        (0.9, math.nan, 1.0, "0.9"),
+        (0.9, None, 1.0, "0.9"),
+        (math.nan, 0.1, 1.0, "-"),
+        (None, 0.1, 1.0, "-"),
+    ],
+)
+def test_two_digits_of_the_error_decide(value, error, scale, text):
+    assert with_error(value, error, scale) == text
+
+
+def test_plain_and_signed():
+    assert (plain(0.123456), plain(None), plain(math.inf)) == ("0.1235", "-", "-")
+    assert signed(0.5) == "+0.50"

@@ -1,0 +1,285 @@
+"""The report: one page that holds everything, and says what is missing."""
+
+import base64
+import re
+from html import unescape
+from html.parser import HTMLParser
+from xml.etree import ElementTree
+
+import pytest
+from session_cases import GAIN, Tape, configuration, whole_session
+
+from instrument.cli.main import run
+from instrument.interchange.contents import contents_of
+from instrument.report.page import report_page
+from instrument.session.storage import SessionFile
+from instrument.stream.derived import LimitWarned
+
+SECTIONS = (
+    "How it ended",
+    "Specimen",
+    "Rig",
+    "Hammer test of the bare plate",
+    "Calibration in place",
+    "Sweep of the damped plate",
+    "Identification of the core",
+    "What the fit cannot explain",
+    "Versions",
+)
+
+
+def page_of(path):
+    with SessionFile(path) as file:
+        return report_page(contents_of(file))
+
+
+def text_of(page):
+    """Its words without markup or figures."""
+    body = page[page.index("<body>") :]
+    return unescape(" ".join(re.sub(r"<[^>]*>", " ", body).split()))
+
+
+def section(page, title):
+    """The words of one section."""
+    start = page.index(f"<h2>{title}</h2>")
+    return text_of("<body>" + page[start : page.index("</section>", start)])
+
+
+def row(words, first):
+    """The numbers behind a row's name."""
+    return [float(v) for v in re.findall(r"[-+]?\d+\.?\d*(?:e-?\d+)?", words.split(first, 1)[1])]
+
+
+@pytest.fixture(scope="module")
+def page(session_path):
+    return page_of(session_path)
+
+
+class Well(HTMLParser):
+    """Every tag closed in its turn."""
+
+    void = ("meta", "br", "img", "hr", "link")
+
+    def __init__(self):
+        super().__init__()
+        self.open = []
+
+    def handle_starttag(self, tag, attrs):
+        if tag not in self.void:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+
+# The whole page
+
+
+def test_it_is_well_formed(page):
+    parser = Well()
+    parser.feed(page)
+    assert parser.open == []
+
+
+def test_every_section_is_there_in_order(page):
+    assert tuple(unescape(t) for t in re.findall(r"<h2>(.*?)</h2>", page)) == SECTIONS
+
+
+def test_it_fetches_nothing(page):
+    sources = re.findall(r'(?:src|href)="([^"]*)"', page)
+    assert all(s.startswith(("data:", "#")) for s in sources)
+    assert "url(" not in page
+    assert "@import" not in page
+    assert "<script" not in page
+    assert "default-src 'none'" in unescape(page)
+
+
+def test_links_lead_to_sections(page):
+    anchors = re.findall(r'href="#([^"]*)"', page)
+    assert len(anchors) == len(SECTIONS)
+    assert all(f'id="{a}"' in page for a in anchors)
+
+
+def test_figures_are_svg_of_their_own(page):
+    figures = re.findall(r'src="data:image/svg\+xml;base64,([^"]*)" alt="([^"]+)"', page)
+    assert len(figures) == 6
+    for data, _ in figures:
+        root = ElementTree.fromstring(base64.b64decode(data))
+        assert root.tag.endswith("svg")
+
+
+def test_it_is_dark_where_that_is_preferred_and_prints_light(page):
+    assert "prefers-color-scheme: dark" in page
+    assert "@media print" in page
+
+
+def test_foreign_text_is_escaped(page):
+    assert "ZN_1 &lt;second&gt; &amp; last" in page
+    assert "<second>" not in page
+
+
+def test_the_same_session_gives_the_same_page(page, session_path):
+    assert page_of(session_path) == page
+
+
+# Its sections
+
+
+def test_specimen_with_units(page):
+    words = section(page, "Specimen")
+    assert "thickness / mm" in words
+    assert "substrate 1.9 68.9 0.3 2700" in words
+    assert "velocity absolute" in words
+
+
+def test_rig_names_instruments_sensors_and_mounting(page):
+    words = section(page, "Rig")
+    assert "PDV-100 no. 7" in words
+    assert "base 1 10.2 mV/(m/s²) 10 yes no 4711 2026-03-02" in words
+    assert "response (0.6 g)" in words
+    assert "bolts 6 torque 4.5 N m remounted once" in words
+
+
+def test_hammer_lists_hits_and_modes(page):
+    words = section(page, "Hammer test of the bare plate")
+    assert "left out double hit" in words
+    assert "The run itself had found the same" in words
+    assert "with the coherence of 2 hits" in words
+    frequency, ratio, error = row(words, "remarks")[:3]
+    assert 17.5 < frequency < 18
+    assert ratio == pytest.approx(0.29, rel=0.01)
+    assert 0 < error < 0.01
+
+
+def test_calibration_gives_gain_and_delay_with_errors(page):
+    gain, error, delay, _ = row(section(page, "Calibration in place"), "5mm/s/V")[:4]
+    assert abs(gain - GAIN) < 4 * error
+    assert delay == pytest.approx(1100, abs=1)
+
+
+def test_sweep_lists_remarks_and_drift(page):
+    words = section(page, "Sweep of the damped plate")
+    assert "27 steps in 3 segments and 1 sweep at 4.905 m/s²" in words
+    assert "8 19 1 weak light: signal level 0.05" in words
+    assert words.count("sentinel") >= 4
+    assert "All 31 points" in words
+
+
+def test_identification_gives_the_law_and_its_errors(page):
+    words = section(page, "Identification of the core")
+    value, error = row(words, "g0_pa")[:2]
+    assert abs(value - 0.27e6) < 4 * error
+    assert "Correlations" in words
+    assert "The live identification of the run ended with the same parameters." in words
+    assert "95 % bands" in words
+
+
+def test_what_is_left_is_in_numbers(page):
+    words = section(page, "What the fit cannot explain")
+    assert "the model has no further effects" in words
+    assert row(words, "rms difference in amplitude")[0] < 0.1
+    assert 0.5 < row(words, "chi² per degree of freedom")[0] < 3
+    assert "each segment predicted from the others" in words
+
+
+def test_the_head_has_the_result_in_short(page):
+    head = text_of("<body>" + page[page.index("<header>") : page.index("</header>")])
+    assert "operator A. Tester" in head
+    assert "100 Hz: G' 0.43" in head
+
+
+# Sessions with something missing
+
+
+def made(folder, act):
+    tape = Tape(configuration())
+    tape.begin()
+    act(tape)
+    return page_of(tape.save(folder))
+
+
+def test_a_run_stopped_early_says_what_it_lacks(tmp_path):
+    def act(tape):
+        tape.calibrate()
+        tape.sweep(segments=(1, 2), steps=4)
+        tape.emit(LimitWarned(12, "base travel", 4.2e-3, 5e-3, "m"))
+        tape.end("stopped safely", "step 17: velocity 1.2 m/s, limit 1: lower the level")
+
+    page = made(tmp_path, act)
+    words = section(page, "How it ended")
+    assert "The rig stopped itself: step 17: velocity 1.2 m/s, limit 1: lower the level" in words
+    assert "No hammer test was made." in words
+    assert "Segment 2 of sweep 1 is not complete: 4 of 9 steps measured." in words
+    assert "Segment 3 of sweep 1 was not begun." in words
+    assert "base travel, 0.0042 m at step 12, limit 0.005" in words
+    assert "There is no hammer test" in section(page, "Hammer test of the bare plate")
+    identification = section(page, "Identification of the core")
+    assert "without a hammer test" in identification
+    assert "The run itself made no fit" in identification
+
+
+def test_a_hammer_test_alone(tmp_path):
+    def act(tape):
+        tape.hammer(hits=1)
+        tape.end("stopped by the user")
+
+    page = made(tmp_path, act)
+    assert "The user stopped the run." in section(page, "How it ended")
+    assert "one hit has no coherence" in section(page, "Hammer test of the bare plate")
+    assert "There is no point of a sweep" in section(page, "Sweep of the damped plate")
+    assert "No law could be identified: no point of a sweep" in section(page, "Identification of the core")
+    assert "There is no fit" in section(page, "What the fit cannot explain")
+
+
+def test_hits_that_are_all_bad(tmp_path):
+    page = made(tmp_path, lambda tape: tape.hammer(hits=2, rejected=(1,)))
+    words = section(page, "Hammer test of the bare plate")
+    assert "by the operator" in words
+    assert "No damping: no good hit" in words
+    assert "ended from outside" in section(page, "How it ended")
+
+
+def test_too_few_points_for_a_law(tmp_path):
+    page = made(tmp_path, lambda tape: tape.sweep(segments=(1,), steps=1))
+    words = section(page, "Identification of the core")
+    assert "too few points: 2 (4 numbers) for 4 parameters" in words
+    assert "without bands: these points carry no standard error" in words
+    assert "Segment 1 of sweep 1 is not complete: 1 of 9" in section(page, "How it ended")
+
+
+def test_points_without_a_calibration_are_remarked(tmp_path):
+    page = made(tmp_path, lambda tape: tape.sweep(segments=(1,), steps=3))
+    assert "was not calibrated in place" in section(page, "Calibration in place")
+    assert "range 5mm/s/V is not calibrated" in section(page, "Sweep of the damped plate")
+
+
+def test_a_session_with_nothing_in_it(tmp_path):
+    page = made(tmp_path, lambda tape: tape.end("stopped safely", "no light"))
+    assert "The rig stopped itself: no light" in section(page, "How it ended")
+    assert "No sweep was made." in section(page, "How it ended")
+    assert "<img" not in page
+
+
+# The command
+
+
+def test_the_page_goes_beside_the_session(capsys, tmp_path):
+    path = whole_session(tmp_path)
+    assert run(["report", str(path)]) == 0
+    assert capsys.readouterr().out.strip() == f"wrote {path.with_suffix('.html')}"
+    assert path.with_suffix(".html").read_text(encoding="utf-8").startswith("<!doctype html>")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "word"),
+    [
+        (["none.h5"], "no such file"),
+        (["{session}", "--out", "/none/page.html"], "no such folder"),
+    ],
+)
+def test_what_cannot_be_done_is_refused_in_a_line(capsys, session_path, arguments, word):
+    filled = [a.format(session=session_path) for a in arguments]
+    assert run(["report", *filled]) == 2
+    err = capsys.readouterr().err
+    assert err.count("\n") == 1
+    assert word in err
