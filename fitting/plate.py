@@ -166,10 +166,15 @@ class Plate:
         np.add.at(inertia, dofs, r.ravel()[dofs] @ element_matrices(self.specimen, self.mesh).M)
         return -inertia[self._free]
 
-    def on_elements(self, V: Array) -> Array:
-        """Vectors over the free degrees of freedom, gathered element by element. Shape (elements, 28, k)."""
+    def on_nodes(self, V: Array) -> Array:
+        """Vectors over the free degrees of freedom, node by node, held ones zero. Shape (nodes, 7, k)."""
         full = np.zeros((self.mesh.nodes * DOFS, V.shape[1]))
         full[self._free] = V
+        return full.reshape(self.mesh.nodes, DOFS, -1)
+
+    def on_elements(self, V: Array) -> Array:
+        """Vectors over the free degrees of freedom, gathered element by element. Shape (elements, 28, k)."""
+        full = self.on_nodes(V).reshape(-1, V.shape[1])
         return np.asarray(full[self.mesh.element_dofs()])
 
     @cached_property

@@ -24,9 +24,9 @@ _QUANTITIES = {
     "response": "response_acceleration",
     "temperature": "temperature",
 }
-_NOISE_V = 1e-5
+_NOISE_V = 1e-4
 """Of a sensor and its cable, broadband, at noise 1."""
-_LASER_NOISE_V = 1e-3
+_LASER_NOISE_V = 5e-2
 """Of the vibrometer's output in good light: speckle."""
 _SENSOR_LIMIT_V = 10.0
 

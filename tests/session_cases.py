@@ -8,9 +8,8 @@ import numpy as np
 from conftest import TABLE_4
 from impact_cases import TABLE_3, clean_hit
 
-from fitting.identification.bare_plate import loaded_modes
+from fitting.bare_modes import bare_modes
 from fitting.plate import Plate
-from fitting.real_modes import real_modes
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.rig_file import RigDocument
 from instrument.files.specimen_file import SpecimenDocument, specimen_of
@@ -103,11 +102,8 @@ def configuration(**changes):
 
 def bare_modes_hz(specimen, hammer):
     """The bare plate's first modes, the accelerometer on it."""
-    plate = Plate(specimen.bare)
-    modes = real_modes(plate, 0.0, 12)
-    if hammer is not None and hammer.sensor is not None:
-        modes = loaded_modes(plate, modes, hammer.sensor)
-    return modes.omega[:8] / (2 * np.pi)
+    modes, edge = bare_modes(Plate(specimen.bare), 12, hammer.sensor if hammer is not None else None)
+    return (modes.omega * (1 - edge))[:8] / (2 * np.pi)
 
 
 class Tape:

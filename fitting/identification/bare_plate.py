@@ -11,20 +11,17 @@ s_r is a mode's fall for a soft root, from the bending moment it hands to the cl
 from dataclasses import dataclass, replace
 
 import numpy as np
-import scipy.linalg as la
 from numpy.typing import NDArray
 
-from fitting.element import DOFS, THETA_Y
+from fitting.bare_modes import Sensor, bare_modes, clamp_softness
 from fitting.errors import TooFewPoints
-from fitting.linear import factorise
-from fitting.plate import Plate, element_matrices
-from fitting.real_modes import RealModes, real_modes
+from fitting.plate import Plate
 from fitting.specimen import Specimen
 
 Array = NDArray[np.float64]
 
-FREQUENCY_SCATTER = 7e-4
-"""Standard deviation of ln f: remounting and reading 0.05 %, the plate model 0.05 %."""
+FREQUENCY_SCATTER = 5e-4
+"""Standard deviation of ln f: remounting and reading 0.03 %, the plate model 0.04 %."""
 DEFAULT_TOLERANCE = 0.2
 """Of the stiffness, where the specimen states none: wide enough to leave it to the test."""
 CLAMP = 0.01
@@ -33,15 +30,8 @@ _MOST_PRIORS = 5
 _MATCH = 0.15
 """A measured mode further than this from every predicted one is left out."""
 _SPARE = 4
-
-
-@dataclass(frozen=True)
-class Sensor:
-    """The accelerometer on the bare plate: a gram at the tip takes half a percent off mode 1."""
-
-    mass_kg: float
-    x_m: float
-    y_m: float
+_EDGE_DOUBT = 0.3
+"""Share of `edge_softening` in doubt: torsion of a strip is not quite a plate's."""
 
 
 @dataclass(frozen=True)
@@ -68,13 +58,10 @@ def fit_bare_plate(
 
     `sensor` is what sat on the plate in the test; the model's modes are those of the plate with it.
     """
-    bare = specimen.bare
-    plate = Plate(bare)
+    plate = Plate(specimen.bare)
     count = max(len(measured_hz), len(specimen.modal_ratios)) + _SPARE
-    modes = real_modes(plate, 0.0, count)
-    if sensor is not None:
-        modes = loaded_modes(plate, modes, sensor)
-    model_hz = modes.omega / (2 * np.pi)
+    modes, edge = bare_modes(plate, count, sensor)
+    model_hz = modes.omega * (1 - edge) / (2 * np.pi)
     order = np.argsort(measured_hz)
     pairs = _matched(measured_hz[order], model_hz)
     if len(pairs) < 2:
@@ -92,6 +79,7 @@ def fit_bare_plate(
     scale, error, kappa = _solve(
         np.log(f / model_hz[index]),
         softness[index],
+        np.hypot(FREQUENCY_SCATTER, _EDGE_DOUBT * edge[index]),
         specimen.tolerances.get("substrate_young", DEFAULT_TOLERANCE),
     )
     if abs(kappa) > _MOST_PRIORS * CLAMP:
@@ -117,36 +105,6 @@ def with_bare_plate(specimen: Specimen, fit: BarePlateFit) -> Specimen:
     return replace(specimen, substrate=substrate, tolerances=tolerances, modal_ratios=fit.ratios)
 
 
-def loaded_modes(plate: Plate, modes: RealModes, sensor: Sensor) -> RealModes:
-    """The modes with the sensor on the plate, as many: in the span of the unloaded ones and of its own push.
-
-    (K - omega^2 (M + m w^T w)) x = 0, w reading the deflection under the sensor.
-    """
-    row = plate.observe(sensor.x_m, sensor.y_m)
-    K = plate.K_0.real.tocsc()
-    V = np.column_stack([modes.shapes, factorise(K)(row)])
-    w = row @ V
-    squared, q = la.eigh(V.T @ (K @ V), V.T @ (plate.M @ V) + sensor.mass_kg * np.outer(w, w))
-    count = len(modes.omega)
-    return RealModes(np.sqrt(squared[:count]), V @ q[:, :count])
-
-
-def clamp_softness(plate: Plate, modes: RealModes) -> Array:
-    """Fall of ln f for a root that yields in rotation, one for mode 1; zero without a clamp."""
-    if plate.specimen.boundary != "cantilever":
-        return np.zeros(len(modes.omega))
-    mesh = plate.mesh
-    dofs = mesh.element_dofs()
-    K = element_matrices(plate.specimen, mesh).K_0
-    moment = np.zeros((mesh.nodes * DOFS, len(modes.omega)))
-    np.add.at(moment, dofs, np.einsum("ij,ejk->eik", K, plate.on_elements(modes.shapes)))
-    root = np.arange(mesh.n_y + 1) * DOFS + THETA_Y
-    width = np.full(mesh.n_y + 1, mesh.sides_m[1])
-    width[[0, -1]] /= 2
-    energy = (moment[root] ** 2 / width[:, None]).sum(axis=0) / modes.omega**2
-    return np.asarray(energy / energy[0])
-
-
 def _matched(measured: Array, model: Array) -> list[tuple[int, int]]:
     """Pairs (measured, model), each at most once, the stiffness' common shift taken out first."""
     shift = _common_shift(measured, model)
@@ -166,12 +124,12 @@ def _common_shift(measured: Array, model: Array) -> float:
     return float(trials[np.argmin(np.minimum(distance, _MATCH / 2).sum(axis=0))])
 
 
-def _solve(shift: Array, softness: Array, tolerance: float) -> tuple[float, float, float]:
+def _solve(shift: Array, softness: Array, scatter: Array, tolerance: float) -> tuple[float, float, float]:
     """E/E_stated, the standard error of its logarithm, kappa: least squares with two priors."""
-    J = np.column_stack([np.full(len(shift), 0.5), -softness]) / FREQUENCY_SCATTER
+    J = np.column_stack([np.full(len(shift), 0.5), -softness]) / scatter[:, None]
     A = J.T @ J + np.diag([1 / tolerance**2, 1 / CLAMP**2])
-    found = np.linalg.solve(A, J.T @ (shift / FREQUENCY_SCATTER))
-    left = shift / FREQUENCY_SCATTER - J @ found
+    found = np.linalg.solve(A, J.T @ (shift / scatter))
+    left = shift / scatter - J @ found
     covariance = np.linalg.inv(A) * max(1.0, float(left @ left) / max(1, len(shift) - 2))
     return float(np.exp(found[0])), float(np.sqrt(covariance[0, 0])), float(found[1])
 

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, Field, ValidationError
 
+from fitting.bare_modes import Sensor
 from fitting.errors import TooFewPoints
-from fitting.identification.bare_plate import Sensor
 from instrument.errors import BadInput
 from instrument.files.text import read_text
 

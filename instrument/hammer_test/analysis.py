@@ -4,7 +4,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from fitting.identification.bare_plate import Sensor
+from fitting.bare_modes import Sensor
 from instrument.errors import BadInput
 from instrument.hammer_test.trigger import Trigger
 from instrument.impact.damping import damping_of_hits

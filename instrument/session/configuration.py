@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 from pydantic import BaseModel
 
-from fitting.identification.bare_plate import Sensor
+from fitting.bare_modes import Sensor
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
 from fitting.specimen import Specimen

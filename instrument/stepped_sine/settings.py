@@ -20,7 +20,9 @@ class Control:
     check_share: float = 0.02
     """Of the drive limit, for a loop check before any gain is known."""
     signal_over_noise: float = 20.0
-    """A loop check answers at least so clearly."""
+    """A loop check answers at least so clearly ..."""
+    check_s: float = 4.0
+    """... within this time."""
 
 
 @dataclass(frozen=True)

@@ -36,6 +36,8 @@ Array = NDArray[np.float64]
 
 _TRIM = 0.5
 """Share of the control tolerance at which the drive is corrected: drift has room until the point is read."""
+_CHECK_BLOCKS = 2.0
+"""A loop check reads so many blocks at once."""
 _CLIPPED = 0.98
 """Share of the vibrometer's full scale from which its output counts as clipped."""
 
@@ -143,7 +145,7 @@ class StepAnalysis:
         if np.abs(x[1]).max() > _CLIPPED * self._range.scale_m_s_v * self._range.full_scale_v:
             return events + self._overloaded()
         if self._began.purpose == "loop-check":
-            return events + self._loop_checked(fit)
+            return events + self._loop_checked(first + x.shape[1], fit)
         if self._phase == "dwelling":
             return events + self._dwelt(first, x, fit)
         return events + self._followed(first + x.shape[1], x.shape[1], fit)
@@ -230,10 +232,13 @@ class StepAnalysis:
             remarks=tuple(self._remarks),
         )
 
-    def _loop_checked(self, fit: SineFit) -> list[Derived]:
-        self._phase = "done"
+    def _loop_checked(self, end: int, fit: SineFit) -> list[Derived]:
         base, need = abs(fit.phasor[0]), self._settings.control.signal_over_noise
         ratio = float(base / max(fit.std[0], np.finfo(float).tiny))
+        if ratio < need and (end - self._from) / self._rate < self._settings.control.check_s:
+            # What went before may still ring.
+            return []
+        self._phase = "done"
         if ratio < need:
             what = "loop check: base acceleration over its noise"
             remedy = "is the accelerometer connected, the amplifier on, its gain up?"
@@ -289,12 +294,10 @@ class StepAnalysis:
 
     def _next_length(self) -> int:
         f, s = self._began.frequency_hz, self._settings
-        seconds = s.dwell_s(f) if self._phase == "dwelling" or self._checks else s.block_s(f)
+        seconds = s.dwell_s(f) if self._phase == "dwelling" else s.block_s(f)
+        if self._began.purpose == "loop-check":
+            seconds *= _CHECK_BLOCKS
         return int(np.ceil(seconds * self._rate))
-
-    @property
-    def _checks(self) -> bool:
-        return self._began.purpose == "loop-check"
 
     def _in_units(self, volts: Array) -> Array:
         """m/s^2, m/s and degree Celsius. Shape (3, samples)."""
