@@ -52,7 +52,7 @@ def edge_softening(plate: Plate, modes: RealModes) -> Array:
     """Relative fall of each frequency that twist at the free edges brings, and plate theory leaves out.
 
     Saint-Venant's torsion of a strip has J = b h^3 / 3 (1 - 0.63 h / b): near a free edge the shear flow
-    turns over, as if a width of 0.315 h carried no twist. Its energy, D (1 - nu) kappa_xy^2 per area, is taken off.
+    turns over, as if a width of 0.315 h carried no twist. Its energy, D (1 - nu) kappa_xy^2 an area, goes.
     """
     face, mesh = plate.specimen.substrate, plate.mesh
     if plate.specimen.boundary == "simply-supported":

@@ -7,6 +7,8 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Literal
 
+from threadpoolctl import threadpool_limits
+
 from drivers.errors import DriverError
 from drivers.shaker import Alarm
 from instrument.control import Control
@@ -56,12 +58,27 @@ def run_experiment(
 
     Whatever ends the run, the shaker is silent and what is complete is kept; the message says where.
     """
+    # One thread for all sums: with several, their last bit would depend on what else runs.
+    with threadpool_limits(1, "blas"):
+        return _run(experiment, out, parts, control or Control(), watch, resume, progress, fit)
+
+
+def _run(
+    experiment: Experiment,
+    out: Path,
+    parts: tuple[Part, ...],
+    control: Control,
+    watch: Watch | None,
+    resume: Path | None,
+    progress: Progress,
+    fit: Fitter,
+) -> Finished:
     with progress("forecasting the sweep"):
         forecast = Forecast.of(experiment.the_specimen())
     journal, name = _journal(experiment, out, resume)
     entries = journal.entries()
     earlier = [event for e in entries for event in part_events(journal.folder / e.file)]
-    session = _Session(experiment, journal, forecast, control or Control(), earlier, parts, fit)
+    session = _Session(experiment, journal, forecast, control, earlier, parts, fit)
     path = journal.folder.parent / f"{name}.h5"
     try:
         with Recorder(journal, entries, watch) as recorder:

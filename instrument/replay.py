@@ -4,6 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from time import monotonic, sleep
 
+from threadpoolctl import threadpool_limits
+
 from instrument.live_fit import Fitter, fit_points
 from instrument.session.configuration import setup_of
 from instrument.session.storage import SessionFile
@@ -41,6 +43,11 @@ def replay(
     fit: Fitter = fit_points,
 ) -> Replayed:
     """Run a session again. `speed` 1 is as it was; None as fast as it goes."""
+    with threadpool_limits(1, "blas"):
+        return _replay(session, _Pace(speed), watch, fit)
+
+
+def _replay(session: SessionFile, pace: "_Pace", watch: Watch, fit: Fitter) -> Replayed:
     configuration = session.configuration
     analysis = Analysis(setup_of(configuration))
     specimen = configuration.the_specimen()
@@ -48,7 +55,6 @@ def replay(
     expected: list[Derived] = []
     fits: dict[int, FitUpdated] = {}
     ended = False
-    pace = _Pace(speed)
     for event in session.events():
         pace.wait(event)
         if isinstance(event, FitUpdated):

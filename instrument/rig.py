@@ -23,7 +23,7 @@ from instrument.files.rig_file import RigDocument, Sensor
 from instrument.operator import Operator, Person, SimulatedOperator
 
 _SIMULATOR_STARTS_S = 30.0
-_SIMULATOR_ENDS_S = 5.0
+_SIMULATOR_ENDS_S = 6.0
 
 
 @dataclass(frozen=True)

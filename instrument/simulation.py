@@ -67,7 +67,7 @@ def simulated_rig(
         registers=registers,
         unit=document.shaker.unit,
         ports=Ports(*ports),
-        log=log,
+        log=log or (path.parent / simulation.log if simulation.log else None),
     )
     with rig as addresses:
         yield addresses

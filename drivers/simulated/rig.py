@@ -18,6 +18,7 @@ from drivers.vibrometer.interface import Range
 SAMPLE_RATES_HZ = tuple(131072.0 / 2**k for k in range(10))
 _TICK_S = 0.02
 _LONGEST_RAMP_S = 60.0
+_GRACE_S = 1.0
 
 
 @dataclass(frozen=True)
@@ -103,11 +104,19 @@ class SimulatedRig:
         }
 
     def __exit__(self, *_: object) -> None:
+        # Whoever drove it may be dead: the device stays until its own heartbeat has silenced it.
+        deadline = time.monotonic() + self.device.heartbeat_timeout_s + _GRACE_S
+        while self._running() and time.monotonic() < deadline:
+            time.sleep(_TICK_S)
         self._stack.close()
         # A ramp to rest ends, as it would have, though nobody watches.
         now_s = self.world.clock()[1]
         self.device.advance(now_s + _LONGEST_RAMP_S)
         self._write_log()
+
+    def _running(self) -> bool:
+        with self.world.lock:
+            return self.device.status(self.world.clock()[1]).running
 
     def _on_range(self, chosen: Range) -> None:
         laser = self.world.laser

@@ -29,7 +29,10 @@ class Output:
 
     def table(self, title: str, columns: list[str], rows: list[list[str]]) -> None:
         """A table for people, numbers to the right."""
-        table = Table(title=title or None, title_justify="left", title_style="bold", box=None, pad_edge=False)
+        table = Table(box=None, pad_edge=False)
+        if title:
+            # Not as the table's own title: that would be wrapped to the table's width.
+            self._console.print(title, style="bold", markup=False)
         for k, column in enumerate(columns):
             table.add_column(column, justify="left" if k == 0 and not _numeric(rows, k) else "right")
         for row in rows:

@@ -129,6 +129,8 @@ class Simulation(Table):
     """g_inf_mpa, g_mpa, tau_s: another core than the standard one."""
     double_hit_every: Annotated[int, Field(ge=0)] = 4
     """Every so many hits one bounces; 0 for never."""
+    log: str | None = None
+    """Beside this file: the rig's own record of its shaker, JSON lines."""
 
 
 class RigDocument(Table):

@@ -12,8 +12,10 @@ a journal with its checksum. A file is written under another name, flushed to th
 is whole or not there. What the journal does not name does not count.
 """
 
+import errno
 import hashlib
 import os
+import shutil
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -29,6 +31,9 @@ from instrument.stream.raw import BlockAcquired
 
 FORMAT = "viscorig session"
 LAYOUT_VERSION = 1
+
+_ROOM, _OVERHEAD_BYTES = 1.1, 1_000_000
+"""A session takes as much as its parts and a little more."""
 
 _UNITS = {
     "frequency_hz": "Hz",
@@ -56,15 +61,22 @@ _UNITS = {
 
 def write_part(path: Path, events: list[Event]) -> str:
     """Seal some events in a file of their own; its SHA-256."""
-    temporary = path.with_suffix(".tmp")
-    with h5py.File(temporary, "w") as file:
+    # Made in memory: HDF5 takes a full disk so badly that the program may not survive it.
+    with h5py.File(path.name, "w", driver="core", backing_store=False) as file:
         file.attrs["format"], file.attrs["layout_version"] = FORMAT, LAYOUT_VERSION
         _write_events(file, events)
+        file.flush()
+        image = file.id.get_file_image()
+    temporary = path.with_suffix(".tmp")
+    temporary.write_bytes(image)
     return seal(temporary, path)
 
 
 def write_session(path: Path, configuration: Configuration, parts: list[Path]) -> None:
     """Put a session together from its sealed parts."""
+    needed = _ROOM * sum(part.stat().st_size for part in parts) + _OVERHEAD_BYTES
+    if (free := shutil.disk_usage(path.parent).free) < needed:
+        raise OSError(errno.ENOSPC, f"{free / 1e6:.0f} MB free, {needed / 1e6:.0f} MB needed for {path.name}")
     temporary = path.with_suffix(".tmp")
     points: list[PointMeasured] = []
     calibrations: list[CalibrationFound] = []

@@ -2,9 +2,48 @@
 
 from pathlib import Path
 
+from instrument.errors import BadInput
+from instrument.files.text import read_text
+
 FILES = ("experiment.toml", "rig.toml", "specimen.toml")
+
+EFFECTS = {
+    "clamp_compliance": "along_x_n_m3 = 3e13, along_z_n_m3 = 3e13",
+    "clamp_friction": "loss_factor = 0.1",
+    "spot_offset": "dx_m = 0.004, dy_m = 0.0",
+    "added_mass": "mass_kg = 0.008, x_m = 0.25, y_m = 0.1",
+    "air_added_mass": "density_kg_m3 = 1.2",
+    "temperature_drift": "kelvin = 3.0, time_constant_s = 60.0",
+    "partial_debond": 'along = "x", from_m = 0.26, to_m = 0.3',
+    "amplitude_softening": "k = 0.1",
+    "viscous_damping": "scale = 2.5",
+    "base_rocking": "pitch_rad_m = 0.1",
+    "fixture_resonance": "frequency_hz = 105.0, damping_ratio = 0.02, gain_rad_m = 0.05",
+    "core_thickness": "scale = 1.06",
+    "substrate_stiffness": "scale = 1.03",
+    "gain_error": "factor = 1.02",
+    "level_error": "factor = 1.03",
+    "mains_hum": "amplitude_v = 0.1",
+}
+"""What a demonstration may hide, at a severity that shows. Keys as in `[simulation.effects]`."""
 
 
 def case_file(name: str) -> Path:
     """Path of one of `FILES`."""
     return Path(__file__).parent / name
+
+
+def write_case(folder: Path, *, seed: int = 1, effect: str | None = None) -> Path:
+    """The case as files to run and to edit; the experiment's path. Raises `BadInput`."""
+    if effect is not None and effect not in EFFECTS:
+        raise BadInput(f"effect {effect!r}, expected one of {', '.join(sorted(EFFECTS))}")
+    hidden = f"effects.{effect} = {{ {EFFECTS[effect]} }}\n" if effect is not None else ""
+    try:
+        for name in FILES:
+            text = read_text(case_file(name))
+            if name == "rig.toml":
+                text = text.replace("seed = 1\n", f"seed = {seed}\n{hidden}")
+            (folder / name).write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise BadInput(f"{folder}: {error.strerror or error}") from None
+    return folder / "experiment.toml"

@@ -57,8 +57,8 @@ class BlockAcquired(Event):
 
     @property
     def volts(self) -> NDArray[np.float64]:
-        """Shape (channels, samples)."""
-        return self.counts * np.array(self.volts_per_count)[:, None]
+        """Shape (channels, samples), row by row in memory, so that sums are the same on replay."""
+        return np.multiply(self.counts, np.array(self.volts_per_count)[:, None], order="C")
 
 
 @dataclass(frozen=True)

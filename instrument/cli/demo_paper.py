@@ -1,0 +1,56 @@
+"""The published case as `viscorig demo` shows it: from its tables to its figures."""
+
+from pathlib import Path
+
+from instrument.cli.output import Output
+from instrument.cli.print_identification import print_identification
+from instrument.demo import PaperRun, run_paper_case
+from instrument.figures import save_figures
+from instrument.identification_facts import identification_facts
+from instrument.paper_case import TABLE_5_THEORY_M_S
+from instrument.progress import bar
+
+
+def show_paper_case(out: Output, folder: Path) -> None:
+    """Identify ZN_1 from its published tables; print it beside the paper, save results and figures."""
+    out.say("The published case: Table 3's damping and Table 5's nine measured responses.\n")
+    run = run_paper_case(bar)
+    print_identification(out, run.direct, run.sweep)
+    out.say()
+    _print_beside_paper(out, run)
+    Output(str(folder / "identify-direct.json")).result(identification_facts(run.direct, run.sweep))
+    Output(str(folder / "identify-paper.json")).result(identification_facts(run.paper, run.sweep))
+    out.say()
+    for path in save_figures(run, folder, bar):
+        out.say(f"saved {path}")
+
+
+def _print_beside_paper(out: Output, run: PaperRun) -> None:
+    direct, paper = run.direct.result, run.paper.result
+    rows = []
+    for k, f in enumerate(run.sweep.frequency_hz):
+        measured, printed = direct.measured_m_s[k], TABLE_5_THEORY_M_S[k]
+        rows.append(
+            [
+                f"{f:g}",
+                f"{measured:.4f}",
+                *(f"{printed:.4f}", f"{100 * (printed / measured - 1):+.2f}"),
+                *(f"{direct.predicted_m_s[k]:.4f}", f"{direct.difference_percent[k]:+.2f}"),
+                *(f"{paper.predicted_m_s[k]:.4f}", f"{paper.difference_percent[k]:+.2f}"),
+            ]
+        )
+    out.table(
+        "Table 5 beside the published theory (velocity amplitudes in m/s, differences in %)",
+        ["f/Hz", "measured", "published", "%", "direct", "%", "paper's method", "%"],
+        rows,
+    )
+    out.say(
+        f"rms: direct {direct.rms_percent:.2f} %, the paper's method {paper.rms_percent:.2f} % "
+        f"after {paper.fit.iterations} iterations (5 % criterion "
+        f"{'met' if paper.fit.criterion_met else 'not met'})"
+    )
+    leave = direct.validation.leave_one_out_rms_percent
+    out.say(
+        f"The nine points leave {direct.rms_percent:.1f} % that four parameters cannot explain, "
+        f"{leave:.1f} % when each point is predicted from the others."
+    )
