@@ -50,7 +50,15 @@ def _facts(used: list[PointMeasured], damping: DampingFound | None, specimen: Sp
     sweep = sweep_of(used)
     facts = identification_facts(identify(sweep, specimen), sweep)
     kept = {key: value for key, value in facts.items() if key not in _SECONDS}
-    return dict(plain({**kept, **hammer}))
+    return dict(plain({**kept, **hammer, **_temperature(used)}))
+
+
+def _temperature(used: list[PointMeasured]) -> dict[str, object]:
+    """At which the law holds, where a sensor was there."""
+    known = [p.temperature_c for p in used if p.temperature_c is not None]
+    if not known:
+        return {}
+    return {"temperature_c": sum(known) / len(known), "temperature_range_c": [min(known), max(known)]}
 
 
 class LiveFit:

@@ -1,6 +1,8 @@
 """The operator: what only a person can do, asked for in words; or a stand-in where the rig is simulated."""
 
-from typing import Protocol
+import select
+import sys
+from typing import Literal, Protocol
 
 import click
 import httpx
@@ -22,13 +24,40 @@ class Operator(Protocol):
         """Aim the laser at the base or at the pickup ("base", "pickup"); returns when it is done."""
         ...
 
-    def hit(self, number: int, wanted: int) -> list[OperatorDid]:
-        """Asked for the next blow; what was decided about earlier ones meanwhile. Does not wait."""
+    def hit(self, good: int, wanted: int) -> None:
+        """Asked for the next blow. Does not wait."""
         ...
+
+    def decided(self) -> list[OperatorDid]:
+        """What was decided about hits since the last time. Does not wait."""
+        ...
+
+    def content(self, good: int) -> bool:
+        """Whether the hits may be used, now that there are enough. Does not wait."""
+        ...
+
+
+def decision(line: str) -> OperatorDid | None:
+    """What a typed line means; None where it means nothing."""
+    words = line.split()
+    meanings: dict[str, Literal["accepted", "rejected", "undone"]] = {
+        "a": "accepted",
+        "r": "rejected",
+        "u": "undone",
+    }
+    if not 1 <= len(words) <= 2 or words[0] not in meanings or not all(w.isdecimal() for w in words[1:]):
+        return None
+    return OperatorDid(meanings[words[0]], "", int(words[1]) if len(words) == 2 else 0)
+
+
+_TYPED = "r rejects the last hit, a accepts, u undoes; r 2 the second; then Enter"
 
 
 class Person:
     """Told on the terminal, answers with Enter."""
+
+    def __init__(self) -> None:
+        self._content: bool | None = None
 
     def mount(self, plate: str) -> OperatorDid:
         """Ask, and wait for Enter."""
@@ -41,12 +70,34 @@ class Person:
         self._ask(f"Aim the laser at the {where}, focus, then press Enter")
         return OperatorDid("aimed", point)
 
-    def hit(self, number: int, wanted: int) -> list[OperatorDid]:
-        """Say which blow is next."""
-        click.echo(
-            f"Hit {number} (good so far: {number - 1} of {wanted}): strike once, let it ring", err=True
-        )
-        return []
+    def hit(self, good: int, wanted: int) -> None:
+        """Say what is next, and what may be typed."""
+        self._content = None
+        typed = "" if good == 0 else f" ({_TYPED})"
+        click.echo(f"{good} of {wanted} good hits: strike once and let it ring{typed}", err=True)
+
+    def decided(self) -> list[OperatorDid]:
+        """Lines typed meanwhile: r, a or u, a hit's number after it where it is not the last."""
+        found = []
+        while sys.stdin.isatty() and select.select([sys.stdin], [], [], 0)[0]:
+            line = sys.stdin.readline()
+            did = decision(line)
+            if did is not None:
+                found.append(did)
+            elif not line.strip():
+                self._content = True
+            else:
+                click.echo(f"expected {_TYPED}", err=True)
+        return found
+
+    def content(self, good: int) -> bool:
+        """Whether the hits may be used: Enter, once there are enough."""
+        if not sys.stdin.isatty():
+            return True
+        if self._content is None:
+            self._content = False
+            click.echo(f"{good} good hits: Enter to go on ({_TYPED})", err=True)
+        return self._content
 
     def _ask(self, text: str) -> None:
         click.echo(f"{text} ... ", err=True, nl=False)
@@ -72,10 +123,17 @@ class SimulatedOperator:
         self._put("aim", {"point": point})
         return OperatorDid("aimed", point)
 
-    def hit(self, number: int, wanted: int) -> list[OperatorDid]:
+    def hit(self, good: int, wanted: int) -> None:
         """A blow, a little harder or softer than the last."""
         self._put("hit", {})
+
+    def decided(self) -> list[OperatorDid]:
+        """Nothing: the program's own verdict stands."""
         return []
+
+    def content(self, good: int) -> bool:
+        """Always."""
+        return True
 
     def _put(self, what: str, body: dict[str, object]) -> None:
         try:

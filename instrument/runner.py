@@ -61,7 +61,7 @@ class Runner:
         self._range: Range | None = None
         self._beaten = -1e9
         self._drive_v = 0.0
-        self._acquisitions = 0
+        self._acquisitions = self._samples = 0
 
     def sweep(self, part: Part, plan: Plan) -> None:
         """Walk a plan. Raises `RigStopped`, `DriverError`."""
@@ -82,14 +82,17 @@ class Runner:
         with self._acquisition("hammer", ("force", "response")):
             analysis = self._analysis.hammer
             assert analysis is not None
-            asked, waited = -1, 0.0
-            while not analysis.complete:
-                if analysis.caught != asked and analysis.ready:
-                    asked, waited = analysis.caught, 0.0
-                    for did in self._rig.operator.hit(asked + 1, wanted):
-                        self._emit(did)
-                derived = self._read(analysis.wanted())
-                waited += _LONGEST_READ_S if not any(isinstance(e, HitJudged) for e in derived) else 0.0
+            asked, waited = (-1, -1), 0.0
+            operator = self._rig.operator
+            while not (analysis.complete and operator.content(analysis.accepted)):
+                if analysis.ready and not analysis.complete and analysis.accepted_of_caught != asked:
+                    asked, waited = analysis.accepted_of_caught, 0.0
+                    operator.hit(analysis.accepted, wanted)
+                for did in operator.decided():
+                    self._emit(did)
+                before = self._samples
+                caught = any(isinstance(e, HitJudged) for e in self._read(analysis.wanted()))
+                waited += 0.0 if caught else (self._samples - before) / self._rig.front_end.sample_rate_hz
                 if waited > patience_s + analysis.record_s:
                     break
         self._emit(HammerTestEnded())
@@ -150,6 +153,7 @@ class Runner:
         self._watch()
         most = max(1, int(_LONGEST_READ_S * self._rig.front_end.sample_rate_hz))
         block = self._rig.front_end.read(min(samples, most))
+        self._samples = block.first_sample + block.samples
         derived = self._emit(_acquired(block))
         if block.cable_fault.any():
             names = [n for n, bad in zip(self._names, block.cable_fault, strict=True) if bad]
@@ -195,7 +199,7 @@ class Runner:
         front_end.start(inputs, self._rig.sample_rate_hz)
         self._names = names
         try:
-            self._acquisitions += 1
+            self._acquisitions, self._samples = self._acquisitions + 1, 0
             self._emit(AcquisitionBegan(self._acquisitions, part, front_end.sample_rate_hz, names))
             yield
         finally:

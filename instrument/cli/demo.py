@@ -11,6 +11,7 @@ from instrument.cli.output import Output
 from instrument.cli.print_run import print_finished, run_facts
 from instrument.cli.stopping import safe_stop
 from instrument.cli.watching import Watcher
+from instrument.control import Control
 from instrument.errors import BadInput
 from instrument.experiment_run import Finished, run_experiment
 from instrument.interchange.contents import contents_of
@@ -56,8 +57,11 @@ def _run_rig(out: Output, folder: Path, effect: str | None, seed: int) -> None:
     hidden = f"hiding {effect}" if effect else "hiding nothing"
     out.say(f"The simulated rig ({hidden}): bare plate, hammer; damped plate, stepped sine at 1 g.\n")
     experiment = read_whole_experiment(write_case(folder, seed=seed, effect=effect))
-    with safe_stop(), Watcher() as watch:
-        finished = run_experiment(experiment, folder, ("hammer", "sweep"), watch=watch, progress=bar)
+    control = Control()
+    with safe_stop(control), Watcher() as watch:
+        finished = run_experiment(
+            experiment, folder, ("hammer", "sweep"), control=control, watch=watch, progress=bar
+        )
     print_finished(out, finished)
     _print_beside_plant(out, finished)
     Output(str(folder / "run.json")).result(run_facts(finished))

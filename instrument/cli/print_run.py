@@ -76,7 +76,8 @@ def print_fit(out: Output, fit: FitUpdated) -> None:
         ]
         for r in shown
     ]
-    out.table("core: shear modulus with one standard error", ["f/Hz", "G'/MPa", "loss factor"], rows)
+    at = f" at {facts['temperature_c']:.1f} degC" if "temperature_c" in facts else ""
+    out.table(f"core: shear modulus with one standard error{at}", ["f/Hz", "G'/MPa", "loss factor"], rows)
     chi2 = facts["chi2_per_dof"]
     held = facts["held_out_rms_percent"]
     out.say(

@@ -9,6 +9,7 @@ from instrument.cli.output import Output
 from instrument.cli.print_run import print_finished, run_facts
 from instrument.cli.stopping import safe_stop
 from instrument.cli.watching import Watcher
+from instrument.control import Control
 from instrument.experiment_run import Part, run_experiment
 from instrument.progress import bar
 from instrument.session.configuration import read_whole_experiment
@@ -43,7 +44,10 @@ def run_parts(
     """Run some parts of an experiment and print what they gave."""
     output = Output(json_path)
     experiment = read_whole_experiment(path)
-    with safe_stop(), Watcher() as watch:
-        finished = run_experiment(experiment, out, parts, watch=watch, resume=resume, progress=bar)
+    control = Control()
+    with safe_stop(control), Watcher() as watch:
+        finished = run_experiment(
+            experiment, out, parts, control=control, watch=watch, resume=resume, progress=bar
+        )
     print_finished(output, finished)
     output.result(run_facts(finished))

@@ -68,9 +68,9 @@ class HammerAnalysis:
         return self.accepted >= self._settings.hits
 
     @property
-    def caught(self) -> int:
-        """Hits so far, good or not."""
-        return len(self._hits)
+    def accepted_of_caught(self) -> tuple[int, int]:
+        """Good hits, and all of them: changes with every hit and every decision."""
+        return self.accepted, len(self._hits)
 
     @property
     def ready(self) -> bool:

@@ -29,7 +29,7 @@ class Calibration:
         return complex(reading / self.gain * np.exp(2j * np.pi * frequency_hz * self.delay_s))
 
 
-def calibrate(points: list[PointMeasured]) -> CalibrationFound:
+def calibrate(points: list[PointMeasured], utc: str = "") -> CalibrationFound:
     """Gain and delay by least squares on ln of the ratio, weighted by its noise. Raises `TooFewPoints`.
 
     The phase is unwrapped from the lowest frequency up: steps must be narrower than half a turn of the delay.
@@ -57,6 +57,7 @@ def calibrate(points: list[PointMeasured]) -> CalibrationFound:
         gain_std=gain_scatter * float(np.exp(ln_gain)) / np.sqrt(weight.sum()),
         delay_std_s=delay_scatter / np.sqrt(float(weight @ omega**2)),
         points=len(points),
+        utc=utc,
     )
 
 

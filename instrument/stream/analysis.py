@@ -43,6 +43,7 @@ class Analysis:
         self._acquisition: AcquisitionBegan | None = None
         self._range: RangeSet | None = None
         self._range_names: tuple[str, ...] = ()
+        self._utc = ""
         self._signal_level: float | None = None
         self._latest = 0
         self._calibration_points: list[PointMeasured] = []
@@ -81,7 +82,7 @@ class Analysis:
             case StepBegan():
                 self.step = self._begin(event)
             case SessionBegan():
-                self._range_names = event.ranges
+                self._range_names, self._utc = event.ranges, event.utc
             case AcquisitionBegan():
                 self._acquire(event)
             case RangeSet():
@@ -151,7 +152,7 @@ class Analysis:
     def _calibrated(self) -> list[Derived]:
         points, self._calibration_points = self._calibration_points, []
         try:
-            return [calibrate(points)] if points else []
+            return [calibrate(points, self._utc)] if points else []
         except TooFewPoints:
             return []
 

@@ -140,6 +140,8 @@ class CalibrationFound(Derived):
     gain_std: float
     delay_std_s: float
     points: int
+    utc: str = ""
+    """Of the run it was made in."""
 
 
 @dataclass(frozen=True)
