@@ -1,12 +1,14 @@
 """`viscorig demo`: a whole experiment on the simulated rig, then the published case from its tables."""
 
 from pathlib import Path
+from typing import Any
 
 import click
 import numpy as np
 
 from drivers.simulated.plant.law import ZN1
 from instrument.cli.demo_paper import show_paper_case
+from instrument.cli.options import json_option
 from instrument.cli.output import Output
 from instrument.cli.print_run import print_finished, run_facts
 from instrument.cli.stopping import safe_stop
@@ -36,7 +38,8 @@ _AT_HZ = (20.0, 100.0, 280.0)
 @click.option("--effect", help="Hide this physical effect in the simulated plate; none otherwise.")
 @click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Of the rig's noise.")
 @click.option("--paper/--no-paper", default=True, help="The published case too.")
-def demo(folder: Path, effect: str | None, seed: int, paper: bool) -> None:
+@json_option
+def demo(folder: Path, effect: str | None, seed: int, paper: bool, json_path: str | None) -> None:
     """Hammer test, sweep and live identification on a simulated rig; then the published ZN_1 case.
 
     The instruments are simulated behind their real protocols, in virtual time. The folder keeps the
@@ -46,14 +49,15 @@ def demo(folder: Path, effect: str | None, seed: int, paper: bool) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise BadInput(f"{folder}: {error.strerror or error}") from None
-    out = Output(None)
-    _run_rig(out, folder, effect if effect != "none" else None, seed)
+    out = Output(json_path)
+    facts = _run_rig(out, folder, effect if effect != "none" else None, seed)
     if paper:
         out.say()
         show_paper_case(out, folder)
+    out.result(facts)
 
 
-def _run_rig(out: Output, folder: Path, effect: str | None, seed: int) -> None:
+def _run_rig(out: Output, folder: Path, effect: str | None, seed: int) -> dict[str, Any]:
     hidden = f"hiding {effect}" if effect else "hiding nothing"
     out.say(f"The simulated rig ({hidden}): bare plate, hammer; damped plate, stepped sine at 1 g.\n")
     experiment = read_whole_experiment(write_case(folder, seed=seed, effect=effect))
@@ -64,12 +68,14 @@ def _run_rig(out: Output, folder: Path, effect: str | None, seed: int) -> None:
         )
     print_finished(out, finished)
     _print_beside_plant(out, finished)
-    Output(str(folder / "run.json")).result(run_facts(finished))
+    facts = run_facts(finished)
+    Output(str(folder / "run.json")).result(facts)
     with SessionFile(finished.session) as file:
         page = report_page(contents_of(file), bar)
     report = finished.session.with_suffix(".html")
     report.write_text(page, encoding="utf-8")
     out.say(f"report: {report}")
+    return {**facts, "report": str(report)}
 
 
 def _print_beside_plant(out: Output, finished: Finished) -> None:

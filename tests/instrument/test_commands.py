@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from conftest import DATA
 
-from instrument.cli.main import run
+from instrument.cli.main import COMMANDS, run
 from instrument.paper_case import case_file
 
 ZN1, TABLE5 = str(case_file("zn1.toml")), str(case_file("table5.csv"))
@@ -171,8 +171,14 @@ def test_demo_identifies_and_draws(capsys, tmp_path):
         "fig10-material.png",
         "identify-direct.json",
     }
-    for name in names:
-        assert (tmp_path / "out" / name).stat().st_size > 1000
+    for path in (tmp_path / "out").glob("*.png"):
+        assert path.stat().st_size > 1000
+    assert "what was found beside the simulated plate's own law" in out
+    (session,) = (tmp_path / "out").glob("*.h5")
+    assert session.with_suffix(".html").exists()
+    run = json.loads((tmp_path / "out" / "run.json").read_text())
+    assert run["session"] == str(session)
+    assert run["identify"]["converged"]
 
 
 SPECIMEN = Path(ZN1).read_text()
@@ -239,7 +245,7 @@ def test_every_bad_call_is_tried(tmp_path):
     assert len(bad_calls(tmp_path)) == 27
 
 
-@pytest.mark.parametrize("command", ["modes", "predict", "identify", "bench", "demo"])
+@pytest.mark.parametrize("command", COMMANDS)
 def test_every_command_has_help(capsys, command):
     status, out, _ = call(capsys, command, "--help")
     assert status == 0
