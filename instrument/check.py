@@ -23,6 +23,7 @@ from instrument.forecast import (
     with_next_coarser,
 )
 from instrument.session.configuration import Experiment, hammer_settings, read_whole_experiment, setup_of
+from instrument.session.faults import experiment_objections
 from instrument.stepped_sine.plan import PlannedSegment
 from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2, SweepSettings
 
@@ -78,7 +79,13 @@ def all_faults(path: Path) -> list[str]:
         read_specimen(path.parent / experiment.specimen)
     except BadInput as error:
         found.append(str(error))
-    return found
+    if found:
+        return found
+    whole = read_whole_experiment(path)
+    try:
+        return experiment_objections(whole, Forecast.of(whole.the_specimen()), ("hammer", "sweep"))
+    except FittingError as error:
+        return [f"{path}: {error}"]
 
 
 def dry_run(path: Path) -> DryRun:
@@ -110,10 +117,7 @@ def _sweep(
     table = experiment.document.sweep
     if table is None:
         return (), 0.0, []
-    model = MODELS.get(experiment.rig.vibrometer.model)
-    if model is None:
-        known = ", ".join(MODELS)
-        raise BadInput(f"rig: vibrometer.model: {experiment.rig.vibrometer.model!r}, expected one of {known}")
+    model = MODELS[experiment.rig.vibrometer.model]
     ranges = distinct(model.ranges)
     planned, sentinel = planned_segments(forecast, table, ranges)
     names = with_next_coarser([s.range_name for s in planned], ranges)

@@ -1,5 +1,6 @@
 """A whole experiment: hammer test, calibration, sweep, live identification, one session."""
 
+import logging
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,21 +13,24 @@ from threadpoolctl import threadpool_limits
 from drivers.errors import DriverError
 from drivers.shaker import Alarm
 from instrument.control import Control
-from instrument.errors import BadInput, RigStopped
+from instrument.errors import BadInput, RigStopped, StoppedByUser
 from instrument.forecast import Forecast, calibration_segments, distinct, planned_segments, with_next_coarser
 from instrument.live_fit import Fitter, LiveFit, fit_points
 from instrument.progress import Progress, quiet
 from instrument.rig import Rig, open_rig
 from instrument.runner import Runner
-from instrument.session.configuration import Experiment, setup_of
+from instrument.session.configuration import Configuration, Experiment, setup_of
+from instrument.session.faults import experiment_objections
 from instrument.session.journal import Journal
 from instrument.session.recorder import Recorder
 from instrument.session.storage import part_events, write_session
 from instrument.stepped_sine.plan import Done, Planner
 from instrument.stream.analysis import Analysis
-from instrument.stream.derived import DampingFound, FitUpdated, PointMeasured
+from instrument.stream.derived import DampingFound, FitUpdated, HitJudged, PointMeasured
 from instrument.stream.event import Derived, Event
 from instrument.stream.raw import SegmentEnded, SessionBegan, SessionEnded
+
+log = logging.getLogger(__name__)
 
 Part = Literal["hammer", "sweep"]
 Watch = Callable[[list[Event]], None]
@@ -54,7 +58,7 @@ def run_experiment(
     progress: Progress = quiet,
     fit: Fitter = fit_points,
 ) -> Finished:
-    """Run the parts and leave a session file in `out`. Raises `BadInput`, `RigStopped`, `KeyboardInterrupt`.
+    """Run the parts and leave a session file in `out`. Raises `BadInput`, `RigStopped`, `StoppedByUser`.
 
     Whatever ends the run, the shaker is silent and what is complete is kept; the message says where.
     """
@@ -75,6 +79,10 @@ def _run(
 ) -> Finished:
     with progress("forecasting the sweep"):
         forecast = Forecast.of(experiment.the_specimen())
+        objections = experiment_objections(experiment, forecast, parts)
+    if objections:
+        more = f" (and {len(objections) - 1} more: viscorig check lists them)" if len(objections) > 1 else ""
+        raise BadInput(objections[0] + more)
     journal, name = _journal(experiment, out, resume)
     entries = journal.entries()
     earlier = [event for e in entries for event in part_events(journal.folder / e.file)]
@@ -84,11 +92,19 @@ def _run(
         with Recorder(journal, entries, watch) as recorder:
             session.run(recorder)
         recorder.check()
-    except (RigStopped, DriverError) as error:
+        finish_session(journal, path)
+    except (RigStopped, DriverError, OSError) as error:
         raise RigStopped(f"{' '.join(str(error).split())}; {_kept(journal, path)}") from error
     except KeyboardInterrupt:
-        raise KeyboardInterrupt(_kept(journal, path)) from None
-    finish_session(journal, path)
+        raise StoppedByUser(_kept(journal, path)) from None
+    except BadInput as error:
+        raise BadInput(f"{error}; {_kept(journal, path)}") from error
+    except Exception as error:  # a fault of this program: what was measured is kept all the same
+        log.debug("internal error", exc_info=True)
+        said = f"internal error, {type(error).__name__}: {' '.join(str(error).split())}"
+        raise RigStopped(f"{said}; {_kept(journal, path)}") from error
+    finally:
+        journal.unlock()
     return Finished(path, session.analysis.damping, session.fit, tuple(session.analysis.points))
 
 
@@ -98,9 +114,7 @@ def finish_session(journal: Journal, path: Path) -> int:
     if not entries:
         raise BadInput(f"{journal.folder}: nothing was completed, there is no session to put together")
     write_session(path, journal.configuration(), [journal.folder / e.file for e in entries])
-    for file in journal.folder.iterdir():
-        file.unlink()
-    journal.folder.rmdir()
+    journal.remove()
     return len(entries)
 
 
@@ -141,6 +155,9 @@ class _Session:
             raise
         except KeyboardInterrupt:
             self._end("stopped by the user", "")
+            raise
+        except Exception as error:
+            self._end("stopped safely", f"internal error, {type(error).__name__}")
             raise
         self._end("done", "")
 
@@ -189,6 +206,7 @@ class _Session:
         self._live = LiveFit(self._configuration.the_specimen(), self._record, self._fitter)
         with self._live:
             runner.sweep("sweep", planner.plan(segments))
+            self._live.offer(self.analysis.points, self.analysis.damping)
         self.fit = self._live.latest
 
     def _emit(self, event: Event) -> list[Derived]:
@@ -215,31 +233,53 @@ class _Session:
 def _clear_heartbeat_alarm(rig: Rig) -> None:
     """A heartbeat that stopped with an earlier program is back. Other alarms are a person's matter."""
     if rig.shaker.status().alarm == Alarm.HEARTBEAT:
+        rig.shaker.beat()
         rig.shaker.reset_alarm()
 
 
 def _journal(experiment: Experiment, out: Path, resume: Path | None) -> tuple[Journal, str]:
+    now = datetime.now(UTC)
     if resume is not None:
         journal = Journal(resume)
-        journal.configuration()
+        name = resume.name.removesuffix(".running")
+        before = journal.configuration()
+        _refuse_another(before, experiment.configuration(before.name, before.created_utc))
+        journal.lock()
         journal.truncate(journal.entries())
-        return journal, resume.name.removesuffix(".running")
-    now = datetime.now(UTC)
+        return journal, name
     stem = re.sub(r"[^A-Za-z0-9_-]+", "-", experiment.path.stem).strip("-") or "session"
     name = f"{stem}-{now:%Y%m%dT%H%M%SZ}"
     journal = Journal(out / f"{name}.running")
     journal.begin(experiment.configuration(name, now.isoformat(timespec="seconds")))
+    journal.lock()
     return journal, name
 
 
+def _refuse_another(before: Configuration, now: Configuration) -> None:
+    """A session is of one experiment; only where the instruments answer may differ."""
+    for part in ("experiment", "specimen", "rig"):
+        then, given = (getattr(c, part) for c in (before, now))
+        if part == "rig":
+            then, given = (r.anywhere() for r in (then, given))
+        if then != given:
+            raise BadInput(
+                f"{before.name}: the {part} file is not the one this run was begun with: "
+                "resume with it as it was, or begin a new run"
+            )
+
+
 def _kept(journal: Journal, path: Path) -> str:
-    """Put together what is complete; where it is."""
+    """Put together what is complete; where it is. A run without anything complete leaves nothing."""
     try:
         entries = journal.entries()
-        steps = sum(len(e.steps) for e in entries)
-        if not entries:
-            return "nothing was completed"
+        events = [e for entry in entries for e in part_events(journal.folder / entry.file)]
+        if not any(isinstance(e, PointMeasured | HitJudged) for e in events):
+            journal.remove()
+            return "nothing was measured"
         write_session(path, journal.configuration(), [journal.folder / e.file for e in entries])
-        return f"{steps} steps kept in {path}, to go on: --resume {journal.folder}"
+        steps = sum(len(e.steps) for e in entries)
+        hits = sum(isinstance(e, HitJudged) for e in events)
+        done = " and ".join(f"{n} {what}" for n, what in ((hits, "hits"), (steps, "steps")) if n)
+        return f"{done} kept in {path}; to go on: --resume {journal.folder}"
     except (OSError, ValueError, RuntimeError):
         return f"what is complete is in {journal.folder}: viscorig recover {journal.folder}"

@@ -27,6 +27,8 @@ _COARSE = (20, 14)
 _MODES = 12
 _MOST_SOLVED = 25
 """Frequencies of a segment; a resonance of a damped plate is wider than their spacing."""
+_MOST_STEPS = 5000
+"""Of a segment."""
 _REACH = 1.3
 """Modes up to this times the frequency count for the transient: higher ones decay faster."""
 _ROOM = 2.0
@@ -84,37 +86,40 @@ class Forecast:
         low, high = segment.low_hz, segment.high_hz
         if segment.mode is not None:
             if segment.mode > len(self.mode_hz):
-                raise BadInput(f"sweep.segments: mode {segment.mode}, expected at most {len(self.mode_hz)}")
+                raise BadInput(f"mode {segment.mode}, expected at most {len(self.mode_hz)}")
             centre = self.mode_hz[segment.mode - 1]
             low, high = (centre * (1 + sign * segment.span_percent / 200) for sign in (-1, 1))
         assert low is not None
         assert high is not None
-        count = segment.points or round((high - low) / (segment.step_hz or 1.0)) + 1
+        count = segment.points or min(round((high - low) / (segment.step_hz or 1.0)), _MOST_STEPS) + 1
         return tuple(round(float(f), 4) for f in np.linspace(low, high, max(2, count)))
+
+
+def planned_segment(
+    forecast: Forecast, segment: Segment, number: int, sweep: SweepTable, ranges: tuple[Range, ...]
+) -> PlannedSegment:
+    """One segment of the first sweep with its range. Raises `BadInput`."""
+    f = forecast.frequencies_hz(segment)
+    if len(f) > _MOST_STEPS:
+        raise BadInput(f"{len(f)} steps, expected at most {_MOST_STEPS}: take a wider step_hz")
+    if segment.range is not None and segment.range not in {r.name for r in ranges}:
+        raise BadInput(f"range {segment.range!r}, expected one of {', '.join(r.name for r in ranges)}")
+    level = sweep.level_g * STANDARD_GRAVITY_M_S2
+    name = segment.range or range_for(float(forecast.velocity_m_s(np.array(f), level).max()), ranges).name
+    return PlannedSegment(number, 1, f, (level,) * len(f), name)
 
 
 def planned_segments(
     forecast: Forecast, sweep: SweepTable, ranges: tuple[Range, ...]
 ) -> tuple[list[PlannedSegment], tuple[float, str] | None]:
     """Every segment of every sweep with its range, and the sentinel. Raises `BadInput`."""
-    level = sweep.level_g * STANDARD_GRAVITY_M_S2
-    planned = []
-    for number, segment in enumerate(sweep.segments, start=1):
-        f = forecast.frequencies_hz(segment)
-        name = segment.range or range_for(forecast.velocity_m_s(np.array(f), level).max(), ranges).name
-        if name not in {r.name for r in ranges}:
-            known = ", ".join(r.name for r in ranges)
-            raise BadInput(f"sweep.segments.{number - 1}.range: {name!r}, expected one of {known}")
-        planned.append((number, f, name))
-    whole = [
-        PlannedSegment(number, turn, f, (level,) * len(f), name)
-        for turn in range(1, sweep.sweeps + 1)
-        for number, f, name in planned
-    ]
+    once = [planned_segment(forecast, s, k, sweep, ranges) for k, s in enumerate(sweep.segments, start=1)]
+    whole = [replace(s, sweep=turn) for turn in range(1, sweep.sweeps + 1) for s in once]
     if sweep.sentinel is None:
         return whole, None
     first = whole[0]
     sentinel = sweep.sentinel.frequency_hz or first.frequencies_hz[len(first.frequencies_hz) // 2]
+    level = sweep.level_g * STANDARD_GRAVITY_M_S2
     name = range_for(float(forecast.velocity_m_s(np.array([sentinel]), level)[0]), ranges).name
     return whole, (sentinel, name)
 

@@ -36,8 +36,8 @@ def fit_points(
         # One thread: sums in another order would differ in the last bit.
         with threadpool_limits(1):
             return FitUpdated(number, last_step, _facts(used, damping, specimen))
-    except (FittingError, ValidationError) as error:
-        # A hammer test may give a mode that no bare plate has: said, not fatal.
+    except (FittingError, ValidationError, ValueError, ArithmeticError) as error:
+        # Data may be such that no fit is possible: said, and the measurement goes on.
         return FitUpdated(number, last_step, {}, " ".join(str(error).split()))
 
 
@@ -49,6 +49,12 @@ def _facts(used: list[PointMeasured], damping: DampingFound | None, specimen: Sp
         hammer = {"hammer": bare_plate_facts(bare, specimen)}
     sweep = sweep_of(used)
     facts = identification_facts(identify(sweep, specimen), sweep)
+    raw = sum(any("is not calibrated" in r for r in p.remarks) for p in used)
+    if raw:
+        facts["warnings"].append(
+            f"{raw} of {len(used)} points in a range not calibrated: the vibrometer's gain and delay "
+            "are not taken off"
+        )
     kept = {key: value for key, value in facts.items() if key not in _SECONDS}
     return dict(plain({**kept, **hammer, **_temperature(used)}))
 
@@ -104,8 +110,10 @@ class LiveFit:
         try:
             while (task := self._next()) is not None:
                 points, damping = task
-                self._number += 1
                 last = max(p.step for p in points)
+                if self.latest is not None and self.latest.last_step == last:
+                    continue
+                self._number += 1
                 self._emit(FitStarted(self._number, last))
                 self.latest = self._fit(self._number, last, points, damping, self._specimen)
                 self._emit(self.latest)

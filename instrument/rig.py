@@ -66,6 +66,7 @@ def open_rig(document: RigDocument, path: Path, hammer: Hammer | None) -> Iterat
             document = _at(document, addresses)
         shaker = _shaker(document)
         stack.callback(shaker.close)
+        shaker.set_heartbeat_timeout_s(document.shaker.heartbeat_timeout_s)
         vibrometer = PolytecVibrometer(
             document.vibrometer.address, model=document.vibrometer.model, baud=document.vibrometer.baud
         )
@@ -86,7 +87,10 @@ def open_rig(document: RigDocument, path: Path, hammer: Hammer | None) -> Iterat
 def simulator(path: Path, *options: str) -> Iterator[Addresses]:
     """The simulated instruments in their own process, in virtual time; it ends with its standard input."""
     command = [sys.executable, "-m", "instrument.cli", "simulate", str(path), "--virtual-time", *options]
-    process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+    # In a session of its own: a Ctrl-C for the run must not take the rig away before the shaker is silent.
+    process = subprocess.Popen(
+        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, start_new_session=True
+    )
     assert process.stdin is not None
     assert process.stdout is not None
     watchdog = Timer(_SIMULATOR_STARTS_S, process.kill)
@@ -120,7 +124,7 @@ def _at(document: RigDocument, addresses: Addresses) -> RigDocument:
     )
 
 
-def _shaker(document: RigDocument) -> Shaker:
+def _shaker(document: RigDocument) -> ModbusShaker:
     s = document.shaker
     registers = DEFAULT.with_addresses(s.registers)
     if s.kind == "modbus-rtu":

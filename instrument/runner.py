@@ -120,7 +120,7 @@ class Runner:
         elif isinstance(action, StepBegan):
             return self._measure(action)
         else:
-            self._emit(action)
+            _stop_at_a_limit(self._emit(action))
         return None
 
     def _measure(self, began: StepBegan) -> Result:
@@ -158,9 +158,7 @@ class Runner:
         if block.cable_fault.any():
             names = [n for n, bad in zip(self._names, block.cable_fault, strict=True) if bad]
             raise RigStopped(f"cable fault on {', '.join(names)}: check the sensor and its cable")
-        for event in derived:
-            if isinstance(event, LimitExceeded):
-                raise RigStopped(event.message)
+        _stop_at_a_limit(derived)
         return derived
 
     def _watch(self) -> None:
@@ -210,6 +208,12 @@ class Runner:
                     self.silence()
             with suppress(DriverError):
                 front_end.stop()
+
+
+def _stop_at_a_limit(derived: list[Derived]) -> None:
+    for event in derived:
+        if isinstance(event, LimitExceeded):
+            raise RigStopped(event.message)
 
 
 def _acquired(block: Block) -> BlockAcquired:

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import fields
+from dataclasses import MISSING, fields
 from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
@@ -73,6 +73,19 @@ def simulated_rig(
         yield addresses
 
 
+def refuse_simulation(document: RigDocument, path: Path) -> None:
+    """Raises `BadInput` for what `[simulation]` cannot be, as far as can be told without making the plate."""
+    if document.simulation is None:
+        return
+    try:
+        _effects(document.simulation)
+        log = document.simulation.log
+        if log is not None and not (path.parent / log).parent.is_dir():
+            raise ValueError(f"log: {log}: no such folder")
+    except (ValueError, TypeError) as error:
+        raise BadInput(f"{path}: simulation: {error}") from None
+
+
 def _world(document: RigDocument, simulation: Simulation, virtual_time: bool) -> World:
     plate, channel = _effects(simulation)
     delay = simulation.vibrometer_delay_s + channel.get("channel_delay", {}).get("delay_s", 0.0)
@@ -135,12 +148,15 @@ def _effects(simulation: Simulation) -> tuple[Effects, dict[str, dict[str, Any]]
             unknown = set(values) ^ set(CHANNEL_EFFECTS[name])
             if unknown:
                 raise ValueError(f"effects.{name}: {', '.join(sorted(unknown))} missing or unknown")
+            if not all(isinstance(v, float | int) for v in values.values()):
+                raise ValueError(f"effects.{name}: expected numbers")
             channel[name] = values
         elif name == "core_law":
             plate[name] = CoreLaw(_law(values))
         elif name in kinds:
             known = {f.name for f in fields(kinds[name])}
-            if not set(values) <= known:
+            needed = {f.name for f in fields(kinds[name]) if f.default is MISSING}
+            if not needed <= set(values) <= known:
                 raise ValueError(
                     f"effects.{name}: expected {', '.join(sorted(known))}, found {', '.join(values)}"
                 )

@@ -10,7 +10,7 @@ import click
 
 from drivers.errors import DriverError
 from fitting.errors import FittingError
-from instrument.errors import BadInput, RigStopped
+from instrument.errors import BadInput, RigStopped, StoppedByUser
 
 BAD_INPUT = 2
 RIG_STOPPED = 3
@@ -81,13 +81,18 @@ def run(arguments: list[str] | None = None) -> int:
     except (RigStopped, DriverError) as error:
         _say(str(error))
         return RIG_STOPPED
-    except (click.Abort, KeyboardInterrupt) as stop:
-        _say(": ".join(["stopped", *(str(a) for a in stop.args)]))
+    except StoppedByUser as stop:
+        _say(f"stopped: {stop}")
+        return STOPPED_BY_USER
+    except (click.Abort, KeyboardInterrupt):
+        _say("stopped")
         return STOPPED_BY_USER
     except BrokenPipeError:
         # The reader of our output has gone; nothing is left to say.
         sys.stderr.close()
         return 0
+    except OSError as error:
+        return _refuse(f"{error.filename or 'output'}: {error.strerror or error}")
 
 
 def _refuse(message: str) -> int:

@@ -8,7 +8,8 @@ from instrument.cli.options import json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.session.journal import Journal
-from instrument.session.storage import write_session
+from instrument.session.storage import SessionFile, part_events, write_session
+from instrument.stream.derived import HitJudged
 
 
 @click.command()
@@ -26,11 +27,17 @@ def recover(folder: Path, json_path: str | None) -> None:
     if not entries:
         raise BadInput(f"{folder}: nothing was completed, there is no session to put together")
     path = folder.parent / f"{folder.name.removesuffix('.running')}.h5"
+    if path.exists():
+        with SessionFile(path) as file:
+            there = file.part_count
+        if there > len(entries):
+            raise BadInput(f"{path}: holds {there} parts, the folder only {len(entries)}: move it away first")
     try:
         write_session(path, configuration, [folder / e.file for e in entries])
     except OSError as error:
         raise BadInput(f"{path}: {error.strerror or error}") from None
     steps = [step for e in entries for step in e.steps]
-    out.say(f"{len(steps)} completed steps in {len(entries)} parts, all whole: {path}")
-    out.say(f"to go on: viscorig run {'EXPERIMENT.toml'} --resume {folder}")
-    out.result({"session": str(path), "parts": len(entries), "steps": steps})
+    hits = sum(isinstance(e, HitJudged) for entry in entries for e in part_events(folder / entry.file))
+    out.say(f"{hits} hits and {len(steps)} completed steps in {len(entries)} parts, all whole: {path}")
+    out.say(f"to go on: viscorig run EXPERIMENT.toml --resume {folder}")
+    out.result({"session": str(path), "parts": len(entries), "hits": hits, "steps": steps})

@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 from instrument.files.toml import NotNegative, Positive, Table, document_faults, read_document
 
 Count = Annotated[int, Field(ge=1, le=1000)]
+Frequency = Annotated[float, Field(ge=0.5, le=1e5)]
 
 
 class Mounting(Table):
@@ -30,23 +31,23 @@ class Hammer(Table):
     band_hz: Annotated[list[Positive], Field(min_length=2, max_length=2)] = Field(
         default_factory=lambda: [10.0, 550.0]
     )
-    record_s: Positive | Literal["auto"] = "auto"
+    record_s: Annotated[float, Field(ge=0.1, le=300)] | Literal["auto"] = "auto"
     """auto: until the most lightly damped mode has decayed to 1 %."""
-    pre_trigger_s: Positive = 0.05
-    wait_s: Positive = 60.0
+    pre_trigger_s: Annotated[float, Field(gt=0, le=0.1)] = 0.05
+    wait_s: Annotated[float, Field(ge=1, le=3600)] = 60.0
     """For a hit, before the test gives up."""
 
 
 class Segment(Table):
     """A resonance region: from low to high, or around a mode of the specimen as it is known."""
 
-    low_hz: Positive | None = None
-    high_hz: Positive | None = None
+    low_hz: Frequency | None = None
+    high_hz: Frequency | None = None
     mode: Annotated[int, Field(ge=1, le=30)] | None = None
     span_percent: Annotated[float, Field(gt=0, le=100)] = 40.0
     """Of the mode's frequency, low to high."""
     points: Annotated[int, Field(ge=2, le=2000)] | None = None
-    step_hz: Positive | None = None
+    step_hz: Annotated[float, Field(ge=1e-3, le=1e4)] | None = None
     range: str | None = None
     """Of the vibrometer; chosen from the predicted response where none is given."""
 
@@ -67,22 +68,22 @@ class ControlTable(Table):
 
     tolerance_percent: Annotated[float, Field(gt=0, le=20)] = 1.0
     abort_percent: Annotated[float, Field(gt=0, le=500)] = 50.0
-    ramp_s: Annotated[float, Field(gt=0, le=10)] = 0.05
+    ramp_s: Annotated[float, Field(ge=1e-3, le=10)] = 0.05
 
 
 class SettleTable(Table):
     """When a response counts as steady."""
 
     tolerance_percent: Annotated[float, Field(gt=0, le=20)] = 0.1
-    most_s: Positive = 8.0
+    most_s: Annotated[float, Field(ge=0.1, le=300)] = 8.0
 
 
 class DwellTable(Table):
     """How long it is read then."""
 
-    cycles: Positive = 20.0
-    least_s: Positive = 0.3
-    most_s: Positive = 4.0
+    cycles: Annotated[float, Field(ge=1, le=1e4)] = 20.0
+    least_s: Annotated[float, Field(ge=0.01, le=300)] = 0.3
+    most_s: Annotated[float, Field(ge=0.05, le=300)] = 4.0
 
 
 class LimitsTable(Table):
@@ -97,23 +98,23 @@ class LimitsTable(Table):
 class SentinelTable(Table):
     """One frequency, measured again after every segment: it shows whether the plate drifts."""
 
-    frequency_hz: Positive | None = None
+    frequency_hz: Frequency | None = None
     """The first segment's middle where none is given."""
 
 
 class CalibrationTable(Table):
     """The vibrometer against the accelerometer, the laser on the base."""
 
-    frequencies_hz: Annotated[list[Positive], Field(min_length=3, max_length=100)] = Field(
+    frequencies_hz: Annotated[list[Frequency], Field(min_length=3, max_length=100)] = Field(
         default_factory=lambda: [40.0, 80.0, 120.0, 160.0, 200.0, 240.0, 280.0]
     )
-    level_g: Positive = 1.0
+    level_g: Annotated[float, Field(ge=1e-4, le=1e3)] = 1.0
 
 
 class SweepTable(Table):
     """The stepped sine."""
 
-    level_g: Positive = 1.0
+    level_g: Annotated[float, Field(ge=1e-4, le=1e3)] = 1.0
     sweeps: Count = 1
     segments: Annotated[list[Segment], Field(min_length=1, max_length=100)]
     control: ControlTable = ControlTable()

@@ -8,9 +8,12 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
+from drivers.shaker.register_map import DEFAULT
 from instrument.files.toml import NotNegative, Number, Positive, Table
 
 SIMULATED = "simulated"
+NOT_KEPT = "-"
+"""Address of a simulated device in a session: it was another one each time."""
 Input = Annotated[int, Field(ge=1, le=64)]
 
 
@@ -24,6 +27,17 @@ class Shaker(Table):
     unit: Annotated[int, Field(ge=0, le=255)] = 1
     registers: dict[str, Annotated[int, Field(ge=0, le=65535)]] = Field(default_factory=dict)
     """Addresses that differ from the documented map, by name."""
+    heartbeat_timeout_s: Annotated[float, Field(ge=0.5, le=10)] = 2.0
+    """Told to the device: without a beat for so long it goes silent. The run beats five times a second."""
+
+    @model_validator(mode="after")
+    def _reachable(self) -> "Shaker":
+        DEFAULT.with_addresses(self.registers)
+        if self.kind == "modbus-tcp" and self.address not in (SIMULATED, NOT_KEPT):
+            host, _, port = self.address.rpartition(":")
+            if not host or not port.isdecimal() or not 0 < int(port) < 65536:
+                raise ValueError(f"address: {self.address!r}, expected host:port")
+        return self
 
 
 class Vibrometer(Table):
@@ -31,7 +45,7 @@ class Vibrometer(Table):
 
     kind: Literal["polytec"] = "polytec"
     address: str
-    model: str = "OFV-5000"
+    model: Literal["OFV-5000", "OFV-5000 VD-08", "PDV-100"] = "OFV-5000"
     baud: Annotated[int, Field(gt=0)] = 115200
     reads: Literal["absolute", "relative"] = "absolute"
     """A laser on a tripod reads absolute velocity; one that rides with the clamp, relative."""
@@ -43,7 +57,7 @@ class FrontEnd(Table):
     kind: Literal["lan-xi", "ni-daqmx"] = "lan-xi"
     address: str
     """URL, or the name of the device."""
-    sample_rate_hz: Positive = 8192.0
+    sample_rate_hz: Annotated[float, Field(ge=100, le=1e6)] = 8192.0
     paced_by_reader: bool = False
     """Of a `viscorig simulate --virtual-time` alone: it makes samples as they are asked for."""
 
@@ -52,9 +66,9 @@ class Sensor(Table):
     """What hangs on an input."""
 
     input: Input
-    sensitivity_mv_per_unit: Positive = 1000.0
+    sensitivity_mv_per_unit: Annotated[float, Field(ge=1e-6, le=1e9)] = 1000.0
     """Per m/s^2, N or degree Celsius, as the channel's name says; the vibrometer's comes from its range."""
-    range_v: Positive = 10.0
+    range_v: Annotated[float, Field(ge=1e-3, le=1000)] = 10.0
     iepe: bool = False
     invert: bool = False
     """The sensor's positive direction is the other way."""
@@ -120,11 +134,11 @@ class Simulation(Table):
     """Times the sensors' own noise; 0 for none."""
     hum_v: NotNegative = 0.0
     mains_hz: Positive = 50.0
-    vibrometer_delay_s: NotNegative = 1.1e-3
-    skew_samples: NotNegative = 0.5
+    vibrometer_delay_s: Annotated[float, Field(ge=0, le=0.1)] = 1.1e-3
+    skew_samples: Annotated[float, Field(ge=0, le=10)] = 0.5
     """Between neighbouring inputs."""
     signal_level: Annotated[float, Field(ge=0, le=1)] = 0.8
-    effects: dict[str, dict[str, Number | list[Number]]] = Field(default_factory=dict)
+    effects: dict[str, dict[str, Number | str | list[Number]]] = Field(default_factory=dict)
     core: dict[str, Any] = Field(default_factory=dict)
     """g_inf_mpa, g_mpa, tau_s: another core than the standard one."""
     double_hit_every: Annotated[int, Field(ge=0)] = 4
@@ -159,8 +173,12 @@ class RigDocument(Table):
         """Whether the devices are stood up for the run."""
         return self.shaker.address == SIMULATED
 
+    def anywhere(self) -> "RigDocument":
+        """The same rig wherever its instruments answer: to compare two."""
+        devices = {"shaker": self.shaker, "vibrometer": self.vibrometer, "front_end": self.front_end}
+        kept = {name: device.model_copy(update={"address": NOT_KEPT}) for name, device in devices.items()}
+        return self.model_copy(update={**kept, "simulation": None})
+
     def without_simulation(self) -> "RigDocument":
         """What may be kept with a session: not what the simulated rig hides."""
-        devices = {"shaker": self.shaker, "vibrometer": self.vibrometer, "front_end": self.front_end}
-        kept = {name: device.model_copy(update={"address": "-"}) for name, device in devices.items()}
-        return self.model_copy(update={**(kept if self.is_simulated else {}), "simulation": None})
+        return self.anywhere() if self.is_simulated else self.model_copy(update={"simulation": None})

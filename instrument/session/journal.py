@@ -2,15 +2,27 @@
 
 import json
 import os
+import re
+import shutil
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import IO
+
+from pydantic import TypeAdapter
 
 from instrument.errors import BadInput
 from instrument.session.configuration import Configuration
 from instrument.session.storage import checksum, seal
 
+try:
+    import fcntl
+except ImportError:  # not on Windows: there two runs in one folder are not kept apart
+    fcntl = None  # type: ignore[assignment]
+
 JOURNAL = "journal.jsonl"
 CONFIGURATION = "configuration.json"
+_LOCK = "lock"
+_PART = re.compile(r"part-\d{6}\.h5")
 
 
 @dataclass(frozen=True)
@@ -30,6 +42,7 @@ class Journal:
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
+        self._lock: IO[str] | None = None
 
     def begin(self, configuration: Configuration) -> None:
         """Make the folder. Raises `BadInput` where there is one already."""
@@ -40,8 +53,33 @@ class Journal:
         except OSError as error:
             raise BadInput(f"{self.folder}: {error.strerror or error}") from None
         temporary = self.folder / (CONFIGURATION + ".tmp")
-        temporary.write_text(configuration.model_dump_json(indent=1), encoding="utf-8")
-        seal(temporary, self.folder / CONFIGURATION)
+        try:
+            temporary.write_text(configuration.model_dump_json(indent=1), encoding="utf-8")
+            seal(temporary, self.folder / CONFIGURATION)
+        except OSError as error:
+            self.remove()
+            raise BadInput(f"{self.folder}: {error.strerror or error}") from None
+
+    def lock(self) -> None:
+        """One run at a time. Raises `BadInput` where another one goes on in this folder."""
+        self._lock = (self.folder / _LOCK).open("w")
+        if fcntl is None:
+            return
+        try:
+            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            self._lock.close()
+            raise BadInput(f"{self.folder}: another run goes on in it, expected one at a time") from None
+
+    def unlock(self) -> None:
+        """Let another run in; also twice."""
+        if self._lock is not None:
+            self._lock.close()
+
+    def remove(self) -> None:
+        """The folder and all in it; the journal first, so that a half removed folder counts for nothing."""
+        (self.folder / JOURNAL).unlink(missing_ok=True)
+        shutil.rmtree(self.folder, ignore_errors=True)
 
     def add(self, entry: Entry) -> None:
         """A part is sealed: from here on it counts."""
@@ -56,7 +94,8 @@ class Journal:
         try:
             return Configuration.model_validate_json(path.read_text(encoding="utf-8"))
         except OSError:
-            raise BadInput(f"{self.folder}: no {CONFIGURATION}, expected the folder of a run") from None
+            what = "no such folder" if not self.folder.is_dir() else f"no {CONFIGURATION}"
+            raise BadInput(f"{self.folder}: {what}, expected the folder of a run that broke off") from None
         except ValueError as error:
             raise BadInput(f"{path}: {str(error).splitlines()[0]}") from None
 
@@ -69,12 +108,16 @@ class Journal:
         if not path.exists():
             return []
         good: list[Entry] = []
-        for line in path.read_text(encoding="utf-8", errors="replace").splitlines():
+        try:
+            lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+        except OSError as error:
+            raise BadInput(f"{path}: {error.strerror or error}") from None
+        for line in lines:
             entry = _entry(line)
             if entry is None or entry.part != len(good) + 1:
                 break
             part = self.folder / entry.file
-            if part.parent != self.folder or not part.exists() or checksum(part) != entry.sha256:
+            if not part.is_file() or checksum(part) != entry.sha256:
                 break
             good.append(entry)
         return good
@@ -90,9 +133,12 @@ class Journal:
                 path.unlink()
 
 
+_ENTRY = TypeAdapter(Entry)
+
+
 def _entry(line: str) -> Entry | None:
     try:
-        facts = json.loads(line)
-        return Entry(**{**facts, "steps": tuple(facts["steps"])})
-    except (ValueError, TypeError, KeyError):
+        entry = _ENTRY.validate_json(line)
+    except ValueError:
         return None
+    return entry if _PART.fullmatch(entry.file) else None

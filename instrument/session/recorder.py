@@ -8,7 +8,9 @@ import logging
 import queue
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
+from time import monotonic
 
 from instrument.errors import RigStopped
 from instrument.session.journal import Entry, Journal
@@ -45,6 +47,8 @@ _MOST_SAMPLES = 2_000_000
 _QUEUE = 256
 """Events in flight; beyond that the run waits for the disk."""
 _PATIENCE_S = 10.0
+_LAST_PATIENCE_S = 120.0
+"""For what is left when a run ends: nobody waits for the shaker then."""
 
 
 class Recorder:
@@ -68,11 +72,13 @@ class Recorder:
 
     def __exit__(self, *_: object) -> None:
         self._left = True
-        try:
-            self._queue.put(None, timeout=_PATIENCE_S)
-            self._thread.join(_PATIENCE_S)
-        except queue.Full:
-            pass
+        deadline = monotonic() + _LAST_PATIENCE_S
+        while self._thread.is_alive() and monotonic() < deadline:
+            with suppress(queue.Full):
+                self._queue.put(None, timeout=_PATIENCE_S)
+                self._thread.join(deadline - monotonic())
+        if self._thread.is_alive():
+            self._failure = TimeoutError(f"the disk took nothing for {_LAST_PATIENCE_S:.0f} s")
 
     @property
     def part_files(self) -> list[Path]:

@@ -27,7 +27,7 @@ from instrument.errors import BadInput
 from instrument.session.configuration import Configuration
 from instrument.stream.derived import CalibrationFound, PointMeasured
 from instrument.stream.event import Event, from_line, to_line
-from instrument.stream.raw import BlockAcquired
+from instrument.stream.raw import AcquisitionBegan, BlockAcquired
 
 FORMAT = "viscorig session"
 LAYOUT_VERSION = 1
@@ -111,10 +111,16 @@ class SessionFile:
             if not path.exists():
                 raise BadInput(f"{path}: no such file") from None
             raise BadInput(f"{path}: not a session file: {str(error).splitlines()[0][:80]}") from None
-        if self._file.attrs.get("format") != FORMAT or "configuration" not in self._file:
+        try:
+            ours = str(self._file.attrs.get("format")) == FORMAT
+            version = int(self._file.attrs.get("layout_version", 0))
+            whole = isinstance(self._file.get("configuration"), h5py.Dataset)
+            whole = whole and isinstance(self._file.get("parts"), h5py.Group)
+        except (ValueError, TypeError):
+            ours, version, whole = False, 0, False
+        if not (ours and whole and version > 0):
             self._file.close()
             raise BadInput(f"{path}: an HDF5 file, but not a session of this program")
-        version = int(self._file.attrs["layout_version"])
         if version > LAYOUT_VERSION:
             self._file.close()
             raise BadInput(
@@ -124,8 +130,17 @@ class SessionFile:
     def __enter__(self) -> "SessionFile":
         return self
 
-    def __exit__(self, *_: object) -> None:
+    def __exit__(self, kind: object, error: BaseException | None, *_: object) -> None:
+        """Whatever a damaged file makes go wrong while it is open is said as such."""
         self._file.close()
+        if isinstance(error, _DAMAGE) and not isinstance(error, BadInput):
+            said = " ".join(str(error).split())[:100] or type(error).__name__
+            raise BadInput(f"{self.path}: damaged: {said}") from error
+
+    @property
+    def part_count(self) -> int:
+        """How many parts it was put together from."""
+        return len(self._file["parts"])
 
     @property
     def configuration(self) -> Configuration:
@@ -139,9 +154,29 @@ class SessionFile:
         """Every event in order. Raises `BadInput` where the file is damaged."""
         try:
             for number in sorted(self._file["parts"]):
-                yield from _events(self._file["parts"][number], with_samples)
-        except (OSError, KeyError, ValueError, TypeError) as error:
+                for event in _events(self._file["parts"][number], with_samples):
+                    _refuse_nonsense(event)
+                    yield event
+        except _DAMAGE as error:
             raise BadInput(f"{self.path}: damaged: {str(error).splitlines()[0][:100]}") from None
+
+
+_DAMAGE = (
+    OSError, KeyError, ValueError, TypeError, AttributeError, IndexError, AssertionError, RecursionError,
+    ArithmeticError,
+)  # fmt: skip
+
+
+def _refuse_nonsense(event: Event) -> None:
+    """Numbers that a run never writes and everything after it relies on. Raises `ValueError`."""
+    if isinstance(event, PointMeasured) and not (event.frequency_hz > 0 and abs(event.base_m_s2) > 0):
+        raise ValueError(
+            f"point of step {event.step}: frequency {event.frequency_hz}, base {event.base_m_s2}"
+        )
+    if isinstance(event, AcquisitionBegan) and not event.sample_rate_hz > 0:
+        raise ValueError(f"sample rate {event.sample_rate_hz}")
+    if isinstance(event, BlockAcquired) and event.counts.size and event.counts.ndim != 2:
+        raise ValueError("samples of one dimension")
 
 
 def part_events(path: Path) -> list[Event]:

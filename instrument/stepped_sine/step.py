@@ -179,7 +179,7 @@ class StepAnalysis:
             self._phase = "dwelling"
             self._settle_s = waited
             remaining, limit = 100 * self._settling.remaining, 100 * self._settings.settle.tolerance
-            if not settled:
+            if not settled and not any(r.startswith("not settled") for r in self._remarks):
                 self._remarks.append(f"not settled: {remaining:.2g} % left, limit {limit:.2g} %")
             return [SettlingTimedOut(self._began.step, waited, min(remaining, 1e6), limit)]
         return []
@@ -190,6 +190,10 @@ class StepAnalysis:
         if abs(error) > self._settings.control.tolerance:
             if self._may_correct():
                 return self._correct(abs(fit.phasor[0]), error)
+            if abs(error) > self._settings.control.abort:
+                level, base = self._level, abs(fit.phasor[0])
+                what, remedy = "base acceleration under its level", "lower the level or raise the drive limit"
+                return [self._guard.stop(what, float(base), level, "m/s^2", remedy)]
             self._remarks.append(f"level {100 * error:+.2g} % off, limit {self._tolerance_percent:.2g} %")
         self._phase = "done"
         return [self._point(first, x, fit, error)]

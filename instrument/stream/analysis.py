@@ -1,6 +1,7 @@
 """From raw events to derived ones. Live runs and replays go through this and nothing else."""
 
 import cmath
+from contextlib import suppress
 from dataclasses import dataclass
 
 from fitting.errors import TooFewPoints
@@ -9,7 +10,13 @@ from instrument.hammer_test.analysis import HammerAnalysis, HammerChannels, Hamm
 from instrument.stepped_sine.calibration import Calibration, calibrate
 from instrument.stepped_sine.settings import SweepSettings
 from instrument.stepped_sine.step import Channels, StepAnalysis
-from instrument.stream.derived import CalibrationFound, DampingFound, PointMeasured, SentinelCompared
+from instrument.stream.derived import (
+    CalibrationFound,
+    DampingFound,
+    LimitExceeded,
+    PointMeasured,
+    SentinelCompared,
+)
 from instrument.stream.event import Derived, Event
 from instrument.stream.raw import (
     AcquisitionBegan,
@@ -24,6 +31,9 @@ from instrument.stream.raw import (
     SignalLevelRead,
     StepBegan,
 )
+
+_MOST_GAIN, _MOST_GAIN_STD = 0.3, 0.05
+"""Off one, and uncertain, relative: beyond these a calibration is none."""
 
 
 @dataclass(frozen=True)
@@ -57,8 +67,8 @@ class Analysis:
     def feed(self, event: Event) -> list[Derived]:
         """Take a raw event; what follows from it."""
         derived = self._follow(event)
-        for one in derived:
-            derived = derived + self._keep(one)
+        for one in list(derived):
+            derived += self._keep(one)
         return derived
 
     def restore(self, event: Event) -> None:
@@ -111,6 +121,11 @@ class Analysis:
                 return self._compared(event)
             case CalibrationFound():
                 self.calibrations[event.range_name] = event
+                # A run that is carried on must not take these points for another range's.
+                self._calibration_points = [
+                    p for p in self._calibration_points if p.range_name != event.range_name
+                ]
+                return _refused(event)
             case DampingFound():
                 self.damping = event
         return []
@@ -150,11 +165,14 @@ class Analysis:
         return Calibration(found.gain, found.delay_s) if found is not None else None
 
     def _calibrated(self) -> list[Derived]:
-        points, self._calibration_points = self._calibration_points, []
-        try:
-            return [calibrate(points, self._utc)] if points else []
-        except TooFewPoints:
-            return []
+        """Every range that has points enough."""
+        found: list[Derived] = []
+        for name in dict.fromkeys(p.range_name for p in self._calibration_points):
+            with suppress(TooFewPoints):
+                found.append(
+                    calibrate([p for p in self._calibration_points if p.range_name == name], self._utc)
+                )
+        return found
 
     def _compared(self, point: PointMeasured) -> list[Derived]:
         """A sentinel against the first time it was measured."""
@@ -200,6 +218,18 @@ class Analysis:
             force_n_v=sensors.force.units_per_volt,
             response_m_s2_v=sensors.response.units_per_volt,
         )
+
+
+def _refused(found: CalibrationFound) -> list[Derived]:
+    """What no laser on the base gives."""
+    remedy = "is the laser on the base beside the accelerometer? are both sensitivities right?"
+    off = max(abs(found.gain - 1) / _MOST_GAIN, found.gain_std / found.gain / _MOST_GAIN_STD)
+    if off <= 1:
+        return []
+    what = (
+        f"calibration in {found.range_name}: gain {found.gain:.3g} +- {found.gain_std:.2g}, times the likely"
+    )
+    return [LimitExceeded(0, what, off, 1.0, "", remedy)]
 
 
 def sentinel_compared(first: PointMeasured, again: PointMeasured) -> SentinelCompared:

@@ -126,7 +126,9 @@ class LimitExceeded(Derived):
     def message(self) -> str:
         """One line for people."""
         value = f"{self.value:.4g} {self.unit}".strip()
-        return f"step {self.step}: {self.what} {value}, limit {self.limit:.4g}: {self.remedy}"
+        where = f"step {self.step}: " if self.step else ""
+        limit = f"{self.limit:.4g} {self.unit}".strip()
+        return f"{where}{self.what} {value}, limit {limit}: {self.remedy}"
 
 
 @dataclass(frozen=True)

@@ -77,7 +77,7 @@ def test_a_replay_notices_a_single_changed_sample(tmp_path):
     with formula_rig(tmp_path) as (_, experiment):
         finished = run(experiment, tmp_path, ("sweep",))
     with h5py.File(finished.session, "r+") as file:
-        last = sorted(file["parts"])[-5]
+        last = [name for name in sorted(file["parts"]) if "samples" in file["parts"][name]][-1]
         file["parts"][last]["samples"][0, -1] += 1000
     with SessionFile(finished.session) as file:
         assert not replay(file, fit=no_fit).equal

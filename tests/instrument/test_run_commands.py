@@ -31,7 +31,7 @@ def case(folder: Path) -> Path:
     return experiment
 
 
-def wait_for_steps(folder: Path, process, least: int = 2) -> None:
+def wait_for_steps(folder: Path, process, least: int = 5) -> None:
     """Until so many parts are sealed."""
     deadline = time.monotonic() + STARTS_S
     while time.monotonic() < deadline and process.poll() is None:
