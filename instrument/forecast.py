@@ -133,8 +133,11 @@ def calibration_segments(
     f = tuple(sweep.calibration.frequencies_hz)
     highest = sweep.calibration.level_g * STANDARD_GRAVITY_M_S2
     segments = []
-    for number, name in enumerate(names, start=1):
-        full = next(r for r in ranges if r.name == name).full_scale_m_s
+    for number, one in enumerate(ranges, start=1):
+        # Numbered among all ranges: a run that is carried on has the same numbers.
+        name, full = one.name, one.full_scale_m_s
+        if name not in names:
+            continue
         level = tuple(min(highest, _CALIBRATION_SHARE * full * 2 * np.pi * x) for x in f)
         segments.append(PlannedSegment(number, 0, f, level, name, "calibration"))
     return segments
