@@ -17,7 +17,7 @@ $(READY): pyproject.toml scripts/setup.sh
 	@PYTHON=$(PYTHON) VENV=$(VENV) sh scripts/setup.sh
 	@touch $@
 
-demo: $(READY) ## identify the paper's core material from its measured sweep; figures in out/
+demo: $(READY) ## a whole experiment on the simulated rig, then the published case; all in out/
 	@$(BIN)/viscorig demo --out $(OUT)
 
 test: checks unit ## all checks and tests

@@ -40,11 +40,12 @@ def check(experiment: Path, json_path: str | None) -> None:
         for s in run.segments
     ]
     columns = ["segment", "f/Hz", "steps", "velocity/(mm/s)", "range", "base travel/mm", "at most/s"]
-    out.table("predicted", columns, rows)
+    if rows:
+        out.table("predicted", columns, rows)
     out.say("modes expected at " + ", ".join(f"{f:.4g}" for f in run.mode_hz) + " Hz")
     if run.hammer_record_s is not None:
         out.say(f"hammer: records of {run.hammer_record_s:g} s")
-    out.say(f"about {run.seconds / 60:.0f} min in all, calibration and sentinel included")
+    out.say(f"about {run.seconds:.0f} s in all, with calibration, sentinel and hits where there are any")
     for warning in run.warnings:
         out.say(f"warning: {warning}")
     out.result(run.facts())

@@ -51,6 +51,7 @@ def demo(folder: Path, effect: str | None, seed: int, paper: bool, json_path: st
         raise BadInput(f"{folder}: {error.strerror or error}") from None
     out = Output(json_path)
     facts = _run_rig(out, folder, effect if effect != "none" else None, seed)
+    out.say(f"to change it: edit {folder}/experiment.toml, then  viscorig run {folder}/experiment.toml")
     if paper:
         out.say()
         show_paper_case(out, folder)

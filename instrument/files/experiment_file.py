@@ -145,7 +145,6 @@ class ExperimentDocument(Table):
     mounting: Mounting = Mounting()
     hammer: Hammer | None = None
     sweep: SweepTable | None = None
-    reference_temperature_c: Annotated[float, Field(ge=-100, le=300)] | None = None
 
 
 def read_experiment(path: Path) -> ExperimentDocument:

@@ -24,7 +24,13 @@ class Guard:
         watched = [
             ("base acceleration", base, limits.base_m_s2, "m/s^2", "lower the level"),
             ("velocity", velocity, limits.velocity_m_s, "m/s", "lower the level"),
-            ("travel of the base", travel, limits.travel_m, "m", "lower the level or leave low frequencies"),
+            (
+                "travel of the base",
+                1e3 * travel,
+                1e3 * limits.travel_m,
+                "mm",
+                "lower the level or leave out low f",
+            ),
         ]
         events: list[Derived] = []
         for what, value, limit, unit, remedy in watched:

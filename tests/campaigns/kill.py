@@ -135,8 +135,8 @@ def main() -> None:
     given = options.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         segments = "".join(
-            f"[[sweep.segments]]\nlow_hz = {80 + 50 * k}.0\nhigh_hz = {120 + 50 * k}.0\npoints = {given.points}\n"
-            for k in range(4)
+            f"[[sweep.segments]]\nlow_hz = {low}.0\nhigh_hz = {low + 40}.0\npoints = {given.points}\n"
+            for low in (80, 130, 180, 230)
         )
         experiment = write_case(Path(folder), segments)
         print(campaign(experiment, Path(folder) / "out", given.kills, given.seed))

@@ -137,7 +137,7 @@ def test_travel_is_limited_and_warned_of():
     (stop,) = of_kind(
         follow(Station(), step, replace(SETTINGS, limits=Limits(travel_m=0.009))), LimitExceeded
     )
-    assert stop.unit == "m"
+    assert (stop.unit, stop.limit) == ("mm", 9.0)
 
 
 def test_a_drive_at_its_limit_is_marked_not_exceeded():
