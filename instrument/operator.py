@@ -50,6 +50,10 @@ def decision(line: str) -> OperatorDid | None:
     return OperatorDid(meanings[words[0]], "", int(words[1]) if len(words) == 2 else 0)
 
 
+def _at_a_terminal() -> bool:
+    return sys.stdin is not None and not sys.stdin.closed and sys.stdin.isatty()
+
+
 _TYPED = "r rejects the last hit, a accepts, u undoes; r 2 the second; then Enter"
 
 
@@ -79,7 +83,7 @@ class Person:
     def decided(self) -> list[OperatorDid]:
         """Lines typed meanwhile: r, a or u, a hit's number after it where it is not the last."""
         found = []
-        while sys.stdin.isatty() and select.select([sys.stdin], [], [], 0)[0]:
+        while _at_a_terminal() and select.select([sys.stdin], [], [], 0)[0]:
             line = sys.stdin.readline()
             did = decision(line)
             if did is not None:
@@ -92,7 +96,7 @@ class Person:
 
     def content(self, good: int) -> bool:
         """Whether the hits may be used: Enter, once there are enough."""
-        if not sys.stdin.isatty():
+        if not _at_a_terminal():
             return True
         if self._content is None:
             self._content = False
@@ -103,7 +107,8 @@ class Person:
         click.echo(f"{text} ... ", err=True, nl=False)
         try:
             input()
-        except EOFError:
+        except (EOFError, RuntimeError, OSError):
+            # The end of a file, or no standard input at all.
             raise RigStopped(f"nobody answered: {text}") from None
 
 

@@ -22,7 +22,7 @@ HEARTBEAT_S = 2.0
 
 def no_fit(number, last_step, points, damping, specimen):
     """The formula plate is nobody's plate: a fit of it means nothing."""
-    return FitUpdated(number, last_step, {"points": len(points)}, "not fitted")
+    return FitUpdated(number, last_step, {"points": sum(p.step <= last_step for p in points)}, "not fitted")
 
 
 def run(experiment, folder, parts, **options):

@@ -2,7 +2,8 @@
 
 import pytest
 
-from instrument.operator import decision
+from instrument.errors import RigStopped
+from instrument.operator import Person, decision
 from instrument.stream.raw import OperatorDid
 
 
@@ -21,3 +22,11 @@ def test_a_letter_and_a_number_decide_about_a_hit(typed, meant):
 @pytest.mark.parametrize("typed", ["", "\n", "x", "r r", "r 1 2", "r -1", "r 1.5", "reject"])
 def test_anything_else_means_nothing(typed):
     assert decision(typed) is None
+
+
+def test_nobody_at_the_terminal_ends_the_run_with_what_was_asked(monkeypatch):
+    monkeypatch.setattr("sys.stdin", None)
+    with pytest.raises(RigStopped, match="nobody answered: Mount the bare plate"):
+        Person().mount("bare")
+    assert Person().decided() == []
+    assert Person().content(3)

@@ -27,7 +27,7 @@ range = "5mm/s/V"
 
 
 def no_fit(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, {"points": len(points)}, "not fitted")
+    return FitUpdated(number, last_step, {"points": sum(p.step <= last_step for p in points)}, "not fitted")
 
 
 def run(experiment, folder, **options):
