@@ -121,7 +121,7 @@ def _sweep(
     ranges = distinct(model.ranges)
     planned, sentinel = planned_segments(forecast, table, ranges)
     names = with_next_coarser([s.range_name for s in planned], ranges)
-    calibration = calibration_segments(table, names, ranges, settings)
+    calibration = calibration_segments(table, names, ranges)
     level = table.level_g * STANDARD_GRAVITY_M_S2
     segments = tuple(_segment(experiment, forecast, s, settings) for s in planned)
     warnings = [w for s in segments for w in _warnings(s, settings)]

@@ -198,7 +198,7 @@ class _Session:
         names = [n for n in with_next_coarser(used, ranges) if n not in self.analysis.calibrations]
         done = Done((*self.analysis.points, *self._calibration_points))
         planner = Planner(settings, self._forecast.decay_1_s, sentinel, self._last_step + 1, done)
-        calibration = calibration_segments(table, names, ranges, settings)
+        calibration = calibration_segments(table, names, ranges)
         if calibration:
             self._emit(rig.operator.aim("base"))
             runner.sweep("calibration", planner.plan(calibration))

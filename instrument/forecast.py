@@ -125,7 +125,7 @@ def planned_segments(
 
 
 def calibration_segments(
-    sweep: SweepTable, names: list[str], ranges: tuple[Range, ...], settings: SweepSettings
+    sweep: SweepTable, names: list[str], ranges: tuple[Range, ...]
 ) -> list[PlannedSegment]:
     """The laser on the base, in every range the sweep is going to use."""
     if sweep.calibration is None:
