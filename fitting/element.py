@@ -123,12 +123,19 @@ def core_stiffness(shape: Shape, core: Core, substrate: Face, constraining: Face
     """Eq. (15b) for G* = 1: stretching, bending and transverse shear. Shape (28, 28)."""
     D = plane_stress(2 / (1 - core.poisson), core.poisson)
     H = core.thickness_m
-    K = np.zeros((4 * DOFS, 4 * DOFS))
+    K = core_shear_stiffness(shape, core, substrate, constraining)
     for x, y, dA in _points(shape):
         B_v, B = _core_membrane(shape, substrate, constraining, x, y), shape.bending(x, y)
-        N_10, N_11 = core_shear(shape, core, substrate, constraining, x, y)
         K += (H * B_v.T @ D @ B_v + H**3 / 12 * B.T @ D @ B) * dA
-        K += H * (np.outer(N_10, N_10) + np.outer(N_11, N_11)) * dA
+    return K
+
+
+def core_shear_stiffness(shape: Shape, core: Core, substrate: Face, constraining: Face) -> Array:
+    """The transverse shear's part of `core_stiffness`. Shape (28, 28)."""
+    K = np.zeros((4 * DOFS, 4 * DOFS))
+    for x, y, dA in _points(shape):
+        N_10, N_11 = core_shear(shape, core, substrate, constraining, x, y)
+        K += core.thickness_m * (np.outer(N_10, N_10) + np.outer(N_11, N_11)) * dA
     return K
 
 

@@ -42,15 +42,15 @@ def noise_of(sweep: Sweep) -> Noise:
         return Noise(stated, "stated")
     relative = np.abs(sweep.response_m_s)
     std = np.zeros(len(sweep))
-    for group in _groups(sweep):
+    for group in groups_of(sweep):
         if len(np.unique(sweep.frequency_hz[group])) < FEWEST:
             return Noise(relative, "unknown")
         std[group] = _scatter(sweep.frequency_hz[group], sweep.response_m_s[group])
     return Noise(std, "local scatter")
 
 
-def _groups(sweep: Sweep) -> list[NDArray[np.intp]]:
-    """Points of one segment, one pass and one level."""
+def groups_of(sweep: Sweep) -> list[NDArray[np.intp]]:
+    """Points of one segment, one pass and one level: each group a curve of its own."""
     keys = np.column_stack([sweep.segment, sweep.sweep, np.round(sweep.commanded_m_s2, 9)])
     _, which = np.unique(keys, axis=0, return_inverse=True)
     return [np.flatnonzero(which.ravel() == k) for k in range(int(which.max()) + 1)]
@@ -77,18 +77,21 @@ def _local_residuals(f: Array, v: NDArray[Any]) -> tuple[NDArray[np.intp], NDArr
     for n, k in enumerate(middles):
         window = slice(k - half, k + half + 1)
         t = (f[window] - f[k]) / max(f[window][-1] - f[window][0], 1e-12)
-        Q, _ = np.linalg.qr(_local_model(t, v[window]))
+        Q, _ = np.linalg.qr(local_model(t, v[window]))
         left_over = v[k] - Q[half] @ (Q.conj().T @ v[window])
         gain = 1 - np.vdot(Q[half], Q[half]).real
         residuals[n] = left_over / np.sqrt(max(gain, 1e-6))
     return middles, residuals
 
 
-def _local_model(t: Array, v: NDArray[Any]) -> NDArray[Any]:
-    """Columns of (a + b t + c t^2)/(1 + d t), linearised, for phasors; a quintic for amplitudes."""
+def local_model(t: Array, v: NDArray[Any]) -> NDArray[Any]:
+    """Columns of (a + b t + c t^2)/(1 + d t), linearised, for phasors; a quintic for amplitudes.
+
+    The first column is one, all others vanish at t = 0. Shapes (..., points) to (..., points, columns).
+    """
     if np.iscomplexobj(v):
-        return np.column_stack([np.ones_like(t), t, t**2, v * t])
-    return np.vander(t, 6)
+        return np.stack([np.ones_like(t), t, t**2, v * t], axis=-1)
+    return np.stack([t**k for k in range(6)], axis=-1)
 
 
 def _variance_model(size_squared: Array, square: Array) -> tuple[float, float]:

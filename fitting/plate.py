@@ -102,18 +102,20 @@ class Plate:
         Mass in kg; stiffness in N/m, the core's for G* = 1 Pa.
     K_0 : sparse (n, n)
         The faces' stiffness, complex where a face has a loss factor.
+    free : (n,)
+        Which of all nodes' degrees of freedom are free.
     """
 
     def __init__(self, specimen: Specimen) -> None:
         self.specimen = specimen
         self.mesh = Mesh(specimen.length_m, specimen.width_m, *specimen.mesh)
-        self._free = np.flatnonzero(~self._held())
+        self.free = np.flatnonzero(~self._held())
         self._assemble()
 
     @property
     def size(self) -> int:
         """How many degrees of freedom are free."""
-        return len(self._free)
+        return len(self.free)
 
     def _held(self) -> NDArray[np.bool_]:
         held = np.zeros((self.mesh.nodes, DOFS), dtype=bool)
@@ -132,7 +134,7 @@ class Plate:
     def _assemble(self) -> None:
         s, e = self.specimen, element_matrices(self.specimen, self.mesh)
         self.M, self.K_substrate, self.K_constraining, self.K_1 = (
-            self._scatter(Ae) for Ae in (e.M, e.K_substrate, e.K_constraining, e.K_1)
+            self.scatter(Ae) for Ae in (e.M, e.K_substrate, e.K_constraining, e.K_1)
         )
         loss_b = s.substrate.loss_factor
         loss_c = s.constraining.loss_factor if s.constraining is not None else 0.0
@@ -141,13 +143,16 @@ class Plate:
             faces = faces + 1j * (loss_b * self.K_substrate + loss_c * self.K_constraining)
         self.K_0 = faces.tocsc()
 
-    def _scatter(self, Ae: Array) -> sp.csc_array:
-        dofs = self.mesh.element_dofs()
+    def scatter(self, Ae: Array, elements: NDArray[np.intp] | slice = slice(None)) -> sp.csc_array:
+        """An element's matrix (28, 28) assembled over some elements. Shape (n, n)."""
+        dofs = self.mesh.element_dofs()[elements]
         rows = np.repeat(dofs, dofs.shape[1], axis=1).ravel()
         columns = np.tile(dofs, (1, dofs.shape[1])).ravel()
         n = self.mesh.nodes * DOFS
         full = sp.coo_array((np.tile(Ae.ravel(), len(dofs)), (rows, columns)), shape=(n, n)).tocsr()
-        return full[self._free][:, self._free].tocsc()
+        if len(self.free) < n:
+            full = full[self.free][:, self.free]
+        return full.tocsc()
 
     def dynamic_stiffness(self, omega: float, G: complex) -> sp.csc_array:
         """A = -omega^2 M + K_0 + G K_1, the viscous damping left out. Shape (n, n)."""
@@ -164,12 +169,12 @@ class Plate:
         dofs = self.mesh.element_dofs()
         inertia = np.zeros(self.mesh.nodes * DOFS)
         np.add.at(inertia, dofs, r.ravel()[dofs] @ element_matrices(self.specimen, self.mesh).M)
-        return -inertia[self._free]
+        return -inertia[self.free]
 
     def on_nodes(self, V: Array) -> Array:
         """Vectors over the free degrees of freedom, node by node, held ones zero. Shape (nodes, 7, k)."""
         full = np.zeros((self.mesh.nodes * DOFS, V.shape[1]))
-        full[self._free] = V
+        full[self.free] = V
         return full.reshape(self.mesh.nodes, DOFS, -1)
 
     def on_elements(self, V: Array) -> Array:
@@ -200,7 +205,7 @@ class Plate:
         column = np.arange(len(twin))
         shape = (self.mesh.nodes * DOFS, len(twin))
         P = sp.coo_array((np.ones(len(twin)), (np.flatnonzero(kept), column)), shape)
-        P = (P + sp.coo_array((signs, (twin, column)), shape)).tocsr()[self._free]
+        P = (P + sp.coo_array((signs, (twin, column)), shape)).tocsr()[self.free]
         norm = np.sqrt(np.asarray((P * P).sum(axis=0)))
         moving = norm > 0
         return sp.csc_array(P.tocsc()[:, moving] @ sp.diags_array(1 / norm[moving]))
@@ -230,4 +235,4 @@ class Plate:
         row = np.zeros(self.mesh.nodes * DOFS)
         dofs = self.mesh.element_dofs()[i * self.mesh.n_y + j]
         row[dofs] = element.Shape(a, b).deflection(x_m - i * a, y_m - j * b)
-        return row[self._free]
+        return row[self.free]

@@ -53,6 +53,8 @@ class ReducedPlate:
     """Shape (properties, k)."""
     gram: Array
     """Inner products, in the inverse stiffness, of load, pickup, M V, K_0' V, K_0'' V, K_1 V and U."""
+    V: Array
+    """The basis over `Plate.even`. Shape (even, k)."""
 
     def matrices(self, omega: Array, G: Complex) -> Complex:
         """A = -omega^2 M + i omega C_1 + K_0 + G K_1. Shape (points, k, k)."""
@@ -189,6 +191,7 @@ class _Builder:
             dK_1=dK_1,
             dload=dload,
             gram=(gram + gram.T) / 2,
+            V=V,
         )
 
     def _derivatives(self) -> tuple[Array, Array, Array, Array]:

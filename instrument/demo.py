@@ -1,9 +1,10 @@
-"""The published case run as a whole: both methods, with and without the viscous damping."""
+"""The published case run as a whole: both methods, with and without the viscous damping, and diagnosed."""
 
 from dataclasses import dataclass, replace
 
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
+from instrument.diagnosis import Diagnosed, diagnose
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.identification import Identified, identify
@@ -21,6 +22,7 @@ class PaperRun:
     paper: Identified
     undamped: Identified
     """`direct` with the core's damping alone: the paper's Fig. 10."""
+    diagnosis: Diagnosed
 
 
 def run_paper_case(progress: Progress = quiet) -> PaperRun:
@@ -33,4 +35,5 @@ def run_paper_case(progress: Progress = quiet) -> PaperRun:
         direct=identify(sweep, specimen, "direct", progress),
         paper=identify(sweep, specimen, "paper", progress),
         undamped=identify(sweep, replace(specimen, modal_ratios=()), "direct", progress),
+        diagnosis=diagnose(sweep, specimen, progress=progress),
     )

@@ -1,4 +1,4 @@
-"""A whole experiment: hammer test, calibration, sweep, live identification, one session."""
+"""A whole experiment: hammer test, calibration, sweep, live identification, diagnosis, one session."""
 
 import logging
 import re
@@ -15,6 +15,7 @@ from drivers.shaker import Alarm
 from instrument.control import Control
 from instrument.errors import BadInput, RigStopped, StoppedByUser
 from instrument.forecast import Forecast, calibration_segments, distinct, planned_segments, with_next_coarser
+from instrument.live_diagnosis import Diagnoser, apart, diagnose_points
 from instrument.live_fit import Fitter, LiveFit, fit_points
 from instrument.progress import Progress, quiet
 from instrument.rig import Rig, open_rig
@@ -26,9 +27,9 @@ from instrument.session.recorder import Recorder
 from instrument.session.storage import part_events, write_session
 from instrument.stepped_sine.plan import Done, Planner
 from instrument.stream.analysis import Analysis
-from instrument.stream.derived import DampingFound, FitUpdated, HitJudged, PointMeasured
+from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated, HitJudged, PointMeasured
 from instrument.stream.event import Derived, Event
-from instrument.stream.raw import SegmentEnded, SessionBegan, SessionEnded
+from instrument.stream.raw import DiagnosisStarted, SegmentEnded, SessionBegan, SessionEnded
 
 log = logging.getLogger(__name__)
 
@@ -45,6 +46,8 @@ class Finished:
     damping: DampingFound | None
     fit: FitUpdated | None
     points: tuple[PointMeasured, ...]
+    diagnosis: DiagnosisFound | None = None
+    """None where the sweep was not run, or no law could be identified from it."""
 
 
 def run_experiment(
@@ -57,6 +60,7 @@ def run_experiment(
     resume: Path | None = None,
     progress: Progress = quiet,
     fit: Fitter = fit_points,
+    diagnose: Diagnoser = diagnose_points,
 ) -> Finished:
     """Run the parts and leave a session file in `out`. Raises `BadInput`, `RigStopped`, `StoppedByUser`.
 
@@ -64,7 +68,7 @@ def run_experiment(
     """
     # One thread for all sums: with several, their last bit would depend on what else runs.
     with threadpool_limits(1, "blas"):
-        return _run(experiment, out, parts, control or Control(), watch, resume, progress, fit)
+        return _run(experiment, out, parts, control or Control(), watch, resume, progress, fit, diagnose)
 
 
 def _run(
@@ -76,6 +80,7 @@ def _run(
     resume: Path | None,
     progress: Progress,
     fit: Fitter,
+    diagnose: Diagnoser,
 ) -> Finished:
     with progress("forecasting the sweep"):
         forecast = Forecast.of(experiment.the_specimen())
@@ -86,7 +91,7 @@ def _run(
     journal, name = _journal(experiment, out, resume)
     entries = journal.entries()
     earlier = [event for e in entries for event in part_events(journal.folder / e.file)]
-    session = _Session(experiment, journal, forecast, control, earlier, parts, fit)
+    session = _Session(experiment, journal, forecast, control, earlier, parts, fit, diagnose)
     path = journal.folder.parent / f"{name}.h5"
     try:
         with Recorder(journal, entries, watch) as recorder:
@@ -105,7 +110,8 @@ def _run(
         raise RigStopped(f"{said}; {_kept(journal, path)}") from error
     finally:
         journal.unlock()
-    return Finished(path, session.analysis.damping, session.fit, tuple(session.analysis.points))
+    points = tuple(session.analysis.points)
+    return Finished(path, session.analysis.damping, session.fit, points, session.diagnosis)
 
 
 def finish_session(journal: Journal, path: Path) -> int:
@@ -128,8 +134,9 @@ class _Session:
         earlier: list[Event],
         parts: tuple[Part, ...],
         fit: Fitter,
+        diagnose: Diagnoser,
     ) -> None:
-        self._fitter = fit
+        self._fitter, self._diagnoser = fit, diagnose
         self._experiment, self._forecast, self._control = experiment, forecast, control
         self._parts, self._resumed = parts, bool(earlier)
         self._configuration = journal.configuration()
@@ -141,7 +148,9 @@ class _Session:
         self._calibration_points = tuple(
             e for e in earlier if isinstance(e, PointMeasured) and e.purpose == "calibration"
         )
+        self._diagnoses = sum(isinstance(e, DiagnosisStarted) for e in earlier)
         self.fit: FitUpdated | None = None
+        self.diagnosis: DiagnosisFound | None = None
 
     def run(self, recorder: Recorder) -> None:
         """Everything that needs the rig; the recorder hears of its end whatever it is."""
@@ -150,6 +159,8 @@ class _Session:
             document = self._experiment.document
             with open_rig(self._experiment.rig, self._experiment.rig_path, document.hammer) as rig:
                 self._go(rig)
+            # The rig is let go of first: nothing of it is needed any more.
+            self._diagnose()
         except (RigStopped, DriverError) as error:
             self._end("stopped safely", " ".join(str(error).split()))
             raise
@@ -208,6 +219,18 @@ class _Session:
             runner.sweep("sweep", planner.plan(segments))
             self._live.offer(self.analysis.points, self.analysis.damping)
         self.fit = self._live.latest
+
+    def _diagnose(self) -> None:
+        """What the whole sweep's fit cannot explain; where there is no law there is nothing to ask."""
+        if self.fit is None or self.fit.message:
+            return
+        a, number, last = self.analysis, self._diagnoses + 1, self.fit.last_step
+        self._recorder.record(DiagnosisStarted(number, last))
+        specimen = self._configuration.the_specimen()
+        self.diagnosis = apart(
+            lambda: self._diagnoser(number, last, a.points, a.times_s, a.damping, specimen)
+        )
+        self._recorder.record(self.diagnosis)
 
     def _emit(self, event: Event) -> list[Derived]:
         """Into the stream: recorded, analysed, what follows recorded too."""

@@ -15,7 +15,7 @@ from fitting.identification.model import SweepModel
 from fitting.identification.residuals import Residuals
 from fitting.identification.result import Identification, differences_percent, summarise
 from fitting.identification.systematic import Systematic, systematic_of
-from fitting.identification.validation import Refit, Validation, validate
+from fitting.identification.validation import Mask, Validation, validate
 from fitting.laws import CoreLaw
 from fitting.noise import Noise, noise_of
 from fitting.specimen import Specimen
@@ -93,8 +93,8 @@ class _Direct:
             self.residuals, self._sweep.segment, self._models.reduced, self._models.specimen, law
         )
 
-    def refit_from(self, law: CoreLaw) -> Refit:
-        return lambda points: direct.refit(self.residuals.take(points), law)
+    def learnt(self, law: CoreLaw, points: Mask) -> CoreLaw:
+        return direct.refit(self.residuals.take(points), law)
 
     def velocity(self, law: CoreLaw) -> NDArray[np.complex128]:
         return self.residuals.model.velocity(law)
@@ -112,8 +112,8 @@ class _Paper:
     def systematic(self, law: CoreLaw) -> None:
         """None stated: the real modes' own error is larger than any of these, and not estimated."""
 
-    def refit_from(self, law: CoreLaw) -> Refit:
-        return lambda points: paper.refit(self.problem.take(points), law)
+    def learnt(self, law: CoreLaw, points: Mask) -> CoreLaw:
+        return paper.refit(self.problem.take(points), law)
 
     def velocity(self, law: CoreLaw) -> NDArray[np.complex128]:
         return self.problem.velocity([law])[0]
@@ -124,8 +124,9 @@ def _validate(sweep: Sweep, noise: Noise, task: _Direct | _Paper, fit: Fit, repo
     return validate(
         segment=sweep.segment,
         points_needed=-(-len(fit.law.names) // (2 if task.uses_phase else 1)),
-        refit=task.refit_from(fit.law),
-        differences_percent=lambda law: differences_percent(sweep, task.velocity(law)),
+        differences_percent=lambda points: differences_percent(
+            sweep, task.velocity(task.learnt(fit.law, points))
+        ),
         progress=report,
         noise_percent=100 * noise.std_m_s / size if noise.is_known else np.full(len(sweep), np.nan),
     )

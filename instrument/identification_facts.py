@@ -3,7 +3,8 @@
 from typing import Any
 
 from fitting.identification.bare_plate import BarePlateFit
-from fitting.identification.result import Identification
+from fitting.identification.result import LawBand
+from fitting.identification.validation import Validation
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.identification import Identified
@@ -44,10 +45,7 @@ def identification_facts(found: Identified, sweep: Sweep) -> dict[str, Any]:
         "chi2_per_dof": r.uncertainty.chi2_per_dof if r.chi2_means_something else None,
         "noise": r.noise.source,
         "leave_one_out_rms_percent": v.leave_one_out_rms_percent,
-        "held_out": [
-            {"segment": h.segment, "rms_percent": h.rms_percent, "noise_percent": h.noise_percent}
-            for h in v.held_out
-        ],
+        "held_out": held_out_facts(v),
         "held_out_rms_percent": v.held_out_rms_percent,
         "iterations": r.fit.iterations,
         "evaluations": r.fit.evaluations,
@@ -57,7 +55,7 @@ def identification_facts(found: Identified, sweep: Sweep) -> dict[str, Any]:
         "converged": r.fit.converged,
         "criterion_met": r.fit.criterion_met,
         "warnings": list(r.warnings),
-        "law": _law_facts(r),
+        "law": law_facts(r.band),
     }
 
 
@@ -77,8 +75,16 @@ def bare_plate_facts(bare: BarePlateFit, specimen: Specimen) -> dict[str, Any]:
     }
 
 
-def _law_facts(r: Identification) -> list[dict[str, Any]]:
-    b = r.band
+def held_out_facts(v: Validation) -> list[dict[str, Any]]:
+    """Each segment predicted from the others."""
+    return [
+        {"segment": h.segment, "rms_percent": h.rms_percent, "noise_percent": h.noise_percent}
+        for h in v.held_out
+    ]
+
+
+def law_facts(b: LawBand) -> list[dict[str, Any]]:
+    """G' and eta over the measured band with their standard errors, a row a frequency."""
     keys = (
         "frequency_hz",
         "storage_modulus_pa",

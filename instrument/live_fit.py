@@ -13,7 +13,7 @@ from instrument.files.hammer_file import hammer_modes
 from instrument.identification import identify
 from instrument.identification_facts import bare_plate_facts, identification_facts
 from instrument.plain import plain
-from instrument.points import sweep_of
+from instrument.points import sweep_of, uncalibrated
 from instrument.stream.derived import DampingFound, FitUpdated, PointMeasured
 from instrument.stream.event import Event
 from instrument.stream.raw import FitStarted
@@ -49,12 +49,7 @@ def _facts(used: list[PointMeasured], damping: DampingFound | None, specimen: Sp
         hammer = {"hammer": bare_plate_facts(bare, specimen)}
     sweep = sweep_of(used)
     facts = identification_facts(identify(sweep, specimen), sweep)
-    raw = sum(any("is not calibrated" in r for r in p.remarks) for p in used)
-    if raw:
-        facts["warnings"].append(
-            f"{raw} of {len(used)} points in a range not calibrated: the vibrometer's gain and delay "
-            "are not taken off"
-        )
+    facts["warnings"] += uncalibrated(used)
     kept = {key: value for key, value in facts.items() if key not in _SECONDS}
     return dict(plain({**kept, **hammer, **_temperature(used)}))
 

@@ -65,7 +65,7 @@ class Models:
             with self.progress("reducing the plate model") as report:
                 return reduce_plate(self.plate, self.damping, self.domain, report)
 
-        return cached("reduced", [self._without_law, self.domain], ReducedPlate, build)
+        return cached("reduced", [self.without_law, self.domain], ReducedPlate, build)
 
     @cached_property
     def real_modes(self) -> RealModePlate:
@@ -75,7 +75,7 @@ class Models:
             with self.progress("spanning the real modes") as report:
                 return real_mode_plate(self.plate, self.domain.modulus, report)
 
-        return cached("real-modes", [self._without_law, self.domain], RealModePlate, build)
+        return cached("real-modes", [self.without_law, self.domain], RealModePlate, build)
 
     def rational(self, omega: Array) -> RationalSweep:
         """The sweep on a frequency grid as a rational sum."""
@@ -85,10 +85,10 @@ class Models:
             with self.progress("preparing the frequency grid") as report:
                 return rational_sweep(reduced, omega, report)
 
-        return cached("rational", [self._without_law, self.domain, omega], RationalSweep, build)
+        return cached("rational", [self.without_law, self.domain, omega], RationalSweep, build)
 
     @property
-    def _without_law(self) -> Specimen:
+    def without_law(self) -> Specimen:
         """The specimen as far as these models depend on it: neither law nor level nor reading."""
         core = replace(self.specimen.core, law=None) if self.specimen.core else None  # type: ignore[arg-type]
         return replace(self.specimen, core=core, base_acceleration_m_s2=1.0, reads="relative", tolerances={})

@@ -6,13 +6,21 @@ from time import monotonic, sleep
 
 from threadpoolctl import threadpool_limits
 
+from instrument.live_diagnosis import Diagnoser, diagnose_points
 from instrument.live_fit import Fitter, fit_points
 from instrument.session.configuration import setup_of
 from instrument.session.storage import SessionFile
 from instrument.stream.analysis import Analysis
-from instrument.stream.derived import FitUpdated, PointMeasured
+from instrument.stream.derived import DiagnosisFound, FitUpdated, PointMeasured
 from instrument.stream.event import Derived, Event, to_line
-from instrument.stream.raw import AcquisitionBegan, BlockAcquired, FitStarted, SessionBegan, SessionEnded
+from instrument.stream.raw import (
+    AcquisitionBegan,
+    BlockAcquired,
+    DiagnosisStarted,
+    FitStarted,
+    SessionBegan,
+    SessionEnded,
+)
 
 Watch = Callable[[Event], None]
 _MOST_DIFFERENCES = 20
@@ -24,6 +32,7 @@ class Replayed:
 
     points: list[PointMeasured] = field(default_factory=list)
     fit: FitUpdated | None = None
+    diagnosis: DiagnosisFound | None = None
     derived: int = 0
     """Events computed again."""
     differences: list[str] = field(default_factory=list)
@@ -41,25 +50,26 @@ def replay(
     speed: float | None = None,
     watch: Watch = lambda event: None,
     fit: Fitter = fit_points,
+    diagnose: Diagnoser = diagnose_points,
 ) -> Replayed:
     """Run a session again. `speed` 1 is as it was; None as fast as it goes."""
     with threadpool_limits(1, "blas"):
-        return _replay(session, _Pace(speed), watch, fit)
+        return _replay(session, _Pace(speed), watch, fit, diagnose)
 
 
-def _replay(session: SessionFile, pace: "_Pace", watch: Watch, fit: Fitter) -> Replayed:
+def _replay(session: SessionFile, pace: "_Pace", watch: Watch, fit: Fitter, diagnose: Diagnoser) -> Replayed:
     configuration = session.configuration
     analysis = Analysis(setup_of(configuration))
     specimen = configuration.the_specimen()
     again = Replayed()
     expected: list[Derived] = []
-    fits: dict[int, FitUpdated] = {}
+    apart: dict[tuple[type[Derived], int], Derived] = {}
     ended = False
     for event in session.events():
         pace.wait(event)
-        if isinstance(event, FitUpdated):
-            # Recorded whenever the fit's thread was done: paired with its computation by number.
-            _compare(again, fits.pop(event.number, None), event)
+        if isinstance(event, FitUpdated | DiagnosisFound):
+            # Recorded whenever its thread was done: paired with its computation by number.
+            _compare(again, apart.pop((type(event), event.number), None), event)
             continue
         if isinstance(event, Derived):
             _compare(again, expected.pop(0) if expected else None, event)
@@ -72,8 +82,15 @@ def _replay(session: SessionFile, pace: "_Pace", watch: Watch, fit: Fitter) -> R
         expected += derived
         if isinstance(event, FitStarted):
             again.fit = fit(event.number, event.last_step, analysis.points, analysis.damping, specimen)
-            fits[event.number] = again.fit
+            apart[FitUpdated, event.number] = again.fit
             derived = [*derived, again.fit]
+        elif isinstance(event, DiagnosisStarted):
+            a = analysis
+            again.diagnosis = diagnose(
+                event.number, event.last_step, a.points, a.times_s, a.damping, specimen
+            )
+            apart[DiagnosisFound, event.number] = again.diagnosis
+            derived = [*derived, again.diagnosis]
         for one in derived:
             watch(one)
         ended = isinstance(event, SessionEnded) and event.why == "done"

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.air import air_lowering
 from fitting.bare_modes import Sensor, bare_modes, clamp_softness
 from fitting.errors import TooFewPoints
 from fitting.plate import Plate
@@ -51,10 +52,32 @@ class BarePlateFit:
     left_out_hz: tuple[float, ...]
 
 
-def fit_bare_plate(
+@dataclass(frozen=True)
+class MatchedModes:
+    """Modes of the hammer test beside the model's; arrays of shape (modes,)."""
+
+    measured_hz: Array
+    model_hz: Array
+    softness: Array
+    """Fall for a root that yields in rotation, one for mode 1."""
+    scatter: Array
+    """Standard deviation of ln(measured / model)."""
+    air: Array
+    """Relative fall that unit density of air brings, to first order."""
+    ratios: tuple[float, ...]
+    """For the plate's modes in order: the measured one where there is one, else the specimen's."""
+    left_out_hz: tuple[float, ...]
+
+    @property
+    def shift(self) -> Array:
+        """ln(measured / model)."""
+        return np.asarray(np.log(self.measured_hz / self.model_hz))
+
+
+def match_modes(
     specimen: Specimen, measured_hz: Array, measured_ratios: Array, sensor: Sensor | None = None
-) -> BarePlateFit:
-    """Stiffness and ratios from a hammer test of `specimen.bare`. Raises `TooFewPoints`, `OutsideModel`.
+) -> MatchedModes:
+    """A hammer test of `specimen.bare` beside its model. Raises `TooFewPoints`, `OutsideModel`.
 
     `sensor` is what sat on the plate in the test; the model's modes are those of the plate with it.
     """
@@ -74,14 +97,24 @@ def fit_bare_plate(
             f"only {len(pairs)} of {len(measured_hz)} hammer modes match the bare plate: is it this specimen?"
         )
     which, index = (np.array(side) for side in zip(*pairs, strict=True))
-    f, ratio = measured_hz[order][which], measured_ratios[order][which]
-    softness = clamp_softness(plate, modes)
-    scale, error, kappa = _solve(
-        np.log(f / model_hz[index]),
-        softness[index],
-        np.hypot(FREQUENCY_SCATTER, _EDGE_DOUBT * edge[index]),
-        specimen.tolerances.get("substrate_young", DEFAULT_TOLERANCE),
+    return MatchedModes(
+        measured_hz=measured_hz[order][which],
+        model_hz=model_hz[index],
+        softness=clamp_softness(plate, modes)[index],
+        scatter=np.hypot(FREQUENCY_SCATTER, _EDGE_DOUBT * edge[index]),
+        air=air_lowering(plate, modes, 1.0)[index],
+        ratios=_ratios(specimen, index, measured_ratios[order][which]),
+        left_out_hz=tuple(float(x) for x in np.delete(measured_hz[order], which)),
     )
+
+
+def fit_bare_plate(
+    specimen: Specimen, measured_hz: Array, measured_ratios: Array, sensor: Sensor | None = None
+) -> BarePlateFit:
+    """Stiffness and ratios, by `match_modes` from a hammer test. Raises `TooFewPoints`, `OutsideModel`."""
+    m = match_modes(specimen, measured_hz, measured_ratios, sensor)
+    tolerance = specimen.tolerances.get("substrate_young", DEFAULT_TOLERANCE)
+    scale, error, kappa = _solve(m.shift, m.softness, m.scatter, tolerance)
     if abs(kappa) > _MOST_PRIORS * CLAMP:
         raise TooFewPoints(
             f"the hammer modes want a clamp that moves mode 1 by {-100 * kappa:+.1f} %, "
@@ -90,11 +123,12 @@ def fit_bare_plate(
     return BarePlateFit(
         young_scale=scale,
         standard_error=error,
-        clamp_percent=100 * kappa * softness[0],
-        measured_hz=f,
-        fitted_hz=model_hz[index] * np.sqrt(scale) * np.exp(-kappa * softness[index]),
-        ratios=_ratios(specimen, index, ratio),
-        left_out_hz=tuple(float(x) for x in np.delete(measured_hz[order], which)),
+        # Softness is one for mode 1.
+        clamp_percent=100 * kappa,
+        measured_hz=m.measured_hz,
+        fitted_hz=m.model_hz * np.sqrt(scale) * np.exp(-kappa * m.softness),
+        ratios=m.ratios,
+        left_out_hz=m.left_out_hz,
     )
 
 

@@ -58,7 +58,7 @@ def uncertainty_of(fit: Fit, systematic: Systematic | None, *, noise_is_known: b
     Always where the noise is unknown; where it is known only upwards, since a misfit must not look certain.
     """
     names = fit.law.names
-    at_bound = _at_bound(fit.law)
+    at_bound = limits_reached(fit.law)
     free = np.array([name not in at_bound for name in names])
     dof = len(fit.residuals) - len(names)
     weights = np.ones(len(fit.residuals)) if fit.weights is None else fit.weights
@@ -87,7 +87,8 @@ def _pseudo_inverse(J: Array) -> Array:
     return np.asarray((Vt.T / np.maximum(s, 1e-14 * s.max()) / scale[:, None]) @ U.T)
 
 
-def _at_bound(law: CoreLaw) -> dict[str, str]:
+def limits_reached(law: CoreLaw) -> dict[str, str]:
+    """Parameters that sit on a limit: name to "lower" or "upper"."""
     lower, upper = law.log_limits
     logs = np.log(np.maximum(law.values, 1e-300))
     found = {}

@@ -6,14 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.laws import CoreLaw
-
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-Refit = Callable[[Mask], CoreLaw]
-"""Points to learn from, to the law that fits them."""
-Differences = Callable[[CoreLaw], Array]
-"""A law, to 100 (|predicted| - |measured|)/|measured| at every point."""
+Learnt = Callable[[Mask], Array]
+"""Points to learn from, to 100 (|predicted| - |measured|)/|measured| at every point."""
 
 MOST_POINTS_ONE_BY_ONE = 30
 
@@ -40,8 +36,7 @@ class Validation:
 def validate(
     segment: NDArray[np.intp],
     points_needed: int,
-    refit: Refit,
-    differences_percent: Differences,
+    differences_percent: Learnt,
     noise_percent: Array,
     progress: Callable[[float], None] = lambda fraction: None,
 ) -> Validation:
@@ -52,7 +47,7 @@ def validate(
             return Validation()
         left_out = np.empty(count)
         for k in range(count):
-            left_out[k] = differences_percent(refit(np.arange(count) != k))[k]
+            left_out[k] = differences_percent(np.arange(count) != k)[k]
             progress((k + 1) / count)
         return Validation(leave_one_out_rms_percent=rms(left_out))
     numbers = np.unique(segment)
@@ -62,7 +57,7 @@ def validate(
     all_differences = np.empty(count)
     for number in numbers:
         inside = segment == number
-        all_differences[inside] = differences_percent(refit(~inside))[inside]
+        all_differences[inside] = differences_percent(~inside)[inside]
         progress(len(held_out) / len(numbers))
         held_out.append(HeldOutSegment(int(number), rms(all_differences[inside]), rms(noise_percent[inside])))
     return Validation(held_out=tuple(held_out), held_out_rms_percent=rms(all_differences))

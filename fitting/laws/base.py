@@ -1,8 +1,8 @@
 """What every core law is: a frozen dataclass of parameters that gives G*(omega) and its derivatives.
 
 A law lives in one file of this folder: a dataclass derived from `CoreLaw`, its fields made
-with `quantity`. Everything else (file keys, names in results, bounds of a fit) follows
-from those fields.
+with `quantity`, or with `fixed` where a fit must leave them alone. Everything else (file keys,
+names in results, bounds of a fit) follows from those fields.
 """
 
 from dataclasses import dataclass, field, fields, replace
@@ -17,13 +17,22 @@ from fitting.errors import OutsideModel
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
+_UNITS = ("_pa", "_rad_s", "_s")
+"""How a name may end; a list's number goes before it."""
+
 
 @dataclass(frozen=True)
-class Quantity:
-    """What a parameter is: its key in files, its factor to SI and its physical range in SI."""
+class FileField:
+    """A field of a law as files give it: its key and its factor to SI."""
 
     file_key: str
     to_si: float
+
+
+@dataclass(frozen=True)
+class Quantity(FileField):
+    """What a parameter is: how files give it and its physical range in SI."""
+
     lower: float
     upper: float
     search: tuple[float, float]
@@ -46,7 +55,12 @@ def quantity(
     zero_allowed: bool = False,
 ) -> Any:
     """A dataclass field that is a parameter of a law."""
-    return field(metadata={"quantity": Quantity(file_key, to_si, lower, upper, search, zero_allowed)})
+    return field(metadata={"given": Quantity(file_key, to_si, lower, upper, search, zero_allowed)})
+
+
+def fixed(file_key: str, *, to_si: float = 1.0) -> Any:
+    """A dataclass field that a file gives and no fit moves."""
+    return field(metadata={"given": FileField(file_key, to_si)})
 
 
 @dataclass(frozen=True)
@@ -79,13 +93,19 @@ class CoreLaw:
 
     @classmethod
     @cache
+    def file_fields(cls) -> dict[str, FileField]:
+        """All a file says of the law: its parameters and what is fixed."""
+        return {f.name: f.metadata["given"] for f in fields(cls) if "given" in f.metadata}
+
+    @classmethod
+    @cache
     def quantities(cls) -> dict[str, Quantity]:
-        """The fields of the law and what they are."""
-        return {f.name: f.metadata["quantity"] for f in fields(cls) if "quantity" in f.metadata}
+        """The parameters of the law and what they are."""
+        return {name: given for name, given in cls.file_fields().items() if isinstance(given, Quantity)}
 
     @property
     def names(self) -> list[str]:
-        """Parameters in SI units, a list's items numbered: g_pa -> g_1_pa, g_2_pa."""
+        """Parameters in SI units, a list's items numbered: g_pa -> g_1_pa, g_2_pa; zeta -> zeta_1."""
         return [
             _numbered(name, k) if isinstance(values, tuple) else name
             for name, values in self._fields()
@@ -148,5 +168,5 @@ def _as_tuple(values: Any) -> tuple[float, ...]:
 
 
 def _numbered(name: str, k: int) -> str:
-    stem, unit = name.rsplit("_", 1)
-    return f"{stem}_{k + 1}_{unit}"
+    unit = next((u for u in _UNITS if name.endswith(u)), "")
+    return f"{name.removesuffix(unit)}_{k + 1}{unit}"

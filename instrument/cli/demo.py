@@ -14,6 +14,8 @@ from instrument.cli.print_run import print_finished, run_facts
 from instrument.cli.stopping import safe_stop
 from instrument.cli.watching import Watcher
 from instrument.control import Control
+from instrument.diagnosis_figures import save_diagnosis_figures
+from instrument.diagnosis_words import law_at
 from instrument.errors import BadInput
 from instrument.experiment_run import Finished, run_experiment
 from instrument.interchange.contents import contents_of
@@ -21,7 +23,7 @@ from instrument.progress import bar
 from instrument.report.page import report_page
 from instrument.session.configuration import read_whole_experiment
 from instrument.session.storage import SessionFile
-from instrument.simulated_case import write_case
+from instrument.simulated_case import DEFAULT_EFFECT, chosen_effect, write_case
 
 _AT_HZ = (20.0, 100.0, 280.0)
 
@@ -35,22 +37,29 @@ _AT_HZ = (20.0, 100.0, 280.0)
     show_default=True,
     help="Where the session, its report, figures and results go.",
 )
-@click.option("--effect", help="Hide this physical effect in the simulated plate; none otherwise.")
+@click.option(
+    "--effect",
+    metavar="NAME",
+    default=DEFAULT_EFFECT,
+    show_default=True,
+    help="Hide this physical effect in the simulated rig; 'none', or 'random' for one the seed picks.",
+)
 @click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Of the rig's noise.")
 @click.option("--paper/--no-paper", default=True, help="The published case too.")
 @json_option
-def demo(folder: Path, effect: str | None, seed: int, paper: bool, json_path: str | None) -> None:
-    """Hammer test, sweep and live identification on a simulated rig; then the published ZN_1 case.
+def demo(folder: Path, effect: str, seed: int, paper: bool, json_path: str | None) -> None:
+    """A whole experiment on a simulated rig, and the published ZN_1 case.
 
-    The instruments are simulated behind their real protocols, in virtual time. The folder keeps the
-    experiment's files to edit and run again with 'viscorig run'.
+    Hammer test, sweep, live identification, diagnosis and report. The plate has an effect that the model is
+    not told of. The instruments are simulated behind their real protocols, in virtual time. The folder keeps
+    the experiment's files to edit and run again with 'viscorig run'.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise BadInput(f"{folder}: {error.strerror or error}") from None
     out = Output(json_path)
-    facts = _run_rig(out, folder, effect if effect != "none" else None, seed)
+    facts = _run_rig(out, folder, chosen_effect(effect, seed), seed)
     out.say(f"to change it: edit {folder}/experiment.toml, then  viscorig run {folder}/experiment.toml")
     if paper:
         out.say()
@@ -59,8 +68,8 @@ def demo(folder: Path, effect: str | None, seed: int, paper: bool, json_path: st
 
 
 def _run_rig(out: Output, folder: Path, effect: str | None, seed: int) -> dict[str, Any]:
-    hidden = f"hiding {effect}" if effect else "hiding nothing"
-    out.say(f"The simulated rig ({hidden}): bare plate, hammer; damped plate, stepped sine at 1 g.\n")
+    out.say("The simulated rig: bare plate, hammer; damped plate, stepped sine at 1 g.")
+    out.say(f"Hidden in it: {effect or 'nothing'}. The model is not told.\n")
     experiment = read_whole_experiment(write_case(folder, seed=seed, effect=effect))
     control = Control()
     with safe_stop(control), Watcher() as watch:
@@ -69,6 +78,9 @@ def _run_rig(out: Output, folder: Path, effect: str | None, seed: int) -> dict[s
         )
     print_finished(out, finished)
     _print_beside_plant(out, finished)
+    if finished.diagnosis is not None and finished.diagnosis.facts_json:
+        for path in save_diagnosis_figures(finished.diagnosis.facts_json, folder):
+            out.say(f"saved {path}")
     facts = run_facts(finished)
     Output(str(folder / "run.json")).result(facts)
     with SessionFile(finished.session) as file:
@@ -81,19 +93,29 @@ def _run_rig(out: Output, folder: Path, effect: str | None, seed: int) -> dict[s
 
 def _print_beside_plant(out: Output, finished: Finished) -> None:
     """The simulated plate has a law of its own that nothing above has seen."""
-    if finished.fit is None or not finished.fit.facts_json:
+    found = finished.diagnosis
+    if found is None or not found.facts_json:
         return
-    law = {row["frequency_hz"]: row for row in finished.fit.facts_json["law"]}
     rows = []
-    for f in (f for f in _AT_HZ if f in law):
+    for f in _AT_HZ:
+        pair = [law_at(found.facts_json[stage]["law"], f) for stage in ("before", "after")]
+        known = [row for row in pair if row is not None]
+        if len(known) < len(pair):
+            continue
         G = complex(ZN1.modulus(2 * np.pi * f))
-        storage, loss = law[f]["storage_modulus_pa"], law[f]["loss_factor"]
+        eta = G.imag / G.real
         rows.append(
             [
                 f"{f:g}",
-                *(f"{storage / 1e6:.4f}", f"{G.real / 1e6:.4f}", f"{100 * (storage / G.real - 1):+.2f}"),
-                *(f"{loss:.4f}", f"{G.imag / G.real:.4f}", f"{100 * (loss / (G.imag / G.real) - 1):+.2f}"),
+                *(_beside(row["storage_modulus_pa"], G.real, 1e-6) for row in known),
+                f"{G.real / 1e6:.4f}",
+                *(_beside(row["loss_factor"], eta, 1.0) for row in known),
+                f"{eta:.4f}",
             ]
         )
-    columns = ["f/Hz", "G'/MPa found", "plant's", "%", "loss factor found", "plant's", "%"]
-    out.table("what was found beside the simulated plate's own law", columns, rows)
+    columns = ["f/Hz", "G'/MPa before", "after", "plant's", "loss factor before", "after", "plant's"]
+    out.table("the core: what was found beside the simulated plate's own law", columns, rows)
+
+
+def _beside(value: float, true: float, scale: float) -> str:
+    return f"{scale * value:.4f} ({100 * (value / true - 1):+.2f} %)"

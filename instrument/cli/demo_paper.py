@@ -3,26 +3,41 @@
 from pathlib import Path
 
 from instrument.cli.output import Output
+from instrument.cli.print_diagnosis import print_before_after, print_story
 from instrument.cli.print_identification import print_identification
 from instrument.demo import PaperRun, run_paper_case
+from instrument.diagnosis_facts import diagnosis_facts
 from instrument.figures import save_figures
 from instrument.identification_facts import identification_facts
 from instrument.paper_case import TABLE_5_THEORY_M_S
+from instrument.plain import plain
 from instrument.progress import bar
 
 
 def show_paper_case(out: Output, folder: Path) -> None:
-    """Identify ZN_1 from its published tables; print it beside the paper, save results and figures."""
+    """Identify ZN_1 from its published tables, diagnose what is left; save results and figures."""
     out.say("The published case: Table 3's damping and Table 5's nine measured responses.\n")
     run = run_paper_case(bar)
     print_identification(out, run.direct, run.sweep)
     out.say()
     _print_beside_paper(out, run)
+    out.say()
+    _print_diagnosis(out, run)
     Output(str(folder / "identify-direct.json")).result(identification_facts(run.direct, run.sweep))
     Output(str(folder / "identify-paper.json")).result(identification_facts(run.paper, run.sweep))
+    Output(str(folder / "diagnose-paper.json")).result(diagnosis_facts(run.diagnosis, run.sweep))
     out.say()
     for path in save_figures(run, folder, bar):
         out.say(f"saved {path}")
+
+
+def _print_diagnosis(out: Output, run: PaperRun) -> None:
+    """What the nine amplitudes say of the difference that four parameters leave."""
+    facts = plain(diagnosis_facts(run.diagnosis, run.sweep))
+    out.say("What the nine points say of that:")
+    print_story(out, facts)
+    out.say()
+    print_before_after(out, facts)
 
 
 def _print_beside_paper(out: Output, run: PaperRun) -> None:

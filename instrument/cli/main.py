@@ -29,6 +29,7 @@ COMMANDS = (
     "predict",
     "damping",
     "identify",
+    "diagnose",
     "report",
     "export",
     "import",

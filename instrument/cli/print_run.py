@@ -5,8 +5,9 @@ from typing import Any
 import numpy as np
 
 from instrument.cli.output import Output
+from instrument.cli.print_diagnosis import print_before_after, print_story
 from instrument.experiment_run import Finished
-from instrument.stream.derived import DampingFound, FitUpdated, PointMeasured
+from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated, PointMeasured
 
 
 def run_facts(finished: Finished) -> dict[str, Any]:
@@ -16,17 +17,22 @@ def run_facts(finished: Finished) -> dict[str, Any]:
         "points": len(finished.points),
         "damping": finished.damping.facts_json if finished.damping else None,
         "identify": finished.fit.facts_json if finished.fit and finished.fit.facts_json else None,
+        "diagnose": finished.diagnosis.facts_json
+        if finished.diagnosis and finished.diagnosis.facts_json
+        else None,
     }
 
 
 def print_finished(out: Output, finished: Finished) -> None:
-    """Damping, quality of the points, law, and where the session is."""
+    """Damping, quality of the points, law, diagnosis, and where the session is."""
     if finished.damping is not None:
         print_damping(out, finished.damping)
     if finished.points:
         print_quality(out, list(finished.points))
     if finished.fit is not None:
         print_fit(out, finished.fit)
+    if finished.diagnosis is not None:
+        print_found_diagnosis(out, finished.diagnosis)
     out.say(f"session: {finished.session}")
 
 
@@ -87,6 +93,18 @@ def print_fit(out: Output, fit: FitUpdated) -> None:
     )
     for warning in facts["warnings"]:
         out.say(f"note: {warning}")
+
+
+def print_found_diagnosis(out: Output, found: DiagnosisFound) -> None:
+    """Verdict, explanation, error before and after."""
+    out.say()
+    if not found.facts_json:
+        out.say(f"no diagnosis: {found.message}")
+        return
+    print_story(out, found.facts_json)
+    out.say()
+    print_before_after(out, found.facts_json)
+    out.say()
 
 
 def _near(law: list[dict[str, float]], wanted: tuple[float, ...]) -> list[int]:

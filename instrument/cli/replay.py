@@ -6,7 +6,7 @@ import click
 
 from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
-from instrument.cli.print_run import print_fit, print_quality
+from instrument.cli.print_run import print_fit, print_found_diagnosis, print_quality
 from instrument.cli.watching import Watcher
 from instrument.progress import bar
 from instrument.replay import replay as replay_session
@@ -40,6 +40,8 @@ def replay(session: Path, speed: float | None, json_path: str | None) -> None:
         print_quality(out, again.points)
     if again.fit is not None:
         print_fit(out, again.fit)
+    if again.diagnosis is not None:
+        print_found_diagnosis(out, again.diagnosis)
     verdict = "all equal to the recorded ones" if again.equal else "NOT all equal to the recorded ones"
     out.say(f"{again.derived} derived events computed again: {verdict}")
     for difference in again.differences:
@@ -47,7 +49,9 @@ def replay(session: Path, speed: float | None, json_path: str | None) -> None:
     out.result(
         {
             "identify": again.fit.facts_json if again.fit and again.fit.facts_json else None,
-            "diagnose": None,
+            "diagnose": again.diagnosis.facts_json
+            if again.diagnosis and again.diagnosis.facts_json
+            else None,
             "equal_to_recorded": again.equal,
             "derived_events": again.derived,
             "differences": again.differences,

@@ -5,9 +5,11 @@ from collections.abc import Callable
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
+from instrument.diagnosis_words import verdict_line
 from instrument.stream.derived import (
     CalibrationFound,
     DampingFound,
+    DiagnosisFound,
     FitUpdated,
     HitJudged,
     LimitWarned,
@@ -15,7 +17,7 @@ from instrument.stream.derived import (
     SentinelCompared,
 )
 from instrument.stream.event import Event
-from instrument.stream.raw import SegmentBegan
+from instrument.stream.raw import DiagnosisStarted, SegmentBegan
 
 
 class Watcher:
@@ -84,6 +86,10 @@ def said_of(event: Event) -> str | None:
             return f"{event.frequency_hz:g} Hz: {'; '.join(event.remarks)}"
         case FitUpdated():
             return _fit_said(event)
+        case DiagnosisStarted():
+            return "tracing what the fit cannot explain"
+        case DiagnosisFound():
+            return verdict_line(event.facts_json) if event.facts_json else f"no diagnosis: {event.message}"
     return None
 
 

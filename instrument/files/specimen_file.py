@@ -147,22 +147,21 @@ def _law(table: dict[str, Any]) -> CoreLaw:
         raise OutsideModel(f"core.law.kind: {kind!r}, expected one of {known}")
     law = LAWS[kind]
     fields: dict[str, Any] = {}
-    for name, quantity in law.quantities().items():
+    for name, field in law.file_fields().items():
         one = Annotated[float, Field(allow_inf_nan=False)]
         is_list = law.__annotations__[name] is not float
-        fields[quantity.file_key] = (list[one] if is_list else one, ...)
+        fields[field.file_key] = (list[one] if is_list else one, ...)
     model = create_model("core.law", __base__=Table, **fields)
     try:
         given = model.model_validate({k: v for k, v in table.items() if k != "kind"})
     except ValidationError as error:
         raise OutsideModel(one_line(error, prefix="core.law.")) from None
     values = {}
-    for name, quantity in law.quantities().items():
-        value = getattr(given, quantity.file_key)
-        scaled = (
-            tuple(v * quantity.to_si for v in value) if isinstance(value, list) else value * quantity.to_si
+    for name, field in law.file_fields().items():
+        value = getattr(given, field.file_key)
+        values[name] = (
+            tuple(v * field.to_si for v in value) if isinstance(value, list) else value * field.to_si
         )
-        values[name] = scaled
     built = law(**values)
     for objection in built.objections():
         raise OutsideModel(f"core.law: {objection}")

@@ -1,7 +1,6 @@
 """What a session holds, gathered from its events in one pass."""
 
 from dataclasses import dataclass, field
-from datetime import datetime
 from pathlib import Path
 
 import numpy as np
@@ -14,9 +13,11 @@ from instrument.impact.judge import Judged, judge
 from instrument.impact.record import Channel, Hit
 from instrument.session.configuration import Configuration
 from instrument.session.storage import SessionFile
+from instrument.stream.clock import SessionClock
 from instrument.stream.derived import (
     CalibrationFound,
     DampingFound,
+    DiagnosisFound,
     FitUpdated,
     HitJudged,
     HitRevised,
@@ -105,6 +106,7 @@ class Contents:
     damping: DampingFound | None = None
     fit: FitUpdated | None = None
     """The last one of the run itself."""
+    diagnosis: DiagnosisFound | None = None
     limits: list[LimitWarned | LimitExceeded] = field(default_factory=list)
     operator: list[OperatorDid] = field(default_factory=list)
 
@@ -135,7 +137,7 @@ def contents_of(session: SessionFile, *, with_hits: bool = True) -> Contents:
 class _Gather:
     def __init__(self, contents: Contents, with_hits: bool) -> None:
         self.contents = contents
-        self._clock = _Clock()
+        self._clock = SessionClock()
         self._tape = _Tape(contents.configuration.rig.channels) if with_hits else None
 
     def take(self, event: Event) -> None:
@@ -174,6 +176,8 @@ class _Gather:
                 c.damping = event
             case FitUpdated():
                 c.fit = event
+            case DiagnosisFound():
+                c.diagnosis = event
             case LimitWarned() | LimitExceeded():
                 c.limits.append(event)
             case OperatorDid():
@@ -208,31 +212,6 @@ class _Gather:
         elif self._tape is not None:
             record = self._tape.cut(event)
             hits.append(RecordedHit(event.hit, event.accepted, event.why, event.peak_n, record))
-
-
-class _Clock:
-    """Seconds since the session's first sample. A later acquisition begins when the one before has ended."""
-
-    def __init__(self) -> None:
-        self._first: datetime | None = None
-        self._since_first_s = self._offset_s = self._end_s = 0.0
-        self._rate = 1.0
-
-    def take(self, event: Event) -> None:
-        match event:
-            case SessionBegan():
-                now = datetime.fromisoformat(event.utc)
-                self._first = self._first or now
-                self._since_first_s = (now - self._first).total_seconds()
-            case AcquisitionBegan():
-                self._rate = event.sample_rate_hz
-                # A run that went through virtual time is ahead of the clock.
-                self._offset_s = max(self._end_s, self._since_first_s)
-            case BlockAcquired():
-                self._end_s = self.at(event.first_sample + event.samples)
-
-    def at(self, sample: int) -> float:
-        return self._offset_s + sample / self._rate
 
 
 class _Tape:

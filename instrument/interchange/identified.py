@@ -1,8 +1,7 @@
 """The law from a recorded session: its points, its specimen, its hammer test."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-import numpy as np
 from pydantic import ValidationError
 
 from fitting.identification.bare_plate import BarePlateFit, fit_bare_plate, with_bare_plate
@@ -46,7 +45,7 @@ def session_sweep(contents: Contents, specimen: Specimen) -> Sweep:
     """Steps and sentinels, each at its commanded level. Raises `BadInput` where there are none."""
     if not contents.points:
         raise BadInput(f"{contents.path}: no point of a sweep in this session, expected a measured sweep")
-    return replace(sweep_of(contents.measured), time_s=np.array([p.time_s for p in contents.points]))
+    return sweep_of(contents.measured, [p.time_s for p in contents.points])
 
 
 def session_modes(contents: Contents) -> HammerModes | None:

@@ -129,8 +129,11 @@ def _layers(hit: Hit) -> list[tuple]:  # type: ignore[type-arg]
     return [tuple(layer.values()) for layer in layers]
 
 
-def _sweep_text(sweeps: list[Columns]) -> str:
-    """All sweeps of a file in one table; overlapping ones that say nothing are passes of their own."""
+def one_table(sweeps: list[Columns]) -> Columns:
+    """All sweeps of a file in one; overlapping ones that say nothing are passes of their own.
+
+    Raises `BadInput` where they are of different kinds.
+    """
     sweeps = _told_apart(sweeps)
     names = list(dict.fromkeys(name for s in sweeps for name in s))
     missing = [n for n in names if n not in _UNSAID and not all(n in s for s in sweeps)]
@@ -138,15 +141,19 @@ def _sweep_text(sweeps: list[Columns]) -> str:
         raise BadInput(
             f"its sweeps differ in {', '.join(missing)}: expected all of one kind, import them apart"
         )
-    table = {
+    return {
         n: np.concatenate([s.get(n, np.full(len(s["frequency_hz"]), _UNSAID.get(n, 0.0))) for s in sweeps])
         for n in names
     }
+
+
+def _sweep_text(sweeps: list[Columns]) -> str:
+    table = one_table(sweeps)
     rows = (
-        ",".join(_text(n, v) for n, v in zip(names, row, strict=True))
+        ",".join(_text(n, v) for n, v in zip(table, row, strict=True))
         for row in zip(*table.values(), strict=True)
     )
-    return "\n".join([",".join(names), *rows]) + "\n"
+    return "\n".join([",".join(table), *rows]) + "\n"
 
 
 def _told_apart(sweeps: list[Columns]) -> list[Columns]:

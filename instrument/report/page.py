@@ -9,6 +9,7 @@ from instrument.interchange.contents import Contents
 from instrument.progress import Progress, quiet
 from instrument.report.blocks import Section
 from instrument.report.calibration import calibration_section
+from instrument.report.diagnosis import diagnosis_sections
 from instrument.report.ending import ending_section
 from instrument.report.fitted import Fitted
 from instrument.report.hammer import hammer_section
@@ -56,6 +57,7 @@ def sections_of(contents: Contents, fitted: Fitted) -> list[Section]:
         sweep_section(contents, fitted),
         identification_section(contents, fitted),
         unexplained_section(fitted),
+        *diagnosis_sections(contents),
         versions_section(contents, {package: version(package) for package in _PACKAGES}),
     ]
 

@@ -18,6 +18,7 @@ from instrument.session.storage import write_part
 from instrument.stream.derived import (
     CalibrationFound,
     DampingFound,
+    DiagnosisFound,
     FitUpdated,
     HitJudged,
     HitRevised,
@@ -25,7 +26,14 @@ from instrument.stream.derived import (
     PointMeasured,
 )
 from instrument.stream.event import Event
-from instrument.stream.raw import AcquisitionBegan, BlockAcquired, FitStarted, SegmentEnded, SessionEnded
+from instrument.stream.raw import (
+    AcquisitionBegan,
+    BlockAcquired,
+    DiagnosisStarted,
+    FitStarted,
+    SegmentEnded,
+    SessionEnded,
+)
 
 log = logging.getLogger(__name__)
 
@@ -38,6 +46,8 @@ _SEALING = (
     HitRevised,
     FitStarted,
     FitUpdated,
+    DiagnosisStarted,
+    DiagnosisFound,
     SegmentEnded,
     SessionEnded,
 )

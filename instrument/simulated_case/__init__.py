@@ -1,6 +1,7 @@
 """A whole experiment on the simulated rig: the published plate, hammer test, sweep of three resonances."""
 
 from pathlib import Path
+from random import Random
 
 from instrument.errors import BadInput
 from instrument.files.text import read_text
@@ -22,10 +23,27 @@ EFFECTS = {
     "core_thickness": "scale = 1.06",
     "substrate_stiffness": "scale = 1.03",
     "gain_error": "factor = 1.02",
+    "channel_delay": "delay_s = 1e-4",
     "level_error": "factor = 1.03",
     "mains_hum": "amplitude_v = 0.1",
 }
-"""What a demonstration may hide, at a severity that shows. Keys as in `[simulation.effects]`."""
+"""What a demonstration may hide, at a severity that shows. Keys as in `[simulation.effects]`.
+
+The vibrometer's calibration in place takes `gain_error` and `channel_delay` off before they reach a point.
+"""
+
+DEFAULT_EFFECT = "clamp_compliance"
+
+
+def chosen_effect(name: str, seed: int) -> str | None:
+    """The effect to hide; `none` for none, `random` for one that the seed picks. Raises `BadInput`."""
+    if name == "none":
+        return None
+    if name == "random":
+        return Random(seed).choice(sorted(EFFECTS))
+    if name not in EFFECTS:
+        raise BadInput(f"effect {name!r}, expected none, random or one of {', '.join(sorted(EFFECTS))}")
+    return name
 
 
 def case_file(name: str) -> Path:

@@ -10,6 +10,7 @@ from instrument.hammer_test.analysis import HammerAnalysis, HammerChannels, Hamm
 from instrument.stepped_sine.calibration import Calibration, calibrate
 from instrument.stepped_sine.settings import SweepSettings
 from instrument.stepped_sine.step import Channels, StepAnalysis
+from instrument.stream.clock import SessionClock
 from instrument.stream.derived import (
     CalibrationFound,
     DampingFound,
@@ -61,11 +62,15 @@ class Analysis:
         self.hammer: HammerAnalysis | None = None
         self.points: list[PointMeasured] = []
         """Of the sweep, sentinels included."""
+        self.times_s: list[float] = []
+        """When each of `points` was read, since the session's first sample."""
+        self._clock = SessionClock()
         self.calibrations: dict[str, CalibrationFound] = {}
         self.damping: DampingFound | None = None
 
     def feed(self, event: Event) -> list[Derived]:
         """Take a raw event; what follows from it."""
+        self._clock.take(event)
         derived = self._follow(event)
         for one in list(derived):
             derived += self._keep(one)
@@ -73,6 +78,7 @@ class Analysis:
 
     def restore(self, event: Event) -> None:
         """Take an event of an earlier run of this session, so that this one can carry on."""
+        self._clock.take(event)
         if isinstance(event, Derived):
             self._keep(event)
 
@@ -118,6 +124,7 @@ class Analysis:
                 self._calibration_points.append(event)
             case PointMeasured():
                 self.points.append(event)
+                self.times_s.append(self._clock.at(event.sample))
                 return self._compared(event)
             case CalibrationFound():
                 self.calibrations[event.range_name] = event

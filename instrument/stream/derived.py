@@ -192,3 +192,14 @@ class FitUpdated(Derived):
     facts_json: dict[str, Any]
     """Empty where no fit was possible; `message` says why."""
     message: str = ""
+
+
+@dataclass(frozen=True)
+class DiagnosisFound(Derived):
+    """What the sweep's residual shows: the JSON of `viscorig diagnose` without its seconds."""
+
+    number: int
+    last_step: int
+    facts_json: dict[str, Any]
+    """Empty where no diagnosis was possible; `message` says why."""
+    message: str = ""

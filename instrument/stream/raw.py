@@ -159,6 +159,15 @@ class FitStarted(Event):
 
 
 @dataclass(frozen=True)
+class DiagnosisStarted(Event):
+    """The sweep is whole, and what its fit cannot explain is being traced."""
+
+    number: int
+    last_step: int
+    """Points of this and all earlier steps take part."""
+
+
+@dataclass(frozen=True)
 class SessionEnded(Event):
     """The run is over, and why."""
 

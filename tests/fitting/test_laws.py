@@ -5,15 +5,21 @@ from hypothesis import strategies as st
 
 from fitting.errors import OutsideModel
 from fitting.laws import LAWS
+from fitting.laws.adf import AnelasticDisplacementFields
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.fractional_zener import FractionalZener
 from fitting.laws.generalised_maxwell import GeneralisedMaxwell
+from fitting.laws.ghm import GollaHughesMcTavish
 from fitting.laws.isd112 import Isd112
+from fitting.laws.smooth import Smooth
 
 EXAMPLES = [
     FractionalZener(0.27e6, 4.1e6, 1.21e-4, 0.83),
     ConstantModulus(0.9e6, 0.5),
     GeneralisedMaxwell(0.2e6, (0.3e6, 1.2e6), (2e-3, 1e-4)),
+    GollaHughesMcTavish(0.3e6, (0.8, 6.0), (1.5, 0.9), (1e3, 2e4)),
+    AnelasticDisplacementFields(0.3e6, (0.8, 6.0), (4e2, 8e3)),
+    Smooth((14.0, 50.0, 120.0, 300.0), (0.3e6, 0.4e6, 0.6e6, 1e6), (0.25, 0.5, 0.8, 0.9)),
     Isd112(),
 ]
 frequencies = st.floats(2, 1000)
@@ -102,6 +108,13 @@ def test_isd112_refuses_where_its_print_makes_energy():
         lambda: ConstantModulus(float("nan"), 0.1),
         lambda: GeneralisedMaxwell(0.2e6, (0.3e6,), (2e-3, 1e-4)),
         lambda: GeneralisedMaxwell(0.2e6, (), ()),
+        lambda: GollaHughesMcTavish(0.3e6, (1.0, 2.0), (1.0,), (1e3, 1e4)),
+        lambda: GollaHughesMcTavish(0.3e6, (), (), ()),
+        lambda: GollaHughesMcTavish(0.3e6, (-1.0,), (1.0,), (1e3,)),
+        lambda: GollaHughesMcTavish(0.3e6, (1.0,), (0.0,), (1e3,)),
+        lambda: AnelasticDisplacementFields(0.3e6, (1.0, 2.0), (1e3,)),
+        lambda: AnelasticDisplacementFields(0.3e6, (), ()),
+        lambda: AnelasticDisplacementFields(0.3e6, (-1.0,), (1e3,)),
     ],
 )
 def test_unphysical_parameters_are_refused(make):

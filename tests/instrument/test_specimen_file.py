@@ -34,15 +34,27 @@ LAW_TABLES = {
     "constant": "g_mpa = 0.5\nloss_factor = 0.0",
     "isd112": "",
     "generalised-maxwell": "g_inf_mpa = 0.2\ng_mpa = [0.3, 1.0]\ntau_s = [1e-3, 1e-4]",
+    "ghm": "g0_mpa = 0.3\nalpha = [0.8, 6.0]\nzeta = [1.5, 0.9]\nomega_rad_s = [1e3, 2e4]",
+    "adf": "g0_mpa = 0.3\ndelta = [0.8, 6.0]\nomega_rad_s = [4e2, 8e3]",
+    "smooth": "frequency_hz = [14.0, 300.0]\ng_mpa = [0.3, 1.0]\nloss_factor = [0.3, 0.9]",
 }
+
+
+def with_law(kind, table):
+    return re.sub(r"\[core\.law\].*?\n\n", f'[core.law]\nkind = "{kind}"\n{table}\n\n', GOOD, flags=re.S)
 
 
 @pytest.mark.parametrize("kind", sorted(LAWS))
 def test_every_law_can_be_read(tmp_path, kind):
-    text = re.sub(
-        r"\[core\.law\].*?\n\n", f'[core.law]\nkind = "{kind}"\n{LAW_TABLES[kind]}\n\n', GOOD, flags=re.S
-    )
-    assert read_specimen(write(tmp_path, text)).core.law.kind == kind
+    path = write(tmp_path, with_law(kind, LAW_TABLES[kind]))
+    assert read_specimen(path).core.law.kind == kind
+
+
+def test_knots_are_read_with_the_law_and_are_no_parameters(tmp_path):
+    law = read_specimen(write(tmp_path, with_law("smooth", LAW_TABLES["smooth"]))).core.law
+    assert law.frequency_hz == (14.0, 300.0)
+    assert law.g_pa == pytest.approx((0.3e6, 1e6))
+    assert law.names == ["g_1_pa", "g_2_pa", "loss_factor_1", "loss_factor_2"]
 
 
 def test_optional_parts(tmp_path):
@@ -85,6 +97,22 @@ BAD = {
     "law out of bounds": (GOOD.replace("alpha = 0.89", "alpha = 1.5"), "alpha = 1.5"),
     "law negative": (GOOD.replace("g0_mpa = 0.40268", "g0_mpa = -0.4"), "g0_mpa = -0.4"),
     "law key": (GOOD.replace("alpha = 0.89", "alpah = 0.89"), "core.law.alpha: missing"),
+    "law without its knots": (
+        with_law("smooth", "g_mpa = [0.3, 1.0]\nloss_factor = [0.3, 0.9]"),
+        "core.law.frequency_hz: missing",
+    ),
+    "law knots unsorted": (
+        with_law("smooth", LAW_TABLES["smooth"].replace("14.0, 300.0", "300.0, 14.0")),
+        "frequency_hz = [300, 14], expected two or more above 0, ascending",
+    ),
+    "law knots not positive": (
+        with_law("smooth", LAW_TABLES["smooth"].replace("14.0", "0.0")),
+        "frequency_hz = [0, 300], expected two or more above 0, ascending",
+    ),
+    "law without stiffness": (
+        with_law("ghm", "g0_mpa = 0.3\nalpha = [10.0]\nzeta = [0.1]\nomega_rad_s = [1e3]"),
+        "the storage modulus is -5.03 MPa at 142.4 Hz",
+    ),
     "law not passive": (GOOD.replace("ginf_mpa = 4.1946", "ginf_mpa = 0.1"), "give energy back"),
     "spot off the plate": (GOOD.replace("x_mm = 60.0", "x_mm = 600.0"), "pickup.x_mm = 600 is off the plate"),
     "core alone": (

@@ -1,0 +1,1 @@
+"""What a fit cannot explain, traced to an effect the plate model lacks."""

@@ -1,0 +1,137 @@
+"""From a sweep to a verdict: structure, the catalogue, the group that fits as well, held-out data."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.diagnosis import words
+from fitting.diagnosis.evidence import BareModes, Evidence
+from fitting.diagnosis.model_error import model_error
+from fitting.diagnosis.refit import Fitted, refit
+from fitting.diagnosis.response import Response
+from fitting.diagnosis.result import Candidate, Diagnosis, Estimate, FoundEffect
+from fitting.diagnosis.search import Search, Trial
+from fitting.diagnosis.stage import found_effects, stage_of
+from fitting.diagnosis.structure import structure
+from fitting.diagnosis.task import Task
+from fitting.diagnosis.verdict import FIRST, Judgement, judge, without_idle_extensions
+from fitting.effects.base import Effect
+from fitting.identification.direct import fit_direct
+from fitting.identification.model import SweepModel
+from fitting.identification.residuals import Residuals
+from fitting.laws import CoreLaw
+from fitting.noise import Noise, noise_of
+from fitting.reduced import ReducedPlate
+from fitting.sweep import Sweep
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+Report = Callable[[float], None]
+
+CLEAN_ENOUGH = 1.08
+"""Chi-square per degree of freedom above which a second effect is looked for beside all leading ones."""
+_NUMBERS_A_PARAMETER = 10
+"""Data per parameter below which no second effect is looked for."""
+
+
+def seen_in_channels(sweep: Sweep, effects: Sequence[Effect]) -> tuple[Mask, tuple[FoundEffect, ...], Noise]:
+    """Points fit for use, what the channels show by themselves, and the noise of the points in use."""
+    used, found = np.ones(len(sweep), bool), []
+    noise = noise_of(sweep)
+    for effect in effects:
+        seen = effect.seen(sweep, noise)
+        if seen is not None:
+            used &= ~seen.aside
+            found.append(FoundEffect(effect.name, {k: Estimate(*v) for k, v in seen.values.items()}))
+    return used, tuple(found), noise if used.all() else noise_of(sweep.take(used))
+
+
+def begin(
+    task: Task, reduced: ReducedPlate, noise: Noise, bare: BareModes | None, start: CoreLaw
+) -> tuple[Task, Evidence, Fitted]:
+    """The fit without any effect, and the evidence all candidates are judged by."""
+    sweep = task.sweep
+    model = SweepModel(task.rational, np.arange(len(sweep)), sweep.commanded_m_s2, task.specimen.reads)
+    law = fit_direct(Residuals.of(sweep, noise, model), start).law
+    task = task.condensed(law).around(law)
+    v = model.velocity(law)
+    evidence = Evidence.of(sweep, noise, model_error(task, reduced, law, v), v, bare)
+    none = refit(Response(task, ()), evidence, law, np.empty(0))
+    return task, evidence, none
+
+
+def diagnose_task(
+    task: Task,
+    reduced: ReducedPlate,
+    effects: Sequence[Effect],
+    noise: Noise,
+    bare: BareModes | None,
+    start: CoreLaw,
+    channels: tuple[FoundEffect, ...] = (),
+    used: Mask | None = None,
+    report: Report = lambda fraction: None,
+) -> Diagnosis:
+    """Everything that can be said of a sweep's residual; `task` holds the points in use."""
+    task, evidence, none = begin(task, reduced, noise, bare, start)
+    search = Search(task, evidence, none, effects)
+    singles = without_idle_extensions(search.singles(lambda x: report(0.5 * x)))
+    pairs = _pairs(search, singles, lambda x: report(0.5 + 0.3 * x))
+    known = evidence.scale_known
+    whitened = none.residuals[: none.data]
+    left = structure(task.sweep, evidence, whitened, none.chi2_per_dof)
+    judgement = judge(search.none, singles, pairs, noise_known=known, structured=bool(left))
+    report(0.8)
+    before = stage_of(task, evidence, none, np.empty(0))
+    report(0.9)
+    accepted = judgement.accepted
+    after, found = before, tuple[FoundEffect, ...]()
+    if accepted is not None:
+        priors = search.priors(accepted.fitted.effects)
+        after, found = stage_of(task, evidence, accepted.fitted, priors), found_effects(accepted.fitted)
+    catalogue = {e.name: e for e in effects}
+    trials = sorted([search.none, *singles, *pairs], key=lambda t: t.bic)
+    seen = tuple(words.story(catalogue[c.name], c) for c in channels)
+    return Diagnosis(
+        verdict=judgement.verdict,
+        effects=found,
+        channels=channels,
+        equivalent=judgement.equivalent,
+        candidates=tuple(_candidate(t, trials[0].bic, noise_known=known) for t in trials),
+        before=before,
+        after=after,
+        next_measurement=words.next_measurement(judgement, catalogue, with_hammer=bare is not None),
+        explanation=(
+            *(f"{s[0].upper()}{s[1:]}." for s in seen),
+            *words.explain(task, judgement, before, after, found, catalogue),
+        ),
+        used=np.ones(len(task.sweep), bool) if used is None else used,
+        warnings=_warnings(task, judgement),
+    )
+
+
+def _pairs(search: Search, singles: Sequence[Trial], report: Report) -> list[Trial]:
+    """Two effects, where one leaves something or only another law explains it all."""
+    if not singles or not search.evidence.scale_known:
+        return []
+    best = singles[0]
+    if search.evidence.count < _NUMBERS_A_PARAMETER * (best.fitted.parameters + 2):
+        return []
+    flexible = any(e.replaces_law for e in best.fitted.effects)
+    if search.none.bic - best.bic < FIRST:
+        return []
+    wide = best.fitted.chi2_per_dof > CLEAN_ENOUGH or flexible
+    return without_idle_extensions(search.pairs(singles, report, wide=wide))
+
+
+def _candidate(trial: Trial, best: float, *, noise_known: bool) -> Candidate:
+    chi2 = trial.fitted.chi2_per_dof if noise_known else float("nan")
+    return Candidate(found_effects(trial.fitted), trial.bic - best, chi2)
+
+
+def _warnings(task: Task, judgement: Judgement) -> tuple[str, ...]:
+    said = []
+    names = {n for group in judgement.equivalent.values() for n in group}
+    if "temperature_drift" in names and not task.points.timed:
+        said.append("the points carry no time: the drift assumes an even sweep upwards in frequency")
+    return tuple(said)

@@ -1,0 +1,123 @@
+"""Data a candidate is judged by: the sweep, whitened, and the bare plate's frequencies beside it."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.diagnosis.whitening import SHARE, Whitening
+from fitting.noise import Noise
+from fitting.sweep import Sweep
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Mask = NDArray[np.bool_]
+
+
+_BLUNT = 0.03
+
+
+@dataclass(frozen=True)
+class BareModes:
+    """The hammer test beside the plate model: shifts of ln f, and what moves them."""
+
+    shift: Array
+    """ln(measured / model)."""
+    softness: Array
+    """Fall for a root that yields, one for mode 1."""
+    scatter: Array
+    """Standard deviation of `shift`."""
+    lowering_per_density: Array
+    """Fall for unit density of air."""
+    clamp: float
+    """Prior standard deviation of the root's yielding in the hammer test."""
+
+    def whitened(self, expected: Array) -> Array:
+        """(measured - expected shift) in standard deviations, the root marginalised. Shape (modes,)."""
+        B = (self.clamp * self.softness / self.scatter)[:, None]
+        return Whitening.of(B)((self.shift - expected) / self.scatter)
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """The readings, what each is worth, and the model's own error."""
+
+    measured_m_s: Complex | Array
+    sigma_m_s: Array
+    """Noise and the white part of the model's error, weights counted in. Shape (points,)."""
+    noise_m_s: Array
+    B: Array
+    """Model error over sigma, one column a nuisance. Shape (data, nuisances)."""
+    scale_known: bool
+    """Whether chi-square means anything."""
+    bare: BareModes | None = None
+    whitening: Whitening = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "whitening", Whitening.of(self.B))
+
+    @classmethod
+    def of(
+        cls, sweep: Sweep, noise: Noise, nuisances: Complex, v: Complex, bare: BareModes | None
+    ) -> "Evidence":
+        """`nuisances` are changes of the prediction `v`, one a row. Shape (any, points)."""
+        weight = np.ones(len(sweep)) if sweep.weight is None else sweep.weight
+        weight = weight / np.sqrt(np.mean(weight**2))
+        if noise.is_known:
+            sigma = np.hypot(noise.std_m_s, SHARE * np.abs(v)) / weight
+        else:
+            sigma = np.abs(sweep.response_m_s) / weight
+            nuisances = 0 * nuisances
+        plain = cls(sweep.response_m_s, sigma, noise.std_m_s, np.zeros((1, 1)), noise.is_known, bare)
+        B = plain.over_sigma(v, nuisances).T
+        return cls(sweep.response_m_s, sigma, noise.std_m_s, B, noise.is_known, bare)
+
+    @property
+    def has_phase(self) -> bool:
+        """Whether readings are phasors."""
+        return bool(np.iscomplexobj(self.measured_m_s))
+
+    @property
+    def count(self) -> int:
+        """Real numbers measured, the bare plate's not counted."""
+        return len(self.measured_m_s) * (2 if self.has_phase else 1)
+
+    def residuals(self, v: Complex) -> Array:
+        """Whitened (predicted - measured). Shape (count,)."""
+        z = (v if self.has_phase else np.abs(v)) - self.measured_m_s
+        return self.whitening(self._stack(z / self.sigma_m_s))
+
+    def jacobian(self, v: Complex, dv: Complex) -> Array:
+        """Derivatives of `residuals`. Shape (count, parameters)."""
+        return self.whitening(self.over_sigma(v, dv).T)
+
+    def over_sigma(self, v: Complex, dv: Complex) -> Array:
+        """Changes of the prediction in standard deviations, parts side by side. Shape (..., count)."""
+        # d|v| = Re(conj(v) dv)/|v|
+        change = dv if self.has_phase else np.real(np.conj(v) * dv) / np.abs(v)
+        return self._stack(change / self.sigma_m_s)
+
+    def blunt(self) -> "Evidence":
+        """The same readings taken for a few percent: wide valleys for a first descent."""
+        sigma = np.maximum(self.sigma_m_s, _BLUNT * np.abs(self.measured_m_s))
+        return Evidence(
+            self.measured_m_s, sigma, self.noise_m_s, 0 * self.B[:, :1], self.scale_known, self.bare
+        )
+
+    def _stack(self, z: Complex | Array) -> Array:
+        return np.concatenate([z.real, z.imag], axis=-1) if self.has_phase else np.real(z)
+
+    def parts(self, points: Mask) -> Mask:
+        """Which data belong to some points."""
+        return np.tile(points, 2) if self.has_phase else points
+
+    def take(self, points: Mask) -> "Evidence":
+        """Some of the points; the bare plate stays."""
+        return Evidence(
+            self.measured_m_s[points],
+            self.sigma_m_s[points],
+            self.noise_m_s[points],
+            self.B[self.parts(points)],
+            self.scale_known,
+            self.bare,
+        )

@@ -1,0 +1,137 @@
+"""A few frequencies that stand for all of a sweep's: what an effect changes is smooth between them.
+
+A change of the plate moves poles: near one the response changes as 1/(w^2 - p^2)^2. Times that, it is smooth.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.sweep import segments_by_gap
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_HZ_A_NODE = 4.0
+MOST_POLES = 4
+_FARTHEST = 0.2
+
+
+@dataclass(frozen=True)
+class Nodes:
+    """Chebyshev points of every cluster of frequencies."""
+
+    omega: Array
+    """rad/s, ascending. Shape (nodes,)."""
+    points: Array
+    """rad/s, as the sweep has them. Shape (points,)."""
+    plain: Array
+    """Interpolates what has no poles. Shape (points, nodes)."""
+    cluster: NDArray[np.intp]
+    """Number of each node's cluster. Shape (nodes,)."""
+    poles: Complex
+    """Of the unchanged plate in and near the clusters, rad/s. Shape (poles,)."""
+    pole_node: NDArray[np.intp]
+    """The node nearest to each pole."""
+    frozen: Complex
+    """Where the poles would be if the modulus stayed what it is at their node. Shape (poles,)."""
+
+    @classmethod
+    def of(cls, omega: Array, least: int) -> "Nodes":
+        """At least `least` nodes a cluster, more where it is wide; no more than it has frequencies."""
+        f = omega / (2 * np.pi)
+        numbers = segments_by_gap(f)
+        nodes, clusters = [], []
+        plain = np.zeros((len(omega), 0))
+        for number in np.unique(numbers):
+            inside = numbers == number
+            known = np.unique(omega[inside])
+            wanted = max(least, least // 2 + int(np.ptp(known) / (2 * np.pi * _HZ_A_NODE)))
+            at = known if len(known) <= wanted else _chebyshev(known[0], known[-1], wanted)
+            block = np.zeros((len(omega), len(at)))
+            block[inside] = _interpolation(at, omega[inside])
+            plain = np.hstack([plain, block])
+            nodes.append(at)
+            clusters.append(np.full(len(at), number))
+        none = np.empty(0, dtype=np.intp)
+        return cls(
+            np.concatenate(nodes),
+            omega,
+            plain,
+            np.concatenate(clusters),
+            np.empty(0, complex),
+            none,
+            np.empty(0, complex),
+        )
+
+    def around(
+        self, poles: Callable[[float, float], Complex], frozen: Callable[[complex, float], complex]
+    ) -> "Nodes":
+        """The same, made for a plate whose poles near two frequencies (rad/s) are known.
+
+        `frozen` takes a pole and a node's frequency.
+        """
+        found, nearest, still = [], [], []
+        for number in np.unique(self.cluster):
+            here = np.flatnonzero(self.cluster == number)
+            for p in poles(float(self.omega[here[0]]), float(self.omega[here[-1]])):
+                found.append(p)
+                nearest.append(here[np.argmin(np.abs(self.omega[here] - p.real))])
+                still.append(frozen(p, float(self.omega[nearest[-1]])))
+        return replace(
+            self,
+            poles=np.array(found, complex),
+            pole_node=np.array(nearest, dtype=np.intp),
+            frozen=np.array(still, complex),
+        )
+
+    def spread(self, values: Complex, moved: Complex) -> Complex:
+        """From nodes to points. Shapes (..., nodes) to (..., points).
+
+        `moved` are the changed plate's poles as if the modulus stayed what it is at their node.
+        """
+        moved = self.poles + moved - self.frozen
+        # Where two modes overlap the estimate may be of neither; then the unchanged pole serves twice.
+        far = np.abs(moved - self.poles) > _FARTHEST * np.abs(self.poles)
+        moved = np.where(far | (moved.imag < 0.5 * self.poles.imag), self.poles, moved)
+        nodes, points = (self._flat(w, moved) for w in (self.omega, self.points))
+        found = np.zeros((*values.shape[:-1], len(self.points)), complex)
+        for number in np.unique(self.cluster):
+            here = self.cluster == number
+            inside = np.flatnonzero(np.abs(self.plain[:, here]).sum(axis=1) > 0)
+            mine = np.flatnonzero(self.cluster[self.pole_node] == number)
+            at_nodes, at_points = (f[mine].prod(axis=0) for f in (nodes, points))
+            weighted = values[..., here] * at_nodes[here]
+            found[..., inside] = weighted @ self.plain[np.ix_(inside, here)].T / at_points[inside]
+        return found
+
+    def _flat(self, omega: Array, moved: Complex) -> Complex:
+        """(w^2 - p^2) (w^2 - p'^2) over |p|^4 for every pole. Shape (poles, len(omega))."""
+        square = omega**2
+        p, q = self.poles[:, None] ** 2, moved[:, None] ** 2
+        return np.asarray((square - p) * (square - q) / np.abs(p) ** 2)
+
+
+def _chebyshev(low: float, high: float, count: int) -> Array:
+    t = -np.cos(np.pi * np.arange(count) / (count - 1))
+    return np.asarray((low + high) / 2 + (high - low) / 2 * t)
+
+
+def _interpolation(nodes: Array, at: Array) -> Array:
+    """Lagrange's polynomials by the barycentric formula; linear where the nodes are few and anyhow."""
+    if len(nodes) == 1:
+        return np.ones((len(at), 1))
+    scale = 4 / np.ptp(nodes)
+    gaps = (nodes[:, None] - nodes) * scale
+    np.fill_diagonal(gaps, 1.0)
+    weight = 1 / gaps.prod(axis=1)
+    distance = at[:, None] - nodes
+    exact = np.abs(distance) < 1e-9 * np.abs(nodes)
+    distance[exact] = 1.0
+    terms = weight / distance
+    rows = terms / terms.sum(axis=1, keepdims=True)
+    hit = exact.any(axis=1)
+    rows[hit] = exact[hit]
+    return np.asarray(rows)

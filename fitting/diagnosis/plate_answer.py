@@ -1,0 +1,141 @@
+"""Answers of the changed plate at a few frequencies, with their derivatives by the adjoint.
+
+A q = load,   A z = observe,   x = observe . q,   dx = z . (dload - dA q) + dobserve . q
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.effects.base import Change
+from fitting.effects.spanned import SpannedPlate
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_POLE_STEPS = 1
+
+
+@dataclass(frozen=True)
+class Answer:
+    """At every node; displacements per base acceleration (heave) or angular acceleration (pitch)."""
+
+    heave: Complex
+    heave_by_G: Complex
+    pitch: Complex
+    heave_by_u: Complex
+    """To each unknown. Shape (unknowns, nodes)."""
+    pitch_by_u: Complex
+    poles: Complex
+    """Where the poles that were asked for have gone, rad/s."""
+
+
+def answer(
+    plate: SpannedPlate,
+    omega: Array,
+    G: Complex,
+    change: Change,
+    nearby: list[tuple[Change, Change, float]],
+    pole_node: NDArray[np.intp],
+    *,
+    with_pitch: bool,
+) -> Answer:
+    """Solve the nodes.
+
+    `pole_node` has a node near every pole wanted; `nearby` for every unknown the changes a step above and
+    below, and the step between them.
+    """
+    w, g = omega[:, None, None], G[:, None, None]
+    C_1 = change.damping * ((plate.U * plate.d) @ plate.U.T)
+    K_1 = plate.K_1 + change.K_1
+    A = (plate.K_0 + change.K) + g * K_1 - w**2 * (plate.M + change.M) + 1j * w * C_1
+    load, observe = plate.load + change.load, plate.observe + change.observe
+    sides = [load, observe, plate.pitch] if with_pitch else [load, observe]
+    rhs = np.stack(sides, axis=1).astype(complex)
+    solved = np.linalg.solve(A, np.broadcast_to(rhs, (len(omega), *rhs.shape)))
+    q, z = solved[:, :, 0], solved[:, :, 1]
+    p = solved[:, :, 2] if with_pitch else None
+    step = _Step(plate, omega, G, z)
+    pairs = [(_between(up, down, 1 / h)) for up, down, h in nearby]
+    none = np.zeros((0, len(omega)), complex)
+    return Answer(
+        heave=q @ observe,
+        heave_by_G=-np.einsum("pi,pi->p", z, q @ K_1.T),
+        pitch=p @ observe if p is not None else np.zeros(len(omega), complex),
+        heave_by_u=np.array([step.by(d, q, d.load) for d in pairs]) if pairs else none,
+        pitch_by_u=np.array([step.by(d, p, 0.0) for d in pairs])
+        if pairs and p is not None
+        else np.zeros((len(pairs), len(omega)), complex),
+        poles=_poles(A, q, plate.M + change.M, omega, pole_node),
+    )
+
+
+def _poles(A: Complex, q: Complex, M: Array, omega: Array, node: NDArray[np.intp]) -> Complex:
+    """Poles near some nodes, by inverse iteration from the responses there and Rayleigh's quotient.
+
+    Modulus and damping are those at the node.
+    """
+    if not len(node):
+        return np.empty(0, complex)
+    y, square = q[node], omega[node] ** 2 + 0j
+    K = A[node] + square.real[:, None, None] * M
+    for _ in range(_POLE_STEPS):
+        My = y @ M
+        square = np.einsum("pi,pij,pj->p", y, K, y, optimize=True) / np.einsum("pi,pi->p", y, My)
+        turned = np.linalg.solve(K - square[:, None, None] * M, My[:, :, None])[:, :, 0]
+        y = np.asarray(turned / np.linalg.norm(turned, axis=1)[:, None], dtype=complex)
+    My = y @ M
+    return np.sqrt(np.einsum("pi,pij,pj->p", y, K, y, optimize=True) / np.einsum("pi,pi->p", y, My))
+
+
+def _between(up: Change, down: Change, per_step: float) -> Change:
+    return Change(
+        *(
+            (getattr(up, n) - getattr(down, n)) * per_step
+            for n in ("K", "K_1", "M", "load", "observe", "damping")
+        )
+    )
+
+
+@dataclass(frozen=True)
+class _Step:
+    plate: SpannedPlate
+    omega: Array
+    G: Complex
+    z: Complex
+
+    def by(self, d: Change, q: Complex, load: Array | float) -> Complex:
+        """Derivative of x along the derivative `d` of a change. Shape (nodes,)."""
+        found = np.zeros(len(self.omega), complex)
+        parts: list[tuple[object, Complex | Array | float]] = [
+            (d.K, 1.0),
+            (d.K_1, self.G),
+            (d.M, -(self.omega**2)),
+        ]
+        for A, factor in parts:
+            if isinstance(A, np.ndarray):
+                found -= factor * np.einsum("pi,pi->p", self.z, q @ A.T)
+        if d.damping:
+            U, weights = self.plate.U, self.plate.d
+            found -= d.damping * 1j * self.omega * np.einsum("pr,pr,r->p", self.z @ U, q @ U, weights)
+        if isinstance(load, np.ndarray):
+            found += self.z @ load
+        if isinstance(d.observe, np.ndarray):
+            found += q @ d.observe
+        return found
+
+
+def core_strain(plate: SpannedPlate, omega: Array, G: Complex, mean_square: Array) -> Array:
+    """Rms over the core of its shear strain for a base acceleration of 1 m/s^2. Shape (nodes,)."""
+    found = answer_motion(plate, omega, G)
+    square = np.real(np.einsum("pi,pi->p", found.conj(), found @ mean_square))
+    return np.sqrt(np.maximum(square, 1e-300))
+
+
+def answer_motion(plate: SpannedPlate, omega: Array, G: Complex) -> Complex:
+    """Motion q of A q = load, the plate unchanged. Shape (nodes, k)."""
+    w, g = omega[:, None, None], G[:, None, None]
+    A = plate.K_0 + g * plate.K_1 - w**2 * plate.M + 1j * w * ((plate.U * plate.d) @ plate.U.T)
+    rhs = np.broadcast_to(plate.load[:, None].astype(complex), (len(omega), len(plate.load), 1))
+    return np.asarray(np.linalg.solve(A, rhs)[:, :, 0])

@@ -1,0 +1,63 @@
+"""Poles of the unchanged plate near a range of frequencies."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.diagnosis.nodes import MOST_POLES
+from fitting.effects.spanned import SpannedPlate
+from fitting.laws import CoreLaw
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_STEPS = 3
+
+
+class PlatePoles:
+    """p of (K_0 + G K_1 + i p C_1 - p^2 M) y = 0 with y the motion."""
+
+    def __init__(self, plate: SpannedPlate, law: CoreLaw) -> None:
+        self.law = law
+        own = np.flatnonzero(plate.group == "plate")
+        square = np.ix_(own, own)
+        self.K_0, self.K_1, self.M = plate.K_0[square], plate.K_1[square], plate.M[square]
+        U = plate.U[own]
+        self.C_1 = (U * plate.d) @ U.T
+        self._known: dict[complex, Complex] = {}
+
+    def near(self, low: float, high: float) -> Complex:
+        """In and beside a range (rad/s), the law continued off the real axis to first order."""
+        middle, h = (low + high) / 2, 1e-3 * (low + high)
+        below, G, above = self.law.modulus(np.array([middle - h, middle, middle + h]))
+        slope = (above - below) / (2 * h)
+        values, vectors = np.linalg.eig(
+            np.linalg.solve(self.M, self.K_0 + G * self.K_1 + 1j * middle * self.C_1)
+        )
+        p = np.sqrt(values)
+        margin = 0.5 * (high - low) + 0.1 * middle
+        inside = np.flatnonzero((p.real > low - margin) & (p.real < high + margin))
+        inside = inside[np.argsort(np.abs(p[inside] - middle))][:MOST_POLES]
+        found = []
+        for k in inside:
+            pole, y = complex(p[k]), np.asarray(vectors[:, k], dtype=complex)
+            for _ in range(_STEPS):
+                pole, y = self._step(pole, y, complex(G + slope * (pole - middle)))
+            self._known[pole] = y
+            found.append(pole)
+        return np.array(found, complex)
+
+    def frozen(self, pole: complex, omega: float) -> complex:
+        """Where one of them would be with the modulus of a frequency."""
+        G, y = complex(self.law.modulus(np.array([omega]))[0]), self._known[pole]
+        at = pole
+        for _ in range(_STEPS):
+            at, y = self._step(at, y, G)
+        return at
+
+    def _step(self, pole: complex, y: Complex, G: complex) -> tuple[complex, Complex]:
+        """Inverse iteration and Rayleigh's quotient."""
+        K = self.K_0 + G * self.K_1 + 1j * pole * self.C_1
+        turned = np.linalg.solve(K - (pole**2) * (1 + 1e-9) * self.M, self.M @ y)
+        turned = turned / np.linalg.norm(turned)
+        moved = complex(np.sqrt((turned @ K @ turned) / (turned @ self.M @ turned)))
+        return moved, turned.astype(complex)

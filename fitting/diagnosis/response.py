@@ -1,0 +1,244 @@
+"""What a sweep reads of a plate with some effects, and how that changes with law and unknowns.
+
+The unchanged plate is exact at every point (a rational sum in G*). What effects change of the plate is
+solved at a few nodes and interpolated, to first order in how far a point's modulus is off the law's.
+Channels, sharp factors and the law itself act at every point.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import reduce
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.diagnosis.plate_answer import Answer, answer, core_strain
+from fitting.diagnosis.task import Grid, Task
+from fitting.effects.base import Change, Effect, ModulusAt, Unknown
+from fitting.effects.spanned import SpannedPlate
+from fitting.laws import CoreLaw
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_H = 1e-4
+"""Step of differences, of an unknown's typical size."""
+_SOFTENED = np.array([-0.3, 0.0, 0.25, 0.5])
+_ONE_G = 9.81
+
+
+class Response:
+    """The sweep of a task under a law and effects. `u` holds their unknowns, one effect after the other."""
+
+    def __init__(self, task: Task, effects: Sequence[Effect], grid: Grid | None = None) -> None:
+        self.task, self.effects, self.grid = task, tuple(effects), grid or task.fine
+        self.unknowns: tuple[Unknown, ...] = tuple(u for e in effects for u in e.unknowns)
+        spans = {s.name: s for e in effects for s in e.spans}
+        self.plate: SpannedPlate = task.plate.take(spans.values())
+        self._slices, start = [], 0
+        for effect in self.effects:
+            self._slices.append(slice(start, start + len(effect.unknowns)))
+            start += len(effect.unknowns)
+        self._changing = [k for k, e in enumerate(self.effects) if type(e).change is not Effect.change]
+        self._pitching = [k for k, e in enumerate(self.effects) if type(e).pitch is not Effect.pitch]
+        self._shifting = [k for k, e in enumerate(self.effects) if type(e).modulus is not Effect.modulus]
+        self._last: tuple[bytes, Answer] | None = None
+        self._strains: tuple[bytes, Array] | None = None
+        self._largest: float | None = None
+
+    def velocity(self, law: CoreLaw, u: Array) -> Complex:
+        """Phasors in m/s. Shape (points,)."""
+        return self._at(law, u).v
+
+    def with_derivatives(self, law: CoreLaw, u: Array) -> tuple[Complex, Complex]:
+        """Phasors, and their derivatives to log parameters and then to `u`. Shape (parameters, points)."""
+        at = self._at(law, u)
+        by_law = self._modulus_by_law(law, u, at) * (at.slope * at.per_x)
+        by_u = [self._by(k, law, u, at) for k in range(len(self.unknowns))]
+        raw = np.array([*by_law, *by_u]).reshape(-1, len(at.raw))
+        moved = np.array([self._read(at.raw + d, u) - at.v for d in raw])
+        for k in range(len(self.unknowns)):
+            moved[len(by_law) + k] += self._read_by(k, at.raw, u)
+        return at.v, moved
+
+    def beside(self, effect: Effect) -> "Response":
+        """The same with one more effect."""
+        return Response(self.task, [*self.effects, effect], self.grid)
+
+    # The parts of the response.
+
+    def _of(self, k: int, u: Array) -> Array:
+        return u[self._slices[k]]
+
+    def _at(self, law: CoreLaw, u: Array) -> "_At":
+        points = self.task.points
+        omega, a = points.omega, points.acceleration_m_s2
+        G_law = law.modulus(omega)
+        G = self._modulus(law, u, G_law)
+        x, slope = self.task.rational.with_derivative(G)
+        pitch = np.zeros(len(omega), complex)
+        turned = np.zeros(len(omega), complex)
+        found = None
+        if self._changing or self._pitching:
+            found = self._answer(law, u)
+            nodes = self.grid.nodes
+            x_0, slope_0 = self.grid.rational.with_derivative(law.modulus(nodes.omega))
+            moved, steeper = nodes.spread(
+                np.array([found.heave - x_0, found.heave_by_G - slope_0]), found.poles
+            )
+            x, slope = x + moved + steeper * (G - G_law), slope + steeper
+            turned = nodes.spread(found.pitch, found.poles)
+            for k in self._pitching:
+                h = self.effects[k].pitch(omega, self._of(k, u))
+                pitch = pitch + (h if h is not None else 0.0)
+        per_x: Complex = np.asarray(1j * omega * a, dtype=complex)
+        lever = float(self.plate.pickup[0]) * a / (1j * omega)
+        raw = per_x * (x + pitch * turned) + lever * pitch
+        if points.reads == "absolute":
+            raw = raw + a / (1j * omega)
+        return _At(self._read(raw, u), raw, slope, per_x, pitch, turned, lever, found)
+
+    def _answer(self, law: CoreLaw, u: Array) -> Answer:
+        changing = [self._of(k, u) for k in self._changing]
+        key = law.values.tobytes() + b"".join(c.tobytes() for c in changing)
+        if self._last is None or self._last[0] != key:
+            changes = self._changes(u)
+            nearby = []
+            for k in self._changing:
+                part = self._slices[k]
+                for n in range(part.start, part.stop):
+                    h = self._step(n, u)
+                    one = [
+                        self.effects[k].change(self.plate, self._of(k, _moved(u, n, s * h))) for s in (1, -1)
+                    ]
+                    nearby.append((one[0] or Change(), one[1] or Change(), 2 * h))
+            nodes = self.grid.nodes
+            solved = answer(
+                self.plate,
+                nodes.omega,
+                law.modulus(nodes.omega),
+                changes,
+                nearby,
+                nodes.pole_node,
+                with_pitch=bool(self._pitching),
+            )
+            self._last = key, solved
+        return self._last[1]
+
+    def _changes(self, u: Array) -> Change:
+        found = [self.effects[k].change(self.plate, self._of(k, u)) or Change() for k in self._changing]
+        return reduce(Change.and_then, found, Change())
+
+    def _modulus(self, law: CoreLaw, u: Array, G_law: Complex, strained: CoreLaw | None = None) -> Complex:
+        """G* at every point; strains are those of the law `strained` where it is a step away."""
+        G = G_law
+        for k in self._shifting:
+            at = ModulusAt(law, self.task.points, lambda s: self._strain(strained or law, s))
+            shifted = self.effects[k].modulus(at, self.task.points, self._of(k, u))
+            if shifted is not None:
+                G = G * (shifted / G_law)
+        return G
+
+    def _modulus_by_law(self, law: CoreLaw, u: Array, at: "_At") -> Complex:
+        omega = self.task.points.omega
+        if not self._shifting:
+            return np.asarray(law.jacobian(omega) * law.values[:, None])
+        G = self._modulus(law, u, law.modulus(omega))
+        found = []
+        upper = law.log_limits[1]
+        logs = np.log(law.values)
+        for k in range(len(logs)):
+            h = _H if logs[k] + _H < upper[k] else -_H
+            other = law.with_logs(_moved(logs, k, h))
+            found.append((self._modulus(other, u, other.modulus(omega), law) - G) / h)
+        return np.array(found)
+
+    def _strain(self, law: CoreLaw, softened: Array) -> Array:
+        """Of the core at every point, softened by a share, over the largest at 1 g."""
+        key = law.values.tobytes()
+        known = self._strains
+        if known is None or known[0] != key:
+            nodes = self.grid.nodes
+            G = law.modulus(nodes.omega)
+            square = self.plate.matrix("strain.mean_square")
+            logs = [np.log(core_strain(self.plate, nodes.omega, G * (1 - s), square)) for s in _SOFTENED]
+            # A parabola and more in s, by its coefficients at every point.
+            table = np.linalg.solve(np.vander(_SOFTENED), np.array(logs) @ nodes.plain.T)
+            known = self._strains = key, table.astype(float)
+            if self._largest is None:
+                self._largest = float(np.exp(table[-1]).max()) * _ONE_G
+        _, table = known
+        logs_here = ((table[0] * softened + table[1]) * softened + table[2]) * softened + table[3]
+        assert self._largest is not None
+        return np.asarray(np.exp(logs_here) * self.task.points.acceleration_m_s2 / self._largest)
+
+    def _read(self, v: Complex, u: Array) -> Complex:
+        for k, effect in enumerate(self.effects):
+            read = effect.reading(v, self.task.points, self._of(k, u))
+            v = v if read is None else read
+        return v
+
+    # Derivatives to unknown n.
+
+    def _step(self, n: int, u: Array) -> float:
+        q = self.unknowns[n]
+        return _H * (abs(u[n]) if q.logarithmic else q.typical or 1.0)
+
+    def _owner(self, n: int) -> int:
+        return next(k for k, part in enumerate(self._slices) if part.start <= n < part.stop)
+
+    def _by(self, n: int, law: CoreLaw, u: Array, at: "_At") -> Complex:
+        """Of the velocity before the channels."""
+        k, omega = self._owner(n), self.task.points.omega
+        found = np.zeros(len(omega), complex)
+        h = self._step(n, u)
+        up, down = _moved(u, n, h), _moved(u, n, -h)
+        if k in self._changing and at.answer is not None:
+            place = self._place_of(n)
+            nodes = self.grid.nodes
+            heave, turned = nodes.spread(
+                np.array([at.answer.heave_by_u[place], at.answer.pitch_by_u[place]]), at.answer.poles
+            )
+            found = found + at.per_x * (heave + at.pitch * turned)
+        if k in self._pitching:
+            effect = self.effects[k]
+            above, below = effect.pitch(omega, self._of(k, up)), effect.pitch(omega, self._of(k, down))
+            if above is not None and below is not None:
+                found = found + (above - below) / (2 * h) * (at.per_x * at.turned + at.lever)
+        if k in self._shifting:
+            G_law = law.modulus(omega)
+            dG = (self._modulus(law, up, G_law) - self._modulus(law, down, G_law)) / (2 * h)
+            found = found + at.per_x * at.slope * dG
+        return found
+
+    def _place_of(self, n: int) -> int:
+        order = [m for k in self._changing for m in range(self._slices[k].start, self._slices[k].stop)]
+        return order.index(n)
+
+    def _read_by(self, n: int, raw: Complex, u: Array) -> Complex:
+        k = self._owner(n)
+        if type(self.effects[k]).reading is Effect.reading:
+            return np.zeros(len(raw), complex)
+        h = self._step(n, u)
+        return (self._read(raw, _moved(u, n, h)) - self._read(raw, _moved(u, n, -h))) / (2 * h)
+
+
+@dataclass(frozen=True)
+class _At:
+    v: Complex
+    raw: Complex
+    """Before the channels."""
+    slope: Complex
+    """dx/dG."""
+    per_x: Complex
+    pitch: Complex
+    turned: Complex
+    """Displacement per pitch acceleration."""
+    lever: Complex
+    answer: Answer | None
+
+
+def _moved(u: Array, n: int, h: float) -> Array:
+    moved = u.copy()
+    moved[n] += h
+    return moved

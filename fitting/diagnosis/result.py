@@ -1,0 +1,102 @@
+"""What a diagnosis says."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.identification.result import LawBand
+from fitting.identification.validation import Validation, rms
+from fitting.laws import CoreLaw
+
+Array = NDArray[np.float64]
+Verdict = Literal["none", "effect", "ambiguous", "unknown"]
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A parameter of an effect, in the unit it is reported in."""
+
+    value: float
+    standard_error: float
+    """NaN where the data do not fix it, or it sits at a limit."""
+    unit: str
+
+
+@dataclass(frozen=True)
+class FoundEffect:
+    """An effect with what the data say of its size."""
+
+    name: str
+    parameters: Mapping[str, Estimate]
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """One effect, or two together, fitted with the law."""
+
+    effects: tuple[FoundEffect, ...]
+    delta_bic: float
+    """Above the best candidate's; of `none` too."""
+    chi2_per_dof: float
+    """NaN where the noise is unknown."""
+
+    @property
+    def name(self) -> str:
+        """`none`, an effect's name, or two joined by " + "."""
+        return " + ".join(e.name for e in self.effects) or "none"
+
+
+@dataclass(frozen=True)
+class Stage:
+    """The fit before or after."""
+
+    law: CoreLaw
+    standard_errors: Mapping[str, float]
+    """Of the law's parameters, in their units; NaN at a limit."""
+    band: LawBand
+    predicted_m_s: NDArray[np.complex128]
+    difference_percent: Array
+    """Of amplitudes. Shape (points,)."""
+    whitened: Array
+    """Residuals the error model leaves, parts one after the other. Shape (data,)."""
+    chi2_per_dof: float
+    validation: Validation
+    structure: tuple[str, ...]
+    """Tests that find the whitened residuals not random, in words."""
+
+    @property
+    def rms_percent(self) -> float:
+        """Of the differences in amplitude."""
+        return rms(self.difference_percent)
+
+    @property
+    def max_percent(self) -> float:
+        """Largest difference in amplitude."""
+        return float(np.max(np.abs(self.difference_percent)))
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """The whole answer."""
+
+    verdict: Verdict
+    effects: tuple[FoundEffect, ...]
+    """Accepted ones; for `ambiguous` the best one of its group."""
+    channels: tuple[FoundEffect, ...]
+    """What the channels show by themselves: `level_error`, `mains_hum`."""
+    equivalent: Mapping[str, tuple[str, ...]]
+    """Accepted name to the names these data cannot tell from it, itself included."""
+    candidates: tuple[Candidate, ...]
+    """Best first; `none` among them."""
+    before: Stage
+    after: Stage
+    """The same as `before` where nothing is accepted."""
+    next_measurement: str
+    explanation: tuple[str, ...]
+    """As one would tell a colleague, a sentence or two each."""
+    used: NDArray[np.bool_]
+    """Points that took part; the others carry hum. Shape (points,)."""
+    warnings: tuple[str, ...]

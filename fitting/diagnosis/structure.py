@@ -1,0 +1,73 @@
+"""Whether what a fit leaves is random: its size, its signs, its memory along frequency.
+
+Thresholds are those that clean sweeps of a solid plate pass (docs/diagnosis.md says how they were found).
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.diagnosis.evidence import Evidence
+from fitting.sweep import Sweep
+
+Array = NDArray[np.float64]
+
+CHI2_PER_DOF = 1.35
+RUNS_SIGMA = 5.0
+MEMORY_SIGMA = 6.0
+LAGS = 8
+_FEWEST = 20
+
+
+def structure(sweep: Sweep, evidence: Evidence, whitened: Array, chi2_per_dof: float) -> tuple[str, ...]:
+    """What is not random in whitened residuals, in words; nothing where the noise is unknown."""
+    if not evidence.scale_known:
+        return ()
+    said = []
+    if chi2_per_dof > CHI2_PER_DOF:
+        said.append(f"the residual is {chi2_per_dof:.3g} times what noise and model error explain")
+    runs, memory = _along_frequency(sweep, whitened, parts=2 if evidence.has_phase else 1)
+    if runs > RUNS_SIGMA:
+        said.append(f"its signs keep together along frequency ({runs:.1f} sigma, runs test)")
+    if memory > MEMORY_SIGMA:
+        said.append(f"neighbouring points agree ({memory:.1f} sigma, Ljung-Box over {LAGS} lags)")
+    return tuple(said)
+
+
+def _along_frequency(sweep: Sweep, whitened: Array, parts: int) -> tuple[float, float]:
+    """Fewer runs than chance, and Ljung-Box's statistic above its mean, both in standard deviations."""
+    runs_short, runs_variance, box, box_count = 0.0, 0.0, 0.0, 0
+    keys = np.column_stack([sweep.segment, sweep.sweep, np.round(sweep.commanded_m_s2, 9)])
+    _, which = np.unique(keys, axis=0, return_inverse=True)
+    for number in range(int(which.max()) + 1):
+        inside = np.flatnonzero(which.ravel() == number)
+        inside = inside[np.argsort(sweep.frequency_hz[inside], kind="stable")]
+        for part in range(parts):
+            r = whitened[inside + part * len(sweep)]
+            if len(r) < _FEWEST:
+                continue
+            short, variance = _runs(r)
+            runs_short, runs_variance = runs_short + short, runs_variance + variance
+            box, box_count = box + _ljung_box(r), box_count + 1
+    runs = runs_short / np.sqrt(runs_variance) if runs_variance > 0 else 0.0
+    memory = (box - LAGS * box_count) / np.sqrt(2 * LAGS * box_count) if box_count else 0.0
+    return float(runs), float(memory)
+
+
+def _runs(r: Array) -> tuple[float, float]:
+    """How many runs of one sign are missing, and the variance of their number (Wald and Wolfowitz)."""
+    above = r > 0
+    n_1, n_2 = int(above.sum()), int((~above).sum())
+    if not n_1 or not n_2:
+        return float(len(r)), float(len(r)) / 4
+    n = n_1 + n_2
+    expected = 1 + 2 * n_1 * n_2 / n
+    variance = (expected - 1) * (expected - 2) / (n - 1)
+    return expected - (1 + int((above[1:] != above[:-1]).sum())), max(variance, 1e-9)
+
+
+def _ljung_box(r: Array) -> float:
+    """Q over `LAGS` lags, about chi-square with as many degrees of freedom where r has no memory."""
+    n, r = len(r), r - r.mean()
+    power = float(r @ r)
+    rho = np.array([float(r[k:] @ r[:-k]) / power for k in range(1, LAGS + 1)])
+    return float(n * (n + 2) * np.sum(rho**2 / (n - np.arange(1, LAGS + 1))))

@@ -1,0 +1,106 @@
+"""Everything about one set of data that does not change from candidate to candidate."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.diagnosis.nodes import Nodes
+from fitting.diagnosis.plate_poles import PlatePoles
+from fitting.effects.base import Points
+from fitting.effects.spanned import SpannedPlate
+from fitting.laws import CoreLaw
+from fitting.rational import RationalSweep
+from fitting.specimen import Specimen
+from fitting.sweep import Sweep
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+FINE, COARSE = 16, 7
+"""Nodes a cluster of frequencies: for fits, and for a first look."""
+_SIZES = (0.25, 0.5, 1.0, 2.0, 4.0)
+_ANGLES = (0.2, 0.6, 1.0)
+"""Of the modulus' argument, rad."""
+_SECONDS_A_POINT = 10.0
+"""Pace assumed where no time is kept."""
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Nodes and the unchanged plate's exact answer there."""
+
+    nodes: Nodes
+    rational: RationalSweep
+
+
+@dataclass(frozen=True)
+class Task:
+    """A sweep with the plate it was measured on."""
+
+    sweep: Sweep
+    specimen: Specimen
+    plate: SpannedPlate
+    points: Points
+    rational: RationalSweep
+    """The unchanged plate's exact answer at every point."""
+    fine: Grid
+    coarse: Grid
+
+    @classmethod
+    def of(
+        cls,
+        sweep: Sweep,
+        specimen: Specimen,
+        plate: SpannedPlate,
+        rational: Callable[[Array], RationalSweep],
+    ) -> "Task":
+        """`rational` gives the unchanged plate's sum on an ascending grid in rad/s."""
+        grids = [Nodes.of(sweep.omega, least) for least in (FINE, COARSE)]
+        omega = np.unique(np.concatenate([sweep.omega, *(g.omega for g in grids)]))
+        whole = rational(omega)
+
+        def at(some: Array) -> RationalSweep:
+            return whole.at(np.searchsorted(omega, some * (1 - 1e-12)))
+
+        fine, coarse = (Grid(g, at(g.omega)) for g in grids)
+        return cls(sweep, specimen, plate, points_of(sweep, specimen), at(sweep.omega), fine, coarse)
+
+    @property
+    def stated_law(self) -> CoreLaw:
+        """The specimen's: where identification starts."""
+        assert self.specimen.core is not None
+        return self.specimen.core.law.lifted()
+
+    def condensed(self, law: CoreLaw) -> "Task":
+        """The same, its plate condensed to moduli within a decade or so about a law."""
+        omega = self.coarse.nodes.omega
+        size = np.abs(law.modulus(omega))
+        factors = [s * np.exp(1j * angle) for s in _SIZES for angle in _ANGLES]
+        G = np.concatenate([size * f for f in factors])
+        return replace(self, plate=self.plate.condensed(np.tile(omega, len(factors)), G))
+
+    def around(self, law: CoreLaw) -> "Task":
+        """The same, its grids made for the poles that the plate has under a law."""
+        found = PlatePoles(self.plate, law)
+        fine, coarse = (
+            replace(g, nodes=g.nodes.around(found.near, found.frozen)) for g in (self.fine, self.coarse)
+        )
+        return replace(self, fine=fine, coarse=coarse)
+
+
+def points_of(sweep: Sweep, specimen: Specimen) -> Points:
+    """What effects may ask of a sweep's points."""
+    if sweep.time_s is not None:
+        time = sweep.time_s - sweep.time_s.min()
+    else:
+        time = _SECONDS_A_POINT * np.argsort(np.argsort(sweep.frequency_hz, kind="stable")).astype(float)
+    return Points(
+        omega=sweep.omega,
+        acceleration_m_s2=sweep.commanded_m_s2,
+        time_s=time,
+        timed=sweep.time_s is not None,
+        has_phase=sweep.has_phase,
+        reads=specimen.reads,
+    )

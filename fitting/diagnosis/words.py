@@ -1,0 +1,127 @@
+"""The diagnosis as one would tell it to a colleague."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.diagnosis.refit import Fitted
+from fitting.diagnosis.result import FoundEffect, Stage
+from fitting.diagnosis.task import Task
+from fitting.diagnosis.verdict import Judgement
+from fitting.effects.base import Effect
+
+Array = NDArray[np.float64]
+
+
+def story(effect: Effect, found: FoundEffect) -> str:
+    """Half a sentence on an effect as it was found."""
+    return effect.story({key: p.value for key, p in found.parameters.items()})
+
+
+def explain(
+    task: Task,
+    judgement: Judgement,
+    before: Stage,
+    after: Stage,
+    found: tuple[FoundEffect, ...],
+    catalogue: dict[str, Effect],
+) -> tuple[str, ...]:
+    """What was left, what explains it, how sure that is, what it did to the material."""
+    said = [_left(before)]
+    trial = judgement.accepted
+    if judgement.verdict == "none":
+        said.append("That is what noise and a layer-wise plate's own error leave: no effect is called for.")
+        return tuple(said)
+    if trial is None:
+        worst = _worst_segment(task, before)
+        said.append(
+            "There is structure, but nothing in the catalogue explains it. What remains is largest in "
+            f"segment {worst}: {'; '.join(before.structure) or 'see the residual over frequency'}."
+        )
+        return tuple(said)
+    stories = [story(e, f) for e, f in zip(trial.fitted.effects, found, strict=True)]
+    said.append(f"Most likely {' and '.join(stories)}.")
+    said.append(_moved(task, trial.fitted))
+    for name, group in judgement.equivalent.items():
+        if len(group) > 1:
+            others = ", ".join(group[1:])
+            said.append(f"These data cannot tell {name} from {others}.")
+    said.append(
+        f"With it the fit leaves {after.rms_percent:.2g} % rms instead of {before.rms_percent:.2g} %"
+        + _chi2(before, after)
+        + _held_out(before, after)
+    )
+    said.append(_law(before, after))
+    return tuple(said)
+
+
+def next_measurement(judgement: Judgement, catalogue: dict[str, Effect], *, with_hammer: bool) -> str:
+    """What would tell equivalent effects apart, or confirm a single one."""
+    if judgement.verdict == "none":
+        return ""
+    if judgement.accepted is None:
+        return (
+            "A second spot and a second level: they show whether the rest belongs to the place or the drive."
+        )
+    names = [n for group in judgement.equivalent.values() if len(group) > 1 for n in group]
+    names = names or list(judgement.equivalent)
+    ways = {catalogue[n].splits: n for n in names if n in catalogue and catalogue[n].splits}
+    if with_hammer:
+        ways = {w: n for w, n in ways.items() if "hammer" not in w} or ways
+    if all(len(group) == 1 for group in judgement.equivalent.values()):
+        return "To confirm: " + "; ".join(ways) + "."
+    return "To tell them apart: " + "; ".join(f"{way} ({name})" for way, name in ways.items()) + "."
+
+
+def _left(before: Stage) -> str:
+    text = f"The stated plate with its best law leaves {before.rms_percent:.2g} % rms in amplitude"
+    if np.isfinite(before.chi2_per_dof):
+        text += (
+            f", {before.chi2_per_dof:.3g} times what noise and model error explain (chi-square per degree)"
+        )
+    return text + "."
+
+
+def _worst_segment(task: Task, before: Stage) -> int:
+    numbers = np.unique(task.sweep.segment)
+    size = [np.mean(np.abs(before.difference_percent[task.sweep.segment == n])) for n in numbers]
+    return int(numbers[int(np.argmax(size))])
+
+
+def _moved(task: Task, fitted: Fitted) -> str:
+    """How much the effect changes the response, segment by segment, the law kept."""
+    plain = type(fitted.response)(task, ()).velocity(fitted.law, np.empty(0))
+    changed = 100 * np.abs(fitted.velocity_m_s / plain - 1)
+    parts = []
+    for number in np.unique(task.sweep.segment):
+        inside = task.sweep.segment == number
+        peak = np.flatnonzero(inside)[np.argmax(np.abs(plain[inside]))]
+        parts.append(f"{changed[inside].max():.2g} % near {task.sweep.frequency_hz[peak]:.0f} Hz")
+    return f"It changes the response by up to {', '.join(parts)}."
+
+
+def _chi2(before: Stage, after: Stage) -> str:
+    if not np.isfinite(after.chi2_per_dof):
+        return ""
+    return f", {after.chi2_per_dof:.3g} instead of {before.chi2_per_dof:.3g} times noise"
+
+
+def _held_out(before: Stage, after: Stage) -> str:
+    pairs = [(s.validation.leave_one_out_rms_percent, "left out one by one") for s in (before, after)]
+    if pairs[0][0] is None:
+        pairs = [(s.validation.held_out_rms_percent, "on segments held out") for s in (before, after)]
+    (b, what), (a, _) = pairs
+    if a is None or b is None:
+        return "."
+    return f"; {what} {a:.2g} % instead of {b:.2g} %."
+
+
+def _law(before: Stage, after: Stage) -> str:
+    parts = []
+    for f in (20.0, 100.0, 280.0):
+        k = np.flatnonzero(before.band.frequency_hz == f)
+        if not len(k):
+            continue
+        G = [b.storage_modulus_pa[k[0]] / 1e6 for b in (before.band, after.band)]
+        eta = [b.loss_factor[k[0]] for b in (before.band, after.band)]
+        parts.append(f"at {f:g} Hz G' {G[0]:.4g} -> {G[1]:.4g} MPa, eta {eta[0]:.3g} -> {eta[1]:.3g}")
+    return f"The core without and with it: {'; '.join(parts)}." if parts else "The core's law follows."

@@ -1,0 +1,30 @@
+"""The laser stands on the floor: it reads the base's motion too, though the data say relative."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.effects.base import Effect, Points
+from fitting.effects.spanned import SpannedPlate
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+class AbsoluteVelocity(Effect):
+    """Velocity plus a / (i omega). It has no size to be fitted."""
+
+    name = "absolute_velocity"
+    enters = "observation"
+    source = "kinematics of a moving base"
+    splits = "where the laser's head stands, and whether a reference beam goes to the clamp"
+
+    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+        return "the data are stated to be absolute" if points.reads == "absolute" else None
+
+    def reading(self, v: Complex, points: Points, u: Array) -> Complex:
+        return np.asarray(v + points.acceleration_m_s2 / (1j * points.omega))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return "the laser reads the base's motion too: the velocities are absolute, not relative to the clamp"

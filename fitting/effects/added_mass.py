@@ -1,0 +1,60 @@
+"""A point mass on the plate: a sensor, a reflector, a forgotten magnet."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.effects.base import Change, Effect, Points, Span, Unknown
+from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.spanned import SpannedPlate
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_TYPICAL_KG = 5e-3
+_GRID = [(x, y) for x in (0.25, 0.5, 0.75, 0.97) for y in (0.03, 0.3, 0.7, 0.97)]
+
+
+class PointMass(Span):
+    """Motions under the inertia of masses at a few places."""
+
+    name = "mass"
+    odd = True
+
+    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
+        s = full.specimen
+        rows = np.column_stack([full.loose.observe(x * s.length_m, y * s.width_m) for x, y in _GRID])
+        # For reading and for being read: one column serves both, the response to a force there.
+        size = np.abs(rows.T @ at.both).max(axis=1)
+        return at.solve(at.omega**2 * _TYPICAL_KG * rows * size, odd=True)
+
+
+class AddedMass(Effect):
+    """m w^2 at (x, y)."""
+
+    name = "added_mass"
+    enters = "mass"
+    source = "mass loading, Ewins, Modal Testing (2000), section 3.5"
+    unknowns = (
+        Unknown("mass", "kg", 0.0, 0.05, 3e-3),
+        Unknown("x", "m", 0.0, np.inf, 0.05, neutral=None),
+        Unknown("y", "m", 0.0, np.inf, 0.05, neutral=None),
+    )
+    spans = (PointMass(),)
+    splits = "a look at the plate and a balance; a second spot off the axis"
+
+    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+        along, across = (np.arange(8) + 1) / 8.2, (np.arange(5) + 0.5) / 5
+        return [np.array([3e-3, x * plate.length_m, y * plate.width_m]) for x in along for y in across]
+
+    def limits(self, plate: SpannedPlate) -> tuple[Array, Array]:
+        lower, upper = super().limits(plate)
+        return lower, np.minimum(upper, [np.inf, plate.length_m, plate.width_m])
+
+    def change(self, plate: SpannedPlate, u: Array) -> Change:
+        w = plate.row(u[1], u[2])
+        return Change(M=u[0] * np.outer(w, w), load=-u[0] * w)
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return f"a mass of {1e3 * u['mass']:.2g} g sits near ({1e3 * u['x']:.0f}, {1e3 * u['y']:.0f}) mm"

@@ -1,0 +1,63 @@
+"""The air moves with the plate: its inertia, left out of a plate in vacuum."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from fitting.air import StillAir, still_air
+from fitting.effects.base import Change, Effect, Points, Span, Unknown
+from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.spanned import SpannedPlate
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+class Air(Span):
+    """Motions with air's mass, for the density of one kilogram a cubic metre."""
+
+    name = "air"
+
+    def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
+        return {"M": _air(full).L}
+
+    def vectors(self, full: FullPlate) -> Mapping[str, Array]:
+        air = _air(full)
+        return {"load": -air.L @ air.heave}
+
+    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
+        L = _air(full).L
+        return at.solve(at.omega**2 * (L @ (L.T @ at.both)), odd=False)
+
+
+def _air(full: FullPlate) -> StillAir:
+    return full.once("air", lambda: still_air(full.loose))
+
+
+class AirAddedMass(Effect):
+    """rho times the inertia of still incompressible air on both faces."""
+
+    name = "air_added_mass"
+    enters = "mass"
+    source = "potential flow about an unbaffled plate, `fitting.air`"
+    unknowns = (
+        Unknown("density", "kg/m^3", 0.0, 3.0, 1.2),
+        Unknown("bare_plate_too", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),
+    )
+    spans = (Air(),)
+    splits = "the bare plate's natural frequencies (hammer test); a run in vacuum"
+
+    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+        # The bare plate feels the air too, unless its stated modulus was itself found by vibration in air.
+        return [np.array([1.2, felt]) for felt in (0.0, 1.0)]
+
+    def bare_shift(self, lowering_per_density: Array, u: Array) -> Array:
+        return np.asarray(-0.5 * np.log1p(2 * u[0] * u[1] * lowering_per_density))
+
+    def change(self, plate: SpannedPlate, u: Array) -> Change:
+        return Change(M=u[0] * plate.matrix("air.M"), load=u[0] * plate.vector("air.load"))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return f"the plate carries air of {u['density']:.2g} kg/m^3 along"

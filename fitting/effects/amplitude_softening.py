@@ -1,0 +1,58 @@
+"""The core softens with strain (Payne effect): the harder the plate is driven, the softer it is."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from fitting.effects.base import Effect, ModulusAt, Points, Span, Unknown
+from fitting.effects.full_plate import FullPlate
+from fitting.element import Shape, core_shear_stiffness
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+LEAST = 0.3
+"""Of the modulus; softening goes no further."""
+_ITERATIONS = 60
+
+
+class Strain(Span):
+    """The core's shear strain: mean square over its volume."""
+
+    name = "strain"
+
+    def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
+        s = full.specimen
+        assert s.core is not None
+        assert s.constraining is not None
+        shear = core_shear_stiffness(Shape(*full.loose.mesh.sides_m), s.core, s.substrate, s.constraining)
+        return {"mean_square": full.loose.scatter(shear) / (s.length_m * s.width_m * s.core.thickness_m)}
+
+
+class AmplitudeSoftening(Effect):
+    """G times (1 - k strain / reference), the strain that of the softened plate."""
+
+    name = "amplitude_softening"
+    enters = "level"
+    source = "Payne, J. Appl. Polym. Sci. 6 (1962), first order in the strain amplitude"
+    unknowns = (Unknown("k", "1", -0.5, 0.8, 0.1),)
+    spans = (Strain(),)
+    splits = "a second level"
+
+    def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex:
+        softened = np.zeros(len(points.omega))
+        for _ in range(_ITERATIONS):
+            goal = np.clip(u[0] * G.strain(softened), -1.0, 1 - LEAST)
+            # Half steps: where the strain falls with softening full ones may swing.
+            step = 0.5 * (goal - softened)
+            softened = softened + step
+            if np.max(np.abs(step)) < 1e-10:
+                break
+        return np.asarray(G() * (1 - softened))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return (
+            f"the core softens with strain, by {100 * u['k']:.2g} % at the largest strain of the sweep at 1 g"
+        )

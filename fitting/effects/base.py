@@ -1,0 +1,215 @@
+"""What an effect is: a physical cause the plate model lacks, with unknowns to be fitted.
+
+To add one, put a file beside this one with a class derived from `Effect`. It says where the effect enters
+by overriding some of the hooks; all others leave the response as it is.
+
+    v = channel(i w (x + h y_p) a + added),   A x = load,   A = -w^2 M + i w C_1 + K_0 + G K_1 + changes
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from fitting.laws import CoreLaw
+from fitting.noise import Noise
+from fitting.sweep import Sweep
+
+if TYPE_CHECKING:
+    from fitting.effects.full_plate import FullPlate, Snapshot
+    from fitting.effects.spanned import SpannedPlate
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+Entry = Literal["stiffness", "mass", "load", "observation", "channel", "time", "level", "core law", "damping"]
+
+
+@dataclass(frozen=True)
+class Unknown:
+    """One number of an effect. A fit moves it within its plausible range."""
+
+    key: str
+    unit: str
+    lower: float
+    upper: float
+    typical: float
+    """A size that matters: the scale of a fit's steps, and of the first look."""
+    logarithmic: bool = False
+    """Fitted in its logarithm."""
+    neutral: float | None = 0.0
+    """Where the effect is absent; None for an unknown that only says where or how."""
+    fixed: bool = False
+    """Not moved by a fit: one of the starts."""
+
+
+@dataclass(frozen=True)
+class Change:
+    """What an effect changes of the reduced plate; shapes (k, k) and (k,), 0 for nothing."""
+
+    K: Any = 0.0
+    K_1: Any = 0.0
+    M: Any = 0.0
+    load: Any = 0.0
+    observe: Any = 0.0
+    damping: float = 1.0
+    """Factor on C_1."""
+
+    def and_then(self, other: Change) -> Change:
+        """Both changes."""
+        return Change(
+            self.K + other.K,
+            self.K_1 + other.K_1,
+            self.M + other.M,
+            self.load + other.load,
+            self.observe + other.observe,
+            self.damping * other.damping,
+        )
+
+
+@dataclass(frozen=True)
+class Points:
+    """What is known of each point of a sweep apart from its reading. Shape (points,) each."""
+
+    omega: Array
+    acceleration_m_s2: Array
+    """Commanded amplitude."""
+    time_s: Array
+    """Since the first point; by frequency, evenly, where no time is kept."""
+    timed: bool
+    has_phase: bool
+    reads: str
+
+    @property
+    def levels(self) -> int:
+        """How many levels there are."""
+        return len(np.unique(np.round(self.acceleration_m_s2, 9)))
+
+
+@dataclass(frozen=True)
+class Seen:
+    """What a channel shows by itself, without any model of the plate."""
+
+    values: Mapping[str, tuple[float, float, str]]
+    """Key to value, standard error and unit."""
+    aside: NDArray[np.bool_]
+    """Points it spoils. Shape (points,)."""
+
+
+class Span:
+    """Motions a family of effects needs beside those of the unchanged plate, and matrices it works with."""
+
+    name: str
+    odd: bool = False
+    """Whether it couples to motions odd in y."""
+    columns: int = 40
+    """At most as many of either parity."""
+
+    def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
+        """Symmetric matrices over the full plate, by name; an (n, r) array stands for L L^T."""
+        return {}
+
+    def vectors(self, full: FullPlate) -> Mapping[str, Array]:
+        """Loads over the full plate, by name."""
+        return {}
+
+    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
+        """Responses to be spanned, to typical changes, of the size the effect gives them. Shape (n, any)."""
+        return np.empty((len(at.x), 0), complex)
+
+
+class Effect:
+    """A physical cause. `u` holds the values of `unknowns`, in their units."""
+
+    name: ClassVar[str]
+    enters: ClassVar[Entry]
+    source: ClassVar[str]
+    unknowns: tuple[Unknown, ...] = ()
+    spans: tuple[Span, ...] = ()
+    splits: ClassVar[str] = ""
+    """The measurement that shows this effect apart from others."""
+    tolerance: ClassVar[str | None] = None
+    """Property (`fitting.properties`) whose stated tolerance is a prior on the one unknown."""
+    replaces_law: ClassVar[bool] = False
+
+    extends: ClassVar[str | None] = None
+    """A simpler effect that this one contains."""
+
+    def seen(self, sweep: Sweep, noise: Noise) -> Seen | None:
+        """Its trace in the channels themselves."""
+        return None
+
+    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+        """Why this effect cannot be judged by these data, or None."""
+        return None
+
+    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+        """Values to look at first; the best of them by a linear step is followed."""
+        return [np.array([u.typical for u in self.unknowns])]
+
+    def variants(self) -> tuple[Effect, ...]:
+        """Forms of it that are tried apart, the best one kept."""
+        return (self,)
+
+    def laws(self, stated: CoreLaw, points: Points) -> list[CoreLaw]:
+        """Laws to be tried in the place of the stated one."""
+        return []
+
+    def scaled(self, u: Array, a: float) -> Array:
+        """`u` with the effect `a` times as strong, by a linear guess."""
+        found = u.copy()
+        for k, q in enumerate(self.unknowns):
+            if q.fixed or q.neutral is None:
+                continue
+            found[k] = u[k] / a if np.isinf(q.neutral) else q.neutral + a * (u[k] - q.neutral)
+        return found
+
+    def limits(self, plate: SpannedPlate) -> tuple[Array, Array]:
+        """Least and largest values of the unknowns."""
+        return np.array([u.lower for u in self.unknowns]), np.array([u.upper for u in self.unknowns])
+
+    def change(self, plate: SpannedPlate, u: Array) -> Change | None:
+        """What it changes of the reduced plate."""
+        return None
+
+    def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex | None:
+        """The core's modulus at every point, where it is not the law's at the point's frequency."""
+        return None
+
+    def pitch(self, omega: Array, u: Array) -> Complex | None:
+        """Angular acceleration of the base over its acceleration, rad/m. Shape of `omega`."""
+        return None
+
+    def reading(self, v: Complex, points: Points, u: Array) -> Complex | None:
+        """What the channels make of the velocity `v` (m/s, per point)."""
+        return None
+
+    def bare_shift(self, lowering_per_density: Array, u: Array) -> Array:
+        """Change of ln f of the bare plate's modes; given is what unit density of air takes off each."""
+        return np.zeros(len(lowering_per_density))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        """What the plate or the rig does, in half a sentence with numbers."""
+        raise NotImplementedError
+
+
+Strain = Callable[[Array], Array]
+"""Fractions by which the modulus is softened, to the core's strain there, in shares of the largest at 1 g."""
+
+
+@dataclass(frozen=True)
+class ModulusAt:
+    """The law's modulus at every point of a sweep."""
+
+    law: CoreLaw
+    points: Points
+    strain: Strain
+
+    def __call__(self, frequency_scale: Array | float = 1.0) -> Complex:
+        """G* at omega times `frequency_scale`."""
+        return np.asarray(self.law.modulus(self.points.omega * frequency_scale))

@@ -1,0 +1,39 @@
+"""The base turns while it lifts: pitch in fixed proportion to its acceleration."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.effects.base import Effect, Span, Unknown
+from fitting.effects.full_plate import FullPlate, Snapshot
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+class Pitch(Span):
+    """Responses to a turning base."""
+
+    name = "pitch"
+
+    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
+        X = at.solve(-(full.loose.M @ full.pitching)[:, None], odd=False)
+        return np.asarray(0.3 * X / np.sqrt(np.real(np.vdot(X, full.scale @ X))))
+
+
+class BaseRocking(Effect):
+    """Positive pitch lifts the tip with the base."""
+
+    name = "base_rocking"
+    enters = "load"
+    source = "rigid turn of the base about the root, inertia load -M r_p"
+    unknowns = (Unknown("pitch", "rad/m", -2.0, 2.0, 0.05),)
+    spans = (Pitch(),)
+    splits = "two accelerometers on the base, one behind the other"
+
+    def pitch(self, omega: Array, u: Array) -> Complex:
+        return np.full(len(omega), u[0] + 0j)
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return f"the base pitches with its acceleration ({u['pitch']:+.2g} rad/m)"

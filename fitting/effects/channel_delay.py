@@ -1,0 +1,31 @@
+"""The velocity channel lags behind the reference."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.spanned import SpannedPlate
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+class ChannelDelay(Effect):
+    """Velocity times e^{-i omega delay}."""
+
+    name = "channel_delay"
+    enters = "channel"
+    source = "a decoder's or filter's constant group delay"
+    unknowns = (Unknown("delay", "s", -3e-3, 3e-3, 5e-5),)
+    splits = "the laser on the base beside the accelerometer: its phase over frequency is the delay"
+
+    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+        return None if points.has_phase else "amplitudes do not show a delay"
+
+    def reading(self, v: Complex, points: Points, u: Array) -> Complex:
+        return np.asarray(v * np.exp(-1j * points.omega * u[0]))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return f"the velocity channel lags by {1e6 * u['delay']:.3g} microseconds"

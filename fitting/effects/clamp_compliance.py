@@ -1,0 +1,106 @@
+"""The plate's root yields: springs per area of the root face.
+
+Those along the plate let the root turn, which is what softens it. Across the plate springs of the same
+stiffness move it by nothing that shows: one stiffness serves for both.
+"""
+
+from collections.abc import Mapping
+from functools import partial
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from fitting.direct import solve_direct
+from fitting.effects.base import Change, Effect, Points, Span, Unknown
+from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.spanned import SpannedPlate
+from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+RIGID_N_M3 = 1e17
+"""Springs beyond which the root is at rest for every purpose here."""
+_SPANNED = (4e12, 1e13, 3e13, 1e14, 1e15)
+
+
+class Root(Span):
+    """Motions with a yielding root. Along y it is held, as between jaws."""
+
+    name = "root"
+
+    def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
+        return {"x": root_springs(full, "x"), "z": root_springs(full, "z")}
+
+    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
+        P = full.loose.even
+        S_x, S_y, S_z = (
+            P.T @ full.once(f"root {axis}", partial(root_springs, full, axis)) @ P for axis in ("x", "y", "z")
+        )
+        A = P.T @ full.loose.dynamic_stiffness(at.omega, at.G) @ P
+        C = full.damping
+        U = P.T @ (full.lift @ C.U)
+        loads = np.column_stack([-(full.loose.M @ full.heave), full.loose.observe(*full.pickup_m)])
+        found = []
+        for k in _SPANNED:
+            springs = k * (S_x + S_z) + RIGID_N_M3 * S_y
+            X = P @ solve_direct(A + springs, at.omega, type(C)(U, C.d), P.T @ loads)
+            found.append(X / np.sqrt(np.real(np.einsum("ij,ij->j", X.conj(), full.scale @ X))))
+        return np.hstack(found)
+
+
+def root_springs(full: FullPlate, axis: str) -> sp.csc_array:
+    """Unit springs per area of the root face along an axis, as a stiffness. Shape (n, n)."""
+    s = full.specimen
+    H_b = s.substrate.thickness_m
+    H_c = s.constraining.thickness_m if s.constraining else 0.0
+    H_v = s.core.thickness_m if s.core else 0.0
+    local = np.zeros((DOFS, DOFS))
+    if axis == "z":
+        local[W, W] = H_b + H_v + H_c
+    else:
+        along_x = axis == "x"
+        u_b, u_c, theta, sign = (U_B, U_C, THETA_Y, 1.0) if along_x else (V_B, V_C, THETA_X, -1.0)
+        rows = np.zeros((6, DOFS))
+        # Mean and turn of each layer across its thickness; u = u_b + z theta_y, v = v_b - z theta_x.
+        rows[0, u_b], rows[1, theta] = np.sqrt(H_b), np.sqrt(H_b**3 / 12)
+        rows[2, u_c], rows[3, theta] = np.sqrt(H_c), np.sqrt(H_c**3 / 12)
+        rows[4, [u_b, u_c, theta]] = np.sqrt(H_v) * np.array([0.5, 0.5, sign * (H_b - H_c) / 4])
+        rows[5, [u_b, u_c, theta]] = np.sqrt(H_v / 12) * np.array([-1.0, 1.0, -sign * (H_b + H_c) / 2])
+        local = rows.T @ rows
+    n_y, b = full.loose.mesh.n_y, full.loose.mesh.sides_m[1]
+    along = sp.diags_array([b / 6, 2 * b / 3, b / 6], offsets=[-1, 0, 1], shape=(n_y + 1, n_y + 1)).tolil()
+    along[0, 0] = along[n_y, n_y] = b / 3
+    n = full.loose.mesh.nodes * DOFS
+    block = sp.kron(along, local).tocoo()
+    whole = sp.coo_array((block.data, (block.row, block.col)), (n, n)).tocsr()
+    return sp.csc_array(whole[full.loose.free][:, full.loose.free])
+
+
+class ClampCompliance(Effect):
+    """Springs at the root."""
+
+    name = "clamp_compliance"
+    enters = "stiffness"
+    source = "elastic foundation of the root face, e.g. MacBain and Genin, J. Sound Vib. 27 (1973)"
+    unknowns = (Unknown("k", "N/m^3", 1e12, 1e16, 5e13, logarithmic=True, neutral=float("inf")),)
+    spans = (Root(),)
+    splits = "the same plate clamped anew, or its root watched by the laser"
+
+    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+        return None if "root" in plate.group else "the plate has no clamp"
+
+    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+        return [np.array([k]) for k in (5e13, 1.5e13)]
+
+    def change(self, plate: SpannedPlate, u: Array) -> Change:
+        return Change(K=springs(plate, u))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return f"the plate's root is elastic ({u['k']:.2g} N/m^3 of root face)"
+
+
+def springs(plate: SpannedPlate, u: Array) -> Array:
+    """The root's stiffness with springs of `u[0]`."""
+    return np.asarray(u[0] * (plate.matrix("root.x") + plate.matrix("root.z")))

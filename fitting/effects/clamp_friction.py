@@ -1,0 +1,40 @@
+"""The yielding root takes energy too: its springs have a loss factor."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.effects.base import Change, Effect, Points, Unknown
+from fitting.effects.clamp_compliance import ClampCompliance, springs
+from fitting.effects.spanned import SpannedPlate
+
+Array = NDArray[np.float64]
+
+
+class ClampFriction(Effect):
+    """Springs at the root, k (1 + i loss)."""
+
+    name = "clamp_friction"
+    enters = "stiffness"
+    source = "hysteretic joint damping, Beards, Structural Vibration (1996), ch. 4"
+    unknowns = (*ClampCompliance.unknowns, Unknown("loss_factor", "1", 0.0, 1.0, 0.1))
+    spans = ClampCompliance.spans
+    extends = "clamp_compliance"
+    splits = "the hammer test repeated with the clamp tightened: its losses change, the core's do not"
+
+    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+        return ClampCompliance().objection(points, plate)
+
+    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+        return [np.array([k, 0.1]) for k in (5e13, 1.5e13)]
+
+    def scaled(self, u: Array, a: float) -> Array:
+        return np.array([u[0] / a, u[1]])
+
+    def change(self, plate: SpannedPlate, u: Array) -> Change:
+        return Change(K=(1 + 1j * u[1]) * springs(plate, u))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        loss, k = u["loss_factor"], u["k"]
+        return f"the plate's root is elastic and rubs (loss factor {loss:.2g} in springs of {k:.2g} N/m^3)"

@@ -1,0 +1,27 @@
+"""The velocity channel's gain is not what it is taken for."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.effects.base import Effect, Points, Unknown
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+class GainError(Effect):
+    """Velocity times a real factor."""
+
+    name = "gain_error"
+    enters = "channel"
+    source = "calibration of the measuring chain"
+    unknowns = (Unknown("factor", "1", 0.5, 2.0, 1.02, neutral=1.0),)
+    splits = "the laser on the base beside the accelerometer; a second spot"
+
+    def reading(self, v: Complex, points: Points, u: Array) -> Complex:
+        return np.asarray(v * u[0])
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return f"the velocity channel reads {100 * (u['factor'] - 1):+.2f} % of the truth"

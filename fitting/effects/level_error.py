@@ -1,0 +1,32 @@
+"""The base is not driven at the level that was commanded."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from fitting.effects.base import Effect, Points, Seen
+from fitting.effects.spanned import SpannedPlate
+from fitting.level import level_error
+from fitting.noise import Noise
+from fitting.sweep import Sweep
+
+
+class LevelError(Effect):
+    """Seen in the reference channel; velocity over acceleration does not feel it."""
+
+    name = "level_error"
+    enters = "level"
+    source = "reference channel over command"
+    splits = "a second accelerometer on the base"
+
+    def seen(self, sweep: Sweep, noise: Noise) -> Seen | None:
+        found = level_error(sweep)
+        if found is None:
+            return None
+        return Seen({"factor": (found.factor, found.standard_error, "1")}, np.zeros(len(sweep), bool))
+
+    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+        return "it shows in the channels themselves"
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return f"the base moves at {u['factor']:.4g} times the commanded level (velocity over it is right)"

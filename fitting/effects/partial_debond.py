@@ -1,0 +1,97 @@
+"""The core has come loose along a strip: it carries hardly any shear there."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from fitting.effects.base import Change, Effect, Points, Span, Unknown
+from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.spanned import SpannedPlate
+from fitting.element import Shape, core_shear_stiffness
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+LEFT = 0.01
+"""Share of the shear stiffness that a loose strip keeps."""
+_WIDTH_M = 0.025
+
+
+class Strips(Span):
+    """Shear stiffness of every row of elements, and motions with some of them loose."""
+
+    columns = 24
+
+    def __init__(self, along: str) -> None:
+        self.along = along
+        self.name = f"strips_{along}"
+        # Strips across all of the width leave the plate even in y.
+        self.odd = along == "y"
+
+    def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
+        return {f"{k:03d}": A for k, A in enumerate(strips(full, self.along))}
+
+    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
+        lost = [(1 - LEFT) * at.G * (A @ at.both) for A in strips(full, self.along)]
+        # Two rows of elements at a time.
+        pairs = [sum(lost[k : k + 2], start=0 * lost[0]) for k in range(0, len(lost), 2)]
+        return at.solve(np.hstack(pairs), odd=self.odd)
+
+
+def strips(full: FullPlate, along: str) -> list[sp.csc_array]:
+    """Shear stiffness for G = 1 Pa of every row of elements, counted along x or y. Shape (n, n) each."""
+    mesh, s = full.loose.mesh, full.specimen
+    assert s.core is not None
+    assert s.constraining is not None
+    Ae = core_shear_stiffness(Shape(*mesh.sides_m), s.core, s.substrate, s.constraining)
+    i, j = np.divmod(np.arange(mesh.n_x * mesh.n_y), mesh.n_y)
+    place, count = (i, mesh.n_x) if along == "x" else (j, mesh.n_y)
+    return full.once(
+        f"strips along {along}",
+        lambda: [full.loose.scatter(Ae, np.flatnonzero(place == k)) for k in range(count)],
+    )
+
+
+class PartialDebond(Effect):
+    """A strip across the plate between two x, or along it between two y."""
+
+    name = "partial_debond"
+    enters = "stiffness"
+    source = "shear coupling lost in a strip, e.g. Wang and Wereley, AIAA J. 40 (2002)"
+    splits = "a tap test or ultrasound over the plate; a second spot off the axis"
+
+    def __init__(self, along: str = "x") -> None:
+        self.along = along
+        self.spans = (Strips(along),)
+        self.unknowns = (
+            Unknown(f"{along}_from", "m", 0.0, np.inf, 0.02, neutral=None),
+            Unknown("width", "m", 0.0, 0.15, _WIDTH_M),
+        )
+
+    def variants(self) -> tuple[Effect, ...]:
+        return (self, PartialDebond("y"))
+
+    def _side(self, plate: SpannedPlate) -> float:
+        return plate.length_m if self.along == "x" else plate.width_m
+
+    def limits(self, plate: SpannedPlate) -> tuple[Array, Array]:
+        lower, upper = super().limits(plate)
+        return lower, np.minimum(upper, [self._side(plate), np.inf])
+
+    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+        side = self._side(plate)
+        count = int(side / _WIDTH_M)
+        return [np.array([k / count * side, _WIDTH_M]) for k in range(count)]
+
+    def change(self, plate: SpannedPlate, u: Array) -> Change:
+        stack = plate.stack(f"strips_{self.along}.")
+        edges = np.linspace(0, self._side(plate), len(stack) + 1)
+        low, high = (np.clip(x, edges[:-1], edges[1:]) for x in (u[0], u[0] + u[1]))
+        return Change(K_1=-(1 - LEFT) * np.tensordot((high - low) / np.diff(edges), stack, axes=1))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        where = "across the plate, x" if self.along == "x" else "along the plate, y"
+        low, width = 1e3 * u[f"{self.along}_from"], 1e3 * u["width"]
+        return f"the core is loose in a strip {where} = {low:.0f} to {low + width:.0f} mm"

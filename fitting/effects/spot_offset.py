@@ -1,0 +1,55 @@
+"""The laser's spot lies beside where it is thought to be."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.effects.base import Change, Effect, Points, Span, Unknown
+from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.spanned import SpannedPlate
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_AROUND_M = ((8e-3, 0.0), (-8e-3, 0.0), (0.0, 8e-3), (0.0, -8e-3))
+
+
+class Spot(Span):
+    """Responses to a push beside the pickup: what a shifted reading needs."""
+
+    name = "spot"
+
+    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
+        s, (x, y) = full.specimen, full.pickup_m
+        rows = np.column_stack(
+            [
+                full.loose.observe(
+                    float(np.clip(x + dx, 0, s.length_m)), float(np.clip(y + dy, 0, s.width_m))
+                )
+                for dx, dy in _AROUND_M
+            ]
+        )
+        X = at.solve(rows, odd=False)
+        return np.asarray(0.3 * X / np.sqrt(np.real(np.einsum("ij,ij->j", X.conj(), full.scale @ X))))
+
+
+class SpotOffset(Effect):
+    """Reading at (x + dx, y + dy)."""
+
+    name = "spot_offset"
+    enters = "observation"
+    source = "shape functions at the shifted point"
+    unknowns = (Unknown("dx", "m", -0.02, 0.02, 3e-3), Unknown("dy", "m", -0.02, 0.02, 3e-3))
+    spans = (Spot(),)
+    splits = "a second spot, its distance to the first measured; an accelerometer under the spot"
+
+    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+        return [3e-3 * np.array([np.cos(a), np.sin(a)]) for a in np.arange(0, np.pi, np.pi / 6)]
+
+    def change(self, plate: SpannedPlate, u: Array) -> Change:
+        x, y = plate.pickup
+        return Change(observe=plate.row(x + u[0], y + u[1]) - plate.row(x, y))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return f"the laser's spot is off by ({1e3 * u['dx']:+.1f}, {1e3 * u['dy']:+.1f}) mm along x and y"

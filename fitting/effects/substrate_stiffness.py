@@ -1,0 +1,49 @@
+"""The substrate is stiffer or softer than its data sheet."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from fitting.effects.base import Change, Effect, Span, Unknown
+from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.spanned import SpannedPlate
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_TYPICAL = 0.1
+
+
+class Substrate(Span):
+    """Motions with a stiffer substrate."""
+
+    name = "substrate"
+
+    def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
+        return {"K": full.loose.K_substrate}
+
+    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
+        return at.solve(_TYPICAL * (full.loose.K_substrate @ at.both), odd=False)
+
+
+class SubstrateStiffness(Effect):
+    """Young's modulus of the substrate times a factor."""
+
+    name = "substrate_stiffness"
+    enters = "stiffness"
+    source = "the paper's Eq. (15a)"
+    unknowns = (Unknown("scale", "1", 0.7, 1.4, 1.03, neutral=1.0),)
+    spans = (Substrate(),)
+    tolerance = "substrate_young"
+    splits = "the bare plate's natural frequencies (hammer test)"
+
+    def bare_shift(self, lowering_per_density: Array, u: Array) -> Array:
+        return np.full(len(lowering_per_density), 0.5 * np.log(u[0]))
+
+    def change(self, plate: SpannedPlate, u: Array) -> Change:
+        return Change(K=(u[0] - 1) * plate.matrix("substrate.K"))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return f"the substrate is {100 * (u['scale'] - 1):+.1f} % off its stated stiffness"

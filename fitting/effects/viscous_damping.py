@@ -1,0 +1,30 @@
+"""The hammer test's damping ratios do not carry over to the treated plate."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.effects.base import Change, Effect, Points, Unknown
+from fitting.effects.spanned import SpannedPlate
+
+Array = NDArray[np.float64]
+
+
+class ViscousDamping(Effect):
+    """C_1 times a factor."""
+
+    name = "viscous_damping"
+    enters = "damping"
+    source = "the paper's section 4: C_1 is taken over from the bare plate"
+    unknowns = (Unknown("scale", "1", 0.0, 8.0, 2.0, neutral=1.0),)
+    splits = "the hammer test of the treated plate at two core temperatures"
+
+    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+        return None if len(plate.d) else "the specimen states no viscous damping"
+
+    def change(self, plate: SpannedPlate, u: Array) -> Change:
+        return Change(damping=float(u[0]))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return f"the remaining damping is {u['scale']:.2g} times the bare plate's"

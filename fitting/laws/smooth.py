@@ -1,0 +1,81 @@
+"""A law that is only smooth: natural cubic splines of ln G' and ln eta over ln f."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+from typing import ClassVar, Self
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+from fitting.errors import OutsideModel
+from fitting.laws.base import Array, Complex, CoreLaw, fixed, quantity
+
+
+@dataclass(frozen=True)
+class Smooth(CoreLaw):
+    """G* = G' (1 + i eta), G' and eta through their values at knots and straight in logarithms beyond them.
+
+    G' and eta are free of each other: nothing here knows that one follows from the other by causality.
+    """
+
+    kind: ClassVar[str] = "smooth"
+    source: ClassVar[str] = "natural cubic splines of ln G' and ln eta over ln f"
+
+    frequency_hz: tuple[float, ...] = fixed("frequency_hz")
+    """The knots, ascending."""
+    g_pa: tuple[float, ...] = quantity("g_mpa", to_si=1e6, lower=1e2, upper=1e11, search=(1e4, 1e7))
+    """G' there."""
+    loss_factor: tuple[float, ...] = quantity("loss_factor", lower=1e-6, upper=10.0, search=(0.05, 1.5))
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        f = self.frequency_hz
+        if len(f) < 2 or not f[0] > 0 or any(not a < b for a, b in pairwise(f)) or not np.isfinite(f[-1]):
+            shown = ", ".join(f"{k:g}" for k in f[:8]) + (", ..." if len(f) > 8 else "")
+            raise OutsideModel(
+                f"core law {self.kind}: frequency_hz = [{shown}], expected two or more above 0, ascending"
+            )
+        if not len(f) == len(self.g_pa) == len(self.loss_factor):
+            raise OutsideModel(
+                f"core law {self.kind}: {len(f)} frequency_hz, {len(self.g_pa)} g_mpa and "
+                f"{len(self.loss_factor)} loss_factor, expected as many of each"
+            )
+
+    @classmethod
+    def through(cls, law: CoreLaw, frequency_hz: Sequence[float] | Array) -> Self:
+        """The smooth law that equals `law` at the knots. Raises `OutsideModel` for a lossless one."""
+        knots = tuple(float(f) for f in frequency_hz)
+        G, eta = law.storage_and_loss(2 * np.pi * np.array(knots))
+        return cls(knots, tuple(map(float, G)), tuple(map(float, eta)))
+
+    def modulus(self, omega: Array) -> Complex:
+        W = self._weights(omega)
+        G, eta = (np.exp(np.tensordot(np.log(p), W, axes=1)) for p in (self.g_pa, self.loss_factor))
+        return np.asarray(G * (1 + 1j * eta))
+
+    def jacobian(self, omega: Array) -> Complex:
+        W, G = self._weights(omega), self.modulus(omega)
+        g, eta = (np.array(p).reshape(-1, *(1,) * np.ndim(omega)) for p in (self.g_pa, self.loss_factor))
+        return np.concatenate([W * G / g, W * 1j * G.imag / eta])
+
+    def _weights(self, omega: Array) -> Array:
+        """What each knot's logarithm counts at each frequency. Shape (knots, ...)."""
+        omega = np.asarray(omega, dtype=float)
+        if np.any(omega <= 0):
+            raise OutsideModel(
+                f"core law {self.kind} asked at {float(np.min(omega)) / (2 * np.pi):.4g} Hz, expected above 0"
+            )
+        return _spline_weights(self.frequency_hz, omega.tobytes()).reshape(-1, *omega.shape)
+
+
+@lru_cache(maxsize=64)
+def _spline_weights(knots_hz: tuple[float, ...], omega: bytes) -> Array:
+    """Linear in the knots' values, so made once for a grid of frequencies. Shape (knots, frequencies)."""
+    x = np.log(knots_hz)
+    at = np.log(np.frombuffer(omega) / (2 * np.pi))
+    spline = CubicSpline(x, np.eye(len(x)), bc_type="natural")
+    inside = np.clip(at, x[0], x[-1])
+    weights = spline(inside) + spline(inside, 1) * (at - inside)[:, None]
+    return np.ascontiguousarray(weights.T)

@@ -1,0 +1,58 @@
+"""Whether the reference channel shows the base acceleration that was commanded."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.sweep import Sweep
+
+Array = NDArray[np.float64]
+
+LEAST_PERCENT = 1.0
+_STANDARD_ERRORS = 3.0
+_FEWEST = 3
+"""Points that show a scatter."""
+_MAD_TO_STD = 1.4826
+"""Of a normal distribution."""
+_MEDIAN_TO_MEAN = np.sqrt(np.pi / 2)
+"""Standard error of a median over that of a mean, for a normal distribution."""
+
+
+@dataclass(frozen=True)
+class LevelError:
+    """The reference channel is off the command.
+
+    Either the base moved so, which the ratio of the channels takes out, or the channel's sensitivity is
+    wrong, which it does not; these readings alone do not say which.
+    """
+
+    factor: float
+    """Median of |reference| / command."""
+    standard_error: float
+    segment_percent: Mapping[int, float]
+    """Off the command in each segment by itself."""
+
+    @property
+    def percent(self) -> float:
+        """Off the command."""
+        return 100 * (self.factor - 1)
+
+
+def level_error(sweep: Sweep) -> LevelError | None:
+    """None without a reference channel, or where it is within 1 % or its own scatter of the command."""
+    if sweep.base_m_s2 is None or len(sweep) < _FEWEST:
+        return None
+    ratio = np.abs(sweep.base_m_s2) / sweep.commanded_m_s2
+    factor = float(np.median(ratio))
+    scatter = _MAD_TO_STD * float(np.median(np.abs(ratio - factor)))
+    found = LevelError(
+        factor=factor,
+        standard_error=float(_MEDIAN_TO_MEAN * scatter / np.sqrt(len(ratio))),
+        segment_percent={
+            int(s): 100 * (float(np.median(ratio[sweep.segment == s])) - 1) for s in np.unique(sweep.segment)
+        },
+    )
+    significant = abs(factor - 1) > _STANDARD_ERRORS * found.standard_error
+    return found if significant and abs(found.percent) > LEAST_PERCENT else None

@@ -1,0 +1,191 @@
+"""A campaign: many cases diagnosed in processes, every outcome kept as a line, so that it can go on later."""
+
+import hashlib
+import json
+import signal
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import dataclass
+from functools import partial
+from importlib import import_module
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any
+
+from threadpoolctl import threadpool_limits
+
+from instrument.campaign.cases import KINDS, NONE, PAIR, Case, draw
+from instrument.campaign.outcome import Outcome, Said, line_of, outcome_of, said_of
+from instrument.campaign.severities import OF_THE_CHANNELS_ALONE
+from instrument.campaign.tables import summary
+from instrument.campaign.visibility import visible_chi2
+from instrument.errors import BadInput, StoppedByUser
+from instrument.files.text import read_text
+from instrument.progress import Progress, quiet
+
+OUTCOMES, BEGUN, SUMMARY = "outcomes.jsonl", "campaign.json", "summary.md"
+ROTATION = (*KINDS, NONE, NONE, PAIR, PAIR)
+"""Kinds of successive cases: each effect once, clean ones and pairs three times."""
+_SOURCES = ("fitting", "drivers/simulated/plant", "instrument/campaign", "instrument/diagnosis")
+
+
+@dataclass(frozen=True)
+class Job:
+    """One case to draw and to diagnose."""
+
+    kind: str
+    seed: int
+
+
+Judge = Callable[[Job], dict[str, Any]]
+"""From a job to its line, which repeats `kind` and `seed`."""
+
+
+def jobs_of(count: int, seed: int, kinds: Sequence[str] = ()) -> list[Job]:
+    """Kinds in rotation, seeds from `seed` on."""
+    rotation = tuple(kinds) or ROTATION
+    return [Job(rotation[k % len(rotation)], seed + k) for k in range(count)]
+
+
+def judge(job: Job, taken_out: bool) -> dict[str, Any]:
+    """Draw, diagnose, compare. `taken_out`: once more without a single effect that leaves a residual.
+
+    A diagnosis that raises is an outcome without an answer; the next run tries it again.
+    """
+    # Loaded here: cases and scores are of use without it.
+    diagnose = import_module("instrument.diagnosis").diagnose
+    case = draw(job.kind, job.seed)
+    said: Said | None = None
+    without: Said | None = None
+    error = ""
+    try:
+        said = _diagnosed(diagnose, case, frozenset())
+        if taken_out and job.kind not in (NONE, PAIR, *OF_THE_CHANNELS_ALONE):
+            without = _diagnosed(diagnose, case, frozenset(case.truth.names))
+    except Exception as raised:
+        error = " ".join(f"{type(raised).__name__}: {raised}".split())
+    outcome = Outcome(
+        kind=job.kind,
+        seed=job.seed,
+        truth=case.truth.names,
+        hammer=case.hammer is not None,
+        levels=len({float(level) for level in case.sweep.commanded_m_s2}),
+        visible_chi2=visible_chi2(case),
+        said=said,
+        without=without,
+        error=error,
+    )
+    return line_of(outcome)
+
+
+def _diagnosed(diagnose: Callable[..., Any], case: Case, without: frozenset[str]) -> Said:
+    found = diagnose(case.sweep, case.specimen, hammer=case.hammer, without=without)
+    return said_of(case, found.result, found.seconds, found.setup_seconds)
+
+
+def run_campaign(
+    jobs: Sequence[Job],
+    folder: Path,
+    *,
+    taken_out: bool = True,
+    workers: int = 2,
+    judged_by: Judge | None = None,
+    progress: Progress = quiet,
+) -> list[dict[str, Any]]:
+    """Lines of all jobs, with those an earlier run left in `folder`. Raises `BadInput`, `StoppedByUser`."""
+    _same_program(folder, {"taken_out": taken_out, "sources": fingerprint()})
+    known = {(line["kind"], line["seed"]): line for line in read_lines(folder) if not line.get("error")}
+    left = [job for job in jobs if (job.kind, job.seed) not in known]
+    done = len(jobs) - len(left)
+    with progress(f"{len(jobs)} cases") as report, open(folder / OUTCOMES, "a", encoding="utf-8") as file:
+
+        def keep(line: dict[str, Any]) -> None:
+            nonlocal done
+            file.write(json.dumps(line) + "\n")
+            file.flush()
+            known[line["kind"], line["seed"]] = line
+            done += 1
+            report(done / len(jobs))
+
+        try:
+            _judge_all(judged_by or partial(judge, taken_out=taken_out), left, workers, keep)
+        except KeyboardInterrupt:
+            said = f"{done} of {len(jobs)} cases done, kept in {folder}; the same command goes on"
+            raise StoppedByUser(said) from None
+    return [known[job.kind, job.seed] for job in jobs]
+
+
+def write_summary(lines: Sequence[dict[str, Any]], folder: Path) -> str:
+    """The score as Markdown, kept in the folder."""
+    text = summary([outcome_of(line) for line in lines])
+    (folder / SUMMARY).write_text(text, encoding="utf-8")
+    return text
+
+
+def read_lines(folder: Path) -> list[dict[str, Any]]:
+    """What is there; a line torn by a kill is dropped, from the file too."""
+    path = folder / OUTCOMES
+    if not path.exists():
+        return []
+    text = read_text(path)
+    whole = text[: text.rfind("\n") + 1]
+    if whole != text:
+        path.write_text(whole, encoding="utf-8")
+    try:
+        return [json.loads(line) for line in whole.splitlines()]
+    except json.JSONDecodeError as error:
+        raise BadInput(f"{path}: not a line of JSON: {error.msg}, expected what a campaign wrote") from None
+
+
+def fingerprint() -> str:
+    """A digest of the sources that decide an outcome."""
+    root = Path(__file__).parents[2]
+    digest = hashlib.sha256()
+    for name in _SOURCES:
+        for file in sorted([*root.glob(f"{name}.py"), *(root / name).rglob("*.py")]):
+            digest.update(file.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def _same_program(folder: Path, facts: dict[str, Any]) -> None:
+    """Outcomes of two programs are never mixed in a folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / BEGUN
+    if not path.exists():
+        path.write_text(json.dumps(facts) + "\n", encoding="utf-8")
+    elif json.loads(read_text(path)) != facts:
+        raise BadInput(f"{folder}: a campaign begun with other sources or options, expected a new folder")
+
+
+def _judge_all(
+    judge_one: Judge, jobs: Sequence[Job], workers: int, keep: Callable[[dict[str, Any]], None]
+) -> None:
+    """Every line as it comes; one worker is this process.
+
+    Ctrl-C lets the cases under way in other processes end, keeps them, and is raised again.
+    """
+    if workers == 1 or not jobs:
+        with threadpool_limits(1, "blas"):
+            for job in jobs:
+                keep(judge_one(job))
+        return
+    context = get_context("spawn")
+    with ProcessPoolExecutor(min(workers, len(jobs)), mp_context=context, initializer=_alone) as pool:
+        waiting = {pool.submit(judge_one, job) for job in jobs}
+        try:
+            for future in as_completed(set(waiting)):
+                waiting.discard(future)
+                keep(future.result())
+        except BaseException as stop:
+            pool.shutdown(wait=True, cancel_futures=True)
+            if isinstance(stop, KeyboardInterrupt):
+                for future in waiting:
+                    if not future.cancelled():
+                        keep(future.result())
+            raise
+
+
+def _alone() -> None:
+    """A worker: one BLAS thread, deaf to Ctrl-C, which the parent hears."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    threadpool_limits(1, "blas")

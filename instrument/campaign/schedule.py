@@ -1,0 +1,70 @@
+"""Which points a sweep has, and when each is read."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.intp]
+
+_BOUNDS_HZ = (((14.0, 14.0), (25.0, 26.0)), ((85.0, 90.0), (112.0, 115.0)), ((250.0, 258.0), (300.0, 310.0)))
+"""Of the three resonance regions: lowest and highest beginning, lowest and highest end."""
+_POINTS = (60, 121)
+_SECONDS_A_POINT = (2.743, 1.6, 1.6)
+_LATE_S = 0.05
+"""Mean of what a point takes beyond that, exponentially distributed."""
+_BETWEEN_S = (40.0, 160.0)
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """Points in the order of their frequencies, pass by pass. Shape (points,) each."""
+
+    frequency_hz: Array
+    segment: Integers
+    sweep: Integers
+    """Number of the pass, in order of time: one segment at one level."""
+    level_g: Array
+    time_s: Array
+    """When the point was read."""
+
+
+def draw_schedule(rng: np.random.Generator, levels_g: tuple[float, ...]) -> Schedule:
+    """Three dense segments; levels from low to high, the segments of each in the same order."""
+    segments = [_grid(rng, *bounds) for bounds in _BOUNDS_HZ]
+    order = {0: [0, 1, 2], 1: [2, 1, 0], 2: list(rng.permutation(3))}[int(rng.integers(3))]
+    along = str(rng.choice(["up", "down", "random"], p=[0.7, 0.15, 0.15]))
+    parts: list[tuple[Array, Integers, Integers, Array, Array]] = []
+    now = 0.0
+    for level in levels_g:
+        for k in order:
+            f = segments[k]
+            when = now + np.cumsum(_SECONDS_A_POINT[k] + rng.exponential(_LATE_S, len(f)))
+            now = float(when[-1]) + float(rng.uniform(*_BETWEEN_S))
+            time = np.empty(len(f))
+            time[_taken(rng, len(f), along)] = when
+            number = len(parts) + 1
+            parts.append(
+                (
+                    f,
+                    np.full(len(f), k + 1, dtype=np.intp),
+                    np.full(len(f), number, dtype=np.intp),
+                    np.full(len(f), level),
+                    np.round(time, 3),
+                )
+            )
+    return Schedule(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+
+
+def _grid(rng: np.random.Generator, begin: tuple[float, float], end: tuple[float, float]) -> Array:
+    count = int(rng.integers(*_POINTS))
+    return np.round(np.linspace(rng.uniform(*begin), rng.uniform(*end), count), 3)
+
+
+def _taken(rng: np.random.Generator, count: int, along: str) -> Integers:
+    """Indices of the points in the order of time."""
+    up = np.arange(count, dtype=np.intp)
+    if along == "random":
+        return rng.permutation(up)
+    return up[::-1] if along == "down" else up

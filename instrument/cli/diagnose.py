@@ -1,0 +1,56 @@
+"""`viscorig diagnose`: which missing effect the residual of a sweep shows."""
+
+from pathlib import Path
+
+import click
+
+from instrument.cli.options import file_argument, json_option
+from instrument.cli.output import Output
+from instrument.cli.print_diagnosis import print_diagnosis
+from instrument.cli.reading import read_data, reading_options
+from instrument.diagnosis import diagnose as diagnose_sweep
+from instrument.diagnosis_facts import diagnosis_facts
+from instrument.diagnosis_figures import save_diagnosis_figures
+from instrument.plain import plain
+from instrument.progress import bar
+
+
+@click.command()
+@file_argument("data")
+@reading_options
+@click.option(
+    "--without",
+    multiple=True,
+    metavar="NAME",
+    help="Leave this effect out of consideration; may be given several times.",
+)
+@click.option(
+    "--figures",
+    type=click.Path(path_type=Path, file_okay=False),
+    metavar="FOLDER",
+    help="Save residual, evidence and law as PNG.",
+)
+@json_option
+def diagnose(
+    data: Path,
+    specimen: Path | None,
+    hammer: Path | None,
+    no_hammer: bool,
+    without: tuple[str, ...],
+    figures: Path | None,
+    json_path: str | None,
+) -> None:
+    """What the fit of DATA cannot explain, traced to a physical effect, with the error before and after.
+
+    DATA is a sweep (.csv), a recorded session (.h5), or an FRF of the pickup over the base's acceleration
+    (.csv, .uff, .unv, .mat).
+    """
+    out = Output(json_path)
+    given = read_data(out, data, specimen, hammer, no_hammer=no_hammer)
+    found = diagnose_sweep(given.sweep, given.specimen, given.modes, frozenset(without), bar)
+    facts = plain(diagnosis_facts(found, given.sweep))
+    print_diagnosis(out, facts)
+    if figures is not None:
+        for path in save_diagnosis_figures(facts, figures):
+            out.say(f"saved {path}")
+    out.result({**facts, **given.facts})

@@ -1,0 +1,58 @@
+"""A sweep from another program's file: FRFs of the pickup over the base's acceleration."""
+
+from pathlib import Path
+
+import numpy as np
+
+from fitting.modal.frf import Frf
+from fitting.sweep import Sweep, segments_by_gap
+from instrument.errors import BadInput
+from instrument.files.impact_csv import FRF_STEMS, read_impact_csv
+from instrument.files.sweep_file import SweepFile
+from instrument.files.table import read_rows
+from instrument.interchange.importing import one_table, read_foreign
+
+FOREIGN_ENDINGS = (".uff", ".unv", ".mat")
+_TIMES_I_OMEGA = {"displacement": 1, "velocity": 0, "acceleration": -1}
+
+
+def is_frf_csv(path: Path) -> bool:
+    """Whether a CSV's columns are an FRF's and not a sweep's."""
+    header, _ = read_rows(path, lambda header: None)
+    return any(f"{stem}_re" in header for stem in FRF_STEMS) and not any("velocity" in n for n in header)
+
+
+def sweep_of_frf_csv(path: Path, acceleration_m_s2: float) -> Sweep:
+    """Its one FRF as the response of the pickup over the base's acceleration. Raises `BadInput`."""
+    found = read_impact_csv(path)
+    if not isinstance(found, dict) or len(found) != 1:
+        raise BadInput(f"{path}: {len(found)} FRFs, expected one: the pickup over the base's acceleration")
+    (frf,) = found.values()
+    return _sweep(path, frf, acceleration_m_s2)
+
+
+def sweep_of_foreign(path: Path, acceleration_m_s2: float) -> Sweep:
+    """The FRFs over a base's motion of a .uff, .unv or .mat file. Raises `BadInput`."""
+    found = read_foreign(path)
+    if not found.sweeps:
+        raise BadInput(
+            f"{path}: {'; '.join(found.said)}: no response over a base's acceleration, expected one"
+        )
+    columns = one_table(found.sweeps)
+    return SweepFile(path, columns, {}).sweep(acceleration_m_s2)
+
+
+def _sweep(path: Path, frf: Frf, acceleration_m_s2: float) -> Sweep:
+    good = (frf.frequency_hz > 0) & (frf.H != 0)
+    if not good.any():
+        raise BadInput(f"{path}: no line with a value above 0 Hz")
+    f = frf.frequency_hz[good]
+    over_base = frf.H[good] * (2j * np.pi * f) ** _TIMES_I_OMEGA[frf.motion]
+    level = np.full(len(f), acceleration_m_s2)
+    return Sweep(
+        frequency_hz=f,
+        velocity_m_s=over_base * acceleration_m_s2,
+        commanded_m_s2=level,
+        segment=segments_by_gap(f),
+        sweep=np.ones(len(f), dtype=np.intp),
+    )
