@@ -1,5 +1,7 @@
 """The equation of motion solved as it stands, on every degree of freedom: Eq. (3)."""
 
+from collections.abc import Callable
+
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
@@ -12,19 +14,27 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 
-def solve_direct(A: sp.sparray, omega: float, damping: ViscousDamping, loads: Array) -> Complex:
-    """X of (A + i omega C_1) X = loads, A = -omega^2 M + K_0 + G K_1. Shape of `loads`, (n, k).
+def direct_solver(
+    A: sp.sparray, omega: float, damping: ViscousDamping
+) -> Callable[[Complex | Array], Complex]:
+    """Solver of (A + i omega C_1) X = loads, factorised once; A = -omega^2 M + K_0 + G K_1. Loads (n, k).
 
     C_1 has the rank of a few modes: it enters by the Woodbury identity, the matrix stays sparse.
     """
-    k = loads.shape[1]
-    X = factorise(A.astype(complex))(np.column_stack([loads, damping.U]).astype(complex))
-    X_0, Z = X[:, :k], X[:, k:]
-    if not damping.d.size:
-        return X_0
-    U, d = damping.U, damping.d
+    solve, U, d = factorise(A.astype(complex)), damping.U, damping.d
+    Z = solve(U.astype(complex)) if d.size else U
     small = np.diag(1 / (1j * omega * d)) + U.T @ Z
-    return np.asarray(X_0 - Z @ np.linalg.solve(small, U.T @ X_0))
+
+    def damped(loads: Complex | Array) -> Complex:
+        X_0 = solve(loads.astype(complex))
+        return np.asarray(X_0 - Z @ np.linalg.solve(small, U.T @ X_0)) if d.size else X_0
+
+    return damped
+
+
+def solve_direct(A: sp.sparray, omega: float, damping: ViscousDamping, loads: Array) -> Complex:
+    """X of (A + i omega C_1) X = loads. Shape of `loads`, (n, k)."""
+    return direct_solver(A, omega, damping)(loads)
 
 
 def displacement_direct(plate: Plate, damping: ViscousDamping, omega: Array, G: Complex) -> Complex:

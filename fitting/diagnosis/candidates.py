@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.refit import Fitted, refit
+from fitting.diagnosis.refit import ROUGH, Fitted, refit
 from fitting.diagnosis.response import Response
 from fitting.diagnosis.task import Task
 from fitting.effects.base import Effect
@@ -20,6 +20,8 @@ FINISHED = 2
 """Blunt fits that are followed to the end."""
 WRONG = 2.0
 """Chi-square per degree of freedom beyond which the law so far is no place to begin."""
+HOPELESS = 30.0
+"""Chi-square per degree of freedom that finer grids will not mend."""
 _ROUNDS = 3
 _FAR = 0.02
 
@@ -83,7 +85,7 @@ def fit_with(
     for blunt, tried in ((False, near), (True, far if thorough else [])):
         judged = evidence.blunt() if blunt else evidence
         found = [
-            refit(response, judged, law, np.concatenate([before.u, u]), rough=True, priors=priors)
+            refit(response, judged, law, np.concatenate([before.u, u]), tolerance=ROUGH, priors=priors)
             for law, u in tried
         ]
         first += sorted(found, key=lambda f: f.chi2)[: FINISHED if thorough else 1]
@@ -96,7 +98,7 @@ def blunt_chi2(task: Task, evidence: Evidence, before: Fitted, effect: Effect, p
     response = Response(task, [*before.effects, effect], task.coarse)
     u = effect.starts(task.plate, task.points)[0]
     return min(
-        refit(response, evidence.blunt(), law, u, rough=True, priors=priors).chi2
+        refit(response, evidence.blunt(), law, u, tolerance=ROUGH, priors=priors).chi2
         for law in (before.law, task.stated_law)
     )
 
@@ -111,6 +113,8 @@ def polished(
     """A fit to the end, its grid made for the law it starts from, and again where the law has moved far."""
     for _ in range(_ROUNDS):
         fitted = refit(Response(task.around(law), effects), evidence, law, u, priors=priors)
+        if fitted.chi2_per_dof > HOPELESS:
+            break
         omega = task.fine.nodes.omega
         moved = np.max(np.abs(fitted.law.modulus(omega) / law.modulus(omega) - 1))
         law, u = fitted.law, fitted.u

@@ -16,7 +16,9 @@ Complex = NDArray[np.complex128]
 Mask = NDArray[np.bool_]
 
 _MOST_EVALUATIONS = 25
-_FAR_M_S = 1e3
+_ROUGH_EVALUATIONS = 10
+ROUGH, GOOD = 1e-3, 1e-5
+"""Relative change of chi-square and parameters at which a fit stops: to choose, and to compare."""
 
 
 @dataclass(frozen=True)
@@ -77,7 +79,7 @@ def refit(
     law: CoreLaw,
     u: Array,
     *,
-    rough: bool = False,
+    tolerance: float = GOOD,
     points: Mask | None = None,
     priors: Array | None = None,
 ) -> Fitted:
@@ -90,10 +92,10 @@ def refit(
         jac=problem.jacobian,
         bounds=(lower, upper),
         x_scale="jac",
-        xtol=1e-3 if rough else 1e-6,
-        ftol=1e-3 if rough else 1e-6,
+        xtol=tolerance,
+        ftol=tolerance,
         gtol=1e-10,
-        max_nfev=10 if rough else _MOST_EVALUATIONS,
+        max_nfev=_ROUGH_EVALUATIONS if tolerance >= ROUGH else _MOST_EVALUATIONS,
     )
     return problem.fitted(found.x)
 

@@ -11,7 +11,7 @@ from fitting.diagnosis.search import Trial
 
 WITHIN = 15.0
 """Candidates this near to the best are not told from it."""
-FIRST = 12.0
+FIRST = 7.0
 """A first effect must gain this much over none."""
 SECOND = 20.0
 """A second effect must gain this much: less can be feigned by the plate model's own error."""

@@ -10,7 +10,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from fitting.damping import ViscousDamping
-from fitting.direct import solve_direct
+from fitting.direct import direct_solver
 from fitting.element import DOFS, THETA_Y, U_C, W
 from fitting.plate import Plate
 from fitting.specimen import Specimen
@@ -72,14 +72,12 @@ class FullPlate:
         halves = []
         for P in (self.held.even, self.held.odd):
             A = P.T @ self.held.dynamic_stiffness(omega, G) @ P
-            halves.append((P, A, self.damping.projected(P)))
+            halves.append((P, direct_solver(A, omega, self.damping.projected(P))))
 
         def solve(forces: NDArray[np.float64] | Complex, *, odd: bool) -> Complex:
             f = self.lift.T @ forces
             parts = halves if odd else halves[:1]
-            return np.asarray(
-                sum(self.lift @ (P @ solve_direct(A, omega, C, P.T @ f)) for P, A, C in parts), dtype=complex
-            )
+            return np.asarray(sum(self.lift @ (P @ half(P.T @ f)) for P, half in parts), dtype=complex)
 
         # -M r of the held plate carries the inertia of its root too.
         loads = np.column_stack([-(self.loose.M @ self.heave), self.loose.observe(*self.pickup_m)])

@@ -1,0 +1,138 @@
+"""The widened reduced plate beside full solves on every degree of freedom, effect by effect."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+import scipy.sparse.linalg as sla
+
+from fitting.damping import viscous_damping
+from fitting.diagnosis.plate_answer import answer
+from fitting.domain import domain_of
+from fitting.effects import CATALOGUE, SPANS, Change
+from fitting.effects.clamp_compliance import RIGID_N_M3, root_springs
+from fitting.effects.full_plate import FullPlate
+from fitting.effects.partial_debond import LEFT, PartialDebond, strips
+from fitting.effects.spanned import span_plate
+from fitting.plate import Plate
+from fitting.reduced import reduce_plate
+from instrument.files.specimen_file import read_specimen
+from instrument.paper_case import case_file
+
+OMEGA = 2 * np.pi * np.array([19.5, 100.0, 281.0])
+G = np.array([0.3e6 * (1 + 0.3j), 0.55e6 * (1 + 0.9j), 1.2e6 * (1 + 1.1j)])
+MASS, PLACE = 3e-3, (0.27, 0.06)
+
+
+class Full:
+    """The plate on all degrees of freedom, a coarse mesh."""
+
+    def __init__(self):
+        self.specimen = replace(read_specimen(case_file("zn1.toml")), elements=(20, 14))
+        self.plate = Plate(self.specimen)
+        self.damping = viscous_damping(self.plate)
+        self.full = FullPlate(self.plate, self.damping)
+        domain = domain_of(self.specimen, np.array([14.0, 300.0]))
+        reduced = reduce_plate(self.plate, self.damping, domain)
+        self.spanned = span_plate(self.full, self.plate.even @ reduced.V, SPANS)
+
+    def direct(self, *, K=0.0, K_1=0.0, M=0.0, load=0.0, row=None, root=None, damping=1.0, pitch=False):
+        loose, found = self.full.loose, []
+        U, d = self.full.lift @ self.damping.U, self.damping.d * damping
+        f = -(loose.M @ (self.full.pitching if pitch else self.full.heave)) + load
+        row = loose.observe(*self.full.pickup_m) if row is None else row
+        free = np.unique(self.full.lift.indices) if root is None else np.arange(loose.size)
+        for w, g in zip(OMEGA, G, strict=True):
+            A = loose.K_0 + K + g * (loose.K_1 + K_1) - w**2 * (loose.M + M)
+            A = (A + (0 if root is None else root)).tocsc().astype(complex)[free][:, free]
+            X = sla.splu(A.tocsc()).solve(np.column_stack([f[free], U[free]]).astype(complex))
+            small = np.diag(1 / (1j * w * d)) + U[free].T @ X[:, 1:]
+            found.append(row[free] @ (X[:, 0] - X[:, 1:] @ np.linalg.solve(small, U[free].T @ X[:, 0])))
+        return np.array(found)
+
+    def reduced(self, effect, u, *, pitch=False):
+        plate = self.spanned.take(effect.spans)
+        change = effect.change(plate, np.array(u))
+        found = answer(plate, OMEGA, G, change, [], np.array([], int), with_pitch=pitch)
+        return found.pitch if pitch else found.heave
+
+
+@pytest.fixture(scope="module")
+def full():
+    return Full()
+
+
+def error(a, b):
+    return float(np.max(np.abs(a / b - 1)))
+
+
+def test_a_yielding_root(full):
+    S = {axis: root_springs(full.full, axis) for axis in "xyz"}
+    for k in (1.2e13, 6e13):
+        expected = full.direct(root=k * (S["x"] + S["z"]) + RIGID_N_M3 * S["y"])
+        assert error(full.reduced(CATALOGUE["clamp_compliance"], [k]), expected) < 5e-4
+
+
+def test_a_rigid_root_is_the_clamp(full):
+    assert error(full.reduced(CATALOGUE["clamp_compliance"], [1e18]), full.direct()) < 1e-5
+
+
+def test_a_point_mass_off_the_axis(full):
+    w = full.full.loose.observe(*PLACE)
+    expected = full.direct(M=MASS * sp.csc_array(np.outer(w, w)), load=-MASS * w)
+    assert error(full.reduced(CATALOGUE["added_mass"], [MASS, *PLACE]), expected) < 1e-3
+
+
+@pytest.mark.parametrize("scale", [0.9, 1.08])
+def test_another_core_thickness(full, scale):
+    core = replace(full.specimen.core, thickness_m=scale * full.specimen.core.thickness_m)
+    other = Plate(replace(full.specimen, core=core, boundary="free"))
+    loose = full.full.loose
+    expected = full.direct(
+        K_1=other.K_1 - loose.K_1, M=other.M - loose.M, load=-((other.M - loose.M) @ full.full.heave)
+    )
+    assert error(full.reduced(CATALOGUE["core_thickness"], [scale]), expected) < 2e-4
+
+
+def test_a_stiffer_substrate(full):
+    expected = full.direct(K=0.05 * full.full.loose.K_substrate)
+    assert error(full.reduced(CATALOGUE["substrate_stiffness"], [1.05]), expected) < 1e-4
+
+
+@pytest.mark.parametrize(("along", "low", "width"), [("x", 0.15, 0.03), ("x", 0.27, 0.03), ("y", 0.09, 0.03)])
+def test_a_loose_strip(full, along, low, width):
+    rows = strips(full.full, along)
+    side = full.specimen.length_m if along == "x" else full.specimen.width_m
+    edges = np.linspace(0, side, len(rows) + 1)
+    share = np.diff(np.clip(edges, low, low + width)) / np.diff(edges)
+    lost = sum(s * A for s, A in zip(share, rows, strict=True))
+    expected = full.direct(K_1=-(1 - LEFT) * lost)
+    assert error(full.reduced(PartialDebond(along), [low, width]), expected) < 2e-3
+
+
+def test_more_viscous_damping(full):
+    expected = full.direct(damping=2.5)
+    assert error(full.reduced(CATALOGUE["viscous_damping"], [2.5]), expected) < 1e-6
+
+
+def test_a_shifted_spot(full):
+    x, y = full.full.pickup_m
+    expected = full.direct(row=full.full.loose.observe(x + 8e-3, y - 5e-3))
+    assert error(full.reduced(CATALOGUE["spot_offset"], [8e-3, -5e-3]), expected) < 1e-5
+
+
+def test_a_pitching_base(full):
+    plate = full.spanned.take(CATALOGUE["base_rocking"].spans)
+    found = answer(plate, OMEGA, G, Change(), [], np.array([], int), with_pitch=True).pitch
+    assert error(found, full.direct(pitch=True)) < 1e-5
+
+
+def test_condensing_keeps_the_answers_it_was_condensed_on(full):
+    plate = full.spanned.take([])
+    fewer = plate.condensed(OMEGA, G)
+    assert len(fewer.group) < len(plate.group) / 2
+    found, expected = (
+        answer(p, OMEGA, G, Change(), [], np.array([], int), with_pitch=False).heave for p in (fewer, plate)
+    )
+    assert error(found, expected) < 1e-8
