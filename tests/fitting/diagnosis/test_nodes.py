@@ -1,0 +1,40 @@
+import numpy as np
+import pytest
+
+from fitting.diagnosis.nodes import Nodes
+
+OMEGA = 2 * np.pi * np.concatenate([np.linspace(14, 26, 90), np.linspace(95, 110, 80)])
+POLES = 2 * np.pi * np.array([20 + 1.1j, 102 + 6j])
+MOVED = POLES * (1 + 0.02 + 0.004j)
+
+
+def between(low, high):
+    return POLES[(POLES.real > low) & (POLES.real < high)]
+
+
+def response(omega, poles):
+    return (1 / (omega[:, None] ** 2 - poles**2)).sum(axis=1)
+
+
+def test_a_change_of_sharp_resonances_is_carried_from_few_nodes_to_all_points():
+    nodes = Nodes.of(OMEGA, 16).around(between, lambda pole, omega: pole)
+    assert len(nodes.omega) < 40
+    change = response(nodes.omega, MOVED) - response(nodes.omega, POLES)
+    expected = response(OMEGA, MOVED) - response(OMEGA, POLES)
+    found = nodes.spread(change, MOVED[[0, 1]])
+    assert np.abs(found - expected).max() < 1e-6 * np.abs(expected).max()
+
+
+def test_without_the_poles_the_same_nodes_do_not_suffice():
+    nodes = Nodes.of(OMEGA, 16)
+    change = response(nodes.omega, MOVED) - response(nodes.omega, POLES)
+    expected = response(OMEGA, MOVED) - response(OMEGA, POLES)
+    found = change @ nodes.plain.T
+    assert np.abs(found - expected).max() > 1e-3 * np.abs(expected).max()
+
+
+def test_few_points_are_nodes_themselves():
+    omega = 2 * np.pi * np.array([18.4, 19.3, 20.2, 100.5])
+    nodes = Nodes.of(omega, 16)
+    assert sorted(nodes.omega) == pytest.approx(sorted(omega))
+    assert nodes.omega @ nodes.plain.T == pytest.approx(omega)

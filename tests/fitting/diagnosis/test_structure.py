@@ -1,0 +1,49 @@
+import numpy as np
+
+from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.structure import structure
+from fitting.sweep import Sweep
+
+N = 118
+
+
+def sweep(segments=3):
+    count = N * segments
+    ones = np.ones(count)
+    return Sweep(
+        frequency_hz=np.linspace(14, 300, count),
+        velocity_m_s=ones + 0j,
+        commanded_m_s2=9.81 * ones,
+        segment=np.repeat(np.arange(1, segments + 1), N),
+        sweep=np.ones(count, dtype=int),
+    )
+
+
+def evidence(data):
+    ones = np.ones(len(data))
+    return Evidence(data.velocity_m_s, ones, ones, np.zeros((2 * len(data), 1)), True)
+
+
+def test_white_residuals_are_rarely_taken_for_structure():
+    data, alarms = sweep(), 0
+    for seed in range(300):
+        r = np.random.default_rng(seed).normal(size=2 * len(data))
+        alarms += bool(structure(data, evidence(data), r, float(r @ r / len(r))))
+    assert alarms <= 1
+
+
+def test_a_slow_wave_as_large_as_the_noise_is_structure():
+    data = sweep()
+    wave = np.sin(2 * np.pi * np.arange(2 * len(data)) / 40)
+    r = np.random.default_rng(0).normal(size=2 * len(data)) + wave
+    said = " ".join(structure(data, evidence(data), r, float(r @ r / len(r))))
+    assert "runs" in said
+    assert "Ljung-Box" in said
+
+
+def test_nothing_is_said_where_the_noise_is_unknown():
+    data = sweep()
+    unknown = Evidence(
+        data.velocity_m_s, np.ones(len(data)), np.ones(len(data)), np.zeros((2 * len(data), 1)), False
+    )
+    assert structure(data, unknown, np.full(2 * len(data), 9.0), 81.0) == ()

@@ -1,0 +1,93 @@
+"""Sweeps of a 3D solid plate with an effect that the plate model is not told of: is it found and named?"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fitting.errors import OutsideModel
+from fitting.laws.fractional_zener import FractionalZener
+from instrument.campaign.cases import draw
+from instrument.diagnosis import diagnose
+from instrument.errors import BadInput
+from instrument.files.specimen_file import read_specimen
+from instrument.files.sweep_file import read_sweep
+from instrument.paper_case import case_file
+from instrument.simulated_case import case_file as simulated_file
+from tests.conftest import DATA
+
+OMEGA = 2 * np.pi * np.array([20.0, 100.0, 280.0])
+PRACTICE = {
+    "001": ({"channel_delay", "core_thickness"}, (346007.078, 5301317.139, 1.20966e-4, 0.946914722)),
+    "003": ({"amplitude_softening"}, (166200.79, 3497953.409, 1.64862e-4, 0.632339045)),
+    "004": ({"temperature_drift"}, (282958.774, 3890759.157, 1.31301e-4, 0.654169238)),
+    "005": ({"spot_offset"}, (301911.854, 2462406.867, 1.05021e-4, 0.835801188)),
+    "006": ({"clamp_compliance"}, (245686.709, 4672753.141, 8.1108e-5, 0.754511408)),
+    "007": ({"added_mass"}, (351072.675, 3103199.648, 1.42466e-4, 0.899611006)),
+}
+"""What is in the files, and the core's law: never seen by what is tested."""
+
+
+def specimen():
+    return replace(read_specimen(simulated_file("specimen.toml")), tolerances={})
+
+
+def practice(name):
+    return read_sweep(DATA / f"practice-{name}.csv").sweep(9.81)
+
+
+@pytest.mark.parametrize("name", ["004", "005", "006"])
+def test_a_hidden_effect_is_named_and_the_law_put_right(name):
+    effects, law = PRACTICE[name]
+    found = diagnose(practice(name), specimen()).result
+    assert {e.name for e in found.effects} == effects
+    true, before, after = (
+        one.modulus(OMEGA) for one in (FractionalZener(*law), found.before.law, found.after.law)
+    )
+    assert np.abs(after.real / true.real - 1).max() < 0.025
+    assert np.abs(after.real / true.real - 1).max() < 0.5 * np.abs(before.real / true.real - 1).max()
+    assert found.after.chi2_per_dof < 1.2 < found.before.chi2_per_dof
+    assert "instead of" in " ".join(found.explanation)
+
+
+def test_a_clean_sweep_is_said_to_be_clean():
+    found = diagnose(practice("002"), specimen()).result
+    assert found.verdict == "none"
+    assert found.effects == ()
+    assert found.after is found.before
+
+
+def test_an_effect_taken_out_of_the_catalogue_is_not_named():
+    found = diagnose(practice("005"), specimen(), without={"spot_offset"}).result
+    assert all("spot_offset" not in c.name for c in found.candidates)
+
+
+def test_hum_and_a_wrong_level_are_seen_in_the_channels():
+    for kind in ("mains_hum", "level_error"):
+        case = draw(kind, 1)
+        found = diagnose(case.sweep, case.specimen, case.hammer).result
+        assert [e.name for e in found.channels] == [kind]
+        assert found.verdict == "none"
+        assert found.used.all() == (kind == "level_error")
+
+
+def test_nine_amplitudes_cannot_name_one_effect():
+    plate = read_specimen(case_file("zn1.toml"))
+    sweep = read_sweep(case_file("table5.csv")).sweep(plate.base_acceleration_m_s2)
+    found = diagnose(sweep, plate).result
+    assert found.verdict == "ambiguous"
+    assert found.before.rms_percent == pytest.approx(5.19, abs=0.02)
+    assert found.before.validation.leave_one_out_rms_percent == pytest.approx(8.82, abs=0.05)
+    assert found.after.rms_percent < 2.6
+    assert found.after.validation.leave_one_out_rms_percent < 6.1
+    (group,) = found.equivalent.values()
+    assert "substrate_stiffness" in group
+    assert "hammer" in found.next_measurement
+
+
+def test_unknown_names_and_bare_plates_are_refused():
+    sweep = practice("002").take(np.arange(20))
+    with pytest.raises(BadInput, match="effect 'gremlins', expected one of"):
+        diagnose(sweep, specimen(), without={"gremlins"})
+    with pytest.raises(OutsideModel, match="no core to diagnose"):
+        diagnose(sweep, specimen().bare)
