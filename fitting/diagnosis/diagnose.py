@@ -29,6 +29,8 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 Report = Callable[[float], None]
 
+NOTHING_LEFT = 0.97
+"""Chi-square per degree of freedom below which no second effect is looked for."""
 CLEAN_ENOUGH = 1.08
 """Chi-square per degree of freedom above which a second effect is looked for beside all leading ones."""
 _NUMBERS_A_PARAMETER = 10
@@ -119,6 +121,8 @@ def _pairs(search: Search, singles: Sequence[Trial], report: Report) -> list[Tri
         return []
     flexible = any(e.replaces_law for e in best.fitted.effects)
     if search.none.bic - best.bic < FIRST:
+        return []
+    if best.fitted.chi2_per_dof < NOTHING_LEFT and not flexible:
         return []
     wide = best.fitted.chi2_per_dof > CLEAN_ENOUGH or flexible
     return without_idle_extensions(search.pairs(singles, report, wide=wide))

@@ -42,7 +42,7 @@ class Response:
         self._changing = [k for k, e in enumerate(self.effects) if type(e).change is not Effect.change]
         self._pitching = [k for k, e in enumerate(self.effects) if type(e).pitch is not Effect.pitch]
         self._shifting = [k for k, e in enumerate(self.effects) if type(e).modulus is not Effect.modulus]
-        self._last: tuple[bytes, Answer] | None = None
+        self._last: tuple[bytes, Answer, Complex] | None = None
         self._strains: tuple[bytes, Array] | None = None
         self._largest: float | None = None
 
@@ -80,14 +80,8 @@ class Response:
         turned = np.zeros(len(omega), complex)
         found = None
         if self._changing or self._pitching:
-            found = self._answer(law, u)
-            nodes = self.grid.nodes
-            x_0, slope_0 = self.grid.rational.with_derivative(law.modulus(nodes.omega))
-            moved, steeper = nodes.spread(
-                np.array([found.heave - x_0, found.heave_by_G - slope_0]), found.poles
-            )
+            found, (moved, steeper, turned) = self._answer(law, u)
             x, slope = x + moved + steeper * (G - G_law), slope + steeper
-            turned = nodes.spread(found.pitch, found.poles)
             for k in self._pitching:
                 h = self.effects[k].pitch(omega, self._of(k, u))
                 pitch = pitch + (h if h is not None else 0.0)
@@ -98,7 +92,8 @@ class Response:
             raw = raw + a / (1j * omega)
         return _At(self._read(raw, u), raw, slope, per_x, pitch, turned, lever, found)
 
-    def _answer(self, law: CoreLaw, u: Array) -> Answer:
+    def _answer(self, law: CoreLaw, u: Array) -> tuple[Answer, Complex]:
+        """At the nodes; and change of x, of dx/dG, and the answer to pitch at every point."""
         changing = [self._of(k, u) for k in self._changing]
         key = law.values.tobytes() + b"".join(c.tobytes() for c in changing)
         if self._last is None or self._last[0] != key:
@@ -122,8 +117,10 @@ class Response:
                 nodes.pole_node,
                 with_pitch=bool(self._pitching),
             )
-            self._last = key, solved
-        return self._last[1]
+            x_0, slope_0 = self.grid.rational.with_derivative(law.modulus(nodes.omega))
+            changed = np.array([solved.heave - x_0, solved.heave_by_G - slope_0, solved.pitch])
+            self._last = key, solved, nodes.spread(changed, solved.poles)
+        return self._last[1], self._last[2]
 
     def _changes(self, u: Array) -> Change:
         found = [self.effects[k].change(self.plate, self._of(k, u)) or Change() for k in self._changing]

@@ -13,7 +13,7 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 _OUTSIDE = (0.6, 1.6)
-_STEP = 0.012
+_STEP = 0.02
 
 
 class FixtureResonance(Effect):
@@ -37,7 +37,7 @@ class FixtureResonance(Effect):
         grid = np.geomspace(low, high, int(np.log(high / low) / _STEP))
         # Between the segments a resonance far from any point looks the same anywhere.
         near = np.abs(np.log(grid[:, None] / f)).min(axis=1) < 0.3
-        return [np.array([f0, zeta, 0.02]) for f0 in grid[near] for zeta in (0.008, 0.025, 0.08)]
+        return [np.array([f0, zeta, 0.02]) for f0 in grid[near] for zeta in (0.01, 0.05)]
 
     def pitch(self, omega: Array, u: Array) -> Complex:
         w0 = 2 * np.pi * u[0]

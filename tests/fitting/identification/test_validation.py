@@ -34,5 +34,5 @@ def test_one_segment_cannot_be_held_out_and_too_few_points_not_left_out():
     one = validate(np.ones(40, dtype=int), 1, learnt_mean(data), np.full(40, 0.5))
     assert one.held_out == ()
     assert one.held_out_rms_percent is None
-    few = validate(np.ones(4, dtype=int), 4, refit_to_mean(data[:4]), differences(data[:4]), NOISE)
+    few = validate(np.ones(4, dtype=int), 4, learnt_mean(data[:4]), NOISE)
     assert few.leave_one_out_rms_percent is None
