@@ -1,6 +1,7 @@
 """Specimens and models the tests share; models are cached in a folder of the test run."""
 
 import os
+import signal
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,6 +20,10 @@ from instrument.paper_case import case_file
 
 settings.register_profile("ci", deadline=None, max_examples=40, derandomize=True)
 settings.load_profile("ci")
+
+if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
+    # A run in the background of a shell ignores Ctrl-C, and so would every command it starts.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 TABLE_4 = FractionalZener(g0_pa=0.27e6, ginf_pa=4.1e6, tau_s=1.21e-4, alpha=0.83)
 DATA = Path(__file__).parent / "data"

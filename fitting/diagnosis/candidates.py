@@ -1,6 +1,7 @@
-"""Single effects: a first look by one linear step, then a full fit of law and unknowns."""
+"""One effect beside a fit so far: a first look by one linear step, rough fits, then a fit to the end."""
 
 from collections.abc import Sequence
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,11 +14,14 @@ from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
 
 Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Start = tuple[float, Array]
+"""The chi-square that a start may gain, and its unknowns."""
 
 FOLLOWED, FOLLOWED_PLACES = 2, 4
-"""Of an effect's starts, how many are fitted bluntly; of one with a place to be found."""
+"""Of an effect's starts, how many are fitted roughly; of one with a place to be found."""
 FINISHED = 2
-"""Blunt fits that are followed to the end."""
+"""Rough fits of a kind that are followed to the end by a thorough search."""
 WRONG = 2.0
 """Chi-square per degree of freedom beyond which the law so far is no place to begin."""
 HOPELESS = 30.0
@@ -26,7 +30,7 @@ _ROUNDS = 3
 _FAR = 0.02
 
 
-def look(task: Task, evidence: Evidence, before: Fitted, effect: Effect) -> list[tuple[float, Array]]:
+def look(task: Task, evidence: Evidence, before: Fitted, effect: Effect) -> list[Start]:
     """Starts of an effect, scaled by a linear step, with the chi-square each may gain; best first."""
     response = Response(task, [*before.effects, effect], task.coarse)
     plain = Response(task, before.effects, task.coarse)
@@ -35,10 +39,8 @@ def look(task: Task, evidence: Evidence, before: Fitted, effect: Effect) -> list
     r = before.residuals[: before.data]
     Q, _ = np.linalg.qr(before.jacobian[: before.data])
     lower, upper = effect.limits(response.plate)
-    found = []
-    for u in effect.starts(response.plate, task.points):
-        with np.errstate(all="ignore"):
-            moved = response.velocity(law, np.concatenate([known, u])) - v
+    starts, found = effect.starts(response.plate, task.points), []
+    for u, moved in zip(starts, _moves(response, law, known, starts, v), strict=True):
         s = evidence.jacobian(v, moved[None])[:, 0]
         s = s - Q @ (Q.T @ s)
         size = float(s @ s)
@@ -57,50 +59,80 @@ def look(task: Task, evidence: Evidence, before: Fitted, effect: Effect) -> list
     return sorted(found, key=lambda f: -f[0])
 
 
-def fit_with(
-    task: Task,
-    evidence: Evidence,
-    before: Fitted,
-    effect: Effect,
-    priors: Array,
-    starts: Sequence[tuple[float, Array]] | None = None,
-    *,
-    thorough: bool = False,
-) -> Fitted | None:
-    """The best fit with one more effect; None where it has nothing to start from.
-
-    `thorough` follows more starts to the end, from the stated law too.
-    """
-    starts = look(task, evidence, before, effect) if starts is None else starts
-    if not starts:
-        return None
-    effects = [*before.effects, effect]
-    plain = effect.starts(task.plate, task.points)[:1] if effect.unknowns else []
-    begun = [u for _, u in starts[: FOLLOWED_PLACES if _has_place(effect) else FOLLOWED]]
-    near = [(before.law, u) for u in begun]
-    # A linear step from a wrong law may lead astray: there a plain start, and the stated law too.
-    far = [(law, u) for law in (before.law, task.stated_law) for u in [*plain, *begun[:1]]]
-    response = Response(task, effects, task.coarse)
-    first = []
-    for blunt, tried in ((False, near), (True, far if thorough else [])):
-        judged = evidence.blunt() if blunt else evidence
-        found = [
-            refit(response, judged, law, np.concatenate([before.u, u]), tolerance=ROUGH, priors=priors)
-            for law, u in tried
-        ]
-        first += sorted(found, key=lambda f: f.chi2)[: FINISHED if thorough else 1]
-    ends = [polished(task, effects, evidence, f.law, f.u, priors) for f in first]
-    return min(ends, key=lambda f: f.chi2)
+def _moves(response: Response, law: CoreLaw, known: Array, starts: Sequence[Array], v: Complex) -> Complex:
+    """How the phasors move from `v` as the last effect comes in from each start. Shape (starts, points)."""
+    effect = response.effects[-1]
+    if _has_place(effect) and type(effect).change is not Effect.change:
+        # Many places to be tried: one adjoint serves all of them.
+        return response.signatures(law, known, starts)
+    with np.errstate(all="ignore"):
+        return np.array([response.velocity(law, np.concatenate([known, u])) - v for u in starts])
 
 
-def blunt_chi2(task: Task, evidence: Evidence, before: Fitted, effect: Effect, priors: Array) -> float:
-    """How well an effect does from plain starts in wide valleys: says which are worth going into."""
-    response = Response(task, [*before.effects, effect], task.coarse)
-    u = effect.starts(task.plate, task.points)[0]
-    return min(
-        refit(response, evidence.blunt(), law, u, tolerance=ROUGH, priors=priors).chi2
-        for law in (before.law, task.stated_law)
-    )
+class Contender:
+    """Fits of the data with one more effect, as far as anyone asked for them."""
+
+    def __init__(
+        self,
+        task: Task,
+        evidence: Evidence,
+        before: Fitted,
+        effect: Effect,
+        priors: Array,
+        starts: Sequence[Start] | None = None,
+    ) -> None:
+        """`starts` as `look` gives them, where they are known."""
+        self.task, self.evidence, self.before = task, evidence, before
+        self.effect, self.priors = effect, priors
+        self._looked = starts
+
+    @cached_property
+    def _starts(self) -> Sequence[Start]:
+        if self._looked is not None:
+            return self._looked
+        return look(self.task, self.evidence, self.before, self.effect)
+
+    @cached_property
+    def _response(self) -> Response:
+        return Response(self.task, [*self.before.effects, self.effect], self.task.coarse)
+
+    def _rough(self, law: CoreLaw, u: Array, evidence: Evidence) -> Fitted:
+        start = np.concatenate([self.before.u, u])
+        return refit(self._response, evidence, law, start, tolerance=ROUGH, priors=self.priors)
+
+    @cached_property
+    def near(self) -> list[Fitted]:
+        """Rough fits from the law so far and the starts that promise most; best first."""
+        most = FOLLOWED_PLACES if _has_place(self.effect) else FOLLOWED
+        fits = [self._rough(self.before.law, u, self.evidence) for _, u in self._starts[:most]]
+        return sorted(fits, key=_chi2)
+
+    @cached_property
+    def plain(self) -> list[Fitted]:
+        """Rough fits in wide valleys from the first start, from the law so far and the stated one."""
+        u = self.effect.starts(self.task.plate, self.task.points)[0]
+        return self._wide(u)
+
+    @cached_property
+    def far(self) -> list[Fitted]:
+        """Those of `plain`, and from the start that promises most.
+
+        A linear step from a wrong law may lead astray.
+        """
+        begun = [f for _, u in self._starts[:1] for f in self._wide(u)]
+        return sorted([*self.plain, *begun], key=_chi2)
+
+    def _wide(self, u: Array) -> list[Fitted]:
+        blunt = self.evidence.blunt()
+        return [self._rough(law, u, blunt) for law in (self.before.law, self.task.stated_law)]
+
+    def finished(self, rough: Fitted) -> Fitted:
+        """A rough fit followed to the end."""
+        return polished(self.task, rough.effects, self.evidence, rough.law, rough.u, self.priors)
+
+
+def _chi2(fitted: Fitted) -> float:
+    return fitted.chi2
 
 
 def _has_place(effect: Effect) -> bool:

@@ -46,14 +46,13 @@ def answer(
     `pole_node` has a node near every pole wanted; `nearby` for every unknown the changes a step above and
     below, and the step between them.
     """
-    w, g = omega[:, None, None], G[:, None, None]
     C_1 = change.damping * ((plate.U * plate.d) @ plate.U.T)
     K_1 = plate.K_1 + change.K_1
-    A = (plate.K_0 + change.K) + g * K_1 - w**2 * (plate.M + change.M) + 1j * w * C_1
+    A = _dynamic(plate.K_0 + change.K, K_1, plate.M + change.M, C_1, omega, G)
     load, observe = plate.load + change.load, plate.observe + change.observe
     sides = [load, observe, plate.pitch] if with_pitch else [load, observe]
     rhs = np.stack(sides, axis=1).astype(complex)
-    solved = np.linalg.solve(A, np.broadcast_to(rhs, (len(omega), *rhs.shape)))
+    solved: Complex = np.linalg.solve(A, np.broadcast_to(rhs, (len(omega), *rhs.shape)))
     q, z = solved[:, :, 0], solved[:, :, 1]
     p = solved[:, :, 2] if with_pitch else None
     step = _Step(plate, omega, G, z)
@@ -69,6 +68,14 @@ def answer(
         else np.zeros((len(pairs), len(omega)), complex),
         poles=_poles(A, q, plate.M + change.M, omega, pole_node),
     )
+
+
+def _dynamic(K_0: Complex, K_1: Array, M: Array, C_1: Array, omega: Array, G: Complex) -> Complex:
+    """K_0 + G K_1 - w^2 M + i w C_1 at every node. Shape (nodes, k, k)."""
+    factors = np.stack([np.ones_like(G), G, -(omega**2), 1j * omega], axis=1)
+    # One product: several times faster than sums of stacks of matrices.
+    parts = np.stack([K_0, K_1, M, C_1]).astype(complex).reshape(4, -1)
+    return np.asarray((factors @ parts).reshape(len(omega), *M.shape))
 
 
 def _poles(A: Complex, q: Complex, M: Array, omega: Array, node: NDArray[np.intp]) -> Complex:
@@ -135,7 +142,6 @@ def core_strain(plate: SpannedPlate, omega: Array, G: Complex, mean_square: Arra
 
 def answer_motion(plate: SpannedPlate, omega: Array, G: Complex) -> Complex:
     """Motion q of A q = load, the plate unchanged. Shape (nodes, k)."""
-    w, g = omega[:, None, None], G[:, None, None]
-    A = plate.K_0 + g * plate.K_1 - w**2 * plate.M + 1j * w * ((plate.U * plate.d) @ plate.U.T)
+    A = _dynamic(plate.K_0, plate.K_1, plate.M, (plate.U * plate.d) @ plate.U.T, omega, G)
     rhs = np.broadcast_to(plate.load[:, None].astype(complex), (len(omega), len(plate.load), 1))
     return np.asarray(np.linalg.solve(A, rhs)[:, :, 0])

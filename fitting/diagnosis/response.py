@@ -61,6 +61,28 @@ class Response:
             moved[len(by_law) + k] += self._read_by(k, at.raw, u)
         return at.v, moved
 
+    def signatures(self, law: CoreLaw, known: Array, starts: Sequence[Array]) -> Complex:
+        """To first order, what the last effect changes as it comes in. Shape (starts, points).
+
+        It changes the plate alone; `known` are the unknowns of the others.
+        """
+        others = Response(self.task, self.effects[:-1], self.grid)
+        at = others._at(law, known)
+        nodes, last = self.grid.nodes, self.effects[-1]
+        found = [others.effects[k].change(self.plate, others._of(k, known)) for k in others._changing]
+        solved = answer(
+            self.plate,
+            nodes.omega,
+            law.modulus(nodes.omega),
+            reduce(Change.and_then, (c for c in found if c is not None), Change()),
+            [(last.change(self.plate, u) or Change(), Change(), 1.0) for u in starts],
+            nodes.pole_node,
+            with_pitch=bool(self._pitching),
+        )
+        by_u = nodes.spread(np.stack([solved.heave_by_u, solved.pitch_by_u]), solved.poles)
+        raw = at.per_x * (by_u[0] + at.pitch * by_u[1])
+        return np.array([others._read(at.raw + d, known) - at.v for d in raw])
+
     def beside(self, effect: Effect) -> "Response":
         """The same with one more effect."""
         return Response(self.task, [*self.effects, effect], self.grid)

@@ -1,13 +1,14 @@
 """The catalogue tried on a residual: single effects, other laws, pairs where one does not suffice."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.diagnosis.candidates import WRONG, blunt_chi2, fit_with, look
+from fitting.diagnosis.candidates import FINISHED, WRONG, Contender, look
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.refit import Fitted, refit
 from fitting.diagnosis.task import Task
@@ -16,6 +17,8 @@ from fitting.properties import PROPERTIES
 
 Array = NDArray[np.float64]
 Report = Callable[[float], None]
+A = TypeVar("A")
+B = TypeVar("B")
 
 NEAR = 40.0
 """In BIC, above the best: effects so near are gone into twice."""
@@ -26,14 +29,14 @@ PROMISING = 5.0
 LEADERS = 5
 """Single effects that a second one is looked for beside."""
 PAIRS = 12
-_SPARE = 2
-"""Data a candidate must leave over."""
 """Pairs fitted in full."""
-
-
 PAIRS_A_LEADER = 4
 LEAST_EXPECTED = 15.0
 """Chi-square that a second effect must promise where the first leaves little."""
+LEFT_BEHIND = 4.0
+"""Times the least chi-square: rough fits beyond are not followed to the end."""
+_SPARE = 2
+"""Data a candidate must leave over."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,9 +57,14 @@ class Search:
 
     def __init__(self, task: Task, evidence: Evidence, none: Fitted, effects: Sequence[Effect]) -> None:
         self.task, self.evidence = task, evidence
-        self.stated = none.law
+        self.stated = stated = none.law
         self.none = self._judged(none)
         self.effects = [e for e in effects if e.objection(task.points, task.plate) is None]
+        self._fitted = [e for e in self.effects if not e.laws(stated, task.points)]
+        self._contenders = {
+            e.name: [Contender(task, evidence, none, form, self.priors([form])) for form in e.variants()]
+            for e in self._fitted
+        }
 
     def _judged(self, fitted: Fitted) -> Trial:
         n = self.evidence.count + (len(self.evidence.bare.shift) if self.evidence.bare else 0)
@@ -73,25 +81,72 @@ class Search:
     def priors(self, effects: Sequence[Effect]) -> Array:
         """Standard deviations of unknowns about their neutral values: the specimen's tolerances."""
         stated = self.task.specimen.tolerances
-        found = {f"{name}": stated[name] for name in PROPERTIES if name in stated}
+        found = {str(name): stated[name] for name in PROPERTIES if name in stated}
         return np.array([found.get(e.tolerance or "", np.inf) for e in effects for _ in e.unknowns])
 
     def singles(self, report: Report) -> list[Trial]:
         """Every effect beside the law, best first; the leading ones are gone into twice."""
         found: dict[str, Trial] = {}
-        for thorough in (False, True):
-            wanted = self._worth_more(found) if thorough else self.effects
-            with ThreadPoolExecutor(2) as pool:
-                fits = pool.map(lambda e, thorough=thorough: self._alone(e, thorough=thorough), wanted)
-                for done, (effect, fitted) in enumerate(zip(wanted, fits, strict=True)):
-                    if fitted is not None:
-                        trial = self._judged(fitted)
-                        if effect.name not in found or trial.bic < found[effect.name].bic:
-                            found[effect.name] = trial
-                    report((0.6 if not thorough else 0.4) * (done + 1) / len(wanted) + 0.6 * thorough)
+
+        def keep(fits: Iterable[Fitted]) -> None:
+            for trial in (self._judged(f) for f in fits if self._determined(f)):
+                name = trial.names[0]
+                if name not in found or trial.bic < found[name].bic:
+                    found[name] = trial
+
+        laws = [e for e in self.effects if e not in self._fitted]
+        keep(self._each(self._other_law, laws, lambda x: report(0.1 * x)))
+        keep(
+            f for fits in self._each(self._rough, self._fitted, lambda x: report(0.1 + 0.3 * x)) for f in fits
+        )
+        keep(self._each(self._finished, self._ahead(found), lambda x: report(0.4 + 0.2 * x)))
+        keep(
+            f
+            for fits in self._each(self._thorough, self._worth_more(found), lambda x: report(0.6 + 0.4 * x))
+            for f in fits
+        )
         return sorted(found.values(), key=lambda t: t.bic)
 
-    def _worth_more(self, found: dict[str, Trial]) -> list[Effect]:
+    def _each(self, do: Callable[[A], B], wanted: Sequence[A], report: Report) -> Iterable[B]:
+        with ThreadPoolExecutor(2) as pool:
+            for done, found in enumerate(pool.map(do, wanted)):
+                report((done + 1) / len(wanted))
+                yield found
+
+    def _determined(self, fitted: Fitted) -> bool:
+        return fitted.parameters <= self.evidence.count - _SPARE
+
+    def _other_law(self, effect: Effect) -> Fitted:
+        none = self.none.fitted
+        response = none.response.beside(effect)
+        laws = effect.laws(none.law, self.task.points)
+        fits = [refit(response, self.evidence, law, none.u) for law in laws]
+        return min(fits, key=lambda f: self._judged(f).bic)
+
+    def _rough(self, effect: Effect) -> list[Fitted]:
+        return sorted((f for c in self._contenders[effect.name] for f in c.near), key=lambda f: f.chi2)
+
+    def _ahead(self, found: Mapping[str, Trial]) -> list[Effect]:
+        """Effects whose rough fit is among the best or not far behind."""
+        order = sorted(found.values(), key=lambda t: t.fitted.chi2)
+        names = {
+            t.names[0]
+            for place, t in enumerate(order)
+            if place < 2 * LEADERS and t.fitted.chi2 < LEFT_BEHIND * order[0].fitted.chi2
+        }
+        return [e for e in self._fitted if e.name in names]
+
+    def _finished(self, effect: Effect) -> Fitted:
+        contender, rough = _best_first((c, f) for c in self._contenders[effect.name] for f in c.near)[0]
+        return contender.finished(rough)
+
+    def _thorough(self, effect: Effect) -> list[Fitted]:
+        contenders = self._contenders[effect.name]
+        near = _best_first((c, f) for c in contenders for f in c.near)[1:FINISHED]
+        far = _best_first((c, f) for c in contenders for f in c.far)[:FINISHED]
+        return [c.finished(f) for c, f in [*near, *far]]
+
+    def _worth_more(self, found: Mapping[str, Trial]) -> list[Effect]:
         """Effects that better starts might bring to the top, after a first pass."""
         order = sorted(found.values(), key=lambda t: t.bic)
         if not order or self.none.bic - order[0].bic < PROMISING:
@@ -100,35 +155,18 @@ class Search:
         best = order[0].fitted
         if not best.chi2_per_dof < UNCLEAR or any(e.replaces_law for e in best.effects):
             names |= {t.names[0] for t in order[:LEADERS]} | self._promising()
-        return [e for e in self.effects if e.name in names and not e.replaces_law and e.unknowns]
+        return [e for e in self._fitted if e.name in names and e.unknowns]
 
     def _promising(self) -> set[str]:
         """Where the law so far is no place to begin: the effects that do best from plain starts."""
-        none = self.none.fitted
-        if not none.chi2_per_dof > WRONG:
+        if not self.none.fitted.chi2_per_dof > WRONG:
             return set()
-        fitted = [e for e in self.effects if not e.replaces_law and e.unknowns]
-        with ThreadPoolExecutor(2) as pool:
-            chi2 = list(
-                pool.map(lambda e: blunt_chi2(self.task, self.evidence, none, e, self.priors([e])), fitted)
-            )
+        fitted = [e for e in self._fitted if e.unknowns]
+        chi2 = list(self._each(self._plain_chi2, fitted, lambda x: None))
         return {fitted[k].name for k in np.argsort(chi2)[:LEADERS]}
 
-    def _alone(self, effect: Effect, *, thorough: bool) -> Fitted | None:
-        fits = [f for form in effect.variants() for f in self._form(form, thorough=thorough)]
-        fits = [f for f in fits if f.parameters <= self.evidence.count - _SPARE]
-        return min(fits, key=lambda f: f.chi2) if fits else None
-
-    def _form(self, effect: Effect, *, thorough: bool) -> list[Fitted]:
-        none = self.none.fitted
-        laws = effect.laws(none.law, self.task.points)
-        if laws:
-            response = none.response.beside(effect)
-            fits = [refit(response, self.evidence, law, none.u) for law in laws]
-            return [min(fits, key=lambda f: self._judged(f).bic)]
-        priors = self.priors([effect])
-        fitted = fit_with(self.task, self.evidence, none, effect, priors, thorough=thorough)
-        return [fitted] if fitted is not None else []
+    def _plain_chi2(self, effect: Effect) -> float:
+        return min(f.chi2 for f in self._contenders[effect.name][0].plain)
 
     def pairs(self, singles: Sequence[Trial], report: Report, *, wide: bool) -> list[Trial]:
         """Second effects beside the leading single ones, or the first alone; best first."""
@@ -165,8 +203,13 @@ class Search:
             def full(k: int) -> Fitted | None:
                 trial, effect = tasks[k]
                 priors = self.priors([*trial.fitted.effects, effect])
-                return fit_with(self.task, self.evidence, trial.fitted, effect, priors, looks[k])
+                one = Contender(self.task, self.evidence, trial.fitted, effect, priors, looks[k])
+                return one.finished(one.near[0]) if one.near else None
 
             fits = [f for f in pool.map(full, chosen.values()) if f is not None]
         report(1.0)
         return sorted((self._judged(f) for f in fits), key=lambda t: t.bic)
+
+
+def _best_first(fits: Iterable[tuple[Contender, Fitted]]) -> list[tuple[Contender, Fitted]]:
+    return sorted(fits, key=lambda one: one[1].chi2)
