@@ -1,6 +1,6 @@
 """Diagnose a sweep: models made or loaded, then everything in `fitting.diagnosis`, timed."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from time import perf_counter
 
@@ -51,14 +51,20 @@ def diagnose(
     hammer: Hammer | None = None,
     without: Collection[str] = frozenset(),
     progress: Progress = quiet,
+    accept: Sequence[str] | None = None,
 ) -> Diagnosed:
     """What the specimen's law cannot explain, traced to an effect. Raises `BadInput`, `FittingError`.
 
     `hammer` is the bare plate's test as `fit_bare_plate` takes it; names in `without` are not considered.
+    Where `accept` is given its effects are fitted on the user's word, and nothing is searched for; empty
+    declines them all.
     """
-    unknown = sorted(set(without) - set(CATALOGUE))
+    unknown = sorted({*without, *(accept or ())} - set(CATALOGUE))
     if unknown:
         raise BadInput(f"effect {unknown[0]!r}, expected one of {', '.join(sorted(CATALOGUE))}")
+    both = sorted(set(without) & set(accept or ()))
+    if both:
+        raise BadInput(f"effect {both[0]!r} both accepted and left out, expected one of them")
     if specimen.core is None:
         raise OutsideModel("a bare plate has no core to diagnose, expected [core] and [constraining]")
     start = specimen.core.law
@@ -73,7 +79,7 @@ def diagnose(
         ready = perf_counter()
         bare = _bare(modes) if modes is not None else None
         with progress("tracing the residual") as report:
-            result = diagnose_task(task, reduced, effects, noise, bare, start, channels, used, report)
+            result = diagnose_task(task, reduced, effects, noise, bare, start, channels, used, report, accept)
     return Diagnosed(result, ready - began, perf_counter() - ready)
 
 

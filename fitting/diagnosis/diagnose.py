@@ -15,7 +15,7 @@ from fitting.diagnosis.search import Search, Trial
 from fitting.diagnosis.stage import found_effects, stage_of
 from fitting.diagnosis.structure import structure
 from fitting.diagnosis.task import Task
-from fitting.diagnosis.verdict import FIRST, Judgement, judge, without_idle_extensions
+from fitting.diagnosis.verdict import FIRST, Judgement, judge, told, without_idle_extensions
 from fitting.effects.base import Effect
 from fitting.identification.direct import fit_direct
 from fitting.identification.model import SweepModel
@@ -33,6 +33,8 @@ NOTHING_LEFT = 0.97
 """Chi-square per degree of freedom below which no second effect is looked for."""
 CLEAN_ENOUGH = 1.08
 """Chi-square per degree of freedom above which a second effect is looked for beside all leading ones."""
+OVERSTATED = 0.75
+"""Chi-square per degree of freedom below which local scatter was more than noise."""
 _NUMBERS_A_PARAMETER = 10
 """Data per parameter below which no second effect is looked for."""
 
@@ -73,26 +75,31 @@ def diagnose_task(
     channels: tuple[FoundEffect, ...] = (),
     used: Mask | None = None,
     report: Report = lambda fraction: None,
+    accepted_by_hand: Sequence[str] | None = None,
 ) -> Diagnosis:
-    """Everything that can be said of a sweep's residual; `task` holds the points in use."""
+    """Everything that can be said of a sweep's residual; `task` holds the points in use.
+
+    With `accepted_by_hand` these effects are fitted and nothing is searched for.
+    """
     task, evidence, none = begin(task, reduced, noise, bare, start)
     search = Search(task, evidence, none, effects)
-    singles = without_idle_extensions(search.singles(lambda x: report(0.5 * x)))
-    pairs = _pairs(search, singles, lambda x: report(0.5 + 0.3 * x))
+    catalogue = {e.name: e for e in effects}
+    if accepted_by_hand is None:
+        search, trials, judgement = _searched(search, noise, report)
+        evidence = search.evidence
+    else:
+        judgement = told(search.told([catalogue[name] for name in accepted_by_hand]))
+        trials = [judgement.accepted] if judgement.accepted is not None else []
     known = evidence.scale_known
-    whitened = none.residuals[: none.data]
-    left = structure(task.sweep, evidence, whitened, none.chi2_per_dof)
-    judgement = judge(search.none, singles, pairs, noise_known=known, structured=bool(left))
     report(0.8)
-    before = stage_of(task, evidence, none, np.empty(0))
+    before = stage_of(task, evidence, search.none.fitted, np.empty(0))
     report(0.9)
     accepted = judgement.accepted
     after, found = before, tuple[FoundEffect, ...]()
     if accepted is not None:
         priors = search.priors(accepted.fitted.effects)
         after, found = stage_of(task, evidence, accepted.fitted, priors), found_effects(accepted.fitted)
-    catalogue = {e.name: e for e in effects}
-    trials = sorted([search.none, *singles, *pairs], key=lambda t: t.bic)
+    trials = sorted([search.none, *trials], key=lambda t: t.bic)
     seen = tuple(words.story(catalogue[c.name], c) for c in channels)
     return Diagnosis(
         verdict=judgement.verdict,
@@ -110,6 +117,22 @@ def diagnose_task(
         used=np.ones(len(task.sweep), bool) if used is None else used,
         warnings=_warnings(task, judgement),
     )
+
+
+def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, list[Trial], Judgement]:
+    """The whole catalogue, and the verdict; the search as it ended."""
+    singles = without_idle_extensions(search.singles(lambda x: report(0.5 * x)))
+    least = singles[0].fitted.chi2_per_dof if singles else 1.0
+    if noise.source == "local scatter" and least < OVERSTATED:
+        # What scatters from point to point need not be noise: a drift does, in a sweep that jumps about.
+        search = search.with_evidence(search.evidence.scaled(float(np.sqrt(least))))
+        singles = without_idle_extensions(search.singles(lambda x: report(0.5)))
+    pairs = _pairs(search, singles, lambda x: report(0.5 + 0.3 * x))
+    none, evidence = search.none.fitted, search.evidence
+    left = structure(search.task.sweep, evidence, none.residuals[: none.data], none.chi2_per_dof)
+    known = evidence.scale_known
+    judgement = judge(search.none, singles, pairs, noise_known=known, structured=bool(left))
+    return search, [*singles, *pairs], judgement
 
 
 def _pairs(search: Search, singles: Sequence[Trial], report: Report) -> list[Trial]:

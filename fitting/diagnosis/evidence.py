@@ -104,6 +104,17 @@ class Evidence:
             self.measured_m_s, sigma, self.noise_m_s, 0 * self.B[:, :1], self.scale_known, self.bare
         )
 
+    def scaled(self, factor: float) -> "Evidence":
+        """The same readings, noise and the white part of the model's error times a factor."""
+        return Evidence(
+            self.measured_m_s,
+            self.sigma_m_s * factor,
+            self.noise_m_s * factor,
+            self.B / factor,
+            self.scale_known,
+            self.bare,
+        )
+
     def _stack(self, z: Complex | Array) -> Array:
         return np.concatenate([z.real, z.imag], axis=-1) if self.has_phase else np.real(z)
 

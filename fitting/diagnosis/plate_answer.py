@@ -52,7 +52,8 @@ def answer(
     load, observe = plate.load + change.load, plate.observe + change.observe
     sides = [load, observe, plate.pitch] if with_pitch else [load, observe]
     rhs = np.stack(sides, axis=1).astype(complex)
-    solved: Complex = np.linalg.solve(A, np.broadcast_to(rhs, (len(omega), *rhs.shape)))
+    sides_by_node = np.broadcast_to(rhs, (len(omega), *rhs.shape))
+    solved = np.asarray(np.linalg.solve(A, sides_by_node), dtype=np.complex128)
     q, z = solved[:, :, 0], solved[:, :, 1]
     p = solved[:, :, 2] if with_pitch else None
     step = _Step(plate, omega, G, z)

@@ -13,6 +13,7 @@ from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.refit import Fitted, refit
 from fitting.diagnosis.task import Task
 from fitting.effects.base import Effect
+from fitting.errors import OutsideModel
 from fitting.properties import PROPERTIES
 
 Array = NDArray[np.float64]
@@ -65,6 +66,12 @@ class Search:
             e.name: [Contender(task, evidence, none, form, self.priors([form])) for form in e.variants()]
             for e in self._fitted
         }
+
+    def with_evidence(self, evidence: Evidence) -> "Search":
+        """The same search of data that are worth something else."""
+        none = self.none.fitted
+        again = refit(none.response, evidence, none.law, none.u)
+        return Search(self.task, evidence, again, self.effects)
 
     def _judged(self, fitted: Fitted) -> Trial:
         n = self.evidence.count + (len(self.evidence.bare.shift) if self.evidence.bare else 0)
@@ -167,6 +174,25 @@ class Search:
 
     def _plain_chi2(self, effect: Effect) -> float:
         return min(f.chi2 for f in self._contenders[effect.name][0].plain)
+
+    def told(self, effects: Sequence[Effect]) -> Trial:
+        """These effects together, none of them weighed; `FittingError` where the data cannot carry one."""
+        fitted = self.none.fitted
+        # Another law comes first: the others are then fitted beside it.
+        for effect in sorted(effects, key=lambda e: not e.replaces_law):
+            objection = effect.objection(self.task.points, self.task.plate)
+            if objection is not None:
+                raise OutsideModel(f"{effect.name}: {objection}")
+            if effect.replaces_law:
+                fitted = self._other_law(effect)
+                continue
+            priors = self.priors([*fitted.effects, effect])
+            contenders = [
+                Contender(self.task, self.evidence, fitted, form, priors) for form in effect.variants()
+            ]
+            fits = [c.finished(f) for c in contenders for f in [*c.near[:1], *c.far[:1]]]
+            fitted = min(fits, key=lambda f: f.chi2)
+        return self._judged(fitted)
 
     def pairs(self, singles: Sequence[Trial], report: Report, *, wide: bool) -> list[Trial]:
         """Second effects beside the leading single ones, or the first alone; best first."""

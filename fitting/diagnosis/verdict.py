@@ -32,6 +32,14 @@ class Judgement:
     verdict: Verdict
     accepted: Trial | None
     equivalent: dict[str, tuple[str, ...]]
+    by_hand: bool = False
+    """Accepted on someone's word, not by the data's."""
+
+
+def told(trial: Trial) -> Judgement:
+    """What someone has decided: each effect stands for itself."""
+    names: dict[str, tuple[str, ...]] = {name: (name,) for name in trial.names}
+    return Judgement("effect" if names else "none", trial if names else None, names, by_hand=True)
 
 
 def without_idle_extensions(trials: Sequence[Trial]) -> list[Trial]:

@@ -28,6 +28,9 @@ def explain(
     """What was left, what explains it, how sure that is, what it did to the material."""
     said = [_left(before)]
     trial = judgement.accepted
+    if judgement.verdict == "none" and judgement.by_hand:
+        said.append("No effect is accepted, by your word.")
+        return tuple(said)
     if judgement.verdict == "none":
         said.append("That is what noise and a layer-wise plate's own error leave: no effect is called for.")
         return tuple(said)
@@ -39,8 +42,10 @@ def explain(
         )
         return tuple(said)
     stories = [story(e, f) for e, f in zip(trial.fitted.effects, found, strict=True)]
-    said.append(f"Most likely {' and '.join(stories)}.")
-    said.append(_moved(task, trial.fitted))
+    likely = "By your word" if judgement.by_hand else "Most likely"
+    said.append(f"{likely} {' and '.join(stories)}.")
+    if not all(e.replaces_law for e in trial.fitted.effects):
+        said.append(_moved(task, trial.fitted))
     for name, group in judgement.equivalent.items():
         if len(group) > 1:
             others = ", ".join(group[1:])

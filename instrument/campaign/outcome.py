@@ -14,7 +14,6 @@ from instrument.campaign.cases import Case
 from instrument.campaign.materials import TrueLaw
 from instrument.plain import plain
 
-_CANDIDATES = 5
 
 
 @dataclass(frozen=True)
@@ -38,8 +37,8 @@ class Said:
     effects: tuple[str, ...]
     channels: tuple[str, ...]
     equivalent: dict[str, tuple[str, ...]]
-    candidates: tuple[tuple[str, float], ...]
-    """The first few: name and delta BIC."""
+    candidates: tuple[tuple[str, float, float], ...]
+    """Of every one: name, delta BIC, chi-square per degree of freedom."""
     before: StageFacts
     after: StageFacts
     seconds: float
@@ -80,7 +79,7 @@ def said_of(case: Case, found: Diagnosis, seconds: float, setup_seconds: float) 
         effects=tuple(e.name for e in found.effects),
         channels=tuple(e.name for e in found.channels),
         equivalent={name: tuple(group) for name, group in found.equivalent.items()},
-        candidates=tuple((c.name, c.delta_bic) for c in found.candidates[:_CANDIDATES]),
+        candidates=tuple((c.name, c.delta_bic, c.chi2_per_dof) for c in found.candidates),
         before=_stage(case.truth.law, found.before),
         after=_stage(case.truth.law, found.after),
         seconds=seconds,
@@ -129,7 +128,7 @@ def _said(facts: dict[str, Any] | None) -> Said | None:
         effects=tuple(facts["effects"]),
         channels=tuple(facts["channels"]),
         equivalent={name: tuple(group) for name, group in facts["equivalent"].items()},
-        candidates=tuple((name, _number(delta)) for name, delta in facts["candidates"]),
+        candidates=tuple((name, _number(delta), _number(chi2)) for name, delta, chi2 in facts["candidates"]),
         before=_stage_facts(facts["before"]),
         after=_stage_facts(facts["after"]),
         seconds=facts["seconds"],

@@ -25,6 +25,12 @@ from instrument.progress import bar
     help="Leave this effect out of consideration; may be given several times.",
 )
 @click.option(
+    "--accept",
+    multiple=True,
+    metavar="NAME",
+    help="Add this effect on your word and search no further; may be given several times.",
+)
+@click.option(
     "--figures",
     type=click.Path(path_type=Path, file_okay=False),
     metavar="FOLDER",
@@ -37,6 +43,7 @@ def diagnose(
     hammer: Path | None,
     no_hammer: bool,
     without: tuple[str, ...],
+    accept: tuple[str, ...],
     figures: Path | None,
     json_path: str | None,
 ) -> None:
@@ -47,7 +54,7 @@ def diagnose(
     """
     out = Output(json_path)
     given = read_data(out, data, specimen, hammer, no_hammer=no_hammer)
-    found = diagnose_sweep(given.sweep, given.specimen, given.modes, frozenset(without), bar)
+    found = diagnose_sweep(given.sweep, given.specimen, given.modes, frozenset(without), bar, accept or None)
     facts = plain(diagnosis_facts(found, given.sweep))
     print_diagnosis(out, facts)
     if figures is not None:

@@ -19,3 +19,7 @@ def test_bench_shows_the_required_ratios(capsys):
     assert by_name["identification of 353 complex points"]["seconds"] < 0.1
     (reduced,) = (row for name, row in by_name.items() if name.startswith("reduced model"))
     assert reduced["max_relative_error"] < 1e-6
+    assert by_name["set-up of a diagnosis, cold"]["seconds"] < 30
+    whole = {name: row["seconds"] for name, row in by_name.items() if name.startswith("diagnosis, the whole")}
+    assert whole["diagnosis, the whole catalogue, 353 points at 1 level"] < 10
+    assert whole["diagnosis, the whole catalogue, 1059 points at 3 levels"] < 20

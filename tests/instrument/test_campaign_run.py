@@ -13,7 +13,6 @@ from fitting.identification.result import LawBand
 from fitting.identification.validation import HeldOutSegment, Validation
 from fitting.laws.fractional_zener import FractionalZener
 from instrument.campaign import run as running
-from instrument.campaign.__main__ import campaign
 from instrument.campaign.cases import KINDS, draw
 from instrument.campaign.outcome import Outcome, line_of, outcome_of, said_of
 from instrument.campaign.run import (
@@ -26,6 +25,7 @@ from instrument.campaign.run import (
     run_campaign,
     write_summary,
 )
+from instrument.cli.bench import bench
 from instrument.errors import BadInput, StoppedByUser
 
 UNANSWERED = Outcome("spot_offset", 1, ("spot_offset",), False, 1, 900.0, None, None, "MemoryError: ")
@@ -160,9 +160,11 @@ def test_the_summary_is_kept_beside_the_lines(tmp_path):
 
 def test_the_command_judges_and_prints(tmp_path, monkeypatch):
     monkeypatch.setattr(
-        "instrument.campaign.__main__.run_campaign", lambda jobs, out, **options: [line_of(UNANSWERED)]
+        "instrument.cli.bench.run_campaign", lambda jobs, out, **options: [line_of(UNANSWERED)]
     )
-    result = CliRunner().invoke(campaign, ["--count", "1", "--out", str(tmp_path), "--kind", "spot_offset"])
+    result = CliRunner().invoke(
+        bench, ["--count", "1", "--diagnosis", str(tmp_path), "--kind", "spot_offset"]
+    )
     assert result.exit_code == 0, result.output
     assert "MemoryError" in result.output
-    assert CliRunner().invoke(campaign, ["--out", str(tmp_path), "--kind", "gremlins"]).exit_code == 2
+    assert CliRunner().invoke(bench, ["--diagnosis", str(tmp_path), "--kind", "gremlins"]).exit_code == 2

@@ -26,7 +26,7 @@ AFTER = StageFacts(1.1, 0.9, (0.1, -0.2, 0.3), (0.4, 0.5, -0.6))
 def said(verdict="none", effects=(), channels=(), **groups):
     equivalent = {name: tuple(group) for name, group in groups.items()}
     return Said(
-        verdict, tuple(effects), tuple(channels), equivalent, (("none", 3.0),), BEFORE, AFTER, 2.0, 1.0
+        verdict, tuple(effects), tuple(channels), equivalent, (("none", 3.0, 1.1),), BEFORE, AFTER, 2.0, 1.0
     )
 
 

@@ -76,9 +76,30 @@ def test_nine_amplitudes_cannot_name_one_effect():
     assert "hammer" in found.next_measurement
 
 
+def test_effects_are_accepted_and_declined_by_hand():
+    told = diagnose(practice("005"), specimen(), accept=("gain_error", "channel_delay")).result
+    assert told.verdict == "effect"
+    assert [e.name for e in told.effects] == ["gain_error", "channel_delay"]
+    assert "By your word" in " ".join(told.explanation)
+    assert told.after.chi2_per_dof < told.before.chi2_per_dof
+    declined = diagnose(practice("005"), specimen(), accept=()).result
+    assert (declined.verdict, declined.effects) == ("none", ())
+    assert declined.before.chi2_per_dof == pytest.approx(told.before.chi2_per_dof)
+
+
+def test_another_law_and_an_effect_beside_it_are_accepted_by_hand():
+    told = diagnose(practice("005"), specimen(), accept=("spot_offset", "core_law")).result
+    assert {e.name for e in told.effects} == {"core_law", "spot_offset"}
+    assert told.after.chi2_per_dof < 1.1
+
+
 def test_unknown_names_and_bare_plates_are_refused():
     sweep = practice("002").take(np.arange(20))
     with pytest.raises(BadInput, match="effect 'gremlins', expected one of"):
         diagnose(sweep, specimen(), without={"gremlins"})
+    with pytest.raises(BadInput, match="effect 'gremlins', expected one of"):
+        diagnose(sweep, specimen(), accept=["gremlins"])
+    with pytest.raises(BadInput, match="both accepted and left out"):
+        diagnose(sweep, specimen(), accept=["core_law"], without=["core_law"])
     with pytest.raises(OutsideModel, match="no core to diagnose"):
         diagnose(sweep, specimen().bare)
