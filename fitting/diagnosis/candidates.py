@@ -20,6 +20,8 @@ Start = tuple[float, Array]
 
 FOLLOWED, FOLLOWED_PLACES = 2, 4
 """Of an effect's starts, how many are fitted roughly; of one with a place to be found."""
+MORE_PLACES = 6
+"""Further starts of the latter, in a thorough search."""
 FINISHED = 2
 """Rough fits of a kind that are followed to the end by a thorough search."""
 WRONG = 2.0
@@ -62,7 +64,7 @@ def look(task: Task, evidence: Evidence, before: Fitted, effect: Effect) -> list
 def _moves(response: Response, law: CoreLaw, known: Array, starts: Sequence[Array], v: Complex) -> Complex:
     """How the phasors move from `v` as the last effect comes in from each start. Shape (starts, points)."""
     effect = response.effects[-1]
-    if _has_place(effect) and type(effect).change is not Effect.change:
+    if has_place(effect) and type(effect).change is not Effect.change:
         # Many places to be tried: one adjoint serves all of them.
         return response.signatures(law, known, starts)
     with np.errstate(all="ignore"):
@@ -103,8 +105,20 @@ class Contender:
     @cached_property
     def near(self) -> list[Fitted]:
         """Rough fits from the law so far and the starts that promise most; best first."""
-        most = FOLLOWED_PLACES if _has_place(self.effect) else FOLLOWED
-        fits = [self._rough(self.before.law, u, self.evidence) for _, u in self._starts[:most]]
+        return self._from(self._starts[: self._first])
+
+    @cached_property
+    def elsewhere(self) -> list[Fitted]:
+        """The same from some more starts of an effect whose place is to be found: valleys are many."""
+        more = MORE_PLACES if has_place(self.effect) else 0
+        return self._from(self._starts[self._first : self._first + more])
+
+    @property
+    def _first(self) -> int:
+        return FOLLOWED_PLACES if has_place(self.effect) else FOLLOWED
+
+    def _from(self, starts: Sequence[Start]) -> list[Fitted]:
+        fits = [self._rough(self.before.law, u, self.evidence) for _, u in starts]
         return sorted(fits, key=_chi2)
 
     @cached_property
@@ -135,7 +149,8 @@ def _chi2(fitted: Fitted) -> float:
     return fitted.chi2
 
 
-def _has_place(effect: Effect) -> bool:
+def has_place(effect: Effect) -> bool:
+    """Whether an unknown has no neutral value: where it sits, or at which frequency, is to be found."""
     return any(q.neutral is None and not q.fixed for q in effect.unknowns)
 
 

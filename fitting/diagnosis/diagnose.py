@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from fitting.diagnosis import words
 from fitting.diagnosis.evidence import BareModes, Evidence
 from fitting.diagnosis.model_error import model_error
+from fitting.diagnosis.prediction import over_noise
 from fitting.diagnosis.refit import Fitted, refit
 from fitting.diagnosis.response import Response
 from fitting.diagnosis.result import Candidate, Diagnosis, Estimate, FoundEffect
@@ -15,7 +16,8 @@ from fitting.diagnosis.search import Search, Trial
 from fitting.diagnosis.stage import found_effects, stage_of
 from fitting.diagnosis.structure import structure
 from fitting.diagnosis.task import Task
-from fitting.diagnosis.verdict import FIRST, Judgement, judge, told, without_idle_extensions
+from fitting.diagnosis.verdict import FIRST, Judgement, idle_over, judge, told, without_idle_extensions
+from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
 from fitting.identification.direct import fit_direct
 from fitting.identification.model import SweepModel
@@ -82,7 +84,9 @@ def diagnose_task(
     With `accepted_by_hand` these effects are fitted and nothing is searched for.
     """
     task, evidence, none = begin(task, reduced, noise, bare, start)
-    search = Search(task, evidence, none, effects)
+    known_names = {e.name for e in effects}
+    bases = [CATALOGUE[e.extends] for e in effects if e.extends and e.extends not in known_names]
+    search = Search(task, evidence, none, effects, bases)
     catalogue = {e.name: e for e in effects}
     if accepted_by_hand is None:
         search, trials, judgement = _searched(search, noise, report)
@@ -92,13 +96,13 @@ def diagnose_task(
         trials = [judgement.accepted] if judgement.accepted is not None else []
     known = evidence.scale_known
     report(0.8)
-    before = stage_of(task, evidence, search.none.fitted, np.empty(0))
+    before = stage_of(task, evidence, search.none.fitted, search.validation(search.none))
     report(0.9)
     accepted = judgement.accepted
     after, found = before, tuple[FoundEffect, ...]()
     if accepted is not None:
-        priors = search.priors(accepted.fitted.effects)
-        after, found = stage_of(task, evidence, accepted.fitted, priors), found_effects(accepted.fitted)
+        after = stage_of(task, evidence, accepted.fitted, search.validation(accepted))
+        found = found_effects(accepted.fitted)
     trials = sorted([search.none, *trials], key=lambda t: t.bic)
     seen = tuple(words.story(catalogue[c.name], c) for c in channels)
     return Diagnosis(
@@ -121,18 +125,33 @@ def diagnose_task(
 
 def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, list[Trial], Judgement]:
     """The whole catalogue, and the verdict; the search as it ended."""
-    singles = without_idle_extensions(search.singles(lambda x: report(0.5 * x)))
-    least = singles[0].fitted.chi2_per_dof if singles else 1.0
+    every = search.singles(lambda x: report(0.5 * x))
+    least = every[0].fitted.chi2_per_dof if every else 1.0
     if noise.source == "local scatter" and least < OVERSTATED:
         # What scatters from point to point need not be noise: a drift does, in a sweep that jumps about.
         search = search.with_evidence(search.evidence.scaled(float(np.sqrt(least))))
-        singles = without_idle_extensions(search.singles(lambda x: report(0.5)))
-    pairs = _pairs(search, singles, lambda x: report(0.5 + 0.3 * x))
+        every = search.singles(lambda x: report(0.5))
+    pairs = _pairs(search, without_idle_extensions(every, search.unnamed), lambda x: report(0.5 + 0.3 * x))
+    for trial in [one for pair in pairs[:1] for one in search.alone(pair)]:
+        # A pair may have found a better place for one effect than it found alone.
+        every = sorted([*(t for t in every if t.names != trial.names or t.bic < trial.bic), trial], key=_bic)
+    singles = without_idle_extensions(every, search.unnamed)
     none, evidence = search.none.fitted, search.evidence
     left = structure(search.task.sweep, evidence, none.residuals[: none.data], none.chi2_per_dof)
-    known = evidence.scale_known
-    judgement = judge(search.none, singles, pairs, noise_known=known, structured=bool(left))
+    judgement = judge(
+        search.none,
+        singles,
+        pairs,
+        noise_known=evidence.scale_known,
+        structured=bool(left),
+        held_out=lambda trial: over_noise(search.validation(trial)),
+        standing_for={t.names[0]: idle_over(t, every) for t in singles},
+    )
     return search, [*singles, *pairs], judgement
+
+
+def _bic(trial: Trial) -> float:
+    return trial.bic
 
 
 def _pairs(search: Search, singles: Sequence[Trial], report: Report) -> list[Trial]:

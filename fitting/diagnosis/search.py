@@ -8,12 +8,14 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.diagnosis.candidates import FINISHED, WRONG, Contender, look
+from fitting.diagnosis.candidates import FINISHED, WRONG, Contender, has_place, look, polished
 from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.prediction import held_out
 from fitting.diagnosis.refit import Fitted, refit
 from fitting.diagnosis.task import Task
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
+from fitting.identification.validation import Validation
 from fitting.properties import PROPERTIES
 
 Array = NDArray[np.float64]
@@ -56,12 +58,24 @@ class Trial:
 class Search:
     """Fits of one set of data."""
 
-    def __init__(self, task: Task, evidence: Evidence, none: Fitted, effects: Sequence[Effect]) -> None:
+    def __init__(
+        self,
+        task: Task,
+        evidence: Evidence,
+        none: Fitted,
+        effects: Sequence[Effect],
+        unnamed: Sequence[Effect] = (),
+    ) -> None:
+        """`unnamed` are fitted alone, for comparison, and never named."""
         self.task, self.evidence = task, evidence
         self.stated = stated = none.law
+        self._choosing: dict[str, float] = {}
+        self._validations: dict[int, tuple[Trial, Validation]] = {}
+        self.effects, self.unnamed = (
+            [e for e in some if e.objection(task.points, task.plate) is None] for some in (effects, unnamed)
+        )
+        self._fitted = [e for e in (*self.effects, *self.unnamed) if not e.laws(stated, task.points)]
         self.none = self._judged(none)
-        self.effects = [e for e in effects if e.objection(task.points, task.plate) is None]
-        self._fitted = [e for e in self.effects if not e.laws(stated, task.points)]
         self._contenders = {
             e.name: [Contender(task, evidence, none, form, self.priors([form])) for form in e.variants()]
             for e in self._fitted
@@ -71,7 +85,7 @@ class Search:
         """The same search of data that are worth something else."""
         none = self.none.fitted
         again = refit(none.response, evidence, none.law, none.u)
-        return Search(self.task, evidence, again, self.effects)
+        return Search(self.task, evidence, again, self.effects, self.unnamed)
 
     def _judged(self, fitted: Fitted) -> Trial:
         n = self.evidence.count + (len(self.evidence.bare.shift) if self.evidence.bare else 0)
@@ -79,17 +93,45 @@ class Search:
         if any(e.replaces_law for e in fitted.effects):
             # One of many laws: choosing is a parameter too, and none counts less than the stated one.
             parameters = max(parameters, len(self.stated.names)) + 2
-        paid = parameters * np.log(n)
+        paid = parameters * np.log(n) + sum(self._choices(e) for e in fitted.effects)
         if self.evidence.scale_known:
             return Trial(fitted, fitted.chi2 + paid)
         # Noise of unknown size: its estimate is in the likelihood.
         return Trial(fitted, n * np.log(max(fitted.chi2, 1e-300) / n) + paid)
+
+    def _choices(self, effect: Effect) -> float:
+        """What it costs that a place was chosen among many: one of them fits noise best."""
+        if effect.name not in self._choosing:
+            many = len(effect.starts(self.task.plate, self.task.points)) if has_place(effect) else 1
+            self._choosing[effect.name] = 2 * float(np.log(many))
+        return self._choosing[effect.name]
 
     def priors(self, effects: Sequence[Effect]) -> Array:
         """Standard deviations of unknowns about their neutral values: the specimen's tolerances."""
         stated = self.task.specimen.tolerances
         found = {str(name): stated[name] for name in PROPERTIES if name in stated}
         return np.array([found.get(e.tolerance or "", np.inf) for e in effects for _ in e.unknowns])
+
+    def validation(self, trial: Trial) -> Validation:
+        """What a trial says of data it has not seen."""
+        key = id(trial)
+        if key not in self._validations:
+            found = held_out(self.task, self.evidence, trial.fitted, self.priors(trial.fitted.effects))
+            self._validations[key] = trial, found
+        return self._validations[key][1]
+
+    def alone(self, trial: Trial) -> list[Trial]:
+        """Each effect of a pair fitted alone from where the pair left it."""
+        found, start = [], 0
+        for effect in trial.fitted.effects:
+            u = trial.fitted.u[start : start + len(effect.unknowns)]
+            start += len(effect.unknowns)
+            if not effect.replaces_law and not any(e.replaces_law for e in trial.fitted.effects):
+                priors = self.priors([effect])
+                found.append(
+                    self._judged(polished(self.task, [effect], self.evidence, trial.fitted.law, u, priors))
+                )
+        return found
 
     def singles(self, report: Report) -> list[Trial]:
         """Every effect beside the law, best first; the leading ones are gone into twice."""
@@ -149,7 +191,9 @@ class Search:
 
     def _thorough(self, effect: Effect) -> list[Fitted]:
         contenders = self._contenders[effect.name]
-        near = _best_first((c, f) for c in contenders for f in c.near)[1:FINISHED]
+        followed = next(iter(self._rough(effect)), None)
+        near = _best_first((c, f) for c in contenders for f in [*c.near, *c.elsewhere])
+        near = [(c, f) for c, f in near[:FINISHED] if f is not followed]
         far = _best_first((c, f) for c in contenders for f in c.far)[:FINISHED]
         return [c.finished(f) for c, f in [*near, *far]]
 

@@ -4,19 +4,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.refit import Fitted, refit
+from fitting.diagnosis.refit import Fitted
 from fitting.diagnosis.result import Estimate, FoundEffect, Stage
 from fitting.diagnosis.structure import structure
 from fitting.diagnosis.task import Task
 from fitting.identification.result import differences_percent, law_band
 from fitting.identification.uncertainty import Uncertainty, limits_reached
-from fitting.identification.validation import Mask, Validation, validate
+from fitting.identification.validation import Validation
 
 Array = NDArray[np.float64]
 
 
-def stage_of(task: Task, evidence: Evidence, fitted: Fitted, priors: Array) -> Stage:
-    """With held-out data: every segment predicted by a law and effects fitted to the others."""
+def stage_of(task: Task, evidence: Evidence, fitted: Fitted, validation: Validation) -> Stage:
+    """`validation` is what the fit says of data it has not seen."""
     law = fitted.law
     reached = limits_reached(law)
     n = len(law.names)
@@ -39,7 +39,7 @@ def stage_of(task: Task, evidence: Evidence, fitted: Fitted, priors: Array) -> S
         difference_percent=differences_percent(task.sweep, fitted.velocity_m_s),
         whitened=whitened,
         chi2_per_dof=chi2,
-        validation=_validation(task, evidence, fitted, priors),
+        validation=validation,
         structure=structure(task.sweep, evidence, whitened, chi2),
     )
 
@@ -74,18 +74,3 @@ def _unit(name: str) -> str:
     if name.endswith("_pa"):
         return "Pa"
     return "rad/s" if name.endswith("_rad_s") else "s" if name.endswith("_s") else "1"
-
-
-def _validation(task: Task, evidence: Evidence, fitted: Fitted, priors: Array) -> Validation:
-    size = np.abs(task.sweep.response_m_s)
-
-    def differences(points: Mask) -> Array:
-        learnt = refit(fitted.response, evidence, fitted.law, fitted.u, points=points, priors=priors)
-        return differences_percent(task.sweep, learnt.velocity_m_s)
-
-    return validate(
-        segment=task.sweep.segment,
-        points_needed=-(-fitted.parameters // (2 if evidence.has_phase else 1)),
-        differences_percent=differences,
-        noise_percent=100 * evidence.noise_m_s / size if evidence.scale_known else np.full(len(size), np.nan),
-    )

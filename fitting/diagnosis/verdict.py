@@ -3,11 +3,12 @@
 Differences in BIC. The thresholds are calibrated on sweeps of a 3D solid (docs/diagnosis.md).
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from fitting.diagnosis.result import Verdict
 from fitting.diagnosis.search import Trial
+from fitting.effects.base import Effect
 
 WITHIN = 15.0
 """Candidates this near to the best are not told from it."""
@@ -15,13 +16,19 @@ FIRST = 7.0
 """A first effect must gain this much over none."""
 SECOND = 20.0
 """A second effect must gain this much: less can be feigned by the plate model's own error."""
+SHARE = 0.035
+"""And this share of what the first one gained: no model of a changed plate is better than some percent."""
+PREDICTED = 2.0
+"""Times the noise on data held out: as good as can be asked of anything."""
+POOR, HARDLY_BETTER = 3.0, 0.6
+"""Times the noise, and times the error without any effect: what predicts no better explains nothing."""
 EXTENSION = 9.0
 """Chi-square that a candidate must gain over a simpler one it contains: three standard errors."""
 WITHIN_UNKNOWN_NOISE, FIRST_UNKNOWN_NOISE = 10.0, 6.0
 """The same where noise is estimated from the residual itself."""
 GOOD = 1.15
 """Chi-square per degree of freedom of an explanation that needs nothing more."""
-TOO_MUCH = 2.2
+TOO_MUCH = 1.6
 """Chi-square per degree of freedom that no candidate may leave."""
 
 
@@ -42,36 +49,55 @@ def told(trial: Trial) -> Judgement:
     return Judgement("effect" if names else "none", trial if names else None, names, by_hand=True)
 
 
-def without_idle_extensions(trials: Sequence[Trial]) -> list[Trial]:
-    """Trials best first, those left out that contain a simpler one and gain too little over it."""
+def idle_over(trial: Trial, trials: Sequence[Trial]) -> tuple[str, ...]:
+    """Simpler effects that one of a trial's contains and gains too little over."""
     by_names = {frozenset(t.names): t for t in trials}
-    kept = []
-    for trial in trials:
-        simpler = [
-            by_names.get(frozenset(trial.names) - {e.name} | {e.extends})
-            for e in trial.fitted.effects
-            if e.extends is not None
-        ]
-        if all(s is None or trial.fitted.chi2 < s.fitted.chi2 - EXTENSION for s in simpler):
-            kept.append(trial)
-    return kept
+    found = []
+    for effect in trial.fitted.effects:
+        if effect.extends is None:
+            continue
+        simpler = by_names.get(frozenset(trial.names) - {effect.name} | {effect.extends})
+        if simpler is not None and not trial.fitted.chi2 < simpler.fitted.chi2 - EXTENSION:
+            found.append(effect.extends)
+    return tuple(found)
+
+
+def without_idle_extensions(trials: Sequence[Trial], unnamed: Sequence[Effect] = ()) -> list[Trial]:
+    """Trials best first, those left out that contain a simpler one and gain too little over it.
+
+    Where the simpler one may not be named, the other stays and stands for it.
+    """
+    hidden = {e.name for e in unnamed}
+    return [t for t in trials if not hidden & set(t.names) and hidden >= set(idle_over(t, trials))]
 
 
 def judge(
-    none: Trial, singles: Sequence[Trial], pairs: Sequence[Trial], *, noise_known: bool, structured: bool
+    none: Trial,
+    singles: Sequence[Trial],
+    pairs: Sequence[Trial],
+    *,
+    noise_known: bool,
+    structured: bool,
+    held_out: Callable[[Trial], float],
+    standing_for: Mapping[str, tuple[str, ...]],
 ) -> Judgement:
-    """`structured`: whether the fit without any effect leaves more than chance."""
+    """Weigh trials, best first.
+
+    `structured`: whether the fit without any effect leaves more than chance. `held_out`: error of a trial
+    over noise on data it has not seen, NaN where there are none. `standing_for`: simpler effects that may
+    not be named, by what contains them and is no better.
+    """
     first = FIRST if noise_known else FIRST_UNKNOWN_NOISE
-    within = WITHIN if noise_known else WITHIN_UNKNOWN_NOISE
     if not singles or none.bic - singles[0].bic < first:
         much = noise_known and structured and none.fitted.chi2_per_dof > TOO_MUCH
         return Judgement("unknown" if much else "none", None, {})
-    best, pairs = singles[0], _without_flexible(singles, pairs)
-    if pairs and best.bic - pairs[0].bic > SECOND:
-        best = pairs[0]
-    if noise_known and best.fitted.chi2_per_dof > TOO_MUCH:
+    pairs = _without_flexible(singles, pairs)
+    second = _second(none, singles[0], pairs, held_out)
+    best = second or singles[0]
+    if noise_known and (best.fitted.chi2_per_dof > TOO_MUCH or _predicts_nothing(none, best, held_out)):
         return Judgement("unknown", None, {})
-    near = [t for t in (singles if len(best.names) == 1 else pairs) if t.bic - best.bic < within]
+    within = WITHIN if noise_known else WITHIN_UNKNOWN_NOISE
+    near = [t for t in (pairs if second else singles) if t.bic - best.bic < within]
     equivalent = {}
     for name in best.names:
         rest = set(best.names) - {name}
@@ -80,10 +106,31 @@ def judge(
             if rest
             else [set(t.names) for t in near]
         )
-        names = [name, *(n for o in others for n in o if n != name)]
+        names = [name, *(n for o in others for n in o if n != name), *standing_for.get(name, ())]
         equivalent[name] = tuple(dict.fromkeys(names))
     alone = all(len(group) == 1 for group in equivalent.values())
     return Judgement("effect" if alone else "ambiguous", best, equivalent)
+
+
+def _second(
+    none: Trial, best: Trial, pairs: Sequence[Trial], held_out: Callable[[Trial], float]
+) -> Trial | None:
+    """The pair that explains more than an error of the first effect's own model could, and predicts it."""
+    share = 0.0 if all(e.exact and not e.replaces_law for e in best.fitted.effects) else SHARE
+    wanted = SECOND + share * (none.bic - best.bic)
+    for pair in pairs:
+        if not best.bic - pair.bic > wanted:
+            return None
+        off = held_out(pair)
+        if not (off > POOR or off > max(PREDICTED, held_out(best))):
+            return pair
+    return None
+
+
+def _predicts_nothing(none: Trial, best: Trial, held_out: Callable[[Trial], float]) -> bool:
+    """Whether data that were held out speak against an explanation that fits the others."""
+    off = held_out(best)
+    return off > POOR and off > HARDLY_BETTER * held_out(none)
 
 
 def _without_flexible(singles: Sequence[Trial], pairs: Sequence[Trial]) -> list[Trial]:

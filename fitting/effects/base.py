@@ -140,6 +140,12 @@ class Effect:
     extends: ClassVar[str | None] = None
     """A simpler effect that this one contains."""
 
+    @property
+    def exact(self) -> bool:
+        """Whether it acts on the reading alone: its model has no error worth the name."""
+        kind, plain = type(self), Effect
+        return (kind.change, kind.modulus, kind.pitch) == (plain.change, plain.modulus, plain.pitch)
+
     def seen(self, sweep: Sweep, noise: Noise) -> Seen | None:
         """Its trace in the channels themselves."""
         return None

@@ -23,6 +23,10 @@ class StageFacts:
     chi2_per_dof: float
     held_out_percent: float
     """Median over the segments; leave-one-out where there are few points."""
+    held_out_over_noise: float
+    """Median over the segments of rms over noise."""
+    structures: int
+    """Tests that found structure in the residual."""
     storage_error_percent: tuple[float, ...]
     """Of G' against the truth at 20, 100 and 280 Hz."""
     loss_error_percent: tuple[float, ...]
@@ -91,7 +95,10 @@ def _stage(truth: TrueLaw, stage: Stage) -> StageFacts:
     segments = [s.rms_percent for s in stage.validation.held_out]
     one_by_one = stage.validation.leave_one_out_rms_percent
     held_out = float(np.median(segments)) if segments else math.nan if one_by_one is None else one_by_one
-    return StageFacts(stage.chi2_per_dof, held_out, *law_errors_percent(stage.law, truth))
+    over_noise = [s.rms_percent / s.noise_percent for s in stage.validation.held_out]
+    ratio = float(np.median(over_noise)) if over_noise else math.nan
+    shown = len(stage.structure)
+    return StageFacts(stage.chi2_per_dof, held_out, ratio, shown, *law_errors_percent(stage.law, truth))
 
 
 def law_errors_percent(law: CoreLaw, truth: TrueLaw) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -140,6 +147,8 @@ def _stage_facts(facts: dict[str, Any]) -> StageFacts:
     return StageFacts(
         _number(facts["chi2_per_dof"]),
         _number(facts["held_out_percent"]),
+        _number(facts["held_out_over_noise"]),
+        facts["structures"],
         tuple(_number(v) for v in facts["storage_error_percent"]),
         tuple(_number(v) for v in facts["loss_error_percent"]),
     )

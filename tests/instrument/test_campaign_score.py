@@ -19,8 +19,8 @@ from instrument.campaign.outcome import (
 from instrument.campaign.score import answer, confusion, in_group, law_errors, right, score, scores
 from instrument.campaign.tables import markdown, summary
 
-BEFORE = StageFacts(9.0, 4.0, (10.0, -20.0, 30.0), (1.0, 1.0, -60.0))
-AFTER = StageFacts(1.1, 0.9, (0.1, -0.2, 0.3), (0.4, 0.5, -0.6))
+BEFORE = StageFacts(9.0, 4.0, 5.0, 2, (10.0, -20.0, 30.0), (1.0, 1.0, -60.0))
+AFTER = StageFacts(1.1, 0.9, 1.2, 0, (0.1, -0.2, 0.3), (0.4, 0.5, -0.6))
 
 
 def said(verdict="none", effects=(), channels=(), **groups):

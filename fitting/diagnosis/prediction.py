@@ -1,0 +1,34 @@
+"""What a fit says of data it has not seen."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.refit import Fitted, refit
+from fitting.diagnosis.task import Task
+from fitting.identification.result import differences_percent
+from fitting.identification.validation import Mask, Validation, validate
+
+Array = NDArray[np.float64]
+
+
+def held_out(task: Task, evidence: Evidence, fitted: Fitted, priors: Array) -> Validation:
+    """Every segment predicted by a law and effects fitted to the others; few points one by one."""
+    size = np.abs(task.sweep.response_m_s)
+
+    def differences(points: Mask) -> Array:
+        learnt = refit(fitted.response, evidence, fitted.law, fitted.u, points=points, priors=priors)
+        return differences_percent(task.sweep, learnt.velocity_m_s)
+
+    return validate(
+        segment=task.sweep.segment,
+        points_needed=-(-fitted.parameters // (2 if evidence.has_phase else 1)),
+        differences_percent=differences,
+        noise_percent=100 * evidence.noise_m_s / size if evidence.scale_known else np.full(len(size), np.nan),
+    )
+
+
+def over_noise(validation: Validation) -> float:
+    """Median over the segments of error over noise; NaN where there are no segments or no noise."""
+    ratios = [s.rms_percent / s.noise_percent for s in validation.held_out]
+    return float(np.median(ratios)) if ratios else float("nan")
