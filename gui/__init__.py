@@ -1,4 +1,17 @@
-"""The window. Qt lives here and nowhere else.
+"""The window. Qt lives here and nowhere else, and no measurement logic does.
 
-Empty so far: the command line does all there is.
+    feeds/      where events come from: a run in its engine, a recorded session
+    picture/    what is known so far, made of those events; no Qt
+    pages/      one view each, drawn from the picture
+    plots/      the plot every page uses; theme.py its colours
+    desk.py     what a person can do: open, start, hold, stop, answer
+    work.py     long work off the main thread
+    window.py   all of it on the screen
+
+A page is added in two steps: a file in `pages/` with a `Page` in it (its `title` and `refresh(picture)`), and
+its name in `pages.PAGES`. The window gives it the shortcut Ctrl+(its place) and calls `refresh` at most 30
+times a second, only while the page is seen and something has changed. In `refresh` ask `self.news("points")`
+before drawing: true where one of these topics changed since the page last asked. Draw with `plot.line`,
+`points`, `band`: the same name again replaces a curve. What a person does goes to `self.desk`. Long work goes
+to `Work` (files) or `Command` (computing); connect bound methods of widgets only.
 """

@@ -2,6 +2,7 @@
 
 import logging
 import re
+import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -12,6 +13,7 @@ from threadpoolctl import threadpool_limits
 
 from drivers.errors import DriverError
 from drivers.shaker import Alarm
+from instrument.companion import Companion
 from instrument.control import Control
 from instrument.errors import BadInput, RigStopped, StoppedByUser
 from instrument.forecast import Forecast, calibration_segments, distinct, planned_segments, with_next_coarser
@@ -29,7 +31,7 @@ from instrument.stepped_sine.plan import Done, Planner
 from instrument.stream.analysis import Analysis
 from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated, HitJudged, PointMeasured
 from instrument.stream.event import Derived, Event
-from instrument.stream.raw import DiagnosisStarted, SegmentEnded, SessionBegan, SessionEnded
+from instrument.stream.raw import BlockAcquired, DiagnosisStarted, SegmentEnded, SessionBegan, SessionEnded
 
 log = logging.getLogger(__name__)
 
@@ -61,6 +63,7 @@ def run_experiment(
     progress: Progress = quiet,
     fit: Fitter = fit_points,
     diagnose: Diagnoser = diagnose_points,
+    companion: Companion | None = None,
 ) -> Finished:
     """Run the parts and leave a session file in `out`. Raises `BadInput`, `RigStopped`, `StoppedByUser`.
 
@@ -68,7 +71,18 @@ def run_experiment(
     """
     # One thread for all sums: with several, their last bit would depend on what else runs.
     with threadpool_limits(1, "blas"):
-        return _run(experiment, out, parts, control or Control(), watch, resume, progress, fit, diagnose)
+        return _run(
+            experiment,
+            out,
+            parts,
+            control or Control(),
+            watch,
+            resume,
+            progress,
+            fit,
+            diagnose,
+            companion or Companion(),
+        )
 
 
 def _run(
@@ -81,6 +95,7 @@ def _run(
     progress: Progress,
     fit: Fitter,
     diagnose: Diagnoser,
+    companion: Companion,
 ) -> Finished:
     with progress("forecasting the sweep"):
         forecast = Forecast.of(experiment.the_specimen())
@@ -91,8 +106,12 @@ def _run(
     journal, name = _journal(experiment, out, resume)
     entries = journal.entries()
     earlier = [event for e in entries for event in part_events(journal.folder / e.file)]
-    session = _Session(experiment, journal, forecast, control, earlier, parts, fit, diagnose)
     path = journal.folder.parent / f"{name}.h5"
+    companion.recording(journal.folder, path)
+    for event in earlier:
+        if not isinstance(event, BlockAcquired):
+            companion.happened(event)
+    session = _Session(experiment, journal, forecast, control, earlier, parts, fit, diagnose, companion)
     try:
         with Recorder(journal, entries, watch) as recorder:
             session.run(recorder)
@@ -135,8 +154,10 @@ class _Session:
         parts: tuple[Part, ...],
         fit: Fitter,
         diagnose: Diagnoser,
+        companion: Companion,
     ) -> None:
         self._fitter, self._diagnoser = fit, diagnose
+        self._companion, self._in_order = companion, threading.Lock()
         self._experiment, self._forecast, self._control = experiment, forecast, control
         self._parts, self._resumed = parts, bool(earlier)
         self._configuration = journal.configuration()
@@ -157,7 +178,10 @@ class _Session:
         self._recorder = recorder
         try:
             document = self._experiment.document
-            with open_rig(self._experiment.rig, self._experiment.rig_path, document.hammer) as rig:
+            with (
+                open_rig(self._experiment.rig, self._experiment.rig_path, document.hammer) as bare,
+                self._companion.with_rig(bare) as rig,
+            ):
                 self._go(rig)
             # The rig is let go of first: nothing of it is needed any more.
             self._diagnose()
@@ -225,29 +249,32 @@ class _Session:
         if self.fit is None or self.fit.message:
             return
         a, number, last = self.analysis, self._diagnoses + 1, self.fit.last_step
-        self._recorder.record(DiagnosisStarted(number, last))
+        self._record(DiagnosisStarted(number, last))
         specimen = self._configuration.the_specimen()
         self.diagnosis = apart(
             lambda: self._diagnoser(number, last, a.points, a.times_s, a.damping, specimen)
         )
-        self._recorder.record(self.diagnosis)
+        self._record(self.diagnosis)
 
     def _emit(self, event: Event) -> list[Derived]:
         """Into the stream: recorded, analysed, what follows recorded too."""
-        self._recorder.record(event)
+        self._record(event)
         derived = self.analysis.feed(event)
         for one in derived:
-            self._recorder.record(one)
+            self._record(one)
         if isinstance(event, SegmentEnded) and self.analysis.points and event.sweep > 0:
             self._live.offer(self.analysis.points, self.analysis.damping)
         return derived
 
     def _record(self, event: Event) -> None:
-        self._recorder.record(event)
+        """Onto the disk, and told; the fit's thread does so too, and the order is the same for both."""
+        with self._in_order:
+            self._recorder.record(event)
+            self._companion.happened(event)
 
     def _end(self, why: Literal["done", "stopped by the user", "stopped safely"], message: str) -> None:
         try:
-            self._recorder.record(SessionEnded(why, message))
+            self._record(SessionEnded(why, message))
         except RigStopped:
             # The recorder itself is what failed; its own message is on the way already.
             return

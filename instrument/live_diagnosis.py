@@ -14,6 +14,7 @@ from instrument.errors import BadInput
 from instrument.files.hammer_file import hammer_modes
 from instrument.plain import plain
 from instrument.points import sweep_of, uncalibrated
+from instrument.progress import Progress, quiet
 from instrument.stream.derived import DampingFound, DiagnosisFound, PointMeasured
 
 Diagnoser = Callable[
@@ -30,13 +31,14 @@ def diagnose_points(
     times_s: list[float],
     damping: DampingFound | None,
     specimen: Specimen,
+    progress: Progress = quiet,
 ) -> DiagnosisFound:
     """Diagnose all points up to a step, jointly with the hammer test. Pure: the same in a replay."""
     used = [(p, t) for p, t in zip(points, times_s, strict=True) if p.step <= last_step]
     try:
         # One thread: sums in another order would differ in the last bit.
         with threadpool_limits(1):
-            facts = _facts([p for p, _ in used], [t for _, t in used], damping, specimen)
+            facts = _facts([p for p, _ in used], [t for _, t in used], damping, specimen, progress)
             return DiagnosisFound(number, last_step, facts)
     except (FittingError, BadInput, ValidationError, ValueError, ArithmeticError) as error:
         # Data may be such that nothing can be said of them: that is said, and the session is kept.
@@ -44,13 +46,17 @@ def diagnose_points(
 
 
 def _facts(
-    points: list[PointMeasured], times_s: list[float], damping: DampingFound | None, specimen: Specimen
+    points: list[PointMeasured],
+    times_s: list[float],
+    damping: DampingFound | None,
+    specimen: Specimen,
+    progress: Progress,
 ) -> dict[str, object]:
     hammer = None
     if damping is not None and any(m["accepted"] for m in damping.facts_json["modes"]):
         hammer = hammer_modes(damping.facts_json)
     sweep = sweep_of(points, times_s)
-    facts = diagnosis_facts(diagnose(sweep, specimen, hammer), sweep)
+    facts = diagnosis_facts(diagnose(sweep, specimen, hammer, progress=progress), sweep)
     facts["warnings"] += uncalibrated(points)
     return dict(plain({key: value for key, value in facts.items() if key not in _SECONDS}))
 

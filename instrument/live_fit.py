@@ -14,6 +14,7 @@ from instrument.identification import identify
 from instrument.identification_facts import bare_plate_facts, identification_facts
 from instrument.plain import plain
 from instrument.points import sweep_of, uncalibrated
+from instrument.progress import Progress, quiet
 from instrument.stream.derived import DampingFound, FitUpdated, PointMeasured
 from instrument.stream.event import Event
 from instrument.stream.raw import FitStarted
@@ -29,26 +30,29 @@ def fit_points(
     points: list[PointMeasured],
     damping: DampingFound | None,
     specimen: Specimen,
+    progress: Progress = quiet,
 ) -> FitUpdated:
     """Identify from all points up to a step, jointly with the hammer test. Pure: the same in a replay."""
     used = [p for p in points if p.step <= last_step]
     try:
         # One thread: sums in another order would differ in the last bit.
         with threadpool_limits(1):
-            return FitUpdated(number, last_step, _facts(used, damping, specimen))
+            return FitUpdated(number, last_step, _facts(used, damping, specimen, progress))
     except (FittingError, ValidationError, ValueError, ArithmeticError) as error:
         # Data may be such that no fit is possible: said, and the measurement goes on.
         return FitUpdated(number, last_step, {}, " ".join(str(error).split()))
 
 
-def _facts(used: list[PointMeasured], damping: DampingFound | None, specimen: Specimen) -> dict[str, object]:
+def _facts(
+    used: list[PointMeasured], damping: DampingFound | None, specimen: Specimen, progress: Progress
+) -> dict[str, object]:
     hammer: dict[str, object] = {}
     if damping is not None and any(m["accepted"] for m in damping.facts_json["modes"]):
         bare = fit_bare_plate(specimen, *hammer_modes(damping.facts_json))
         specimen = with_bare_plate(specimen, bare)
         hammer = {"hammer": bare_plate_facts(bare, specimen)}
     sweep = sweep_of(used)
-    facts = identification_facts(identify(sweep, specimen), sweep)
+    facts = identification_facts(identify(sweep, specimen, progress=progress), sweep)
     facts["warnings"] += uncalibrated(used)
     kept = {key: value for key, value in facts.items() if key not in _SECONDS}
     return dict(plain({**kept, **hammer, **_temperature(used)}))

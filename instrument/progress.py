@@ -1,5 +1,8 @@
-"""Progress of long work: a bar on a terminal, nothing in a pipe."""
+"""Progress of long work: a bar on a terminal, nothing in a pipe, lines of JSON for a program that asks."""
 
+import json
+import os
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 
@@ -11,6 +14,9 @@ Report = Callable[[float], None]
 """Told the fraction done, 0 to 1."""
 Progress = Callable[[str], AbstractContextManager[Report]]
 """Opens a piece of work by its name."""
+LINES = "VISCORIG_PROGRESS"
+"""Where this variable of the environment is `lines`, a bar is told as lines on standard error."""
+_LEAST_STEP = 0.01
 
 
 @contextmanager
@@ -22,6 +28,9 @@ def quiet(name: str) -> Iterator[Report]:
 @contextmanager
 def bar(name: str) -> Iterator[Report]:
     """A bar on standard error where that is a terminal."""
+    if os.environ.get(LINES) == "lines":
+        yield _Lines(name)
+        return
     console = Console(stderr=True)
     with Bars(
         TextColumn("{task.description}"),
@@ -33,3 +42,15 @@ def bar(name: str) -> Iterator[Report]:
     ) as bars:
         task = bars.add_task(name, total=1.0)
         yield lambda fraction: bars.update(task, completed=fraction)
+
+
+class _Lines:
+    """One line a hundredth."""
+
+    def __init__(self, name: str) -> None:
+        self._name, self._said = name, -1.0
+
+    def __call__(self, fraction: float) -> None:
+        if abs(fraction - self._said) >= _LEAST_STEP:
+            self._said = fraction
+            print(json.dumps({"work": self._name, "fraction": fraction}), file=sys.stderr, flush=True)

@@ -8,6 +8,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Timer
+from typing import Any
 
 from drivers.errors import Unreachable
 from drivers.front_end import FrontEnd
@@ -20,6 +21,7 @@ from drivers.vibrometer import Vibrometer
 from drivers.vibrometer.serial_port import PolytecVibrometer
 from instrument.files.experiment_file import Hammer
 from instrument.files.rig_file import RigDocument, Sensor
+from instrument.files.rig_file import Shaker as ShakerTable
 from instrument.operator import Operator, Person, SimulatedOperator
 
 _SIMULATOR_STARTS_S = 30.0
@@ -36,6 +38,13 @@ class Rig:
     operator: Operator
     sensors: dict[str, Sensor]
     sample_rate_hz: float
+    document: RigDocument
+    """As opened: with the addresses of a rig that was simulated for the run."""
+
+    @property
+    def in_virtual_time(self) -> bool:
+        """Whether samples are made only as they are asked for."""
+        return self.document.front_end.paced_by_reader
 
     def identities(self) -> dict[str, str]:
         """What each device says it is."""
@@ -60,18 +69,17 @@ class Addresses:
 def open_rig(document: RigDocument, path: Path, hammer: Hammer | None) -> Iterator[Rig]:
     """Connect everything; let go of it again at the end. Raises `DriverError`."""
     with ExitStack() as stack:
-        virtual = document.is_simulated or document.front_end.paced_by_reader
         if document.is_simulated:
             addresses = stack.enter_context(simulator(path))
             document = _at(document, addresses)
-        shaker = _shaker(document)
+        shaker = open_shaker(document.shaker)
         stack.callback(shaker.close)
         shaker.set_heartbeat_timeout_s(document.shaker.heartbeat_timeout_s)
         vibrometer = PolytecVibrometer(
             document.vibrometer.address, model=document.vibrometer.model, baud=document.vibrometer.baud
         )
         stack.callback(vibrometer.close)
-        front_end = _front_end(document, virtual)
+        front_end = _front_end(document)
         stack.callback(front_end.close)
         yield Rig(
             shaker,
@@ -80,7 +88,18 @@ def open_rig(document: RigDocument, path: Path, hammer: Hammer | None) -> Iterat
             _operator(document, hammer),
             document.channels.named(),
             document.front_end.sample_rate_hz,
+            document,
         )
+
+
+def open_shaker(table: ShakerTable, *, timeout_s: float = 1.0, retries: int = 2) -> ModbusShaker:
+    """The shaker a rig file names; it is connected to when first used."""
+    registers = DEFAULT.with_addresses(table.registers)
+    options: dict[str, Any] = {"registers": registers, "timeout_s": timeout_s, "retries": retries}
+    if table.kind == "modbus-rtu":
+        return ModbusShaker.rtu(table.address, baud=table.baud, unit=table.unit, **options)
+    host, _, port = table.address.rpartition(":")
+    return ModbusShaker.tcp(host, int(port), unit=table.unit, **options)
 
 
 @contextmanager
@@ -119,24 +138,18 @@ def _at(document: RigDocument, addresses: Addresses) -> RigDocument:
         update={
             "shaker": document.shaker.model_copy(update={"address": shaker}),
             "vibrometer": document.vibrometer.model_copy(update={"address": addresses.vibrometer_tty}),
-            "front_end": document.front_end.model_copy(update={"address": addresses.frontend_url}),
+            "front_end": document.front_end.model_copy(
+                update={"address": addresses.frontend_url, "paced_by_reader": True}
+            ),
         }
     )
 
 
-def _shaker(document: RigDocument) -> ModbusShaker:
-    s = document.shaker
-    registers = DEFAULT.with_addresses(s.registers)
-    if s.kind == "modbus-rtu":
-        return ModbusShaker.rtu(s.address, baud=s.baud, unit=s.unit, registers=registers)
-    host, _, port = s.address.rpartition(":")
-    return ModbusShaker.tcp(host, int(port), unit=s.unit, registers=registers)
-
-
-def _front_end(document: RigDocument, virtual: bool) -> FrontEnd:
-    if document.front_end.kind == "ni-daqmx":
-        return NiDaqmxFrontEnd(document.front_end.address)
-    return LanXiFrontEnd(document.front_end.address, paced_by_reader=virtual)
+def _front_end(document: RigDocument) -> FrontEnd:
+    table = document.front_end
+    if table.kind == "ni-daqmx":
+        return NiDaqmxFrontEnd(table.address)
+    return LanXiFrontEnd(table.address, paced_by_reader=table.paced_by_reader)
 
 
 def _operator(document: RigDocument, hammer: Hammer | None) -> Operator:

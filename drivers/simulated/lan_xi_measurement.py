@@ -81,7 +81,7 @@ class Measurement:
         self._flags = [Flags.NONE] * len(full_scale_v)
         self._seen = [Flags.NONE] * len(full_scale_v)
         self._lost, self._lost_flagged = 0, False
-        self._stop, self.garbage = Event(), Event()
+        self._stop, self.garbage, self.hung = Event(), Event(), Event()
         self._connection: socket.socket | None = None
         self._connection_lock = Lock()
         # Readable once the stream is to end: it wakes whoever waits for the reader.
@@ -171,7 +171,15 @@ class Measurement:
         return bool(ready)
 
     def _send(self, connection: socket.socket, samples: int) -> int:
-        """One block, its flags before it where they changed. Returns how many samples went out."""
+        """One block, its flags before it where they changed. Returns how many samples went out.
+
+        Hung, nothing goes out though the connection stands; samples that nobody gets are not asked for in
+        virtual time.
+        """
+        if self.hung.is_set():
+            if not self._asked:
+                self._source.acquire(samples)
+            return samples
         if self._lost:
             self._lose(connection)
         acquired = self._source.acquire(samples)

@@ -42,7 +42,7 @@ class LanXiServer:
         "real": by the wall clock; "asked": virtual time, see `lan_xi_measurement`.
     side_door
         What a person would do at a rig: told the name and the JSON of PUT `/simulated/<name>`. Refusals are
-        `ValueError` or `Refused`.
+        `ValueError` or `Refused`. `/simulated/hang` is the server's own: see `hang`.
     """
 
     def __init__(
@@ -108,6 +108,12 @@ class LanXiServer:
         """A fault: so many samples go missing before the next ones, with or without a word about it."""
         if self._stream is not None:
             self._stream.lose(samples, flagged=flagged)
+
+    def hang(self) -> None:
+        """A fault: the stream falls silent, its connection stands. Refused where there is none."""
+        if self._stream is None:
+            raise Refused("no stream to hang")
+        self._stream.hung.set()
 
     def _handler(self) -> type[BaseHTTPRequestHandler]:
         server = self
@@ -175,7 +181,10 @@ class LanXiServer:
     def _at_side_door(self, name: str, body: bytes) -> tuple[int, str]:
         assert self._side_door is not None
         try:
-            self._side_door(name, json.loads(body) if body else None)
+            if name == "hang":
+                self.hang()
+            else:
+                self._side_door(name, json.loads(body) if body else None)
             return 200, "null"
         except (ValueError, KeyError, TypeError, Refused) as error:
             return 400, str(error)

@@ -28,7 +28,7 @@ from instrument.progress import bar
     "--accept",
     multiple=True,
     metavar="NAME",
-    help="Add this effect on your word and search no further; may be given several times.",
+    help="Add this effect on your word and search no further; may be given several times, `none` alone.",
 )
 @click.option(
     "--figures",
@@ -54,10 +54,18 @@ def diagnose(
     """
     out = Output(json_path)
     given = read_data(out, data, specimen, hammer, no_hammer=no_hammer)
-    found = diagnose_sweep(given.sweep, given.specimen, given.modes, frozenset(without), bar, accept or None)
+    declined, accepted = frozenset(without), _accepted(accept)
+    found = diagnose_sweep(given.sweep, given.specimen, given.modes, declined, bar, accepted)
     facts = plain(diagnosis_facts(found, given.sweep))
     print_diagnosis(out, facts)
     if figures is not None:
         for path in save_diagnosis_figures(facts, figures):
             out.say(f"saved {path}")
     out.result({**facts, **given.facts})
+
+
+def _accepted(names: tuple[str, ...]) -> tuple[str, ...] | None:
+    """None where nothing was said; nothing where all are declined."""
+    if "none" in names and len(names) > 1:
+        raise click.UsageError("--accept none excludes every other")
+    return tuple(n for n in names if n != "none") if names else None

@@ -3,7 +3,7 @@
 import sys
 from contextlib import suppress
 from importlib import import_module
-from importlib.metadata import version
+from importlib.metadata import entry_points, version
 from keyword import iskeyword
 
 import click
@@ -36,6 +36,8 @@ COMMANDS = (
     "bench",
 )
 """Each is a function of that name in the module of that name beside this file (or `import_`)."""
+ELSEWHERE = "viscorig.commands"
+"""Entry points of this group are commands too: so rooms above this one add theirs."""
 
 
 class _Commands(click.Group):
@@ -43,14 +45,15 @@ class _Commands(click.Group):
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """In the order of the work."""
-        return list(COMMANDS)
+        return [*COMMANDS, *sorted(entry_points(group=ELSEWHERE).names)]
 
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
         """The command, or None where there is none of that name."""
-        if name not in COMMANDS:
-            return None
-        known = f"{name}_" if iskeyword(name) else name
-        found = getattr(import_module(f"instrument.cli.{known}"), known)
+        if name in COMMANDS:
+            known = f"{name}_" if iskeyword(name) else name
+            found = getattr(import_module(f"instrument.cli.{known}"), known)
+        else:
+            found = next((e.load() for e in entry_points(group=ELSEWHERE, name=name)), None)
         return found if isinstance(found, click.Command) else None
 
 

@@ -6,9 +6,13 @@ import click
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
 from instrument.cli.options import Frequencies, file_argument, json_option
 from instrument.cli.output import Output
+from instrument.files.fit_file import read_fit
+from instrument.files.hammer_file import read_hammer
 from instrument.files.specimen_file import read_specimen
+from instrument.fitted_response import fitted_response
 from instrument.models import Models
 from instrument.progress import bar
 
@@ -24,24 +28,52 @@ from instrument.progress import bar
 @click.option(
     "--real-modes", is_flag=True, help="The paper's uncoupled real modes instead of the full equation."
 )
+@click.option(
+    "--fit",
+    type=click.Path(path_type=Path),
+    help="JSON of 'viscorig identify': its law instead of the specimen's, with the response's errors.",
+)
+@click.option(
+    "--hammer",
+    type=click.Path(path_type=Path),
+    help="JSON of 'viscorig damping': stiffness and ratios as the bare plate's hammer test has them.",
+)
 @json_option
 def predict(
-    specimen: Path, frequencies: NDArray[np.float64], real_modes: bool, json_path: str | None
+    specimen: Path,
+    frequencies: NDArray[np.float64],
+    real_modes: bool,
+    fit: Path | None,
+    hammer: Path | None,
+    json_path: str | None,
 ) -> None:
     """Velocity at the pickup of SPECIMEN.toml under its base acceleration, as phasors and amplitudes."""
+    if real_modes and fit is not None:
+        raise click.UsageError("--real-modes and --fit: expected one of them")
     out = Output(json_path)
     read = read_specimen(specimen)
-    models = Models.of(read, frequencies, bar)
-    law = read.core.law if read.core is not None else None
-    v = models.predict(law, frequencies, real_modes=real_modes)
+    if hammer is not None:
+        read = with_bare_plate(read, fit_bare_plate(read, *read_hammer(hammer)))
+    errors: dict[str, NDArray[np.float64]] = {}
+    if fit is not None:
+        found = fitted_response(read, read_fit(fit), frequencies, bar)
+        v = found.velocity_m_s
+        errors = {
+            "velocity_standard_error_m_s": found.amplitude_standard_error_m_s,
+            "phase_standard_error_rad": found.phase_standard_error_rad,
+        }
+    else:
+        law = read.core.law if read.core is not None else None
+        v = Models.of(read, frequencies, bar).predict(law, frequencies, real_modes=real_modes)
     points = [
         {
             "frequency_hz": float(f),
             "velocity_re_m_s": float(z.real),
             "velocity_im_m_s": float(z.imag),
             "velocity_m_s": float(abs(z)),
+            **{key: float(error[k]) for key, error in errors.items()},
         }
-        for f, z in zip(frequencies, v, strict=True)
+        for k, (f, z) in enumerate(zip(frequencies, v, strict=True))
     ]
     rows = [
         [f"{f:g}", f"{abs(z):.6g}", f"{z.real:.6g}", f"{z.imag:.6g}"]

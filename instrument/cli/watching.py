@@ -94,7 +94,7 @@ def said_of(event: Event) -> str | None:
 
 
 def _fit_said(event: FitUpdated) -> str:
-    if not event.facts_json:
+    if event.message:
         return f"fit {event.number}: not yet: {event.message}"
     law = event.facts_json["law"]
     middle = min(law, key=lambda row: abs(row["frequency_hz"] - 100))

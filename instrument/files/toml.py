@@ -19,9 +19,9 @@ _LONGEST = 80
 
 
 class Table(BaseModel):
-    """A table of a file: unknown keys and wrong types are refused."""
+    """A table of a file: unknown keys and wrong types are refused. What stands below a key describes it."""
 
-    model_config = ConfigDict(extra="forbid", strict=True)
+    model_config = ConfigDict(extra="forbid", strict=True, use_attribute_docstrings=True)
 
 
 T = TypeVar("T", bound=BaseModel)

@@ -39,6 +39,9 @@ from instrument.stream.raw import (
 
 Array = NDArray[np.float64]
 
+_LONGEST_RECORD_S = 400.0
+"""No record of a hit is longer; older samples are let go of however long nobody strikes."""
+
 
 @dataclass(frozen=True)
 class TimedPoint:
@@ -128,20 +131,22 @@ class Contents:
 
 def contents_of(session: SessionFile, *, with_hits: bool = True) -> Contents:
     """Gather a session. Without hits no samples are read. Raises `BadInput` where the file is damaged."""
-    gather = _Gather(Contents(session.path, session.configuration), with_hits)
+    gather = Gather(Contents(session.path, session.configuration), with_hits)
     for event in session.events(with_samples=with_hits):
         gather.take(event)
     return gather.contents
 
 
-class _Gather:
+class Gather:
+    """Fills contents event by event, whether a session is read or still being run."""
+
     def __init__(self, contents: Contents, with_hits: bool) -> None:
         self.contents = contents
         self._clock = SessionClock()
         self._tape = _Tape(contents.configuration.rig.channels) if with_hits else None
 
     def take(self, event: Event) -> None:
-        """One event into its place."""
+        """One event into its place. Raises `BadInput` for a hit whose samples are missing."""
         c = self.contents
         self._clock.take(event)
         if self._tape is not None:
@@ -226,19 +231,26 @@ class _Tape:
         if isinstance(event, AcquisitionBegan):
             self._acquisition, self._blocks = (event if event.part == "hammer" else None), []
         elif isinstance(event, BlockAcquired) and self._acquisition is not None:
+            if self._blocks and _end(self._blocks[-1]) != event.first_sample:
+                # Blocks were lost on the way here: no record may reach across them.
+                self._blocks = []
             self._blocks.append(event)
+            kept = event.first_sample - _LONGEST_RECORD_S * self._acquisition.sample_rate_hz
+            while _end(self._blocks[0]) < kept:
+                self._blocks.pop(0)
 
     def cut(self, hit: HitJudged) -> Hit:
         """The samples of a hit."""
-        if self._acquisition is None or not self._blocks:
+        end = hit.first_sample + hit.samples
+        blocks = self._blocks
+        if self._acquisition is None or not blocks or not _inside(hit.first_sample, end, blocks):
             raise BadInput(f"hit {hit.hit}: its samples are missing, expected them before its verdict")
         rows = self._acquisition.channels.index
         volts = np.concatenate([b.volts for b in self._blocks], axis=1)
         start = hit.first_sample - self._blocks[0].first_sample
         record = volts[:, start : start + hit.samples]
         # Records do not overlap: what lies before the end of this one is done with.
-        end = hit.first_sample + hit.samples
-        self._blocks = [b for b in self._blocks if b.first_sample + b.samples > end]
+        self._blocks = [b for b in self._blocks if _end(b) > end]
         s = self._sensors
         assert s.force is not None
         assert s.response is not None
@@ -249,3 +261,11 @@ class _Tape:
             record[rows("force")] * s.force.units_per_volt,
             (Channel("response", "acceleration", response),),
         )
+
+
+def _inside(first: int, end: int, blocks: list[BlockAcquired]) -> bool:
+    return blocks[0].first_sample <= first and end <= _end(blocks[-1])
+
+
+def _end(block: BlockAcquired) -> int:
+    return block.first_sample + block.samples

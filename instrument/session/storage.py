@@ -17,6 +17,7 @@ import hashlib
 import os
 import shutil
 from collections.abc import Iterator
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -152,13 +153,21 @@ class SessionFile:
 
     def events(self, *, with_samples: bool = True) -> Iterator[Event]:
         """Every event in order. Raises `BadInput` where the file is damaged."""
+        for number in range(self.part_count):
+            yield from self.part(number, with_samples=with_samples)
+
+    def part(self, number: int, *, with_samples: bool = True) -> Iterator[Event]:
+        """The events of one part, counted from 0. Raises `BadInput` where it is damaged."""
         try:
-            for number in sorted(self._file["parts"]):
-                for event in _events(self._file["parts"][number], with_samples):
-                    _refuse_nonsense(event)
-                    yield event
+            for event in _events(self._file["parts"][self._part_names[number]], with_samples):
+                _refuse_nonsense(event)
+                yield event
         except _DAMAGE as error:
             raise BadInput(f"{self.path}: damaged: {str(error).splitlines()[0][:100]}") from None
+
+    @cached_property
+    def _part_names(self) -> list[str]:
+        return sorted(self._file["parts"])
 
 
 _DAMAGE = (

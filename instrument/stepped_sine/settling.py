@@ -27,6 +27,8 @@ class Settling:
     readings: list[complex] = field(default_factory=list)
     remaining: float = np.inf
     """Bound on what is left of the transient, relative."""
+    noise: float = 0.0
+    """What noise alone makes of that bound: a transient below it cannot be seen."""
     predicted_s: float = np.inf
     """Since the first reading, from the first drift and the decay expected."""
     elapsed_s: float = 0.0
@@ -40,6 +42,7 @@ class Settling:
         drift = abs(response - self.readings[-2]) / abs(response)
         q = np.exp(-self.decay_1_s * block_s)
         self.remaining = float(drift * q / (1 - q))
+        self.noise = float(_RESOLVED * np.sqrt(2) * relative_std * q / (1 - q))
         if len(self.readings) == 2:
             excess = max(self.remaining / self.tolerance, 1.0)
             self.predicted_s = float(np.log(excess) / self.decay_1_s) + block_s

@@ -33,8 +33,8 @@ def given(monkeypatch):
     """What the command hands on, in place of a diagnosis that takes its time."""
     seen = {}
 
-    def stub(sweep, specimen, hammer, without, progress):
-        seen.update(sweep=sweep, specimen=specimen, hammer=hammer, without=without)
+    def stub(sweep, specimen, hammer, without, progress, accept):
+        seen.update(sweep=sweep, specimen=specimen, hammer=hammer, without=without, accept=accept)
 
     monkeypatch.setattr(command, "diagnose_sweep", stub)
     monkeypatch.setattr(command, "diagnosis_facts", lambda found, sweep: facts())
@@ -88,9 +88,20 @@ def test_effects_can_be_left_out(capsys, given):
 
 
 @pytest.mark.parametrize(
+    ("names", "accepted"),
+    [((), None), (("added_mass", "spot_offset"), ("added_mass", "spot_offset")), (("none",), ())],
+)
+def test_effects_can_be_accepted_or_all_of_them_declined(capsys, given, names, accepted):
+    words = [f"--accept={name}" for name in names]
+    assert call(capsys, "diagnose", TABLE5, "--specimen", ZN1, *words)[0] == 0
+    assert given["accept"] == accepted
+
+
+@pytest.mark.parametrize(
     ("arguments", "word"),
     [
         ((TABLE5, "--specimen", ZN1, "--without", "ghosts"), "ghosts"),
+        ((TABLE5, "--specimen", ZN1, "--accept", "none", "--accept", "spot_offset"), "excludes"),
         ((TABLE5,), "--specimen"),
         (("none.csv", "--specimen", ZN1), "none.csv"),
         ((TABLE5, "--specimen", ZN1, "--hammer", "x.json", "--no-hammer"), "exclude"),

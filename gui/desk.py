@@ -1,0 +1,289 @@
+"""What a person can do, whichever page or key asks for it; and the session the window shows."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+
+from gui.feeds.feed import Feed
+from gui.feeds.live import LiveFeed
+from gui.feeds.recorded import RecordedFeed
+from gui.picture import Picture
+from gui.rediagnosis import Rediagnosis
+from gui.work import Progress, Work
+from instrument.engine import Engine, Order, Stopped
+from instrument.engine.client import ENGINE
+from instrument.engine.messages import Ended
+from instrument.interchange.found import Found
+from instrument.interchange.importing import read_foreign
+from instrument.session.configuration import Configuration, read_whole_experiment
+
+EXPERIMENT_ENDING = ".toml"
+SESSION_ENDINGS = (".h5", ".hdf5")
+FOREIGN_ENDINGS = (".csv", ".txt", ".uff", ".unv", ".mat")
+
+
+class Desk(QObject):
+    """Holds at most one feed.
+
+    Signals
+    -------
+    changed
+        Another feed, or none: `feed`, `live`, `recorded` say which.
+    refused
+        One line: something could not be done. What was there is untouched.
+    said
+        One line: something was done.
+    busy
+        A file is being read: its name; empty once it is.
+    beside_changed
+        `beside` holds other data now.
+    experiment_chosen
+        Path of an experiment file, to be shown and run.
+    """
+
+    changed = Signal()
+    refused = Signal(str)
+    said = Signal(str)
+    busy = Signal(str)
+    beside_changed = Signal()
+    experiment_chosen = Signal(Path)
+    engine: Sequence[str] = ENGINE
+    """The program runs live in."""
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.feed: Feed | None = None
+        self.beside: dict[Path, Found] = {}
+        """Other programs' data, to be drawn beside the session's."""
+        self.rediagnosis = Rediagnosis(self)
+        self.changed.connect(self.rediagnosis.forget)
+        self.ending: Ended | None = None
+        """Of the last run; None while one goes on."""
+        self._opening: RecordedFeed | None = None
+        self._reading: dict[Path, Work[Found]] = {}
+        self._starting: _Starting | None = None
+
+    @property
+    def picture(self) -> Picture | None:
+        """Of the session shown; None where there is none."""
+        return self.feed.picture if self.feed is not None else None
+
+    @property
+    def live(self) -> LiveFeed | None:
+        """The run, also after its end; None where the window shows a recording or nothing."""
+        return self.feed if isinstance(self.feed, LiveFeed) else None
+
+    @property
+    def recorded(self) -> RecordedFeed | None:
+        """The recording shown, if one is."""
+        return self.feed if isinstance(self.feed, RecordedFeed) else None
+
+    @property
+    def running(self) -> bool:
+        """Whether a run goes on."""
+        return self.live is not None and self.live.engine.running
+
+    @property
+    def starting(self) -> bool:
+        """Whether the files of a run are being read that is to begin."""
+        return self._starting is not None
+
+    def advance(self) -> None:
+        """One turn: whatever has come is taken."""
+        if self._opening is not None:
+            self._opening.advance()
+        if self.feed is not None:
+            self.feed.advance()
+
+    # Files
+
+    def open(self, path: Path) -> None:
+        """A session, an experiment, or another program's data; returns at once."""
+        ending = path.suffix.lower()
+        if ending == EXPERIMENT_ENDING:
+            self.experiment_chosen.emit(path)
+        elif ending in SESSION_ENDINGS:
+            self._open_session(path)
+        elif ending in FOREIGN_ENDINGS:
+            self._read_beside(path)
+        else:
+            known = ", ".join((EXPERIMENT_ENDING, *SESSION_ENDINGS, *FOREIGN_ENDINGS))
+            self.refused.emit(f"{path}: ending {path.suffix!r}, expected one of {known}")
+
+    def leave(self) -> None:
+        """Close the session shown."""
+        if self.running:
+            self.refused.emit("a run goes on: end it first")
+            return
+        self._show(None)
+
+    # A run
+
+    def start(self, order: Order) -> None:
+        """Begin a run; what is wrong with its files is said before. Returns at once; `changed` tells."""
+        if self.running or self.starting:
+            self.refused.emit("a run goes on already")
+            return
+        self._starting = _Starting(order, self)
+        self._starting.done.connect(self._started)
+        self._starting.failed.connect(self._not_started)
+        self._starting.start()
+
+    def hold(self) -> None:
+        """Silence the shaker and wait, or go on where it is held."""
+        if self.live is None or not self.running:
+            return
+        if self.live.picture is not None and self.live.picture.run.state == "held":
+            self.live.engine.resume()
+        else:
+            self.live.engine.hold()
+
+    def answer(self) -> None:
+        """What the run asked the operator for is done."""
+        if self.live is not None:
+            self.live.answer()
+
+    def abort(self) -> None:
+        """End the run in order."""
+        if self.live is not None and self.running:
+            self.live.engine.abort()
+
+    def stop(self) -> None:
+        """Silence the shaker past whatever hangs."""
+        if self.live is not None:
+            self.live.stop()
+
+    def close(self) -> None:
+        """Let go of everything."""
+        self.rediagnosis.close()
+        for work in self._reading.values():
+            work.close()
+        if self._starting is not None:
+            self._starting.close()
+        for feed in (self._opening, self.feed):
+            if feed is not None:
+                feed.close()
+        self.feed = self._opening = None
+
+    # Inside
+
+    def _started(self, configuration: object) -> None:
+        work, self._starting = self._starting, None
+        assert work is not None
+        assert isinstance(configuration, Configuration)
+        feed = LiveFeed(work.order, configuration, self, Engine.start(work.order, self.engine))
+        feed.ended.connect(self._ended)
+        feed.stopped.connect(self._stopped)
+        self.ending = None
+        work.deleteLater()
+        self._show(feed)
+
+    def _not_started(self, message: str) -> None:
+        if self._starting is not None:
+            self._starting.deleteLater()
+        self._starting = None
+        self.refused.emit(message)
+
+    def _ended(self) -> None:
+        """What was recorded takes the run's place: from now on it can be looked through."""
+        self.ending = self.live.ending if self.live is not None else None
+        if self.ending is not None and self.ending.session is not None:
+            self._open_session(self.ending.session)
+
+    def _stopped(self, result: object) -> None:
+        assert isinstance(result, Stopped)
+        if result.silent:
+            self.said.emit(f"{result.message}, {result.seconds:.2f} s after the stop")
+        else:
+            self.refused.emit(result.message)
+
+    def _open_session(self, path: Path) -> None:
+        if self.running:
+            self.refused.emit(f"{path.name}: not opened: a run goes on")
+            return
+        if self._opening is not None:
+            self._opening.close()
+            self._opening.deleteLater()
+        self.busy.emit(path.name)
+        self._opening = RecordedFeed(path, self)
+        self._opening.renewed.connect(self._opened)
+        self._opening.failed.connect(self._not_opened)
+
+    def _opened(self) -> None:
+        """The session has a picture: only now does it take the other's place."""
+        feed, self._opening = self._opening, None
+        if feed is None:
+            return
+        feed.renewed.disconnect(self._opened)
+        feed.failed.disconnect(self._not_opened)
+        feed.failed.connect(self.refused)
+        self.busy.emit("")
+        self._show(feed)
+
+    def _not_opened(self, message: str) -> None:
+        if self._opening is not None:
+            self._opening.close()
+            self._opening.deleteLater()
+            self._opening = None
+        self.busy.emit("")
+        self.refused.emit(message)
+
+    def _show(self, feed: Feed | None) -> None:
+        old, self.feed = self.feed, feed
+        if old is not None:
+            old.close()
+            old.deleteLater()
+        self.changed.emit()
+
+    def _read_beside(self, path: Path) -> None:
+        self.busy.emit(path.name)
+        work = _Reading(path, self)
+        self._reading[path] = work
+        work.done.connect(self._read)
+        work.failed.connect(self._not_read)
+        work.start()
+
+    def _read(self, found: object) -> None:
+        work = self.sender()
+        assert isinstance(work, _Reading)
+        assert isinstance(found, Found)
+        self._forget(work)
+        self.beside[work.path] = found
+        counts = ((len(found.sweeps), "sweep"), (len(found.frfs), "FRF"), (len(found.hits), "hit"))
+        said = ", ".join(f"{n} {what}{'s' if n > 1 else ''}" for n, what in counts if n)
+        self.said.emit(f"{work.path.name}: {said} laid beside the session")
+        self.beside_changed.emit()
+
+    def _not_read(self, message: str) -> None:
+        work = self.sender()
+        assert isinstance(work, _Reading)
+        self._forget(work)
+        self.refused.emit(message)
+
+    def _forget(self, work: "_Reading") -> None:
+        self._reading.pop(work.path, None)
+        self.busy.emit("")
+        work.deleteLater()
+
+
+class _Starting(Work[Configuration]):
+    """Of a run: its files are read."""
+
+    def __init__(self, order: Order, parent: QObject) -> None:
+        super().__init__(self._read_files, parent)
+        self.order = order
+
+    def _read_files(self, _: Progress) -> Configuration:
+        return read_whole_experiment(self.order.experiment).configuration(self.order.experiment.stem, "")
+
+
+class _Reading(Work[Found]):
+    """Of another program's file."""
+
+    def __init__(self, path: Path, parent: QObject) -> None:
+        super().__init__(self._read_file, parent)
+        self.path = path
+
+    def _read_file(self, _: Progress) -> Found:
+        return read_foreign(self.path)

@@ -1,0 +1,67 @@
+"""A session's report and its data for other programs: by the commands of that name."""
+
+from pathlib import Path
+from typing import Any
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QFileDialog, QWidget
+
+from gui.desk import Desk
+from gui.work import Command
+
+
+class Export(QObject):
+    """Asks where to, then has it written."""
+
+    began = Signal(str)
+    done = Signal(str)
+    failed = Signal(str)
+
+    def __init__(self, desk: Desk, window: QWidget) -> None:
+        super().__init__(window)
+        self._desk, self._window = desk, window
+
+    def report(self) -> None:
+        """One self-contained page."""
+        session = self._session
+        if session is None:
+            return
+        suggested = str(session.with_suffix(".html"))
+        chosen, _ = QFileDialog.getSaveFileName(self._window, "Save report", suggested, "Page (*.html)")
+        if chosen:
+            self._run(["report", str(session), "--out", chosen])
+
+    def data(self) -> None:
+        """For the program that the menu's entry names."""
+        action, session = self.sender(), self._session
+        if session is None or not isinstance(action, QAction):
+            return
+        folder = QFileDialog.getExistingDirectory(self._window, "Export data to", str(session.parent))
+        if folder:
+            self._run(["export", str(session), "--to", str(action.data()), "--out", folder])
+
+    def _run(self, arguments: list[str]) -> None:
+        command = Command(arguments, self)
+        command.done.connect(self._written)
+        command.failed.connect(self._not_written)
+        self.began.emit(arguments[0])
+        command.start()
+
+    def _not_written(self, message: str) -> None:
+        self._forget()
+        self.failed.emit(message)
+
+    def _forget(self) -> None:
+        command = self.sender()
+        if isinstance(command, Command):
+            command.deleteLater()
+
+    def _written(self, facts: dict[str, Any]) -> None:
+        self._forget()
+        files = [facts["report"]] if "report" in facts else facts["files"]
+        self.done.emit(f"wrote {', '.join(files)}")
+
+    @property
+    def _session(self) -> Path | None:
+        return self._desk.recorded.path if self._desk.recorded is not None else None

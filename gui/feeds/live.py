@@ -1,0 +1,206 @@
+"""A run that goes on in its engine."""
+
+from collections import deque
+from collections.abc import Callable
+from time import monotonic
+
+from PySide6.QtCore import QObject, Signal
+
+from gui.feeds.feed import Feed, Turn
+from gui.picture import Picture
+from gui.work import Progress, Work
+from instrument.engine import Engine, Order, Stopped
+from instrument.engine.messages import (
+    Asked,
+    BlocksDropped,
+    Ended,
+    Happened,
+    Logged,
+    Message,
+    Progressed,
+    RecordingBegan,
+    RigClosed,
+    RigOpened,
+    StopPathChanged,
+)
+from instrument.session.configuration import Configuration
+from instrument.stream.derived import HitRevised
+from instrument.stream.event import Event
+from instrument.stream.raw import BlockAcquired
+
+_AT_ONCE = 64
+"""Messages between two looks at the clock."""
+_PACE_EVERY_S, _PACE_MARKS = 0.5, 20
+_QUESTIONS: dict[str, Callable[[Asked], str]] = {
+    "mount": lambda a: f"mount the {a.detail} plate",
+    "aim": lambda a: (
+        f"aim the laser at the {'base beside the accelerometer' if a.detail == 'base' else a.detail}, focus"
+    ),
+    "hit": lambda a: "",
+    "content": lambda a: f"{a.good} good hits: use them, or decide otherwise",
+}
+
+
+class LiveFeed(Feed):
+    """Asks the engine for what has come, at every turn.
+
+    Signals
+    -------
+    asked
+        The operator is asked for something: an `Asked`. `question` holds it until it is answered.
+    stopped
+        What the stop button achieved: a `Stopped`.
+    """
+
+    asked = Signal(object)
+    stopped = Signal(object)
+
+    def __init__(
+        self,
+        order: Order,
+        configuration: Configuration,
+        parent: QObject | None = None,
+        engine: Engine | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self.engine = engine if engine is not None else Engine.start(order)
+        self.picture = Picture(configuration)
+        self.picture.work("starting", None)
+        self.question: Asked | None = None
+        self.ending: Ended | None = None
+        self.recording: RecordingBegan | None = None
+        self.stop_path: StopPathChanged | None = None
+        self.rig_open = False
+        self.blocks_dropped = 0
+        self._pace = _Pace()
+        self._stopping: Work[Stopped] | None = None
+
+    @property
+    def left_s(self) -> float | None:
+        """At the pace so far; a rig in virtual time is faster than its clock."""
+        left = self.picture.plan.left_s if self.picture is not None else None
+        return None if left is None else left * self._pace.wall_s_per_s
+
+    def expect(self, seconds: dict[int, float]) -> None:
+        """Seconds forecast for each segment."""
+        if self.picture is not None:
+            self.picture.expect(seconds)
+
+    def advance(self) -> None:
+        """Take what has come."""
+        turn = Turn()
+        while not turn.over:
+            messages = self.engine.poll(_AT_ONCE)
+            for message in messages:
+                self._take(message)
+            if len(messages) < _AT_ONCE:
+                return
+
+    def answer(self) -> None:
+        """The operator has done what was asked for."""
+        if self.question is None:
+            return
+        match self.question.what:
+            case "mount":
+                self.engine.mounted()
+            case "aim":
+                self.engine.aimed()
+            case "content":
+                self.engine.content()
+        self._ask(None)
+
+    def stop(self) -> None:
+        """Silence the shaker past whatever hangs, and end the run; again where it was tried before."""
+        if self._stopping is not None and not self._stopping.over:
+            return
+        self._stopping = Work(_stop(self.engine), self)
+        self._stopping.done.connect(self._stopped)
+        self._stopping.failed.connect(self._stop_failed)
+        self._stopping.start()
+
+    def close(self) -> None:
+        """A run that still goes on is stopped."""
+        self.engine.close()
+
+    def _stopped(self, result: object) -> None:
+        self.stopped.emit(result)
+
+    def _stop_failed(self, said: str) -> None:
+        self.stopped.emit(Stopped(silent=False, seconds=0.0, message=f"the shaker did not answer: {said}"))
+
+    def _take(self, message: Message) -> None:
+        assert self.picture is not None
+        match message:
+            case Happened():
+                self.picture.take(message.event)
+                self._follow(message.event)
+            case Asked():
+                self._ask(message)
+            case Progressed():
+                self.picture.work("" if message.ended else message.what, message.fraction)
+            case BlocksDropped():
+                self.blocks_dropped += message.count
+                self.picture.say(f"{message.count} blocks not shown; the session has them", "warning")
+            case Logged():
+                self.picture.say(message.text, "warning" if message.level != "INFO" else "said")
+            case RecordingBegan():
+                self.recording = message
+            case RigOpened() | RigClosed():
+                self.rig_open = isinstance(message, RigOpened)
+            case StopPathChanged():
+                self.stop_path = message
+                if not message.ready:
+                    self.picture.say(f"no stop path of the window's own: {message.message}", "warning")
+            case Ended():
+                self._end(message)
+
+    def _follow(self, event: Event) -> None:
+        assert self.picture is not None
+        if isinstance(event, BlockAcquired):
+            self._pace.take(self.picture.time_s)
+        elif isinstance(event, HitRevised) and self.question is not None and self.question.what == "content":
+            hammer = self.picture.configuration.experiment.hammer
+            if hammer is not None and self.picture.run.good_hits < hammer.hits:
+                self._ask(None)
+
+    def _ask(self, question: Asked | None) -> None:
+        assert self.picture is not None
+        self.question = question if question is not None and question.what != "hit" else None
+        self.picture.ask(_QUESTIONS[question.what](question) if question is not None else "")
+        self.asked.emit(question)
+
+    def _end(self, message: Ended) -> None:
+        assert self.picture is not None
+        self.ending = message
+        self.picture.end(message.why, message.message)
+        self._ask(None)
+        self.ended.emit()
+
+
+class _Pace:
+    """Seconds on the wall for one of the session's, over the last while."""
+
+    def __init__(self) -> None:
+        self._marks: deque[tuple[float, float]] = deque(maxlen=_PACE_MARKS)
+
+    def take(self, session_s: float) -> None:
+        """The session's clock stands here now."""
+        now = monotonic()
+        if not self._marks or now - self._marks[-1][0] >= _PACE_EVERY_S:
+            self._marks.append((now, session_s))
+
+    @property
+    def wall_s_per_s(self) -> float:
+        """1 until it is known."""
+        if len(self._marks) < 2:
+            return 1.0
+        (wall, session), (wall_now, session_now) = self._marks[0], self._marks[-1]
+        passed = session_now - session
+        return (wall_now - wall) / passed if passed > 0 else 1.0
+
+
+def _stop(engine: Engine) -> Callable[[Progress], Stopped]:
+    def stop(_: Progress) -> Stopped:
+        return engine.stop()
+
+    return stop

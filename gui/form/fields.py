@@ -1,0 +1,212 @@
+"""What a form asks for, read off a model. No Qt."""
+
+from dataclasses import dataclass
+from types import NoneType, UnionType
+from typing import Annotated, Any, Literal, Union, get_args, get_origin
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+from pydantic_core import PydanticUndefined
+
+from fitting.laws import LAWS
+from fitting.laws.base import Quantity
+
+Place = tuple[str | int, ...]
+"""Where a value stands in a file: keys, and numbers of tables in a list."""
+Kind = Literal["number", "whole", "text", "choice", "switch", "numbers", "toml"]
+Off = Literal["never", "left out", "false"]
+"""How a file says that it has no such table."""
+
+_UNITS = {
+    "_mv_per_unit": "mV a unit", "_m_s2": "m/s²", "_m_s": "m/s", "_kg_m3": "kg/m³", "_n_m": "N m",
+    "_percent": "%", "_gpa": "GPa", "_mpa": "MPa", "_rad_s": "rad/s", "_mm": "mm", "_hz": "Hz", "_kg": "kg",
+    "_s": "s", "_g": "g", "_v": "V", "_m": "m",
+}  # fmt: skip
+_NOT_ASKED = {"effects", "core", "log"}
+"""Of a simulated rig: what it hides is not for whoever measures on it."""
+
+
+@dataclass(frozen=True)
+class Field:
+    """One value."""
+
+    key: str
+    kind: Kind
+    needed: bool = False
+    default: str = ""
+    """What counts where it is left out."""
+    choices: tuple[str, ...] = ()
+    tip: str = ""
+
+    @property
+    def unit(self) -> str:
+        """As the key's ending says."""
+        return next((unit for ending, unit in _UNITS.items() if self.key.endswith(ending)), "")
+
+    @property
+    def label(self) -> str:
+        """The key without its unit, in words."""
+        ending = next((ending for ending in _UNITS if self.key.endswith(ending)), "")
+        return (self.key.removesuffix(ending) or self.key).replace("_", " ")
+
+
+@dataclass(frozen=True)
+class Section:
+    """A table of the file, or a list of tables."""
+
+    key: str
+    tip: str
+    fields: tuple[Field, ...]
+    sections: tuple["Section", ...] = ()
+    off: Off = "never"
+    repeated: bool = False
+
+    @property
+    def label(self) -> str:
+        """The key in words."""
+        return self.key.replace("_", " ")
+
+
+def section_of(
+    model: type[BaseModel],
+    key: str = "",
+    off: Off = "never",
+    *,
+    repeated: bool = False,
+    default: object = None,
+) -> Section:
+    """All that the model of a file, or of a table in it, asks for; `default` counts where it is left out."""
+    schema = model.model_json_schema()["properties"]
+    fields: list[Field] = []
+    sections: list[Section] = []
+    for name, info in model.model_fields.items():
+        if model.__name__ == "Simulation" and name in _NOT_ASKED:
+            continue
+        table = _table_in(info.annotation)
+        if table is not None:
+            is_list = get_origin(_plain(info.annotation)) is list
+            counts = info.get_default(call_default_factory=True)
+            sections.append(section_of(table, name, _off(info), repeated=is_list, default=counts))
+        elif (name, info.annotation) == ("law", dict[str, Any]):
+            sections.append(Section("law", "How the core's modulus depends on frequency.", (law_kind(),)))
+        else:
+            counts = getattr(default, name, info.get_default(call_default_factory=True))
+            fields.append(_field(name, info, schema[name], counts))
+    return Section(key, _first_line(model), tuple(fields), tuple(sections), off, repeated)
+
+
+def law_kind() -> Field:
+    """Which law; it decides what else is asked."""
+    return Field("kind", "choice", needed=True, choices=tuple(sorted(LAWS)), tip="The law of the core.")
+
+
+def law_fields(kind: object) -> tuple[Field, ...]:
+    """What a law of this kind asks for; nothing where there is none."""
+    law = LAWS.get(kind) if isinstance(kind, str) else None
+    if law is None:
+        return ()
+    return tuple(
+        Field(
+            field.file_key,
+            "number" if law.__annotations__[name] is float else "numbers",
+            needed=True,
+            tip=_law_range(field) if isinstance(field, Quantity) else "",
+        )
+        for name, field in law.file_fields().items()
+    )
+
+
+def _field(name: str, info: FieldInfo, schema: dict[str, Any], default: object) -> Field:
+    options = [o for o in schema.get("anyOf", [schema]) if o.get("type") != "null"]
+    choices = tuple(
+        str(c) for o in options for c in (*o.get("enum", ()), *([o["const"]] if "const" in o else ()))
+    )
+    kind = _kind(options, choices)
+    return Field(
+        name,
+        kind,
+        info.is_required(),
+        "" if default is PydanticUndefined else shown(default),
+        choices if kind == "choice" else (),
+        " ".join(filter(None, (info.description, _range(options)))),
+    )
+
+
+def _kind(options: list[dict[str, Any]], choices: tuple[str, ...]) -> Kind:
+    types = {str(o.get("type", "")) for o in options}
+    if choices and types <= {"string"}:
+        return "choice"
+    if "boolean" in types:
+        return "switch"
+    if "integer" in types:
+        return "whole"
+    if "number" in types:
+        return "number"
+    if "array" in types:
+        return "numbers"
+    return "toml" if "object" in types or any(o.get("format") == "date" for o in options) else "text"
+
+
+def shown(value: object) -> str:
+    """A value as a form shows it."""
+    if value is None or value == {}:
+        return ""
+    if isinstance(value, list):
+        return ", ".join(shown(one) for one in value)
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _range(options: list[dict[str, Any]]) -> str:
+    said = []
+    for option in options:
+        if option.get("type") == "array":
+            said.append(_range([option.get("items", {})]))
+            if option.get("minItems") is not None and option.get("minItems") == option.get("maxItems"):
+                said.append(f"{option['minItems']} numbers, a comma between them.")
+        low, under = option.get("minimum"), option.get("exclusiveMinimum")
+        high, over = option.get("maximum"), option.get("exclusiveMaximum")
+        # A limit that only keeps nonsense out tells nobody anything.
+        high = None if high is not None and high >= 1e9 else high
+        words = [
+            f"{word} {limit:g}"
+            for word, limit in (("at least", low), ("above", under), ("at most", high), ("below", over))
+            if limit is not None
+        ]
+        said.append(f"{', '.join(words).capitalize()}." if words else "")
+        said.append(f"Or {option['const']}." if "const" in option and len(options) > 1 else "")
+    return " ".join(filter(None, said))
+
+
+def _law_range(quantity: Quantity) -> str:
+    low, high = quantity.lower / quantity.to_si, quantity.upper / quantity.to_si
+    return f"At least {low:g}, at most {high:g}."
+
+
+def _off(info: FieldInfo) -> Off:
+    if NoneType not in get_args(info.annotation):
+        return "never"
+    return "left out" if info.default is None else "false"
+
+
+def _table_in(annotation: Any) -> type[BaseModel] | None:
+    """The model of a table, or of the tables of a list, where the annotation is one."""
+    plain = _plain(annotation)
+    if get_origin(plain) is list:
+        plain = _plain(get_args(plain)[0])
+    return plain if isinstance(plain, type) and issubclass(plain, BaseModel) else None
+
+
+def _plain(annotation: Any) -> Any:
+    """Without limits, and without None beside it."""
+    if get_origin(annotation) is Annotated:
+        return _plain(get_args(annotation)[0])
+    if get_origin(annotation) in (Union, UnionType):
+        others = [a for a in get_args(annotation) if a is not NoneType]
+        return _plain(others[0]) if len(others) == 1 else annotation
+    return annotation
+
+
+def _first_line(model: type[BaseModel]) -> str:
+    return (model.__doc__ or "").strip().split("\n")[0]

@@ -1,0 +1,259 @@
+"""One file as a form: a tree of its tables, a field for each value, what is wrong beside it as one types."""
+
+from collections.abc import Callable
+from functools import partial
+
+from PySide6.QtCore import QEvent, QObject, QSignalBlocker, Qt, QTimer, Signal
+from PySide6.QtGui import QBrush
+from PySide6.QtWidgets import (
+    QComboBox,
+    QHBoxLayout,
+    QHeaderView,
+    QLineEdit,
+    QTreeWidget,
+    QTreeWidgetItem,
+    QWidget,
+)
+
+from gui.form.draft import Draft
+from gui.form.fields import Field, Place, Section, law_fields, section_of
+from gui.theme import current_theme
+from gui.widgets import tool
+
+_NAME, _VALUE, _UNIT, _FAULT = range(4)
+_OPEN = (
+    "mounting",
+    "hammer",
+    "segments",
+    "core",
+    "law",
+    "plate",
+    "sweep",
+    "shaker",
+    "front_end",
+    "vibrometer",
+)
+"""Tables shown unfolded from the start; one with a fault is too."""
+_FAULTY = "\u2716 "
+
+
+class Form(QTreeWidget):
+    """Of one file.
+
+    Signals
+    -------
+    edited
+        A value was changed.
+    """
+
+    edited = Signal()
+
+    def __init__(self, draft: Draft, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.draft = draft
+        self._items: dict[Place, QTreeWidgetItem] = {}
+        self._editors: dict[Place, QLineEdit | QComboBox] = {}
+        self.setColumnCount(4)
+        self.setHeaderLabels(["", "value", "unit", ""])
+        self.setSelectionMode(QTreeWidget.SelectionMode.NoSelection)
+        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.setVerticalScrollMode(QTreeWidget.ScrollMode.ScrollPerPixel)
+        self.setIndentation(self.fontMetrics().averageCharWidth() * 2)
+        self.itemChanged.connect(self._switched)
+        self._build()
+
+    @property
+    def said(self) -> list[str]:
+        """What is wrong, as it stands beside the fields."""
+        found = [item.text(_FAULT) for item in self._items.values() if item.text(_FAULT)]
+        return [said.removeprefix(_FAULTY) for said in found]
+
+    def editor(self, *place: str | int) -> QLineEdit | QComboBox:
+        """The field of a place. Raises `KeyError`."""
+        return self._editors[place]
+
+    def item(self, *place: str | int) -> QTreeWidgetItem:
+        """The row of a place. Raises `KeyError`."""
+        return self._items[place]
+
+    def judge(self) -> None:
+        """Say what is wrong, each fault at its place or at the next one around it."""
+        said: dict[Place, str] = {}
+        for place, words in self.draft.faults().items():
+            while place and place not in self._items:
+                place = place[:-1]
+            said.setdefault(place, words)
+        color = QBrush(current_theme().color("bad"))
+        with QSignalBlocker(self):
+            for place, item in self._items.items():
+                words = said.get(place, "")
+                item.setText(_FAULT, f"{_FAULTY}{words}" if words else "")
+                item.setToolTip(_FAULT, words)
+                item.setForeground(_FAULT, color)
+                if words:
+                    self._unfold(item)
+        self.headerItem().setText(_FAULT, f"{_FAULTY}{said[()]}" if () in said else "")
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Colours follow the window's."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "_items"):
+            self.judge()
+
+    # Rows
+
+    def _build(self) -> None:
+        folded = {place for place, item in self._items.items() if item.childCount() and not item.isExpanded()}
+        known, at = bool(self._items), self.verticalScrollBar().value()
+        with QSignalBlocker(self):
+            self.clear()
+            self._items, self._editors = {}, {}
+            whole = section_of(self.draft.model)
+            for field in whole.fields:
+                self._field(self.invisibleRootItem(), (field.key,), field)
+            for section in whole.sections:
+                self._section(self.invisibleRootItem(), (section.key,), section)
+            for place, item in self._items.items():
+                item.setExpanded(place not in folded if known else str(place[-1]) in _OPEN or len(place) == 3)
+            header = self.header()
+            for column in (_NAME, _UNIT):
+                header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
+            header.resizeSection(_VALUE, self.fontMetrics().averageCharWidth() * 20)
+            header.setStretchLastSection(True)
+        self.verticalScrollBar().setValue(at)
+        self.judge()
+
+    def _section(self, above: QTreeWidgetItem, place: Place, section: Section) -> None:
+        item = self._row(above, place, section.label, section.tip)
+        font = item.font(_NAME)
+        font.setBold(True)
+        item.setFont(_NAME, font)
+        if section.repeated:
+            self._tables(item, place, section)
+            return
+        if section.off != "never":
+            item.setFlags(item.flags() | Qt.ItemFlag.ItemIsUserCheckable)
+            item.setCheckState(
+                _NAME, Qt.CheckState.Checked if self._is_on(place, section) else Qt.CheckState.Unchecked
+            )
+            item.setData(_NAME, Qt.ItemDataRole.UserRole, section.off)
+            if not self._is_on(place, section):
+                return
+        self._inside(item, place, section)
+
+    def _inside(self, item: QTreeWidgetItem, place: Place, section: Section) -> None:
+        for field in section.fields:
+            self._field(item, (*place, field.key), field)
+        if section.key == "law":
+            for field in law_fields(self.draft.value((*place, "kind"))):
+                self._field(item, (*place, field.key), field)
+        for inner in section.sections:
+            self._section(item, (*place, inner.key), inner)
+
+    def _tables(self, item: QTreeWidgetItem, place: Place, section: Section) -> None:
+        self.setItemWidget(item, _VALUE, self._button("+", "Another one, like the last", self._add, place))
+        given = self.draft.value(place)
+        for number in range(len(given) if isinstance(given, list) else 0):
+            one = (*place, number)
+            row = self._row(item, one, f"{section.label.removesuffix('s')} {number + 1}", section.tip)
+            self.setItemWidget(row, _VALUE, self._button("\u2212", "Take it away", self._take_away, one))
+            self._inside(row, one, section)
+
+    def _field(self, above: QTreeWidgetItem, place: Place, field: Field) -> None:
+        item = self._row(above, place, field.label, field.tip)
+        item.setText(_UNIT, field.unit)
+        given = self.draft.shown(place, field.kind)
+        editor: QLineEdit | QComboBox
+        choices = ("yes", "no") if field.kind == "switch" else field.choices
+        if choices:
+            editor = QComboBox()
+            # A wheel turned over the form scrolls it and changes nothing.
+            editor.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+            editor.installEventFilter(self)
+            editor.addItems([*choices] if given in choices or not given else [given, *choices])
+            editor.setCurrentText(given or field.default)
+            if not given and field.default not in choices:
+                editor.setCurrentIndex(-1)
+            editor.textActivated.connect(partial(self._chosen, place, field))
+        else:
+            editor = QLineEdit(given)
+            editor.setCursorPosition(0)
+            editor.setPlaceholderText(field.default or ("needed" if field.needed else ""))
+            editor.textEdited.connect(partial(self._typed, place, field))
+        editor.setToolTip(field.tip)
+        editor.setAccessibleName(".".join(str(key) for key in place))
+        self.setItemWidget(item, _VALUE, editor)
+        self._editors[place] = editor
+
+    def _row(self, above: QTreeWidgetItem, place: Place, label: str, tip: str) -> QTreeWidgetItem:
+        item = QTreeWidgetItem(above, [label, "", "", ""])
+        item.setToolTip(_NAME, tip)
+        self._items[place] = item
+        return item
+
+    def _button(self, sign: str, tip: str, slot: Callable[[Place, bool], None], place: Place) -> QWidget:
+        made = tool(sign, tip)
+        made.clicked.connect(partial(slot, place))
+        made.setAccessibleName(f"{sign} {'.'.join(str(key) for key in place)}")
+        holder = QWidget()
+        row = QHBoxLayout(holder)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(made)
+        row.addStretch(1)
+        return holder
+
+    def _is_on(self, place: Place, section: Section) -> bool:
+        given = self.draft.value(place)
+        return given is not False if section.off == "false" else given is not None
+
+    @staticmethod
+    def _unfold(item: QTreeWidgetItem) -> None:
+        above = item.parent()
+        while above is not None:
+            above.setExpanded(True)
+            above = above.parent()
+
+    # What a person does
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """The wheel is the form's."""
+        if event.type() == QEvent.Type.Wheel:
+            event.ignore()
+            return True
+        return False
+
+    def _typed(self, place: Place, field: Field, text: str) -> None:
+        self.draft.write(place, field, text)
+        self._tell()
+
+    def _chosen(self, place: Place, field: Field, text: str) -> None:
+        self.draft.write(place, field, text)
+        if place[-2:] == ("law", "kind"):
+            self._build_later()
+        self._tell()
+
+    def _switched(self, item: QTreeWidgetItem, column: int) -> None:
+        place = next((p for p, i in self._items.items() if i is item), ())
+        off = item.data(_NAME, Qt.ItemDataRole.UserRole)
+        if column == _NAME and place and off:
+            self.draft.switch(place, item.checkState(_NAME) == Qt.CheckState.Unchecked, off == "false")
+            self._build_later()
+            self._tell()
+
+    def _add(self, place: Place, _: bool = False) -> None:
+        self.draft.add_table(place)
+        self._build_later()
+        self._tell()
+
+    def _take_away(self, place: Place, _: bool = False) -> None:
+        self.draft.remove(place)
+        self._build_later()
+        self._tell()
+
+    def _build_later(self) -> None:
+        """Not while one of the rows' own widgets is speaking."""
+        QTimer.singleShot(0, self, self._build)
+
+    def _tell(self) -> None:
+        self.judge()
+        self.edited.emit()

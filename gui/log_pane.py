@@ -1,0 +1,47 @@
+"""What happened, line by line."""
+
+from PySide6.QtWidgets import QDockWidget, QPlainTextEdit, QWidget
+
+from gui.picture import Picture
+from gui.picture.log import Line
+
+_MOST_LINES = 5000
+_SIGNS = {"said": " ", "warning": "!", "fault": "\u2716"}
+
+
+class LogPane(QDockWidget):
+    """Grows at its end."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__("Log", parent)
+        self.setObjectName("log")
+        self._text = QPlainTextEdit()
+        self._text.setReadOnly(True)
+        self._text.setMaximumBlockCount(_MOST_LINES)
+        self._text.setPlaceholderText("What happens is written here.")
+        self.setWidget(self._text)
+        self._shown_of: Picture | None = None
+        self._shown = 0
+
+    @property
+    def text(self) -> str:
+        """All of it."""
+        return self._text.toPlainText()
+
+    def show_picture(self, picture: Picture | None) -> None:
+        """Write the lines that are new."""
+        if picture is not self._shown_of:
+            self._text.clear()
+            self._shown_of, self._shown = picture, 0
+        if picture is None:
+            return
+        log = picture.log
+        new = log.lines[max(0, self._shown - log.dropped) :]
+        if new:
+            self._text.appendPlainText("\n".join(_written(line) for line in new))
+            self._shown = log.dropped + len(log.lines)
+
+
+def _written(line: Line) -> str:
+    minutes, seconds = divmod(line.time_s, 60)
+    return f"{int(minutes):4d}:{seconds:04.1f} {_SIGNS[line.kind]} {line.text}"

@@ -1,0 +1,161 @@
+"""The menus. Every entry has a key or a place that is easy to guess."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject
+from PySide6.QtGui import QAction, QActionGroup, QKeySequence
+from PySide6.QtWidgets import QFileDialog, QMenu, QMessageBox
+
+from gui.desk import EXPERIMENT_ENDING, FOREIGN_ENDINGS, SESSION_ENDINGS
+from gui.export import Export
+from gui.theme import SCALES, Mode
+
+if TYPE_CHECKING:
+    from gui.window import Window
+
+_KEYS = """
+Ctrl+1 ... Ctrl+5\tthe pages
+F12, or Esc twice\tstop the shaker at once
+F9\thold, resume
+Ctrl+F9\tend the run in order
+Ctrl+Return\twhat the run asks for is done
+Ctrl+N\ta new simulated experiment
+Ctrl+O\topen a session, an experiment or other data
+Ctrl+Space\tplay, pause
+Ctrl+Left, Ctrl+Right\tto the mark before, to the next
+Ctrl++, Ctrl+-, Ctrl+0\tlarger, smaller, usual type
+F11\tfull screen
+right mouse button\ta plot's menu: ranges, export
+""".strip()
+
+
+class Menus(QObject):
+    """Of one window."""
+
+    def __init__(self, window: Window) -> None:
+        super().__init__(window)
+        self._window = window
+        self._export = Export(window.desk, window)
+        self._export.done.connect(window.notice.say)
+        self._export.failed.connect(window.notice.refuse)
+        self._file()
+        self._pages()
+        self._view()
+        self._help()
+        self.refresh()
+
+    def refresh(self) -> None:
+        """What can be done now."""
+        recorded = self._window.desk.recorded is not None
+        for action in self._of_session:
+            action.setEnabled(recorded)
+        self._recent.clear()
+        for path in self._window.settings.recent:
+            action = self._recent.addAction(str(path))
+            action.setData(path)
+            action.triggered.connect(self._open_recent)
+        self._recent.setEnabled(not self._recent.isEmpty())
+
+    def _file(self) -> None:
+        menu = self._window.menuBar().addMenu("&File")
+        self._add(menu, "&Open...", self._open, "Ctrl+O")
+        self._recent = menu.addMenu("Open &recent")
+        close = self._add(menu, "&Close session", self._window.desk.leave, "Ctrl+W")
+        menu.addSeparator()
+        self._of_session = [close, self._add(menu, "Save &report...", self._export.report, "Ctrl+R")]
+        data = menu.addMenu("&Export data")
+        for kind, said in (("csv", "CSV..."), ("uff", "Universal file..."), ("mat", "MATLAB...")):
+            action = self._add(data, said, self._export.data)
+            action.setData(kind)
+            self._of_session.append(action)
+        menu.addSeparator()
+        self._add(menu, "&Quit", self._window.close, "Ctrl+Q")
+
+    def _pages(self) -> None:
+        menu = self._window.menuBar().addMenu("&Page")
+        for number, page in enumerate(self._window.pages):
+            self._add(menu, page.title, self._show_page, f"Ctrl+{number + 1}").setData(number)
+
+    def _view(self) -> None:
+        menu = self._window.menuBar().addMenu("&View")
+        group = QActionGroup(self)
+        modes: tuple[tuple[Mode, str], ...] = (
+            ("system", "As the &system"),
+            ("light", "&Light"),
+            ("dark", "&Dark"),
+        )
+        for mode, said in modes:
+            action = self._add(menu, said, self._choose_mode)
+            action.setCheckable(True)
+            action.setChecked(self._window.appearance.mode == mode)
+            action.setData(mode)
+            group.addAction(action)
+        menu.addSeparator()
+        self._add(menu, "L&arger type", self._larger, "Ctrl++", "Ctrl+=")
+        self._add(menu, "S&maller type", self._smaller, "Ctrl+-")
+        self._add(menu, "&Usual type", self._usual, "Ctrl+0")
+        menu.addSeparator()
+        menu.addAction(self._window.log.toggleViewAction())
+        self._add(menu, "&Full screen", self._full_screen, "F11")
+
+    def _help(self) -> None:
+        menu = self._window.menuBar().addMenu("&Help")
+        self._add(menu, "&Keys", self._keys, "F1")
+
+    def _add(self, menu: QMenu, text: str, slot: Callable[..., object], *keys: str) -> QAction:
+        action = menu.addAction(text)
+        action.setShortcuts([QKeySequence(key) for key in keys])
+        action.triggered.connect(slot)
+        return action
+
+    def _data(self) -> object:
+        action = self.sender()
+        assert isinstance(action, QAction)
+        return action.data()
+
+    def _open(self) -> None:
+        endings = " ".join(f"*{e}" for e in (*SESSION_ENDINGS, EXPERIMENT_ENDING, *FOREIGN_ENDINGS))
+        kinds = f"Sessions, experiments and data ({endings});;Everything (*)"
+        chosen, _ = QFileDialog.getOpenFileName(self._window, "Open", "", kinds)
+        if chosen:
+            self._window.open(Path(chosen))
+
+    def _open_recent(self) -> None:
+        self._window.open(Path(str(self._data())))
+
+    def _show_page(self) -> None:
+        self._window.show_page(int(str(self._data())))
+
+    def _choose_mode(self) -> None:
+        mode = self._data()
+        if mode in ("system", "light", "dark"):
+            self._window.appearance.choose(mode)
+
+    def _larger(self) -> None:
+        self._resize(min((s for s in SCALES if s > self._window.appearance.scale), default=SCALES[-1]))
+
+    def _smaller(self) -> None:
+        self._resize(max((s for s in SCALES if s < self._window.appearance.scale), default=SCALES[0]))
+
+    def _usual(self) -> None:
+        self._resize(1.0)
+
+    def _resize(self, scale: float) -> None:
+        self._window.appearance.resize(scale)
+
+    def _full_screen(self) -> None:
+        if self._window.isFullScreen():
+            self._window.showNormal()
+        else:
+            self._window.showFullScreen()
+
+    def _keys(self) -> None:
+        rows = "".join(
+            f"<tr><td><b>{keys}</b>&nbsp;&nbsp;</td><td>{does}</td></tr>"
+            for keys, does in (line.split("\t") for line in _KEYS.splitlines())
+        )
+        QMessageBox.information(self._window, "Keys", f"<table>{rows}</table>")

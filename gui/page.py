@@ -1,0 +1,72 @@
+"""What every page of the window is."""
+
+from typing import ClassVar
+
+from PySide6.QtGui import QShowEvent
+from PySide6.QtWidgets import QWidget
+
+from gui.desk import Desk
+from gui.picture import Picture, Topic
+
+
+class Page(QWidget):
+    """One view of the picture. Subclasses say `title` and draw in `refresh`.
+
+    Parameters
+    ----------
+    desk : Desk
+        What a person can do here.
+    """
+
+    title: ClassVar[str] = ""
+    hint: ClassVar[str] = ""
+    """What it shows, for the tool tip."""
+
+    def __init__(self, desk: Desk) -> None:
+        super().__init__()
+        self.desk = desk
+        self._picture: Picture | None = None
+        self._drawn: Picture | None = None
+        self._version = -1
+        self._seen: dict[Topic, int] = {}
+
+    def refresh(self, picture: Picture) -> None:
+        """Draw what has changed. Called while the page is seen, at most 30 times a second."""
+        raise NotImplementedError
+
+    def clear(self) -> None:
+        """There is no session (any more). Nothing by default."""
+
+    def news(self, *topics: Topic) -> bool:
+        """Whether one of the topics changed since this was last asked; also true for another picture."""
+        assert self._picture is not None
+        fresh = False
+        for topic in topics:
+            now = self._picture.changed[topic]
+            fresh |= self._seen.get(topic, -1) != now
+            self._seen[topic] = now
+        return fresh
+
+    def show_picture(self, picture: Picture | None) -> None:
+        """From the window, at every turn: the picture there is now."""
+        self._picture = picture
+        if self.isVisible():
+            self._draw()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Catch up with what changed meanwhile."""
+        super().showEvent(event)
+        self._draw()
+
+    def _draw(self) -> None:
+        if self._picture is None:
+            if self._drawn is not None:
+                self._drawn, self._version = None, -1
+                self.clear()
+            return
+        if self._picture is not self._drawn:
+            self._drawn, self._version = self._picture, -1
+            self._seen.clear()
+        if self._picture.version != self._version:
+            self._version = self._picture.version
+            self.refresh(self._picture)

@@ -1,0 +1,112 @@
+"""What the effects found change: the error on data held out, and the law."""
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QLabel, QSplitter, QVBoxLayout, QWidget
+
+from gui.pages.diagnosis.stages import Compared, compared, laws, references_hz
+from gui.pages.law.curve import At
+from gui.pages.law.plots import LawLine, LawPlots
+from gui.rediagnosis import Facts
+from gui.tables import Cell, Table
+from gui.theme import Role
+from instrument.report.numbers import plain, with_error
+
+_ERRORS = {
+    "what the fit leaves": "Held-out data: a segment predicted by law and effects fitted to the others",
+    "": "Unit",
+    "before": "Without any effect",
+    "after": "With the effects accepted",
+    "noise alone": "What a perfect model would leave",
+}
+_LAW = {
+    "f / Hz": "Frequency",
+    "G' / MPa before": "Storage modulus without any effect, ± one standard error",
+    "G' / MPa after": "Storage modulus with the effects accepted, ± one standard error",
+    "change": "After over before, less one",
+    "η before": "Loss factor without any effect, ± one standard error",
+    "η after": "Loss factor with the effects accepted, ± one standard error",
+    "change ": "After over before, less one",
+}
+
+
+class HeldOut(QWidget):
+    """Errors in numbers and bars; bars of one unit share their scale."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.table = Table(_ERRORS, wide=(2, 3, 4))
+        column = QVBoxLayout(self)
+        column.setContentsMargins(4, 4, 4, 0)
+        column.addWidget(self.table, 1)
+        said = QLabel("Bars of percent share one scale; noise alone is what a perfect model would leave.")
+        said.setEnabled(False)
+        column.addWidget(said)
+
+    def show_diagnosis(self, facts: Facts) -> None:
+        """Before and after."""
+        rows = compared(facts)
+        percents = [
+            v for r in rows if r.unit == "% rms" for v in (r.before, r.after, r.noise) if v is not None
+        ]
+        self.table.show_rows([_error_cells(row, max(percents, default=1.0)) for row in rows])
+
+
+class LawChange(QWidget):
+    """G' and eta before and after, drawn and in numbers."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.plots, self.table = LawPlots(), Table(_LAW)
+        split = QSplitter(Qt.Orientation.Vertical)
+        split.addWidget(self.plots)
+        split.addWidget(self.table)
+        split.setStretchFactor(0, 3)
+        split.setStretchFactor(1, 1)
+        split.setSizes([300, 110])
+        column = QVBoxLayout(self)
+        column.setContentsMargins(4, 4, 4, 0)
+        column.addWidget(split)
+
+    def show_diagnosis(self, facts: Facts) -> None:
+        """Before and after."""
+        before, after = laws(facts)
+        lines = [LawLine("before", before, "model", dashed=True)]
+        if facts["equivalent"]:
+            lines.append(LawLine(f"after: with {' and '.join(facts['equivalent'])}", after, "data"))
+        self.plots.show_lines(lines)
+        rows = []
+        for f in references_hz(facts):
+            b, a = before.at(f), after.at(f)
+            assert b is not None
+            assert a is not None
+            rows.append(_law_cells(f, b, a))
+        self.table.show_rows(rows)
+
+
+def _error_cells(row: Compared, scale: float) -> list[Cell]:
+    values: tuple[tuple[float | None, Role], ...] = (
+        (row.before, "model"),
+        (row.after, "data"),
+        (row.noise, "faint"),
+    )
+    barred = row.unit == "% rms" and scale > 0
+    return [
+        Cell(row.what, bold=row.held_out, left=True),
+        Cell(row.unit, left=True, faint=True),
+        *(
+            Cell(plain(v, 3), fill=role if barred and v is not None else None, share=(v or 0.0) / scale)
+            for v, role in values
+        ),
+    ]
+
+
+def _law_cells(f: float, b: At, a: At) -> list[Cell]:
+    return [
+        Cell(f"{f:g}"),
+        Cell(with_error(b.storage_mpa, b.storage_error_mpa)),
+        Cell(with_error(a.storage_mpa, a.storage_error_mpa), bold=True),
+        Cell(f"{100 * (a.storage_mpa / b.storage_mpa - 1):+.2f} %"),
+        Cell(with_error(b.loss, b.loss_error)),
+        Cell(with_error(a.loss, a.loss_error), bold=True),
+        Cell(f"{100 * (a.loss / b.loss - 1):+.2f} %"),
+    ]

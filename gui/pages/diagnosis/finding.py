@@ -1,0 +1,116 @@
+"""The verdict in large, where it comes from, and what to measure next."""
+
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QVBoxLayout, QWidget
+
+from gui.mark import Mark
+from gui.rediagnosis import Shown
+from gui.theme import Role, current_theme
+from instrument.diagnosis_words import verdict_line
+
+_EDGE_PX = 5
+_GAP_PX = 12
+_MEANINGS: dict[str, tuple[Role, str]] = {
+    "none": ("good", "No structure beyond noise and the plate model's own error."),
+    "effect": ("data", "One explanation, nothing else near it."),
+    "ambiguous": ("fair", "Several explanations fit as well."),
+    "unknown": ("bad", "Structure that nothing in the catalogue explains."),
+}
+_BY_HAND: tuple[Role, str] = ("fair", "Your word: the data were not asked.")
+
+
+class Finding(QWidget):
+    """One line of verdict, one box of advice."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.verdict, self.origin = Mark(large=True), Mark()
+        self.verdict.setWordWrap(True)
+        self.next = Advice()
+        self.corner = QHBoxLayout()
+        """For what can be done about it."""
+        row = QHBoxLayout()
+        row.addWidget(self.verdict, 1)
+        row.addWidget(self.origin)
+        row.addSpacing(_GAP_PX)
+        row.addLayout(self.corner)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addLayout(row)
+        column.addWidget(self.next)
+
+    def show_diagnosis(self, shown: Shown) -> None:
+        """In words."""
+        facts = shown.facts
+        accepted = shown.asked is not None and shown.asked.accept is not None
+        role, meaning = _BY_HAND if accepted else _MEANINGS[facts["verdict"]]
+        self.verdict.say(headline(shown), role, bold=True)
+        self.verdict.setToolTip(meaning)
+        made_here = shown.asked is not None
+        said = f"● {shown.origin}" if made_here else shown.origin
+        self.origin.say(said, "fair" if made_here else "faint", bold=made_here)
+        self.next.say(facts["next_measurement"])
+
+    def show_none(self, said: str) -> None:
+        """There is no diagnosis."""
+        self.verdict.say(said, "faint", bold=True)
+        self.verdict.setToolTip("")
+        self.origin.say("", "faint")
+        self.next.say("")
+
+
+def headline(shown: Shown) -> str:
+    """The verdict, or what a person decided: then the data were not asked."""
+    said = verdict_line(shown.facts).removeprefix("verdict: ").replace("+-", "±")
+    if shown.asked is not None and shown.asked.accept is not None:
+        kind, _, rest = said.partition(": ")
+        if kind == "none":
+            rest = rest.replace("nothing beyond noise", "no effect accepted", 1)
+        said = f"by hand: {rest}"
+    return f"{said[0].upper()}{said[1:]}"
+
+
+class Advice(QFrame):
+    """The measurement advised, on a ground of its own; not seen where there is none."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._label = QLabel()
+        self._label.setWordWrap(True)
+        self._label.setTextFormat(Qt.TextFormat.PlainText)
+        self._label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.setAutoFillBackground(True)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(12, 5, 8, 5)
+        row.addWidget(self._label)
+        self.hide()
+
+    @property
+    def text(self) -> str:
+        """What it says."""
+        return self._label.text()
+
+    def say(self, next_measurement: str) -> None:
+        """What to measure next."""
+        self._label.setText(f"Measure next. {next_measurement}" if next_measurement else "")
+        self.setVisible(bool(next_measurement))
+        self._tint()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Colours follow the window's."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange:
+            self._tint()
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """An edge in the colour of attention."""
+        super().paintEvent(event)
+        painter = QPainter(self)
+        painter.fillRect(0, 0, _EDGE_PX, self.height(), current_theme().color("fair"))
+        painter.end()
+
+    def _tint(self) -> None:
+        palette = QPalette()
+        palette.setColor(QPalette.ColorRole.Window, QColor(current_theme().note))
+        self.setPalette(palette)

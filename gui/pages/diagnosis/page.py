@@ -1,0 +1,261 @@
+"""What the model lacks: verdict, evidence, residual, and a person's word on it."""
+
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction, QShowEvent
+from PySide6.QtWidgets import (
+    QFileDialog,
+    QLabel,
+    QMenu,
+    QProgressBar,
+    QSplitter,
+    QTabWidget,
+    QTextBrowser,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from gui.desk import Desk
+from gui.page import Page
+from gui.pages.diagnosis.candidates import Candidates
+from gui.pages.diagnosis.comparison import HeldOut, LawChange
+from gui.pages.diagnosis.finding import Finding
+from gui.pages.diagnosis.residual_plots import ResidualPlots
+from gui.picture import Picture
+from gui.rediagnosis import Asked, Facts, Shown
+from gui.widgets import button, hint
+
+_PERCENT = 100
+_HERE = (
+    "Here will be what the model of the plate lacks: the residual of the best law, the effects that may "
+    "explain it, ranked by evidence, and what each does to the material."
+)
+_WHAT_TO_DO = (
+    "Open a session (Ctrl+O) or run an experiment; or drop a sweep of another program (.csv, .uff, .mat) "
+    "and diagnose it here."
+)
+
+
+class DiagnosisPage(Page):
+    """What the model lacks."""
+
+    title = "Diagnosis"
+    hint = "What the model lacks: residual, candidates, before and after"
+
+    def __init__(self, desk: Desk) -> None:
+        super().__init__(desk)
+        self.finding, self.candidates = Finding(), Candidates()
+        self.residual, self.held_out, self.law = ResidualPlots(), HeldOut(), LawChange()
+        self.story = QTextBrowser()
+        self.empty = hint(_HERE)
+        self.diagnose = button("Diagnose this session", "Try every effect of the catalogue on all its points")
+        self.others = QToolButton()
+        self.back = button("Back to the recorded one", "Let go of what was computed here")
+        self.bar, self.cancel = QProgressBar(), button("Cancel", "End the computation; what is shown stays")
+        self._shown: Shown | None = None
+        self._specimen_folder = ""
+        self._facts_of: dict[QWidget, Facts] = {}
+        self._arrange()
+        self._connect()
+
+    def refresh(self, picture: Picture) -> None:
+        """Draw what has changed."""
+        if self.news("diagnosis", "run"):
+            self._show()
+
+    def clear(self) -> None:
+        """There is no session any more."""
+        self._show()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """What came while the page was not seen."""
+        super().showEvent(event)
+        self._show()
+
+    # What is shown
+
+    def _show(self) -> None:
+        if not self.isVisible():
+            return
+        rediagnosis = self.desk.rediagnosis
+        shown = rediagnosis.shown(self.desk.picture)
+        self._show_controls(shown)
+        before, self._shown = self._shown, shown
+        if shown is None:
+            heading, text = self._why_nothing()
+            self.finding.show_none(heading)
+            self.empty.setText(text)
+        elif before is None or shown.facts is not before.facts:
+            self.finding.show_diagnosis(shown)
+            self.candidates.show_candidates(rediagnosis.ranking(self.desk.picture) or shown.facts)
+            self.story.setPlainText("\n".join(_story(shown)))
+            self._show_view()
+
+    def _show_view(self) -> None:
+        """The one that is seen; the others when they are."""
+        if self._shown is None:
+            return
+        for view in (self.residual, self.held_out, self.law):
+            seen = view is self.views.currentWidget()
+            if seen and self._facts_of.get(view) is not self._shown.facts:
+                self._facts_of[view] = self._shown.facts
+                view.show_diagnosis(self._shown.facts)
+
+    def _show_controls(self, shown: Shown | None) -> None:
+        running, session = self.desk.rediagnosis.running, self._session
+        self.body.setVisible(shown is not None)
+        self.empty.setVisible(shown is None)
+        self.filler.setVisible(shown is None)
+        self.diagnose.setVisible(shown is None and session is not None and not running)
+        self.others.setVisible(bool(self._foreign) and not running)
+        self.back.setVisible(self.desk.rediagnosis.found is not None and not running)
+        own = self.desk.picture is not None and self.desk.picture.contents.diagnosis is not None
+        self.back.setText("Back to the recorded one" if own else "Let go of this diagnosis")
+        for one in (self.bar, self.cancel, self.doing):
+            one.setVisible(running)
+        able = session is not None or (shown is not None and shown.asked is not None)
+        self.candidates.allow(able and not running, "" if able else "The session is still being measured")
+
+    def _why_nothing(self) -> tuple[str, str]:
+        """In large, and what there will be."""
+        picture = self.desk.picture
+        if picture is None:
+            return "No diagnosis", f"{_HERE}\n\n{_WHAT_TO_DO}"
+        if picture.run.state == "diagnosing":
+            return "Tracing what the fit cannot explain ...", _HERE
+        if not picture.run.over:
+            return "No diagnosis yet: it is made when the sweep is whole", _HERE
+        found = picture.contents.diagnosis
+        if found is not None:
+            return f"No diagnosis was possible: {found.message}", _HERE
+        return "This session holds no diagnosis", _HERE
+
+    # What a person does
+
+    def _diagnose_session(self) -> None:
+        if self._session is not None:
+            self.desk.rediagnosis.start(Asked(self._session))
+
+    def _diagnose_other(self) -> None:
+        action = self.sender()
+        assert isinstance(action, QAction)
+        data = Path(str(action.data()))
+        chosen, _ = QFileDialog.getOpenFileName(
+            self, f"Specimen of {data.name}", self._specimen_folder or str(data.parent), "Specimen (*.toml)"
+        )
+        if chosen:
+            self._specimen_folder = str(Path(chosen).parent)
+            self.candidates.clear()
+            self.desk.rediagnosis.start(Asked(data, Path(chosen)))
+
+    def _recompute(self) -> None:
+        decisions = self.candidates.decisions
+        asked = self._shown.asked if self._shown is not None else None
+        data = asked.data if asked is not None else self._session
+        if data is None:
+            return
+        specimen = asked.specimen if asked is not None else None
+        declined = () if decisions.accept_argument is not None else decisions.declined
+        self.desk.rediagnosis.start(Asked(data, specimen, decisions.accept_argument, declined))
+
+    def _go_back(self) -> None:
+        self.candidates.clear()
+        self.desk.rediagnosis.forget()
+
+    def _progressed(self, what: str, fraction: float) -> None:
+        self.doing.setText(what)
+        self.bar.setMaximum(_PERCENT)
+        self.bar.setValue(round(_PERCENT * fraction))
+
+    def _changed(self) -> None:
+        if self.desk.rediagnosis.running:
+            self.doing.setText("starting")
+            self.bar.setMaximum(0)
+        self._show()
+
+    def _another_session(self) -> None:
+        self.candidates.clear()
+        self._show()
+
+    def _offer_others(self) -> None:
+        menu = self.others.menu()
+        assert menu is not None
+        menu.clear()
+        for path in self._foreign:
+            action = menu.addAction(f"{path.name} ...")
+            action.setData(str(path))
+            action.triggered.connect(self._diagnose_other)
+        self._show()
+
+    # Inside
+
+    @property
+    def _session(self) -> Path | None:
+        """The file of the session shown; None while it is being measured."""
+        if self.desk.recorded is not None:
+            return self.desk.recorded.path
+        live = self.desk.live
+        return live.ending.session if live is not None and live.ending is not None else None
+
+    @property
+    def _foreign(self) -> list[Path]:
+        return [path for path, found in self.desk.beside.items() if found.sweeps]
+
+    def _connect(self) -> None:
+        rediagnosis = self.desk.rediagnosis
+        self.views.currentChanged.connect(self._show_view)
+        rediagnosis.changed.connect(self._changed)
+        rediagnosis.progressed.connect(self._progressed)
+        rediagnosis.failed.connect(self.desk.refused)
+        self.desk.changed.connect(self._another_session)
+        self.desk.beside_changed.connect(self._offer_others)
+        self.diagnose.clicked.connect(self._diagnose_session)
+        self.back.clicked.connect(self._go_back)
+        self.cancel.clicked.connect(rediagnosis.cancel)
+        self.candidates.recompute.connect(self._recompute)
+
+    def _arrange(self) -> None:
+        self.others.setText("Diagnose other data")
+        self.others.setToolTip("A sweep laid beside the session; its specimen is asked for")
+        self.others.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.others.setMenu(QMenu(self.others))
+        self.doing, self.filler = QLabel(), QWidget()
+        self.bar.setFixedWidth(160)
+        self.bar.setTextVisible(False)
+        for one in (self.diagnose, self.others, self.back, self.doing, self.bar, self.cancel):
+            self.finding.corner.addWidget(one)
+        self.views = QTabWidget()
+        for view, name, tip in (
+            (self.residual, "Residual", "What the fit leaves of every point, before and after"),
+            (self.held_out, "Error", "On data held out, and on all: before, after, noise alone"),
+            (self.law, "Law", "What the effects do to the material"),
+        ):
+            self.views.setTabToolTip(self.views.addTab(view, name), tip)
+        left = QSplitter(Qt.Orientation.Vertical)
+        left.addWidget(self.candidates)
+        left.addWidget(self.story)
+        left.setStretchFactor(0, 3)
+        left.setStretchFactor(1, 1)
+        left.setSizes([260, 110])
+        self.body = QSplitter(Qt.Orientation.Horizontal)
+        self.body.addWidget(left)
+        self.body.addWidget(self.views)
+        self.body.setSizes([620, 740])
+        column = QVBoxLayout(self)
+        column.setContentsMargins(8, 6, 8, 4)
+        column.addWidget(self.finding)
+        column.addWidget(self.empty)
+        column.addWidget(self.body, 1)
+        column.addWidget(self.filler, 1)
+
+
+def _story(shown: Shown) -> list[str]:
+    """The explanation, what was set aside, what is to be noted."""
+    facts = shown.facts
+    said = list(facts["explanation"])
+    if facts["set_aside_hz"]:
+        listed = ", ".join(f"{f:.4g}" for f in facts["set_aside_hz"])
+        said.append(f"Set aside for hum: {listed} Hz.")
+    return said + [f"Note: {text}." for text in facts["warnings"]]

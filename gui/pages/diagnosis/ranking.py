@@ -1,0 +1,168 @@
+"""Candidates as rows: how they stand, which of them cannot be told apart. No Qt."""
+
+from dataclasses import dataclass
+from inspect import getdoc, getmodule
+from itertools import product
+from typing import Any, Literal
+
+from fitting.effects import CATALOGUE
+from gui.rediagnosis import effects_of
+from instrument.diagnosis_words import parameter_words
+
+Facts = dict[str, Any]
+Standing = Literal["found", "equal", "none", "other", "not fitted"]
+WORDS: dict[Standing, str] = {
+    "found": "found",
+    "equal": "not told from it",
+    "none": "no effect",
+    "other": "",
+    "not fitted": "not fitted",
+}
+
+
+@dataclass(frozen=True)
+class Row:
+    """A candidate."""
+
+    name: str
+    standing: Standing
+    gain: float | None = None
+    """BIC gained over the fit without any effect."""
+    behind: float | None = None
+    """BIC to the best one."""
+    chi2_per_dof: float | None = None
+    parameters: tuple[str, ...] = ()
+
+    @property
+    def behind_words(self) -> str:
+        """As it stands in the table."""
+        if self.behind is None:
+            return "–"
+        return "best" if self.behind == 0 else f"+{self.behind:.1f}"
+
+    @property
+    def gain_words(self) -> str:
+        """What the bar means."""
+        if self.gain is None:
+            return "not among the candidates of this search"
+        return f"BIC {self.gain:.1f} better than the fit without any effect"
+
+
+def ranked(facts: Facts) -> list[Row]:
+    """Best first; then what the catalogue holds beside them, so that it can be accepted too."""
+    candidates = facts["candidates"]
+    none = next((c["delta_bic"] for c in candidates if c["name"] == "none"), None)
+    rows = [
+        Row(
+            c["name"],
+            _standing(c["name"], facts),
+            None if none is None else none - c["delta_bic"],
+            c["delta_bic"],
+            c["chi2_per_dof"],
+            tuple(parameter_words(key, p).replace("+-", "±") for key, p in c["parameters"].items()),
+        )
+        for c in candidates
+    ]
+    single = {row.name for row in rows}
+    return rows + [Row(name, "not fitted") for name in sorted(CATALOGUE) if name not in single]
+
+
+def _standing(name: str, facts: Facts) -> Standing:
+    if name == "none":
+        return "none"
+    together, groups = set(effects_of([name])), facts["equivalent"]
+    if groups and together == set(groups):
+        return "found"
+    equal = groups and any(together == set(names) for names in product(*groups.values()))
+    return "equal" if equal else "other"
+
+
+def group_words(facts: Facts) -> str:
+    """Which effects these data cannot tell apart; empty where there are none."""
+    groups = [group for group in facts["equivalent"].values() if len(group) > 1]
+    return "\n".join(f"One group, not to be told apart by these data: {', '.join(g)}." for g in groups)
+
+
+def about(name: str) -> str:
+    """What an effect is, and what would show it by itself."""
+    if name == "none":
+        return "The stated plate with its best law, no effect added."
+    return "\n\n".join(_about_one(one) for one in effects_of([name]) if one in CATALOGUE)
+
+
+def _about_one(name: str) -> str:
+    effect = CATALOGUE[name]
+    module = getmodule(type(effect))
+    what = (getdoc(module) or "").splitlines()[0] if module is not None else ""
+    shown = f"\nShown apart by: {effect.splits}." if effect.splits else ""
+    return f"{name}: {what}\nEnters: {effect.enters}. After {effect.source}.{shown}"
+
+
+class Decisions:
+    """What a person accepts and declines, by the names of effects."""
+
+    def __init__(self) -> None:
+        self.accepted: tuple[str, ...] = ()
+        self.declined: tuple[str, ...] = ()
+        self.nothing = False
+        """Every effect is declined."""
+
+    def accept(self, name: str) -> None:
+        """A candidate, `none` among them; again to take it back."""
+        if name == "none":
+            again = not self.nothing
+            self.clear()
+            self.nothing = again
+            return
+        one = effects_of([name])
+        self.nothing = False
+        self.declined = tuple(n for n in self.declined if n not in one)
+        if set(one) <= set(self.accepted):
+            self.accepted = tuple(n for n in self.accepted if n not in one)
+        else:
+            self.accepted = tuple(dict.fromkeys((*self.accepted, *one)))
+
+    def decline(self, name: str) -> None:
+        """Leave it out of the search; again to take it back."""
+        one = effects_of([name])
+        self.nothing = False
+        self.accepted = tuple(n for n in self.accepted if n not in one)
+        if set(one) <= set(self.declined):
+            self.declined = tuple(n for n in self.declined if n not in one)
+        else:
+            self.declined = tuple(dict.fromkeys((*self.declined, *one)))
+
+    def clear(self) -> None:
+        """Nothing is decided."""
+        self.accepted = self.declined = ()
+        self.nothing = False
+
+    @property
+    def any(self) -> bool:
+        """Whether there is something to compute."""
+        return bool(self.accepted or self.declined or self.nothing)
+
+    @property
+    def accept_argument(self) -> tuple[str, ...] | None:
+        """None where the catalogue is to be searched."""
+        return self.accepted if self.accepted or self.nothing else None
+
+    @property
+    def words(self) -> str:
+        """What will be computed."""
+        if self.nothing:
+            return "fit without any effect"
+        if self.accepted:
+            return f"fit with {' and '.join(self.accepted)}"
+        if self.declined:
+            return f"search again without {', '.join(self.declined)}"
+        return ""
+
+    def of(self, name: str) -> str:
+        """The word on a candidate."""
+        if name == "none":
+            return "accepted" if self.nothing else ""
+        one = set(effects_of([name]))
+        if one <= set(self.accepted):
+            return "accepted"
+        return "declined" if one & set(self.declined) else ""

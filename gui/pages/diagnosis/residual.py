@@ -1,0 +1,107 @@
+"""What a fit leaves of every point, prepared for drawing. No Qt."""
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gui.pages.law.curve import together
+
+Array = NDArray[np.float64]
+Facts = dict[str, Any]
+Quantity = Literal["both", "real", "imaginary", "amplitude", "whitened"]
+NAMES: dict[Quantity, str] = {
+    "both": "real and imaginary",
+    "real": "real part",
+    "imaginary": "imaginary part",
+    "amplitude": "amplitude",
+    "whitened": "whitened",
+}
+TWO_STD = 2.0
+_KEYS: dict[Quantity, tuple[tuple[str, str], ...]] = {
+    "both": (("real part", "re_percent"), ("imaginary part", "im_percent")),
+    "real": (("real part", "re_percent"),),
+    "imaginary": (("imaginary part", "im_percent"),),
+    "amplitude": (("amplitude", "amplitude_percent"),),
+}
+_WHITENED = ("real part", "imaginary part")
+
+
+@dataclass(frozen=True)
+class Series:
+    """Points of one kind. Shape (points,) each."""
+
+    name: str
+    frequency_hz: Array
+    values: Array
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Two standard deviations of it, for points of one pass at one level. Shape (points,) each."""
+
+    frequency_hz: Array
+    height: Array
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One segment of one stage."""
+
+    series: tuple[Series, ...]
+    noise: tuple[Noise, ...]
+
+    @property
+    def highest(self) -> float:
+        """Of all points, either side of zero; at least what noise reaches."""
+        found = [s.values for s in self.series] + [n.height for n in self.noise]
+        sizes = [float(np.nanmax(np.abs(v))) for v in found if np.isfinite(v).any()]
+        return max(sizes, default=1.0) or 1.0
+
+
+def quantities(facts: Facts) -> tuple[Quantity, ...]:
+    """What these data have: amplitudes alone have no parts."""
+    points = facts["points"]
+    has_phase = bool(points) and "re_percent" in points[0]["before"]
+    return ("both", "real", "imaginary", "amplitude", "whitened") if has_phase else ("amplitude", "whitened")
+
+
+def segments(facts: Facts) -> tuple[int, ...]:
+    """Numbers of them."""
+    return tuple(sorted({int(p["segment"]) for p in facts["points"]}))
+
+
+def panel(facts: Facts, segment: int, stage: str, quantity: Quantity) -> Panel:
+    """Points ascending in frequency, no sentinel far off: it would leave no room for the others."""
+    points = together([p for p in facts["points"] if p["segment"] == segment])
+    f = _column(points, "frequency_hz")
+    left = [p[stage] for p in points]
+    if quantity == "whitened":
+        parts = np.array([p["whitened"] for p in left], dtype=float).T
+        names = _WHITENED if len(parts) > 1 else ("amplitude",)
+        series = tuple(Series(name, f, part) for name, part in zip(names, parts, strict=True))
+        return Panel(series, (Noise(f, np.full(len(f), TWO_STD)),))
+    series = tuple(Series(name, f, _column(left, key)) for name, key in _KEYS[quantity])
+    return Panel(series, _noise(points))
+
+
+def limits(facts: Facts, segment: int, quantity: Quantity) -> float:
+    """Height of the axis that before and after share."""
+    return max(panel(facts, segment, stage, quantity).highest for stage in ("before", "after"))
+
+
+def _noise(points: list[Facts]) -> tuple[Noise, ...]:
+    """A band for each pass and level: between them the noise jumps."""
+    found = []
+    for alike in sorted({(p["sweep"], p["level_m_s2"]) for p in points}):
+        mine = [p for p in points if (p["sweep"], p["level_m_s2"]) == alike]
+        height = TWO_STD * _column(mine, "noise_percent")
+        if np.isfinite(height).all():
+            found.append(Noise(_column(mine, "frequency_hz"), height))
+    return tuple(found)
+
+
+def _column(rows: list[Facts], key: str) -> Array:
+    """NaN for null."""
+    return np.array([row[key] for row in rows], dtype=float)

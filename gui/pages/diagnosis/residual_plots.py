@@ -1,0 +1,184 @@
+"""The residual before and after, side by side on the same axes, a row a segment."""
+
+from PySide6.QtCore import QEvent, QTimer
+from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
+
+from gui.pages.diagnosis.residual import NAMES, Panel, limits, panel, quantities, segments
+from gui.plots import Axis, Plot
+from gui.plots.plot import Symbol
+from gui.rediagnosis import Facts
+from gui.theme import Role, current_theme
+
+_ROOM = 1.12
+_LEAST_HEIGHT_PX = 100
+_STAGES = ("before", "after")
+_LOOKS: dict[str, tuple[Role, Symbol]] = {
+    "real part": ("data", "o"),
+    "imaginary part": ("third", "s"),
+    "amplitude": ("data", "o"),
+}
+_SIGNS: dict[Symbol, str] = {"o": "●", "s": "■"}
+_SHARE_OF_TYPE = 0.38
+"""Size of a point to that of type."""
+_ALL = "all"
+
+
+class ResidualPlots(QWidget):
+    """What a person chooses of it: quantity and segment."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.quantity, self.segment = QComboBox(), QComboBox()
+        for box in (self.quantity, self.segment):
+            box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
+        self.quantity.setToolTip(
+            "Predicted over measured, less one: real part is amplitude, imaginary part phase to first order. "
+            "Whitened: in units of noise and model error, as the fit weighs it."
+        )
+        self.plots: dict[tuple[int, str], Plot] = {}
+        self._facts: Facts | None = None
+        self._numbers: list[int] = []
+        self._waiting: list[tuple[int, str]] = []
+        self._timer = QTimer(self)
+        self._timer.timeout.connect(self._draw_next)
+        self._before, self._after = QLabel(), QLabel()
+        self._inside = QWidget()
+        self._grid = QGridLayout(self._inside)
+        self._grid.setContentsMargins(0, 0, 0, 0)
+        self._grid.setSpacing(2)
+        self._arrange()
+        self.quantity.currentIndexChanged.connect(self._draw)
+        self.segment.currentIndexChanged.connect(self._draw)
+
+    def show_diagnosis(self, facts: Facts) -> None:
+        """Draw what it leaves."""
+        self._facts = facts
+        _offer(self.quantity, {NAMES[q]: q for q in quantities(facts)})
+        numbers = segments(facts)
+        every = {"all segments": _ALL} if len(numbers) > 1 else {}
+        _offer(self.segment, {**every, **{f"segment {n}": n for n in numbers}})
+        self._draw()
+
+    @property
+    def drawn(self) -> bool:
+        """Whether everything is."""
+        return not self._waiting
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Colours and type follow the window's."""
+        super().changeEvent(event)
+        if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.FontChange) and hasattr(self, "_timer"):
+            self._draw()
+
+    def _draw(self) -> None:
+        facts, chosen = self._facts, self.segment.currentData()
+        if facts is None or chosen is None:
+            return
+        self._numbers = [n for n in segments(facts) if chosen in (_ALL, n)]
+        for (n, _), plot in self.plots.items():
+            plot.setVisible(n in self._numbers)
+        for label, stage in ((self._before, "before"), (self._after, "after")):
+            label.setText(_title(facts, stage))
+        # One plot a turn: the window stays quick.
+        self._waiting = [(n, stage) for n in self._numbers for stage in _STAGES]
+        self._timer.start()
+
+    def _draw_next(self) -> None:
+        quantity = self.quantity.currentData()
+        if not self._waiting or self._facts is None:
+            self._timer.stop()
+            return
+        number, stage = self._waiting.pop(0)
+        plot = self._plot(number, stage)
+        titled, unit = number == self._numbers[-1], "" if quantity == "whitened" else "%"
+        plot.show_axes(Axis("Frequency", "Hz", titled=titled), Axis(f"Segment {number}", unit))
+        _draw_panel(plot, panel(self._facts, number, stage, quantity))
+        height = _ROOM * limits(self._facts, number, quantity)
+        plot.setYRange(-height, height, padding=0)
+        if number == self._numbers[0]:
+            # Above the points: a legend among them would hide some.
+            _name_series(plot)
+        else:
+            plot.getPlotItem().setTitle(None)
+
+    def _plot(self, number: int, stage: str) -> Plot:
+        """Before and after are linked."""
+        if (number, stage) not in self.plots:
+            plot = Plot(Axis("Frequency", "Hz"), Axis(f"Segment {number}"), legend=False)
+            plot.setMinimumHeight(_LEAST_HEIGHT_PX)
+            plot.setToolTip(f"Segment {number}, {stage}")
+            if stage == "after":
+                plot.setXLink(self.plots[number, "before"])
+                plot.setYLink(self.plots[number, "before"])
+            self._grid.addWidget(plot, number, _STAGES.index(stage))
+            self.plots[number, stage] = plot
+        return self.plots[number, stage]
+
+    def _arrange(self) -> None:
+        for label in (self._before, self._after):
+            label.setWordWrap(True)
+        above = QHBoxLayout()
+        for text, box in (("residual", self.quantity), ("of", self.segment)):
+            above.addWidget(QLabel(text))
+            above.addWidget(box)
+        above.addStretch(1)
+        above.addWidget(QLabel("grey: noise, ± 2 standard deviations"))
+        titles = QHBoxLayout()
+        for label in (self._before, self._after):
+            titles.addWidget(label, 1)
+        area = QScrollArea()
+        area.setWidget(self._inside)
+        area.setWidgetResizable(True)
+        area.setFrameShape(QScrollArea.Shape.NoFrame)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(4, 4, 4, 0)
+        column.addLayout(above)
+        column.addLayout(titles)
+        column.addWidget(area, 1)
+
+
+def _draw_panel(plot: Plot, shown: Panel) -> None:
+    names, size = [], _SHARE_OF_TYPE * plot.fontMetrics().height()
+    for k, noise in enumerate(shown.noise):
+        names.append(f"noise {k + 1}")
+        plot.band(names[-1], noise.frequency_hz, -noise.height, noise.height, "faint")
+    for series in shown.series:
+        role, symbol = _LOOKS[series.name]
+        plot.points(series.name, series.frequency_hz, series.values, role, symbol=symbol, size=size)
+        names.append(series.name)
+    plot.keep(names)
+
+
+def _name_series(plot: Plot) -> None:
+    theme = current_theme()
+    said = [
+        f'<span style="color: {theme.color(role).name()}">{_SIGNS[symbol]}</span> {name}'
+        for name, (role, symbol) in _LOOKS.items()
+        if name in plot.names
+    ]
+    size = f"{plot.font().pointSizeF():g}pt"
+    plot.getPlotItem().setTitle("&nbsp;&nbsp; ".join(said), color=theme.text, size=size)
+
+
+def _title(facts: Facts, stage: str) -> str:
+    accepted = " and ".join(facts["equivalent"]) or "any effect"
+    said = f"before: without {accepted}" if stage == "before" else f"after: with {accepted}"
+    if stage == "after" and not facts["equivalent"]:
+        said = "after: the same, no effect is accepted"
+    found = facts[stage]
+    chi2 = found["chi2_per_dof"]
+    noise = "" if chi2 is None else f", chi² per degree {chi2:.3g}"
+    return f"<b>{said}</b><br>{found['rms_percent']:.2g} % rms in amplitude{noise}"
+
+
+def _offer(box: QComboBox, choices: dict[str, object]) -> None:
+    """These to choose from; what was chosen stays where it can."""
+    if [box.itemText(k) for k in range(box.count())] == list(choices):
+        return
+    before = box.currentText()
+    box.blockSignals(True)
+    box.clear()
+    for text, data in choices.items():
+        box.addItem(text, data)
+    box.setCurrentIndex(max(0, box.findText(before)))
+    box.blockSignals(False)

@@ -1,0 +1,106 @@
+"""What hits give: each alone, their average, and the modes of it. No Qt; not for the main thread."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from gui.pages.hammer.choice import Blow, blow_of
+from gui.pages.hammer.traces import Surroundings
+from instrument.errors import BadInput
+from instrument.impact.damping import Damping, damping_of_hits
+from instrument.impact.facts import damping_facts
+from instrument.impact.judge import Judged
+from instrument.impact.scatter import Scatter, scatter_over_hits
+from instrument.impact.spectra import Spectra, rolloff_hz, spectra
+from instrument.interchange.contents import RecordedHit
+from instrument.plain import plain
+
+Hits = tuple[RecordedHit, ...]
+Look = Callable[[], None]
+"""Called between two long sums; raises where the work is no longer wanted."""
+
+
+@dataclass(frozen=True)
+class Seen:
+    """One hit by itself."""
+
+    judged: Judged
+    alone: Spectra
+    usable_hz: float
+    """Where its force spectrum has fallen by 20 dB."""
+
+
+@dataclass(frozen=True)
+class Averaged:
+    """All hits that have samples, and the average of those that count."""
+
+    hits: Hits
+    seen: dict[int, Seen]
+    """By number."""
+    average: Spectra | None
+    """None where no hit counts."""
+
+    @property
+    def usable_hz(self) -> float | None:
+        """Of the average."""
+        return rolloff_hz(self.average) if self.average is not None else None
+
+    @property
+    def used(self) -> list[Judged]:
+        """The hits that are averaged."""
+        return [s.judged for s in self.seen.values() if s.judged.accepted]
+
+
+@dataclass(frozen=True)
+class Modes:
+    """What the average gives."""
+
+    hits: Hits
+    found: Damping | None
+    """None where no hit counts; `why` says so."""
+    scatter: tuple[Scatter | None, ...]
+    around: tuple[Surroundings, ...]
+    """For drawing."""
+    facts: dict[str, Any]
+    """As the run itself would record them."""
+    why: str = ""
+
+
+class Sight:
+    """Sees hits; one that was seen before is not computed again."""
+
+    def __init__(self) -> None:
+        self._known: dict[Blow, Seen] = {}
+
+    def average(self, hits: Hits, look: Look) -> Averaged:
+        """Each hit and the average of those accepted."""
+        seen = {}
+        for hit in hits:
+            look()
+            if len(hit.record.force_n):
+                seen[hit.number] = self._see(hit)
+        self._known = {blow_of(h): seen[h.number] for h in hits if h.number in seen}
+        used = [s.judged for s in seen.values() if s.judged.accepted]
+        return Averaged(hits, seen, spectra(used) if used else None)
+
+    def _see(self, hit: RecordedHit) -> Seen:
+        known = self._known.get(blow_of(hit))
+        if known is not None and known.judged.accepted == hit.accepted:
+            return known
+        judged = hit.judged()
+        alone = known.alone if known is not None else spectra([judged])
+        return Seen(judged, alone, known.usable_hz if known is not None else rolloff_hz(alone))
+
+
+def modes_of(averaged: Averaged, band_hz: tuple[float, float], look: Look) -> Modes:
+    """Frequencies and damping by three methods, and how far single hits agree."""
+    judged = [averaged.seen[h.number].judged for h in averaged.hits if h.number in averaged.seen]
+    try:
+        found = damping_of_hits(judged, band_hz=band_hz)
+    except BadInput as error:
+        return Modes(averaged.hits, None, (), (), {}, str(error))
+    look()
+    scatter = scatter_over_hits(found)
+    look()
+    around = tuple(Surroundings.of(found, mode) for mode in found.modes)
+    return Modes(averaged.hits, found, scatter, around, plain(damping_facts(found)))

@@ -1,0 +1,77 @@
+"""The selected hit: its blow, its whole record, its force spectrum beside the average's."""
+
+import numpy as np
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
+
+from gui.pages.hammer.findings import Averaged, Seen
+from gui.pages.hammer.traces import Traces
+from gui.plots import Axis, Plot
+from gui.theme import Role
+from instrument.impact.spectra import Spectra
+
+_SHOWN_BEYOND = 2.0
+"""The spectrum is shown up to so many times the usable band."""
+
+
+class HitPlots(QWidget):
+    """Two above two."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.blow = Plot(Axis("Time after the peak", "ms"), Axis("Force", "N"), legend=False)
+        self.force = Plot(Axis("Time after the blow", "s"), Axis("Force", "N"), legend=False)
+        self.spectrum = Plot(Axis("Frequency", "Hz"), Axis("Spectrum", "N s", log=True))
+        self.response = Plot(Axis("Time after the blow", "s"), Axis("Response", "m/s²"), legend=False)
+        self.blow.setToolTip("The blow of the selected hit, sample by sample")
+        self.force.setToolTip("The force over the whole record: a second blow is seen here")
+        self.spectrum.setToolTip(
+            "Spectrum of the force: the blow excites little beyond the mark, where it has fallen by 20 dB"
+        )
+        self.response.setToolTip("The acceleration over the whole record: has it rung down at the end?")
+        self.response.setXLink(self.force)
+        self.spectrum.getPlotItem().legend.setOffset((-4, 2))
+        self._shown: tuple[int, Averaged | None] = (0, None)
+        rows = QSplitter(Qt.Orientation.Vertical)
+        for pair in ((self.blow, self.spectrum), (self.force, self.response)):
+            row = QSplitter(Qt.Orientation.Horizontal)
+            for plot in pair:
+                row.addWidget(plot)
+            rows.addWidget(row)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(rows)
+
+    def show_hit(self, averaged: Averaged | None, number: int) -> None:
+        """One hit by its number; nothing where it has no samples."""
+        if self._shown == (number, averaged):
+            return
+        self._shown = number, averaged
+        seen = averaged.seen.get(number) if averaged is not None else None
+        if averaged is None or seen is None:
+            for plot in (self.blow, self.force, self.response, self.spectrum):
+                plot.empty()
+            return
+        traces = Traces.of(seen.judged)
+        self.blow.line("force", *traces.blow, "third")
+        self.blow.points("samples", *traces.blow, "third", size=4.0)
+        self.force.trace("force", *traces.force, "third")
+        self.response.trace("response", *traces.response, "third")
+        for plot in (self.blow, self.force, self.response):
+            plot.enableAutoRange()
+        self._show_spectrum(averaged, seen)
+
+    def _show_spectrum(self, averaged: Averaged, seen: Seen) -> None:
+        usable_hz = averaged.usable_hz or seen.usable_hz
+        highest_hz = min(_SHOWN_BEYOND * usable_hz, seen.judged.hit.sample_rate_hz / 2)
+        self._draw_spectrum("selected hit", seen.alone, highest_hz, "third")
+        self._draw_spectrum("hits used", averaged.average, highest_hz, "data")
+        self.spectrum.mark([usable_hz], "good", labels=[f"{usable_hz:.0f} Hz"])
+        self.spectrum.setXRange(0.0, highest_hz, padding=0.0)
+
+    def _draw_spectrum(self, name: str, spectrum: Spectra | None, highest_hz: float, role: Role) -> None:
+        if spectrum is None:
+            self.spectrum.keep(n for n in self.spectrum.names if n != name)
+            return
+        part = slice(1, int(np.searchsorted(spectrum.frequency_hz, highest_hz)))
+        self.spectrum.trace(name, spectrum.frequency_hz[part], spectrum.force[part], role)

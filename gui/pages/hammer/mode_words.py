@@ -1,0 +1,160 @@
+"""Rows of the damping table, in words."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.modal.frf import Refusal
+from gui.pages.hammer.findings import Modes
+from gui.tables import Cell, Row
+from instrument.impact.damping import Mode
+from instrument.impact.scatter import Scatter
+
+Array = NDArray[np.float64]
+
+METHODS = ("rational_fit", "half_power", "lscf")
+_ADOPTED = 0
+"""Of these."""
+_MOST_DIGITS = 5
+"""Behind the point of a damping ratio in percent."""
+_SAME = 0.05
+"""Relative distance beyond which an expected mode is another one."""
+_AGREE = 1e-9
+"""Relative: the same numbers, whatever JSON did to them."""
+
+MODE_COLUMNS = {
+    "f / Hz": "Natural frequency, undamped",
+    "expected / Hz": "Of the bare plate by the specimen file, the accelerometer on it, in an ideal clamp",
+    "rational fit / %": "Damping ratio by a pole fitted to the lines about the peak, ± one standard error: "
+    "this one is adopted",
+    "half power / %": "Damping ratio from the width of the peak at 1/√2 of its height, on a padded "
+    "and windowed spectrum",
+    "LSCF / %": "Damping ratio by poles that stay where they are at rising orders (least squares complex "
+    "frequency)",
+    "over hits / %": "Standard deviation of the rational fit's ratio from hit to hit, each hit alone",
+    "lines": "Lines of the spectrum inside the half-power bandwidth: below 2 a longer record is wanted",
+    "Flags": "What speaks against a mode's damping",
+}
+
+
+@dataclass(frozen=True)
+class ModeRow:
+    """One mode."""
+
+    frequency_hz: float
+    cells: Row
+
+
+def mode_rows(facts: dict[str, Any], modes: Modes | None, expected_hz: Array | None) -> list[ModeRow]:
+    """Of the facts; what only the computation here knows is added where it has the same mode."""
+    return [_mode_row(k + 1, mode, modes, expected_hz) for k, mode in enumerate(facts.get("modes", ()))]
+
+
+def advice_of(facts: dict[str, Any]) -> str:
+    """What the test teaches for the next one, and what was set right; the hit list has the rest."""
+    told = {f"{hit['source']} left out: {hit['why']}" for hit in facts.get("hits", ())}
+    return "; ".join(warning for warning in facts.get("warnings", ()) if warning not in told)
+
+
+def number_of(modes: Modes, frequency_hz: float) -> int | None:
+    """Which of the modes computed here is the one at a frequency."""
+    found = modes.found.modes if modes.found is not None else ()
+    return near(np.array([m.frequency_hz for m in found]), frequency_hz)
+
+
+def _mode_row(number: int, mode: dict[str, Any], modes: Modes | None, expected_hz: Array | None) -> ModeRow:
+    f, lines, why = mode["frequency_hz"], mode["lines_in_bandwidth"], mode["why"]
+    k = number_of(modes, f) if modes is not None else None
+    found = modes.found.modes[k] if modes is not None and modes.found is not None and k is not None else None
+    scatter = modes.scatter[k] if modes is not None and k is not None else None
+    over_hits = "..." if modes is None else _size(100 * scatter.ratio) if scatter is not None else "–"
+    return ModeRow(
+        f,
+        (
+            Cell(f"{f:.3f}", f"mode {number} of those found", edge="fair" if why else None),
+            Cell(_expected(f, expected_hz), _expected_tip(f, expected_hz)),
+            *(
+                Cell(_percent(mode[method]), _method_tip(mode[method], method, found), bold=k == _ADOPTED)
+                for k, method in enumerate(METHODS)
+            ),
+            Cell(over_hits, _scatter_tip(scatter)),
+            Cell("–" if lines is None else f"{lines:.1f}"),
+            Cell(why, why.replace("; ", "\n"), left=True),
+        ),
+    )
+
+
+def _scatter_tip(scatter: Scatter | None) -> str:
+    if scatter is None:
+        return "two hits or more have to give a value, each alone"
+    ratio, hertz = f"± {100 * scatter.ratio:.1g} %", f"± {scatter.frequency_hz:.1g} Hz"
+    return f"{scatter.hits} hits, each alone: ratio {ratio}, frequency {hertz} (standard deviations)"
+
+
+def agree(recorded: dict[str, Any], computed: dict[str, Any]) -> bool:
+    """Whether two results of the same hits have the same adopted modes."""
+    key = "frequency_hz", "damping_ratio"
+    a, b = ([tuple(m[k] for k in key) for m in facts.get("modes", ())] for facts in (recorded, computed))
+    same = all(
+        _close(x, y) for one, other in zip(a, b, strict=False) for x, y in zip(one, other, strict=True)
+    )
+    return len(a) == len(b) and same
+
+
+def near(frequencies_hz: Array, frequency_hz: float) -> int | None:
+    """Which of these is the same mode; None where none is."""
+    if len(frequencies_hz) == 0:
+        return None
+    k = int(np.argmin(np.abs(frequencies_hz - frequency_hz)))
+    return k if abs(frequencies_hz[k] / frequency_hz - 1) < _SAME else None
+
+
+def _close(x: float | None, y: float | None) -> bool:
+    if x is None or y is None:
+        return x is y
+    return abs(x - y) <= _AGREE * abs(y)
+
+
+def _percent(estimate: dict[str, Any] | None) -> str:
+    if estimate is None:
+        return "refused"
+    ratio, error = 100 * estimate["ratio"], estimate["standard_error"]
+    if error is None:
+        return f"{ratio:.4f}"
+    return f"{ratio:.{_digits(100 * error)}f} ± {_size(100 * error)}"
+
+
+def _size(error: float) -> str:
+    """An error to its first digit."""
+    least = 10.0**-_MOST_DIGITS
+    return f"{error:.{_digits(error)}f}" if error >= least else f"<{least:.{_MOST_DIGITS}f}"
+
+
+def _digits(error: float) -> int:
+    """Decimals that an error leaves to its value."""
+    return _MOST_DIGITS if error <= 0 else int(np.clip(-np.floor(np.log10(error)), 1, _MOST_DIGITS))
+
+
+def _method_tip(estimate: dict[str, Any] | None, method: str, found: Mode | None) -> str:
+    if estimate is not None:
+        error = estimate["standard_error"]
+        known = f" ± {100 * error:.2g}" if error is not None else ", no standard error"
+        return f"{100 * estimate['ratio']:.6g}{known} % of critical damping"
+    value = getattr(found, method) if found is not None else None
+    return f"refused: {value.why}" if isinstance(value, Refusal) else "refused: see the flags"
+
+
+def _expected(frequency_hz: float, expected_hz: Array | None) -> str:
+    k = near(expected_hz, frequency_hz) if expected_hz is not None else None
+    return "–" if k is None or expected_hz is None else f"{expected_hz[k]:.2f}"
+
+
+def _expected_tip(frequency_hz: float, expected_hz: Array | None) -> str:
+    k = near(expected_hz, frequency_hz) if expected_hz is not None else None
+    if k is None or expected_hz is None:
+        return "no mode of the specimen's bare plate is near"
+    return (
+        f"measured {100 * (frequency_hz / expected_hz[k] - 1):+.2f} % from the specimen file's mode {k + 1}"
+    )

@@ -1,0 +1,286 @@
+"""The page of the hammer test: what stands where, and what follows when something changes."""
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QSplitter, QStackedLayout, QVBoxLayout, QWidget
+
+from gui.desk import Desk
+from gui.page import Page
+from gui.pages.hammer.bench import Bench
+from gui.pages.hammer.choice import WhatIf, overruled, standing_of
+from gui.pages.hammer.findings import Averaged, Hits, Modes
+from gui.pages.hammer.frf_plots import FrfPlots
+from gui.pages.hammer.hit_list import HitList
+from gui.pages.hammer.hit_plots import HitPlots
+from gui.pages.hammer.mode_table import ModeTable
+from gui.pages.hammer.mode_words import advice_of, agree, mode_rows, number_of
+from gui.pages.hammer.words import hit_rows, prompt_of, source_of
+from gui.picture import Picture
+from gui.widgets import hint
+from instrument.engine import Engine
+from instrument.interchange.contents import RecordedHit
+
+Array = NDArray[np.float64]
+
+_NO_SESSION = (
+    "Open a session with a hammer test, or start a run: its hits, the accelerance of the bare plate and the "
+    "damping of its modes appear here."
+)
+_NO_TEST = "This experiment has no hammer test: its file has no table [hammer]."
+_BEYOND = 1.1
+"""Expected modes are shown so much further than the band."""
+
+
+class HammerPage(Page):
+    """Hits, accelerance and damping of the bare plate.
+
+    While the test goes on, a word about a hit goes to the run. Otherwise it is a what-if: the damping is
+    computed from the hits as they were recorded with the changed choice, and nothing is written.
+    """
+
+    title = "Hammer"
+    hint = "Hits, accelerance and damping of the bare plate"
+
+    def __init__(self, desk: Desk) -> None:
+        super().__init__(desk)
+        self.nothing = hint(_NO_SESSION)
+        self.nothing.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.hits, self.hit_plots = HitList(), HitPlots()
+        self.frf, self.modes = FrfPlots(), ModeTable()
+        self.bench = Bench(self)
+        self.what_if = WhatIf()
+        self._averaged: Averaged | None = None
+        self._modes: Modes | None = None
+        self._expected_hz: Array | None = None
+        self._hits: Hits = ()
+        """As they count on this page; what the bench was given last."""
+        self._failure = ""
+        self._arrange()
+        self._connect()
+
+    # From the window
+
+    def refresh(self, picture: Picture) -> None:
+        """Draw what has changed."""
+        hammer = picture.configuration.experiment.hammer
+        run, hits, damping = (self.news(topic) for topic in ("run", "hits", "damping"))
+        self._stack.setCurrentIndex(0 if hammer is None else 1)
+        self.nothing.setText(_NO_TEST)
+        if hammer is None:
+            return
+        if self._expected_hz is None:
+            self._expected_hz = np.zeros(0)
+            self.bench.expect(picture.configuration, _BEYOND * hammer.band_hz[1])
+        if hits:
+            self._take_hits()
+        if hits or run:
+            self._show_hits()
+        if hits or run or damping:
+            self._show_modes()
+
+    def clear(self) -> None:
+        """There is no session any more."""
+        self._stack.setCurrentIndex(0)
+        self.nothing.setText(_NO_SESSION)
+
+    # What is known
+
+    @property
+    def _recorded(self) -> list[RecordedHit]:
+        """As the stream has them."""
+        return self._picture.contents.hits if self._picture is not None else []
+
+    @property
+    def _engine(self) -> Engine | None:
+        """Of the run a word about a hit goes to; None where it is a what-if."""
+        live = self.desk.live
+        if live is None or not live.engine.running or live.picture is None:
+            return None
+        return live.engine if live.picture.run.state == "hammer" else None
+
+    @property
+    def _is_what_if(self) -> bool:
+        return any(self.what_if.changes(h) for h in self._recorded)
+
+    @property
+    def _band_hz(self) -> tuple[float, float]:
+        hammer = self._picture.configuration.experiment.hammer if self._picture is not None else None
+        return (hammer.band_hz[0], hammer.band_hz[1]) if hammer is not None else (0.0, 1.0)
+
+    # What follows
+
+    def _take_hits(self) -> None:
+        """Have computed what the hits give, where they are not the same as before."""
+        hits = self.what_if.applied(self._recorded)
+        same = standing_of(hits) == standing_of(self._hits)
+        self._hits = hits
+        if same:
+            return
+        self._failure, self._modes = "", None
+        if hits:
+            self.bench.look_at(hits, self._band_hz)
+        else:
+            self._forget_hits()
+
+    def _forget_hits(self) -> None:
+        self.bench.forget()
+        self._averaged = self._modes = None
+        self._hits = ()
+        self.frf.empty()
+        self.hit_plots.show_hit(None, 0)
+
+    def _show_hits(self) -> None:
+        assert self._picture is not None
+        live = self._engine is not None
+        undoable = (h.number for h in self._recorded if (overruled(h) if live else self.what_if.changes(h)))
+        self.hits.show_rows(
+            hit_rows(self._recorded, self._hits, self.what_if, self._averaged), frozenset(undoable)
+        )
+        self.hits.prompt.setText(prompt_of(self._picture.run, self._hits, live=live))
+        feed = self.desk.live
+        asked = feed.question.what if live and feed is not None and feed.question is not None else ""
+        self.hits.use.setVisible(asked == "content")
+
+    def _show_modes(self) -> None:
+        """From the record where the hits count as recorded; else as computed here."""
+        assert self._picture is not None
+        recorded = None if self._is_what_if else self._picture.contents.damping
+        computed = self._modes.facts if self._modes is not None else {}
+        facts = recorded.facts_json if recorded is not None else computed
+        self.modes.say(
+            source_of(
+                self._hits,
+                recorded=recorded is not None,
+                what_if=self._is_what_if,
+                live=self._engine is not None,
+                busy=self.bench.busy,
+                failure=self._failure or (self._modes.why if self._modes is not None else ""),
+                differs=bool(recorded and computed) and not agree(facts, computed),
+            ),
+            what_if=self._is_what_if,
+        )
+        self.modes.show_rows(mode_rows(facts, self._modes, self._expected_hz), advice_of(facts))
+
+    def _show_curves(self) -> None:
+        if self._averaged is None:
+            return
+        self.frf.show_average(self._averaged, self._band_hz)
+        self.frf.show_expected(self._expected_hz)
+        self.frf.show_modes(self._modes)
+        self._show_hit()
+        self._zoom()
+
+    def _show_hit(self) -> None:
+        if self._averaged is not None:
+            self.hit_plots.show_hit(self._averaged, self.hits.number)
+            self.frf.show_hit(self._averaged, self.hits.number)
+
+    def _zoom(self) -> None:
+        """About the mode selected; the whole band where none is, or none is computed yet."""
+        modes, frequency_hz = self._modes, self.modes.frequency_hz
+        k = number_of(modes, frequency_hz) if modes is not None and frequency_hz is not None else None
+        self.frf.zoom(modes.around[k] if modes is not None and k is not None else None)
+
+    # From the bench
+
+    def _is_averaged(self, averaged: Averaged) -> None:
+        self._averaged = averaged
+        self._show_hits()
+        self._show_modes()
+        self._show_curves()
+
+    def _has_modes(self, modes: Modes) -> None:
+        self._modes = modes
+        self._show_modes()
+        self.frf.show_modes(modes)
+        self._zoom()
+
+    def _is_expected(self, frequency_hz: Array) -> None:
+        self._expected_hz = frequency_hz
+        self.frf.show_expected(frequency_hz)
+        self._show_modes()
+
+    def _has_failed(self, said: str) -> None:
+        self._failure = said
+        self._show_modes()
+
+    # From a person
+
+    def _accept(self, number: int) -> None:
+        if self._engine is not None:
+            self._engine.accept(number)
+        else:
+            self._try(number, accepted=True)
+
+    def _reject(self, number: int) -> None:
+        if self._engine is not None:
+            self._engine.reject(number)
+        else:
+            self._try(number, accepted=False)
+
+    def _undo(self, number: int) -> None:
+        if self._engine is not None:
+            self._engine.undo(number)
+        else:
+            self._try(number, accepted=None)
+
+    def _try(self, number: int, *, accepted: bool | None) -> None:
+        """What if this hit counted, or not; None: as recorded."""
+        for hit in self._recorded:
+            if hit.number == number:
+                self.what_if.say(hit, hit.accepted if accepted is None else accepted)
+        self._choice_changed()
+
+    def _as_recorded(self) -> None:
+        self.what_if.clear()
+        self._choice_changed()
+
+    def _choice_changed(self) -> None:
+        self._take_hits()
+        self._show_hits()
+        self._show_modes()
+
+    def _content(self) -> None:
+        if self.desk.live is not None:
+            self.desk.live.answer()
+
+    def _another_session(self) -> None:
+        self.what_if.clear()
+        self._forget_hits()
+        self._expected_hz = None
+        self.modes.deselect()
+
+    # What stands where
+
+    def _connect(self) -> None:
+        self.desk.changed.connect(self._another_session)
+        self.bench.averaged.connect(self._is_averaged)
+        self.bench.modes_found.connect(self._has_modes)
+        self.bench.expected.connect(self._is_expected)
+        self.bench.failed.connect(self._has_failed)
+        self.hits.selected.connect(self._show_hit)
+        self.hits.accepted.connect(self._accept)
+        self.hits.rejected.connect(self._reject)
+        self.hits.undone.connect(self._undo)
+        self.hits.content.connect(self._content)
+        self.modes.selected.connect(self._zoom)
+        self.modes.as_recorded.connect(self._as_recorded)
+        self.frf.mode_picked.connect(self.modes.select)
+
+    def _arrange(self) -> None:
+        whole = QSplitter(Qt.Orientation.Horizontal)
+        for above, below in ((self.hit_plots, self.hits), (self.frf, self.modes)):
+            half = QSplitter(Qt.Orientation.Vertical)
+            half.addWidget(above)
+            half.addWidget(below)
+            half.setStretchFactor(0, 1)
+            whole.addWidget(half)
+        whole.setSizes([400, 600])
+        content = QWidget()
+        column = QVBoxLayout(content)
+        column.setContentsMargins(6, 4, 6, 4)
+        column.addWidget(whole)
+        self._stack = QStackedLayout(self)
+        self._stack.addWidget(self.nothing)
+        self._stack.addWidget(content)

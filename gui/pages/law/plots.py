@@ -1,0 +1,89 @@
+"""Storage modulus and loss factor over frequency, side by side."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSplitter, QVBoxLayout, QWidget
+
+from gui.pages.law.curve import LawCurve
+from gui.plots import Axis, Plot
+from gui.theme import Role
+
+_LEGENDS_PX = ((8, 22), (-8, -8))
+"""Places where a law that rises is not: under the readout; in the lower right corner."""
+_BANDS = {"± 1 standard error": 1.0, "95 % (± 1.96 standard errors)": 1.96}
+
+
+@dataclass(frozen=True)
+class LawLine:
+    """A law to draw."""
+
+    name: str
+    curve: LawCurve
+    role: Role
+    dashed: bool = False
+    width: float = 2.0
+
+
+class LawPlots(QWidget):
+    """Two plots with the same lines. The shaded bands are as wide as a person chooses."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.storage = Plot(Axis("Frequency", "Hz"), Axis("Storage modulus G'", "MPa"))
+        self.loss = Plot(Axis("Frequency", "Hz"), Axis("Loss factor η"))
+        self.loss.setXLink(self.storage)
+        self._lines: tuple[LawLine, ...] = ()
+        self.bands = QComboBox()
+        for name, factor in _BANDS.items():
+            self.bands.addItem(name, factor)
+        self.bands.setToolTip(
+            "Width of the shaded bands: noise, model error and tolerances, as the fit states them"
+        )
+        self.bands.currentIndexChanged.connect(self._draw)
+        self.above = QHBoxLayout()
+        self.above.addStretch(1)
+        self.above.addWidget(QLabel("shaded"))
+        self.above.addWidget(self.bands)
+        both = QSplitter(Qt.Orientation.Horizontal)
+        for plot, place in zip((self.storage, self.loss), _LEGENDS_PX, strict=True):
+            plot.getPlotItem().legend.setOffset(place)
+            both.addWidget(plot)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addLayout(self.above)
+        column.addWidget(both, 1)
+
+    def show_lines(self, lines: Sequence[LawLine], resonances_hz: Sequence[float] = ()) -> None:
+        """Instead of those there were; `resonances_hz` are marked."""
+        self._lines = tuple(lines)
+        self._draw()
+        for plot in (self.storage, self.loss):
+            plot.mark(resonances_hz)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the lines shown."""
+        return tuple(line.name for line in self._lines)
+
+    def _draw(self) -> None:
+        factor = float(self.bands.currentData())
+        shown: set[str] = set()
+        for line in self._lines:
+            shown |= self._draw_line(line, factor)
+        for plot in (self.storage, self.loss):
+            plot.keep(shown)
+
+    def _draw_line(self, line: LawLine, factor: float) -> set[str]:
+        c, band = line.curve, f"{line.name}, band"
+        banded = bool(np.isfinite(c.storage_error_mpa).all()) and len(c.frequency_hz) > 0
+        for plot, value, error in (
+            (self.storage, c.storage_mpa, c.storage_error_mpa),
+            (self.loss, c.loss, c.loss_error),
+        ):
+            if banded:
+                plot.band(band, c.frequency_hz, value - factor * error, value + factor * error, line.role)
+            plot.line(line.name, c.frequency_hz, value, line.role, width=line.width, dashed=line.dashed)
+        return {line.name, band} if banded else {line.name}

@@ -1,0 +1,50 @@
+"""Laws to be drawn beside the session's: the paper's, and those of other sessions. No Qt."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from gui.pages.law.curve import LawCurve
+from instrument.errors import BadInput
+from instrument.files.sweep_file import read_sweep
+from instrument.interchange.contents import contents_of
+from instrument.paper_case import TABLE_4, case_file
+from instrument.session.storage import SessionFile
+
+PAPER = "ZN_1, the paper's Table 4"
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A law and its name in the legend."""
+
+    name: str
+    curve: LawCurve
+    note: str
+    """Where it comes from."""
+
+
+def paper_law() -> Compared:
+    """Over the band of the paper's measurement; the paper states no errors."""
+    f = read_sweep(case_file("table5.csv")).sweep(1.0).frequency_hz
+    grid = np.geomspace(f.min(), f.max(), 61)
+    said = ", ".join(f"{name} = {value:g}" for name, value in zip(TABLE_4.names, TABLE_4.values, strict=True))
+    return Compared(PAPER, LawCurve.stated(TABLE_4, grid), f"{TABLE_4.kind}: {said}; no errors stated")
+
+
+def recorded_laws(path: Path) -> list[Compared]:
+    """What a session's own fit gave, and what its diagnosis made of it. Raises `BadInput`."""
+    with SessionFile(path) as session:
+        contents = contents_of(session, with_hits=False)
+    fit, diagnosis = contents.fit, contents.diagnosis
+    if fit is None or not fit.facts_json:
+        raise BadInput(f"{path}: no law was fitted in this session, expected one with a finished fit")
+    count = len(fit.facts_json["points"])
+    found = [Compared(path.stem, LawCurve.of(fit.facts_json["law"]), f"{path}: its own fit, {count} points")]
+    accepted = list(diagnosis.facts_json.get("equivalent", ())) if diagnosis is not None else []
+    if diagnosis is not None and accepted:
+        effects = " and ".join(accepted)
+        law = LawCurve.of(diagnosis.facts_json["after"]["law"])
+        found.append(Compared(f"{path.stem}, diagnosed", law, f"{path}: its diagnosis, with {effects}"))
+    return found

@@ -1,0 +1,142 @@
+"""The fit's numbers in rows and words. No Qt."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from fitting.identification.uncertainty import limits_reached
+from fitting.laws import CoreLaw
+from gui.pages.law.curve import At, LawCurve, places_hz, resonances_hz
+from instrument.report.numbers import plain, with_error
+from instrument.stream.derived import FitUpdated
+
+Facts = dict[str, Any]
+
+_NOT_FIXED = 1.0
+"""Relative standard error beyond which a parameter is not fixed."""
+_STRONG = 0.99
+_UNITS = (("_pa", "MPa", 1e-6), ("_rad_s", "rad/s", 1.0), ("_s", "s", 1.0))
+
+
+@dataclass(frozen=True)
+class Place:
+    """The law at one frequency, by the fit and by the diagnosis."""
+
+    frequency_hz: float
+    where: str
+    fitted: At | None
+    with_effects: At | None
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One of the law's."""
+
+    key: str
+    label: str
+    value: str
+    percent: str
+    remark: str
+    with_effects: str
+
+
+def places(facts: Facts | None, fitted: LawCurve | None, after: LawCurve | None) -> list[Place]:
+    """The reference frequencies and the resonances, as far as they were measured."""
+    known = fitted or after
+    if known is None:
+        return []
+    resonances = resonances_hz(facts["points"]) if facts is not None else {}
+    return [
+        Place(f, where, fitted.at(f) if fitted else None, after.at(f) if after else None)
+        for f, where in places_hz(resonances, known)
+    ]
+
+
+def parameters(facts: Facts, start: CoreLaw | None, after: Facts | None) -> list[Parameter]:
+    """With errors and remarks; `start` is the specimen's law, `after` the stage of a diagnosis."""
+    reached = _limits_reached(facts["parameters"], start)
+    rows = []
+    for key, value in facts["parameters"].items():
+        error = facts["standard_errors"][key]
+        label, scale = labelled(key)
+        known = error is not None and np.isfinite(error) and value
+        relative = error / abs(value) if known else None
+        with_effects = "–"
+        if after is not None and key in after["parameters"]:
+            with_effects = with_error(after["parameters"][key], after["standard_errors"][key], scale)
+        rows.append(
+            Parameter(
+                key,
+                label,
+                with_error(value, error, scale),
+                f"{100 * relative:.2g}" if relative is not None else "–",
+                _remark(key, relative, reached, facts["correlations"]),
+                with_effects,
+            )
+        )
+    return rows
+
+
+def labelled(key: str) -> tuple[str, float]:
+    """`g0_pa` as `g0 / MPa`, and the factor to it."""
+    for ending, unit, scale in _UNITS:
+        if key.endswith(ending):
+            return f"{key.removesuffix(ending)} / {unit}", scale
+    return key, 1.0
+
+
+def _remark(key: str, relative: float | None, reached: dict[str, str], correlations: Facts) -> str:
+    """Whether the data fix it."""
+    if key in reached:
+        return f"at its {reached[key]} limit"
+    if relative is None:
+        return "no error: too few data"
+    if relative > _NOT_FIXED:
+        return "not fixed by these data"
+    partners = [
+        labelled(other)[0].split(" / ")[0]
+        for other, c in correlations.get(key, {}).items()
+        if other != key and c is not None and abs(c) > _STRONG
+    ]
+    return f"fixed only together with {', '.join(partners)}" if partners else ""
+
+
+def _limits_reached(values: dict[str, float], start: CoreLaw | None) -> dict[str, str]:
+    if start is None or start.names != list(values):
+        return {}
+    return limits_reached(start.with_values(np.array(list(values.values()))))
+
+
+def correlation_rows(facts: Facts) -> tuple[list[str], list[list[float]]]:
+    """Names, and the matrix; NaN for a parameter at a limit."""
+    names = list(facts["correlations"])
+    matrix = [[facts["correlations"][a][b] for b in names] for a in names]
+    return names, [[float("nan") if c is None else float(c) for c in row] for row in matrix]
+
+
+def _short(value: float) -> str:
+    return f"{value:.0f}" if value >= 100 else plain(value, 3)
+
+
+def headline(fits: Sequence[FitUpdated], running: int | None) -> str:
+    """The latest fit in a line, and whether one is being computed."""
+    latest = fits[-1] if fits else None
+    goes_on = f"fit {running} is being computed" if running is not None else ""
+    if latest is None:
+        return goes_on
+    f = latest.facts_json
+    if not f:
+        return "; ".join(filter(None, [f"fit {latest.number}: not yet: {latest.message}", goes_on]))
+    said = [
+        f"{f['law_kind']} law, fit {latest.number} of {len(f['points'])} points",
+        f"rms {plain(f['rms_percent'], 3)} %",
+    ]
+    if f["chi2_per_dof"] is not None:
+        said.append(f"chi² per degree {_short(f['chi2_per_dof'])}")
+    if f["held_out_rms_percent"] is not None:
+        said.append(f"held out {plain(f['held_out_rms_percent'], 3)} %")
+    if "temperature_c" in f:
+        said.append(f"at {f['temperature_c']:.1f} °C")
+    return ", ".join(said) + (f"; {goes_on}" if goes_on else "")

@@ -1,0 +1,118 @@
+"""The fit's numbers on the screen."""
+
+from math import isfinite
+
+from PySide6.QtWidgets import QVBoxLayout, QWidget
+
+from gui.pages.law.curve import At
+from gui.pages.material.numbers import Facts, Parameter, Place, correlation_rows, labelled
+from gui.tables import Cell, Table
+from gui.theme import Role
+from gui.widgets import hint
+from instrument.report.numbers import with_error
+
+_PLACES = {
+    "f / Hz": "20, 100, 280 Hz and the resonances, as far as they were measured",
+    "at": "Resonance: where the response measured in a segment is largest",
+    "G' / MPa": "Storage modulus of the latest fit, ± one standard error",
+    "η": "Loss factor of the latest fit, ± one standard error",
+}
+_PLACES_WITH = {
+    "G' / MPa, effect": "Storage modulus with the effects of the diagnosis, ± one standard error",
+    "η, effect": "Loss factor with the effects of the diagnosis, ± one standard error",
+}
+_PARAMETERS = {
+    "parameter": "Of the law",
+    "value": "± one standard error, by noise",
+    "error / %": "Standard error over value",
+    "remark": "Limits reached, and what the data do not fix",
+}
+_WITH = {"with effect": "By the diagnosis, with the effects accepted"}
+_HEAT = 0.75
+_STRONG = 0.99
+_CORRELATIONS_SAID = (
+    "Correlations of the logarithms of the parameters. Near ±1 the data fix a combination of two, not each: "
+    "rely on G'(f) and η(f) inside the measured band."
+)
+
+
+class Places(Table):
+    """The law at some frequencies."""
+
+    def __init__(self) -> None:
+        super().__init__(_PLACES)
+
+    def show_places(self, rows: list[Place], *, with_effects: bool) -> None:
+        """By the fit, and by the diagnosis where it has effects."""
+        wanted = _PLACES | (_PLACES_WITH if with_effects else {})
+        self.show_rows([_place(row, with_effects) for row in rows], wanted)
+
+
+class Parameters(Table):
+    """The law's parameters."""
+
+    def __init__(self) -> None:
+        super().__init__(_PARAMETERS)
+
+    def show_parameters(self, rows: list[Parameter], *, with_effects: bool) -> None:
+        """By the fit, and by the diagnosis where it has effects."""
+        wanted = _PARAMETERS | (_WITH if with_effects else {})
+        self.show_rows([_parameter(row, with_effects) for row in rows], wanted)
+
+
+class Correlations(QWidget):
+    """The matrix as a heat map with its numbers."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.table = Table({})
+        self.table.horizontalHeader().setStretchLastSection(False)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(4, 4, 4, 0)
+        column.addWidget(self.table, 1)
+        column.addWidget(hint(_CORRELATIONS_SAID))
+
+    def show_fit(self, facts: Facts | None) -> None:
+        """Its correlations; none without a fit."""
+        names, matrix = correlation_rows(facts) if facts is not None else ([], [])
+        short = [labelled(name)[0].split(" / ")[0] for name in names]
+        self.table.show_rows(
+            [
+                [Cell(name, bold=True, left=True), *(_heat(c, f"{name} and {other}") for c, other in pairs)]
+                for name, row in zip(short, matrix, strict=True)
+                for pairs in [list(zip(row, short, strict=True))]
+            ],
+            {"": "", **dict(zip(short, names, strict=True))},
+        )
+
+
+def _heat(c: float, names: str) -> Cell:
+    if not isfinite(c):
+        return Cell("–", f"{names}: none, one sits at its limit", faint=True)
+    role: Role = "data" if c >= 0 else "model"
+    return Cell(f"{c:+.3f}", f"{names}: {c:+.5f}", bold=abs(c) > _STRONG, fill=role, alpha=_HEAT * abs(c))
+
+
+def _place(row: Place, with_effects: bool) -> list[Cell]:
+    cells = [
+        Cell(f"{row.frequency_hz:.4g}", bold=not row.where),
+        Cell(row.where, left=True, faint=True),
+        *_pair(row.fitted),
+    ]
+    return [*cells, *_pair(row.with_effects)] if with_effects else cells
+
+
+def _pair(at: At | None) -> list[Cell]:
+    if at is None:
+        return [Cell("–"), Cell("–")]
+    return [Cell(with_error(at.storage_mpa, at.storage_error_mpa)), Cell(with_error(at.loss, at.loss_error))]
+
+
+def _parameter(row: Parameter, with_effects: bool) -> list[Cell]:
+    cells = [
+        Cell(row.label, row.key, bold=True, left=True),
+        Cell(row.value),
+        Cell(row.percent),
+        Cell(row.remark, left=True, fill="fair" if row.remark else None, alpha=0.25),
+    ]
+    return [*cells, Cell(row.with_effects)] if with_effects else cells

@@ -1,0 +1,146 @@
+"""The dry run: what is wrong with an experiment, or what it is going to look like."""
+
+from pathlib import Path
+from typing import Any
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+
+from gui.tables import Cell, Table
+from gui.theme import current_theme
+from gui.top_bar import duration
+from gui.widgets import hint
+from gui.work import Command
+
+_COLUMNS = {
+    "segment": "Its number",
+    "from / Hz": "Lowest frequency",
+    "to / Hz": "Highest frequency",
+    "steps": "Frequencies measured",
+    "velocity / mm/s": "Largest predicted velocity at the pickup, as the laser sees it",
+    "range": "Of the vibrometer",
+    "travel / mm": "Largest travel of the base",
+    "time": "At least",
+}
+_NOTHING = (
+    "Check shows the predicted response, range, travel and time of every segment. Nothing is connected."
+)
+
+
+class Check(QObject):
+    """One at a time, in a process of its own.
+
+    Signals
+    -------
+    passed
+        The facts of `viscorig check`.
+    objected
+        What is wrong, a line each.
+    """
+
+    passed = Signal(dict)
+    objected = Signal(list)
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._command: Command | None = None
+
+    @property
+    def running(self) -> bool:
+        """Whether one goes on."""
+        return self._command is not None and not self._command.over
+
+    def start(self, experiment: Path) -> None:
+        """Of these files, as they are on the disk."""
+        self.cancel()
+        self._command = Command(["check", str(experiment)], self)
+        self._command.done.connect(self.passed)
+        self._command.failed.connect(self._failed)
+        self._command.start()
+
+    def cancel(self) -> None:
+        """End it; nothing is told."""
+        if self._command is not None:
+            self._command.close()
+            self._command.deleteLater()
+            self._command = None
+
+    def _failed(self, message: str) -> None:
+        said = self._command.said if self._command is not None else []
+        # The last line counts those before it.
+        self.objected.emit(said[:-1] or [message])
+
+
+class CheckPane(QWidget):
+    """What the last check said."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.summary = hint(_NOTHING)
+        self.table = Table(_COLUMNS)
+        self.warnings = QLabel()
+        self.warnings.setWordWrap(True)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(6, 6, 6, 6)
+        column.addWidget(self.summary)
+        column.addWidget(self.table, 1)
+        column.addWidget(self.warnings)
+        self.clear()
+
+    def clear(self) -> None:
+        """Nothing was checked as it is now."""
+        self._say(_NOTHING, faint=True)
+        self.table.hide()
+        self.warnings.clear()
+
+    def wait(self) -> None:
+        """It goes on."""
+        self._say("checking ...", faint=True)
+        self.table.hide()
+        self.warnings.clear()
+
+    def show_facts(self, facts: dict[str, Any]) -> None:
+        """All is well."""
+        said = [f"Nothing is wrong. About {duration(facts['seconds'])} in all."]
+        if facts["hammer_record_s"] is not None:
+            said.append(f"Hammer: records of {facts['hammer_record_s']:g} s.")
+        said.append("Modes expected at " + ", ".join(f"{f:.4g}" for f in facts["modes_hz"]) + " Hz.")
+        self._say(" ".join(said))
+        self.table.show_rows([_row(segment) for segment in facts["segments"]])
+        self.table.setVisible(bool(facts["segments"]))
+        self._warn(facts["warnings"], "fair", "\u26a0")
+
+    def show_objections(self, objections: list[str]) -> None:
+        """It cannot be run."""
+        count = len(objections)
+        self._say(f"{count} objection{'s' if count != 1 else ''}: nothing can be run.")
+        self.table.hide()
+        self._warn(objections, "bad", "\u2716")
+
+    def _say(self, text: str, *, faint: bool = False) -> None:
+        self.summary.setEnabled(not faint)
+        self.summary.setText(text)
+
+    def _warn(self, lines: list[str], role: Any, sign: str) -> None:
+        color = current_theme().color(role).name()
+        self.warnings.setText(
+            "<br>".join(f"<span style='color:{color}'>{sign}</span> {_escaped(line)}" for line in lines)
+        )
+
+
+def _row(s: dict[str, Any]) -> list[Cell]:
+    numbers = (
+        f"{s['segment']}",
+        f"{s['low_hz']:.4g}",
+        f"{s['high_hz']:.4g}",
+        f"{s['steps']}",
+        f"{1e3 * s['velocity_m_s']:.3g}",
+        s["range_name"],
+        f"{1e3 * s['travel_m']:.3g}",
+        duration(s["seconds"]),
+    )
+    return [Cell(text) for text in numbers]
+
+
+def _escaped(text: str) -> str:
+    return text.replace("&", "&amp;").replace("<", "&lt;")

@@ -1,0 +1,245 @@
+"""The experiment and the files it names: opened, edited in forms, saved."""
+
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import QSignalBlocker, Signal
+from PySide6.QtWidgets import (
+    QFileDialog,
+    QHBoxLayout,
+    QLabel,
+    QSizePolicy,
+    QTabWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from gui.form.draft import Drafts
+from gui.form.form import Form
+from gui.pages.run.new_case import NewCase, write
+from gui.widgets import button, hint
+from gui.work import Progress, Work
+
+_FOLDER = "viscorig-experiment"
+_KINDS = "Experiments (*.toml);;Everything (*)"
+
+
+class FilesPanel(QWidget):
+    """Reads and writes off the main thread.
+
+    Signals
+    -------
+    opened
+        `drafts` is another experiment, or the same one read again.
+    edited
+        A value was changed.
+    saved
+        All of it is on the disk.
+    chose
+        Path of a file to open.
+    failed, said
+        One line.
+    """
+
+    opened = Signal()
+    edited = Signal()
+    saved = Signal()
+    chose = Signal(Path)
+    failed = Signal(str)
+    said = Signal(str)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.drafts: Drafts | None = None
+        self.forms: dict[str, Form] = {}
+        self._work: Work[object] | None = None
+        self._named: tuple[object, object] = (None, None)
+        self.name = QLabel()
+        self.name.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.open_button = button("Open...", "An experiment file (Ctrl+O)")
+        self.new_button = button("New simulated...", "Files of an experiment on the simulated rig (Ctrl+N)")
+        self.new_button.setShortcut("Ctrl+N")
+        self.save_button = button("Save", "Keep the changes; comments stay (Ctrl+S)")
+        self.save_button.setShortcut("Ctrl+S")
+        self.save_as_button = button("Save as...", "The experiment and its files in another place")
+        self.tabs = QTabWidget()
+        self.tabs.setDocumentMode(True)
+        self.nothing = hint(
+            "No experiment is open. Open an EXPERIMENT.toml (or drop one on the window), or make a new "
+            "simulated one: nothing needs to be connected for it."
+        )
+        self._arrange()
+        self.open_button.clicked.connect(self._ask_open)
+        self.new_button.clicked.connect(self._ask_new)
+        self.save_button.clicked.connect(self.save)
+        self.save_as_button.clicked.connect(self._ask_save_as)
+        self._show()
+
+    @property
+    def changed(self) -> bool:
+        """Whether something is not saved."""
+        return self.drafts is not None and self.drafts.changed
+
+    @property
+    def path(self) -> Path | None:
+        """Of the experiment."""
+        return self.drafts.experiment.path if self.drafts is not None else None
+
+    def open(self, path: Path) -> None:
+        """Read an experiment and the files it names."""
+        self._begin(partial(_read, path), self._take)
+
+    def make(self, folder: Path, effect: str, seed: int) -> None:
+        """Write the files of a simulated experiment and open them."""
+        self._begin(partial(_make, folder, effect, seed), self._made)
+
+    def save(self) -> None:
+        """Every changed file."""
+        drafts = self.drafts
+        if drafts is not None:
+            self._begin(partial(_save, drafts, None), self._saved)
+
+    def save_as(self, path: Path) -> None:
+        """All files, the others beside the experiment."""
+        drafts = self.drafts
+        if drafts is not None:
+            self._begin(partial(_save, drafts, path), self._saved)
+
+    def lock(self, locked: bool) -> None:
+        """While a run goes on its files stay as they are."""
+        for widget in (self.tabs, self.open_button, self.new_button):
+            widget.setEnabled(not locked)
+        if locked:
+            self.save_button.setEnabled(False)
+            self.save_as_button.setEnabled(False)
+        else:
+            self._say()
+
+    # Inside
+
+    def _begin(self, function: Callable[[Progress], object], then: Callable[[object], None]) -> None:
+        if self._work is not None:
+            self._work.cancel()
+        self._work = work = Work(function, self)
+        work.done.connect(then)
+        work.failed.connect(self.failed)
+        work.start()
+
+    def _take(self, found: object) -> None:
+        assert isinstance(found, Drafts)
+        self.drafts = found
+        self._named = self._names_given()
+        self._show()
+        for problem in found.problems:
+            self.failed.emit(problem)
+        self.opened.emit()
+
+    def _made(self, path: object) -> None:
+        assert isinstance(path, Path)
+        self.chose.emit(path)
+
+    def _saved(self, path: object) -> None:
+        assert isinstance(path, Path)
+        self.said.emit(f"saved {path}")
+        self._say()
+        self.saved.emit()
+        if self._names_given() != self._named:
+            self.open(path)
+
+    def _names_given(self) -> tuple[object, object]:
+        if self.drafts is None:
+            return None, None
+        return self.drafts.experiment.value(("rig",)), self.drafts.experiment.value(("specimen",))
+
+    def _show(self) -> None:
+        at = self.tabs.currentIndex()
+        with QSignalBlocker(self.tabs):
+            while self.tabs.count():
+                self.tabs.removeTab(0)
+            for form in self.forms.values():
+                form.deleteLater()
+            self.forms = {}
+            for name, draft in (self.drafts.all if self.drafts is not None else {}).items():
+                form = Form(draft)
+                form.edited.connect(self._edited)
+                self.forms[name] = form
+                self.tabs.addTab(form, name.capitalize())
+            self.tabs.setCurrentIndex(max(0, min(at, self.tabs.count() - 1)))
+        self.nothing.setVisible(self.drafts is None)
+        self.tabs.setVisible(self.drafts is not None)
+        self._say()
+
+    def _edited(self) -> None:
+        self._say()
+        self.edited.emit()
+
+    def _say(self) -> None:
+        """How many faults each file has, and whether it is saved."""
+        for k, (name, form) in enumerate(self.forms.items()):
+            faults = len(form.draft.faults())
+            mark = "*" if form.draft.changed else ""
+            self.tabs.setTabText(k, f"{name.capitalize()}{mark}" + (f"  \u2716 {faults}" if faults else ""))
+            self.tabs.setTabToolTip(k, str(form.draft.path))
+        self.name.setText(str(self.path) if self.path is not None else "")
+        self.name.setToolTip(self.name.text())
+        self.save_button.setEnabled(self.changed)
+        self.save_as_button.setEnabled(self.drafts is not None)
+
+    def _ask_open(self) -> None:
+        start = str(self.path.parent) if self.path is not None else ""
+        chosen, _ = QFileDialog.getOpenFileName(self, "Open experiment", start, _KINDS)
+        if chosen:
+            self.chose.emit(Path(chosen))
+
+    def _ask_new(self) -> None:
+        dialog = NewCase(_free_folder(Path.cwd()), self)
+        dialog.accepted.connect(self._make_asked)
+        dialog.finished.connect(dialog.deleteLater)
+        dialog.open()
+
+    def _make_asked(self) -> None:
+        dialog = self.sender()
+        assert isinstance(dialog, NewCase)
+        self.make(*dialog.order())
+
+    def _ask_save_as(self) -> None:
+        suggested = str(self.path) if self.path is not None else ""
+        chosen, _ = QFileDialog.getSaveFileName(self, "Save experiment", suggested, _KINDS)
+        if chosen:
+            path = Path(chosen)
+            self.save_as(path if path.suffix else path.with_suffix(".toml"))
+
+    def _arrange(self) -> None:
+        buttons = QHBoxLayout()
+        for one in (self.open_button, self.new_button, self.save_button, self.save_as_button):
+            buttons.addWidget(one)
+        buttons.addStretch(1)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(6, 6, 6, 6)
+        column.addLayout(buttons)
+        column.addWidget(self.name)
+        column.addWidget(self.nothing)
+        column.addWidget(self.tabs, 1)
+        self.filler = QWidget()
+        column.addWidget(self.filler)
+
+
+def _free_folder(inside: Path) -> Path:
+    for number in range(1, 1000):
+        folder = inside / (_FOLDER if number == 1 else f"{_FOLDER}-{number}")
+        if not folder.exists():
+            return folder
+    return inside / _FOLDER
+
+
+def _read(path: Path, _: Progress) -> Drafts:
+    return Drafts.of(path)
+
+
+def _make(folder: Path, effect: str, seed: int, _: Progress) -> Path:
+    return write(folder, effect, seed)
+
+
+def _save(drafts: Drafts, path: Path | None, _: Progress) -> Path:
+    return drafts.save() if path is None else drafts.save_as(path)

@@ -1,0 +1,141 @@
+"""How a run or a recorded session stands: large enough to be read from the rig."""
+
+from math import pi
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
+
+from gui.feeds.live import LiveFeed
+from gui.gauge import Gauge
+from gui.picture import Picture
+from gui.picture.run import WORDS
+from gui.tables import Cell, Table
+from gui.theme import Role, current_theme
+from gui.widgets import hint
+from instrument.engine.messages import Ended
+from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2
+
+_COLORS: dict[str, Role] = {"held": "fair", "stopped": "bad", "done": "good", "idle": "faint"}
+_COLUMNS = {
+    "sweep": "Pass over all segments; 0 is the calibration",
+    "segment": "Its number",
+    "from / Hz": "Lowest frequency",
+    "to / Hz": "Highest frequency",
+    "steps": "Measured, of those planned",
+}
+_NOTHING = "No run and no session. How a run stands appears here: state, level, drive and limits, segments."
+
+
+class NowPane(QWidget):
+    """Reads the picture, and of a run how its stop path stands."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.state, self.next = QLabel(), QLabel()
+        self.next.setWordWrap(True)
+        self.next.setTextFormat(Qt.TextFormat.PlainText)
+        self.level = Gauge("level", large=True)
+        self.gauges = {name: Gauge(name, large=True) for name in ("drive", "base", "velocity", "travel")}
+        self.segments = Table(_COLUMNS)
+        self.path = QLabel()
+        self.path.setWordWrap(True)
+        self.nothing = hint(_NOTHING)
+        self._arrange()
+        self.clear()
+
+    def clear(self) -> None:
+        """There is nothing to show."""
+        self.nothing.show()
+        self._whole.hide()
+
+    def show_picture(self, picture: Picture, live: LiveFeed | None, ending: Ended | None) -> None:
+        """As it stands now; `ending` of the run whose recording this is."""
+        self.nothing.hide()
+        self._whole.show()
+        run = picture.run
+        color = current_theme().color(_COLORS.get(run.state, "data")).name()
+        self.state.setText(
+            f"<span style='font-size:xx-large; color:{color}'><b>{WORDS[run.state]}</b></span>"
+        )
+        self.next.setText(run.next_words)
+        self._show_gauges(picture)
+        words = path_words(live) if live is not None else ending_words(ending)
+        self.path.setText(words)
+        self.path.setVisible(bool(words))
+
+    def show_segments(self, picture: Picture) -> None:
+        """How far each segment is."""
+        plan = picture.plan
+        rows = []
+        for key, began in plan.begun.items():
+            done = plan.done.get(key, 0)
+            bar: Role = "good" if key in plan.ended else "data"
+            rows.append(
+                [
+                    Cell(str(began.sweep) if began.sweep else "calibration"),
+                    Cell(str(began.segment)),
+                    Cell(f"{began.low_hz:.4g}"),
+                    Cell(f"{began.high_hz:.4g}"),
+                    Cell(f"{done} of {began.steps}", fill=bar, share=plan.fraction(key), left=True),
+                ]
+            )
+        self.segments.show_rows(rows)
+        self.segments.scrollToBottom()
+
+    def _show_gauges(self, picture: Picture) -> None:
+        step, limits = picture.step, picture.limits.limits
+        if step is None or picture.run.over:
+            for gauge in (self.level, *self.gauges.values()):
+                gauge.show_value(None)
+            return
+        wanted = step.began.level_m_s2
+        base, velocity = step.peaks()
+        g = STANDARD_GRAVITY_M_S2
+        self.level.show_value(None if wanted is None else wanted / g, limits.base_m_s2 / g, "g")
+        travel = base / (2 * pi * step.began.frequency_hz) ** 2
+        self.gauges["drive"].show_value(step.drive_v, limits.drive_v, "V")
+        self.gauges["base"].show_value(base, limits.base_m_s2, "m/s\u00b2")
+        self.gauges["velocity"].show_value(1e3 * velocity, 1e3 * limits.velocity_m_s, "mm/s")
+        self.gauges["travel"].show_value(1e3 * travel, 1e3 * limits.travel_m, "mm")
+
+    def _arrange(self) -> None:
+        self._whole = QWidget()
+        grid = QGridLayout()
+        for k, gauge in enumerate((self.level, *self.gauges.values())):
+            grid.addWidget(gauge, k // 2, k % 2)
+        inside = QVBoxLayout(self._whole)
+        inside.setContentsMargins(0, 0, 0, 0)
+        inside.addWidget(self.state)
+        inside.addWidget(self.next)
+        inside.addLayout(grid)
+        inside.addWidget(self.segments, 1)
+        inside.addWidget(self.path)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(6, 6, 6, 6)
+        column.addWidget(self.nothing)
+        column.addWidget(self._whole, 1)
+
+
+def ending_words(ending: Ended | None) -> str:
+    """What a run left on the disk."""
+    if ending is None:
+        return ""
+    said = f"Session: {ending.session}" if ending.session is not None else "There is no session."
+    if ending.folder is not None:
+        said += f"\nBroken off: to go on, choose {ending.folder.name} beside Begin."
+    return said
+
+
+def path_words(live: LiveFeed) -> str:
+    """What stands between the stop button and the shaker, and what the window could not show."""
+    if live.ending is not None or live.stop_path is None:
+        said = "" if live.ending is not None else "Stop path: no rig is open yet, nothing is driven."
+    elif live.stop_path.ready:
+        said = "Stop path: ready, a connection to the shaker of the window's own."
+    else:
+        said = f"Stop path: {live.stop_path.message}."
+    if live.blocks_dropped:
+        said += f" {live.blocks_dropped} blocks not shown; the session has them."
+    if live.recording is not None:
+        said += f"\nRecording: {live.recording.folder}"
+    return said.strip()

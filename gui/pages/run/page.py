@@ -1,0 +1,241 @@
+"""The page of the experiment and its run: files on the left, what is run and how it stands on the right."""
+
+from functools import partial
+from pathlib import Path
+from typing import Any, Literal
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QHBoxLayout, QMenu, QSplitter, QTabWidget, QVBoxLayout, QWidget
+
+from gui.desk import Desk
+from gui.export import Export
+from gui.page import Page
+from gui.pages.run.banner import Banner
+from gui.pages.run.check import Check, CheckPane
+from gui.pages.run.files_panel import FilesPanel
+from gui.pages.run.now import NowPane
+from gui.pages.run.start_panel import StartPanel
+from gui.picture import Picture
+from gui.widgets import button
+from gui.work import Progress, Work
+from instrument.engine.messages import Ended
+
+_FORMATS = (("csv", "CSV..."), ("uff", "Universal file..."), ("mat", "MATLAB..."))
+
+
+class RunPage(Page):
+    """Choose and edit an experiment, check it, run it, watch it, keep what it gave."""
+
+    title = "Run"
+    hint = "Choose an experiment, check it, run it"
+
+    def __init__(self, desk: Desk) -> None:
+        super().__init__(desk)
+        self.files, self.starting = FilesPanel(), StartPanel()
+        self.banner, self.now = Banner(), NowPane()
+        self.check, self.checked = Check(self), CheckPane()
+        self.export = Export(desk, self)
+        self.report_button = button("Report...", "One self-contained page of the session")
+        self.export_button = button("Export", "The session's data for other programs")
+        self._next: Literal["", "check", "start"] = ""
+        self._facts: dict[str, Any] | None = None
+        """Of the experiment as it is on the disk; None where it is not known."""
+        self._looking: Work[list[Path]] | None = None
+        self._arrange()
+        self._connect()
+        self._show_desk()
+
+    # From the window
+
+    def refresh(self, picture: Picture) -> None:
+        """Draw what has changed."""
+        if self.news("run", "step", "samples", "log"):
+            self.now.show_picture(picture, self.desk.live, self._ending)
+        if self.news("run", "points"):
+            self.now.show_segments(picture)
+        self._show_question(picture)
+
+    def clear(self) -> None:
+        """There is no session any more."""
+        self.now.clear()
+        self.banner.ask("")
+
+    # What a person does
+
+    def _check(self) -> None:
+        self._save_then("check")
+
+    def _start(self) -> None:
+        self._save_then("start")
+
+    def _save_then(self, what: Literal["check", "start"]) -> None:
+        self._next = what
+        if self.files.changed:
+            self.files.save()
+        else:
+            self._go_on()
+
+    def _go_on(self) -> None:
+        """The files are on the disk."""
+        what, self._next, path = self._next, "", self.files.path
+        if path is None or not what:
+            return
+        if what == "start":
+            self.desk.start(self.starting.order(path))
+        self._look_into(path)
+
+    def _look_into(self, path: Path) -> None:
+        """A dry run, unless there was one of these files."""
+        if self._facts is None:
+            self.checked.wait()
+            self.check.start(path)
+        if not self.desk.starting:
+            self.tabs.setCurrentWidget(self.checked)
+
+    # What follows
+
+    def _opened(self) -> None:
+        self._forget_check()
+        self.starting.show_experiment(self.files.drafts)
+        path = self.files.path
+        if path is not None:
+            self.starting.propose(path.parent)
+            self._look_for_broken_off()
+        self._show_desk()
+
+    def _edited(self) -> None:
+        self._forget_check()
+        self.starting.show_experiment(self.files.drafts)
+
+    def _saved(self) -> None:
+        self._forget_check()
+        self.starting.show_experiment(self.files.drafts)
+        self._go_on()
+
+    def _failed(self, message: str) -> None:
+        self._next = ""
+        self.desk.refused.emit(message)
+
+    def _forget_check(self) -> None:
+        self._facts = None
+        self.check.cancel()
+        self.checked.clear()
+
+    def _passed(self, facts: dict[str, Any]) -> None:
+        self._facts = facts
+        self.checked.show_facts(facts)
+        self._expect()
+
+    def _objected(self, lines: list[str]) -> None:
+        self.checked.show_objections(lines)
+
+    def _expect(self) -> None:
+        """The time left can be told from the dry run."""
+        live = self.desk.live
+        if live is not None and self._facts is not None and self.desk.running:
+            live.expect({s["segment"]: s["seconds"] for s in self._facts["segments"]})
+
+    def _look_for_broken_off(self) -> None:
+        path = self.files.path
+        if path is None:
+            return
+        if self._looking is not None:
+            self._looking.cancel()
+        self._looking = Work(partial(_broken_off, self.starting.folder, path.stem), self)
+        self._looking.done.connect(self.starting.show_broken_off)
+        self._looking.start()
+
+    def _show_desk(self) -> None:
+        """A run began or ended, or another session is shown."""
+        running = self.desk.running
+        self.starting.setVisible(not running)
+        self.files.lock(running)
+        has_session = self.desk.recorded is not None
+        self.report_button.setEnabled(has_session)
+        self.export_button.setEnabled(has_session)
+        if self.desk.feed is not None:
+            self.tabs.setCurrentWidget(self.now)
+        if running:
+            self._expect()
+        elif self.desk.ending is not None:
+            self._look_for_broken_off()
+
+    @property
+    def _ending(self) -> Ended | None:
+        """Of the run whose recording is shown."""
+        ending, shown = self.desk.ending, self.desk.recorded
+        return ending if ending is not None and shown is not None and ending.session == shown.path else None
+
+    def _show_question(self, picture: Picture) -> None:
+        live = self.desk.live
+        if live is None or not self.desk.running:
+            self.banner.ask("")
+            if not self.starting.isVisible():
+                self._show_desk()
+            return
+        if live.question is not None:
+            self.banner.ask(picture.run.question, live.question.what)
+        else:
+            self.banner.ask(picture.run.next_words if picture.run.state == "hammer" else "")
+
+    # Inside
+
+    def _connect(self) -> None:
+        files, desk = self.files, self.desk
+        files.chose.connect(desk.open)
+        files.opened.connect(self._opened)
+        files.edited.connect(self._edited)
+        files.saved.connect(self._saved)
+        files.failed.connect(self._failed)
+        files.said.connect(desk.said)
+        desk.experiment_chosen.connect(files.open)
+        desk.changed.connect(self._show_desk)
+        self.starting.check_wanted.connect(self._check)
+        self.starting.start_wanted.connect(self._start)
+        self.starting.out_changed.connect(self._look_for_broken_off)
+        self.banner.answered.connect(desk.answer)
+        self.check.passed.connect(self._passed)
+        self.check.objected.connect(self._objected)
+        self.report_button.clicked.connect(self.export.report)
+        self.export.done.connect(desk.said)
+        self.export.failed.connect(desk.refused)
+
+    def _arrange(self) -> None:
+        menu = QMenu(self.export_button)
+        for kind, said in _FORMATS:
+            action = menu.addAction(said)
+            action.setData(kind)
+            action.triggered.connect(self.export.data)
+        self.export_button.setMenu(menu)
+        self.tabs = QTabWidget()
+        self.tabs.setDocumentMode(True)
+        self.tabs.addTab(self.now, "State")
+        self.tabs.addTab(self.checked, "Dry run")
+        below = QHBoxLayout()
+        below.setContentsMargins(6, 0, 6, 6)
+        below.addStretch(1)
+        below.addWidget(self.report_button)
+        below.addWidget(self.export_button)
+        right = QWidget()
+        column = QVBoxLayout(right)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(2)
+        column.addWidget(self.starting)
+        column.addWidget(self.tabs, 1)
+        column.addLayout(below)
+        split = QSplitter(Qt.Orientation.Horizontal)
+        split.addWidget(self.files)
+        split.addWidget(right)
+        split.setStretchFactor(0, 1)
+        split.setStretchFactor(1, 1)
+        split.setChildrenCollapsible(False)
+        whole = QVBoxLayout(self)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.setSpacing(0)
+        whole.addWidget(self.banner)
+        whole.addWidget(split, 1)
+
+
+def _broken_off(folder: Path, name: str, _: Progress) -> list[Path]:
+    """Runs of this experiment that were not completed, the newest first."""
+    return sorted(folder.glob(f"{name}-*.running"), reverse=True)

@@ -1,0 +1,110 @@
+"""The fitted model as it is drawn through the points. No Qt."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gui.pages.sweep.points import Index, Points
+from instrument.interchange.contents import SegmentRun
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Region = tuple[int, float, float]
+"""Segment, lowest and highest frequency in Hz."""
+
+STANDARD_ERRORS = 2.0
+"""Half width of the band."""
+_A_SEGMENT = 241
+_MOST = 2000
+"""Frequencies of all segments together."""
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """The model over one segment. Shape (frequencies,) each."""
+
+    segment: int
+    frequency_hz: Array
+    over_base_s: Complex
+    amplitude_std_s: Array
+    """Of |v/a|; NaN where the fit knows none."""
+    phase_std_deg: Array
+
+    def phase_deg(self, points: Points) -> Array:
+        """Without jumps, and as many whole turns as the points of its segment have."""
+        phase = np.unwrap(np.degrees(np.angle(self.over_base_s)), period=360.0)
+        mine = points.segment == self.segment
+        if not mine.any():
+            return phase
+        off = points.phase_deg[mine] - np.interp(points.frequency_hz[mine], self.frequency_hz, phase)
+        return np.asarray(phase + 360.0 * np.round(np.median(off) / 360.0))
+
+
+@dataclass(frozen=True)
+class Curve:
+    """Of one fit, a stretch a segment."""
+
+    stretches: tuple[Stretch, ...]
+
+    @classmethod
+    def of(cls, found: dict[str, Any], acceleration_m_s2: float, regions: list[Region]) -> Self:
+        """From the JSON of `viscorig predict --fit` at the frequencies of `grid`."""
+        rows, begin, stretches = found["points"], 0, []
+        for (segment, _, _), f in zip(regions, grid(regions), strict=True):
+            mine = rows[begin : begin + len(f)]
+            begin += len(f)
+            re, im, std, turn = (
+                np.array([p[key] for p in mine], dtype=float)  # null becomes NaN
+                for key in (
+                    "velocity_re_m_s",
+                    "velocity_im_m_s",
+                    "velocity_standard_error_m_s",
+                    "phase_standard_error_rad",
+                )
+            )
+            a = acceleration_m_s2
+            stretches.append(Stretch(segment, f, (re + 1j * im) / a, std / a, np.degrees(turn)))
+        return cls(tuple(stretches))
+
+    def of_segments(self, segment: int | None) -> Iterator[Stretch]:
+        """One segment's, or all."""
+        return (s for s in self.stretches if segment is None or s.segment == segment)
+
+
+def regions_of(segments: dict[tuple[int, int], SegmentRun]) -> list[Region]:
+    """The resonance regions begun so far, each once."""
+    found: dict[int, Region] = {}
+    for run in segments.values():
+        low, high = found.get(run.segment, (0, run.low_hz, run.high_hz))[1:]
+        found[run.segment] = run.segment, min(low, run.low_hz), max(high, run.high_hz)
+    return [found[number] for number in sorted(found)]
+
+
+def grid(regions: list[Region]) -> list[Array]:
+    """Frequencies to draw at, for each region."""
+    count = max(3, min(_A_SEGMENT, _MOST // max(1, len(regions))))
+    return [np.linspace(low, high, count) for _, low, high in regions]
+
+
+def joined(stretches: list[Array]) -> Array:
+    """One array with a gap between one stretch and the next."""
+    gap = np.array([np.nan])
+    return np.concatenate([part for s in stretches for part in (s, gap)][:-1]) if stretches else np.zeros(0)
+
+
+def predictions(points: Points, facts: dict[str, Any], last_step: int) -> tuple[Index, Array]:
+    """What a fit's own facts say: number of each point it took, and its amplitude predicted in m/s.
+
+    Empty where the facts do not belong to these points.
+    """
+    taken = [k for k, p in enumerate(points.measured) if p.step <= last_step]
+    rows = facts.get("points", ())
+    fits = len(rows) == len(taken) and all(
+        row["frequency_hz"] == points.measured[k].frequency_hz for k, row in zip(taken, rows, strict=True)
+    )
+    if not fits:
+        return np.zeros(0, dtype=np.intp), np.zeros(0)
+    return np.array(taken, dtype=np.intp), np.array([row["predicted_m_s"] for row in rows], dtype=float)

@@ -1,0 +1,87 @@
+"""Whether the plate stays the same: the sentinel against its first time, the temperature."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QLabel, QSplitter, QVBoxLayout, QWidget
+
+from gui.pages.sweep.panes import CHOSEN, Pointed, align, hide_foot
+from gui.pages.sweep.points import Group
+from gui.pages.sweep.seen import Seen
+from gui.plots import Axis
+from gui.widgets import hint
+from instrument.stream.derived import SentinelCompared
+
+_TIME = Axis("Time since the session began", "min")
+_NONE = (
+    "The sentinel's drift appears here: one frequency, measured before the first segment and after each. "
+    "It shows whether the plate changes while it is measured."
+)
+
+
+class DriftPane(QWidget):
+    """Over the time of the session."""
+
+    chosen = Signal(int)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.amplitude = Pointed(_TIME, Axis("Change of |v/a|", "%"), legend=False)
+        self.phase = Pointed(_TIME, Axis("Change of phase", "\u00b0"), legend=False)
+        self.temperature = Pointed(_TIME, Axis("Temperature", "\u00b0C"), legend=False)
+        self.none, self.said = hint(_NONE), QLabel()
+        self._plots = (self.amplitude, self.phase, self.temperature)
+        stack = QSplitter(Qt.Orientation.Vertical)
+        for plot in self._plots:
+            plot.chosen.connect(self.chosen)
+            stack.addWidget(plot)
+        self.phase.setXLink(self.amplitude)
+        self.temperature.setXLink(self.amplitude)
+        self.amplitude.setToolTip("The sentinel's velocity over base acceleration, against its first time")
+        self.phase.setToolTip("The sentinel's phase, against its first time")
+        self.said.setWordWrap(True)
+        hide_foot(self.amplitude)
+        self.temperature.setToolTip("Of the plate, at every point of the sweep")
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(self.none)
+        column.addWidget(self.said)
+        column.addWidget(stack, 1)
+
+    def show_seen(self, seen: Seen, sentinels: Sequence[SentinelCompared]) -> None:
+        """Draw."""
+        p = seen.points
+        known = [(s, k) for s in sentinels if (k := p.of_step(s.step)) is not None]
+        self.none.setVisible(not known)
+        self.amplitude.setVisible(bool(known))
+        self.phase.setVisible(bool(known))
+        self.said.setVisible(bool(known))
+        if known:
+            index = np.array([k for _, k in known], dtype=np.intp)
+            time = p.time_s[index] / 60
+            group = Group("sentinel", "data", "o", index)
+            self.said.setText(_said([s for s, _ in known]))
+            self.amplitude.show_points(group, time, np.array([s.change_percent for s, _ in known]))
+            self.phase.show_points(group, time, np.array([s.change_degree for s, _ in known]))
+        self._draw_temperature(seen)
+        at = [p.time_s[seen.chosen] / 60] if seen.chosen is not None else []
+        for plot in self._plots:
+            plot.mark(at, "text", name=CHOSEN)
+        align(*self._plots)
+
+    def _draw_temperature(self, seen: Seen) -> None:
+        p = seen.points
+        index = np.flatnonzero(np.isfinite(p.percent("temperature_c")))
+        self.temperature.setVisible(bool(index.size))
+        if index.size:
+            group = Group("plate", "data", "o", index)
+            self.temperature.show_points(group, p.time_s[index] / 60, p.percent("temperature_c")[index])
+
+
+def _said(sentinels: list[SentinelCompared]) -> str:
+    last, most = sentinels[-1], max(sentinels, key=lambda s: abs(s.change_percent))
+    return (
+        f"Sentinel at {last.frequency_hz:g} Hz, {len(sentinels) + 1} times: {last.change_percent:+.3f} % and "
+        f"{last.change_degree:+.3f}\u00b0 against the first, at most {most.change_percent:+.3f} %"
+    )

@@ -1,0 +1,56 @@
+"""Real against imaginary part, equal axes."""
+
+import numpy as np
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QVBoxLayout, QWidget
+
+from gui.pages.sweep.panes import CHOSEN, SIGNS, Key, Pointed, keyed
+from gui.pages.sweep.seen import Seen
+from gui.plots import Axis
+from gui.theme import Role
+
+
+class NyquistPane(QWidget):
+    """The response in its plane."""
+
+    chosen = Signal(int)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.plot, self.key = Pointed(Axis("Re"), Axis("Im"), legend=False), Key()
+        self.plot.setAspectLocked(True)
+        self.plot.chosen.connect(self.chosen)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(keyed(self.key, self.plot))
+
+    def show_seen(self, seen: Seen) -> None:
+        """Draw."""
+        label = "v/a" if seen.way.quantity == "ratio" else "v at its level"
+        self.plot.show_axes(Axis(f"Re {label}", seen.way.unit), Axis(f"Im {label}", seen.way.unit))
+        names = self._draw_model(seen)
+        response, groups = seen.shown, seen.points.groups(seen.wanted)
+        model: list[tuple[str, Role, str]] = [(name, "model", "\u2500") for name in names]
+        self.key.show_key([*model, *((g.name, g.role, SIGNS[g.symbol]) for g in groups)])
+        for group in groups:
+            z = response[group.index]
+            self.plot.show_points(group, z.real, z.imag)
+            names.append(group.name)
+        self.plot.keep((*names, CHOSEN))
+        at = response[seen.chosen] if seen.chosen is not None else None
+        self.plot.point_out(at.real if at is not None else None, at.imag if at is not None else None)
+
+    def whole(self) -> None:
+        """All there is in view."""
+        self.plot.enableAutoRange()
+
+    def _draw_model(self, seen: Seen) -> list[str]:
+        stretches = list(seen.curve.of_segments(seen.segment)) if seen.curve is not None else []
+        if not stretches:
+            return []
+        gap = np.array([complex(np.nan, np.nan)])
+        drawn = [f * s.over_base_s for s in stretches for f in seen.way.factor(seen.levels(s.segment))]
+        z = np.concatenate([part for one in drawn for part in (one, gap)])
+        name = f"model, fit {seen.fit}"
+        self.plot.line(name, z.real, z.imag)
+        return [name]

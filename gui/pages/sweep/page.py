@@ -1,0 +1,270 @@
+"""The page of the sweep: which segment, which point; the panes draw."""
+
+from pathlib import Path
+
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtGui import QHideEvent, QKeySequence, QShortcut, QShowEvent
+from PySide6.QtWidgets import QCheckBox, QSplitter, QStackedLayout, QTabWidget, QVBoxLayout, QWidget
+
+from gui.desk import Desk
+from gui.page import Page
+from gui.pages.sweep.chooser import Chooser
+from gui.pages.sweep.curve import predictions, regions_of
+from gui.pages.sweep.drift import DriftPane
+from gui.pages.sweep.model import ModelCurve
+from gui.pages.sweep.nyquist import NyquistPane
+from gui.pages.sweep.points import Points
+from gui.pages.sweep.quality import QualityPane
+from gui.pages.sweep.record import RecordPane
+from gui.pages.sweep.response import ResponsePane
+from gui.pages.sweep.samples import SamplesPane
+from gui.pages.sweep.seen import Predicted, Seen
+from gui.pages.sweep.segments import standings
+from gui.pages.sweep.step import StepPane
+from gui.picture import Picture
+from gui.widgets import hint
+from instrument.stepped_sine.settings import SweepSettings
+
+_BAND = (
+    "The band is what the noise of the points lets the fitted response move by, scaled by the residual; "
+    "an effect that the model lacks is not in it"
+)
+_LEFT_DIGITS = 36
+_CHOOSER_PX, _RECORD_PX = 190, 330
+_NONE = (
+    "The sweep appears here: amplitude and phase of every segment with the fitted model through the points, "
+    "the step in progress, the quality of each point. Open a session, or start a run."
+)
+_LEFT_PX, _MIDDLE_PX, _RIGHT_PX = 290, 600, 476
+
+
+class SweepPage(Page):
+    """Response, current step, quality of every point."""
+
+    title = "Sweep"
+    hint = "Response, current step, quality of every point"
+
+    def __init__(self, desk: Desk) -> None:
+        super().__init__(desk)
+        self.chooser, self.record = Chooser(), RecordPane()
+        self.follow = QCheckBox("follow the run")
+        self.follow.setChecked(True)
+        self.follow.setToolTip("Show each segment as it begins")
+        self.response, self.step = ResponsePane(), StepPane()
+        self.nyquist, self.quality = NyquistPane(), QualityPane()
+        self.drift, self.samples = DriftPane(), SamplesPane()
+        self.model = ModelCurve(self)
+        self.tabs = QTabWidget()
+        self.seen = Seen(Points.of((), SweepSettings()))
+        self._looked_at: int | None = None
+        self._running: tuple[int, int] | None = None
+        self._stale: set[QWidget] = set()
+        self._arrange()
+        self._connect()
+
+    # From the window
+
+    def refresh(self, picture: Picture) -> None:
+        """Draw what has changed."""
+        self._layers.setCurrentIndex(1)
+        measured, fitted = self.news("run", "points", "sentinels"), self.news("fits", "damping")
+        self.model.want(picture)
+        if measured or fitted:
+            self._look_again(picture)
+        if measured:
+            self.chooser.show_standings(standings(picture, self.seen.points))
+            self._follow(picture)
+        if self.news("step", "samples"):
+            self._stale.add(self.step)
+        self._draw_stale()
+
+    def clear(self) -> None:
+        """There is no session any more."""
+        self._layers.setCurrentIndex(0)
+        self.model.want(None)
+        self.seen = Seen(Points.of((), SweepSettings()), way=self.response.way)
+        self._looked_at = self._running = None
+        self.chooser.show_standings([])
+        self.step.clear()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """Go on where hiding broke off."""
+        super().showEvent(event)
+        self.model.want(self._picture)
+        self._draw_all()
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Plots follow the colours by themselves; lists and legends are written again."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "_layers"):
+            self._draw_all()
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Nothing is computed for a page that nobody sees."""
+        super().hideEvent(event)
+        self.model.rest()
+
+    # From a person
+
+    def choose(self, number: int) -> None:
+        """Look at a point."""
+        self._looked_at = self.seen.points.measured[number].step
+        self.seen = self.seen.but(chosen=number)
+        self._draw_all()
+
+    def walk(self, by: int) -> None:
+        """Look at a point further along the frequency."""
+        number = self.seen.neighbour(by)
+        if number is not None:
+            self.choose(number)
+
+    # Inside
+
+    def _look_again(self, picture: Picture) -> None:
+        """Points or fits are others."""
+        points = Points.of(picture.contents.points, picture.limits)
+        fit = picture.contents.fit
+        facts = fit.facts_json if fit is not None else {}
+        predicted = Predicted(*predictions(points, facts, fit.last_step)) if fit is not None else Predicted()
+        self.seen = self.seen.but(
+            points=points,
+            regions=tuple(regions_of(picture.contents.segments)),
+            reads=picture.configuration.rig.vibrometer.reads,
+            chosen=points.of_step(self._looked_at) if self._looked_at is not None else None,
+            predicted=predicted,
+            fit=fit.number if fit is not None else 0,
+            curve=self.model.curve,
+        )
+        self._mark_stale()
+
+    def _follow(self, picture: Picture) -> None:
+        began = picture.run.segment
+        running = (began.sweep, began.segment) if began is not None and began.sweep > 0 else None
+        if running == self._running:
+            return
+        self._running = running
+        if running is not None and self.follow.isChecked() and not picture.run.over:
+            self.chooser.choose(running[1])
+
+    def _segment_chosen(self) -> None:
+        self.seen = self.seen.but(segment=self.chooser.segment)
+        self.nyquist.whole()
+        self._draw_all()
+
+    def _way_changed(self) -> None:
+        self.seen = self.seen.but(way=self.response.way)
+        self._draw_all()
+
+    def _model_changed(self) -> None:
+        self.seen = self.seen.but(curve=self.model.curve)
+        self._draw_all()
+
+    def _tab_changed(self) -> None:
+        self._stale.add(self.tabs.currentWidget())
+        self._draw_stale()
+
+    def _draw_all(self) -> None:
+        self._mark_stale()
+        self._draw_stale()
+
+    def _mark_stale(self) -> None:
+        self._stale |= {self.response, self.record, self.nyquist, self.quality, self.drift, self.samples}
+
+    def _draw_stale(self) -> None:
+        """What is stale and seen."""
+        picture = self._picture
+        if picture is None:
+            return
+        for pane in [p for p in self._stale if p in (self.response, self.record, self.tabs.currentWidget())]:
+            self._stale.discard(pane)
+            self._draw_pane(pane, picture)
+
+    def _draw_pane(self, pane: QWidget, picture: Picture) -> None:
+        if pane is self.response:
+            self.response.show_seen(self.seen)
+            said = self._said_of_model(picture)
+            self.response.model.setText(said)
+            self.response.model.setToolTip(f"{said}\n{_BAND}")
+        elif pane is self.record:
+            self.record.show_seen(self.seen, picture.limits)
+        elif pane is self.step:
+            self.step.show_step(picture)
+        elif pane is self.nyquist:
+            self.nyquist.show_seen(self.seen)
+        elif pane is self.quality:
+            self.quality.show_seen(self.seen, picture.limits)
+        elif pane is self.drift:
+            self.drift.show_seen(self.seen, picture.contents.sentinels)
+        elif pane is self.samples:
+            self.samples.show_seen(self.seen, self._session)
+
+    def _said_of_model(self, picture: Picture) -> str:
+        fit = picture.contents.fit
+        if fit is None:
+            return "fitting ..." if picture.fit_running is not None else "no fit yet"
+        if not fit.facts_json:
+            return f"fit {fit.number}: {fit.message}"
+        count, rms = len(fit.facts_json["points"]), fit.facts_json["rms_percent"]
+        said = f"fit of {count} points, rms {rms:.2g} %"
+        if self.model.failure:
+            return f"{said}; no curve: {self.model.failure}"
+        return f"{said}; drawing its curve ..." if self.model.busy else said
+
+    @property
+    def _session(self) -> Path | None:
+        """The file that holds the samples."""
+        if self.desk.recorded is not None:
+            return self.desk.recorded.path
+        live = self.desk.live
+        return live.ending.session if live is not None and live.ending is not None else None
+
+    def _back(self) -> None:
+        self.walk(-1)
+
+    def _on(self) -> None:
+        self.walk(1)
+
+    def _connect(self) -> None:
+        self.chooser.chosen.connect(self._segment_chosen)
+        self.response.way_changed.connect(self._way_changed)
+        self.record.stepped.connect(self.walk)
+        self.model.changed.connect(self._model_changed)
+        self.tabs.currentChanged.connect(self._tab_changed)
+        for pane in (self.response, self.nyquist, self.quality, self.drift):
+            pane.chosen.connect(self.choose)
+        for key, slot in (("Left", self._back), ("Right", self._on)):
+            shortcut = QShortcut(QKeySequence(key), self)
+            shortcut.setContext(Qt.ShortcutContext.WidgetWithChildrenShortcut)
+            shortcut.activated.connect(slot)
+
+    def _arrange(self) -> None:
+        for pane, name, tip in (
+            (self.step, "Step", "The step in progress: time signal, settling, drive and level"),
+            (self.nyquist, "Nyquist", "Imaginary against real part"),
+            (self.quality, "Quality", "Noise, distortion, level error and settling of every point"),
+            (self.drift, "Drift", "The sentinel against its first time; temperature"),
+            (self.samples, "Samples", "The samples the point looked at was read from"),
+        ):
+            self.tabs.setTabToolTip(self.tabs.addTab(pane, name), tip)
+        self.tabs.setDocumentMode(True)
+        top = QWidget()
+        column = QVBoxLayout(top)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(self.chooser, 1)
+        column.addWidget(self.follow)
+        left = QSplitter(Qt.Orientation.Vertical)
+        left.setMinimumWidth(self.fontMetrics().horizontalAdvance("0") * _LEFT_DIGITS)
+        left.addWidget(top)
+        left.addWidget(self.record)
+        left.setSizes([_CHOOSER_PX, _RECORD_PX])
+        across = QSplitter(Qt.Orientation.Horizontal)
+        for widget, stretch in ((left, 0), (self.response, 4), (self.tabs, 3)):
+            across.addWidget(widget)
+            across.setStretchFactor(across.count() - 1, stretch)
+        across.setSizes([_LEFT_PX, _MIDDLE_PX, _RIGHT_PX])
+        self._layers = QStackedLayout(self)
+        none = hint(_NONE)
+        none.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        none.setMargin(40)
+        self._layers.addWidget(none)
+        self._layers.addWidget(across)

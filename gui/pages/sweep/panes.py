@@ -1,0 +1,123 @@
+"""What the panes of the page are made of: plots whose points are points of the sweep."""
+
+from collections.abc import Iterable
+
+import numpy as np
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+
+from gui.pages.sweep.points import Array, Group, Index
+from gui.plots import Axis, Plot
+from gui.theme import Role, current_theme
+
+CHOSEN = "point looked at"
+_MARGIN = 0.04
+"""Beside a band, as a share of it."""
+_RING_PX = 17.0
+
+
+class Pointed(Plot):
+    """A plot that knows which points of the sweep it shows.
+
+    Signals
+    -------
+    chosen : int
+        A point was clicked: its number among the sweep's points.
+    """
+
+    chosen = Signal(int)
+
+    def __init__(self, x: Axis, y: Axis, parent: QWidget | None = None, *, legend: bool = True) -> None:
+        super().__init__(x, y, parent, legend=legend)
+        self._index: dict[str, Index] = {}
+        self._framed: tuple[tuple[float, float] | None, bool] | None = None
+        self.picked.connect(self._picked)
+
+    def show_points(self, group: Group, x: Array, y: Array) -> None:
+        """A group under its name."""
+        self._index[group.name] = group.index
+        self.points(group.name, x, y, group.role, symbol=group.symbol)
+
+    def frame(self, band_hz: tuple[float, float] | None) -> None:
+        """Bring a whole band into view, points there or not; None: all there is. Once for each."""
+        wanted = band_hz, self.x.log
+        if wanted == self._framed:
+            return
+        self._framed = wanted
+        self.enableAutoRange()
+        if band_hz is not None:
+            low, high = np.log10(band_hz) if self.x.log else band_hz
+            self.setXRange(low, high, padding=_MARGIN)
+
+    def point_out(self, x: float | None, y: float | None) -> None:
+        """A ring around the point looked at; None: nowhere."""
+        if x is None or y is None:
+            self.keep(name for name in self.names if name != CHOSEN)
+            return
+        at = np.array([x]), np.array([y])
+        self.points(CHOSEN, *at, "text", size=_RING_PX, listed=False, hollow=True)
+
+    def _picked(self, name: str, number: int) -> None:
+        if name in self._index:
+            self.chosen.emit(int(self._index[name][number]))
+
+
+SIGNS = {
+    "o": "\u25cf",
+    "s": "\u25a0",
+    "d": "\u25c6",
+    "star": "\u2605",
+    "t1": "\u25b2",
+    "x": "\u2716",
+    "+": "\u271a",
+}
+"""Of symbols, as letters."""
+
+
+class Key(QLabel):
+    """A legend in one line, for plots too low to hold one."""
+
+    def show_key(self, entries: Iterable[tuple[str, Role, str]]) -> None:
+        """Name, colour and sign of each."""
+        theme = current_theme()
+        said = [
+            f"<span style='color:{theme.color(role).name()}'>{sign}</span>&nbsp;{name.replace(' ', '&nbsp;')}"
+            for name, role, sign in entries
+        ]
+        self.setText("&ensp; ".join(said))
+        self.setAlignment(Qt.AlignmentFlag.AlignRight)
+        self.setWordWrap(True)
+
+    def show_groups(self, groups: Iterable[Group]) -> None:
+        """As plots draw them."""
+        self.show_key((g.name, g.role, SIGNS[g.symbol]) for g in groups)
+
+
+def keyed(key: Key, plot: Plot) -> QWidget:
+    """A plot with its key above it."""
+    both = QWidget()
+    column = QVBoxLayout(both)
+    column.setContentsMargins(0, 0, 0, 0)
+    column.setSpacing(0)
+    column.addWidget(key)
+    column.addWidget(plot, 1)
+    return both
+
+
+def hide_foot(plot: Plot) -> None:
+    """Without numbers along x: a plot below has the same."""
+    plot.getAxis("bottom").setStyle(showValues=False)
+    plot.getAxis("bottom").showLabel(False)
+
+
+def align(*plots: Plot) -> None:
+    """Plots above each other begin at the same place, whatever their numbers are."""
+    metrics = plots[0].fontMetrics()
+    width = metrics.horizontalAdvance("-000.0") + 2 * metrics.height()
+    for plot in plots:
+        plot.getAxis("left").setWidth(width)
+
+
+def channel(name: str, role: Role, second: bool, index: Index) -> Group:
+    """Points of one channel: two of them in a plot differ in colour and symbol."""
+    return Group(name, role, "s" if second else "o", index)

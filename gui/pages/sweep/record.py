@@ -1,0 +1,89 @@
+"""The record of the point looked at, always beside the plots."""
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import (
+    QHBoxLayout,
+    QHeaderView,
+    QLabel,
+    QTreeWidget,
+    QTreeWidgetItem,
+    QVBoxLayout,
+    QWidget,
+)
+
+from gui.pages.sweep.record_lines import Line, record_lines
+from gui.pages.sweep.seen import Seen
+from gui.widgets import hint, tool
+from instrument.stepped_sine.settings import SweepSettings
+
+_NONE = (
+    "Click a point in any plot, or walk along with the left and right arrow keys: its record appears here."
+)
+
+
+class RecordPane(QWidget):
+    """One point.
+
+    Signals
+    -------
+    stepped : int
+        The next point (1) or the one before (-1) is wanted.
+    """
+
+    stepped = Signal(int)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.title, self.none = QLabel(), hint(_NONE)
+        self.table = QTreeWidget()
+        self.table.setColumnCount(2)
+        self.table.setHeaderHidden(True)
+        self.table.setRootIsDecorated(False)
+        self.table.setAlternatingRowColors(True)
+        self.table.header().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+        self.back = tool("\u25c0", "The point before (left arrow)")
+        self.on = tool("\u25b6", "The next point (right arrow)")
+        self.back.clicked.connect(self._back)
+        self.on.clicked.connect(self._on)
+        self._lines: list[Line] = []
+        above = QHBoxLayout()
+        for widget, stretch in ((self.title, 1), (self.back, 0), (self.on, 0)):
+            above.addWidget(widget, stretch)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addLayout(above)
+        column.addWidget(self.none)
+        column.addWidget(self.table, 1)
+        column.addStretch(0)
+
+    @property
+    def lines(self) -> list[Line]:
+        """As they stand there."""
+        return self._lines
+
+    def show_seen(self, seen: Seen, settings: SweepSettings) -> None:
+        """Draw."""
+        at = seen.chosen
+        lines = record_lines(seen, at, settings) if at is not None else []
+        self.none.setVisible(at is None)
+        self.table.setVisible(at is not None)
+        for button in (self.back, self.on):
+            button.setEnabled(bool(seen.wanted.any()))
+        if lines == self._lines:
+            return
+        self._lines = lines
+        self.title.setText(f"<b>{seen.points.frequency_hz[at]:.6g} Hz</b>" if at is not None else "")
+        scrolled = self.table.verticalScrollBar().value()
+        self.table.clear()
+        for line in lines:
+            item = QTreeWidgetItem([line.name, line.value])
+            for column in (0, 1):
+                item.setToolTip(column, f"{line.value}\n{line.tip}".strip())
+            self.table.addTopLevelItem(item)
+        self.table.verticalScrollBar().setValue(scrolled)
+
+    def _back(self) -> None:
+        self.stepped.emit(-1)
+
+    def _on(self) -> None:
+        self.stepped.emit(1)

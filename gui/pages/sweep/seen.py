@@ -1,0 +1,105 @@
+"""What the panes show at this moment: points, which of them, the model, the point looked at. No Qt."""
+
+from dataclasses import dataclass, field, replace
+from typing import Literal, Self
+
+import numpy as np
+
+from gui.pages.sweep.curve import Curve, Region
+from gui.pages.sweep.points import Array, Complex, Index, Mask, Points
+
+Quantity = Literal["ratio", "velocity"]
+
+
+@dataclass(frozen=True)
+class Way:
+    """How the response is shown."""
+
+    quantity: Quantity = "ratio"
+    """Velocity over base acceleration, or that times the level commanded."""
+    log_amplitude: bool = False
+    log_frequency: bool = False
+
+    @property
+    def unit(self) -> str:
+        """Of the amplitude."""
+        return "(mm/s)/(m/s\u00b2)" if self.quantity == "ratio" else "mm/s"
+
+    @property
+    def label(self) -> str:
+        """Of the amplitude."""
+        return "|v/a|" if self.quantity == "ratio" else "|v| at its level"
+
+    def factor(self, level_m_s2: Array | float) -> Array:
+        """From v/a in s to what is shown."""
+        return np.asarray(1e3 * (np.ones_like(level_m_s2) if self.quantity == "ratio" else level_m_s2))
+
+
+@dataclass(frozen=True)
+class Predicted:
+    """What a fit says of the points it took: their numbers, and the amplitudes in m/s."""
+
+    index: Index = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
+    amplitude_m_s: Array = field(default_factory=lambda: np.zeros(0))
+
+    def of(self, point: int) -> float | None:
+        """Of one point, if the fit took it."""
+        place = np.flatnonzero(self.index == point)
+        return float(self.amplitude_m_s[place[0]]) if place.size else None
+
+
+@dataclass(frozen=True)
+class Seen:
+    """Everything a pane needs; a pane never looks elsewhere."""
+
+    points: Points
+    segment: int | None = None
+    """None: all of them."""
+    regions: tuple[Region, ...] = ()
+    """Of the segments begun so far."""
+    curve: Curve | None = None
+    predicted: Predicted = field(default_factory=Predicted)
+    fit: int = 0
+    """Number of the fit `curve` and `predicted` are of."""
+    chosen: int | None = None
+    """Number of the point looked at."""
+    way: Way = field(default_factory=Way)
+    reads: str = "relative"
+    """What the laser reads: velocity relative to the base, or absolute."""
+
+    @property
+    def wanted(self) -> Mask:
+        """Points of the segment chosen."""
+        if self.segment is None:
+            return np.ones(len(self.points), dtype=bool)
+        return self.points.segment == self.segment
+
+    @property
+    def band_hz(self) -> tuple[float, float] | None:
+        """The whole region of the segment chosen, measured or not; None for all of them."""
+        mine = [(low, high) for number, low, high in self.regions if number == self.segment]
+        return mine[0] if mine else None
+
+    @property
+    def shown(self) -> Complex:
+        """Response of every point, in the unit of the way chosen."""
+        return np.asarray(self.points.over_base_s * self.way.factor(self.points.level_m_s2))
+
+    def levels(self, segment: int) -> Array:
+        """Levels of a segment's points in m/s^2; of all where it has none yet."""
+        p = self.points
+        mine = p.segment == segment
+        return np.unique(np.round(p.level_m_s2[mine] if mine.any() else p.level_m_s2, 6))
+
+    def neighbour(self, by: int) -> int | None:
+        """The point so many places further along the frequency; the first or last where there is none."""
+        order = self.points.in_order(self.wanted)
+        if not order.size:
+            return None
+        place = np.flatnonzero(order == self.chosen)
+        at = int(place[0]) + by if place.size else (0 if by > 0 else len(order) - 1)
+        return int(order[min(max(at, 0), len(order) - 1)])
+
+    def but(self, **changes: object) -> Self:
+        """The same with changes."""
+        return replace(self, **changes)  # type: ignore[arg-type]

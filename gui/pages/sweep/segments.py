@@ -1,0 +1,77 @@
+"""How each segment stands, in words. No Qt."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from gui.pages.sweep.points import Points
+from gui.picture import Picture
+from instrument.files.experiment_file import Segment
+from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2
+
+State = Literal["planned", "running", "broken off", "done"]
+
+
+@dataclass(frozen=True)
+class Standing:
+    """Of one segment, all passes together."""
+
+    number: int
+    band: str
+    state: State
+    points: str
+    level: str
+    marked: int
+    """Points with remarks or out of limits."""
+
+    @property
+    def lines(self) -> str:
+        """Two lines for a list."""
+        remarks = f", {self.marked} marked" if self.marked else ""
+        return f"{self.number}   {self.band}\n{self.state}, {self.points}{remarks}, {self.level}"
+
+
+def standings(picture: Picture, points: Points) -> list[Standing]:
+    """Every segment planned or begun, in order."""
+    sweep = picture.plan.sweep
+    planned = dict(enumerate(sweep.segments, start=1)) if sweep is not None else {}
+    begun = {segment for turn, segment in picture.plan.begun if turn > 0}
+    return [_standing(picture, points, n, planned.get(n)) for n in sorted(planned.keys() | begun)]
+
+
+def _standing(picture: Picture, points: Points, number: int, planned: Segment | None) -> Standing:
+    plan = picture.plan
+    runs = {key: run for key, run in plan.begun.items() if key[0] > 0 and key[1] == number}
+    turns = plan.sweep.sweeps if plan.sweep is not None else max(1, len(runs))
+    mine = (points.segment == number) & ~points.sentinel
+    done = sum(plan.done.get(key, 0) for key in runs)
+    wanted = planned.points if planned is not None else None
+    for run in runs.values():
+        wanted = run.steps
+    most = f" of {wanted * turns}" if wanted is not None else ""
+    passes = f", pass {len(runs)} of {turns}" if turns > 1 and runs else ""
+    levels = sorted({round(v, 6) for v in points.level_m_s2[mine]})
+    given = [sweep.level_g * STANDARD_GRAVITY_M_S2] if (sweep := plan.sweep) is not None else []
+    return Standing(
+        number,
+        _band(planned, [(run.low_hz, run.high_hz) for run in runs.values()]),
+        _state(picture, list(runs), turns),
+        f"{done}{most} points{passes}",
+        ", ".join(f"{v / STANDARD_GRAVITY_M_S2:.3g} g" for v in levels or given),
+        int((points.quality[mine] > 0).sum()),
+    )
+
+
+def _state(picture: Picture, begun: list[tuple[int, int]], turns: int) -> State:
+    if not begun:
+        return "planned"
+    if len(begun) == turns and all(key in picture.plan.ended for key in begun):
+        return "done"
+    return "broken off" if picture.run.over else "running"
+
+
+def _band(planned: Segment | None, begun: list[tuple[float, float]]) -> str:
+    if begun:
+        return f"{min(low for low, _ in begun):.4g} to {max(high for _, high in begun):.4g} Hz"
+    if planned is None or planned.mode is not None:
+        return f"around mode {planned.mode}" if planned is not None else ""
+    return f"{planned.low_hz:.4g} to {planned.high_hz:.4g} Hz"

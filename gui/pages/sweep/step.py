@@ -1,0 +1,164 @@
+"""The step in progress: what drives it, its time signal, how it comes to rest."""
+
+import numpy as np
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtWidgets import QGridLayout, QLabel, QSplitter, QVBoxLayout, QWidget
+
+from gui.pages.sweep.following import Following, latest_cycles, words
+from gui.pages.sweep.panes import Key, align, hide_foot, keyed
+from gui.picture import Picture
+from gui.picture.step import Step
+from gui.plots import Axis, Plot
+from gui.theme import Role
+from gui.widgets import hint
+from instrument.stepped_sine.settings import SweepSettings
+
+_NONE = (
+    "The step in progress appears here: its time signal and how it comes to rest. "
+    "Start a run, or play a recorded session."
+)
+_TIME = Axis("Time before the latest sample", "ms")
+_KEY: tuple[tuple[str, Role, str], ...] = (
+    ("left of the transient", "data", "\u2500"),
+    ("noise alone", "faint", "- -"),
+    ("limit", "bad", "- -"),
+)
+_FACTS = {
+    "Drive": "Commanded to the shaker, and its limit",
+    "Level": "Base acceleration of the latest block, the one asked for, and how far it is off (tolerance)",
+    "Transient": "Bound on what is left of it, relative to the response; the limit; what noise alone allows",
+    "Range": "Of the vibrometer",
+    "Light": "That comes back to the vibrometer, 0 to 1, and the least that counts as good",
+    "Corrections": "Of drive and range in this step",
+}
+
+
+class StepPane(QWidget):
+    """Redrawn with every block."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.words = QLabel()
+        self.words.setWordWrap(True)
+        self.facts = {name: QLabel("\u2013") for name in _FACTS}
+        self.base = Plot(_TIME, Axis("Base", "m/s\u00b2"), legend=False)
+        self.velocity = Plot(_TIME, Axis("Velocity", "mm/s"), legend=False)
+        self.settling = Plot(
+            Axis("Time since the last change of drive", "s"),
+            Axis("Transient", "%", log=True),
+            legend=False,
+        )
+        self.velocity.setXLink(self.base)
+        self.base.setToolTip("Base acceleration, the latest cycles")
+        self.velocity.setToolTip("Velocity as the laser reads it, the latest cycles")
+        self.settling.setToolTip(
+            "The largest transient the drift from block to block allows. Below the limit it has settled; "
+            "below what noise alone allows it cannot be seen, and is waited for as long as it should take"
+        )
+        self.key = Key()
+        hide_foot(self.base)
+        self.none = hint(_NONE)
+        self._following: Following | None = None
+        self._picture: Picture | None = None
+        self._later = QTimer(self)
+        self._later.setSingleShot(True)
+        self._later.timeout.connect(self._go_on)
+        self._arrange()
+        self.clear()
+
+    def show_step(self, picture: Picture) -> None:
+        """Draw the picture's step."""
+        if self._following is None or picture is not self._picture:
+            self._following = Following(picture.limits)
+        self._picture = picture
+        if picture.step is None:
+            self.clear()
+            return
+        self._whole.show()
+        self.none.hide()
+        self._draw_signal(picture.step)
+        self._go_on()
+
+    def clear(self) -> None:
+        """There is no step."""
+        self._whole.hide()
+        self.none.show()
+
+    def _go_on(self) -> None:
+        """Follow the step; where blocks are left over, once more when there is time."""
+        picture, following = self._picture, self._following
+        if picture is None or following is None or picture.step is None or not self.isVisible():
+            return
+        if following.take(picture.step):
+            self._later.start()
+        self._draw_settling(picture.step, following, picture.limits)
+        self._say(picture, picture.step, following)
+
+    def _draw_signal(self, step: Step) -> None:
+        trace = latest_cycles(step)
+        milliseconds = 1e3 * trace.time_s
+        self.base.trace("base acceleration", milliseconds, trace.base_m_s2, "second")
+        self.velocity.trace("velocity", milliseconds, 1e3 * trace.velocity_m_s, "data")
+        align(self.base, self.velocity, self.settling)
+
+    def _draw_settling(self, step: Step, following: Following, settings: SweepSettings) -> None:
+        seconds, percent, noise = following.remaining()
+        limit = 100 * settings.settle.tolerance
+        # A steady response moves by nothing but noise; the axis has no zero.
+        self.settling.line("left", seconds, np.maximum(percent, 1e-3 * limit), "data")
+        self.settling.line("noise", seconds, np.maximum(noise, 1e-3 * limit), "faint", dashed=True)
+        end = float(seconds[-1]) if seconds.size else settings.block_s(step.began.frequency_hz)
+        self.settling.line("limit", np.array([0, end]), np.full(2, limit), "bad", dashed=True)
+        self.key.show_key(_KEY)
+        at = [step.rest.seconds] if step.rest is not None else []
+        self.settling.mark(at, "good", name="settled", labels=["dwell"] * len(at))
+
+    def _say(self, picture: Picture, step: Step, following: Following) -> None:
+        limits, began, control = picture.limits, step.began, picture.limits.control
+        self.words.setText(words(step, limits))
+        said = {"Drive": f"{step.drive_v:.4g} V of {limits.limits.drive_v:g} V"}
+        base = abs(step.point.base_m_s2) if step.point is not None else following.base_m_s2
+        if base is not None and began.level_m_s2 is not None:
+            off = 100 * (base / began.level_m_s2 - 1)
+            tolerance = f"\u00b1{100 * control.tolerance:g} %"
+            said["Level"] = f"{base:.4g} of {began.level_m_s2:.4g} m/s\u00b2, {off:+.2f} % ({tolerance})"
+        _, percent, noise = following.remaining()
+        if percent.size:
+            limit = f"limit {100 * limits.settle.tolerance:g} %, noise {noise[-1]:.2g} %"
+            said["Transient"] = f"{percent[-1]:.2g} % ({limit})"
+        if picture.range is not None:
+            said["Range"] = picture.range.name
+        if picture.signal_level is not None:
+            said["Light"] = f"{picture.signal_level:.2f} (least {limits.least_signal_level:g})"
+        said["Corrections"] = str(len(step.asked))
+        for name, label in self.facts.items():
+            label.setText(said.get(name, "\u2013"))
+
+    def _arrange(self) -> None:
+        grid = QGridLayout()
+        for k, (name, label) in enumerate(self.facts.items()):
+            row, column = k % 3, 2 * (k // 3)
+            heading = QLabel(name)
+            heading.setEnabled(False)
+            for one in (heading, label):
+                one.setToolTip(_FACTS[name])
+            grid.addWidget(heading, row, column)
+            grid.addWidget(label, row, column + 1)
+        grid.setColumnStretch(1, 3)
+        grid.setColumnStretch(3, 2)
+        stack = QSplitter(Qt.Orientation.Vertical)
+        for plot in (self.base, self.velocity):
+            stack.addWidget(plot)
+        stack.addWidget(keyed(self.key, self.settling))
+        for number, stretch in enumerate((4, 5, 6)):
+            stack.setStretchFactor(number, stretch)
+        self._whole = QWidget()
+        inside = QVBoxLayout(self._whole)
+        inside.setContentsMargins(0, 0, 0, 0)
+        inside.addWidget(self.words)
+        inside.addLayout(grid)
+        inside.addWidget(stack, 1)
+        column_of_all = QVBoxLayout(self)
+        column_of_all.setContentsMargins(0, 4, 0, 0)
+        column_of_all.addWidget(self.none)
+        column_of_all.addWidget(self._whole, 1)

@@ -1,0 +1,225 @@
+"""What is known of a session so far: fed by events, drawn by pages. No Qt.
+
+Rule: the same events give the same picture, whether they come from a rig, a file or a replay. Everything a
+session holds is in `contents`; beside it stands only what a person watching needs at this moment.
+"""
+
+from collections import Counter
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+
+from gui.picture.log import Kind, Log
+from gui.picture.plan import Plan
+from gui.picture.run import Run
+from gui.picture.step import Step
+from instrument.cli.watching import said_of
+from instrument.errors import BadInput
+from instrument.impact.record import Channel, Hit
+from instrument.interchange.contents import Contents, Gather, RecordedHit
+from instrument.session.configuration import Configuration, sweep_settings
+from instrument.stepped_sine.settings import SweepSettings
+from instrument.stream.clock import SessionClock
+from instrument.stream.derived import (
+    CalibrationFound,
+    DampingFound,
+    DiagnosisFound,
+    DriveRequested,
+    FitUpdated,
+    HitJudged,
+    HitRevised,
+    LimitExceeded,
+    LimitWarned,
+    PointMeasured,
+    RangeRequested,
+    SentinelCompared,
+    SettlingTimedOut,
+    StepSettled,
+)
+from instrument.stream.event import Event
+from instrument.stream.raw import (
+    AcquisitionBegan,
+    BlockAcquired,
+    DiagnosisStarted,
+    FitStarted,
+    HammerTestEnded,
+    Held,
+    RangeSet,
+    SegmentBegan,
+    SegmentEnded,
+    SessionBegan,
+    SessionEnded,
+    ShakerCommanded,
+    SignalLevelRead,
+    StepBegan,
+)
+
+Topic = Literal[
+    "run", "step", "samples", "points", "hits", "damping", "calibration", "sentinels", "fits", "diagnosis",
+    "limits", "log",
+]  # fmt: skip
+"""What a page can ask after; `Picture.changed` counts for each how often it changed."""
+
+_TOPICS: dict[type[Event], tuple[Topic, ...]] = {
+    SessionBegan: ("run",),
+    SessionEnded: ("run", "log"),
+    AcquisitionBegan: ("run", "hits"),
+    BlockAcquired: ("samples",),
+    RangeSet: ("step",),
+    SignalLevelRead: ("step",),
+    SegmentBegan: ("run",),
+    SegmentEnded: ("run",),
+    StepBegan: ("run", "step", "samples"),
+    ShakerCommanded: ("step",),
+    Held: ("run", "step"),
+    DriveRequested: ("step",),
+    RangeRequested: ("step",),
+    StepSettled: ("step",),
+    SettlingTimedOut: ("step",),
+    PointMeasured: ("run", "step", "points"),
+    HammerTestEnded: ("run",),
+    HitJudged: ("run", "hits"),
+    HitRevised: ("run", "hits"),
+    DampingFound: ("damping",),
+    CalibrationFound: ("calibration",),
+    SentinelCompared: ("sentinels",),
+    FitStarted: ("run", "fits"),
+    FitUpdated: ("fits",),
+    DiagnosisStarted: ("run", "diagnosis"),
+    DiagnosisFound: ("run", "diagnosis"),
+    LimitWarned: ("limits",),
+    LimitExceeded: ("limits",),
+}
+
+
+class Picture:
+    """Of one session.
+
+    Attributes
+    ----------
+    contents : Contents
+        Points with their times, hits with their records, segments, calibrations, sentinels, damping, the
+        latest fit, the diagnosis. A hit whose samples were lost has an empty record.
+    run : Run
+        State, why it ended, what is waited for.
+    step : Step or None
+        The step in progress, or the last one: commands, samples, settling.
+    fits : list of FitUpdated
+        Every one, in order.
+    fit_running : int or None
+        Number of the fit being computed.
+    limits : SweepSettings
+        Tolerances and limits in force.
+    """
+
+    def __init__(self, configuration: Configuration, path: Path | None = None) -> None:
+        self.configuration = configuration
+        self._gather = Gather(Contents(path or Path(configuration.name), configuration), with_hits=True)
+        self.contents = self._gather.contents
+        self.limits: SweepSettings = sweep_settings(configuration.experiment, configuration.rig)
+        self.run = Run(configuration.experiment)
+        self.plan = Plan(configuration.experiment.sweep)
+        self.step: Step | None = None
+        self.acquisition: AcquisitionBegan | None = None
+        self.range: RangeSet | None = None
+        self.signal_level: float | None = None
+        self.fits: list[FitUpdated] = []
+        self.fit_running: int | None = None
+        self.log = Log()
+        self.changed: Counter[Topic] = Counter()
+        self._clock = SessionClock()
+        self._now_s = 0.0
+
+    @property
+    def time_s(self) -> float:
+        """Since the session's first sample."""
+        return self._now_s
+
+    @property
+    def version(self) -> int:
+        """Grows with every change of anything."""
+        return self.changed.total()
+
+    def take(self, event: Event) -> None:
+        """One event of the stream, in order."""
+        self._clock.take(event)
+        if isinstance(event, BlockAcquired):
+            self._now_s = self._clock.at(event.first_sample + event.samples)
+        self._keep(event)
+        self.run.take(event)
+        self.plan.take(event, self._now_s)
+        self._follow(event)
+        said = said_of(event)
+        if said is not None:
+            self.say(said, "warning" if isinstance(event, LimitWarned) else "said")
+        self._changed(*_TOPICS.get(type(event), ()))
+
+    def say(self, text: str, kind: Kind = "said") -> None:
+        """A line for the log, at this moment of the session."""
+        self.log.add(self._now_s, text, kind)
+        self._changed("log")
+
+    def ask(self, question: str) -> None:
+        """The run waits for a person; empty once it no longer does."""
+        self.run.question = question
+        self._changed("run")
+
+    def work(self, name: str, fraction: float | None) -> None:
+        """Long work before or after measuring: how far it is; None where that is not known."""
+        self.run.work = (name, fraction) if name else None
+        self._changed("run")
+
+    def end(self, why: str, message: str) -> None:
+        """The run is over, whether its stream said so or not."""
+        said_already = self.run.over
+        self.run.end(why, message)
+        self.fit_running = None
+        if not said_already:
+            self.say(self.run.ending, "said" if why == "done" else "fault")
+        self._changed("run", "fits")
+
+    def expect(self, seconds: dict[int, float]) -> None:
+        """Seconds forecast for each segment: from then on the time left can be told."""
+        self.plan.forecast_s = dict(seconds)
+        self._changed("run")
+
+    def _keep(self, event: Event) -> None:
+        try:
+            self._gather.take(event)
+        except BadInput as missing:
+            assert isinstance(event, HitJudged)
+            rate = self.acquisition.sample_rate_hz if self.acquisition is not None else 1.0
+            self.contents.hits.append(_without_samples(event, rate))
+            self.say(str(missing), "warning")
+
+    def _follow(self, event: Event) -> None:
+        """What only a person watching needs."""
+        match event:
+            case AcquisitionBegan():
+                self.acquisition, self.step = event, None
+            case RangeSet():
+                self.range = event
+            case SignalLevelRead():
+                self.signal_level = event.value
+            case StepBegan() if self.acquisition is not None:
+                self.step = Step(event, self.acquisition, self.configuration.rig.channels)
+            case FitStarted():
+                self.fit_running = event.number
+            case FitUpdated():
+                self.fits.append(event)
+                self.fit_running = None
+            case SessionEnded():
+                self.fit_running = None
+                self.say(self.run.ending, "said" if event.why == "done" else "fault")
+        if self.step is not None:
+            self.step.take(event, self.range)
+
+    def _changed(self, *topics: Topic) -> None:
+        self.changed.update(topics)
+
+
+def _without_samples(hit: HitJudged, sample_rate_hz: float) -> RecordedHit:
+    none = np.zeros(0)
+    record = Hit(f"hit {hit.hit}", sample_rate_hz, none, (Channel("response", "acceleration", none),))
+    return RecordedHit(hit.hit, hit.accepted, hit.why, hit.peak_n, record)

@@ -1,0 +1,34 @@
+"""What happened, in lines for people."""
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+Kind = Literal["said", "warning", "fault"]
+_MOST_LINES = 5000
+"""The oldest go first."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """One line."""
+
+    time_s: float
+    """Since the session's first sample."""
+    text: str
+    kind: Kind
+
+
+@dataclass
+class Log:
+    """Lines in order."""
+
+    lines: list[Line] = field(default_factory=list)
+    dropped: int = 0
+    """Lines let go of, so that a pane knows which it has shown: `dropped + len(lines)` only grows."""
+
+    def add(self, time_s: float, text: str, kind: Kind = "said") -> None:
+        """One more."""
+        self.lines.append(Line(time_s, text, kind))
+        if len(self.lines) > _MOST_LINES:
+            self.lines.pop(0)
+            self.dropped += 1

@@ -1,0 +1,157 @@
+"""How a run stands: its state, why it ended, what comes next in words."""
+
+from dataclasses import dataclass, field
+from typing import Literal
+
+from instrument.files.experiment_file import ExperimentDocument
+from instrument.stream.derived import HitJudged, HitRevised
+from instrument.stream.event import Event
+from instrument.stream.raw import (
+    AcquisitionBegan,
+    DiagnosisStarted,
+    FitStarted,
+    HammerTestEnded,
+    Held,
+    OperatorDid,
+    SegmentBegan,
+    SegmentEnded,
+    SessionBegan,
+    SessionEnded,
+    StepBegan,
+)
+
+State = Literal[
+    "idle",
+    "preparing",
+    "hammer",
+    "calibration",
+    "sweep",
+    "held",
+    "identifying",
+    "diagnosing",
+    "done",
+    "stopped",
+]
+WORDS: dict[State, str] = {
+    "idle": "idle",
+    "preparing": "preparing",
+    "hammer": "hammer test",
+    "calibration": "calibration",
+    "sweep": "sweep",
+    "held": "held",
+    "identifying": "identifying",
+    "diagnosing": "diagnosing",
+    "done": "done",
+    "stopped": "stopped",
+}
+OVER: tuple[State, ...] = ("idle", "done", "stopped")
+"""States in which nothing is going on."""
+
+
+@dataclass
+class Run:
+    """Follows the events."""
+
+    experiment: ExperimentDocument
+    state: State = "idle"
+    why: str = ""
+    """Of the end: "done", "stopped by the user" or "stopped safely"; empty before."""
+    message: str = ""
+    question: str = ""
+    """What a person is asked to do; empty where nobody waits."""
+    work: tuple[str, float | None] | None = None
+    """Long work that goes on: its name and the fraction done, where that is known."""
+    segment: SegmentBegan | None = None
+    step: StepBegan | None = None
+    good_hits: int = 0
+    _hits: dict[int, bool] = field(default_factory=dict)
+    _segments_ended: int = 0
+
+    def take(self, event: Event) -> None:
+        """One event of the stream."""
+        match event:
+            case SessionBegan():
+                self.state, self.why, self.message = "preparing", "", ""
+            case AcquisitionBegan():
+                self.state, self.step, self.segment = event.part, None, None
+                self._hits = {}
+                self.good_hits = 0
+            case HitJudged() | HitRevised():
+                self._hits = {**self._hits, event.hit: event.accepted}
+                self.good_hits = sum(self._hits.values())
+            case HammerTestEnded():
+                self.state = "preparing"
+            case OperatorDid() if event.what in ("mounted", "aimed"):
+                self.question = ""
+                self.state = "preparing"
+            case SegmentBegan():
+                self.segment = event
+            case StepBegan():
+                self.state = "calibration" if event.sweep == 0 else "sweep"
+                self.step = event
+            case Held():
+                self.state = "held"
+            case FitStarted() if self._sweep_is_whole:
+                self.state = "identifying"
+            case DiagnosisStarted():
+                self.state = "diagnosing"
+            case SessionEnded():
+                self.end(event.why, event.message)
+            case SegmentEnded():
+                self._segments_ended += event.sweep > 0
+
+    def end(self, why: str, message: str) -> None:
+        """It is over."""
+        self.state = "done" if why == "done" else "stopped"
+        self.why, self.message, self.question, self.work = why, message, "", None
+
+    @property
+    def over(self) -> bool:
+        """Whether nothing is going on."""
+        return self.state in OVER
+
+    @property
+    def ending(self) -> str:
+        """How it ended, in a line."""
+        return self.why + (f": {self.message}" if self.message else "")
+
+    @property
+    def next_words(self) -> str:
+        """What is being done or waited for, in a line."""
+        if self.question:
+            return self.question
+        if self.work is not None:
+            return self.work[0]
+        match self.state:
+            case "hammer":
+                wanted = self.experiment.hammer.hits if self.experiment.hammer is not None else 0
+                if self.good_hits < wanted:
+                    return f"strike once and let it ring: {self.good_hits} of {wanted} good hits"
+                return f"{self.good_hits} good hits: use them, or strike again"
+            case "held":
+                return "the shaker is silent; resume measures the step again"
+            case "calibration" | "sweep":
+                return self._step_words()
+            case "done" | "stopped":
+                return self.ending
+            case "identifying":
+                return "the law from all points"
+            case "diagnosing":
+                return "tracing what the fit cannot explain"
+        return ""
+
+    def _step_words(self) -> str:
+        if self.step is None:
+            return ""
+        f = f"{self.step.frequency_hz:g} Hz"
+        match self.step.purpose:
+            case "loop-check":
+                return f"loop check at {f}"
+            case "sentinel":
+                return f"sentinel at {f}"
+        return f"step at {f}"
+
+    @property
+    def _sweep_is_whole(self) -> bool:
+        sweep = self.experiment.sweep
+        return sweep is not None and self._segments_ended >= len(sweep.segments) * sweep.sweeps

@@ -1,0 +1,89 @@
+"""A plot as a picture or as numbers, from its menu."""
+
+import csv
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from PySide6.QtCore import QObject, QRectF, QSize
+from PySide6.QtGui import QAction, QImage, QPainter
+from PySide6.QtSvg import QSvgGenerator
+from PySide6.QtWidgets import QFileDialog, QMessageBox
+
+_PNG_SCALE = 2.0
+"""Pixels a point: sharp on paper and on a 4K screen."""
+_KINDS = {"PNG": "Picture (*.png)", "SVG": "Drawing (*.svg)", "data CSV": "Data (*.csv)"}
+
+
+def save_png(plot: Any, path: Path) -> None:
+    """As it is seen, in twice the pixels. Raises `OSError`."""
+    image = QImage(plot.size() * _PNG_SCALE, QImage.Format.Format_RGB32)
+    image.fill(plot.backgroundBrush().color())
+    painter = QPainter(image)
+    plot.render(painter, QRectF(image.rect()), plot.viewport().rect())
+    painter.end()
+    if not image.save(str(path)):
+        raise OSError(0, "cannot be written", str(path))
+
+
+def save_svg(plot: Any, path: Path) -> None:
+    """As it is seen, in lines and letters. Raises `OSError`."""
+    path.touch()
+    drawing = QSvgGenerator()
+    drawing.setFileName(str(path))
+    drawing.setSize(QSize(plot.width(), plot.height()))
+    drawing.setViewBox(plot.rect())
+    painter = QPainter(drawing)
+    painter.fillRect(plot.rect(), plot.backgroundBrush())
+    plot.render(painter, QRectF(plot.rect()), plot.viewport().rect())
+    painter.end()
+
+
+def save_csv(plot: Any, path: Path) -> None:
+    """Every number shown; columns of different length end in empty cells. Raises `OSError`."""
+    columns: dict[str, NDArray[np.float64]] = plot.columns()
+    longest = max((len(values) for values in columns.values()), default=0)
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(columns)
+        for k in range(longest):
+            writer.writerow([repr(float(v[k])) if k < len(v) else "" for v in columns.values()])
+
+
+_SAVERS = {"PNG": save_png, "SVG": save_svg, "data CSV": save_csv}
+
+
+def add_export_menu(plot: Any) -> None:
+    """Into the plot's own menu, in place of the library's dialog."""
+    plot.scene().contextMenu = []
+    plot.getPlotItem().setMenuEnabled(False, enableViewBoxMenu=True)
+    menu = plot.getViewBox().menu
+    menu.addSeparator()
+    exporter = _Exporter(plot)
+    for kind in _SAVERS:
+        action = QAction(f"Export {kind}...", menu)
+        action.setData(kind)
+        action.triggered.connect(exporter.ask)
+        menu.addAction(action)
+
+
+class _Exporter(QObject):
+    def __init__(self, plot: Any) -> None:
+        super().__init__(plot)
+        self._plot = plot
+
+    def ask(self) -> None:
+        """Where to, then save."""
+        action = self.sender()
+        kind = action.data() if isinstance(action, QAction) else "PNG"
+        chosen, _ = QFileDialog.getSaveFileName(self._plot, f"Export {kind}", "", _KINDS[kind])
+        if not chosen:
+            return
+        path = Path(chosen)
+        if not path.suffix:
+            path = path.with_suffix("." + kind.split()[-1].lower())
+        try:
+            _SAVERS[kind](self._plot, path)
+        except OSError as error:
+            QMessageBox.warning(self._plot, "Export", f"{path}: {error.strerror or error}")

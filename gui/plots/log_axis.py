@@ -1,0 +1,34 @@
+"""An axis whose numbers do not lie upon each other where it is logarithmic."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import pyqtgraph as pg
+
+_NAMED = (1, 2, 5)
+_MOST_DECADES = 3
+"""With lines between the decades."""
+
+
+class LogAxis(pg.AxisItem):  # type: ignore[misc]
+    """Of a decade only 1, 2 and 5 have their number."""
+
+    def logTickValues(
+        self, minVal: float, maxVal: float, size: float, stdTicks: Sequence[tuple[float, Sequence[float]]]
+    ) -> list[tuple[float | None, Sequence[float]]]:
+        """Over many decades only whole ones have a line: more would be grey, and slow to draw."""
+        ticks: list[tuple[float | None, Sequence[float]]] = super().logTickValues(
+            minVal, maxVal, size, stdTicks
+        )
+        if maxVal - minVal <= _MOST_DECADES:
+            return ticks
+        return [(spacing, values) for spacing, values in ticks if spacing is not None]
+
+    def logTickStrings(self, values: Sequence[float], scale: float, spacing: float) -> list[str]:
+        """Empty where a line goes without a number."""
+        said = super().logTickStrings(values, scale, spacing)
+        return [text if _digit(value) in _NAMED else "" for text, value in zip(said, values, strict=True)]
+
+
+def _digit(exponent: float) -> int:
+    return round(10 ** (exponent - np.floor(exponent + 1e-9)))

@@ -1,0 +1,67 @@
+"""The place under the mouse, in the plot's own units."""
+
+from typing import Any
+
+import pyqtgraph as pg
+from PySide6.QtCore import QEvent, QObject, QPointF, Qt
+
+from gui.theme import Theme
+
+_TURNS_1_S = 30
+
+
+class Readout(QObject):
+    """Two thin lines through the mouse and the numbers there."""
+
+    def __init__(self, plot: Any) -> None:
+        super().__init__(plot)
+        self._plot = plot
+        self._lines = [pg.InfiniteLine(angle=angle, movable=False) for angle in (90, 0)]
+        self._text = pg.TextItem(anchor=(0, 0))
+        self._text.setParentItem(plot.getViewBox())
+        self._text.setPos(6, 2)
+        for line in self._lines:
+            plot.addItem(line, ignoreBounds=True)
+        self._show(False)
+        self._moves = pg.SignalProxy(plot.scene().sigMouseMoved, rateLimit=_TURNS_1_S, slot=self._moved)
+        plot.installEventFilter(self)
+
+    @property
+    def text(self) -> str:
+        """As it stands in the plot; empty while the mouse is elsewhere."""
+        return str(self._text.toPlainText()) if self._text.isVisible() else ""
+
+    def paint(self, theme: Theme) -> None:
+        """In these colours."""
+        for line in self._lines:
+            line.setPen(pg.mkPen(theme.faint, style=Qt.PenStyle.DotLine))
+        self._text.setColor(theme.text)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """The mouse has left."""
+        if event.type() == QEvent.Type.Leave:
+            self._show(False)
+        return False
+
+    def at(self, place: QPointF) -> None:
+        """Show the numbers at a place of the scene."""
+        box = self._plot.getViewBox()
+        inside = bool(box.sceneBoundingRect().contains(place))
+        self._show(inside)
+        if not inside:
+            return
+        point = box.mapSceneToView(place)
+        for line, value in zip(self._lines, (point.x(), point.y()), strict=True):
+            line.setValue(value)
+        said = [
+            f"{10**value if axis.log else value:.5g} {axis.unit}".strip()
+            for axis, value in ((self._plot.x, point.x()), (self._plot.y, point.y()))
+        ]
+        self._text.setText(",  ".join(said))
+
+    def _moved(self, arguments: tuple[QPointF]) -> None:
+        self.at(arguments[0])
+
+    def _show(self, shown: bool) -> None:
+        for item in (*self._lines, self._text):
+            item.setVisible(shown)

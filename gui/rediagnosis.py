@@ -1,0 +1,168 @@
+"""A diagnosis made here: of data that has none, or again with effects accepted and declined by hand.
+
+Nothing of it is recorded. Pages show it in place of the session's own until it is let go of.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from PySide6.QtCore import QObject, Signal
+
+from gui.picture import Picture
+from gui.work import Command
+
+Facts = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What is to be diagnosed, and how."""
+
+    data: Path
+    specimen: Path | None = None
+    """A session has its own."""
+    accept: tuple[str, ...] | None = None
+    """Fitted on a person's word, nothing searched for; empty for no effect at all."""
+    decline: tuple[str, ...] = field(default=())
+    """Left out of the search."""
+
+    @property
+    def by_hand(self) -> bool:
+        """Whether a person decided anything."""
+        return self.accept is not None or bool(self.decline)
+
+    @property
+    def arguments(self) -> list[str]:
+        """Of the command line."""
+        said = ["diagnose", str(self.data)]
+        if self.specimen is not None:
+            said += ["--specimen", str(self.specimen)]
+        if self.accept is not None:
+            said += [f"--accept={name}" for name in self.accept or ("none",)]
+        return said + [f"--without={name}" for name in self.decline]
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A diagnosis as pages show it."""
+
+    facts: Facts
+    origin: str
+    """Where it comes from, for people."""
+    asked: Asked | None = None
+    """None for the recorded one."""
+
+
+class Rediagnosis(QObject):
+    """One at a time, in a process of its own.
+
+    Signals
+    -------
+    changed
+        Another diagnosis is to be shown, or work began or ended.
+    progressed
+        What is being worked at, and the fraction of it that is done.
+    failed
+        One line.
+    """
+
+    changed = Signal()
+    progressed = Signal(str, float)
+    failed = Signal(str)
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.found: Shown | None = None
+        self._searched: dict[Path, Facts] = {}
+        """The last whole search of each file made here."""
+        self._asked: Asked | None = None
+        self._command: Command | None = None
+
+    @property
+    def running(self) -> bool:
+        """Whether one is being made."""
+        return self._command is not None
+
+    def shown(self, picture: Picture | None) -> Shown | None:
+        """What pages show: the one made here, else the session's own; None where there is neither."""
+        if self.found is not None:
+            return self.found
+        own = picture.contents.diagnosis if picture is not None else None
+        return (
+            Shown(own.facts_json, "recorded with the session") if own is not None and own.facts_json else None
+        )
+
+    def ranking(self, picture: Picture | None) -> Facts | None:
+        """The last whole search of what is shown: an effect fitted by hand has no others beside it."""
+        shown = self.shown(picture)
+        if shown is None or shown.asked is None:
+            return shown.facts if shown is not None else None
+        own = picture.contents.diagnosis if picture is not None and shown.asked.specimen is None else None
+        recorded = own.facts_json if own is not None else {}
+        return self._searched.get(shown.asked.data) or recorded or shown.facts
+
+    def start(self, asked: Asked) -> None:
+        """Make it; whatever was being made is let go of."""
+        self._drop()
+        self._asked = asked
+        self._command = Command(asked.arguments, self)
+        self._command.done.connect(self._done)
+        self._command.failed.connect(self._failed)
+        self._command.progressed.connect(self.progressed)
+        self._command.start()
+        self.changed.emit()
+
+    def cancel(self) -> None:
+        """What is being made is not wanted; what is shown stays."""
+        if self._command is not None:
+            self._drop()
+            self.changed.emit()
+
+    def forget(self) -> None:
+        """Back to what is recorded."""
+        self._drop()
+        self.found = None
+        self._searched.clear()
+        self.changed.emit()
+
+    def close(self) -> None:
+        """Let go of everything."""
+        self._drop()
+
+    def _done(self, facts: Facts) -> None:
+        assert self._asked is not None
+        self._let_go()
+        self.found = Shown(facts, _origin(self._asked), self._asked)
+        if self._asked.accept is None:
+            self._searched[self._asked.data] = facts
+        self.changed.emit()
+
+    def _failed(self, message: str) -> None:
+        self._let_go()
+        self.changed.emit()
+        self.failed.emit(message)
+
+    def _drop(self) -> None:
+        command = self._let_go()
+        if command is not None:
+            command.close()
+
+    def _let_go(self) -> Command | None:
+        command, self._command = self._command, None
+        if command is not None:
+            command.disconnect(self)
+            command.deleteLater()
+        return command
+
+
+def _origin(asked: Asked) -> str:
+    if not asked.by_hand:
+        return f"made here of {asked.data.name}, not recorded"
+    return "by hand, not recorded" if asked.specimen is None else f"{asked.data.name}: by hand, not recorded"
+
+
+def effects_of(names: Sequence[str]) -> tuple[str, ...]:
+    """Single effects of candidates' names: a pair is two."""
+    return tuple(dict.fromkeys(one for name in names for one in name.split(" + ") if one != "none"))

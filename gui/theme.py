@@ -1,0 +1,137 @@
+"""Colours and type size of the whole window; the only file that knows a colour.
+
+The colours of data are those of Okabe and Ito, told apart with any colour vision. No meaning is carried by
+colour alone: a page that colours by quality also changes the symbol.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from PySide6.QtCore import QObject, Qt
+from PySide6.QtGui import QColor, QGuiApplication, QPalette
+from PySide6.QtWidgets import QApplication
+
+Mode = Literal["system", "light", "dark"]
+Role = Literal[
+    "data", "model", "second", "third", "fourth", "good", "fair", "bad", "text", "faint", "grid", "base"
+]  # fmt: skip
+SCALES = (0.8, 0.9, 1.0, 1.15, 1.3, 1.5, 1.75, 2.0)
+"""Type sizes to choose from."""
+
+
+@dataclass(frozen=True)
+class Theme:
+    """One set of colours, `#rrggbb`."""
+
+    window: str
+    base: str
+    """Of plots, lists and fields."""
+    button: str
+    text: str
+    faint: str
+    grid: str
+    accent: str
+    data: str
+    model: str
+    second: str
+    third: str
+    fourth: str
+    good: str
+    fair: str
+    bad: str
+    stop: str
+    stop_text: str
+    note: str
+    """Behind a message."""
+
+    def color(self, role: Role, alpha: float = 1.0) -> QColor:
+        """Of a role, `alpha` 0 (not seen) to 1."""
+        color = QColor(getattr(self, role))
+        color.setAlphaF(alpha)
+        return color
+
+    def palette(self) -> QPalette:
+        """Of every widget."""
+        roles = QPalette.ColorRole
+        palette = QPalette()
+        for role, color in {
+            roles.Window: self.window,
+            roles.WindowText: self.text,
+            roles.Base: self.base,
+            roles.AlternateBase: self.window,
+            roles.Text: self.text,
+            roles.PlaceholderText: self.faint,
+            roles.Button: self.button,
+            roles.ButtonText: self.text,
+            roles.ToolTipBase: self.note,
+            roles.ToolTipText: self.text,
+            roles.Highlight: self.accent,
+            roles.HighlightedText: "#ffffff",
+            roles.Light: self.button,
+            roles.Midlight: self.button,
+            roles.Mid: self.grid,
+            roles.Dark: self.grid,
+            roles.Shadow: self.grid,
+            roles.Link: self.accent,
+            roles.Accent: self.accent,
+        }.items():
+            palette.setColor(role, QColor(color))
+        for role in (roles.WindowText, roles.Text, roles.ButtonText):
+            palette.setColor(QPalette.ColorGroup.Disabled, role, QColor(self.faint))
+        return palette
+
+
+LIGHT = Theme(
+    window="#f2f3f5", base="#ffffff", button="#e6e8eb", text="#1b1d21", faint="#6a7079", grid="#c9cdd3",
+    accent="#0067a3", data="#0072b2", model="#c24d00", second="#00805c", third="#a5497f", fourth="#8a6a00",
+    good="#00805c", fair="#c77700", bad="#b3261e", stop="#b00c12", stop_text="#ffffff", note="#fff3cd",
+)  # fmt: skip
+DARK = Theme(
+    window="#202327", base="#17191c", button="#2e3238", text="#e6e8eb", faint="#8f969f", grid="#3a3f46",
+    accent="#2f8fd0", data="#56b4e9", model="#f0a13c", second="#3cc79d", third="#e39ac5", fourth="#e0d34a",
+    good="#3cc79d", fair="#f0b429", bad="#ff6f61", stop="#a80d12", stop_text="#ffffff", note="#4a4020",
+)  # fmt: skip
+
+
+def current_theme() -> Theme:
+    """The one the window is shown in. Ask again on `QEvent.Type.PaletteChange`."""
+    window = QGuiApplication.palette().color(QPalette.ColorRole.Window)
+    return DARK if window.lightness() < 128 else LIGHT
+
+
+class Appearance(QObject):
+    """Light, dark or as the system has it; and the size of type."""
+
+    def __init__(self, application: QApplication, mode: Mode = "system", scale: float = 1.0) -> None:
+        super().__init__(application)
+        self._application = application
+        application.setStyle("Fusion")
+        self._points = application.font().pointSizeF()
+        self.mode: Mode = mode
+        self.scale = scale
+        application.styleHints().colorSchemeChanged.connect(self._system_changed)
+        self.choose(mode)
+        self.resize(scale)
+
+    def choose(self, mode: Mode) -> None:
+        """Show everything in this mode."""
+        self.mode = mode
+        schemes = {"light": Qt.ColorScheme.Light, "dark": Qt.ColorScheme.Dark}
+        # Frames and file dialogs of the system follow this; not every system listens.
+        self._application.styleHints().setColorScheme(schemes.get(mode, Qt.ColorScheme.Unknown))
+        self._show()
+
+    def resize(self, scale: float) -> None:
+        """Type so many times its usual size."""
+        self.scale = scale
+        font = self._application.font()
+        font.setPointSizeF(self._points * scale)
+        self._application.setFont(font)
+
+    def _system_changed(self) -> None:
+        self._show()
+
+    def _show(self) -> None:
+        system = self._application.styleHints().colorScheme() == Qt.ColorScheme.Dark
+        dark = self.mode == "dark" or (self.mode == "system" and system)
+        self._application.setPalette((DARK if dark else LIGHT).palette())

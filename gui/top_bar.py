@@ -1,0 +1,149 @@
+"""Always seen: how the run stands, what comes next, how near the limits are; and the stop button."""
+
+from math import pi
+
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtWidgets import (
+    QFrame,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QProgressBar,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
+
+from gui.desk import Desk
+from gui.gauge import Gauge
+from gui.picture import Picture
+from gui.picture.run import WORDS
+from gui.stop_button import StopButton
+from gui.theme import Role, current_theme
+from gui.widgets import button
+from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2
+
+_PERMILLE = 1000
+_COLORS: dict[str, Role] = {"held": "fair", "stopped": "bad", "done": "good", "idle": "faint"}
+
+
+class TopBar(QFrame):
+    """Reads the picture, acts on the desk."""
+
+    def __init__(self, desk: Desk, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._desk = desk
+        self.state, self.next, self.left = QLabel(), QLabel(), QLabel()
+        self.next.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.next.setTextFormat(Qt.TextFormat.PlainText)
+        self.progress = QProgressBar()
+        self.progress.setTextVisible(False)
+        self.progress.setFixedWidth(160)
+        self.level = QLabel()
+        self.gauges = {name: Gauge(name) for name in ("drive", "base", "velocity", "travel")}
+        self.hold = button("Hold", "Silence the shaker and wait (F9)")
+        self.abort = button("Abort", "End the run in order; what is complete is kept")
+        self.stop = StopButton()
+        self.hold.clicked.connect(desk.hold)
+        self.abort.clicked.connect(desk.abort)
+        self.stop.clicked.connect(desk.stop)
+        self._arrange()
+        self._size()
+        self.show_picture(None)
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Room for words follows the size of type."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange and hasattr(self, "gauges"):
+            self._size()
+
+    def show_picture(self, picture: Picture | None) -> None:
+        """How things stand now."""
+        running = self._desk.running
+        for one in (self.hold, self.abort, self.stop):
+            one.setEnabled(running)
+        if picture is None:
+            self._say("idle", "no session")
+            self.left.clear()
+            self.level.clear()
+            self.progress.setValue(0)
+            for gauge in self.gauges.values():
+                gauge.show_value(None)
+            return
+        run = picture.run
+        self.hold.setText("Resume" if run.state == "held" else "Hold")
+        self._say(run.state, run.next_words)
+        self._show_progress(picture)
+        self._show_gauges(picture)
+
+    def _size(self) -> None:
+        """Words that change must not move what stands beside them."""
+        for label, longest in (
+            (self.state, "hammer test  "),
+            (self.left, "59:59 min left"),
+            (self.level, "level 0.123 g"),
+        ):
+            label.setFixedWidth(self.fontMetrics().horizontalAdvance(longest) * 6 // 5)
+
+    def _say(self, state: str, words: str) -> None:
+        color = current_theme().color(_COLORS.get(state, "data")).name()
+        self.state.setText(f"<b style='color:{color}'>\u25cf {WORDS[state]}</b>")  # type: ignore[index]
+        self.next.setText(words)
+        self.next.setToolTip(words)
+
+    def _show_progress(self, picture: Picture) -> None:
+        work = picture.run.work
+        fraction = work[1] if work is not None else picture.plan.progress
+        self.progress.setMaximum(_PERMILLE if fraction is not None else 0)
+        self.progress.setValue(round(_PERMILLE * (fraction or 0.0)))
+        left = self._desk.feed.left_s if self._desk.feed is not None else None
+        self.left.setText("" if left is None or picture.run.over else f"{duration(left)} left")
+
+    def _show_gauges(self, picture: Picture) -> None:
+        step, limits = picture.step, picture.limits.limits
+        if step is None or picture.run.over:
+            self.level.clear()
+            for gauge in self.gauges.values():
+                gauge.show_value(None)
+            return
+        level = step.began.level_m_s2
+        self.level.setText(
+            f"level {level / STANDARD_GRAVITY_M_S2:.3g} g" if level is not None else "level \u2013"
+        )
+        base, velocity = step.peaks()
+        travel = base / (2 * pi * step.began.frequency_hz) ** 2
+        self.gauges["drive"].show_value(step.drive_v, limits.drive_v, "V")
+        self.gauges["base"].show_value(base, limits.base_m_s2, "m/s\u00b2")
+        self.gauges["velocity"].show_value(1e3 * velocity, 1e3 * limits.velocity_m_s, "mm/s")
+        self.gauges["travel"].show_value(1e3 * travel, 1e3 * limits.travel_m, "mm")
+
+    def _arrange(self) -> None:
+        above, below = QHBoxLayout(), QHBoxLayout()
+        above.addWidget(self.state)
+        above.addWidget(self.next, 1)
+        above.addWidget(self.progress)
+        above.addWidget(self.left)
+        below.addWidget(self.level)
+        for gauge in self.gauges.values():
+            below.addWidget(gauge, 1)
+        rows = QVBoxLayout()
+        rows.addLayout(above)
+        rows.addLayout(below)
+        buttons = QGridLayout()
+        buttons.addWidget(self.hold, 0, 0)
+        buttons.addWidget(self.abort, 1, 0)
+        buttons.addWidget(self.stop, 0, 1, 2, 1)
+        whole = QHBoxLayout(self)
+        whole.setContentsMargins(8, 4, 8, 4)
+        whole.addLayout(rows, 1)
+        whole.addLayout(buttons)
+
+
+def duration(seconds: float) -> str:
+    """For people: 45 s, 3:20 min, 1:02 h."""
+    whole = max(0, round(seconds))
+    if whole < 60:
+        return f"{whole} s"
+    if whole < 3600:
+        return f"{whole // 60}:{whole % 60:02d} min"
+    return f"{whole // 3600}:{whole % 3600 // 60:02d} h"

@@ -1,0 +1,181 @@
+"""The main window: bar, pages, log, replay; menus and keys. It shows and passes on, and decides nothing."""
+
+from pathlib import Path
+from time import monotonic
+
+from PySide6.QtCore import Qt, QTimer
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence, QShortcut
+from PySide6.QtWidgets import QMainWindow, QMessageBox, QTabWidget, QVBoxLayout, QWidget
+
+from gui.desk import Desk
+from gui.log_pane import LogPane
+from gui.menus import Menus
+from gui.notice import Notice
+from gui.page import Page
+from gui.pages import PAGES
+from gui.replay_bar import ReplayBar
+from gui.settings import Settings
+from gui.theme import Appearance
+from gui.top_bar import TopBar
+from gui.work import Command, Work
+
+TURN_MS = 33
+"""Between two looks at what has come: 30 a second."""
+_TWICE_S = 1.0
+"""Two presses of Esc within this time are meant."""
+
+
+class Window(QMainWindow):
+    """One window, one session."""
+
+    def __init__(self, appearance: Appearance, settings: Settings) -> None:
+        super().__init__()
+        self.appearance, self.settings = appearance, settings
+        self.setWindowTitle("viscorig")
+        self.setAcceptDrops(True)
+        self.desk = Desk(self)
+        self.bar, self.notice = TopBar(self.desk), Notice()
+        self.tabs = QTabWidget()
+        self.tabs.setDocumentMode(True)
+        self.pages: tuple[Page, ...] = tuple(kind(self.desk) for kind in PAGES)
+        self.replay = ReplayBar()
+        self.log = LogPane()
+        self._escaped_s = -_TWICE_S
+        self._closing = False
+        self._arrange()
+        self.menus = Menus(self)
+        self._shortcuts()
+        self.desk.changed.connect(self._changed)
+        self.desk.refused.connect(self.notice.refuse)
+        self.desk.said.connect(self.notice.say)
+        self.desk.busy.connect(self._busy)
+        self.desk.experiment_chosen.connect(self._chosen)
+        self._timer = QTimer(self)
+        self._timer.setInterval(TURN_MS)
+        self._timer.timeout.connect(self.turn)
+        self._timer.start()
+        settings.restore(self)
+
+    def turn(self) -> None:
+        """Take what has come and show it."""
+        self.desk.advance()
+        picture = self.desk.picture
+        self.bar.show_picture(picture)
+        self.log.show_picture(picture)
+        for page in self.pages:
+            page.show_picture(picture)
+        if self._closing and not self.desk.running:
+            self.close()
+
+    def open(self, path: Path) -> None:
+        """A session, an experiment, or other data; returns at once."""
+        self.desk.open(path)
+
+    def show_page(self, number: int) -> None:
+        """Counted from 0."""
+        self.tabs.setCurrentIndex(number)
+
+    # What Qt tells
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:
+        """Files may be dropped anywhere."""
+        if event.mimeData().hasUrls():
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:
+        """Open what was dropped."""
+        event.acceptProposedAction()
+        for url in event.mimeData().urls():
+            if url.isLocalFile():
+                self.open(Path(url.toLocalFile()))
+            else:
+                self.notice.refuse(f"{url.toString()}: not a file of this computer")
+
+    def closeEvent(self, event: QCloseEvent) -> None:
+        """A run is not ended without asking."""
+        if self.desk.running:
+            # It closes by itself once the run has ended.
+            event.ignore()
+            if not self._closing and self._really():
+                self._closing = True
+                self.desk.stop()
+            return
+        self._timer.stop()
+        self.settings.keep(self)
+        for work in self.findChildren(Work):
+            work.close()
+        for command in self.findChildren(Command):
+            command.close()
+        self.desk.close()
+        super().closeEvent(event)
+
+    # Inside
+
+    def _arrange(self) -> None:
+        for number, page in enumerate(self.pages, start=1):
+            index = self.tabs.addTab(page, page.title)
+            self.tabs.setTabToolTip(index, f"{page.hint} (Ctrl+{number})")
+        whole = QWidget()
+        column = QVBoxLayout(whole)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(self.bar)
+        column.addWidget(self.notice)
+        column.addWidget(self.tabs, 1)
+        column.addWidget(self.replay)
+        self.setCentralWidget(whole)
+        self.addDockWidget(Qt.DockWidgetArea.BottomDockWidgetArea, self.log)
+        self.resize(1280, 700)
+        self.resizeDocks([self.log], [110], Qt.Orientation.Vertical)
+
+    def _shortcuts(self) -> None:
+        for keys, slot in (
+            ("F12", self.desk.stop),
+            ("Esc", self._escape),
+            ("F9", self.desk.hold),
+            ("Ctrl+F9", self.desk.abort),
+            ("Ctrl+Return", self.desk.answer),
+            ("Ctrl+Space", self.replay.toggle),
+            ("Ctrl+Left", self.replay.to_mark_before),
+            ("Ctrl+Right", self.replay.to_next_mark),
+        ):
+            shortcut = QShortcut(QKeySequence(keys), self)
+            shortcut.setContext(Qt.ShortcutContext.ApplicationShortcut)
+            shortcut.activated.connect(slot)
+
+    def _escape(self) -> None:
+        """Once closes the message, twice stops the shaker."""
+        now = monotonic()
+        twice, self._escaped_s = now - self._escaped_s < _TWICE_S, now
+        if twice and self.desk.running:
+            self.desk.stop()
+        elif self.desk.running:
+            self.notice.say("Esc once more stops the shaker")
+        else:
+            self.notice.hide()
+
+    def _chosen(self, path: Path) -> None:
+        """The first page shows experiments."""
+        self.settings.remember(path)
+        self.menus.refresh()
+        self.show_page(0)
+
+    def _changed(self) -> None:
+        recorded = self.desk.recorded
+        self.replay.show_feed(recorded)
+        if recorded is not None:
+            self.settings.remember(recorded.path)
+            self.notice.hide()
+        self.setWindowTitle(f"{recorded.path.name} - viscorig" if recorded is not None else "viscorig")
+        self.menus.refresh()
+        self.turn()
+
+    def _busy(self, name: str) -> None:
+        self.statusBar().setVisible(bool(name))
+        self.statusBar().showMessage(f"reading {name} ..." if name else "")
+
+    def _really(self) -> bool:
+        said = QMessageBox.question(
+            self, "A run goes on", "Stop the shaker, end the run and close? What is complete is kept."
+        )
+        return said == QMessageBox.StandardButton.Yes

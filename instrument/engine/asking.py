@@ -1,0 +1,125 @@
+"""The operator at the other end of the pipe: asked there, answers from there."""
+
+import threading
+from collections.abc import Callable
+
+from instrument.engine.messages import Answered, Asked, Decided, Message
+from instrument.operator import Operator
+from instrument.stream.raw import OperatorDid
+
+
+class RemoteOperator:
+    """`Operator` by messages. `answer` is called on the thread that reads them.
+
+    Parameters
+    ----------
+    put
+        Sends a message.
+    ask_content
+        Whether enough hits wait for the word that they may be used; else they are used at once.
+    """
+
+    def __init__(self, put: Callable[[Message], None], ask_content: bool) -> None:
+        self._put, self._ask_content = put, ask_content
+        self._changed = threading.Condition()
+        self._answers: set[str] = set()
+        self._decisions: list[OperatorDid] = []
+        self._content_asked = False
+
+    def answer(self, message: Answered | Decided) -> None:
+        """What came from the client; an answer that nothing was asked for is forgotten when something is."""
+        with self._changed:
+            if isinstance(message, Decided):
+                self._decisions.append(OperatorDid(message.what, "", message.hit))
+            else:
+                self._answers.add(message.what)
+            self._changed.notify_all()
+
+    def mount(self, plate: str) -> OperatorDid:
+        """Ask, and wait for the answer."""
+        self._ask(Asked("mount", plate), "mounted")
+        return OperatorDid("mounted", plate)
+
+    def aim(self, point: str) -> OperatorDid:
+        """Ask, and wait for the answer."""
+        self._ask(Asked("aim", point), "aimed")
+        return OperatorDid("aimed", point)
+
+    def hit(self, good: int, wanted: int) -> None:
+        """Ask for a blow."""
+        self.forget_content()
+        self._put(Asked("hit", good=good, wanted=wanted))
+
+    def decided(self) -> list[OperatorDid]:
+        """What has come since the last time."""
+        with self._changed:
+            found, self._decisions = self._decisions, []
+            return found
+
+    def content(self, good: int) -> bool:
+        """Ask once; whether the answer has come."""
+        if not self._ask_content:
+            return True
+        with self._changed:
+            if not self._content_asked and "content" not in self._answers:
+                self._put(Asked("content", good=good))
+            self._content_asked = True
+            return "content" in self._answers
+
+    def forget_content(self) -> None:
+        """Another hit is wanted: what was said of those before does not hold for it."""
+        with self._changed:
+            self._answers.discard("content")
+            self._content_asked = False
+
+    def wait(self) -> None:
+        """Until there is a decision about a hit, or the hits may be used."""
+        with self._changed:
+            self._changed.wait_for(lambda: self._decisions or "content" in self._answers)
+
+    def _ask(self, question: Asked, answer: str) -> None:
+        with self._changed:
+            self._answers.discard(answer)
+            self._put(question)
+            self._changed.wait_for(lambda: answer in self._answers)
+
+
+class HelpedOperator:
+    """`Operator` of a simulated rig: it acts by itself, the client decides about hits.
+
+    Parameters
+    ----------
+    acting
+        Mounts, aims and strikes.
+    deciding
+        Is asked about the hits.
+    in_virtual_time
+        Then time stands still while the client makes up its mind.
+    """
+
+    def __init__(self, acting: Operator, deciding: RemoteOperator, *, in_virtual_time: bool) -> None:
+        self._acting, self._deciding, self._in_virtual_time = acting, deciding, in_virtual_time
+
+    def mount(self, plate: str) -> OperatorDid:
+        """The rig does it."""
+        return self._acting.mount(plate)
+
+    def aim(self, point: str) -> OperatorDid:
+        """The rig does it."""
+        return self._acting.aim(point)
+
+    def hit(self, good: int, wanted: int) -> None:
+        """The rig strikes."""
+        self._deciding.forget_content()
+        self._acting.hit(good, wanted)
+
+    def decided(self) -> list[OperatorDid]:
+        """What the client has decided since the last time."""
+        return self._deciding.decided()
+
+    def content(self, good: int) -> bool:
+        """Whether the client is. In virtual time this waits: samples nobody needs would come in masses."""
+        content = self._deciding.content(good)
+        if not content and self._in_virtual_time:
+            self._deciding.wait()
+        return self._deciding.content(good)

@@ -1,0 +1,57 @@
+"""Ends what the main thread is doing, from another thread: as Ctrl-C does, even in a wait for a device."""
+
+import _thread
+import signal
+import threading
+from types import FrameType
+
+from instrument.errors import RigStopped
+
+
+class Interruption:
+    """Raises in the main thread, once, while it is inside this context; what was asked before, on entering.
+
+    A second one would break off the cleaning up after the first.
+    """
+
+    def __init__(self) -> None:
+        self._guard = threading.Lock()
+        self._error: BaseException | None = None
+
+    @property
+    def asked(self) -> bool:
+        """Whether somebody has asked for the end."""
+        return self._error is not None
+
+    def ask(self, error: BaseException) -> None:
+        """Raise this in the main thread. The first one counts."""
+        with self._guard:
+            if self._error is not None:
+                return
+            self._error = error
+        if hasattr(signal, "pthread_kill"):
+            signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
+        else:
+            _thread.interrupt_main()
+
+    def __enter__(self) -> "Interruption":
+        signal.signal(signal.SIGTERM, self._terminated)
+        signal.signal(signal.SIGINT, self._raise)
+        if self._error is not None:
+            self._raise()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._ignore()
+
+    def _terminated(self, *_: object) -> None:
+        self._error = self._error or RigStopped("terminated")
+        self._raise()
+
+    def _raise(self, _: int = 0, __: FrameType | None = None) -> None:
+        self._ignore()
+        raise self._error or KeyboardInterrupt
+
+    def _ignore(self) -> None:
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)

@@ -1,0 +1,195 @@
+"""What goes over the pipe between the engine and its client. Frozen, plain; every kind is in this file."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import ClassVar, Literal
+
+from instrument.experiment_run import Part
+from instrument.files.rig_file import Shaker
+from instrument.stream.event import Event
+
+Why = Literal["done", "bad input", "stopped safely", "stopped by the user", "died"]
+"""A run ended. "died": the engine's process ended without a word, or was ended because it did not answer."""
+
+
+@dataclass(frozen=True)
+class Message:
+    """Something said by one side to the other."""
+
+    known: ClassVar[dict[str, type["Message"]]] = {}
+    """Every kind of message by its name."""
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        Message.known[cls.__name__] = cls
+
+
+# To the engine
+
+
+@dataclass(frozen=True)
+class Order(Message):
+    """What to run: the first message, and once. Its fields are those of `viscorig run`."""
+
+    experiment: Path
+    out: Path
+    """Folder of the session."""
+    parts: tuple[Part, ...] = ("hammer", "sweep")
+    resume: Path | None = None
+    """Folder of a run that was broken off."""
+    ask_content: bool = False
+    """Whether the hammer test, once it has its hits, waits for `Answered("content")`."""
+
+
+@dataclass(frozen=True)
+class HoldWanted(Message):
+    """Silence the shaker and wait."""
+
+
+@dataclass(frozen=True)
+class ResumeWanted(Message):
+    """Go on after a hold."""
+
+
+@dataclass(frozen=True)
+class AbortWanted(Message):
+    """End the run, as Ctrl-C does on a terminal. What is complete is kept."""
+
+
+@dataclass(frozen=True)
+class StopWanted(Message):
+    """Silence the shaker at once, past whatever the run is doing, and end the run."""
+
+
+@dataclass(frozen=True)
+class Answered(Message):
+    """The operator has mounted or aimed what was asked for, or is content with the hits."""
+
+    what: Literal["mounted", "aimed", "content"]
+
+
+@dataclass(frozen=True)
+class Decided(Message):
+    """The operator's word about a hit."""
+
+    what: Literal["accepted", "rejected", "undone"]
+    hit: int = 0
+    """Counts from 1; 0 is the last one."""
+
+
+# From the engine
+
+
+@dataclass(frozen=True)
+class Happened(Message):
+    """An event of the one stream, at once; it may not be on the disk yet.
+
+    Blocks carry their samples. A run that is carried on tells what it has from before first, without samples.
+    """
+
+    event: Event
+
+
+@dataclass(frozen=True)
+class BlocksDropped(Message):
+    """So many blocks are missing here: the reader was too slow. The session on the disk has them."""
+
+    count: int
+
+
+@dataclass(frozen=True)
+class Progressed(Message):
+    """Long work goes on."""
+
+    what: str
+    fraction: float
+    """Done, 0 to 1."""
+    ended: bool = False
+
+
+@dataclass(frozen=True)
+class Asked(Message):
+    """The operator is asked for something.
+
+    "mount" and "aim" wait for `Answered`. "hit" waits for a blow; "content" for `Answered("content")` or for
+    a decision about a hit.
+    """
+
+    what: Literal["mount", "aim", "hit", "content"]
+    detail: str = ""
+    """The plate ("bare", "damped") or the point ("base", "pickup")."""
+    good: int = 0
+    """Good hits so far."""
+    wanted: int = 0
+    """Good hits wanted; 0 where it does not matter."""
+
+
+@dataclass(frozen=True)
+class Logged(Message):
+    """A line of the log."""
+
+    utc: str
+    level: str
+    """As `logging` names it: INFO, WARNING, ERROR."""
+    text: str
+
+
+@dataclass(frozen=True)
+class RecordingBegan(Message):
+    """The run is being recorded."""
+
+    folder: Path
+    """Until its end; then what there is to resume or recover from."""
+    session: Path
+    """What the folder becomes."""
+
+
+@dataclass(frozen=True)
+class RigOpened(Message):
+    """All devices answer. From here on the shaker can be driven."""
+
+    shaker: Shaker
+    """Where it answers, also that of a rig simulated for the run."""
+
+
+@dataclass(frozen=True)
+class RigClosed(Message):
+    """The shaker is silent, the devices are being let go of; a diagnosis may follow."""
+
+
+@dataclass(frozen=True)
+class Silenced(Message):
+    """The engine's own answer to `StopWanted` and `AbortWanted`: the shaker is at rest."""
+
+
+@dataclass(frozen=True)
+class Ended(Message):
+    """The run is over: always the last message, once."""
+
+    why: Why
+    message: str = ""
+    """One line for people; empty where it is done."""
+    session: Path | None = None
+    """The session file; of a run that ended early with what is complete. None where there is none."""
+    folder: Path | None = None
+    """To resume or recover from; None where the session is whole or nothing was measured."""
+
+
+# From the client's own side, in the same list
+
+
+@dataclass(frozen=True)
+class StopPathChanged(Message):
+    """Whether the client's own connection to the shaker stands: the stop button's way past the engine."""
+
+    ready: bool
+    message: str = ""
+    """Why not, in one line; what stops the shaker then."""
+
+
+def ended(why: Why, message: str, recorded: RecordingBegan | None) -> Ended:
+    """The end of a run that was recorded there, if it was: with what is to be found on the disk."""
+    if recorded is None:
+        return Ended(why, message)
+    session = recorded.session if recorded.session.is_file() else None
+    return Ended(why, message, session, recorded.folder if recorded.folder.is_dir() else None)

@@ -1,0 +1,72 @@
+"""The client's own way to the shaker, past the engine: a second connection, kept ready.
+
+A Modbus TCP device takes several; a serial line has room for one program, so there the way opens only when
+the engine's process has ended. Until then the engine itself stops the shaker when it is told to.
+"""
+
+import threading
+from collections.abc import Callable
+
+from drivers.errors import DriverError
+from instrument.engine.messages import StopPathChanged
+from instrument.engine.stoppable import came_to_rest
+from instrument.files.rig_file import Shaker
+from instrument.rig import open_shaker
+
+_TRIED_EVERY_S = 1.0
+"""Devices close connections that are idle."""
+_ANSWER_S, _RETRIES = 0.5, 2
+"""A stop that waits longer for one answer had better begin again."""
+_SERIAL = (
+    "serial line: the engine itself stops the shaker; where it does not answer, its process is ended first"
+)
+
+
+class StopPath:
+    """To one shaker.
+
+    Parameters
+    ----------
+    table
+        Where it answers.
+    changed
+        Told when the connection stands, and when it does not any more; on a thread of its own.
+    """
+
+    def __init__(self, table: Shaker, changed: Callable[[StopPathChanged], object]) -> None:
+        self._shaker = open_shaker(table, timeout_s=_ANSWER_S, retries=_RETRIES)
+        self.is_shared = table.kind == "modbus-tcp"
+        """Whether it works beside the engine."""
+        self._changed = changed
+        self._closing = threading.Event()
+        self._thread = threading.Thread(target=self._keep_ready, name="stop path", daemon=True)
+        self._thread.start()
+
+    def silence(self) -> str:
+        """Stop the shaker and wait until it is at rest; what went wrong, empty where nothing did."""
+        return came_to_rest(self._shaker)
+
+    def close(self) -> None:
+        """Let go of the connection."""
+        self._closing.set()
+        self._thread.join()
+        self._shaker.close()
+
+    def _keep_ready(self) -> None:
+        if not self.is_shared:
+            self._changed(StopPathChanged(False, _SERIAL))
+            return
+        told: StopPathChanged | None = None
+        while not self._closing.is_set():
+            now = self._try()
+            if now != told and not self._closing.is_set():
+                self._changed(now)
+                told = now
+            self._closing.wait(_TRIED_EVERY_S)
+
+    def _try(self) -> StopPathChanged:
+        try:
+            self._shaker.status()
+        except DriverError as error:
+            return StopPathChanged(False, " ".join(str(error).split()))
+        return StopPathChanged(True)

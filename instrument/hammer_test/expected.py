@@ -1,0 +1,23 @@
+"""Where the specimen file puts the bare plate's modes, before anything is measured."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.bare_modes import Sensor, bare_modes
+from fitting.plate import Plate
+from fitting.specimen import Specimen
+
+Array = NDArray[np.float64]
+
+_COUNT = 12
+
+
+def expected_modes_hz(specimen: Specimen, sensor: Sensor | None, below_hz: float) -> Array:
+    """Natural frequencies of the bare plate as stated, the sensor on it; the first twelve at most.
+
+    In vacuum, in an ideal clamp: a real one lowers them by up to a percent.
+    """
+    plate = Plate(specimen.bare)
+    modes, edge = bare_modes(plate, _COUNT, sensor)
+    f = modes.omega * (1 - edge) / (2 * np.pi)
+    return np.asarray(f[f < below_hz])

@@ -1,0 +1,60 @@
+"""The window without a screen, its settings in a folder of the test, and a small session."""
+
+import os
+
+os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+
+import pytest
+from PySide6.QtCore import QEvent, QSettings
+from session_cases import whole_session
+
+from gui.garbage import Collector
+from gui.settings import Settings
+from gui.theme import Appearance
+from gui.window import Window
+
+
+@pytest.fixture(scope="session")
+def session_path(tmp_path_factory, cache_of_this_run):
+    """Hammer test, calibration, three segments, a fit."""
+    return whole_session(tmp_path_factory.mktemp("session"))
+
+
+@pytest.fixture(autouse=True)
+def rubbish_dies_in_the_main_thread(qapp):
+    collector = Collector()
+    yield
+    qapp.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+    collector.stop()
+
+
+@pytest.fixture
+def settings(tmp_path):
+    QSettings.setPath(QSettings.Format.IniFormat, QSettings.Scope.UserScope, str(tmp_path / "settings"))
+    return Settings()
+
+
+@pytest.fixture
+def appearance(qapp):
+    return Appearance(qapp, "light")
+
+
+@pytest.fixture
+def window(qtbot, appearance, settings):
+    window = Window(appearance, settings)
+    qtbot.addWidget(window)
+    window.show()
+    qtbot.waitExposed(window)
+    yield window
+    if window.desk.live is not None:
+        # A test that failed in the middle of a run: nobody is asked whether to end it.
+        window.desk.live.engine.close()
+        window.desk.live.advance()
+
+
+@pytest.fixture
+def opened(qtbot, window, session_path):
+    """The window with the session in it, at its end."""
+    window.open(session_path)
+    qtbot.waitUntil(lambda: window.desk.recorded is not None, timeout=10_000)
+    return window

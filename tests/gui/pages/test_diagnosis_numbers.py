@@ -1,0 +1,84 @@
+import numpy as np
+import pytest
+from diagnosis_cases import AFTER, BEFORE, facts
+
+from fitting.effects import CATALOGUE
+from gui.pages.diagnosis.ranking import Decisions, about, group_words, ranked
+from gui.pages.diagnosis.residual import limits, panel, quantities, segments
+from gui.pages.diagnosis.stages import compared
+
+
+def standing(diagnosis):
+    return {row.name: row.standing for row in ranked(diagnosis)}
+
+
+def test_candidates_stand_as_the_verdict_says():
+    found = standing(facts(verdict="ambiguous"))
+    assert found["added_mass"] == "found"
+    assert found["spot_offset"] == "equal"
+    assert found["none"] == "none"
+    assert found["clamp_compliance"] == "not fitted"
+    assert set(CATALOGUE) <= set(found)
+    assert standing(facts())["spot_offset"] == "other"
+
+
+def test_a_group_is_named_whole():
+    assert "added_mass, spot_offset" in group_words(facts(verdict="ambiguous"))
+    assert group_words(facts()) == ""
+
+
+def test_evidence_is_what_is_gained_over_no_effect():
+    rows = {row.name: row for row in ranked(facts())}
+    assert rows["added_mass"].gain == pytest.approx(400.0)
+    assert rows["added_mass"].behind_words == "best"
+    assert rows["spot_offset"].behind_words == "+3.5"
+    assert rows["none"].gain == 0.0
+
+
+@pytest.mark.parametrize("name", [*CATALOGUE, "none"])
+def test_every_effect_is_explained(name):
+    assert len(about(name)) > 20
+
+
+def test_what_is_accepted_is_not_declined():
+    words = Decisions()
+    words.decline("added_mass")
+    assert (words.accept_argument, words.declined) == (None, ("added_mass",))
+    words.accept("added_mass + spot_offset")
+    assert (words.accept_argument, words.declined) == (("added_mass", "spot_offset"), ())
+    words.accept("none")
+    assert words.accept_argument == ()
+    assert words.of("none") == "accepted"
+    words.accept("none")
+    assert not words.any
+
+
+def test_residuals_are_those_of_the_facts():
+    found = facts()
+    assert segments(found) == (1, 2, 3)
+    real, imaginary = panel(found, 1, "before", "both").series
+    assert real.values == pytest.approx(np.full(10, 100 * BEFORE.real))
+    assert imaginary.values == pytest.approx(np.full(10, 100 * BEFORE.imag))
+    assert panel(found, 1, "after", "real").series[0].values == pytest.approx(np.full(10, 100 * AFTER.real))
+    assert panel(found, 1, "before", "both").noise[0].height == pytest.approx(np.full(10, 0.2))
+
+
+def test_before_and_after_share_their_limits():
+    found = facts()
+    assert limits(found, 1, "both") == pytest.approx(100 * BEFORE.real)
+    assert limits(found, 1, "whitened") == panel(found, 1, "before", "whitened").highest
+
+
+def test_amplitudes_alone_have_no_parts():
+    found = facts(phase=False)
+    assert quantities(found) == ("amplitude", "whitened")
+    (series,) = panel(found, 2, "before", "whitened").series
+    assert series.name == "amplitude"
+
+
+def test_held_out_segments_come_first_beside_noise_alone():
+    rows = compared(facts())
+    assert [row.held_out for row in rows] == [True] * 3 + [False] * 3
+    assert rows[0].before == pytest.approx(100 * abs(BEFORE))
+    assert rows[0].noise == pytest.approx(0.1)
+    assert compared(facts(one_by_one=3.0))[0].after == 3.0

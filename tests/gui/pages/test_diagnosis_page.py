@@ -1,0 +1,210 @@
+import pytest
+from diagnosed_session import diagnosed_session
+from diagnosis_cases import facts
+from PySide6.QtCore import Qt
+
+from gui.pages.diagnosis import DiagnosisPage
+from gui.pages.material import MaterialPage
+from gui.rediagnosis import Asked
+
+LEFT = Qt.MouseButton.LeftButton
+AMBIGUOUS = facts(verdict="ambiguous")
+
+
+@pytest.fixture(scope="module")
+def diagnosed_path(tmp_path_factory, cache_of_this_run):
+    return diagnosed_session(tmp_path_factory.mktemp("diagnosed"), AMBIGUOUS)
+
+
+def page_of(window, kind):
+    (page,) = (p for p in window.pages if isinstance(p, kind))
+    return page
+
+
+def shown(qtbot, window, path):
+    """The page, of a session at its end."""
+    page = page_of(window, DiagnosisPage)
+    window.tabs.setCurrentWidget(page)
+    window.open(path)
+    qtbot.waitUntil(lambda: window.desk.recorded is not None, timeout=10_000)
+    window.turn()
+    return page
+
+
+@pytest.fixture
+def page(qtbot, window, diagnosed_path):
+    return shown(qtbot, window, diagnosed_path)
+
+
+def select(qtbot, page, name):
+    """Click on a candidate."""
+    table = page.candidates.table
+    index = table.model().index(table.texts(0).index(name), 0)
+    table.scrollTo(index)
+    qtbot.mouseClick(table.viewport(), LEFT, pos=table.visualRect(index).center())
+
+
+def test_the_verdict_is_what_was_recorded(page):
+    assert page.finding.verdict.said.startswith("Ambiguous: added_mass (mass 0.008 ± 0.0001 kg")
+    assert page.finding.origin.said == "recorded with the session"
+    assert page.finding.next.text.endswith(AMBIGUOUS["next_measurement"])
+    assert "a mass of 8 g" in page.story.toPlainText()
+    assert not page.empty.isVisible()
+
+
+def test_candidates_are_ranked_with_their_group(page):
+    table = page.candidates.table
+    assert table.texts(0)[:4] == ["added_mass", "spot_offset", "added_mass + spot_offset", "none"]
+    assert table.texts(1)[:2] == ["found", "not told from it"]
+    assert "added_mass, spot_offset" in page.candidates.groups.text()
+    assert [table.cell(k, 2).share for k in range(4)] == pytest.approx([1.0, 0.99125, 0.985, 0.0])
+
+
+def test_before_and_after_stand_on_the_same_axes(qtbot, page):
+    qtbot.waitUntil(lambda: page.residual.drawn)
+    for number in (1, 2, 3):
+        before, after = (page.residual.plots[number, stage] for stage in ("before", "after"))
+        assert before.viewRange()[1] == pytest.approx(after.viewRange()[1])
+        assert before.columns()[f"real part: Segment {number} (%)"] == pytest.approx(10.0)
+        assert {"noise 1"} < set(after.names)
+
+
+def test_quantity_and_segment_are_chosen_by_key(qtbot, page):
+    qtbot.keyClick(page.residual.quantity, Qt.Key.Key_End)
+    assert page.residual.quantity.currentText() == "whitened"
+    qtbot.keyClick(page.residual.segment, Qt.Key.Key_Down)
+    qtbot.waitUntil(lambda: page.residual.drawn)
+    assert [key for key, plot in page.residual.plots.items() if plot.isVisible()] == [
+        (1, "before"),
+        (1, "after"),
+    ]
+    assert page.residual.plots[1, "before"].y.unit == ""
+
+
+def test_the_error_is_shown_beside_noise(qtbot, page):
+    page.views.setCurrentWidget(page.held_out)
+    first = [page.held_out.table.cell(0, k).text for k in range(5)]
+    assert first == ["segment 1, predicted from the others", "% rms", "11.2", "0.224", "0.1"]
+
+
+def test_the_law_is_shown_before_and_after(page):
+    page.views.setCurrentWidget(page.law)
+    assert page.law.plots.names == ("before", "after: with added_mass")
+    assert page.law.table.texts(0) == ["20", "100", "280"]
+
+
+def test_an_effect_accepted_by_hand_is_fitted_and_the_material_follows(qtbot, window, page, diagnosed_path):
+    select(qtbot, page, "spot_offset")
+    qtbot.mouseClick(page.candidates.accept, LEFT)
+    assert "accepted by hand" in page.candidates.table.texts(1)
+    with qtbot.waitSignal(window.desk.rediagnosis.progressed, timeout=120_000):
+        qtbot.mouseClick(page.candidates.compute, LEFT)
+        assert page.cancel.isVisible()
+    qtbot.waitUntil(lambda: not window.desk.rediagnosis.running, timeout=120_000)
+    assert page.finding.verdict.said.startswith("By hand: spot_offset (dx ")
+    assert page.finding.origin.said == "● by hand, not recorded"
+    assert page.candidates.table.texts(0)[0] == "added_mass"
+    material = page_of(window, MaterialPage)
+    window.tabs.setCurrentWidget(material)
+    assert "diagnosis: with spot_offset, by hand" in material.plots.names
+    assert "not recorded" in material.origin.said
+    window.tabs.setCurrentWidget(page)
+    qtbot.mouseClick(page.back, LEFT)
+    assert page.finding.verdict.said.startswith("Ambiguous: added_mass")
+    assert not page.candidates.decisions.any
+    window.tabs.setCurrentWidget(material)
+    assert "diagnosis: with added_mass" in material.plots.names
+    assert material.origin.said == ""
+
+
+def test_no_effect_by_hand_is_not_called_noise(qtbot, window, page):
+    select(qtbot, page, "none")
+    qtbot.mouseClick(page.candidates.accept, LEFT)
+    qtbot.mouseClick(page.candidates.compute, LEFT)
+    qtbot.waitUntil(lambda: not window.desk.rediagnosis.running, timeout=120_000)
+    assert page.finding.verdict.said == "By hand: no effect accepted"
+    material = page_of(window, MaterialPage)
+    window.tabs.setCurrentWidget(material)
+    assert "identified" in material.plots.names
+    assert "diagnosis: without effect" not in material.plots.names
+
+
+def test_what_is_computed_can_be_cancelled(qtbot, window, page):
+    select(qtbot, page, "added_mass")
+    qtbot.mouseClick(page.candidates.decline, LEFT)
+    assert page.candidates.compute.text() == "Recompute: search again without added_mass"
+    qtbot.mouseClick(page.candidates.compute, LEFT)
+    assert window.desk.rediagnosis.running
+    qtbot.mouseClick(page.cancel, LEFT)
+    assert not window.desk.rediagnosis.running
+    assert page.finding.origin.said == "recorded with the session"
+    assert page.candidates.compute.isEnabled()
+
+
+def test_an_effect_these_data_cannot_have_is_refused_in_a_line(qtbot, window, page):
+    select(qtbot, page, "absolute_velocity")
+    qtbot.mouseClick(page.candidates.accept, LEFT)
+    with qtbot.waitSignal(window.desk.refused, timeout=120_000) as refused:
+        qtbot.mouseClick(page.candidates.compute, LEFT)
+    assert "absolute_velocity" in refused.args[0]
+    assert page.finding.origin.said == "recorded with the session"
+
+
+def test_before_its_end_a_session_has_no_diagnosis(qtbot, window, page):
+    window.desk.recorded.jump(0.0)
+    qtbot.waitUntil(lambda: not page.body.isVisible())
+    assert "No diagnosis yet" in page.finding.verdict.said
+    assert page.empty.isVisible()
+
+
+def test_a_session_without_a_diagnosis_offers_one(qtbot, window, session_path):
+    page = shown(qtbot, window, session_path)
+    assert page.finding.verdict.said == "This session holds no diagnosis"
+    assert not page.body.isVisible()
+    qtbot.mouseClick(page.diagnose, LEFT)
+    assert window.desk.rediagnosis.running
+    qtbot.mouseClick(page.cancel, LEFT)
+    assert page.diagnose.isVisible()
+
+
+def test_why_none_was_possible_is_said(qtbot, window, tmp_path):
+    page = shown(qtbot, window, diagnosed_session(tmp_path, message="too few points"))
+    assert page.finding.verdict.said == "No diagnosis was possible: too few points"
+
+
+def test_other_data_can_be_diagnosed_without_a_session(qtbot, window, tmp_path):
+    page = page_of(window, DiagnosisPage)
+    window.tabs.setCurrentWidget(page)
+    assert not page.others.isVisible()
+    sweep = tmp_path / "sweep.csv"
+    rows = "".join(f"{f},{0.01 * f},0.002\n" for f in range(15, 25))
+    sweep.write_text("frequency_hz,velocity_re_m_s,velocity_im_m_s\n" + rows)
+    window.open(sweep)
+    qtbot.waitUntil(page.others.isVisible, timeout=5000)
+    assert [action.text() for action in page.others.menu().actions()] == ["sweep.csv ..."]
+    with qtbot.waitSignal(window.desk.refused, timeout=60_000) as refused:
+        window.desk.rediagnosis.start(Asked(sweep, tmp_path / "none.toml"))
+    assert "none.toml" in refused.args[0]
+
+
+def test_closing_ends_what_is_computed(qtbot, window, page):
+    window.desk.rediagnosis.start(Asked(window.desk.recorded.path))
+    window.close()
+    assert not window.desk.rediagnosis.running
+
+
+def test_another_session_lets_go_of_what_was_made_here(qtbot, window, page, session_path):
+    window.desk.rediagnosis.start(Asked(window.desk.recorded.path, accept=("spot_offset",)))
+    before = window.desk.feed
+    window.open(session_path)
+    qtbot.waitUntil(lambda: window.desk.feed is not before, timeout=10_000)
+    assert not window.desk.rediagnosis.running
+    assert page.finding.verdict.said == "This session holds no diagnosis"
+
+
+def test_colours_follow_the_theme(qtbot, window, page):
+    light = page.finding.verdict.text()
+    window.appearance.choose("dark")
+    qtbot.waitUntil(lambda: page.finding.verdict.text() != light)
+    window.appearance.choose("light")
+    qtbot.waitUntil(lambda: page.finding.verdict.text() == light)

@@ -1,0 +1,305 @@
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from engine_cases import engine_rig
+from PySide6.QtCore import Qt
+from quick_engine import QUICK_ENGINE
+from session_cases import Tape, configuration
+
+from gui.feeds.live import LiveFeed
+from gui.pages.hammer.choice import WhatIf, standing_of
+from gui.pages.hammer.findings import Sight, modes_of
+from gui.pages.hammer.mode_words import mode_rows
+from gui.pages.hammer.words import hit_rows
+from instrument.engine import Engine, Order
+from instrument.files.experiment_file import ExperimentDocument
+from instrument.impact.damping import damping_of_hits
+from instrument.impact.facts import damping_facts
+from instrument.interchange.contents import contents_of
+from instrument.plain import plain
+from instrument.session.configuration import read_whole_experiment
+from instrument.session.storage import SessionFile
+from instrument.stream.derived import DampingFound, HitRevised
+
+LEFT = Qt.MouseButton.LeftButton
+BAND_HZ = (10.0, 550.0)
+
+
+@pytest.fixture(scope="module")
+def hits(session_path):
+    """Three, the second one a double hit."""
+    with SessionFile(session_path) as file:
+        return tuple(contents_of(file).hits)
+
+
+@pytest.fixture
+def page(qtbot, opened):
+    """Of the session, its hits drawn."""
+    opened.show_page(2)
+    page = opened.pages[2]
+    qtbot.waitUntil(lambda: page._averaged is not None, timeout=20_000)
+    return page
+
+
+@pytest.fixture
+def finished(qtbot, page):
+    """Everything computed."""
+    qtbot.waitUntil(lambda: page._modes is not None and page._expected_hz.size > 0, timeout=20_000)
+    return page
+
+
+def computed(qtbot, page, numbers):
+    """Waits until the damping is that of these hits."""
+
+    def done():
+        modes = page._modes
+        return modes is not None and [h.number for h in modes.hits if h.accepted] == numbers
+
+    qtbot.waitUntil(done, timeout=20_000)
+
+
+def only(hits, numbers):
+    """As they count where just these do."""
+    what_if = WhatIf()
+    for hit in hits:
+        what_if.say(hit, hit.number in numbers)
+    return what_if.applied(hits)
+
+
+def by_command(hits, numbers):
+    """What `viscorig damping` would say of these hits."""
+    judged = [h.judged() for h in only(hits, numbers)]
+    return plain(damping_facts(damping_of_hits(judged, band_hz=BAND_HZ)))
+
+
+def numbers(page, column):
+    """Of the damping table, without their errors; None where there is none."""
+    texts = page.modes.table.texts(column)
+    return [float(text.split(" ")[0]) if text[0].isdigit() else None for text in texts]
+
+
+def may_press(page):
+    return [b.isEnabled() for b in (page.hits.accept, page.hits.reject, page.hits.undo)]
+
+
+def test_without_a_session_it_says_what_to_do(window):
+    window.show_page(2)
+    page = window.pages[2]
+    assert page.nothing.isVisible()
+    assert "start a run" in page.nothing.text()
+
+
+def test_an_experiment_without_a_hammer_test_says_so(qtbot, window, tmp_path):
+    whole = configuration().experiment.model_dump(mode="json")
+    del whole["hammer"]
+    tape = Tape(configuration(experiment=ExperimentDocument.model_validate(whole)))
+    tape.begin()
+    tape.sweep((1,), steps=2)
+    tape.end()
+    window.show_page(2)
+    window.open(tape.save(tmp_path))
+    qtbot.waitUntil(lambda: "no hammer test" in window.pages[2].nothing.text(), timeout=10_000)
+    assert window.pages[2].nothing.isVisible()
+
+
+def test_the_table_shows_what_was_recorded(finished, opened):
+    page = finished
+    recorded = opened.desk.picture.contents.damping.facts_json["modes"]
+    assert page.modes.source.text() == "As recorded: hits 1, 3 of 3."
+    assert numbers(page, 0) == [round(m["frequency_hz"], 3) for m in recorded]
+    for column, method in ((2, "rational_fit"), (3, "half_power"), (4, "lscf")):
+        for shown, mode in zip(numbers(page, column), recorded, strict=True):
+            estimate = mode[method]
+            assert shown == (estimate and pytest.approx(100 * estimate["ratio"], abs=1e-3))
+    assert None in numbers(page, 3)
+    assert "refused: " in page.modes.table.cell(0, 3).tip
+    assert numbers(page, 1) == pytest.approx(numbers(page, 0), rel=2e-3)
+    assert not page.modes.back.isVisible()
+
+
+def test_every_hit_has_its_verdict_and_what_can_be_said_of_it(page):
+    table = page.hits.table
+    assert table.texts(3) == ["used", "left out", "used"]
+    assert "double hit" in table.texts(4)[1]
+    assert page.hits.number == 3
+    page.hits.select(1)
+    assert may_press(page) == [
+        False,
+        True,
+        False,
+    ]
+    page.hits.select(2)
+    assert may_press(page) == [
+        True,
+        False,
+        False,
+    ]
+    assert not page.hits.use.isVisible()
+
+
+def test_a_hit_rejected_is_a_what_if_and_the_file_stays(qtbot, page, opened, session_path, hits):
+    before = session_path.read_bytes()
+    page.hits.select(1)
+    qtbot.mouseClick(page.hits.reject, LEFT)
+    computed(qtbot, page, [3])
+    assert page.modes.source.text() == "What if, not recorded: hits 3 of 3."
+    assert "what if" in page.hits.table.texts(3)[0]
+    assert page._modes.facts == by_command(hits, [3])
+    assert session_path.read_bytes() == before
+    assert [h.accepted for h in opened.desk.picture.contents.hits] == [True, False, True]
+    qtbot.mouseClick(page.modes.back, LEFT)
+    computed(qtbot, page, [1, 3])
+    assert page.modes.source.text() == "As recorded: hits 1, 3 of 3."
+
+
+def test_keys_accept_and_undo(qtbot, page, opened):
+    page.hits.select(2)
+    qtbot.keyClick(opened, Qt.Key.Key_A)
+    computed(qtbot, page, [1, 2, 3])
+    qtbot.keyClick(opened, Qt.Key.Key_U)
+    computed(qtbot, page, [1, 3])
+    qtbot.waitUntil(lambda: not page.hits.undo.isEnabled())
+
+
+def test_no_hit_used_is_said_in_words(qtbot, page):
+    for number in (1, 3):
+        page.hits.select(number)
+        page.hits.reject.click()
+    computed(qtbot, page, [])
+    assert "no good hit" in page.modes.source.text()
+    assert page.modes.table.row_count == 0
+    assert not page.frf.coherence.names
+
+
+def test_a_mode_selected_in_table_or_plot_is_shown_with_what_was_read_off_it(qtbot, finished):
+    page = finished
+    page.modes.select(2)
+    f = page.modes.frequency_hz
+    low, high = page.frf.magnitude.getViewBox().viewRange()[0]
+    assert low < f < high < 1.2 * f
+    names = page.frf.magnitude.names
+    assert {"rational fit", "windowed", "half power, −3 dB"} <= set(names)
+    columns = page.frf.magnitude.columns()
+    width = np.ptp(columns["half power, −3 dB: Frequency (Hz)"])
+    assert 0 < width < high - low
+    qtbot.mouseClick(page.modes.whole, LEFT)
+    assert page.frf.magnitude.getViewBox().viewRange()[0] == pytest.approx(BAND_HZ)
+    assert "rational fit" not in page.frf.magnitude.names
+    page.frf.magnitude.picked.emit("modes", 1)
+    assert page.modes.table.selected == 1
+
+
+def test_the_selected_hit_is_drawn(page):
+    page.hits.select(2)
+    force = page.hit_plots.force.columns()["force: Force (N)"]
+    seen = page._averaged.seen[2].judged
+    assert force == pytest.approx(seen.hit.force_n)
+    assert "selected hit" in page.hit_plots.spectrum.names
+
+
+def test_before_the_first_blow_nothing_is_drawn(qtbot, page, opened):
+    opened.desk.recorded.jump(0.0)
+    qtbot.waitUntil(lambda: page.hits.table.row_count == 0)
+    assert page.hit_plots.force.names == ()
+    assert page.frf.magnitude.names == ()
+    assert page.hits.prompt.text() == "No blow was caught so far."
+
+
+def test_a_change_of_mind_is_forgotten_with_the_session(qtbot, page, opened, session_path):
+    page.hits.select(1)
+    page.hits.reject.click()
+    opened.open(session_path)
+    with qtbot.waitSignal(opened.desk.changed, timeout=10_000):
+        pass
+    computed(qtbot, page, [1, 3])
+    assert "As recorded" in page.modes.source.text()
+
+
+@pytest.fixture
+def live(window, tmp_path):
+    """A hammer test of two hits on a simulated rig; it waits for the word that they may be used."""
+    with engine_rig(tmp_path, hammer=True) as (_, experiment):
+        order = Order(experiment, tmp_path / "out", ("hammer",), ask_content=True)
+        setup = read_whole_experiment(experiment).configuration("run", "")
+        window.show_page(2)
+        window.desk._show(LiveFeed(order, setup, window.desk, Engine.start(order, QUICK_ENGINE)))
+        yield window.desk.live
+
+
+def test_a_word_about_a_hit_goes_to_the_run(qtbot, window, live):
+    page = window.pages[2]
+    qtbot.waitUntil(page.hits.use.isVisible, timeout=60_000)
+    assert "use them" in page.hits.prompt.text()
+    page.hits.select(1)
+    qtbot.mouseClick(page.hits.reject, LEFT)
+    qtbot.waitUntil(lambda: page.hits.table.row_count == 3, timeout=30_000)
+    qtbot.waitUntil(page.hits.use.isVisible, timeout=60_000)
+    assert page.hits.table.texts(3) == ["left out", "used", "used"]
+    assert page.hits.table.texts(4)[0] == "rejected by the operator"
+    computed(qtbot, page, [2, 3])
+    assert page.modes.source.text().startswith("Preliminary: hits 2, 3 of 3.")
+    preliminary = page._modes.facts["modes"]
+    qtbot.mouseClick(page.hits.use, LEFT)
+    qtbot.waitUntil(lambda: not window.desk.running, timeout=60_000)
+    qtbot.waitUntil(lambda: page.modes.source.text() == "As recorded: hits 2, 3 of 3.")
+    with SessionFile(live.ending.session) as file:
+        events = list(file.events(with_samples=False))
+    assert HitRevised(1, accepted=False) in events
+    (found,) = [e for e in events if isinstance(e, DampingFound)]
+    assert found.facts_json["modes"] == preliminary
+
+
+# Without the window
+
+
+def test_a_hit_seen_before_is_not_computed_again(hits):
+    sight = Sight()
+    first = sight.average(hits, lambda: None)
+    again = sight.average(only(hits, [1]), lambda: None)
+    assert again.seen[3].alone is first.seen[3].alone
+    assert not again.seen[3].judged.accepted
+    assert len(again.used) == 1
+
+
+def test_scatter_needs_two_hits(hits):
+    one = Sight().average(only(hits, [1]), lambda: None)
+    two = Sight().average(hits, lambda: None)
+    texts = [
+        mode_rows(m.facts, m, None)[0].cells[5].text
+        for m in (modes_of(a, BAND_HZ, lambda: None) for a in (one, two))
+    ]
+    assert texts[0] == "–"
+    assert float(texts[1].removeprefix("<")) > 0
+
+
+def test_what_agrees_with_the_record_is_no_what_if(hits):
+    what_if = WhatIf()
+    what_if.say(hits[0], accepted=False)
+    assert what_if.changes(hits[0])
+    assert what_if.applied(hits)[0].accepted is False
+    what_if.say(hits[0], accepted=True)
+    assert not what_if.changes(hits[0])
+    assert standing_of(what_if.applied(hits)) == standing_of(hits)
+
+
+def test_a_hit_whose_samples_are_lost_is_listed_and_not_averaged(hits):
+    record = hits[0].record
+    channel = replace(record.responses[0], samples=np.zeros(0))
+    lost = replace(hits[0], record=replace(record, force_n=np.zeros(0), responses=(channel,)))
+    some = (lost, *hits[1:])
+    averaged = Sight().average(some, lambda: None)
+    assert list(averaged.seen) == [2, 3]
+    row = hit_rows(list(some), some, WhatIf(), averaged)[0]
+    assert row.cells[2].text == "–"
+    assert "samples" in row.cells[4].text
+
+
+def test_refusals_and_flags_are_said(hits):
+    facts = by_command(hits, [1, 3])
+    mode = {**facts["modes"][0], "half_power": None, "why": "half power refused: too short; LSCF differs"}
+    row = mode_rows(json.loads(json.dumps({"modes": [mode]})), None, None)[0]
+    assert row.cells[3].text == "refused"
+    assert "half power refused" in row.cells[7].text
+    assert row.cells[5].text == "..."

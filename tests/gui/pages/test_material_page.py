@@ -1,0 +1,171 @@
+import numpy as np
+import pytest
+from diagnosed_session import diagnosed_session
+from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
+from PySide6.QtGui import QDropEvent
+
+from gui.pages.material import MaterialPage
+from gui.pages.material.compared import PAPER
+from gui.pages.material.numbers import headline, parameters
+
+LEFT = Qt.MouseButton.LeftButton
+
+
+@pytest.fixture(scope="module")
+def diagnosed_path(tmp_path_factory, cache_of_this_run):
+    return diagnosed_session(tmp_path_factory.mktemp("diagnosed"))
+
+
+@pytest.fixture
+def page(qtbot, window, diagnosed_path):
+    (page,) = (p for p in window.pages if isinstance(p, MaterialPage))
+    window.tabs.setCurrentWidget(page)
+    window.open(diagnosed_path)
+    qtbot.waitUntil(lambda: window.desk.recorded is not None, timeout=10_000)
+    window.turn()
+    return page
+
+
+def fit_of(page):
+    return page.desk.picture.contents.fit.facts_json
+
+
+def drop(widget, path):
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(path))])
+    buttons, keys = LEFT, Qt.KeyboardModifier.NoModifier
+    widget.dropEvent(QDropEvent(QPointF(5, 5), Qt.DropAction.CopyAction, data, buttons, keys))
+
+
+def test_the_latest_fit_stands_before_earlier_ones_and_beside_the_diagnosis(page):
+    assert page.plots.names == (
+        "earlier fits (1)",
+        "identified",
+        "diagnosis: without effect",
+        "diagnosis: with added_mass",
+    )
+
+
+def test_curves_and_bands_are_the_fits_own(page):
+    law = fit_of(page)["law"]
+    G = 1e-6 * np.array([row["storage_modulus_pa"] for row in law])
+    error = 1e-6 * np.array([row["storage_modulus_standard_error_pa"] for row in law])
+    columns = page.plots.storage.columns()
+    axis = "Storage modulus G' (MPa)"
+    assert columns[f"identified: {axis}"] == pytest.approx(G)
+    assert columns[f"identified, band high: {axis}"] == pytest.approx(G + error)
+
+
+def test_the_width_of_the_bands_is_chosen(qtbot, page):
+    eta = np.array([row["loss_factor"] for row in fit_of(page)["law"]])
+    error = np.array([row["loss_factor_standard_error"] for row in fit_of(page)["law"]])
+    qtbot.keyClick(page.plots.bands, Qt.Key.Key_Down)
+    low = page.plots.loss.columns()["identified, band low: Loss factor η"]
+    assert low == pytest.approx(eta - 1.96 * error)
+
+
+def test_numbers_stand_at_the_references_and_the_resonances(page):
+    assert page.places.texts(0)[-2:] != page.places.texts(0)[:2]
+    assert {"20", "100"} < set(page.places.texts(0))
+    assert "resonance 1" in page.places.texts(1)
+    row = page.places.texts(0).index("100")
+    at_100 = next(r for r in fit_of(page)["law"] if r["frequency_hz"] == 100.0)
+    assert float(page.places.cell(row, 2).text.split(" ± ")[0]) == pytest.approx(
+        1e-6 * at_100["storage_modulus_pa"], rel=1e-2
+    )
+
+
+def test_parameters_and_correlations_are_the_fits_own(page):
+    assert page.parameters.texts(0) == ["g0 / MPa", "ginf / MPa", "tau / s", "alpha"]
+    found = page.correlations.table
+    assert found.cell(0, 1).text == "+1.000"
+    assert float(found.cell(1, 3).text) == pytest.approx(
+        fit_of(page)["correlations"]["ginf_pa"]["tau_s"], abs=6e-4
+    )
+    assert found.cell(1, 3).fill == "model"
+
+
+def test_the_fit_says_what_it_is_made_of(page):
+    assert page.said.text().startswith("fractional-zener law, fit 2 of 31 points, rms ")
+
+
+def test_a_parameter_at_its_limit_or_loose_is_named(zn1):
+    law = zn1.core.law
+    values = dict(zip(law.names, law.values.tolist(), strict=True))
+    values["ginf_pa"] = law.limits[1].upper
+    facts = {
+        "parameters": values,
+        "standard_errors": {"g0_pa": 1.0, "ginf_pa": None, "tau_s": 2 * values["tau_s"], "alpha": 0.001},
+        "correlations": {n: {m: float(n == m) for m in values} for n in values},
+    }
+    facts["correlations"]["g0_pa"]["alpha"] = -0.995
+    said = [row.remark for row in parameters(facts, law, None)]
+    assert said == ["fixed only together with alpha", "at its upper limit", "not fixed by these data", ""]
+
+
+def test_nothing_is_said_of_no_fit():
+    assert headline([], None) == ""
+    assert headline([], 1) == "fit 1 is being computed"
+
+
+def test_the_papers_law_comes_and_goes(qtbot, page):
+    page.tabs.setCurrentWidget(page.comparison)
+    qtbot.mouseClick(page.comparison.paper, LEFT)
+    assert PAPER in page.plots.names
+    assert PAPER in page.plots.storage.names
+    qtbot.mouseClick(page.comparison.paper, LEFT)
+    assert PAPER not in page.plots.storage.names
+
+
+def test_another_session_is_dropped_drawn_and_removed(qtbot, page, session_path):
+    page.tabs.setCurrentWidget(page.comparison)
+    with qtbot.waitSignal(page.comparison.changed, timeout=10_000):
+        drop(page.comparison, session_path)
+    assert session_path.stem in page.plots.names
+    table = page.comparison.table
+    qtbot.mouseClick(table.viewport(), LEFT, pos=table.visualRect(table.model().index(0, 0)).center())
+    qtbot.mouseClick(page.comparison.remove, LEFT)
+    assert session_path.stem not in page.plots.names
+    assert page.desk.recorded.path != session_path
+
+
+def test_a_session_with_a_diagnosis_brings_both_laws(qtbot, page, diagnosed_path):
+    with qtbot.waitSignal(page.comparison.changed, timeout=10_000):
+        page.comparison.read(diagnosed_path)
+    assert [law.name for law in page.comparison.laws] == [
+        diagnosed_path.stem,
+        f"{diagnosed_path.stem}, diagnosed",
+    ]
+    looks = {(line.role, line.dashed) for line in page.comparison.lines}
+    assert len(looks) == 2
+
+
+def test_a_bad_file_is_refused_in_a_line(qtbot, page, tmp_path):
+    bad = tmp_path / "bad.h5"
+    bad.write_bytes(b"nothing")
+    with qtbot.waitSignal(page.desk.refused, timeout=10_000) as refused:
+        drop(page.comparison, bad)
+    assert "bad.h5" in refused.args[0]
+    assert page.comparison.laws == []
+
+
+def test_on_the_way_the_fit_of_the_moment_is_shown(qtbot, window, page):
+    window.desk.recorded.jump(0.0)
+    qtbot.waitUntil(lambda: page.plots.names == ())
+    assert page.said.text() == "No fit yet: the first follows the first segment."
+    assert page.places.row_count == 0
+
+
+def test_without_a_session_other_laws_can_be_looked_at(qtbot, window, page):
+    window.desk.leave()
+    assert page.plots.names == ()
+    page.tabs.setCurrentWidget(page.comparison)
+    qtbot.mouseClick(page.comparison.paper, LEFT)
+    assert page.plots.names == (PAPER,)
+
+
+def test_a_table_is_copied_whole(qtbot, qapp, page):
+    qtbot.keyClick(page.places, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
+    lines = qapp.clipboard().text().splitlines()
+    assert lines[0].split("\t")[:3] == ["f / Hz", "at", "G' / MPa"]
+    assert len(lines) == page.places.row_count + 1

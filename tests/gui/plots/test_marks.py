@@ -1,0 +1,42 @@
+import numpy as np
+import pytest
+
+from gui.plots import Axis, Plot
+from gui.plots.log_axis import LogAxis
+
+
+@pytest.fixture
+def plot(qtbot):
+    plot = Plot(Axis("Frequency", "Hz"), Axis("Force", "N", log=True))
+    qtbot.addWidget(plot)
+    return plot
+
+
+def lines_of(plot):
+    return sorted(line.value() for marks in plot._marks.values() for line in marks.lines)
+
+
+def test_marks_of_another_name_stay(plot):
+    plot.mark([1.0, 2.0])
+    plot.mark([5.0], "good", name="usable", labels=["to 5 Hz"])
+    plot.mark([3.0])
+    assert lines_of(plot) == [3.0, 5.0]
+    assert plot._marks["usable"].lines[0].label.toPlainText() == "to 5 Hz"
+    plot.empty()
+    assert lines_of(plot) == []
+
+
+def test_what_is_faint_lies_below_what_came_before(plot):
+    x = np.arange(1.0, 4.0)
+    plot.line("average", x, x, "data")
+    plot.trace("single", x, x, "faint", listed=False)
+    below, above = (plot._curves[name].items[0].zValue() for name in ("single", "average"))
+    assert below < above
+    assert [label.text for _, label in plot.getPlotItem().legend.items] == ["average"]
+
+
+def test_a_decade_names_three_of_its_lines(qapp):
+    axis = LogAxis("left")
+    axis.setLogMode(True)
+    said = axis.logTickStrings(list(np.log10(np.arange(1, 10))), 1.0, 1.0)
+    assert [text for text in said if text] == ["1", "2", "5"]

@@ -1,0 +1,58 @@
+"""The window with a run of its own: the engine's process, simulated instruments, real wires."""
+
+import pytest
+from engine_cases import engine_rig
+from quick_engine import QUICK_ENGINE
+
+from gui.feeds.live import LiveFeed
+from instrument.engine import Engine, Order
+from instrument.session.configuration import read_whole_experiment
+
+SWEEP = """
+[[sweep.segments]]
+low_hz = 95.0
+high_hz = 107.0
+points = 5
+"""
+
+
+@pytest.fixture
+def rig(tmp_path):
+    with engine_rig(tmp_path, sweep=SWEEP) as (_, experiment):
+        yield experiment
+
+
+def start(window, experiment, out, parts=("sweep",)):
+    """As `Desk.start`, with an engine that fits nothing."""
+    order = Order(experiment, out, parts)
+    configuration = read_whole_experiment(experiment).configuration("run", "")
+    window.desk._show(LiveFeed(order, configuration, window.desk, Engine.start(order, QUICK_ENGINE)))
+    return window.desk.live
+
+
+def over(window):
+    """Answers whatever is asked; whether the run is over."""
+    if window.desk.live.question is not None:
+        window.desk.live.answer()
+    return not window.desk.running
+
+
+def test_a_run_is_shown_to_its_end(qtbot, window, rig, tmp_path):
+    live = start(window, rig, tmp_path / "out")
+    assert window.desk.running
+    qtbot.waitUntil(lambda: over(window), timeout=60_000)
+    window.turn()
+    assert live.ending.why == "done", live.ending
+    assert len(live.picture.contents.points) == 5
+    assert live.picture.run.state == "done"
+    assert live.ending.session.is_file()
+    assert not window.bar.stop.isEnabled()
+
+
+def test_a_bad_experiment_is_refused_in_one_line(qtbot, window, tmp_path):
+    bad = tmp_path / "bad.toml"
+    bad.write_text("nonsense = 1")
+    window.desk.start(Order(bad, tmp_path))
+    qtbot.waitUntil(lambda: not window.desk.starting)
+    assert "bad.toml" in window.notice.text
+    assert window.desk.feed is None

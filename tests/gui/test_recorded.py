@@ -1,0 +1,140 @@
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from pictures import shown
+from PySide6.QtCore import Qt
+from session_cases import Tape, configuration
+
+from gui.feeds.reader import Failed, Jumped, Loaded, Read, Reader
+from gui.feeds.recorded import RecordedFeed
+from gui.feeds.tape import Tape as Recording
+from gui.picture import Picture
+from instrument.session.storage import SessionFile
+
+
+@pytest.fixture(scope="module")
+def recording(session_path):
+    with SessionFile(session_path) as file:
+        yield file, Recording.of(file, lambda: None)
+
+
+def played(recording, count):
+    file, tape = recording
+    picture = Picture(tape.configuration, tape.path)
+    for number, event in tape.events(file, 0):
+        if number >= count:
+            break
+        picture.take(event)
+    return picture
+
+
+@given(st.floats(0, 1))
+def test_a_jump_gives_what_playing_to_that_place_gives(recording, share):
+    file, tape = recording
+    count = tape.count_at(share * tape.length_s)
+    assert shown(tape.picture(file, count, lambda: None)) == shown(played(recording, count))
+
+
+def test_playing_shows_everything_to_the_end(qtbot, opened):
+    feed = opened.desk.recorded
+    at_end = shown(feed.picture)
+    feed.play(None)
+    with qtbot.waitSignal(feed.ended, timeout=10_000):
+        pass
+    assert shown(feed.picture) == at_end
+    assert not feed.playing
+    assert feed.position_s == feed.length_s
+
+
+def test_speed_is_kept(qtbot, opened):
+    feed = opened.desk.recorded
+    feed.jump(0.0)
+    qtbot.waitUntil(lambda: feed.picture is not None and feed.picture.run.state != "done")
+    feed.play(20.0)
+    with qtbot.waitSignal(feed.ended, timeout=20_000), qtbot.assertNotEmitted(feed.renewed):
+        qtbot.waitUntil(lambda: feed.position_s > 10.0)
+        begun = feed.position_s
+        qtbot.wait(200)
+        assert feed.position_s - begun == pytest.approx(4.0, rel=0.5)
+        feed.speed = None
+    assert feed.picture.run.state == "done"
+
+
+def test_the_slider_and_the_keys_jump(qtbot, opened):
+    feed, bar = opened.desk.recorded, opened.replay
+    whole = len(feed.picture.contents.points)
+    bar.slider.setValue(bar.slider.maximum() // 2)
+    qtbot.waitUntil(lambda: 0 < len(feed.picture.contents.points) < whole)
+    marks = [m.time_s for m in feed.tape.marks]
+    qtbot.keyClick(opened, Qt.Key.Key_Left, Qt.KeyboardModifier.ControlModifier)
+    qtbot.waitUntil(lambda: feed.picture.time_s <= feed.position_s and feed.position_s in marks)
+
+
+def test_a_pause_between_two_runs_is_not_waited_for(tmp_path):
+    tape = Tape(configuration())
+    tape.begin("2026-04-01T08:00:00+00:00")
+    tape.sweep((1,), steps=2)
+    tape.begin("2026-04-03T08:00:00+00:00")
+    tape.sweep((1,), steps=2)
+    tape.end()
+    with SessionFile(tape.save(tmp_path)) as file:
+        recording = Recording.of(file, lambda: None)
+    assert recording.length_s < 60
+
+
+def test_the_last_of_many_jumps_counts(session_path):
+    reader = Reader(session_path)
+    try:
+        tape = next_item(reader, Loaded).tape
+        for k in range(50):
+            reader.jump(tape.length_s * (k % 7) / 7)
+        reader.jump(tape.length_s / 2)
+        jumped = [next_item(reader, Jumped)]
+        assert jumped[-1].time_s == tape.length_s / 2
+        first = next_item(reader, Read, until_s=tape.length_s)
+        assert first.time_s > tape.length_s / 2
+    finally:
+        reader.close()
+
+
+def test_a_file_that_is_none_is_said_once(tmp_path):
+    bad = tmp_path / "bad.h5"
+    bad.write_bytes(b"nothing")
+    reader = Reader(bad)
+    assert "not a session file" in next_item(reader, Failed).message
+    reader.close()
+    assert reader.poll(0.0) is None
+
+
+def test_comparison_says_equal(qtbot, opened):
+    feed = opened.desk.recorded
+    with qtbot.waitSignal(feed.compared, timeout=60_000):
+        opened.replay.compare.click()
+        assert feed.comparing
+    assert feed.comparison["equal_to_recorded"]
+    assert "equal" in opened.replay.verdict.text()
+
+
+def test_comparison_can_be_cancelled(qtbot, opened):
+    opened.replay.compare.click()
+    opened.replay.compare.click()
+    qtbot.waitUntil(lambda: not opened.desk.recorded.comparing)
+    assert opened.desk.recorded.comparison is None
+
+
+def test_a_feed_can_be_closed_at_once(qtbot, session_path):
+    feed = RecordedFeed(session_path)
+    feed.close()
+    assert not feed._reader._thread.is_alive()
+
+
+def next_item(reader, kind, until_s=float("inf")):
+    """The next item, which is to be of a kind; waits for it."""
+    import time
+
+    deadline = time.monotonic() + 10
+    while (item := reader.poll(until_s)) is None:
+        assert time.monotonic() < deadline
+        time.sleep(0.001)
+    assert isinstance(item, kind), item
+    return item

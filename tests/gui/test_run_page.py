@@ -1,0 +1,274 @@
+"""From the form to the end of a run: the engine's process, simulated instruments, real wires, real clicks."""
+
+import time
+
+import httpx
+import pytest
+from engine_cases import LONG, drive_v, engine_rig, is_silent
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QMessageBox
+from quick_engine import QUICK_ENGINE
+
+from gui.pages.run.new_case import NewCase
+from instrument.files.rig_file import RigDocument
+from instrument.files.toml import read_document
+from instrument.session.storage import SessionFile
+from instrument.stream.raw import OperatorDid
+
+LEFT = Qt.MouseButton.LeftButton
+PATIENCE_MS = 60_000
+SWEEP = "[[sweep.segments]]\nlow_hz = 95.0\nhigh_hz = 107.0\npoints = 5\n"
+
+
+@pytest.fixture
+def page(window):
+    window.desk.engine = QUICK_ENGINE
+    window.show_page(0)
+    return window.pages[0]
+
+
+@pytest.fixture
+def rig(tmp_path):
+    with engine_rig(tmp_path, sweep=LONG) as (rig, _):
+        yield rig
+
+
+def opened(qtbot, window, page, path):
+    with qtbot.waitSignal(page.files.opened, timeout=PATIENCE_MS):
+        window.open(path)
+    return page
+
+
+def typed(qtbot, editor, text):
+    """As a person does it: all of it marked, then overwritten."""
+    editor.selectAll()
+    qtbot.keyClicks(editor, text)
+
+
+def started(qtbot, window, page):
+    qtbot.mouseClick(page.starting.start, LEFT)
+    qtbot.waitUntil(lambda: window.desk.running, timeout=PATIENCE_MS)
+    return window.desk.live
+
+
+def wait_for_points(qtbot, window, count=1):
+    qtbot.waitUntil(lambda: len(window.desk.picture.contents.points) >= count, timeout=PATIENCE_MS)
+
+
+def wait_for_end(qtbot, window):
+    """Of the run, until its recording is shown."""
+    qtbot.waitUntil(lambda: not window.desk.running, timeout=PATIENCE_MS)
+    qtbot.waitUntil(lambda: window.desk.recorded is not None, timeout=PATIENCE_MS)
+    return window.desk.ending
+
+
+def test_from_the_form_to_the_recording(qtbot, window, page, tmp_path):
+    with engine_rig(tmp_path, sweep=SWEEP) as (_, experiment):
+        opened(qtbot, window, page, experiment)
+        typed(qtbot, page.files.forms["experiment"].editor("sweep", "segments", 0, "points"), "4")
+        assert page.starting.start.text() == "Save and start"
+        started(qtbot, window, page)
+        assert not page.files.tabs.isEnabled()
+        ending = wait_for_end(qtbot, window)
+    assert (ending.why, ending.session) == ("done", window.desk.recorded.path)
+    assert len(window.desk.picture.contents.points) == 4
+    assert "points = 4" in experiment.read_text()
+    assert page.report_button.isEnabled()
+    assert page.files.tabs.isEnabled()
+    assert window.replay.isVisible()
+
+
+@pytest.mark.parametrize("by", ["key", "click"])
+def test_hold_resume_and_abort(qtbot, window, page, rig, tmp_path, by):
+    def do(button, key, modifier=Qt.KeyboardModifier.NoModifier):
+        if by == "key":
+            qtbot.keyClick(window, key, modifier)
+        else:
+            qtbot.mouseClick(button, LEFT)
+
+    opened(qtbot, window, page, tmp_path / "experiment.toml")
+    started(qtbot, window, page)
+    wait_for_points(qtbot, window)
+    do(window.bar.hold, Qt.Key.Key_F9)
+    qtbot.waitUntil(lambda: window.desk.picture.run.state == "held", timeout=PATIENCE_MS)
+    qtbot.waitUntil(lambda: window.bar.hold.text() == "Resume")
+    assert is_silent(rig)
+    done = len(window.desk.picture.contents.points)
+    do(window.bar.hold, Qt.Key.Key_F9)
+    wait_for_points(qtbot, window, done + 1)
+    do(window.bar.abort, Qt.Key.Key_F9, Qt.KeyboardModifier.ControlModifier)
+    ending = wait_for_end(qtbot, window)
+    assert ending.why == "stopped by the user"
+    assert is_silent(rig)
+
+
+def test_a_run_that_was_broken_off_is_carried_on(qtbot, window, page, tmp_path):
+    with engine_rig(tmp_path, sweep=SWEEP.replace("5", "60")) as (_, experiment):
+        opened(qtbot, window, page, experiment)
+        started(qtbot, window, page)
+        wait_for_points(qtbot, window)
+        window.desk.abort()
+        folder = wait_for_end(qtbot, window).folder
+        qtbot.waitUntil(lambda: page.starting.resume.count() == 2, timeout=PATIENCE_MS)
+        page.starting.resume.setCurrentIndex(1)
+        assert folder.name in page.now.path.text()
+        kept = len(window.desk.picture.contents.points)
+        started(qtbot, window, page)
+        ending = wait_for_end(qtbot, window)
+    assert ending.why == "done"
+    assert len(window.desk.picture.contents.points) == 60 > kept
+    qtbot.waitUntil(lambda: page.starting.resume.count() == 1, timeout=PATIENCE_MS)
+
+
+def test_a_hit_is_rejected_and_taken_back_while_the_run_waits(qtbot, window, page, tmp_path):
+    with engine_rig(tmp_path, sweep=SWEEP, hammer=True) as (_, experiment):
+        opened(qtbot, window, page, experiment)
+        page.starting.parts["sweep"].setChecked(False)
+        live = started(qtbot, window, page)
+
+        def accepted(hit):
+            return {h.number: h.accepted for h in live.picture.contents.hits}[hit]
+
+        qtbot.waitUntil(lambda: live.question is not None, timeout=PATIENCE_MS)
+        qtbot.waitUntil(lambda: page.banner.isVisible())
+        assert "2 good hits" in page.banner.words.text()
+        window.show_page(2)
+        hits = window.pages[2].hits
+        qtbot.mouseClick(
+            hits.table.viewport(), LEFT, pos=hits.table.visualItemRect(hits.table.item(0, 0)).center()
+        )
+        qtbot.mouseClick(hits.reject, LEFT)
+        qtbot.waitUntil(lambda: not accepted(1), timeout=PATIENCE_MS)
+        qtbot.waitUntil(lambda: live.question is not None, timeout=PATIENCE_MS)
+        qtbot.mouseClick(hits.undo, LEFT)
+        qtbot.waitUntil(lambda: accepted(1), timeout=PATIENCE_MS)
+        window.show_page(0)
+        qtbot.mouseClick(page.banner.button, LEFT)
+        ending = wait_for_end(qtbot, window)
+    assert ending.why == "done"
+    with SessionFile(ending.session) as file:
+        said = [e for e in file.events(with_samples=False) if isinstance(e, OperatorDid) and e.hit]
+    assert [(e.what, e.hit) for e in said] == [("rejected", 1), ("undone", 1)]
+
+
+def test_stop_silences_a_shaker_whose_acquisition_hangs(qtbot, window, page, tmp_path):
+    with engine_rig(tmp_path, sweep=LONG, virtual=False) as (rig, experiment):
+        slow = (tmp_path / "rig.toml").read_text().replace("[shaker]", "[shaker]\nheartbeat_timeout_s = 10.0")
+        (tmp_path / "rig.toml").write_text(slow)
+        opened(qtbot, window, page, experiment)
+        live = started(qtbot, window, page)
+        wait_for_points(qtbot, window)
+        qtbot.waitUntil(lambda: live.stop_path is not None and live.stop_path.ready, timeout=PATIENCE_MS)
+        qtbot.waitUntil(lambda: drive_v(rig) > 0.05, timeout=PATIENCE_MS)
+        httpx.put(f"{rig.front_end.url}/simulated/hang", trust_env=False).raise_for_status()
+        at = [window.desk.picture.time_s, time.monotonic()]
+
+        def quiet():
+            if window.desk.picture.time_s != at[0]:
+                at[:] = [window.desk.picture.time_s, time.monotonic()]
+            return time.monotonic() - at[1] > 0.3
+
+        qtbot.waitUntil(quiet, timeout=PATIENCE_MS)
+        assert drive_v(rig) > 0.05
+        began = time.monotonic()
+        qtbot.mouseClick(window.bar.stop, LEFT)
+        while drive_v(rig) > 0:
+            qtbot.wait(2)
+        took = time.monotonic() - began
+        ending = wait_for_end(qtbot, window)
+        assert is_silent(rig)
+    assert took < 0.5
+    assert "the shaker is silent" in window.notice.text
+    assert ending.why == "stopped by the user"
+
+
+def test_closing_the_window_ends_the_run_first(qtbot, window, page, rig, tmp_path, monkeypatch):
+    monkeypatch.setattr(QMessageBox, "question", lambda *_: QMessageBox.StandardButton.Yes)
+    opened(qtbot, window, page, tmp_path / "experiment.toml")
+    live = started(qtbot, window, page)
+    wait_for_points(qtbot, window)
+    window.close()
+    qtbot.waitUntil(lambda: not window.isVisible(), timeout=PATIENCE_MS)
+    assert live.ending.why == "stopped by the user"
+    assert is_silent(rig)
+
+
+def test_what_is_wrong_is_said_beside_the_field_and_nothing_can_be_started(qtbot, window, page, tmp_path):
+    with engine_rig(tmp_path, sweep=SWEEP) as (_, experiment):
+        opened(qtbot, window, page, experiment)
+    form = page.files.forms["experiment"]
+    typed(qtbot, form.editor("sweep", "level_g"), "-1")
+    assert ["-1" in said and "greater" in said for said in form.said] == [True]
+    assert not page.starting.start.isEnabled()
+    assert "1" in page.files.tabs.tabText(0)
+    typed(qtbot, form.editor("sweep", "level_g"), "0.5")
+    assert form.said == []
+    assert page.starting.start.isEnabled()
+
+
+def test_check_says_what_to_expect_or_what_is_wrong(qtbot, window, page, tmp_path):
+    with engine_rig(tmp_path, sweep=SWEEP) as (_, experiment):
+        opened(qtbot, window, page, experiment)
+    with qtbot.waitSignal(page.check.passed, timeout=PATIENCE_MS):
+        qtbot.mouseClick(page.starting.check, LEFT)
+    assert page.checked.table.column_text(3) == ["5"]
+    typed(qtbot, page.files.forms["experiment"].editor("sweep", "level_g"), "100")
+    assert page.starting.check.text() == "Save and check"
+    with qtbot.waitSignal(page.check.objected, timeout=PATIENCE_MS):
+        qtbot.mouseClick(page.starting.check, LEFT)
+    assert "limit" in page.checked.warnings.text()
+
+
+def test_a_bad_experiment_file_gives_one_message_and_leaves_what_was_there(qtbot, window, page, tmp_path):
+    with engine_rig(tmp_path, sweep=SWEEP) as (_, experiment):
+        opened(qtbot, window, page, experiment)
+    said = []
+    window.desk.refused.connect(said.append)
+    bad = tmp_path / "bad.toml"
+    bad.write_bytes(b"\xff\xfe[[")
+    window.open(bad)
+    qtbot.waitUntil(lambda: bool(said))
+    assert len(said) == 1
+    assert "bad.toml" in window.notice.text
+    assert page.files.path == experiment
+
+
+def test_a_simulated_experiment_is_made_and_its_secret_not_shown(qtbot, window, page, tmp_path):
+    dialog = NewCase(tmp_path / "case", page)
+    qtbot.addWidget(dialog)
+    dialog.effect.setCurrentText("random")
+    with qtbot.waitSignal(page.files.opened, timeout=PATIENCE_MS):
+        page.files.make(*dialog.order())
+    rig = read_document(tmp_path / "case" / "rig.toml", RigDocument)
+    assert len(rig.simulation.effects) == 1
+    with pytest.raises(KeyError):
+        page.files.forms["rig"].editor("simulation", "effects")
+    said = []
+    window.desk.refused.connect(said.append)
+    page.files.make(*dialog.order())
+    qtbot.waitUntil(lambda: bool(said))
+    assert "is there already" in said[0]
+
+
+def test_the_time_left_follows_the_forecast(qtbot, window, page, rig, tmp_path):
+    opened(qtbot, window, page, tmp_path / "experiment.toml")
+    with qtbot.waitSignal(page.check.passed, timeout=PATIENCE_MS):
+        qtbot.mouseClick(page.starting.check, LEFT)
+    started(qtbot, window, page)
+    wait_for_points(qtbot, window, 5)
+    qtbot.waitUntil(lambda: "left" in window.bar.left.text())
+    window.desk.abort()
+    wait_for_end(qtbot, window)
+
+
+def test_segments_and_tables_can_be_added_and_taken_away(qtbot, window, page, tmp_path):
+    with engine_rig(tmp_path, sweep=SWEEP) as (_, experiment):
+        opened(qtbot, window, page, experiment)
+    form = page.files.forms["experiment"]
+    plus = form.itemWidget(form.item("sweep", "segments"), 1).children()[1]
+    qtbot.mouseClick(plus, LEFT)
+    qtbot.waitUntil(lambda: ("sweep", "segments", 1) in form._items)
+    form.item("hammer").setCheckState(0, Qt.CheckState.Checked)
+    qtbot.waitUntil(lambda: any("missing" in said for said in form.said))
+    form.item("hammer").setCheckState(0, Qt.CheckState.Unchecked)
+    qtbot.waitUntil(lambda: form.said == [])

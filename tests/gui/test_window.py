@@ -1,0 +1,137 @@
+import pytest
+from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
+from PySide6.QtGui import QDropEvent, QPalette
+from session_cases import Tape, configuration
+
+from gui.window import Window
+
+
+def drop(window, path):
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(path))])
+    buttons, keys = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
+    window.dropEvent(QDropEvent(QPointF(50, 50), Qt.DropAction.CopyAction, data, buttons, keys))
+
+
+def test_opens_with_every_page_and_nothing_running(window):
+    assert [window.tabs.tabText(k) for k in range(5)] == ["Run", "Sweep", "Hammer", "Material", "Diagnosis"]
+    assert "idle" in window.bar.state.text()
+    assert not window.bar.stop.isEnabled()
+    assert not window.replay.isVisible()
+
+
+@pytest.mark.parametrize("number", range(5))
+def test_each_page_has_its_key(qtbot, window, number):
+    window.show_page((number + 1) % 5)
+    qtbot.keyClick(window, Qt.Key.Key_1 + number, Qt.KeyboardModifier.ControlModifier)
+    assert window.tabs.currentIndex() == number
+
+
+def test_dark_and_light_reach_every_widget(qtbot, window):
+    def lightness():
+        return window.pages[0].palette().color(QPalette.ColorRole.Window).lightness()
+
+    window.appearance.choose("dark")
+    qtbot.waitUntil(lambda: lightness() < 100)
+    window.appearance.choose("light")
+    qtbot.waitUntil(lambda: lightness() > 200)
+
+
+def test_type_size_can_be_changed_and_is_remembered(qtbot, window, settings):
+    usual = window.fontMetrics().height()
+    for _ in range(3):
+        qtbot.keyClick(window, Qt.Key.Key_Plus, Qt.KeyboardModifier.ControlModifier)
+    qtbot.waitUntil(lambda: window.fontMetrics().height() > usual)
+    window.close()
+    assert settings.scale == window.appearance.scale == 1.5
+    window.appearance.resize(1.0)
+
+
+def test_page_and_mode_are_remembered(qtbot, window, settings, appearance):
+    window.show_page(3)
+    appearance.choose("dark")
+    window.close()
+    again = Window(appearance, settings)
+    qtbot.addWidget(again)
+    assert again.tabs.currentIndex() == 3
+    assert settings.mode == "dark"
+    appearance.choose("light")
+
+
+def test_nonsense_in_the_settings_counts_as_nothing(settings):
+    settings._kept.setValue("mode", "pink")
+    settings._kept.setValue("scale", "large")
+    assert (settings.mode, settings.scale) == ("system", 1.0)
+
+
+def test_a_dropped_session_opens_at_its_end(qtbot, window, session_path):
+    drop(window, session_path)
+    qtbot.waitUntil(lambda: window.desk.recorded is not None, timeout=10_000)
+    assert window.desk.picture.run.state == "done"
+    assert window.replay.isVisible()
+    assert window.settings.recent == [session_path]
+    assert "bare plate" in window.log.text
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [("no.h5", b"no session"), ("no.csv", b"\x00\xff"), ("no.uff", b"nothing"), ("no.zip", b"PK")],
+)
+def test_a_bad_file_gives_one_message_and_leaves_the_session(qtbot, opened, tmp_path, name, content):
+    said = []
+    opened.desk.refused.connect(said.append)
+    before = opened.desk.feed
+    bad = tmp_path / name
+    bad.write_bytes(content)
+    drop(opened, bad)
+    qtbot.waitUntil(lambda: bool(said), timeout=5000)
+    opened.turn()
+    assert len(said) == 1
+    assert name in opened.notice.text
+    assert opened.desk.feed is before
+    assert opened.desk.picture is not None
+
+
+def test_a_session_cut_short_is_refused(qtbot, window, session_path, tmp_path):
+    bad = tmp_path / "cut.h5"
+    bad.write_bytes(session_path.read_bytes()[:200_000])
+    window.open(bad)
+    qtbot.waitUntil(lambda: "cut.h5" in window.notice.text, timeout=5000)
+    assert window.desk.feed is None
+
+
+def test_other_programs_data_is_laid_beside_the_session(qtbot, opened, tmp_path):
+    sweep = tmp_path / "sweep.csv"
+    rows = "".join(f"{f},{0.01 * f},0.002\n" for f in range(15, 25))
+    sweep.write_text("frequency_hz,velocity_re_m_s,velocity_im_m_s\n" + rows)
+    drop(opened, sweep)
+    qtbot.waitUntil(lambda: "1 sweep" in opened.notice.text, timeout=5000)
+    assert list(opened.desk.beside) == [sweep]
+    assert opened.desk.recorded is not None
+
+
+def test_closes_while_a_session_is_read(qtbot, appearance, settings, session_path):
+    for _ in range(5):
+        window = Window(appearance, settings)
+        qtbot.addWidget(window)
+        window.open(session_path)
+        window.close()
+        assert window.desk.feed is None
+
+
+def test_escape_takes_the_message_away(qtbot, window, tmp_path):
+    window.open(tmp_path / "no.zip")
+    assert window.notice.isVisible()
+    qtbot.keyClick(window, Qt.Key.Key_Escape)
+    assert not window.notice.isVisible()
+
+
+def test_a_session_that_was_broken_off_says_why(qtbot, window, tmp_path):
+    tape = Tape(configuration())
+    tape.begin()
+    tape.sweep((1,), steps=4)
+    tape.end("stopped safely", "interlock open")
+    window.open(tape.save(tmp_path))
+    qtbot.waitUntil(lambda: window.desk.recorded is not None, timeout=10_000)
+    assert "stopped" in window.bar.state.text()
+    assert "interlock open" in window.bar.next.text()
