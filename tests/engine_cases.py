@@ -13,7 +13,7 @@ from instrument.engine.messages import Ended, Happened, Message
 from instrument.stream.event import Event
 from instrument.stream.raw import BlockAcquired
 
-PATIENCE_S = 60.0
+PATIENCE_S = 120.0
 LONG = "[[sweep.segments]]\nlow_hz = 80.0\nhigh_hz = 290.0\npoints = 400\n"
 _MESH = "[mesh]\nelements_x = 8\nelements_y = 5\n"
 

@@ -20,7 +20,7 @@ SHARE = 0.035
 """And this share of what the first one gained: no model of a changed plate is better than some percent."""
 PREDICTED = 2.0
 """Times the noise on data held out: as good as can be asked of anything."""
-POOR, HARDLY_BETTER = 3.0, 0.6
+POOR, HARDLY_BETTER = 3.0, 0.4
 """Times the noise, and times the error without any effect: what predicts no better explains nothing."""
 EXTENSION = 9.0
 """Chi-square that a candidate must gain over a simpler one it contains: three standard errors."""

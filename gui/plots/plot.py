@@ -71,6 +71,8 @@ class _Curve:
     dashed: bool = False
     size: float = 8.0
     hollow: bool = False
+    look: tuple[Any, ...] = ()
+    """As it was last styled."""
 
 
 @dataclass
@@ -266,6 +268,12 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         curve.items[0].setData(x, y, antialias=len(x) <= _SMOOTH)
 
     def _style(self, curve: _Curve) -> None:
+        shape = (curve.symbol, curve.size, curve.width, curve.dashed, curve.hollow)
+        look = (curve.role, *shape, current_theme())
+        if look == curve.look:
+            # Styling again costs as much as drawing again.
+            return
+        curve.look = look
         color = current_theme().color(curve.role)
         if curve.kind == "band":
             for edge in curve.items[:2]:

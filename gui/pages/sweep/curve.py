@@ -100,10 +100,10 @@ def predictions(points: Points, facts: dict[str, Any], last_step: int) -> tuple[
 
     Empty where the facts do not belong to these points.
     """
-    taken = [k for k, p in enumerate(points.measured) if p.step <= last_step]
+    taken = [k for k, t in enumerate(points.timed) if t.point.step <= last_step]
     rows = facts.get("points", ())
     fits = len(rows) == len(taken) and all(
-        row["frequency_hz"] == points.measured[k].frequency_hz for k, row in zip(taken, rows, strict=True)
+        row["frequency_hz"] == points.timed[k].point.frequency_hz for k, row in zip(taken, rows, strict=True)
     )
     if not fits:
         return np.zeros(0, dtype=np.intp), np.zeros(0)

@@ -72,11 +72,11 @@ class DriftPane(QWidget):
 
     def _draw_temperature(self, seen: Seen) -> None:
         p = seen.points
-        index = np.flatnonzero(np.isfinite(p.percent("temperature_c")))
+        index = np.flatnonzero(np.isfinite(p.column("temperature_c")))
         self.temperature.setVisible(bool(index.size))
         if index.size:
             group = Group("plate", "data", "o", index)
-            self.temperature.show_points(group, p.time_s[index] / 60, p.percent("temperature_c")[index])
+            self.temperature.show_points(group, p.time_s[index] / 60, p.column("temperature_c")[index])
 
 
 def _said(sentinels: list[SentinelCompared]) -> str:

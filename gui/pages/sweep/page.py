@@ -108,7 +108,7 @@ class SweepPage(Page):
 
     def choose(self, number: int) -> None:
         """Look at a point."""
-        self._looked_at = self.seen.points.measured[number].step
+        self._looked_at = self.seen.points.timed[number].point.step
         self.seen = self.seen.but(chosen=number)
         self._draw_all()
 
@@ -122,7 +122,7 @@ class SweepPage(Page):
 
     def _look_again(self, picture: Picture) -> None:
         """Points or fits are others."""
-        points = Points.of(picture.contents.points, picture.limits)
+        points = self.seen.points.up_to(picture.contents.points, picture.limits)
         fit = picture.contents.fit
         facts = fit.facts_json if fit is not None else {}
         predicted = Predicted(*predictions(points, facts, fit.last_step)) if fit is not None else Predicted()

@@ -3,16 +3,14 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Self
+from typing import TYPE_CHECKING, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from instrument.interchange.contents import TimedPoint
 from instrument.quality import QUALITIES, quality_of
-from instrument.report.measured import noise_of
 from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2, SweepSettings
-from instrument.stream.derived import PointMeasured
 
 if TYPE_CHECKING:
     from gui.plots.plot import Symbol
@@ -22,6 +20,8 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Index = NDArray[np.intp]
 Mask = NDArray[np.bool_]
+
+Channel = Literal["velocity", "base"]
 
 _GOOD, _REMARKS, _OUT = range(3)
 _LOOKS: "tuple[tuple[Role, Symbol], ...]" = (
@@ -44,58 +44,78 @@ class Group:
     """Which points."""
 
 
+_COLUMNS = (
+    *("frequency_hz", "level_m_s2", "base_accel_re_m_s2", "base_accel_im_m_s2", "base_accel_std_m_s2"),
+    *("velocity_re_m_s", "velocity_im_m_s", "velocity_std_m_s", "control_error_percent"),
+    *("base_distortion_percent", "velocity_distortion_percent", "settle_s", "temperature_c"),
+    *("segment", "sweep", "step"),
+)
+
+
 @dataclass(frozen=True)
 class Points:
     """Steps and sentinels in the order of measuring. Shape (points,) each."""
 
     timed: tuple[TimedPoint, ...]
-    quality: Index
-    """Number in `QUALITIES`."""
+    table: Array
+    """A row a point: `_COLUMNS`, then its time in s, whether it is a sentinel, its number in `QUALITIES`."""
 
     @classmethod
     def of(cls, timed: Sequence[TimedPoint], settings: SweepSettings) -> Self:
         """Of a session so far."""
-        quality = [QUALITIES.index(quality_of(t.point, settings)) for t in timed]
-        return cls(tuple(timed), np.array(quality, dtype=np.intp))
+        return cls((), np.zeros((0, len(_COLUMNS) + 3))).up_to(timed, settings)
+
+    def up_to(self, timed: Sequence[TimedPoint], settings: SweepSettings) -> Self:
+        """With what was measured since; all of them again where these are no beginning of it."""
+        known = len(self)
+        if known > len(timed) or (known and self.timed[-1] is not timed[known - 1]):
+            return type(self).of(timed, settings)
+        if known == len(timed):
+            return self
+        rows = [_row(t, settings) for t in timed[known:]]
+        return type(self)(tuple(timed), np.concatenate([self.table, np.array(rows, dtype=float)]))
 
     def __len__(self) -> int:
         return len(self.timed)
 
-    @cached_property
-    def measured(self) -> list[PointMeasured]:
-        """The points without their times."""
-        return [t.point for t in self.timed]
+    def column(self, name: str) -> Array:
+        """A quantity of the points by its field; NaN where it is not known."""
+        return np.asarray(self.table[:, _COLUMNS.index(name)])
 
-    @cached_property
+    @property
     def frequency_hz(self) -> Array:
         """Of each point."""
-        return self._all("frequency_hz")
+        return self.column("frequency_hz")
 
     @cached_property
     def over_base_s(self) -> Complex:
         """Velocity over base acceleration."""
-        base = np.array([p.base_m_s2 for p in self.measured], dtype=complex)
-        return np.array([p.velocity_m_s for p in self.measured], dtype=complex) / base
+        return np.asarray(self._phasor("velocity_re_m_s") / self._phasor("base_accel_re_m_s2"))
 
-    @cached_property
+    @property
     def level_m_s2(self) -> Array:
         """Base acceleration asked for."""
-        return self._all("level_m_s2")
+        return self.column("level_m_s2")
 
     @cached_property
     def segment(self) -> Index:
         """Number of the resonance region."""
-        return np.array([p.segment for p in self.measured], dtype=np.intp)
+        return self.column("segment").astype(np.intp)
 
-    @cached_property
+    @property
     def time_s(self) -> Array:
         """Since the session's first sample."""
-        return np.array([t.time_s for t in self.timed])
+        return np.asarray(self.table[:, -3])
 
     @cached_property
     def sentinel(self) -> Mask:
         """Whether it is a sentinel."""
-        return np.array([p.purpose == "sentinel" for p in self.measured], dtype=bool)
+        return np.asarray(self.table[:, -2] > 0)
+
+    @cached_property
+    def quality(self) -> Index:
+        """Number in `QUALITIES`."""
+        return self.table[:, -1].astype(np.intp)
 
     @cached_property
     def phase_deg(self) -> Array:
@@ -107,18 +127,17 @@ class Points:
             phase[mine] = np.unwrap(phase[mine], period=360.0)
         return phase
 
-    def noise_percent(self, channel: str) -> Array:
-        """Standard deviation of "velocity" or "base" over its amplitude."""
-        return 100 * noise_of(self.measured, channel)
-
-    def percent(self, name: str) -> Array:
-        """Any other quantity of the points by its field."""
-        return self._all(name)
+    def noise_percent(self, channel: Channel) -> Array:
+        """Standard deviation of each part of a channel's phasor over its amplitude."""
+        if channel == "velocity":
+            return 100 * self.column("velocity_std_m_s") / np.abs(self._phasor("velocity_re_m_s"))
+        return 100 * self.column("base_accel_std_m_s2") / np.abs(self._phasor("base_accel_re_m_s2"))
 
     @cached_property
     def passes(self) -> list[tuple[int, float]]:
         """Sweep and level of each pass there is, in order."""
-        return sorted({(p.sweep, round(p.level_m_s2, 6)) for p in self.measured if p.purpose == "step"})
+        steps = np.unique(self._pass[~self.sentinel], axis=0)
+        return [(int(sweep), float(level)) for sweep, level in steps]
 
     def named_pass(self, one: tuple[int, float]) -> str:
         """What tells a pass from the others; empty where there is only one."""
@@ -131,8 +150,9 @@ class Points:
     def groups(self, wanted: Mask) -> list[Group]:
         """The wanted points: good ones by pass, then those with remarks, out of limits, and sentinels."""
         step = wanted & ~self.sentinel
+        good = step & (self.quality == _GOOD)
         found = [
-            Group(self.named_pass(one) or "good", *_LOOKS[k % len(_LOOKS)], self._in_pass(one, step))
+            Group(self._good_name(one), *_LOOKS[k % len(_LOOKS)], self._in_pass(one, good))
             for k, one in enumerate(self.passes)
         ]
         found += [
@@ -149,12 +169,28 @@ class Points:
 
     def of_step(self, step: int) -> int | None:
         """The point of a step, if it is there."""
-        return next((k for k, p in enumerate(self.measured) if p.step == step), None)
+        place = np.flatnonzero(self.column("step") == step)
+        return int(place[0]) if place.size else None
 
-    def _in_pass(self, one: tuple[int, float], step: Mask) -> Index:
-        sweep, level = one
-        alike = [p.sweep == sweep and round(p.level_m_s2, 6) == level for p in self.measured]
-        return np.flatnonzero(step & np.array(alike, dtype=bool) & (self.quality == _GOOD))
+    @cached_property
+    def _pass(self) -> Array:
+        """Sweep and level, as they are compared. Shape (points, 2)."""
+        return np.stack([self.column("sweep"), np.round(self.level_m_s2, 6)], axis=1)
 
-    def _all(self, name: str) -> Array:
-        return np.array([getattr(p, name) for p in self.measured], dtype=float)
+    def _in_pass(self, one: tuple[int, float], wanted: Mask) -> Index:
+        return np.flatnonzero(wanted & (self._pass == one).all(axis=1))
+
+    def _good_name(self, one: tuple[int, float]) -> str:
+        which = self.named_pass(one)
+        return f"good, {which}" if which else "good"
+
+    def _phasor(self, real: str) -> Complex:
+        """Real and imaginary part stand side by side."""
+        k = _COLUMNS.index(real)
+        return np.asarray(self.table[:, k] + 1j * self.table[:, k + 1])
+
+
+def _row(timed: TimedPoint, settings: SweepSettings) -> list[float | None]:
+    p = timed.point
+    quality = QUALITIES.index(quality_of(p, settings))
+    return [*(getattr(p, name) for name in _COLUMNS), timed.time_s, p.purpose == "sentinel", quality]

@@ -7,7 +7,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
 
 from gui.pages.sweep.panes import CHOSEN, Key, Pointed, align, channel, hide_foot, keyed
-from gui.pages.sweep.points import Array, Points
+from gui.pages.sweep.points import Array, Channel, Points
 from gui.pages.sweep.seen import Seen
 from gui.plots import Axis
 from gui.theme import Role
@@ -15,7 +15,7 @@ from instrument.stepped_sine.settings import SweepSettings
 
 _FREQUENCY = Axis("Frequency", "Hz")
 _TOLERANCE = "tolerance"
-_CHANNELS: tuple[tuple[str, str, Role, bool], ...] = (
+_CHANNELS: tuple[tuple[Channel, str, Role, bool], ...] = (
     ("velocity", "velocity", "data", False),
     ("base", "base acceleration", "second", True),
 )
@@ -63,10 +63,10 @@ class QualityPane(QWidget):
         p = seen.points
         self._show_key(seen)
         self._channels(self.noise, seen, p.noise_percent)
-        self._channels(self.distortion, seen, lambda name: p.percent(f"{name}_distortion_percent"))
+        self._channels(self.distortion, seen, lambda name: p.column(f"{name}_distortion_percent"))
         self._tolerance(seen, 100 * settings.control.tolerance)
-        self._groups(self.level, seen, p.percent("control_error_percent"))
-        self._groups(self.settling, seen, p.percent("settle_s"))
+        self._groups(self.level, seen, p.column("control_error_percent"))
+        self._groups(self.settling, seen, p.column("settle_s"))
         at = [p.frequency_hz[seen.chosen]] if seen.chosen is not None else []
         for plot in self._plots:
             plot.mark(at, "text", name=CHOSEN)
@@ -79,7 +79,7 @@ class QualityPane(QWidget):
         self.channels.show_groups(channels)
         self.qualities.show_groups(seen.points.groups(seen.wanted))
 
-    def _channels(self, plot: Pointed, seen: Seen, values: Callable[[str], Array]) -> None:
+    def _channels(self, plot: Pointed, seen: Seen, values: Callable[[Channel], Array]) -> None:
         index = np.flatnonzero(seen.wanted)
         for name, said, role, second in _CHANNELS:
             group = channel(said, role, second, index)

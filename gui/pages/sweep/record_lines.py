@@ -22,7 +22,7 @@ class Line:
 
 def record_lines(seen: Seen, number: int, settings: SweepSettings) -> list[Line]:
     """All of a point's record, what matters most first."""
-    p = seen.points.measured[number]
+    p = seen.points.timed[number].point
     return [
         Line("Frequency", f"{p.frequency_hz:.7g} Hz"),
         Line("Quality", QUALITIES[seen.points.quality[number]], "Against the tolerances of the sweep"),

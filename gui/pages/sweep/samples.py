@@ -54,7 +54,7 @@ class SamplesPane(QWidget):
             self._shown = None
             self._refuse(_NONE)
             return
-        point = seen.points.measured[seen.chosen]
+        point = seen.points.timed[seen.chosen].point
         if self._shown == (point.step, session):
             return
         self._shown = point.step, session

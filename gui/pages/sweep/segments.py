@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from gui.pages.sweep.points import Points
 from gui.picture import Picture
 from instrument.files.experiment_file import Segment
@@ -49,7 +51,7 @@ def _standing(picture: Picture, points: Points, number: int, planned: Segment | 
         wanted = run.steps
     most = f" of {wanted * turns}" if wanted is not None else ""
     passes = f", pass {len(runs)} of {turns}" if turns > 1 and runs else ""
-    levels = sorted({round(v, 6) for v in points.level_m_s2[mine]})
+    levels = np.unique(np.round(points.level_m_s2[mine], 6)).tolist()
     given = [sweep.level_g * STANDARD_GRAVITY_M_S2] if (sweep := plan.sweep) is not None else []
     return Standing(
         number,
