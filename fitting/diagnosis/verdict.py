@@ -94,7 +94,9 @@ def judge(
     pairs = _without_flexible(singles, pairs)
     second = _second(none, singles[0], pairs, held_out)
     best = second or singles[0]
-    if noise_known and (best.fitted.chi2_per_dof > TOO_MUCH or _predicts_nothing(none, best, held_out)):
+    # What is too weak to show as structure is too weak to be refuted by what it predicts.
+    refuted = structured and _predicts_nothing(none, best, held_out)
+    if noise_known and (best.fitted.chi2_per_dof > TOO_MUCH or refuted):
         return Judgement("unknown", None, {})
     within = WITHIN if noise_known else WITHIN_UNKNOWN_NOISE
     near = [t for t in (pairs if second else singles) if t.bic - best.bic < within]
