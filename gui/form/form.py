@@ -110,9 +110,9 @@ class Form(QTreeWidget):
             self._items, self._editors = {}, {}
             whole = section_of(self.draft.model)
             for field in whole.fields:
-                self._field(self.invisibleRootItem(), (field.key,), field)
+                self._field(None, (field.key,), field)
             for section in whole.sections:
-                self._section(self.invisibleRootItem(), (section.key,), section)
+                self._section(None, (section.key,), section)
             for place, item in self._items.items():
                 item.setExpanded(place not in folded if known else str(place[-1]) in _OPEN or len(place) == 3)
             header = self.header()
@@ -123,7 +123,7 @@ class Form(QTreeWidget):
         self.verticalScrollBar().setValue(at)
         self.judge()
 
-    def _section(self, above: QTreeWidgetItem, place: Place, section: Section) -> None:
+    def _section(self, above: QTreeWidgetItem | None, place: Place, section: Section) -> None:
         item = self._row(above, place, section.label, section.tip)
         font = item.font(_NAME)
         font.setBold(True)
@@ -159,7 +159,7 @@ class Form(QTreeWidget):
             self.setItemWidget(row, _VALUE, self._button("\u2212", "Take it away", self._take_away, one))
             self._inside(row, one, section)
 
-    def _field(self, above: QTreeWidgetItem, place: Place, field: Field) -> None:
+    def _field(self, above: QTreeWidgetItem | None, place: Place, field: Field) -> None:
         item = self._row(above, place, field.label, field.tip)
         item.setText(_UNIT, field.unit)
         given = self.draft.shown(place, field.kind)
@@ -185,8 +185,12 @@ class Form(QTreeWidget):
         self.setItemWidget(item, _VALUE, editor)
         self._editors[place] = editor
 
-    def _row(self, above: QTreeWidgetItem, place: Place, label: str, tip: str) -> QTreeWidgetItem:
-        item = QTreeWidgetItem(above, [label, "", "", ""])
+    def _row(self, above: QTreeWidgetItem | None, place: Place, label: str, tip: str) -> QTreeWidgetItem:
+        item = QTreeWidgetItem([label, "", "", ""])
+        if above is None:
+            self.addTopLevelItem(item)
+        else:
+            above.addChild(item)
         item.setToolTip(_NAME, tip)
         self._items[place] = item
         return item

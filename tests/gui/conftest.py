@@ -42,14 +42,18 @@ def appearance(qapp):
 @pytest.fixture
 def window(qtbot, appearance, settings):
     window = Window(appearance, settings)
-    qtbot.addWidget(window)
+    qtbot.addWidget(window, before_close_func=end_run)
     window.show()
     qtbot.waitExposed(window)
-    yield window
+    return window
+
+
+def end_run(window):
+    """Of a test that failed in the middle of one: nobody is there to be asked."""
     if window.desk.live is not None:
-        # A test that failed in the middle of a run: nobody is asked whether to end it.
         window.desk.live.engine.close()
-        window.desk.live.advance()
+        while window.desk.running:
+            window.desk.live.advance()
 
 
 @pytest.fixture

@@ -16,7 +16,7 @@ from instrument.session.storage import SessionFile
 from instrument.stream.raw import OperatorDid
 
 LEFT = Qt.MouseButton.LeftButton
-PATIENCE_MS = 60_000
+PATIENCE_MS = 120_000
 SWEEP = "[[sweep.segments]]\nlow_hz = 95.0\nhigh_hz = 107.0\npoints = 5\n"
 
 
@@ -92,7 +92,7 @@ def test_hold_resume_and_abort(qtbot, window, page, rig, tmp_path, by):
     do(window.bar.hold, Qt.Key.Key_F9)
     qtbot.waitUntil(lambda: window.desk.picture.run.state == "held", timeout=PATIENCE_MS)
     qtbot.waitUntil(lambda: window.bar.hold.text() == "Resume")
-    assert is_silent(rig)
+    qtbot.waitUntil(lambda: is_silent(rig), timeout=PATIENCE_MS)
     done = len(window.desk.picture.contents.points)
     do(window.bar.hold, Qt.Key.Key_F9)
     wait_for_points(qtbot, window, done + 1)

@@ -56,10 +56,15 @@ class FrfPlots(QWidget):
         self._expected_hz: tuple[float, ...] = ()
         self._arrange()
 
-    def show_average(self, averaged: Averaged, band_hz: tuple[float, float]) -> None:
-        """The average over its single hits."""
+    def show_band(self, band_hz: tuple[float, float]) -> None:
+        """Where modes are looked for."""
         self._band_hz = band_hz
-        self._reach_hz = max(_BEYOND * band_hz[1], min(averaged.usable_hz or 0.0, 2 * band_hz[1]))
+        self.zoom(None)
+
+    def show_average(self, averaged: Averaged) -> None:
+        """The average over its single hits."""
+        high = self._band_hz[1]
+        self._reach_hz = max(_BEYOND * high, min(averaged.usable_hz or 0.0, 2 * high))
         used = [n for n, seen in averaged.seen.items() if seen.judged.accepted][-_MOST_SINGLE:]
         singles = [f"hit {n} alone" for n in used]
         self.magnitude.keep(n for n in self.magnitude.names if not n.endswith("alone") or n in singles)
@@ -67,7 +72,9 @@ class FrfPlots(QWidget):
             self._show_single(name, averaged.seen[n].alone)
         # For the legend: one word for all of them.
         self.magnitude.trace("single hits", np.zeros(0), np.zeros(0), "faint")
-        self._show_lines(_HIT, None, "third")
+        if _HIT not in self.magnitude.names:
+            # Before the average, so that it lies below.
+            self._show_lines(_HIT, None, "third")
         average = averaged.average
         self._show_lines(_AVERAGE, _first(average.frfs) if average is not None else None, "data")
         self._show_coherence(averaged)

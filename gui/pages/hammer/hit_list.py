@@ -50,6 +50,9 @@ class HitList(QWidget):
         self.undo.clicked.connect(self._undo)
         self.use = button("Use these hits", "End the hammer test with the hits marked used")
         self.use.clicked.connect(self.content)
+        font = self.use.font()
+        font.setBold(True)
+        self.use.setFont(font)
         self.use.hide()
         self._arrange()
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QSplitter, QStackedLayout, QVBoxLayout, QWidget
 
 from gui.desk import Desk
@@ -56,6 +56,9 @@ class HammerPage(Page):
         self._hits: Hits = ()
         """As they count on this page; what the bench was given last."""
         self._failure = ""
+        self._frf_later = QTimer(self)
+        self._frf_later.setSingleShot(True)
+        self._frf_later.timeout.connect(self._show_frf)
         self._arrange()
         self._connect()
 
@@ -71,6 +74,7 @@ class HammerPage(Page):
             return
         if self._expected_hz is None:
             self._expected_hz = np.zeros(0)
+            self.frf.show_band(self._band_hz)
             self.bench.expect(picture.configuration, _BEYOND * hammer.band_hz[1])
         if hits:
             self._take_hits()
@@ -162,19 +166,19 @@ class HammerPage(Page):
         )
         self.modes.show_rows(mode_rows(facts, self._modes, self._expected_hz), advice_of(facts))
 
-    def _show_curves(self) -> None:
-        if self._averaged is None:
-            return
-        self.frf.show_average(self._averaged, self._band_hz)
-        self.frf.show_expected(self._expected_hz)
-        self.frf.show_modes(self._modes)
-        self._show_hit()
-        self._zoom()
-
     def _show_hit(self) -> None:
         if self._averaged is not None:
             self.hit_plots.show_hit(self._averaged, self.hits.number)
             self.frf.show_hit(self._averaged, self.hits.number)
+
+    def _show_frf(self) -> None:
+        if self._averaged is None:
+            return
+        self.frf.show_average(self._averaged)
+        self.frf.show_hit(self._averaged, self.hits.number)
+        self.frf.show_expected(self._expected_hz)
+        self.frf.show_modes(self._modes)
+        self._zoom()
 
     def _zoom(self) -> None:
         """About the mode selected; the whole band where none is, or none is computed yet."""
@@ -188,7 +192,9 @@ class HammerPage(Page):
         self._averaged = averaged
         self._show_hits()
         self._show_modes()
-        self._show_curves()
+        self.hit_plots.show_hit(averaged, self.hits.number)
+        # In a turn of its own: the window answers in between.
+        self._frf_later.start()
 
     def _has_modes(self, modes: Modes) -> None:
         self._modes = modes

@@ -35,6 +35,7 @@ class DriftPane(QWidget):
         stack = QSplitter(Qt.Orientation.Vertical)
         for plot in self._plots:
             plot.chosen.connect(self.chosen)
+            plot.hide()
             stack.addWidget(plot)
         self.phase.setXLink(self.amplitude)
         self.temperature.setXLink(self.amplitude)

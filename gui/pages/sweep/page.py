@@ -8,8 +8,9 @@ from PySide6.QtWidgets import QCheckBox, QSplitter, QStackedLayout, QTabWidget, 
 
 from gui.desk import Desk
 from gui.page import Page
+from gui.pages.sweep.beside import besides
 from gui.pages.sweep.chooser import Chooser
-from gui.pages.sweep.curve import predictions, regions_of
+from gui.pages.sweep.curve import Region, predictions, regions_of
 from gui.pages.sweep.drift import DriftPane
 from gui.pages.sweep.model import ModelCurve
 from gui.pages.sweep.nyquist import NyquistPane
@@ -21,8 +22,10 @@ from gui.pages.sweep.samples import SamplesPane
 from gui.pages.sweep.seen import Predicted, Seen
 from gui.pages.sweep.segments import standings
 from gui.pages.sweep.step import StepPane
+from gui.pages.sweep.turns import Turns
 from gui.picture import Picture
 from gui.widgets import hint
+from instrument.session.configuration import Configuration
 from instrument.stepped_sine.settings import SweepSettings
 
 _BAND = (
@@ -57,8 +60,9 @@ class SweepPage(Page):
         self.tabs = QTabWidget()
         self.seen = Seen(Points.of((), SweepSettings()))
         self._looked_at: int | None = None
+        self._configuration: Configuration | None = None
         self._running: tuple[int, int] | None = None
-        self._stale: set[QWidget] = set()
+        self.turns = Turns(self, self._panes, self._draw_pane)
         self._arrange()
         self._connect()
 
@@ -67,22 +71,25 @@ class SweepPage(Page):
     def refresh(self, picture: Picture) -> None:
         """Draw what has changed."""
         self._layers.setCurrentIndex(1)
-        measured, fitted = self.news("run", "points", "sentinels"), self.news("fits", "damping")
+        if picture.configuration is not self._configuration:
+            self._configuration = picture.configuration
+            self._looked_at = self._running = None
         self.model.want(picture)
-        if measured or fitted:
-            self._look_again(picture)
-        if measured:
+        regions = tuple(regions_of(picture.contents.segments))
+        if self.news("points", "sentinels", "fits", "damping") or regions != self.seen.regions:
+            self._look_again(picture, regions)
+        if self.news("run"):
             self.chooser.show_standings(standings(picture, self.seen.points))
             self._follow(picture)
         if self.news("step", "samples"):
-            self._stale.add(self.step)
-        self._draw_stale()
+            self.turns.mark(self.step)
+        self.turns.go_on()
 
     def clear(self) -> None:
         """There is no session any more."""
-        self._layers.setCurrentIndex(0)
+        self._layers.setCurrentIndex(1 if self.seen.beside else 0)
         self.model.want(None)
-        self.seen = Seen(Points.of((), SweepSettings()), way=self.response.way)
+        self.seen = Seen(Points.of((), SweepSettings()), way=self.response.way, beside=self.seen.beside)
         self._looked_at = self._running = None
         self.chooser.show_standings([])
         self.step.clear()
@@ -120,22 +127,22 @@ class SweepPage(Page):
 
     # Inside
 
-    def _look_again(self, picture: Picture) -> None:
-        """Points or fits are others."""
+    def _look_again(self, picture: Picture, regions: tuple[Region, ...]) -> None:
+        """Points, fits or regions are others."""
         points = self.seen.points.up_to(picture.contents.points, picture.limits)
         fit = picture.contents.fit
         facts = fit.facts_json if fit is not None else {}
         predicted = Predicted(*predictions(points, facts, fit.last_step)) if fit is not None else Predicted()
         self.seen = self.seen.but(
             points=points,
-            regions=tuple(regions_of(picture.contents.segments)),
+            regions=regions,
             reads=picture.configuration.rig.vibrometer.reads,
             chosen=points.of_step(self._looked_at) if self._looked_at is not None else None,
             predicted=predicted,
             fit=fit.number if fit is not None else 0,
             curve=self.model.curve,
         )
-        self._mark_stale()
+        self._mark_all()
 
     def _follow(self, picture: Picture) -> None:
         began = picture.run.segment
@@ -145,6 +152,11 @@ class SweepPage(Page):
         self._running = running
         if running is not None and self.follow.isChecked() and not picture.run.over:
             self.chooser.choose(running[1])
+
+    def _beside_changed(self) -> None:
+        self.seen = self.seen.but(beside=besides(self.desk.beside))
+        self._layers.setCurrentIndex(1)
+        self._draw_all()
 
     def _segment_chosen(self) -> None:
         self.seen = self.seen.but(segment=self.chooser.segment)
@@ -157,44 +169,41 @@ class SweepPage(Page):
 
     def _model_changed(self) -> None:
         self.seen = self.seen.but(curve=self.model.curve)
-        self._draw_all()
+        self._mark_all()
+        self.turns.go_on()
 
     def _tab_changed(self) -> None:
-        self._stale.add(self.tabs.currentWidget())
-        self._draw_stale()
+        self.turns.mark(self.tabs.currentWidget())
+        self.turns.at_once()
 
     def _draw_all(self) -> None:
-        self._mark_stale()
-        self._draw_stale()
+        self._mark_all()
+        self.turns.at_once()
 
-    def _mark_stale(self) -> None:
-        self._stale |= {self.response, self.record, self.nyquist, self.quality, self.drift, self.samples}
+    def _mark_all(self) -> None:
+        self.turns.mark(self.record, self.response, self.nyquist, self.quality, self.drift, self.samples)
 
-    def _draw_stale(self) -> None:
-        """What is stale and seen."""
+    def _panes(self) -> list[QWidget]:
+        return [self.record, self.response, self.tabs.currentWidget()]
+
+    def _draw_pane(self, pane: QWidget) -> None:
         picture = self._picture
-        if picture is None:
-            return
-        for pane in [p for p in self._stale if p in (self.response, self.record, self.tabs.currentWidget())]:
-            self._stale.discard(pane)
-            self._draw_pane(pane, picture)
-
-    def _draw_pane(self, pane: QWidget, picture: Picture) -> None:
+        limits = picture.limits if picture is not None else SweepSettings()
         if pane is self.response:
             self.response.show_seen(self.seen)
-            said = self._said_of_model(picture)
+            said = self._said_of_model(picture) if picture is not None else ""
             self.response.model.setText(said)
             self.response.model.setToolTip(f"{said}\n{_BAND}")
         elif pane is self.record:
-            self.record.show_seen(self.seen, picture.limits)
-        elif pane is self.step:
+            self.record.show_seen(self.seen, limits)
+        elif pane is self.step and picture is not None:
             self.step.show_step(picture)
         elif pane is self.nyquist:
             self.nyquist.show_seen(self.seen)
         elif pane is self.quality:
-            self.quality.show_seen(self.seen, picture.limits)
+            self.quality.show_seen(self.seen, limits)
         elif pane is self.drift:
-            self.drift.show_seen(self.seen, picture.contents.sentinels)
+            self.drift.show_seen(self.seen, picture.contents.sentinels if picture is not None else ())
         elif pane is self.samples:
             self.samples.show_seen(self.seen, self._session)
 
@@ -225,6 +234,7 @@ class SweepPage(Page):
         self.walk(1)
 
     def _connect(self) -> None:
+        self.desk.beside_changed.connect(self._beside_changed)
         self.chooser.chosen.connect(self._segment_chosen)
         self.response.way_changed.connect(self._way_changed)
         self.record.stepped.connect(self.walk)

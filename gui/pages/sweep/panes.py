@@ -1,6 +1,8 @@
 """What the panes of the page are made of: plots whose points are points of the sweep."""
 
 from collections.abc import Iterable
+from dataclasses import replace
+from typing import TypedDict
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal
@@ -8,12 +10,23 @@ from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from gui.pages.sweep.points import Array, Group, Index
 from gui.plots import Axis, Plot
+from gui.plots.plot import Symbol
 from gui.theme import Role, current_theme
 
 CHOSEN = "point looked at"
 _MARGIN = 0.04
 """Beside a band, as a share of it."""
 _RING_PX = 17.0
+
+
+class _Look(TypedDict):
+    role: Role
+    symbol: Symbol
+    hollow: bool
+
+
+BESIDE: _Look = {"role": "third", "symbol": "d", "hollow": True}
+"""How sweeps of other files are drawn."""
 
 
 class Pointed(Plot):
@@ -107,7 +120,7 @@ def keyed(key: Key, plot: Plot) -> QWidget:
 def hide_foot(plot: Plot) -> None:
     """Without numbers along x: a plot below has the same."""
     plot.getAxis("bottom").setStyle(showValues=False)
-    plot.getAxis("bottom").showLabel(False)
+    plot.show_axes(replace(plot.x, titled=False), plot.y)
 
 
 def align(*plots: Plot) -> None:

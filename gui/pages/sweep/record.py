@@ -1,24 +1,18 @@
 """The record of the point looked at, always beside the plots."""
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QHeaderView,
-    QLabel,
-    QTreeWidget,
-    QTreeWidgetItem,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from gui.pages.sweep.record_lines import Line, record_lines
 from gui.pages.sweep.seen import Seen
+from gui.tables import Cell, Table
 from gui.widgets import hint, tool
 from instrument.stepped_sine.settings import SweepSettings
 
 _NONE = (
     "Click a point in any plot, or walk along with the left and right arrow keys: its record appears here."
 )
+_COLUMNS = {"Quantity": "Of the point looked at", "Value": "With its unit; Ctrl+C copies the whole record"}
 
 
 class RecordPane(QWidget):
@@ -35,12 +29,9 @@ class RecordPane(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.title, self.none = QLabel(), hint(_NONE)
-        self.table = QTreeWidget()
-        self.table.setColumnCount(2)
-        self.table.setHeaderHidden(True)
-        self.table.setRootIsDecorated(False)
+        self.table = Table(_COLUMNS)
         self.table.setAlternatingRowColors(True)
-        self.table.header().setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+        self.table.horizontalHeader().hide()
         self.back = tool("\u25c0", "The point before (left arrow)")
         self.on = tool("\u25b6", "The next point (right arrow)")
         self.back.clicked.connect(self._back)
@@ -74,12 +65,15 @@ class RecordPane(QWidget):
         self._lines = lines
         self.title.setText(f"<b>{seen.points.frequency_hz[at]:.6g} Hz</b>" if at is not None else "")
         scrolled = self.table.verticalScrollBar().value()
-        self.table.clear()
-        for line in lines:
-            item = QTreeWidgetItem([line.name, line.value])
-            for column in (0, 1):
-                item.setToolTip(column, f"{line.value}\n{line.tip}".strip())
-            self.table.addTopLevelItem(item)
+        self.table.show_rows(
+            [
+                (
+                    Cell(x.name, x.tip, faint=True, left=True),
+                    Cell(x.value, f"{x.value}\n{x.tip}".strip(), left=True),
+                )
+                for x in lines
+            ]
+        )
         self.table.verticalScrollBar().setValue(scrolled)
 
     def _back(self) -> None:

@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
 )
 
 from gui.pages.sweep.curve import STANDARD_ERRORS, Stretch, joined
-from gui.pages.sweep.panes import CHOSEN, Pointed, align
+from gui.pages.sweep.panes import BESIDE, CHOSEN, Pointed, align
 from gui.pages.sweep.points import Group
 from gui.pages.sweep.seen import Quantity, Seen, Way
 from gui.plots import Axis
@@ -79,6 +79,7 @@ class ResponsePane(QWidget):
         for group in seen.points.groups(seen.wanted):
             self._draw_points(seen, group)
             names.append(group.name)
+        names += self._draw_beside(seen)
         for plot in (self.amplitude, self.phase):
             plot.keep((*names, CHOSEN))
         self._point_out(seen)
@@ -90,6 +91,18 @@ class ResponsePane(QWidget):
         p, k = seen.points, group.index
         self.amplitude.show_points(group, p.frequency_hz[k], np.abs(seen.shown[k]))
         self.phase.show_points(group, p.frequency_hz[k], p.phase_deg[k])
+
+    def _draw_beside(self, seen: Seen) -> list[str]:
+        """Names of what is drawn."""
+        for one in seen.beside:
+            mine = one.inside(seen.band_hz)
+            f, z = one.frequency_hz[mine], one.over_base_s[mine]
+            size = np.abs(z) * seen.way.factor(one.level_m_s2[mine])
+            self.amplitude.points(one.name, f, size, **BESIDE)
+            if one.has_phase:
+                phase = np.unwrap(np.degrees(np.angle(z)), period=360.0)
+                self.phase.points(one.name, f, phase, **BESIDE)
+        return [one.name for one in seen.beside]
 
     def _draw_model(self, seen: Seen) -> list[str]:
         """Names of what is drawn."""

@@ -5,6 +5,7 @@ from typing import Literal, Self
 
 import numpy as np
 
+from gui.pages.sweep.beside import Beside
 from gui.pages.sweep.curve import Curve, Region
 from gui.pages.sweep.points import Array, Complex, Index, Mask, Points
 
@@ -61,6 +62,7 @@ class Seen:
     predicted: Predicted = field(default_factory=Predicted)
     fit: int = 0
     """Number of the fit `curve` and `predicted` are of."""
+    beside: tuple[Beside, ...] = ()
     chosen: int | None = None
     """Number of the point looked at."""
     way: Way = field(default_factory=Way)

@@ -25,6 +25,7 @@ from instrument.stream.derived import DampingFound, HitRevised
 
 LEFT = Qt.MouseButton.LeftButton
 BAND_HZ = (10.0, 550.0)
+PATIENCE_MS = 60_000
 
 
 @pytest.fixture(scope="module")
@@ -39,14 +40,14 @@ def page(qtbot, opened):
     """Of the session, its hits drawn."""
     opened.show_page(2)
     page = opened.pages[2]
-    qtbot.waitUntil(lambda: page._averaged is not None, timeout=20_000)
+    qtbot.waitUntil(lambda: page._averaged is not None, timeout=PATIENCE_MS)
     return page
 
 
 @pytest.fixture
 def finished(qtbot, page):
     """Everything computed."""
-    qtbot.waitUntil(lambda: page._modes is not None and page._expected_hz.size > 0, timeout=20_000)
+    qtbot.waitUntil(lambda: page._modes is not None and page._expected_hz.size > 0, timeout=PATIENCE_MS)
     return page
 
 
@@ -57,7 +58,7 @@ def computed(qtbot, page, numbers):
         modes = page._modes
         return modes is not None and [h.number for h in modes.hits if h.accepted] == numbers
 
-    qtbot.waitUntil(done, timeout=20_000)
+    qtbot.waitUntil(done, timeout=PATIENCE_MS)
 
 
 def only(hits, numbers):
@@ -100,7 +101,7 @@ def test_an_experiment_without_a_hammer_test_says_so(qtbot, window, tmp_path):
     tape.end()
     window.show_page(2)
     window.open(tape.save(tmp_path))
-    qtbot.waitUntil(lambda: "no hammer test" in window.pages[2].nothing.text(), timeout=10_000)
+    qtbot.waitUntil(lambda: "no hammer test" in window.pages[2].nothing.text(), timeout=PATIENCE_MS)
     assert window.pages[2].nothing.isVisible()
 
 
@@ -211,7 +212,7 @@ def test_a_change_of_mind_is_forgotten_with_the_session(qtbot, page, opened, ses
     page.hits.select(1)
     page.hits.reject.click()
     opened.open(session_path)
-    with qtbot.waitSignal(opened.desk.changed, timeout=10_000):
+    with qtbot.waitSignal(opened.desk.changed, timeout=PATIENCE_MS):
         pass
     computed(qtbot, page, [1, 3])
     assert "As recorded" in page.modes.source.text()
@@ -230,19 +231,19 @@ def live(window, tmp_path):
 
 def test_a_word_about_a_hit_goes_to_the_run(qtbot, window, live):
     page = window.pages[2]
-    qtbot.waitUntil(page.hits.use.isVisible, timeout=60_000)
+    qtbot.waitUntil(page.hits.use.isVisible, timeout=PATIENCE_MS)
     assert "use them" in page.hits.prompt.text()
     page.hits.select(1)
     qtbot.mouseClick(page.hits.reject, LEFT)
-    qtbot.waitUntil(lambda: page.hits.table.row_count == 3, timeout=30_000)
-    qtbot.waitUntil(page.hits.use.isVisible, timeout=60_000)
+    qtbot.waitUntil(lambda: page.hits.table.row_count == 3, timeout=PATIENCE_MS)
+    qtbot.waitUntil(page.hits.use.isVisible, timeout=PATIENCE_MS)
     assert page.hits.table.texts(3) == ["left out", "used", "used"]
     assert page.hits.table.texts(4)[0] == "rejected by the operator"
     computed(qtbot, page, [2, 3])
     assert page.modes.source.text().startswith("Preliminary: hits 2, 3 of 3.")
     preliminary = page._modes.facts["modes"]
     qtbot.mouseClick(page.hits.use, LEFT)
-    qtbot.waitUntil(lambda: not window.desk.running, timeout=60_000)
+    qtbot.waitUntil(lambda: not window.desk.running, timeout=PATIENCE_MS)
     qtbot.waitUntil(lambda: page.modes.source.text() == "As recorded: hits 2, 3 of 3.")
     with SessionFile(live.ending.session) as file:
         events = list(file.events(with_samples=False))

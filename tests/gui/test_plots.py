@@ -1,0 +1,128 @@
+"""The plot every page uses: what it exports, draws and reads out."""
+
+import csv
+import xml.etree.ElementTree as ElementTree
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QEvent, QPointF, Qt
+from PySide6.QtGui import QAction, QImage
+from PySide6.QtWidgets import QApplication, QFileDialog
+
+from gui.plots import Axis, Plot
+from gui.theme import LIGHT
+
+X = np.linspace(1.0, 100.0, 50)
+
+
+@pytest.fixture
+def plot(qtbot, appearance):
+    plot = Plot(Axis("frequency", "Hz"), Axis("velocity", "m/s"))
+    qtbot.addWidget(plot)
+    plot.resize(400, 300)
+    plot.line("model", X, np.sqrt(X))
+    plot.points("measured", X[::5], X[::5] / 10)
+    plot.band("model's band", X, np.sqrt(X) - 1, np.sqrt(X) + 1)
+    plot.show()
+    qtbot.waitExposed(plot)
+    return plot
+
+
+def export(plot, kind, path, monkeypatch):
+    """By the plot's own menu."""
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
+    (action,) = [a for a in plot.getViewBox().menu.actions() if a.text() == f"Export {kind}..."]
+    assert isinstance(action, QAction)
+    action.trigger()
+
+
+def test_png_shows_what_is_seen_in_twice_the_pixels(plot, tmp_path, monkeypatch):
+    export(plot, "PNG", tmp_path / "plot.png", monkeypatch)
+    image = QImage(str(tmp_path / "plot.png"))
+    assert (image.width(), image.height()) == (800, 600)
+    colors = {image.pixelColor(x, y).name() for x in range(0, 800, 2) for y in range(0, 600, 2)}
+    assert LIGHT.base in colors
+    assert len(colors) > 10
+
+
+def test_svg_is_lines_and_letters(plot, tmp_path, monkeypatch):
+    export(plot, "SVG", tmp_path / "plot.svg", monkeypatch)
+    text = (tmp_path / "plot.svg").read_text()
+    assert ElementTree.fromstring(text).tag.endswith("svg")
+    assert "velocity / m/s" in text
+    assert "<image" not in text
+
+
+def test_csv_has_every_number(plot, tmp_path, monkeypatch):
+    export(plot, "data CSV", tmp_path / "plot", monkeypatch)
+    with (tmp_path / "plot.csv").open(newline="") as file:
+        head, *rows = csv.reader(file)
+    columns = {name: [row[k] for row in rows] for k, name in enumerate(head)}
+    assert columns["model: frequency (Hz)"] == [repr(float(x)) for x in X]
+    assert [float(v) for v in columns["model: velocity (m/s)"]] == list(np.sqrt(X))
+    assert [v for v in columns["measured: velocity (m/s)"] if v] == [repr(float(x)) for x in X[::5] / 10]
+    assert "model's band low: velocity (m/s)" in columns
+
+
+def test_where_nothing_can_be_written_one_message_says_so(plot, tmp_path, monkeypatch):
+    said = []
+    monkeypatch.setattr("gui.plots.export.QMessageBox.warning", lambda *a: said.append(a[-1]))
+    for kind, ending in (("PNG", "png"), ("SVG", "svg"), ("data CSV", "csv")):
+        export(plot, kind, tmp_path / "absent" / f"plot.{ending}", monkeypatch)
+    assert len(said) == 3
+    assert all("absent" in one for one in said)
+
+
+def test_many_points_are_drawn_by_their_extremes(plot):
+    samples = np.zeros(200_000)
+    samples[123_456] = 7.0
+    plot.trace("samples", np.arange(200_000) / 1e3, samples)
+    QApplication.processEvents()
+    x, y = plot._curves["samples"].items[0].getData()
+    assert len(x) < 4 * plot.width()
+    assert y.max() == 7.0
+    assert len(plot.columns()["samples: velocity (m/s)"]) == 200_000
+
+
+def test_the_place_under_the_mouse_is_read_out_in_units(qtbot, plot):
+    box = plot.getViewBox()
+    plot._readout.at(box.mapViewToScene(QPointF(50.0, 5.0)))
+    assert plot._readout.text.replace("\u2212", "-") == "50 Hz,  5 m/s"
+    plot._readout.eventFilter(plot, QEvent(QEvent.Type.Leave))
+    assert plot._readout.text == ""
+
+
+def test_on_logarithmic_axes_too(plot):
+    plot.show_axes(Axis("frequency", "Hz", log=True), Axis("velocity", "m/s", log=True))
+    plot.line("model", X, X)
+    plot._readout.at(plot.getViewBox().mapViewToScene(QPointF(1.0, 1.0)))
+    assert plot._readout.text == "10 Hz,  10 m/s"
+
+
+def test_a_point_that_is_clicked_is_told_by_its_number(qtbot, plot):
+    plot.keep(["measured"])
+    plot.points("measured", np.array([1.0, 2.0, 3.0]), np.array([1.0, 3.0, 2.0]))
+    plot.autoRange()
+    QApplication.processEvents()
+    at = plot.mapFromScene(plot.getViewBox().mapViewToScene(QPointF(2.0, 3.0)))
+    with qtbot.waitSignal(plot.picked, timeout=5000) as picked:
+        qtbot.mouseMove(plot.viewport(), at)
+        qtbot.mouseClick(plot.viewport(), Qt.MouseButton.LeftButton, pos=at)
+    assert picked.args == ["measured", 1]
+
+
+def test_the_same_name_replaces_a_curve(plot):
+    plot.line("model", X, 2 * X)
+    assert plot.names.count("model") == 1
+    assert list(plot.columns()["model: velocity (m/s)"]) == list(2 * X)
+    plot.keep(["model"])
+    assert plot.names == ("model",)
+    plot.empty()
+    assert plot.columns() == {}
+
+
+def test_colours_follow_the_theme(qtbot, plot, appearance):
+    appearance.choose("dark")
+    qtbot.waitUntil(lambda: plot.backgroundBrush().color().lightness() < 100)
+    appearance.choose("light")
+    qtbot.waitUntil(lambda: plot.backgroundBrush().color().lightness() > 200)
