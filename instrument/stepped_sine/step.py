@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from instrument.stepped_sine.calibration import Calibration
+from instrument.stepped_sine.course import begins_at
 from instrument.stepped_sine.guard import Guard
 from instrument.stepped_sine.samples import Samples
 from instrument.stepped_sine.settings import SweepSettings
@@ -103,18 +104,15 @@ class StepAnalysis:
 
     def commanded(self, command: ShakerCommanded) -> list[Derived]:
         """A new drive: everything before it is worthless."""
-        at = command.sample
-        if at is None:
-            at = self._latest + round(self._settings.latency_s * self._rate)
         self._command = command
-        self._from = at + int(np.ceil(command.ramp_s * self._rate)) + 1
+        self._from = begins_at(command, self._latest, self._rate, self._settings)
         self._restart()
         return []
 
     def range_set(self, vibrometer: RangeSet, wider: tuple[str, ...]) -> list[Derived]:
         """Another range: its first samples may still be the old one's."""
         self._range, self._wider = vibrometer, wider
-        self._from = self._latest + round(self._settings.latency_s * self._rate)
+        self._from = begins_at(vibrometer, self._latest, self._rate, self._settings)
         self._restart()
         return []
 

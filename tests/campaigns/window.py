@@ -3,7 +3,7 @@
     python tests/campaigns/window.py SESSION.h5
 
 Repaints 10,000 times, opens and closes 50 times, replays an hour of recordings as fast as it goes, and prints
-how memory grew; then runs an experiment at 50 kS/s with its fits and prints how late the main thread ever was.
+how memory grew; then runs an experiment at 50 kS/s with its fits and prints how late the main thread was.
 """
 
 import argparse

@@ -43,10 +43,10 @@ class FrfPlots(QWidget):
     def __init__(self) -> None:
         super().__init__()
         hz = Axis("Frequency", "Hz")
-        self.magnitude = Plot(hz, Axis("Accelerance", "(m/s²/N)", log=True))
+        self.magnitude = Plot(hz, Axis("|H|", "(m/s²/N)", log=True))
         self.phase = Plot(hz, Axis("Phase", "°"), legend=False)
         self.coherence = Plot(hz, Axis("γ²"), legend=False)
-        self.magnitude.setToolTip("Acceleration over force, averaged over the hits used (H1)")
+        self.magnitude.setToolTip("Accelerance: acceleration over force, averaged over the hits used (H1)")
         self.phase.setToolTip("By how much the acceleration is ahead of the force")
         self.coherence.setToolTip("Coherence: 1 where the response follows the force alike in every hit")
         self.magnitude.picked.connect(self._picked)

@@ -6,6 +6,7 @@ import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QLabel, QSplitter, QVBoxLayout, QWidget
 
+from gui.pages.sweep.drifted import drifted
 from gui.pages.sweep.panes import CHOSEN, Pointed, align, hide_foot
 from gui.pages.sweep.points import Group
 from gui.pages.sweep.seen import Seen
@@ -53,18 +54,15 @@ class DriftPane(QWidget):
     def show_seen(self, seen: Seen, sentinels: Sequence[SentinelCompared]) -> None:
         """Draw."""
         p = seen.points
-        known = [(s, k) for s in sentinels if (k := p.of_step(s.step)) is not None]
-        self.none.setVisible(not known)
-        self.amplitude.setVisible(bool(known))
-        self.phase.setVisible(bool(known))
-        self.said.setVisible(bool(known))
-        if known:
-            index = np.array([k for _, k in known], dtype=np.intp)
-            time = p.time_s[index] / 60
-            group = Group("sentinel", "data", "o", index)
-            self.said.setText(_said([s for s, _ in known]))
-            self.amplitude.show_points(group, time, np.array([s.change_percent for s, _ in known]))
-            self.phase.show_points(group, time, np.array([s.change_degree for s, _ in known]))
+        drift = drifted(seen.points, sentinels)
+        for widget in (self.said, self.amplitude, self.phase):
+            widget.setVisible(drift is not None)
+        self.none.setVisible(drift is None)
+        if drift is not None:
+            group = Group("sentinel", "data", "o", drift.index)
+            self.said.setText(drift.words)
+            self.amplitude.show_points(group, drift.time_s / 60, drift.percent)
+            self.phase.show_points(group, drift.time_s / 60, drift.degree)
         self._draw_temperature(seen)
         at = [p.time_s[seen.chosen] / 60] if seen.chosen is not None else []
         for plot in self._plots:
@@ -78,11 +76,3 @@ class DriftPane(QWidget):
         if index.size:
             group = Group("plate", "data", "o", index)
             self.temperature.show_points(group, p.time_s[index] / 60, p.column("temperature_c")[index])
-
-
-def _said(sentinels: list[SentinelCompared]) -> str:
-    last, most = sentinels[-1], max(sentinels, key=lambda s: abs(s.change_percent))
-    return (
-        f"Sentinel at {last.frequency_hz:g} Hz, {len(sentinels) + 1} times: {last.change_percent:+.3f} % and "
-        f"{last.change_degree:+.3f}\u00b0 against the first, at most {most.change_percent:+.3f} %"
-    )

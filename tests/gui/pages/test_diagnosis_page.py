@@ -5,9 +5,10 @@ from PySide6.QtCore import Qt
 
 from gui.pages.diagnosis import DiagnosisPage
 from gui.pages.material import MaterialPage
-from gui.rediagnosis import Asked
+from gui.rediagnosis import Asked, Shown
 
 LEFT = Qt.MouseButton.LeftButton
+LONG_MS = 300_000
 AMBIGUOUS = facts(verdict="ambiguous")
 
 
@@ -97,10 +98,10 @@ def test_an_effect_accepted_by_hand_is_fitted_and_the_material_follows(qtbot, wi
     select(qtbot, page, "spot_offset")
     qtbot.mouseClick(page.candidates.accept, LEFT)
     assert "accepted by hand" in page.candidates.table.texts(1)
-    with qtbot.waitSignal(window.desk.rediagnosis.progressed, timeout=120_000):
+    with qtbot.waitSignal(window.desk.rediagnosis.progressed, timeout=LONG_MS):
         qtbot.mouseClick(page.candidates.compute, LEFT)
         assert page.cancel.isVisible()
-    qtbot.waitUntil(lambda: not window.desk.rediagnosis.running, timeout=120_000)
+    qtbot.waitUntil(lambda: not window.desk.rediagnosis.running, timeout=LONG_MS)
     assert page.finding.verdict.said.startswith("By hand: spot_offset (dx ")
     assert page.finding.origin.said == "● by hand, not recorded"
     assert page.candidates.table.texts(0)[0] == "added_mass"
@@ -117,16 +118,16 @@ def test_an_effect_accepted_by_hand_is_fitted_and_the_material_follows(qtbot, wi
     assert material.origin.said == ""
 
 
-def test_no_effect_by_hand_is_not_called_noise(qtbot, window, page):
-    select(qtbot, page, "none")
-    qtbot.mouseClick(page.candidates.accept, LEFT)
-    qtbot.mouseClick(page.candidates.compute, LEFT)
-    qtbot.waitUntil(lambda: not window.desk.rediagnosis.running, timeout=120_000)
+def test_no_effect_by_hand_is_not_called_noise(window, page):
+    nothing = {**facts(verdict="none"), "effects": [], "equivalent": {}}
+    rediagnosis = window.desk.rediagnosis
+    rediagnosis.found = Shown(nothing, "by hand", Asked(window.desk.recorded.path, accept=()))
+    rediagnosis.changed.emit()
     assert page.finding.verdict.said == "By hand: no effect accepted"
+    assert page.residual.segment.count() == 4
     material = page_of(window, MaterialPage)
     window.tabs.setCurrentWidget(material)
-    assert "identified" in material.plots.names
-    assert "diagnosis: without effect" not in material.plots.names
+    assert material.plots.names == ("earlier fits (1)", "identified")
 
 
 def test_what_is_computed_can_be_cancelled(qtbot, window, page):
@@ -144,7 +145,7 @@ def test_what_is_computed_can_be_cancelled(qtbot, window, page):
 def test_an_effect_these_data_cannot_have_is_refused_in_a_line(qtbot, window, page):
     select(qtbot, page, "absolute_velocity")
     qtbot.mouseClick(page.candidates.accept, LEFT)
-    with qtbot.waitSignal(window.desk.refused, timeout=120_000) as refused:
+    with qtbot.waitSignal(window.desk.refused, timeout=LONG_MS) as refused:
         qtbot.mouseClick(page.candidates.compute, LEFT)
     assert "absolute_velocity" in refused.args[0]
     assert page.finding.origin.said == "recorded with the session"
@@ -182,7 +183,7 @@ def test_other_data_can_be_diagnosed_without_a_session(qtbot, window, tmp_path):
     window.open(sweep)
     qtbot.waitUntil(page.others.isVisible, timeout=5000)
     assert [action.text() for action in page.others.menu().actions()] == ["sweep.csv ..."]
-    with qtbot.waitSignal(window.desk.refused, timeout=60_000) as refused:
+    with qtbot.waitSignal(window.desk.refused, timeout=LONG_MS) as refused:
         window.desk.rediagnosis.start(Asked(sweep, tmp_path / "none.toml"))
     assert "none.toml" in refused.args[0]
 

@@ -161,7 +161,7 @@ def test_keys_accept_and_undo(qtbot, page, opened):
     computed(qtbot, page, [1, 2, 3])
     qtbot.keyClick(opened, Qt.Key.Key_U)
     computed(qtbot, page, [1, 3])
-    qtbot.waitUntil(lambda: not page.hits.undo.isEnabled())
+    qtbot.waitUntil(lambda: not page.hits.undo.isEnabled(), timeout=PATIENCE_MS)
 
 
 def test_no_hit_used_is_said_in_words(qtbot, page):
@@ -202,7 +202,7 @@ def test_the_selected_hit_is_drawn(page):
 
 def test_before_the_first_blow_nothing_is_drawn(qtbot, page, opened):
     opened.desk.recorded.jump(0.0)
-    qtbot.waitUntil(lambda: page.hits.table.row_count == 0)
+    qtbot.waitUntil(lambda: page.hits.table.row_count == 0, timeout=PATIENCE_MS)
     assert page.hit_plots.force.names == ()
     assert page.frf.magnitude.names == ()
     assert page.hits.prompt.text() == "No blow was caught so far."
@@ -244,7 +244,7 @@ def test_a_word_about_a_hit_goes_to_the_run(qtbot, window, live):
     preliminary = page._modes.facts["modes"]
     qtbot.mouseClick(page.hits.use, LEFT)
     qtbot.waitUntil(lambda: not window.desk.running, timeout=PATIENCE_MS)
-    qtbot.waitUntil(lambda: page.modes.source.text() == "As recorded: hits 2, 3 of 3.")
+    qtbot.waitUntil(lambda: page.modes.source.text() == "As recorded: hits 2, 3 of 3.", timeout=PATIENCE_MS)
     with SessionFile(live.ending.session) as file:
         events = list(file.events(with_samples=False))
     assert HitRevised(1, accepted=False) in events

@@ -1,0 +1,275 @@
+"""What the page of the sweep draws, as numbers."""
+
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+import pytest
+from session_cases import Tape, configuration
+from sessions import point
+
+from gui.pages.sweep.beside import besides
+from gui.pages.sweep.curve import Stretch, grid, joined, predictions, regions_of
+from gui.pages.sweep.drifted import drifted
+from gui.pages.sweep.following import Following, latest_cycles, words
+from gui.pages.sweep.points import Points
+from gui.pages.sweep.record_lines import record_lines
+from gui.pages.sweep.seen import Seen, Way
+from gui.pages.sweep.segments import standings
+from gui.picture import Picture
+from instrument.interchange.contents import SegmentRun, TimedPoint
+from instrument.interchange.found import Found
+from instrument.stepped_sine.settings import SweepSettings
+from instrument.stream.derived import SentinelCompared, StepSettled
+from instrument.stream.raw import SegmentBegan, SegmentEnded, SessionBegan, SessionEnded
+
+SETTINGS = SweepSettings()
+WEAK, RESTLESS = ("weak light: signal level 0.05",), ("not settled: 0.3 % left, limit 0.1 %",)
+
+
+def timed(*points):
+    return [TimedPoint(p, 10.0 * k) for k, p in enumerate(points)]
+
+
+def of(*points):
+    return Points.of(timed(*points), SETTINGS)
+
+
+def groups(points):
+    return {g.name: list(g.index) for g in points.groups(np.ones(len(points), dtype=bool))}
+
+
+@pytest.fixture(scope="module")
+def tape():
+    """A sweep of two segments, the second broken off."""
+    tape = Tape(configuration())
+    tape.begin()
+    tape.calibrate()
+    tape.sweep((1, 2), steps=4)
+    return tape
+
+
+@pytest.fixture(scope="module")
+def picture(tape):
+    picture = Picture(tape.configuration)
+    for event in tape.events:
+        picture.take(event)
+    return picture
+
+
+# Points
+
+
+def test_points_are_told_apart_by_quality_and_purpose():
+    found = groups(
+        of(
+            point(1),
+            point(2, remarks=WEAK),
+            point(3, remarks=RESTLESS),
+            point(4, control_error_percent=-1.2),
+            point(5, purpose="sentinel"),
+        )
+    )
+    assert found == {"good": [0], "with remarks": [1], "out of limits": [2, 3], "sentinel": [4]}
+
+
+def test_passes_and_levels_have_names_and_looks_of_their_own():
+    points = of(point(1), point(2, sweep=2), point(3, sweep=2, level_m_s2=19.62))
+    drawn = points.groups(np.ones(3, dtype=bool))
+    assert [g.name for g in drawn] == ["good, pass 1, 1 g", "good, pass 2, 1 g", "good, pass 2, 2 g"]
+    assert len({(g.role, g.symbol) for g in drawn}) == 3
+
+
+def test_points_that_come_later_are_added_to_those_there_are():
+    all_of_them = timed(*(point(k, 20.0 + k) for k in range(5)))
+    some = Points.of(all_of_them[:2], SETTINGS)
+    more = some.up_to(all_of_them, SETTINGS)
+    np.testing.assert_array_equal(more.table, Points.of(all_of_them, SETTINGS).table)
+    assert more.up_to(all_of_them, SETTINGS) is more
+    others = timed(*(point(k, 40.0 + k) for k in range(5)))
+    np.testing.assert_array_equal(more.up_to(others, SETTINGS).frequency_hz, 40.0 + np.arange(5))
+
+
+def test_phase_has_no_jumps_inside_a_segment_whatever_the_order():
+    turn = np.radians([170.0, 190.0, 210.0])
+    v = np.exp(1j * turn)
+    order = [2, 0, 1]
+    points = of(
+        *(
+            point(
+                k, 20.0 + k, base_accel_re_m_s2=1.0, base_accel_im_m_s2=0.0,
+                velocity_re_m_s=v[k].real, velocity_im_m_s=v[k].imag,
+            )
+            for k in order
+        )
+    )  # fmt: skip
+    np.testing.assert_allclose(points.phase_deg, np.degrees(turn)[order])
+
+
+def test_one_walks_along_the_frequency_and_stops_at_the_ends():
+    seen = Seen(of(point(1, 30.0), point(2, 10.0), point(3, 20.0), point(4, 5.0, segment=2)), segment=1)
+    assert seen.neighbour(1) == 1
+    assert seen.but(chosen=1).neighbour(1) == 2
+    assert seen.but(chosen=0).neighbour(1) == 0
+    assert seen.but(chosen=1).neighbour(-1) == 1
+    assert Seen(of()).neighbour(1) is None
+
+
+def test_velocity_is_the_response_times_the_level_commanded():
+    seen = Seen(of(point(1)), way=Way("velocity"))
+    assert seen.shown[0] == pytest.approx(1e3 * 9.81 * (0.05 - 0.02j) / (9.8 + 0.1j))
+
+
+# The model
+
+
+def test_the_model_has_as_many_turns_as_the_points():
+    f = np.linspace(19, 21, 5)
+    points = of(*(point(k, x, velocity_re_m_s=-0.05, velocity_im_m_s=0.02) for k, x in enumerate(f)))
+    response = points.over_base_s[0] * np.exp(-0.01j)
+    stretch = Stretch(1, f, np.full(5, response), np.full(5, np.nan), np.full(5, np.nan))
+    np.testing.assert_allclose(points.phase_deg - stretch.phase_deg(points), np.degrees(0.01))
+    moved = Points(points.timed, points.table)
+    moved.__dict__["phase_deg"] = points.phase_deg - 360
+    np.testing.assert_allclose(stretch.phase_deg(moved), stretch.phase_deg(points) - 360)
+
+
+def test_a_fits_predictions_are_taken_only_where_they_belong_to_the_points():
+    points = of(point(1, 20.0), point(2, 21.0), point(3, 22.0))
+    facts = {"points": [{"frequency_hz": f, "predicted_m_s": v} for f, v in ((20.0, 0.1), (21.0, 0.2))]}
+    index, predicted = predictions(points, facts, 2)
+    assert (index.tolist(), predicted.tolist()) == ([0, 1], [0.1, 0.2])
+    assert not predictions(points, facts, 3)[0].size
+    assert not predictions(of(point(1, 20.5), point(2, 21.0)), facts, 2)[0].size
+
+
+def test_every_region_is_drawn_once_with_gaps_between():
+    runs = {
+        (1, 1): SegmentRun(1, 1, 18.0, 22.0, 9, True),
+        (1, 2): SegmentRun(2, 1, 100.0, 110.0, 9, True),
+        (2, 1): SegmentRun(1, 2, 18.0, 22.0, 9, False),
+    }
+    regions = regions_of(runs)
+    assert regions == [(1, 18.0, 22.0), (2, 100.0, 110.0)]
+    whole = joined(grid(regions))
+    assert np.isnan(whole).sum() == 1
+    assert np.nanmin(whole) == 18.0
+
+
+# Segments, drift, record
+
+
+def test_segments_are_planned_running_done_or_broken_off(picture, tape):
+    points = Points.of(picture.contents.points, picture.limits)
+    stand = standings(picture, points)
+    assert [s.state for s in stand] == ["done", "running", "planned"]
+    assert [s.points for s in stand] == ["9 of 9 points", "4 of 9 points", "0 of 9 points"]
+    assert stand[0].band == "18 to 22 Hz"
+    assert stand[0].marked == 1
+    assert {s.level for s in stand} == {"0.5 g"}
+    over = Picture(tape.configuration)
+    for event in (*tape.events, SessionEnded("stopped safely", "interlock open")):
+        over.take(event)
+    assert [s.state for s in standings(over, points)] == ["done", "broken off", "planned"]
+
+
+def test_a_segment_is_done_only_after_its_last_pass():
+    config = configuration()
+    config.experiment.sweep.sweeps = 2
+    picture, none = Picture(config), of()
+    picture.take(SessionBegan("2026-04-01T08:00:05+00:00", "0", {}, ()))
+    picture.take(SegmentBegan(1, 1, 18.0, 22.0, 9))
+    picture.take(SegmentEnded(1, 1))
+    first = standings(picture, none)[0]
+    assert (first.state, first.points) == ("running", "0 of 18 points, pass 1 of 2")
+    picture.take(SegmentBegan(1, 2, 18.0, 22.0, 9))
+    picture.take(SegmentEnded(1, 2))
+    assert standings(picture, none)[0].state == "done"
+
+
+def test_drift_begins_with_the_first_sentinel_at_zero():
+    points = of(point(1, purpose="sentinel"), point(2), point(3, purpose="sentinel"))
+    drift = drifted(points, [SentinelCompared(3, 20.0, -0.4, 0.1)])
+    assert drift.index.tolist() == [0, 2]
+    assert drift.time_s.tolist() == [0.0, 20.0]
+    assert drift.percent.tolist() == [0.0, -0.4]
+    assert "at most -0.400 %" in drift.words
+    assert drifted(points, []) is None
+
+
+def test_the_record_tells_every_field_of_a_point():
+    numbers = {
+        name: 0.5 + 0.001 * k
+        for k, name in enumerate(f.name for f in fields(point()) if f.type in (float, "float"))
+    }
+    one = point(31, **numbers, signal_level=0.77, temperature_c=21.25, remarks=WEAK, segment=4, sweep=3)
+    seen = Seen(of(one))
+    lines = record_lines(seen, 0, SETTINGS)
+    said = " | ".join(line.value for line in lines)
+    wanted = {
+        "frequency_hz": "0.5 Hz", "level_m_s2": "0.501 m/s", "dwell_s": "0.502 s", "settle_s": "0.503 s",
+        "drive_v": "0.504 V", "control_error_percent": "+0.511 %", "base_distortion_percent": "0.51 %",
+    }  # fmt: skip
+    assert set(wanted) <= set(numbers)
+    for text in (*wanted.values(), "0.77", "21.25", "31 (step)", "4, 3", one.range_name, *WEAK):
+        assert text in said, text
+    for value in (
+        one.base_m_s2.real,
+        one.base_m_s2.imag,
+        1e3 * one.velocity_m_s.real,
+        1e3 * one.velocity_m_s.imag,
+    ):
+        assert f"{value:.5g}" in said
+
+
+# The step in progress
+
+
+def test_settling_is_followed_as_the_measurement_saw_it(tape):
+    """Block by block to the very number the measurement decided by."""
+    picture, compared = Picture(tape.configuration), 0
+    following = Following(picture.limits)
+    for event in tape.events:
+        picture.take(event)
+        if picture.step is None or picture.step.over:
+            continue
+        while following.take(picture.step):
+            pass
+        if isinstance(event, StepSettled):
+            last = following.course.standings[-1]
+            assert 100 * last.remaining == pytest.approx(event.remaining_percent, rel=1e-9)
+            assert last.seconds == pytest.approx(event.seconds)
+            compared += 1
+    assert compared > 10
+
+
+def test_the_step_is_put_into_words(picture):
+    assert words(picture.step, picture.limits) == f"116.25 Hz, step {picture.step.began.step}: measured"
+
+
+def test_the_time_signal_ends_with_the_latest_sample(picture):
+    trace = latest_cycles(picture.step)
+    assert trace.time_s[-1] == 0
+    assert -trace.time_s[0] == pytest.approx(8 / picture.step.began.frequency_hz, rel=0.01)
+    assert np.abs(trace.base_m_s2).max() == pytest.approx(0.5 * 9.81, rel=0.05)
+
+
+# Other files
+
+
+def test_a_sweep_of_another_file_is_brought_to_the_same_quantity():
+    f = np.array([21.0, 20.0])
+    columns = {
+        "frequency_hz": f,
+        "velocity_re_m_s": np.array([0.1, 0.2]),
+        "velocity_im_m_s": np.zeros(2),
+        "base_accel_re_m_s2": np.array([5.0, 4.0]),
+        "base_accel_im_m_s2": np.zeros(2),
+    }
+    amplitudes = {"frequency_hz": f, "velocity_m_s": np.array([0.1, 0.2])}
+    phasors, sizes = besides({Path("other.csv"): Found(sweeps=[columns, amplitudes])})
+    assert (phasors.name, sizes.name) == ("other.csv, 1", "other.csv, 2")
+    np.testing.assert_allclose(phasors.over_base_s, [0.05, 0.02])
+    np.testing.assert_allclose(sizes.over_base_s, np.array([0.2, 0.1]) / 9.81)
+    assert (phasors.has_phase, sizes.has_phase) == (True, False)
+    assert phasors.inside((20.5, 22.0)).tolist() == [False, True]

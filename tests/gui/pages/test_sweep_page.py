@@ -1,0 +1,295 @@
+import numpy as np
+import pytest
+from PySide6.QtCore import QPointF, Qt
+from session_cases import Tape, configuration
+from sessions import point
+
+from gui.desk import Desk
+from gui.pages.sweep import SweepPage
+from gui.picture import Picture
+from instrument.stepped_sine.sine_fit import sine_fit
+from instrument.stream.derived import StepSettled
+from instrument.stream.raw import SegmentBegan, SessionBegan
+
+LEFT = Qt.MouseButton.LeftButton
+PATIENCE_MS = 60_000
+BEGAN = SessionBegan("2026-04-01T08:00:05+00:00", "0", {}, ())
+
+
+@pytest.fixture
+def page(opened):
+    """Of the session at its end."""
+    opened.resize(1366, 768)
+    opened.show_page(1)
+    return opened.pages[1]
+
+
+@pytest.fixture
+def alone(qtbot):
+    """A page and a picture to be filled by hand."""
+    desk = Desk()
+    page = SweepPage(desk)
+    qtbot.addWidget(page)
+    page.resize(1366, 500)
+    page.show()
+    picture = Picture(configuration())
+    picture.take(BEGAN)
+    page.show_picture(picture)
+    yield page, picture
+    page.hide()
+    desk.close()
+
+
+def click_segment(qtbot, page, row):
+    where = page.chooser.visualItemRect(page.chooser.item(row)).center()
+    qtbot.mouseClick(page.chooser.viewport(), LEFT, pos=where)
+
+
+def click_point(qtbot, plot, x, y):
+    """A real click on a place in the plot's own units."""
+    at = plot.mapFromScene(plot.getViewBox().mapViewToScene(QPointF(x, y)))
+    qtbot.mouseMove(plot.viewport(), at)
+    qtbot.mouseClick(plot.viewport(), LEFT, pos=at)
+
+
+def value(page, name):
+    return next(line.value for line in page.record.lines if line.name == name)
+
+
+def shown(plot, name):
+    return plot.columns()[f"{name}: {plot.x.column}"], plot.columns()[f"{name}: {plot.y.column}"]
+
+
+def fed(page, picture, events):
+    for event in events:
+        picture.take(event)
+        page.show_picture(picture)
+
+
+def test_without_a_session_it_says_what_will_appear(qtbot, window):
+    window.show_page(1)
+    assert "Open a session, or start a run" in window.pages[1]._layers.currentWidget().text()
+
+
+def test_a_click_on_a_segment_shows_its_points(qtbot, page):
+    click_segment(qtbot, page, 2)
+    for plot in (page.response.amplitude, page.response.phase):
+        f, _ = shown(plot, "good")
+        np.testing.assert_allclose(f, np.linspace(108, 130, 9))
+        assert plot.viewRange()[0] == pytest.approx([108 - 0.04 * 22, 130 + 0.04 * 22])
+    click_segment(qtbot, page, 0)
+    assert len(shown(page.response.amplitude, "good")[0]) == 3 * 9 - 1
+
+
+def test_a_point_with_a_remark_looks_different(page):
+    f, _ = shown(page.response.amplitude, "with remarks")
+    assert f.tolist() == [19.0]
+
+
+def test_the_amplitude_is_velocity_over_base(page):
+    click = page.seen.points
+    k = int(np.flatnonzero(np.isclose(click.frequency_hz, 20.5))[0])
+    p = click.timed[k].point
+    f, y = shown(page.response.amplitude, "good")
+    assert y[f == 20.5] == pytest.approx(1e3 * abs(p.velocity_m_s / p.base_m_s2))
+    page.response.quantity.setCurrentText("velocity at its level")
+    assert page.response.amplitude.y.unit == "mm/s"
+    f, y = shown(page.response.amplitude, "good")
+    assert y[f == 20.5] == pytest.approx(1e3 * abs(p.velocity_m_s / p.base_m_s2) * p.level_m_s2)
+
+
+@pytest.mark.parametrize("box", ["log_amplitude", "log_frequency"])
+def test_axes_can_be_logarithmic(qtbot, page, box):
+    box = getattr(page.response, box)
+    qtbot.mouseClick(box, LEFT, pos=box.rect().center() - box.rect().center() / 1.3)
+    assert box.isChecked()
+    assert "log" in repr(page.seen.way)
+    click_segment(qtbot, page, 1)
+    low, high = page.response.amplitude.viewRange()[0]
+    if page.response.log_frequency.isChecked():
+        low, high = 10**low, 10**high
+    assert 17 < low < 18 < 22 < high < 23
+
+
+@pytest.mark.parametrize("plot", ["amplitude", "phase", "nyquist", "level"])
+def test_a_click_on_a_point_shows_its_record(qtbot, page, plot):
+    page.tabs.setCurrentWidget({"nyquist": page.nyquist, "level": page.quality}.get(plot, page.step))
+    click_segment(qtbot, page, 3)
+    plots = {
+        "amplitude": page.response.amplitude,
+        "phase": page.response.phase,
+        "nyquist": page.nyquist.plot,
+        "level": page.quality.level,
+    }
+    qtbot.wait(50)  # until the plot has its size
+    x, y = shown(plots[plot], "good")
+    click_point(qtbot, plots[plot], x[4], y[4])
+    assert value(page, "Frequency") == "210 Hz"
+    assert value(page, "Quality") == "good"
+    assert page.record.title.text() == "<b>210 Hz</b>"
+
+
+def test_arrows_walk_from_point_to_point(qtbot, page):
+    click_segment(qtbot, page, 2)
+    for _ in range(3):
+        qtbot.keyClick(page.chooser, Qt.Key.Key_Right)
+    assert value(page, "Frequency") == "113.5 Hz"
+    qtbot.keyClick(page.chooser, Qt.Key.Key_Left)
+    assert value(page, "Frequency") == "110.75 Hz"
+    qtbot.mouseClick(page.record.on, LEFT)
+    assert value(page, "Frequency") == "113.5 Hz"
+    f, _ = shown(page.response.amplitude, "point looked at")
+    assert f.tolist() == [113.5]
+
+
+def test_the_samples_of_the_point_are_read_from_the_file(qtbot, page):
+    click_segment(qtbot, page, 1)
+    page.walk(1)
+    page.tabs.setCurrentWidget(page.samples)
+    qtbot.waitUntil(lambda: "calibration not taken off" in page.samples.said.text(), timeout=PATIENCE_MS)
+    p = page.seen.points.timed[page.seen.chosen].point
+    t, base = shown(page.samples.base, "base acceleration")
+    phasor = sine_fit(base[None, :], p.sample, 1 / (t[1] - t[0]), p.frequency_hz).phasor[0]
+    assert phasor == pytest.approx(p.base_m_s2, rel=1e-6)
+
+
+def test_reading_ends_with_the_page(qtbot, opened, page):
+    page.walk(1)
+    page.tabs.setCurrentWidget(page.samples)
+    assert page.samples.dwells.busy
+    opened.show_page(0)
+    assert not page.samples.dwells.busy
+    opened.show_page(1)
+    qtbot.waitUntil(lambda: "calibration not taken off" in page.samples.said.text(), timeout=PATIENCE_MS)
+
+
+def test_the_fitted_model_goes_through_the_points(qtbot, page):
+    """The curve of another process meets what the fit itself predicted at the points."""
+    qtbot.waitUntil(lambda: page.model.curve is not None, timeout=PATIENCE_MS)
+    assert page.model.failure == ""
+    seen = page.seen
+    taken = seen.predicted.index
+    assert len(taken) == len(seen.points)
+    for stretch in page.model.curve.stretches:
+        mine = [k for k in taken if seen.points.segment[k] == stretch.segment]
+        f = seen.points.frequency_hz[mine]
+        at = [int(np.argmin(np.abs(stretch.frequency_hz - x))) for x in f]
+        np.testing.assert_allclose(stretch.frequency_hz[at], f, rtol=1e-12)
+        size = np.abs(stretch.over_base_s[at]) * seen.points.level_m_s2[mine]
+        np.testing.assert_allclose(size, [seen.predicted.of(k) for k in mine], rtol=1e-5)
+        assert (stretch.amplitude_std_s < 0.05 * np.abs(stretch.over_base_s)).all()
+    qtbot.waitUntil(lambda: "model, fit 1, ±2 s.e." in page.response.amplitude.names)
+    page.tabs.setCurrentWidget(page.nyquist)
+    assert "model, fit 1" in page.nyquist.plot.names
+
+
+def test_until_there_is_a_curve_the_fits_own_predictions_are_drawn(page):
+    page.model.rest()
+    page.seen = page.seen.but(curve=None)
+    page._draw_all()
+    name = "model at the points, fit 1"
+    assert name in page.response.amplitude.names
+    _, y = shown(page.response.amplitude, name)
+    assert np.isfinite(y).sum() == 27
+
+
+def test_a_page_that_is_left_computes_nothing(qtbot, opened, page):
+    qtbot.waitUntil(lambda: page.model._command is not None, timeout=PATIENCE_MS)
+    opened.show_page(0)
+    assert not page.model.busy
+    opened.show_page(1)
+    assert page.model.busy
+
+
+def test_drift_of_the_sentinel(page):
+    page.tabs.setCurrentWidget(page.drift)
+    _, percent = shown(page.drift.amplitude, "sentinel")
+    assert percent[0] == 0
+    assert len(percent) == 4
+    assert page.drift.temperature.isVisible()
+
+
+# A run
+
+
+def test_it_follows_the_run_until_somebody_else_is_chosen(qtbot, alone):
+    page, picture = alone
+    fed(page, picture, [SegmentBegan(1, 1, 18.0, 22.0, 9)])
+    assert page.chooser.segment == 1
+    fed(page, picture, [point(1, 18.0), SegmentBegan(2, 1, 108.0, 130.0, 9)])
+    assert page.chooser.segment == 2
+    qtbot.mouseClick(page.follow, LEFT, pos=page.follow.rect().topLeft() + page.follow.rect().center() / 8)
+    assert not page.follow.isChecked()
+    fed(page, picture, [SegmentBegan(3, 1, 190.0, 230.0, 9)])
+    assert page.chooser.segment == 2
+
+
+def test_the_whole_region_is_in_view_from_its_first_point(qtbot, alone):
+    page, picture = alone
+    fed(page, picture, [SegmentBegan(1, 1, 18.0, 22.0, 9), point(1, 18.0)])
+    qtbot.waitUntil(lambda: "good" in page.response.amplitude.names)
+    low, high = page.response.amplitude.viewRange()[0]
+    assert low < 18 < 22 < high
+    fed(page, picture, [point(2, 18.5)])
+    qtbot.waitUntil(lambda: len(shown(page.response.amplitude, "good")[0]) == 2)
+
+
+def test_points_of_every_pass_and_quality_are_in_the_legend(qtbot, alone):
+    page, picture = alone
+    bad = {"control_error_percent": 2.0}
+    fed(page, picture, [point(1, 18.0), point(2, 19.0, sweep=2), point(3, 20.0, **bad)])
+    wanted = {"good, pass 1", "good, pass 2", "out of limits"}
+    qtbot.waitUntil(lambda: wanted <= set(page.response.amplitude.names))
+    page.tabs.setCurrentWidget(page.quality)
+    assert "out of limits" in page.quality.qualities.text().replace("&nbsp;", " ")
+
+
+def test_a_step_is_followed_to_its_rest(qtbot, alone):
+    page, _ = alone
+    tape = Tape(configuration())
+    tape.begin()
+    tape.sweep((1,), steps=1)
+    settled = max(k for k, e in enumerate(tape.events) if isinstance(e, StepSettled))
+    picture = Picture(tape.configuration)
+    fed(page, picture, tape.events[: settled + 1])
+    page.tabs.setCurrentWidget(page.step)
+    qtbot.waitUntil(lambda: "dwelling" in page.step.words.text(), timeout=5000)
+    assert page.step.facts["Level"].text().startswith("4.91")
+    assert page.step.facts["Drive"].text() == "0.5 V of 5 V"
+    seconds, left = shown(page.step.settling, "left")
+    event = tape.events[settled]
+    assert seconds[-1] == pytest.approx(event.seconds)
+    assert left[-1] == pytest.approx(max(event.remaining_percent, 1e-4), rel=1e-6)
+    _, velocity = shown(page.step.velocity, "velocity")
+    assert np.abs(velocity).max() > 1
+
+
+def test_colours_follow_the_window(qtbot, opened, page):
+    page.tabs.setCurrentWidget(page.quality)
+    before = page.quality.channels.text()
+    opened.appearance.choose("dark")
+    qtbot.waitUntil(lambda: page.quality.channels.text() != before)
+    opened.appearance.choose("light")
+    qtbot.waitUntil(lambda: page.quality.channels.text() == before)
+
+
+def test_a_sweep_of_another_file_is_drawn_even_without_a_session(qtbot, window, tmp_path):
+    path = tmp_path / "other.csv"
+    path.write_text(
+        "frequency_hz,velocity_re_m_s,velocity_im_m_s\n" + "".join(f"{f},0.1,0.02\n" for f in range(15, 25))
+    )
+    window.show_page(1)
+    page = window.pages[1]
+    window.open(path)
+    qtbot.waitUntil(lambda: "other.csv" in page.response.amplitude.names, timeout=5000)
+    assert page._layers.currentIndex() == 1
+
+
+def test_back_in_time_there_are_fewer_points(qtbot, opened, page):
+    feed = opened.desk.recorded
+    page.walk(1)
+    feed.jump(0.7 * feed.length_s)
+    qtbot.waitUntil(lambda: 0 < len(page.seen.points) < 30, timeout=5000)
+    assert page.seen.curve is None
+    feed.jump(feed.length_s)
+    qtbot.waitUntil(lambda: len(page.seen.points) == 31, timeout=5000)
