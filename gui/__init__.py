@@ -6,6 +6,7 @@
     plots/      the plot every page uses; theme.py its colours
     desk.py     what a person can do: open, start, hold, stop, answer
     work.py     long work off the main thread
+    rediagnosis.py  a diagnosis made here, by hand or of other data; never recorded
     window.py   all of it on the screen
 
 A page is added in two steps: a file in `pages/` with a `Page` in it (its `title` and `refresh(picture)`), and

@@ -35,7 +35,7 @@ NOTHING_LEFT = 0.97
 """Chi-square per degree of freedom below which no second effect is looked for."""
 CLEAN_ENOUGH = 1.08
 """Chi-square per degree of freedom above which a second effect is looked for beside all leading ones."""
-OVERSTATED = 0.75
+OVERSTATED = 0.8
 """Chi-square per degree of freedom below which local scatter was more than noise."""
 _NUMBERS_A_PARAMETER = 10
 """Data per parameter below which no second effect is looked for."""

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from itertools import permutations
 from typing import TypeVar
 
 import numpy as np
@@ -34,6 +35,8 @@ LEADERS = 5
 PAIRS = 12
 """Pairs fitted in full."""
 PAIRS_A_LEADER = 4
+RETRIED = 3
+"""Pairs begun again from other places where none of them will do."""
 LEAST_EXPECTED = 15.0
 """Chi-square that a second effect must promise where the first leaves little."""
 LEFT_BEHIND = 4.0
@@ -276,9 +279,33 @@ class Search:
                 one = Contender(self.task, self.evidence, trial.fitted, effect, priors, looks[k])
                 return one.finished(one.near[0]) if one.near else None
 
-            fits = [f for f in pool.map(full, chosen.values()) if f is not None]
+            found = [self._judged(f) for f in pool.map(full, chosen.values()) if f is not None]
+            report(0.8)
+            found.sort(key=lambda t: t.bic)
+            if wide and found and not found[0].fitted.chi2_per_dof < UNCLEAR:
+                # None will do yet: the best may only have begun from the wrong place.
+                found += [t for again in pool.map(self._together, found[:RETRIED]) for t in again]
         report(1.0)
-        return sorted((self._judged(f) for f in fits), key=lambda t: t.bic)
+        return _best_of_each(found)
+
+    def _together(self, pair: Trial) -> list[Trial]:
+        """A pair again, each of its effects beside the other fitted alone, in wide valleys."""
+        found = []
+        for first, second in permutations(pair.fitted.effects):
+            if first.replaces_law or second.replaces_law:
+                continue
+            for rough in self._contenders[first.name][0].plain:
+                one = Contender(self.task, self.evidence, rough, second, self.priors([first, second]))
+                found += [self._judged(one.finished(f)) for f in one.far[:1]]
+        return found
+
+
+def _best_of_each(trials: Sequence[Trial]) -> list[Trial]:
+    """One trial of each set of effects, best first."""
+    best: dict[frozenset[str], Trial] = {}
+    for trial in sorted(trials, key=lambda t: t.bic):
+        best.setdefault(frozenset(trial.names), trial)
+    return list(best.values())
 
 
 def _best_first(fits: Iterable[tuple[Contender, Fitted]]) -> list[tuple[Contender, Fitted]]:

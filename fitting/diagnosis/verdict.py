@@ -15,9 +15,7 @@ WITHIN = 15.0
 FIRST = 7.0
 """A first effect must gain this much over none."""
 SECOND = 20.0
-"""A second effect must gain this much: less can be feigned by the plate model's own error."""
-SHARE = 0.035
-"""And this share of what the first one gained: no model of a changed plate is better than some percent."""
+"""A second effect must gain this much, and more where the first one's model `misses` something."""
 PREDICTED = 2.0
 """Times the noise on data held out: as good as can be asked of anything."""
 POOR, HARDLY_BETTER = 3.0, 0.4
@@ -118,8 +116,8 @@ def _second(
     none: Trial, best: Trial, pairs: Sequence[Trial], held_out: Callable[[Trial], float]
 ) -> Trial | None:
     """The pair that explains more than an error of the first effect's own model could, and predicts it."""
-    share = 0.0 if all(e.exact and not e.replaces_law for e in best.fitted.effects) else SHARE
-    wanted = SECOND + share * (none.bic - best.bic)
+    # What the first one's own model misses looks like another effect.
+    wanted = SECOND + max(e.misses for e in best.fitted.effects) * (none.bic - best.bic)
     for pair in pairs:
         if not best.bic - pair.bic > wanted:
             return None

@@ -136,15 +136,11 @@ class Effect:
     tolerance: ClassVar[str | None] = None
     """Property (`fitting.properties`) whose stated tolerance is a prior on the one unknown."""
     replaces_law: ClassVar[bool] = False
+    misses: ClassVar[float] = 0.0
+    """Share of the chi-square it explains that its own model may leave, looking like another effect."""
 
     extends: ClassVar[str | None] = None
     """A simpler effect that this one contains."""
-
-    @property
-    def exact(self) -> bool:
-        """Whether it acts on the reading alone: its model has no error worth the name."""
-        kind, plain = type(self), Effect
-        return (kind.change, kind.modulus, kind.pitch) == (plain.change, plain.modulus, plain.pitch)
 
     def seen(self, sweep: Sweep, noise: Noise) -> Seen | None:
         """Its trace in the channels themselves."""

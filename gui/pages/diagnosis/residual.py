@@ -19,6 +19,8 @@ NAMES: dict[Quantity, str] = {
     "whitened": "whitened",
 }
 TWO_STD = 2.0
+_MARGIN, _LEAST_MARGIN = 0.04, 1e-3
+"""Room beside the points: a share of their range, and of the frequency."""
 _KEYS: dict[Quantity, tuple[tuple[str, str], ...]] = {
     "both": (("real part", "re_percent"), ("imaginary part", "im_percent")),
     "real": (("real part", "re_percent"),),
@@ -51,6 +53,13 @@ class Panel:
 
     series: tuple[Series, ...]
     noise: tuple[Noise, ...]
+
+    @property
+    def range_hz(self) -> tuple[float, float]:
+        """Of all points, with room beside them."""
+        f = np.concatenate([s.frequency_hz for s in self.series])
+        margin = max(_MARGIN * float(np.ptp(f)), _LEAST_MARGIN * float(f.max()))
+        return float(f.min()) - margin, float(f.max()) + margin
 
     @property
     def highest(self) -> float:

@@ -1,6 +1,8 @@
 """The residual before and after, side by side on the same axes, a row a segment."""
 
-from PySide6.QtCore import QEvent, QTimer
+from typing import Any
+
+from PySide6.QtCore import QEvent, QObject, QTimer
 from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
 
 from gui.pages.diagnosis.residual import NAMES, Panel, limits, panel, quantities, segments
@@ -92,9 +94,10 @@ class ResidualPlots(QWidget):
         plot = self._plot(number, stage)
         titled, unit = number == self._numbers[-1], "" if quantity == "whitened" else "%"
         plot.show_axes(Axis("Frequency", "Hz", titled=titled), Axis(f"Segment {number}", unit))
-        _draw_panel(plot, panel(self._facts, number, stage, quantity))
+        shown = panel(self._facts, number, stage, quantity)
+        _draw_panel(plot, shown)
         height = _ROOM * limits(self._facts, number, quantity)
-        plot.setYRange(-height, height, padding=0)
+        plot.setRange(xRange=shown.range_hz, yRange=(-height, height), padding=0)
         if number == self._numbers[0]:
             # Above the points: a legend among them would hide some.
             _name_series(plot)
@@ -108,8 +111,7 @@ class ResidualPlots(QWidget):
             plot.setMinimumHeight(_LEAST_HEIGHT_PX)
             plot.setToolTip(f"Segment {number}, {stage}")
             if stage == "after":
-                plot.setXLink(self.plots[number, "before"])
-                plot.setYLink(self.plots[number, "before"])
+                _Twins(self.plots[number, "before"], plot)
             self._grid.addWidget(plot, number, _STAGES.index(stage))
             self.plots[number, stage] = plot
         return self.plots[number, stage]
@@ -135,6 +137,24 @@ class ResidualPlots(QWidget):
         column.addLayout(above)
         column.addLayout(titles)
         column.addWidget(area, 1)
+
+
+class _Twins(QObject):
+    """Two plots that show the same ranges, whichever is moved.
+
+    The library's own link aligns by place on the screen: plots that are laid out anew drift apart.
+    """
+
+    def __init__(self, one: Plot, other: Plot) -> None:
+        super().__init__(other)
+        self._boxes = one.getViewBox(), other.getViewBox()
+        for box in self._boxes:
+            box.sigRangeChanged.connect(self._follow)
+
+    def _follow(self, moved: Any) -> None:
+        for box in self._boxes:
+            if box is not moved and box.viewRange() != moved.viewRange():
+                box.setRange(xRange=moved.viewRange()[0], yRange=moved.viewRange()[1], padding=0)
 
 
 def _draw_panel(plot: Plot, shown: Panel) -> None:

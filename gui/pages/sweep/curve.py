@@ -36,7 +36,7 @@ class Stretch:
     def phase_deg(self, points: Points) -> Array:
         """Without jumps, and as many whole turns as the points of its segment have."""
         phase = np.unwrap(np.degrees(np.angle(self.over_base_s)), period=360.0)
-        mine = points.segment == self.segment
+        mine = (points.segment == self.segment) & ~points.sentinel
         if not mine.any():
             return phase
         off = points.phase_deg[mine] - np.interp(points.frequency_hz[mine], self.frequency_hz, phase)

@@ -119,12 +119,14 @@ class Points:
 
     @cached_property
     def phase_deg(self) -> Array:
-        """Of velocity over base acceleration, without jumps inside a segment."""
-        phase = np.degrees(np.angle(self.over_base_s))
-        for number in np.unique(self.segment):
-            mine = np.flatnonzero(self.segment == number)
-            mine = mine[np.argsort(self.frequency_hz[mine], kind="stable")]
+        """Of velocity over base acceleration, without jumps along the steps of a segment."""
+        phase, f = np.degrees(np.angle(self.over_base_s)), self.frequency_hz
+        for number in np.unique(self.segment[~self.sentinel]):
+            mine = self.in_order((self.segment == number) & ~self.sentinel)
             phase[mine] = np.unwrap(phase[mine], period=360.0)
+            beside = (self.segment == number) & self.sentinel
+            off = np.interp(f[beside], f[mine], phase[mine]) - phase[beside]
+            phase[beside] += 360.0 * np.round(off / 360.0)
         return phase
 
     def noise_percent(self, channel: Channel) -> Array:

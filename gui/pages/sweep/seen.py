@@ -71,10 +71,13 @@ class Seen:
 
     @property
     def wanted(self) -> Mask:
-        """Points of the segment chosen."""
+        """Points of the segment chosen; a sentinel that lies elsewhere is left out."""
+        p = self.points
         if self.segment is None:
-            return np.ones(len(self.points), dtype=bool)
-        return self.points.segment == self.segment
+            return np.ones(len(p), dtype=bool)
+        low, high = self.band_hz or (0.0, np.inf)
+        inside = (p.frequency_hz >= low) & (p.frequency_hz <= high)
+        return np.asarray((p.segment == self.segment) & (inside | ~p.sentinel))
 
     @property
     def band_hz(self) -> tuple[float, float] | None:

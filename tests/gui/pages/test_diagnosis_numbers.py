@@ -82,3 +82,8 @@ def test_held_out_segments_come_first_beside_noise_alone():
     assert rows[0].before == pytest.approx(100 * abs(BEFORE))
     assert rows[0].noise == pytest.approx(0.1)
     assert compared(facts(one_by_one=3.0))[0].after == 3.0
+
+
+def test_all_points_are_inside_the_range():
+    low, high = panel(facts(), 1, "before", "both").range_hz
+    assert (low, high) == pytest.approx((18 - 0.16, 22 + 0.16))

@@ -106,6 +106,18 @@ def test_phase_has_no_jumps_inside_a_segment_whatever_the_order():
     np.testing.assert_allclose(points.phase_deg, np.degrees(turn)[order])
 
 
+def test_a_sentinel_elsewhere_is_no_part_of_a_segments_view():
+    points = of(
+        point(1, 110.0),
+        point(2, 112.0),
+        point(3, 20.0, purpose="sentinel"),
+        point(4, 111.0, purpose="sentinel"),
+    )
+    seen = Seen(points, segment=1, regions=((1, 108.0, 130.0),))
+    assert seen.wanted.tolist() == [True, True, False, True]
+    assert Seen(points).wanted.all()
+
+
 def test_one_walks_along_the_frequency_and_stops_at_the_ends():
     seen = Seen(of(point(1, 30.0), point(2, 10.0), point(3, 20.0), point(4, 5.0, segment=2)), segment=1)
     assert seen.neighbour(1) == 1

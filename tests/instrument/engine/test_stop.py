@@ -190,7 +190,7 @@ def test_where_the_shaker_takes_no_second_connection_the_client_says_so_and_the_
     monkeypatch.setattr("instrument.engine.stop_path.open_shaker", _nobody_there)
     told_why = []
     with (
-        engine_rig(tmp_path, sweep=LONG) as (rig, experiment),
+        engine_rig(tmp_path, sweep=LONG, virtual=False) as (rig, experiment),
         engine_of(order_on("modbus-tcp", rig, experiment, tmp_path)) as engine,
     ):
 
