@@ -198,7 +198,7 @@ class _Delegate(QStyledItemDelegate):
     def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: _Index) -> None:
         """Bar or tint, then the text, then the stripe."""
         cell, theme = self._table.cell(index.row(), index.column()), current_theme()
-        area = QRectF(option.rect)  # type: ignore[attr-defined]
+        area = QRectF(option.rect)
         if cell.fill is not None:
             bar = area.adjusted(1, 1, -1, -1)
             bar.setWidth(bar.width() * min(max(cell.share, 0.0), 1.0))

@@ -165,7 +165,9 @@ class Window(QMainWindow):
         self.replay.show_feed(recorded)
         if recorded is not None:
             self.settings.remember(recorded.path)
-            self.notice.hide()
+            if self.desk.ending is None or recorded.path != self.desk.ending.session:
+                # What was said of a run's end stays where its recording comes by itself.
+                self.notice.hide()
         self.setWindowTitle(f"{recorded.path.name} - viscorig" if recorded is not None else "viscorig")
         self.menus.refresh()
         self.turn()

@@ -1,6 +1,8 @@
 """A plot as a picture or as numbers, from its menu."""
 
 import csv
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -36,8 +38,22 @@ def save_svg(plot: Any, path: Path) -> None:
     drawing.setViewBox(plot.rect())
     painter = QPainter(drawing)
     painter.fillRect(plot.rect(), plot.backgroundBrush())
-    plot.render(painter, QRectF(plot.rect()), plot.viewport().rect())
+    with _as_shapes(plot):
+        plot.render(painter, QRectF(plot.rect()), plot.viewport().rect())
     painter.end()
+
+
+@contextmanager
+def _as_shapes(plot: Any) -> Iterator[None]:
+    """Symbols are drawn as shapes; on the screen they are small pictures, which is quicker."""
+    items = [item for item in plot.scene().items() if hasattr(item, "setExportMode")]
+    for item in items:
+        item.setExportMode(True)
+    try:
+        yield
+    finally:
+        for item in items:
+            item.setExportMode(False)
 
 
 def save_csv(plot: Any, path: Path) -> None:

@@ -99,6 +99,7 @@ def test_on_logarithmic_axes_too(plot):
     assert plot._readout.text == "10 Hz,  10 m/s"
 
 
+@pytest.mark.qt_log_ignore("not accepted by receiving widget", extend=True)
 def test_a_point_that_is_clicked_is_told_by_its_number(qtbot, plot):
     plot.keep(["measured"])
     plot.points("measured", np.array([1.0, 2.0, 3.0]), np.array([1.0, 3.0, 2.0]))

@@ -103,7 +103,7 @@ def test_hold_resume_and_abort(qtbot, window, page, rig, tmp_path, by):
 
 
 def test_a_run_that_was_broken_off_is_carried_on(qtbot, window, page, tmp_path):
-    with engine_rig(tmp_path, sweep=SWEEP.replace("5", "60")) as (_, experiment):
+    with engine_rig(tmp_path, sweep=SWEEP.replace("points = 5", "points = 60")) as (_, experiment):
         opened(qtbot, window, page, experiment)
         started(qtbot, window, page)
         wait_for_points(qtbot, window)
@@ -134,9 +134,8 @@ def test_a_hit_is_rejected_and_taken_back_while_the_run_waits(qtbot, window, pag
         assert "2 good hits" in page.banner.words.text()
         window.show_page(2)
         hits = window.pages[2].hits
-        qtbot.mouseClick(
-            hits.table.viewport(), LEFT, pos=hits.table.visualItemRect(hits.table.item(0, 0)).center()
-        )
+        first = hits.table.visualRect(hits.table.model().index(0, 0))
+        qtbot.mouseClick(hits.table.viewport(), LEFT, pos=first.center())
         qtbot.mouseClick(hits.reject, LEFT)
         qtbot.waitUntil(lambda: not accepted(1), timeout=PATIENCE_MS)
         qtbot.waitUntil(lambda: live.question is not None, timeout=PATIENCE_MS)
@@ -211,7 +210,7 @@ def test_check_says_what_to_expect_or_what_is_wrong(qtbot, window, page, tmp_pat
         opened(qtbot, window, page, experiment)
     with qtbot.waitSignal(page.check.passed, timeout=PATIENCE_MS):
         qtbot.mouseClick(page.starting.check, LEFT)
-    assert page.checked.table.column_text(3) == ["5"]
+    assert page.checked.table.texts(3) == ["5"]
     typed(qtbot, page.files.forms["experiment"].editor("sweep", "level_g"), "100")
     assert page.starting.check.text() == "Save and check"
     with qtbot.waitSignal(page.check.objected, timeout=PATIENCE_MS):

@@ -87,9 +87,9 @@ def test_a_point_with_a_remark_looks_different(page):
 
 
 def test_the_amplitude_is_velocity_over_base(page):
-    click = page.seen.points
-    k = int(np.flatnonzero(np.isclose(click.frequency_hz, 20.5))[0])
-    p = click.timed[k].point
+    points = page.seen.points
+    k = int(np.flatnonzero(points.frequency_hz == 20.5)[0])
+    p = points.timed[k].point
     f, y = shown(page.response.amplitude, "good")
     assert y[f == 20.5] == pytest.approx(1e3 * abs(p.velocity_m_s / p.base_m_s2))
     page.response.quantity.setCurrentText("velocity at its level")
