@@ -15,7 +15,6 @@ from instrument.campaign.materials import TrueLaw
 from instrument.plain import plain
 
 
-
 @dataclass(frozen=True)
 class StageFacts:
     """The fit before or after."""
