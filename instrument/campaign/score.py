@@ -45,7 +45,7 @@ class Score:
     refused: int
     """Then: unknown."""
     misnamed: int
-    """Then: some effect named."""
+    """Then: some effect named, and no group declared."""
     law_before: LawErrors
     law_after: LawErrors
     chi2_after: float
@@ -80,7 +80,7 @@ def score(name: str, outcomes: Sequence[Outcome]) -> Score:
         too_many=_count(outcomes, lambda o, s: len(s.effects) > len(wanted(o))),
         taken_out=len(again),
         refused=sum(s.verdict == UNKNOWN for s in again),
-        misnamed=sum(bool(s.effects) for s in again),
+        misnamed=sum(s.verdict == "effect" for s in again),
         law_before=law_errors(s.before for s in said),
         law_after=law_errors(s.after for s in said),
         chi2_after=_median(s.after.chi2_per_dof for s in said),

@@ -16,7 +16,7 @@ def summary(outcomes: Sequence[Outcome]) -> str:
         "## Naming\n"
         "right: named first (clean: nothing named; pair: both and nothing else). in group: the same, or in a "
         f"declared group of at most {MOST_IN_GROUP}. taken out: diagnosed again without the true effect in "
-        "the catalogue; refused: then unknown; misnamed: then another effect named.",
+        "the catalogue; refused: then unknown; misnamed: then another effect named, and no group declared.",
         _naming(found),
         "## The material and the fit\nErrors of G' and eta at 20, 100 and 280 Hz against the truth.",
         _material(found),

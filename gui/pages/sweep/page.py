@@ -32,7 +32,7 @@ _BAND = (
     "The band is what the noise of the points lets the fitted response move by, scaled by the residual; "
     "an effect that the model lacks is not in it"
 )
-_LEFT_DIGITS = 36
+_LEFT_DIGITS = 32
 _CHOOSER_PX, _RECORD_PX = 190, 330
 _NONE = (
     "The sweep appears here: amplitude and phase of every segment with the fitted model through the points, "

@@ -7,7 +7,7 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
 
 from gui.pages.sweep.panes import CHOSEN, Key, Pointed, align, channel, hide_foot, keyed
-from gui.pages.sweep.points import Array, Channel, Points
+from gui.pages.sweep.points import Array, Channel
 from gui.pages.sweep.seen import Seen
 from gui.plots import Axis
 from gui.theme import Role
@@ -92,13 +92,16 @@ class QualityPane(QWidget):
             plot.show_points(group, seen.points.frequency_hz[group.index], values[group.index])
 
     def _tolerance(self, seen: Seen, percent: float) -> None:
-        f = _ends(seen.points, seen)
+        f = _ends(seen)
         both = np.concatenate([f, [np.nan], f])
         limits = np.concatenate([np.full(len(f), percent), [np.nan], np.full(len(f), -percent)])
         name = f"{_TOLERANCE} \u00b1{percent:g} %"
         self.level.line(name, both, limits, "bad", dashed=True)
 
 
-def _ends(points: Points, seen: Seen) -> Array:
-    f = points.frequency_hz[seen.wanted]
+def _ends(seen: Seen) -> Array:
+    """Of the line that a tolerance is drawn as."""
+    if seen.band_hz is not None:
+        return np.array(seen.band_hz)
+    f = seen.points.frequency_hz[seen.wanted]
     return np.array([f.min(), f.max()]) if f.size else np.zeros(0)

@@ -140,6 +140,8 @@ class StepPane(QWidget):
             row, column = k % 3, 2 * (k // 3)
             heading = QLabel(name)
             heading.setEnabled(False)
+            # What does not fit is cut off, and does not make the window wider.
+            label.setMinimumWidth(1)
             for one in (heading, label):
                 one.setToolTip(_FACTS[name])
             grid.addWidget(heading, row, column)
