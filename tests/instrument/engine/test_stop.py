@@ -15,6 +15,7 @@ from instrument.session.storage import SessionFile
 from instrument.stream.derived import PointMeasured
 from instrument.stream.raw import BlockAcquired, SessionEnded
 
+pytestmark = pytest.mark.timing
 WITHIN_S = 0.5
 
 
