@@ -116,7 +116,7 @@ def rig_in_real_time(folder: Path, *, points: int, mesh: str = "") -> Iterator[P
     rig = folder / "rig.toml"
     rig.write_text(rig.read_text().replace("8192.0", f"{SAMPLE_RATE_HZ}"))
     command = [sys.executable, "-m", "instrument.cli", "simulate", str(rig)]
-    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         try:
             assert process.stdout is not None
             _connect(rig, json.loads(process.stdout.readline()))
@@ -130,9 +130,7 @@ def rig_in_real_time(folder: Path, *, points: int, mesh: str = "") -> Iterator[P
                 file.write(mesh)
             yield experiment
         finally:
-            assert process.stdin is not None
-            process.stdin.close()
-            process.wait(20)
+            process.terminate()
 
 
 def _connect(rig: Path, facts: dict[str, str]) -> None:
