@@ -6,7 +6,7 @@ READY   := $(VENV)/.ready
 OUT     := out
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test checks unit lint types contracts format bench clean
+.PHONY: help setup demo test checks unit coverage lint types contracts format bench clean
 
 help:          ## list the targets
 	@awk -F':.*## ' '/^[a-z]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -34,8 +34,11 @@ types: $(READY)
 contracts: $(READY)
 	@$(BIN)/lint-imports
 
-unit: $(READY) ## the test suite with coverage
+unit: $(READY) ## the test suite
 	@$(BIN)/pytest -m timing
+	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 -m "not timing"
+
+coverage: $(READY) ## the test suite once more, with the lines it does not reach
 	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 -m "not timing" --cov --cov-report=term
 
 format: $(READY) ## rewrite the sources in the project's style
