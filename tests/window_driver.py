@@ -2,8 +2,8 @@
 
     python tests/window_driver.py EXPERIMENT.toml
 
-From the form to the diagnosis, a hit rejected and taken back, the replay, and a second run stopped. Prints what was
-seen as JSON. Needs DISPLAY and xdotool.
+From the form to the diagnosis, a hit rejected and taken back, the replay, and a second run stopped. Prints
+what was seen as JSON. Needs DISPLAY and xdotool.
 """
 
 import json

@@ -1,4 +1,4 @@
-"""The real window on a real X server, driven with mouse and keys: from the form to diagnosis, replay, stop."""
+"""The real window on a real X server, driven with mouse and keys: form, diagnosis, replay, stop."""
 
 import json
 import os
