@@ -25,6 +25,7 @@ from fitting.sweep import Sweep
 from instrument.cache import cached
 from instrument.errors import BadInput
 from instrument.models import Models
+from instrument.processes import hands
 from instrument.progress import Progress, quiet
 
 Array = NDArray[np.float64]
@@ -69,7 +70,7 @@ def diagnose(
         raise OutsideModel("a bare plate has no core to diagnose, expected [core] and [constraining]")
     start = specimen.core.law
     began = perf_counter()
-    with threadpool_limits(1, "blas"):
+    with threadpool_limits(1, "blas"), hands() as workers:
         modes = match_modes(specimen, *hammer) if hammer is not None else None
         if modes is not None:
             specimen = replace(specimen, modal_ratios=modes.ratios)
@@ -79,7 +80,9 @@ def diagnose(
         ready = perf_counter()
         bare = _bare(modes) if modes is not None else None
         with progress("tracing the residual") as report:
-            result = diagnose_task(task, reduced, effects, noise, bare, start, channels, used, report, accept)
+            result = diagnose_task(
+                task, reduced, effects, noise, bare, start, channels, used, report, accept, workers
+            )
     return Diagnosed(result, ready - began, perf_counter() - ready)
 
 

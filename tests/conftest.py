@@ -17,6 +17,7 @@ from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.models import Models
 from instrument.paper_case import case_file
+from instrument.processes import VARIABLE as PROCESSES
 
 settings.register_profile("ci", deadline=None, max_examples=40, derandomize=True)
 settings.load_profile("ci")
@@ -35,6 +36,8 @@ def cache_of_this_run(tmp_path_factory):
     if "PYTEST_XDIST_WORKER" in os.environ:
         folder = folder.parent
     os.environ["VISCORIG_CACHE"] = str(folder / "cache")
+    # The tests fill both processors by themselves.
+    os.environ[PROCESSES] = "1"
 
 
 @pytest.fixture(scope="session")

@@ -17,6 +17,8 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Start = tuple[float, Array]
 """The chi-square that a start may gain, and its unknowns."""
+Known = dict[str, list[Fitted]]
+"""What a contender has found so far, by the name of the property."""
 
 FOLLOWED, FOLLOWED_PLACES = 2, 4
 """Of an effect's starts, how many are fitted roughly; of one with a place to be found."""
@@ -28,6 +30,7 @@ WRONG = 2.0
 """Chi-square per degree of freedom beyond which the law so far is no place to begin."""
 HOPELESS = 30.0
 """Chi-square per degree of freedom that finer grids will not mend."""
+_FOUND = ("near", "elsewhere", "plain", "far")
 _ROUNDS = 3
 _FAR = 0.02
 
@@ -87,6 +90,15 @@ class Contender:
         self.task, self.evidence, self.before = task, evidence, before
         self.effect, self.priors = effect, priors
         self._looked = starts
+
+    @property
+    def known(self) -> Known:
+        """What has been asked for so far."""
+        return {name: getattr(self, name) for name in _FOUND if name in self.__dict__}
+
+    def learn(self, known: Known) -> None:
+        """What the same contender has found elsewhere."""
+        self.__dict__.update(known)
 
     @cached_property
     def _starts(self) -> Sequence[Start]:

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from fitting.diagnosis import words
 from fitting.diagnosis.evidence import BareModes, Evidence
+from fitting.diagnosis.hands import ALONE, Hands
 from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.prediction import over_noise
 from fitting.diagnosis.refit import Fitted, refit
@@ -78,6 +79,7 @@ def diagnose_task(
     used: Mask | None = None,
     report: Report = lambda fraction: None,
     accepted_by_hand: Sequence[str] | None = None,
+    hands: Hands = ALONE,
 ) -> Diagnosis:
     """Everything that can be said of a sweep's residual; `task` holds the points in use.
 
@@ -86,7 +88,7 @@ def diagnose_task(
     task, evidence, none = begin(task, reduced, noise, bare, start)
     known_names = {e.name for e in effects}
     bases = [CATALOGUE[e.extends] for e in effects if e.extends and e.extends not in known_names]
-    search = Search(task, evidence, none, effects, bases)
+    search = Search(task, evidence, none, effects, hands, bases)
     catalogue = {e.name: e for e in effects}
     if accepted_by_hand is None:
         search, trials, judgement = _searched(search, noise, report)
@@ -102,7 +104,7 @@ def diagnose_task(
     after, found = before, tuple[FoundEffect, ...]()
     if accepted is not None:
         after = stage_of(task, evidence, accepted.fitted, search.validation(accepted))
-        found = found_effects(accepted.fitted)
+        found = found_effects(accepted.fitted, task.plate)
     trials = sorted([search.none, *trials], key=lambda t: t.bic)
     seen = tuple(words.story(catalogue[c.name], c) for c in channels)
     return Diagnosis(
@@ -110,7 +112,7 @@ def diagnose_task(
         effects=found,
         channels=channels,
         equivalent=judgement.equivalent,
-        candidates=tuple(_candidate(t, trials[0].bic, noise_known=known) for t in trials),
+        candidates=tuple(_candidate(task, t, trials[0].bic, noise_known=known) for t in trials),
         before=before,
         after=after,
         next_measurement=words.next_measurement(judgement, catalogue, with_hammer=bare is not None),
@@ -170,9 +172,9 @@ def _pairs(search: Search, singles: Sequence[Trial], report: Report) -> list[Tri
     return without_idle_extensions(search.pairs(singles, report, wide=wide))
 
 
-def _candidate(trial: Trial, best: float, *, noise_known: bool) -> Candidate:
+def _candidate(task: Task, trial: Trial, best: float, *, noise_known: bool) -> Candidate:
     chi2 = trial.fitted.chi2_per_dof if noise_known else float("nan")
-    return Candidate(found_effects(trial.fitted), trial.bic - best, chi2)
+    return Candidate(found_effects(trial.fitted, task.plate), trial.bic - best, chi2)
 
 
 def _warnings(task: Task, judgement: Judgement) -> tuple[str, ...]:

@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.refit import Fitted, refit
+from fitting.diagnosis.response import Response
 from fitting.diagnosis.task import Task
 from fitting.identification.result import differences_percent
 from fitting.identification.validation import Mask, Validation, validate
@@ -15,9 +16,10 @@ Array = NDArray[np.float64]
 def held_out(task: Task, evidence: Evidence, fitted: Fitted, priors: Array) -> Validation:
     """Every segment predicted by a law and effects fitted to the others; few points one by one."""
     size = np.abs(task.sweep.response_m_s)
+    response = Response(task.around(fitted.law), fitted.effects)
 
     def differences(points: Mask) -> Array:
-        learnt = refit(fitted.response, evidence, fitted.law, fitted.u, points=points, priors=priors)
+        learnt = refit(response, evidence, fitted.law, fitted.u, points=points, priors=priors)
         return differences_percent(task.sweep, learnt.velocity_m_s)
 
     return validate(

@@ -21,11 +21,11 @@ ROUGH, GOOD = 1e-3, 1e-5
 """Relative change of chi-square and parameters at which a fit stops: to choose, and to compare."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Fitted:
     """Where a fit of a law and some effects ended."""
 
-    response: Response
+    effects: tuple[Effect, ...]
     law: CoreLaw
     u: Array
     velocity_m_s: Complex
@@ -38,11 +38,6 @@ class Fitted:
     free: Array
     """Which of the unknowns are fitted. Shape (unknowns,), true or false."""
     noise_known: bool
-
-    @property
-    def effects(self) -> tuple[Effect, ...]:
-        """Of the response."""
-        return self.response.effects
 
     @property
     def parameters(self) -> int:
@@ -207,5 +202,13 @@ class _Problem:
         r, J, v = self._both(x)
         law, u = self._split(x)
         return Fitted(
-            self.response, law, u, v, r, J, self.evidence.count, self.free, self.evidence.scale_known
+            self.response.effects,
+            law,
+            u,
+            v,
+            r,
+            J,
+            self.evidence.count,
+            self.free,
+            self.evidence.scale_known,
         )

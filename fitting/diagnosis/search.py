@@ -1,29 +1,24 @@
 """The catalogue tried on a residual: single effects, other laws, pairs where one does not suffice."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from itertools import permutations
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.diagnosis.candidates import FINISHED, WRONG, Contender, has_place, look, polished
+from fitting.diagnosis.candidates import WRONG, Contender, has_place, polished
 from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.prediction import held_out
+from fitting.diagnosis.hands import Hands
 from fitting.diagnosis.refit import Fitted, refit
+from fitting.diagnosis.response import Response
 from fitting.diagnosis.task import Task
+from fitting.diagnosis.work import Work
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.identification.validation import Validation
-from fitting.properties import PROPERTIES
 
 Array = NDArray[np.float64]
 Report = Callable[[float], None]
-A = TypeVar("A")
-B = TypeVar("B")
-
 NEAR = 40.0
 """In BIC, above the best: effects so near are gone into twice."""
 UNCLEAR = 1.1
@@ -67,28 +62,28 @@ class Search:
         evidence: Evidence,
         none: Fitted,
         effects: Sequence[Effect],
+        hands: Hands,
         unnamed: Sequence[Effect] = (),
     ) -> None:
         """`unnamed` are fitted alone, for comparison, and never named."""
-        self.task, self.evidence = task, evidence
+        self.task, self.evidence, self.hands = task, evidence, hands
         self.stated = stated = none.law
         self._choosing: dict[str, float] = {}
         self._validations: dict[int, tuple[Trial, Validation]] = {}
         self.effects, self.unnamed = (
             [e for e in some if e.objection(task.points, task.plate) is None] for some in (effects, unnamed)
         )
-        self._fitted = [e for e in (*self.effects, *self.unnamed) if not e.laws(stated, task.points)]
+        fitted = [e for e in (*self.effects, *self.unnamed) if not e.laws(stated, task.points)]
+        # Those that take longest come first: hands then end at the same time.
+        self._fitted = sorted(fitted, key=has_place, reverse=True)
+        self._work = Work(task, evidence, none, [*self.effects, *self.unnamed])
         self.none = self._judged(none)
-        self._contenders = {
-            e.name: [Contender(task, evidence, none, form, self.priors([form])) for form in e.variants()]
-            for e in self._fitted
-        }
 
     def with_evidence(self, evidence: Evidence) -> "Search":
         """The same search of data that are worth something else."""
         none = self.none.fitted
-        again = refit(none.response, evidence, none.law, none.u)
-        return Search(self.task, evidence, again, self.effects, self.unnamed)
+        again = refit(Response(self.task, ()), evidence, none.law, none.u)
+        return Search(self.task, evidence, again, self.effects, self.hands, self.unnamed)
 
     def _judged(self, fitted: Fitted) -> Trial:
         n = self.evidence.count + (len(self.evidence.bare.shift) if self.evidence.bare else 0)
@@ -109,18 +104,11 @@ class Search:
             self._choosing[effect.name] = 2 * float(np.log(many))
         return self._choosing[effect.name]
 
-    def priors(self, effects: Sequence[Effect]) -> Array:
-        """Standard deviations of unknowns about their neutral values: the specimen's tolerances."""
-        stated = self.task.specimen.tolerances
-        found = {str(name): stated[name] for name in PROPERTIES if name in stated}
-        return np.array([found.get(e.tolerance or "", np.inf) for e in effects for _ in e.unknowns])
-
     def validation(self, trial: Trial) -> Validation:
         """What a trial says of data it has not seen."""
         key = id(trial)
         if key not in self._validations:
-            found = held_out(self.task, self.evidence, trial.fitted, self.priors(trial.fitted.effects))
-            self._validations[key] = trial, found
+            self._validations[key] = trial, self._work.held_out(trial.fitted)
         return self._validations[key][1]
 
     def alone(self, trial: Trial) -> list[Trial]:
@@ -130,7 +118,7 @@ class Search:
             u = trial.fitted.u[start : start + len(effect.unknowns)]
             start += len(effect.unknowns)
             if not effect.replaces_law and not any(e.replaces_law for e in trial.fitted.effects):
-                priors = self.priors([effect])
+                priors = self._work.priors([effect])
                 found.append(
                     self._judged(polished(self.task, [effect], self.evidence, trial.fitted.law, u, priors))
                 )
@@ -139,6 +127,7 @@ class Search:
     def singles(self, report: Report) -> list[Trial]:
         """Every effect beside the law, best first; the leading ones are gone into twice."""
         found: dict[str, Trial] = {}
+        work, each = self._work, self.hands.each
 
         def keep(fits: Iterable[Fitted]) -> None:
             for trial in (self._judged(f) for f in fits if self._determined(f)):
@@ -147,38 +136,23 @@ class Search:
                     found[name] = trial
 
         laws = [e for e in self.effects if e not in self._fitted]
-        keep(self._each(self._other_law, laws, lambda x: report(0.1 * x)))
-        keep(
-            f for fits in self._each(self._rough, self._fitted, lambda x: report(0.1 + 0.3 * x)) for f in fits
-        )
-        keep(self._each(self._finished, self._ahead(found), lambda x: report(0.4 + 0.2 * x)))
-        keep(
-            f
-            for fits in self._each(self._thorough, self._worth_more(found), lambda x: report(0.6 + 0.4 * x))
-            for f in fits
-        )
+        for fits in each(work.other_laws, laws, lambda x: report(0.1 * x)):
+            keep(fits)
+        names = [e.name for e in self._fitted]
+        for name, state in zip(names, each(work.rough, names, lambda x: report(0.1 + 0.3 * x)), strict=True):
+            work.learn(name, state)
+            keep(f for known in state for f in known["near"])
+        ahead = [best for name in self._ahead(found) for best in work.best_near(name)]
+        keep(each(work.finished, ahead, lambda x: report(0.4 + 0.2 * x)))
+        further = [(name, work.state(name)) for name in self._worth_more(found)]
+        for fits in each(work.thorough, further, lambda x: report(0.6 + 0.4 * x)):
+            keep(fits)
         return sorted(found.values(), key=lambda t: t.bic)
-
-    def _each(self, do: Callable[[A], B], wanted: Sequence[A], report: Report) -> Iterable[B]:
-        with ThreadPoolExecutor(2) as pool:
-            for done, found in enumerate(pool.map(do, wanted)):
-                report((done + 1) / len(wanted))
-                yield found
 
     def _determined(self, fitted: Fitted) -> bool:
         return fitted.parameters <= self.evidence.count - _SPARE
 
-    def _other_law(self, effect: Effect) -> Fitted:
-        none = self.none.fitted
-        response = none.response.beside(effect)
-        laws = effect.laws(none.law, self.task.points)
-        fits = [refit(response, self.evidence, law, none.u) for law in laws]
-        return min(fits, key=lambda f: self._judged(f).bic)
-
-    def _rough(self, effect: Effect) -> list[Fitted]:
-        return sorted((f for c in self._contenders[effect.name] for f in c.near), key=lambda f: f.chi2)
-
-    def _ahead(self, found: Mapping[str, Trial]) -> list[Effect]:
+    def _ahead(self, found: Mapping[str, Trial]) -> list[str]:
         """Effects whose rough fit is among the best or not far behind."""
         order = sorted(found.values(), key=lambda t: t.fitted.chi2)
         names = {
@@ -186,21 +160,9 @@ class Search:
             for place, t in enumerate(order)
             if place < 2 * LEADERS and t.fitted.chi2 < LEFT_BEHIND * order[0].fitted.chi2
         }
-        return [e for e in self._fitted if e.name in names]
+        return [e.name for e in self._fitted if e.name in names]
 
-    def _finished(self, effect: Effect) -> Fitted:
-        contender, rough = _best_first((c, f) for c in self._contenders[effect.name] for f in c.near)[0]
-        return contender.finished(rough)
-
-    def _thorough(self, effect: Effect) -> list[Fitted]:
-        contenders = self._contenders[effect.name]
-        followed = next(iter(self._rough(effect)), None)
-        near = _best_first((c, f) for c in contenders for f in [*c.near, *c.elsewhere])
-        near = [(c, f) for c, f in near[:FINISHED] if f is not followed]
-        far = _best_first((c, f) for c in contenders for f in c.far)[:FINISHED]
-        return [c.finished(f) for c, f in [*near, *far]]
-
-    def _worth_more(self, found: Mapping[str, Trial]) -> list[Effect]:
+    def _worth_more(self, found: Mapping[str, Trial]) -> list[str]:
         """Effects that better starts might bring to the top, after a first pass."""
         order = sorted(found.values(), key=lambda t: t.bic)
         if not order or self.none.bic - order[0].bic < PROMISING:
@@ -209,18 +171,21 @@ class Search:
         best = order[0].fitted
         if not best.chi2_per_dof < UNCLEAR or any(e.replaces_law for e in best.effects):
             names |= {t.names[0] for t in order[:LEADERS]} | self._promising()
-        return [e for e in self._fitted if e.name in names and e.unknowns]
+        return [e.name for e in self._fitted if e.name in names and e.unknowns]
 
     def _promising(self) -> set[str]:
         """Where the law so far is no place to begin: the effects that do best from plain starts."""
         if not self.none.fitted.chi2_per_dof > WRONG:
             return set()
-        fitted = [e for e in self._fitted if e.unknowns]
-        chi2 = list(self._each(self._plain_chi2, fitted, lambda x: None))
-        return {fitted[k].name for k in np.argsort(chi2)[:LEADERS]}
-
-    def _plain_chi2(self, effect: Effect) -> float:
-        return min(f.chi2 for f in self._contenders[effect.name][0].plain)
+        work = self._work
+        names = [e.name for e in self._fitted if e.unknowns]
+        chi2 = []
+        for name, state in zip(
+            names, self.hands.each(work.plain, [(n, work.state(n)) for n in names]), strict=True
+        ):
+            work.learn(name, state)
+            chi2.append(min(f.chi2 for f in state[0]["plain"]))
+        return {names[k] for k in np.argsort(chi2)[:LEADERS]}
 
     def told(self, effects: Sequence[Effect]) -> Trial:
         """These effects together, none of them weighed; `FittingError` where the data cannot carry one."""
@@ -231,9 +196,10 @@ class Search:
             if objection is not None:
                 raise OutsideModel(f"{effect.name}: {objection}")
             if effect.replaces_law:
-                fitted = self._other_law(effect)
+                fits = self._work.other_laws(effect)
+                fitted = min(fits, key=lambda f: self._judged(f).bic)
                 continue
-            priors = self.priors([*fitted.effects, effect])
+            priors = self._work.priors([*fitted.effects, effect])
             contenders = [
                 Contender(self.task, self.evidence, fitted, form, priors) for form in effect.variants()
             ]
@@ -243,61 +209,43 @@ class Search:
 
     def pairs(self, singles: Sequence[Trial], report: Report, *, wide: bool) -> list[Trial]:
         """Second effects beside the leading single ones, or the first alone; best first."""
+        work, each = self._work, self.hands.each
         leaders = list(singles[: LEADERS if wide else 1])
         tasks = [
-            (t, form)
+            (t, (e.name, number))
             for t in leaders
             for e in self.effects
             if e.name not in t.names and not e.replaces_law
-            for form in e.variants()
+            for number in range(len(e.variants()))
         ]
-
-        def first_look(pair: tuple[Trial, Effect]) -> list[tuple[float, Array]]:
-            return look(self.task, self.evidence, pair[0].fitted, pair[1])
-
-        with ThreadPoolExecutor(2) as pool:
-            looks = list(pool.map(first_look, tasks))
-            report(0.4)
-            expected = [
-                t.fitted.chi2 - starts[0][0] if starts else np.inf
-                for (t, _), starts in zip(tasks, looks, strict=True)
-            ]
-            chosen: dict[frozenset[str], int] = {}
-            beside: dict[Trial, int] = {}
-            enough = singles[0].fitted.chi2 - LEAST_EXPECTED
-            for k in np.argsort(expected):
-                trial, effect = tasks[k]
-                # Each leader has its say: a linear step from a poor one promises too much.
-                many = len(chosen) == PAIRS or beside.get(trial, 0) == PAIRS_A_LEADER
-                if not many and (wide or expected[k] < enough):
-                    beside[trial] = beside.get(trial, 0) + 1
-                    chosen.setdefault(frozenset((*trial.names, effect.name)), int(k))
-
-            def full(k: int) -> Fitted | None:
-                trial, effect = tasks[k]
-                priors = self.priors([*trial.fitted.effects, effect])
-                one = Contender(self.task, self.evidence, trial.fitted, effect, priors, looks[k])
-                return one.finished(one.near[0]) if one.near else None
-
-            found = [self._judged(f) for f in pool.map(full, chosen.values()) if f is not None]
-            report(0.8)
-            found.sort(key=lambda t: t.bic)
-            if wide and found and not found[0].fitted.chi2_per_dof < UNCLEAR:
-                # None will do yet: the best may only have begun from the wrong place.
-                found += [t for again in pool.map(self._together, found[:RETRIED]) for t in again]
+        asked = [(t.fitted, form) for t, form in tasks]
+        looks = list(each(work.look, asked, lambda x: report(0.4 * x)))
+        expected = [
+            t.fitted.chi2 - starts[0][0] if starts else np.inf
+            for (t, _), starts in zip(tasks, looks, strict=True)
+        ]
+        chosen: dict[frozenset[str], int] = {}
+        beside: dict[Trial, int] = {}
+        enough = singles[0].fitted.chi2 - LEAST_EXPECTED
+        for k in np.argsort(expected):
+            trial, (name, _) = tasks[k]
+            # Each leader has its say: a linear step from a poor one promises too much.
+            many = len(chosen) == PAIRS or beside.get(trial, 0) == PAIRS_A_LEADER
+            if not many and (wide or expected[k] < enough):
+                beside[trial] = beside.get(trial, 0) + 1
+                chosen.setdefault(frozenset((*trial.names, name)), int(k))
+        full = [(tasks[k][0].fitted, tasks[k][1], looks[k]) for k in chosen.values()]
+        fits = each(work.second, full, lambda x: report(0.4 + 0.4 * x))
+        found = sorted((self._judged(f) for f in fits if f is not None), key=lambda t: t.bic)
+        if wide and found and not found[0].fitted.chi2_per_dof < UNCLEAR:
+            # None will do yet: the best may only have begun from the wrong place.
+            again = [(t.fitted, {n: work.state(n) for n in self._plainly(t)}) for t in found[:RETRIED]]
+            found += [self._judged(f) for fits in each(work.together, again) for f in fits]
         report(1.0)
         return _best_of_each(found)
 
-    def _together(self, pair: Trial) -> list[Trial]:
-        """A pair again, each of its effects beside the other fitted alone, in wide valleys."""
-        found = []
-        for first, second in permutations(pair.fitted.effects):
-            if first.replaces_law or second.replaces_law:
-                continue
-            for rough in self._contenders[first.name][0].plain:
-                one = Contender(self.task, self.evidence, rough, second, self.priors([first, second]))
-                found += [self._judged(one.finished(f)) for f in one.far[:1]]
-        return found
+    def _plainly(self, pair: Trial) -> list[str]:
+        return [e.name for e in pair.fitted.effects if not e.replaces_law]
 
 
 def _best_of_each(trials: Sequence[Trial]) -> list[Trial]:
@@ -306,7 +254,3 @@ def _best_of_each(trials: Sequence[Trial]) -> list[Trial]:
     for trial in sorted(trials, key=lambda t: t.bic):
         best.setdefault(frozenset(trial.names), trial)
     return list(best.values())
-
-
-def _best_first(fits: Iterable[tuple[Contender, Fitted]]) -> list[tuple[Contender, Fitted]]:
-    return sorted(fits, key=lambda one: one[1].chi2)

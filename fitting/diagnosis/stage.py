@@ -8,6 +8,7 @@ from fitting.diagnosis.refit import Fitted
 from fitting.diagnosis.result import Estimate, FoundEffect, Stage
 from fitting.diagnosis.structure import structure
 from fitting.diagnosis.task import Task
+from fitting.effects.spanned import SpannedPlate
 from fitting.identification.result import differences_percent, law_band
 from fitting.identification.uncertainty import Uncertainty, limits_reached
 from fitting.identification.validation import Validation
@@ -44,14 +45,14 @@ def stage_of(task: Task, evidence: Evidence, fitted: Fitted, validation: Validat
     )
 
 
-def found_effects(fitted: Fitted) -> tuple[FoundEffect, ...]:
+def found_effects(fitted: Fitted, plate: SpannedPlate) -> tuple[FoundEffect, ...]:
     """The effects of a fit with their sizes and standard errors."""
     n = len(fitted.law.names)
     inner = np.full(len(fitted.u), np.nan)
     inner[fitted.free] = np.sqrt(np.maximum(np.diag(fitted.covariance)[n:], 0))
     found, start = [], 0
     for effect in fitted.effects:
-        lower, upper = effect.limits(fitted.response.plate)
+        lower, upper = effect.limits(plate)
         parameters = {}
         for k, q in enumerate(effect.unknowns):
             value, error = float(fitted.u[start + k]), float(inner[start + k])

@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.diagnosis.refit import Fitted
+from fitting.diagnosis.response import Response
 from fitting.diagnosis.result import FoundEffect, Stage
 from fitting.diagnosis.task import Task
 from fitting.diagnosis.verdict import Judgement
@@ -94,7 +95,7 @@ def _worst_segment(task: Task, before: Stage) -> int:
 
 def _moved(task: Task, fitted: Fitted) -> str:
     """How much the effect changes the response, segment by segment, the law kept."""
-    plain = type(fitted.response)(task, ()).velocity(fitted.law, np.empty(0))
+    plain = Response(task, ()).velocity(fitted.law, np.empty(0))
     changed = 100 * np.abs(fitted.velocity_m_s / plain - 1)
     parts = []
     for number in np.unique(task.sweep.segment):

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import os
 import signal
 from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
@@ -21,6 +22,7 @@ from instrument.campaign.tables import summary
 from instrument.campaign.visibility import visible_chi2
 from instrument.errors import BadInput, StoppedByUser
 from instrument.files.text import read_text
+from instrument.processes import VARIABLE as PROCESSES
 from instrument.progress import Progress, quiet
 
 OUTCOMES, BEGUN, SUMMARY = "outcomes.jsonl", "campaign.json", "summary.md"
@@ -186,6 +188,7 @@ def _judge_all(
 
 
 def _alone() -> None:
-    """A worker: one BLAS thread, deaf to Ctrl-C, which the parent hears."""
+    """A worker: one process, one BLAS thread, deaf to Ctrl-C, which the parent hears."""
+    os.environ[PROCESSES] = "1"
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threadpool_limits(1, "blas")

@@ -15,6 +15,7 @@ from instrument.errors import BadInput
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.paper_case import case_file
+from instrument.processes import VARIABLE
 from instrument.simulated_case import case_file as simulated_file
 from tests.conftest import DATA
 
@@ -45,6 +46,16 @@ def test_a_hidden_effect_is_named_and_the_law_put_right(name):
     assert np.abs(after.real / true.real - 1).max() < 0.5 * np.abs(before.real / true.real - 1).max()
     assert found.after.chi2_per_dof < 1.2 < found.before.chi2_per_dof
     assert "instead of" in " ".join(found.explanation)
+
+
+def test_a_second_process_changes_nothing(monkeypatch):
+    alone = diagnose(practice("005"), specimen()).result
+    monkeypatch.delenv(VARIABLE)
+    monkeypatch.setattr("instrument.processes.processors", lambda: 2)
+    shared = diagnose(practice("005"), specimen()).result
+    assert repr(shared.candidates) == repr(alone.candidates)
+    assert shared.explanation == alone.explanation
+    assert np.array_equal(shared.after.law.values, alone.after.law.values)
 
 
 def test_a_clean_sweep_is_said_to_be_clean():

@@ -123,6 +123,15 @@ def hide_foot(plot: Plot) -> None:
     plot.show_axes(replace(plot.x, titled=False), plot.y)
 
 
+def span(plot: Plot, x: Array) -> None:
+    """The whole of a trace in view along x.
+
+    Not left to the plot: linked plots that draw only what is in view would move each other for ever.
+    """
+    if x.size:
+        plot.setXRange(float(x[0]), float(x[-1]), padding=0.02)
+
+
 def align(*plots: Plot) -> None:
     """Plots above each other begin at the same place, whatever their numbers are."""
     metrics = plots[0].fontMetrics()

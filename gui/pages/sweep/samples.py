@@ -7,7 +7,7 @@ from PySide6.QtGui import QHideEvent
 from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
 
 from gui.pages.sweep.dwells import Dwells
-from gui.pages.sweep.panes import align
+from gui.pages.sweep.panes import align, span
 from gui.pages.sweep.seen import Seen
 from gui.plots import Axis, Plot
 from gui.widgets import hint
@@ -72,6 +72,7 @@ class SamplesPane(QWidget):
         self.said.setText(f"Step {step}: the dwell as the sensors gave it, calibration not taken off")
         self.base.trace("base acceleration", samples.time_s, samples.base_m_s2, "second")
         self.velocity.trace("velocity", samples.time_s, 1e3 * samples.velocity_m_s, "data")
+        span(self.base, samples.time_s)
         align(self.base, self.velocity)
 
     def _failed(self, why: str) -> None:

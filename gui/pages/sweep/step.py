@@ -5,7 +5,7 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QGridLayout, QLabel, QSplitter, QVBoxLayout, QWidget
 
 from gui.pages.sweep.following import Following, latest_cycles, words
-from gui.pages.sweep.panes import Key, align, hide_foot, keyed
+from gui.pages.sweep.panes import Key, align, hide_foot, keyed, span
 from gui.picture import Picture
 from gui.picture.step import Step
 from gui.plots import Axis, Plot
@@ -99,6 +99,7 @@ class StepPane(QWidget):
         milliseconds = 1e3 * trace.time_s
         self.base.trace("base acceleration", milliseconds, trace.base_m_s2, "second")
         self.velocity.trace("velocity", milliseconds, 1e3 * trace.velocity_m_s, "data")
+        span(self.base, milliseconds)
         align(self.base, self.velocity, self.settling)
 
     def _draw_settling(self, step: Step, following: Following, settings: SweepSettings) -> None:

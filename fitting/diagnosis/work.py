@@ -1,0 +1,131 @@
+"""What can be done for one candidate without knowing of the others: any process can do it."""
+
+from collections.abc import Sequence
+from itertools import permutations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.diagnosis.candidates import FINISHED, Contender, Known, Start, look
+from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.prediction import held_out
+from fitting.diagnosis.refit import Fitted, refit
+from fitting.diagnosis.response import Response
+from fitting.diagnosis.task import Task
+from fitting.effects.base import Effect
+from fitting.identification.validation import Validation
+from fitting.properties import PROPERTIES
+
+Array = NDArray[np.float64]
+Form = tuple[str, int]
+"""An effect by its name, and the number of its variant."""
+State = list[Known]
+"""What is known of each variant of an effect."""
+
+
+class Work:
+    """Fits of one set of data with one or two effects more than `none`."""
+
+    def __init__(self, task: Task, evidence: Evidence, none: Fitted, effects: Sequence[Effect]) -> None:
+        self.task, self.evidence, self.none = task, evidence, none
+        self.effects = {e.name: e for e in effects}
+        self.contenders = {
+            e.name: [Contender(task, evidence, none, form, self.priors([form])) for form in e.variants()]
+            for e in effects
+        }
+
+    def form(self, form: Form) -> Effect:
+        """The effect itself."""
+        name, number = form
+        return self.effects[name].variants()[number]
+
+    def state(self, name: str) -> State:
+        """What is known of an effect so far."""
+        return [c.known for c in self.contenders[name]]
+
+    def learn(self, name: str, state: State) -> None:
+        """What another process has found."""
+        for contender, known in zip(self.contenders[name], state, strict=True):
+            contender.learn(known)
+
+    def priors(self, effects: Sequence[Effect]) -> Array:
+        """Standard deviations of unknowns about their neutral values: the specimen's tolerances."""
+        stated = self.task.specimen.tolerances
+        found = {str(name): stated[name] for name in PROPERTIES if name in stated}
+        return np.array([found.get(e.tolerance or "", np.inf) for e in effects for _ in e.unknowns])
+
+    def held_out(self, fitted: Fitted) -> Validation:
+        """What a fit says of data it has not seen."""
+        return held_out(self.task, self.evidence, fitted, self.priors(fitted.effects))
+
+    def other_laws(self, effect: Effect) -> list[Fitted]:
+        """Fits with each of the laws that an effect has in the place of the stated one."""
+        response = Response(self.task, [*self.none.effects, effect])
+        laws = effect.laws(self.none.law, self.task.points)
+        return [refit(response, self.evidence, law, self.none.u) for law in laws]
+
+    def rough(self, name: str) -> State:
+        """Rough fits near by."""
+        for contender in self.contenders[name]:
+            _ = contender.near
+        return self.state(name)
+
+    def plain(self, one: tuple[str, State]) -> State:
+        """Fits of the first variant from plain starts."""
+        name, state = one
+        self.learn(name, state)
+        _ = self.contenders[name][0].plain
+        return self.state(name)
+
+    def best_near(self, name: str) -> list[tuple[Form, Fitted]]:
+        """The best of an effect's rough fits, or none."""
+        fits = [((name, k), f) for k, c in enumerate(self.contenders[name]) for f in c.near]
+        return sorted(fits, key=lambda one: one[1].chi2)[:1]
+
+    def finished(self, one: tuple[Form, Fitted]) -> Fitted:
+        """A rough fit followed to the end."""
+        (name, number), rough = one
+        return self.contenders[name][number].finished(rough)
+
+    def thorough(self, one: tuple[str, State]) -> list[Fitted]:
+        """Further starts, the best of them followed to the end, but for the one that has been."""
+        name, state = one
+        self.learn(name, state)
+        contenders = self.contenders[name]
+        followed = _best_first([(c, f) for c in contenders for f in c.near])[:1]
+        near = _best_first([(c, f) for c in contenders for f in [*c.near, *c.elsewhere]])[:FINISHED]
+        near = [one for one in near if one not in followed]
+        far = _best_first([(c, f) for c in contenders for f in c.far])[:FINISHED]
+        return [c.finished(f) for c, f in [*near, *far]]
+
+    def look(self, one: tuple[Fitted, Form]) -> list[Start]:
+        """Starts of a second effect beside a fit."""
+        before, form = one
+        return look(self.task, self.evidence, before, self.form(form))
+
+    def second(self, one: tuple[Fitted, Form, list[Start]]) -> Fitted | None:
+        """A second effect beside a fit, from the starts that a look has found."""
+        before, form, starts = one
+        contender = self._beside(before, self.form(form), starts)
+        return contender.finished(contender.near[0]) if contender.near else None
+
+    def together(self, one: tuple[Fitted, dict[str, State]]) -> list[Fitted]:
+        """A pair again, each of its effects beside the other fitted alone, in wide valleys."""
+        pair, states = one
+        for name, state in states.items():
+            self.learn(name, state)
+        found = []
+        for first, second in permutations(pair.effects):
+            if first.replaces_law or second.replaces_law:
+                continue
+            for rough in self.contenders[first.name][0].plain:
+                found += [c.finished(f) for c in [self._beside(rough, second)] for f in c.far[:1]]
+        return found
+
+    def _beside(self, before: Fitted, effect: Effect, starts: list[Start] | None = None) -> Contender:
+        priors = self.priors([*before.effects, effect])
+        return Contender(self.task, self.evidence, before, effect, priors, starts)
+
+
+def _best_first(fits: list[tuple[Contender, Fitted]]) -> list[tuple[Contender, Fitted]]:
+    return sorted(fits, key=lambda one: one[1].chi2)
