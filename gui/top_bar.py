@@ -66,7 +66,7 @@ class TopBar(QFrame):
             self._say("idle", "no session")
             self.left.clear()
             self.level.clear()
-            self.progress.setValue(0)
+            self.progress.hide()
             for gauge in self.gauges.values():
                 gauge.show_value(None)
             return
@@ -94,6 +94,7 @@ class TopBar(QFrame):
     def _show_progress(self, picture: Picture) -> None:
         work = picture.run.work
         fraction = work[1] if work is not None else picture.plan.progress
+        self.progress.setVisible(not picture.run.over)
         self.progress.setMaximum(_PERMILLE if fraction is not None else 0)
         self.progress.setValue(round(_PERMILLE * (fraction or 0.0)))
         left = self._desk.feed.left_s if self._desk.feed is not None else None

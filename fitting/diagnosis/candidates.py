@@ -41,12 +41,13 @@ def look(task: Task, evidence: Evidence, before: Fitted, effect: Effect) -> list
     plain = Response(task, before.effects, task.coarse)
     law, known = before.law, before.u
     v = plain.velocity(law, known)
-    r = before.residuals[: before.data]
-    Q, _ = np.linalg.qr(before.jacobian[: before.data])
+    rows = before.data + (len(evidence.bare.shift) if evidence.bare is not None else 0)
+    r = before.residuals[:rows]
+    Q, _ = np.linalg.qr(before.jacobian[:rows])
     lower, upper = effect.limits(response.plate)
     starts, found = effect.starts(response.plate, task.points), []
     for u, moved in zip(starts, _moves(response, law, known, starts, v), strict=True):
-        s = evidence.jacobian(v, moved[None])[:, 0]
+        s = np.concatenate([evidence.jacobian(v, moved[None])[:, 0], evidence.bare_moves(effect, u)])
         s = s - Q @ (Q.T @ s)
         size = float(s @ s)
         if not np.isfinite(size) or size <= 0:
@@ -140,6 +141,14 @@ class Contender:
         return self._wide(u)
 
     @cached_property
+    def quick(self) -> list[Fitted]:
+        """One rough fit, begun in a wide valley from the better of the first and the most promising start."""
+        first = self.effect.starts(self.task.plate, self.task.points)[:1]
+        blunt, starts = self.evidence.blunt(), [*first, *(u for _, u in self._starts[:1])]
+        wide = min((self._rough(self.before.law, u, blunt) for u in starts), key=_chi2)
+        return [refit(self._response, self.evidence, wide.law, wide.u, tolerance=ROUGH, priors=self.priors)]
+
+    @cached_property
     def far(self) -> list[Fitted]:
         """Those of `plain`, and from the start that promises most.
 
@@ -150,7 +159,8 @@ class Contender:
 
     def _wide(self, u: Array) -> list[Fitted]:
         blunt = self.evidence.blunt()
-        return [self._rough(law, u, blunt) for law in (self.before.law, self.task.stated_law)]
+        fits = [self._rough(law, u, blunt) for law in (self.before.law, self.task.stated_law)]
+        return sorted(fits, key=_chi2)
 
     def finished(self, rough: Fitted) -> Fitted:
         """A rough fit followed to the end."""

@@ -15,9 +15,9 @@ from fitting.diagnosis.response import Response
 from fitting.diagnosis.result import Candidate, Diagnosis, Estimate, FoundEffect
 from fitting.diagnosis.search import Search, Trial
 from fitting.diagnosis.stage import found_effects, stage_of
-from fitting.diagnosis.structure import structure
+from fitting.diagnosis.structure import roughness, structure
 from fitting.diagnosis.task import Task
-from fitting.diagnosis.verdict import FIRST, Judgement, idle_over, judge, told, without_idle_extensions
+from fitting.diagnosis.verdict import FIRST, Judgement, judge, standing_for, told, without_idle_extensions
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
 from fitting.identification.direct import fit_direct
@@ -36,8 +36,8 @@ NOTHING_LEFT = 0.97
 """Chi-square per degree of freedom below which no second effect is looked for."""
 CLEAN_ENOUGH = 1.08
 """Chi-square per degree of freedom above which a second effect is looked for beside all leading ones."""
-OVERSTATED = 0.8
-"""Chi-square per degree of freedom below which local scatter was more than noise."""
+OVERSTATED = 0.75
+"""Times the noise's variance: where the best fit leaves less, local scatter was more than noise."""
 _NUMBERS_A_PARAMETER = 10
 """Data per parameter below which no second effect is looked for."""
 
@@ -128,12 +128,14 @@ def diagnose_task(
 def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, list[Trial], Judgement]:
     """The whole catalogue, and the verdict; the search as it ended."""
     every = search.singles(lambda x: report(0.5 * x))
-    least = every[0].fitted.chi2_per_dof if every else 1.0
-    if noise.source == "local scatter" and least < OVERSTATED:
+    share = _noise_left(search, every) if noise.source == "local scatter" else 1.0
+    if share < OVERSTATED:
         # What scatters from point to point need not be noise: a drift does, in a sweep that jumps about.
-        search = search.with_evidence(search.evidence.scaled(float(np.sqrt(least))))
+        search = search.with_evidence(search.evidence.scaled(float(np.sqrt(share))))
         every = search.singles(lambda x: report(0.5))
-    pairs = _pairs(search, without_idle_extensions(every, search.unnamed), lambda x: report(0.5 + 0.3 * x))
+    singles = without_idle_extensions(every, search.unnamed)
+    all_pairs = _pairs(search, singles, lambda x: report(0.5 + 0.3 * x))
+    pairs = without_idle_extensions(all_pairs)
     for trial in [one for pair in pairs[:1] for one in search.alone(pair)]:
         # A pair may have found a better place for one effect than it found alone.
         every = sorted([*(t for t in every if t.names != trial.names or t.bic < trial.bic), trial], key=_bic)
@@ -147,9 +149,19 @@ def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, lis
         noise_known=evidence.scale_known,
         structured=bool(left),
         held_out=lambda trial: over_noise(search.validation(trial)),
-        standing_for={t.names[0]: idle_over(t, every) for t in singles},
+        meant=lambda trial: standing_for(trial, [*every, *all_pairs]),
     )
     return search, [*singles, *pairs], judgement
+
+
+def _noise_left(search: Search, trials: Sequence[Trial]) -> float:
+    """Variance of what the best fit leaves, or of what of it jumps from point to point, over the noise's."""
+    if not trials:
+        return 1.0
+    best = trials[0].fitted
+    parts = 2 if search.evidence.has_phase else 1
+    rough = roughness(search.task.sweep, best.residuals[: best.data], parts)
+    return float(np.nanmin([best.chi2_per_dof, rough]))
 
 
 def _bic(trial: Trial) -> float:
@@ -169,7 +181,7 @@ def _pairs(search: Search, singles: Sequence[Trial], report: Report) -> list[Tri
     if best.fitted.chi2_per_dof < NOTHING_LEFT and not flexible:
         return []
     wide = best.fitted.chi2_per_dof > CLEAN_ENOUGH or flexible
-    return without_idle_extensions(search.pairs(singles, report, wide=wide))
+    return search.pairs(singles, report, wide=wide)
 
 
 def _candidate(task: Task, trial: Trial, best: float, *, noise_known: bool) -> Candidate:

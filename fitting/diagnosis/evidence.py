@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.diagnosis.whitening import SHARE, Whitening
+from fitting.effects.base import Effect
 from fitting.noise import Noise
 from fitting.sweep import Sweep
 
@@ -96,6 +97,13 @@ class Evidence:
         # d|v| = Re(conj(v) dv)/|v|
         change = dv if self.has_phase else np.real(np.conj(v) * dv) / np.abs(v)
         return self._stack(change / self.sigma_m_s)
+
+    def bare_moves(self, effect: Effect, u: Array) -> Array:
+        """Change of the bare plate's whitened residuals as an effect comes in. Shape (modes,), or none."""
+        if self.bare is None:
+            return np.empty(0)
+        shift = effect.bare_shift(self.bare.lowering_per_density, u)
+        return self.bare.whitened(np.zeros(len(shift))) - self.bare.whitened(shift)
 
     def blunt(self) -> "Evidence":
         """The same readings taken for a few percent: wide valleys for a first descent."""

@@ -29,6 +29,8 @@ class Nodes:
     """rad/s, as the sweep has them. Shape (points,)."""
     plain: Array
     """Interpolates what has no poles. Shape (points, nodes)."""
+    fit: Array
+    """The way back: least squares of what has no poles. Shape (nodes, points)."""
     cluster: NDArray[np.intp]
     """Number of each node's cluster. Shape (nodes,)."""
     poles: Complex
@@ -39,12 +41,16 @@ class Nodes:
     """Where the poles would be if the modulus stayed what it is at their node. Shape (poles,)."""
 
     @classmethod
-    def of(cls, omega: Array, least: int) -> "Nodes":
-        """At least `least` nodes a cluster, more where it is wide; no more than it has frequencies."""
-        f = omega / (2 * np.pi)
-        numbers = segments_by_gap(f)
+    def of(cls, omega: Array, least: int, passes: NDArray[np.intp] | None = None) -> "Nodes":
+        """At least `least` nodes a cluster, more where it is wide; no more than it has frequencies.
+
+        `passes` numbers the points (shape (points,)): each has clusters of its own.
+        """
+        numbers = segments_by_gap(omega / (2 * np.pi))
+        if passes is not None:
+            _, numbers = np.unique(np.stack([numbers, passes]), axis=1, return_inverse=True)
         nodes, clusters = [], []
-        plain = np.zeros((len(omega), 0))
+        plain, fit = np.zeros((len(omega), 0)), np.zeros((0, len(omega)))
         for number in np.unique(numbers):
             inside = numbers == number
             known = np.unique(omega[inside])
@@ -52,7 +58,7 @@ class Nodes:
             at = known if len(known) <= wanted else _chebyshev(known[0], known[-1], wanted)
             block = np.zeros((len(omega), len(at)))
             block[inside] = _interpolation(at, omega[inside])
-            plain = np.hstack([plain, block])
+            plain, fit = np.hstack([plain, block]), np.vstack([fit, np.linalg.pinv(block)])
             nodes.append(at)
             clusters.append(np.full(len(at), number))
         none = np.empty(0, dtype=np.intp)
@@ -60,6 +66,7 @@ class Nodes:
             np.concatenate(nodes),
             omega,
             plain,
+            fit,
             np.concatenate(clusters),
             np.empty(0, complex),
             none,
@@ -87,16 +94,15 @@ class Nodes:
             frozen=np.array(still, complex),
         )
 
-    def spread(self, values: Complex, moved: Complex) -> Complex:
+    def spread(self, values: Complex, moved: Complex, unchanged: Complex | None = None) -> Complex:
         """From nodes to points. Shapes (..., nodes) to (..., points).
 
-        `moved` are the changed plate's poles as if the modulus stayed what it is at their node.
+        `moved` are the changed plate's poles as if the modulus stayed what it is at their node; `unchanged`
+        the unchanged plate's likewise, where that modulus is not the law's.
         """
-        moved = self.poles + moved - self.frozen
-        # Where two modes overlap the estimate may be of neither; then the unchanged pole serves twice.
-        far = np.abs(moved - self.poles) > _FARTHEST * np.abs(self.poles)
-        moved = np.where(far | (moved.imag < 0.5 * self.poles.imag), self.poles, moved)
-        nodes, points = (self._flat(w, moved) for w in (self.omega, self.points))
+        poles = self.poles if unchanged is None else self._near(self.poles + unchanged - self.frozen)
+        moved = self._near(self.poles + moved - self.frozen, poles)
+        nodes, points = (self._flat(w, poles, moved) for w in (self.omega, self.points))
         found = np.zeros((*values.shape[:-1], len(self.points)), complex)
         for number in np.unique(self.cluster):
             here = self.cluster == number
@@ -107,10 +113,16 @@ class Nodes:
             found[..., inside] = weighted @ self.plain[np.ix_(inside, here)].T / at_points[inside]
         return found
 
-    def _flat(self, omega: Array, moved: Complex) -> Complex:
+    def _near(self, moved: Complex, otherwise: Complex | None = None) -> Complex:
+        # Where two modes overlap the estimate may be of neither; then the unchanged pole serves twice.
+        far = np.abs(moved - self.poles) > _FARTHEST * np.abs(self.poles)
+        lost = far | (moved.imag < 0.5 * self.poles.imag)
+        return np.where(lost, self.poles if otherwise is None else otherwise, moved)
+
+    def _flat(self, omega: Array, poles: Complex, moved: Complex) -> Complex:
         """(w^2 - p^2) (w^2 - p'^2) over |p|^4 for every pole. Shape (poles, len(omega))."""
         square = omega**2
-        p, q = self.poles[:, None] ** 2, moved[:, None] ** 2
+        p, q = poles[:, None] ** 2, moved[:, None] ** 2
         return np.asarray((square - p) * (square - q) / np.abs(p) ** 2)
 
 

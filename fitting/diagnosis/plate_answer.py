@@ -134,15 +134,26 @@ class _Step:
         return found
 
 
-def core_strain(plate: SpannedPlate, omega: Array, G: Complex, mean_square: Array) -> Array:
+def unchanged_poles(plate: SpannedPlate, omega: Array, G: Complex, pole_node: NDArray[np.intp]) -> Complex:
+    """Where the poles of the unchanged plate would be with these moduli of the nodes, rad/s."""
+    near, which = np.unique(pole_node, return_inverse=True)
+    A = _dynamic(plate.K_0, plate.K_1, plate.M, (plate.U * plate.d) @ plate.U.T, omega[near], G[near])
+    rhs = np.broadcast_to(plate.load[:, None].astype(complex), (len(near), len(plate.load), 1))
+    q = np.asarray(np.linalg.solve(A, rhs)[:, :, 0], dtype=np.complex128)
+    return _poles(A, q, plate.M, omega[near], which)
+
+
+def core_strain(plate: SpannedPlate, omega: Array, G: Complex, mean_square: Array, change: Change) -> Array:
     """Rms over the core of its shear strain for a base acceleration of 1 m/s^2. Shape (nodes,)."""
-    found = answer_motion(plate, omega, G)
+    found = answer_motion(plate, omega, G, change)
     square = np.real(np.einsum("pi,pi->p", found.conj(), found @ mean_square))
     return np.sqrt(np.maximum(square, 1e-300))
 
 
-def answer_motion(plate: SpannedPlate, omega: Array, G: Complex) -> Complex:
-    """Motion q of A q = load, the plate unchanged. Shape (nodes, k)."""
-    A = _dynamic(plate.K_0, plate.K_1, plate.M, (plate.U * plate.d) @ plate.U.T, omega, G)
-    rhs = np.broadcast_to(plate.load[:, None].astype(complex), (len(omega), len(plate.load), 1))
+def answer_motion(plate: SpannedPlate, omega: Array, G: Complex, change: Change) -> Complex:
+    """Motion q of A q = load. Shape (nodes, k)."""
+    C_1 = change.damping * ((plate.U * plate.d) @ plate.U.T)
+    A = _dynamic(plate.K_0 + change.K, plate.K_1 + change.K_1, plate.M + change.M, C_1, omega, G)
+    load = plate.load + change.load
+    rhs = np.broadcast_to(load[:, None].astype(complex), (len(omega), len(load), 1))
     return np.asarray(np.linalg.solve(A, rhs)[:, :, 0])

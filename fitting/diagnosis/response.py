@@ -12,7 +12,7 @@ from functools import reduce
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.diagnosis.plate_answer import Answer, answer, core_strain
+from fitting.diagnosis.plate_answer import Answer, answer, core_strain, unchanged_poles
 from fitting.diagnosis.task import Grid, Task
 from fitting.effects.base import Change, Effect, ModulusAt, Unknown
 from fitting.effects.spanned import SpannedPlate
@@ -25,13 +25,14 @@ _H = 1e-4
 """Step of differences, of an unknown's typical size."""
 _SOFTENED = np.array([-0.3, 0.0, 0.25, 0.5])
 _ONE_G = 9.81
+_KEPT = 8
 
 
 class Response:
     """The sweep of a task under a law and effects. `u` holds their unknowns, one effect after the other."""
 
     def __init__(self, task: Task, effects: Sequence[Effect], grid: Grid | None = None) -> None:
-        self.task, self.effects, self.grid = task, tuple(effects), grid or task.fine
+        self.task, self.effects = task, tuple(effects)
         self.unknowns: tuple[Unknown, ...] = tuple(u for e in effects for u in e.unknowns)
         spans = {s.name: s for e in effects for s in e.spans}
         self.plate: SpannedPlate = task.plate.take(spans.values())
@@ -42,8 +43,14 @@ class Response:
         self._changing = [k for k, e in enumerate(self.effects) if type(e).change is not Effect.change]
         self._pitching = [k for k, e in enumerate(self.effects) if type(e).pitch is not Effect.pitch]
         self._shifting = [k for k, e in enumerate(self.effects) if type(e).modulus is not Effect.modulus]
-        self._last: tuple[bytes, Answer, Complex] | None = None
-        self._strains: tuple[bytes, Array] | None = None
+        grid = grid or task.fine
+        if self._shifting and (self._changing or self._pitching):
+            # The modulus is another one in every pass.
+            grid = task.passes or grid
+        self.grid = grid
+        self._last: tuple[bytes, Answer, Complex | None, Complex] | None = None
+        self._strains: dict[bytes, Array] = {}
+        self._strained = bool(self._shifting) and "strain" in spans
         self._largest: float | None = None
 
     def velocity(self, law: CoreLaw, u: Array) -> Complex:
@@ -70,16 +77,18 @@ class Response:
         at = others._at(law, known)
         nodes, last = self.grid.nodes, self.effects[-1]
         found = [others.effects[k].change(self.plate, others._of(k, known)) for k in others._changing]
+        G, _ = others._bearing(law, law.modulus(self.task.points.omega), at.G)
         solved = answer(
             self.plate,
             nodes.omega,
-            law.modulus(nodes.omega),
+            G,
             reduce(Change.and_then, (c for c in found if c is not None), Change()),
             [(last.change(self.plate, u) or Change(), Change(), 1.0) for u in starts],
             nodes.pole_node,
             with_pitch=bool(self._pitching),
         )
-        by_u = nodes.spread(np.stack([solved.heave_by_u, solved.pitch_by_u]), solved.poles)
+        unchanged = others._unchanged(G)
+        by_u = nodes.spread(np.stack([solved.heave_by_u, solved.pitch_by_u]), solved.poles, unchanged)
         raw = at.per_x * (by_u[0] + at.pitch * by_u[1])
         return np.array([others._read(at.raw + d, known) - at.v for d in raw])
 
@@ -102,8 +111,9 @@ class Response:
         turned = np.zeros(len(omega), complex)
         found = None
         if self._changing or self._pitching:
-            found, (moved, steeper, turned) = self._answer(law, u)
-            x, slope = x + moved + steeper * (G - G_law), slope + steeper
+            G_nodes, smooth = self._bearing(law, G_law, G)
+            found, (moved, steeper, turned) = self._answer(u, G_nodes)
+            x, slope = x + moved + steeper * (G - smooth), slope + steeper
             for k in self._pitching:
                 h = self.effects[k].pitch(omega, self._of(k, u))
                 pitch = pitch + (h if h is not None else 0.0)
@@ -112,12 +122,29 @@ class Response:
         raw = per_x * (x + pitch * turned) + lever * pitch
         if points.reads == "absolute":
             raw = raw + a / (1j * omega)
-        return _At(self._read(raw, u), raw, slope, per_x, pitch, turned, lever, found)
+        unchanged = self._last[2] if self._last is not None else None
+        return _At(self._read(raw, u), raw, G, slope, per_x, pitch, turned, lever, found, unchanged)
 
-    def _answer(self, law: CoreLaw, u: Array) -> tuple[Answer, Complex]:
+    def _bearing(self, law: CoreLaw, G_law: Complex, G: Complex) -> tuple[Complex, Complex]:
+        """The modulus at the nodes, and the smooth one at every point that goes through it."""
+        nodes = self.grid.nodes
+        at_nodes = law.modulus(nodes.omega)
+        if not self._shifting:
+            return at_nodes, G_law
+        share = nodes.fit @ (G / G_law)
+        return at_nodes * share, G_law * (nodes.plain @ share)
+
+    def _unchanged(self, G: Complex) -> Complex | None:
+        """The unchanged plate's poles with these moduli of the nodes; None where they are the law's."""
+        if not self._shifting:
+            return None
+        nodes = self.grid.nodes
+        return unchanged_poles(self.plate, nodes.omega, G, nodes.pole_node)
+
+    def _answer(self, u: Array, G: Complex) -> tuple[Answer, Complex]:
         """At the nodes; and change of x, of dx/dG, and the answer to pitch at every point."""
         changing = [self._of(k, u) for k in self._changing]
-        key = law.values.tobytes() + b"".join(c.tobytes() for c in changing)
+        key = G.tobytes() + b"".join(c.tobytes() for c in changing)
         if self._last is None or self._last[0] != key:
             changes = self._changes(u)
             nearby = []
@@ -131,18 +158,13 @@ class Response:
                     nearby.append((one[0] or Change(), one[1] or Change(), 2 * h))
             nodes = self.grid.nodes
             solved = answer(
-                self.plate,
-                nodes.omega,
-                law.modulus(nodes.omega),
-                changes,
-                nearby,
-                nodes.pole_node,
-                with_pitch=bool(self._pitching),
+                self.plate, nodes.omega, G, changes, nearby, nodes.pole_node, with_pitch=bool(self._pitching)
             )
-            x_0, slope_0 = self.grid.rational.with_derivative(law.modulus(nodes.omega))
+            x_0, slope_0 = self.grid.rational.with_derivative(G)
             changed = np.array([solved.heave - x_0, solved.heave_by_G - slope_0, solved.pitch])
-            self._last = key, solved, nodes.spread(changed, solved.poles)
-        return self._last[1], self._last[2]
+            unchanged = self._unchanged(G)
+            self._last = key, solved, unchanged, nodes.spread(changed, solved.poles, unchanged)
+        return self._last[1], self._last[3]
 
     def _changes(self, u: Array) -> Change:
         found = [self.effects[k].change(self.plate, self._of(k, u)) or Change() for k in self._changing]
@@ -152,7 +174,7 @@ class Response:
         """G* at every point; strains are those of the law `strained` where it is a step away."""
         G = G_law
         for k in self._shifting:
-            at = ModulusAt(law, self.task.points, lambda s: self._strain(strained or law, s))
+            at = ModulusAt(law, self.task.points, lambda s: self._strain(strained or law, u, s))
             shifted = self.effects[k].modulus(at, self.task.points, self._of(k, u))
             if shifted is not None:
                 G = G * (shifted / G_law)
@@ -172,24 +194,30 @@ class Response:
             found.append((self._modulus(other, u, other.modulus(omega), law) - G) / h)
         return np.array(found)
 
-    def _strain(self, law: CoreLaw, softened: Array) -> Array:
+    def _strain(self, law: CoreLaw, u: Array, softened: Array) -> Array:
         """Of the core at every point, softened by a share, over the largest at 1 g."""
-        key = law.values.tobytes()
-        known = self._strains
-        if known is None or known[0] != key:
-            nodes = self.grid.nodes
-            G = law.modulus(nodes.omega)
-            square = self.plate.matrix("strain.mean_square")
-            logs = [np.log(core_strain(self.plate, nodes.omega, G * (1 - s), square)) for s in _SOFTENED]
-            # A parabola and more in s, by its coefficients at every point.
-            table = np.linalg.solve(np.vander(_SOFTENED), np.array(logs) @ nodes.plain.T)
-            known = self._strains = key, table.astype(float)
-            if self._largest is None:
-                self._largest = float(np.exp(table[-1]).max()) * _ONE_G
-        _, table = known
+        table = self._strain_table(law, u)
         logs_here = ((table[0] * softened + table[1]) * softened + table[2]) * softened + table[3]
         assert self._largest is not None
         return np.asarray(np.exp(logs_here) * self.task.points.acceleration_m_s2 / self._largest)
+
+    def _strain_table(self, law: CoreLaw, u: Array) -> Array:
+        """Ln strain at every point as a cubic of the softening. Shape (4, points)."""
+        key = law.values.tobytes() + b"".join(self._of(k, u).tobytes() for k in self._changing)
+        if key not in self._strains:
+            nodes = self.task.fine.nodes
+            G, changes = law.modulus(nodes.omega), self._changes(u)
+            square = self.plate.matrix("strain.mean_square")
+            logs = [
+                np.log(core_strain(self.plate, nodes.omega, G * (1 - s), square, changes)) for s in _SOFTENED
+            ]
+            table = np.linalg.solve(np.vander(_SOFTENED), np.array(logs) @ nodes.plain.T).astype(float)
+            if len(self._strains) > _KEPT:
+                self._strains.clear()
+            self._strains[key] = table
+            if self._largest is None:
+                self._largest = float(np.exp(table[-1]).max()) * _ONE_G
+        return self._strains[key]
 
     def _read(self, v: Complex, u: Array) -> Complex:
         for k, effect in enumerate(self.effects):
@@ -216,7 +244,9 @@ class Response:
             place = self._place_of(n)
             nodes = self.grid.nodes
             heave, turned = nodes.spread(
-                np.array([at.answer.heave_by_u[place], at.answer.pitch_by_u[place]]), at.answer.poles
+                np.array([at.answer.heave_by_u[place], at.answer.pitch_by_u[place]]),
+                at.answer.poles,
+                at.unchanged,
             )
             found = found + at.per_x * (heave + at.pitch * turned)
         if k in self._pitching:
@@ -224,6 +254,10 @@ class Response:
             above, below = effect.pitch(omega, self._of(k, up)), effect.pitch(omega, self._of(k, down))
             if above is not None and below is not None:
                 found = found + (above - below) / (2 * h) * (at.per_x * at.turned + at.lever)
+        if k in self._changing and self._strained:
+            # A changed plate strains its core otherwise.
+            dG = (self._modulus(law, up, law.modulus(omega)) - at.G) / h
+            found = found + at.per_x * at.slope * dG
         if k in self._shifting:
             G_law = law.modulus(omega)
             dG = (self._modulus(law, up, G_law) - self._modulus(law, down, G_law)) / (2 * h)
@@ -247,6 +281,7 @@ class _At:
     v: Complex
     raw: Complex
     """Before the channels."""
+    G: Complex
     slope: Complex
     """dx/dG."""
     per_x: Complex
@@ -255,6 +290,8 @@ class _At:
     """Displacement per pitch acceleration."""
     lever: Complex
     answer: Answer | None
+    unchanged: Complex | None
+    """Poles of the unchanged plate, where its modulus is not the law's."""
 
 
 def _moved(u: Array, n: int, h: float) -> Array:

@@ -27,12 +27,16 @@ PROMISING = 5.0
 """In BIC, over none: below it nothing is gone into twice."""
 LEADERS = 5
 """Single effects that a second one is looked for beside."""
-PAIRS = 12
+PAIRS = 16
 """Pairs fitted in full."""
-PAIRS_A_LEADER = 4
+PAIRS_A_LEADER = 5
+WILL_DO = 1.25
+"""Chi-square per degree of freedom that strong effects may leave."""
 RETRIED = 3
 """Pairs begun again from other places where none of them will do."""
-LEAST_EXPECTED = 15.0
+EVERY_SECOND = 4
+"""Leaders beside which every other effect is then fitted roughly."""
+LEAST_EXPECTED = 12.0
 """Chi-square that a second effect must promise where the first leaves little."""
 LEFT_BEHIND = 4.0
 """Times the least chi-square: rough fits beyond are not followed to the end."""
@@ -177,6 +181,10 @@ class Search:
         """Where the law so far is no place to begin: the effects that do best from plain starts."""
         if not self.none.fitted.chi2_per_dof > WRONG:
             return set()
+        return set(self._order_of_plain()[:LEADERS])
+
+    def _order_of_plain(self) -> list[str]:
+        """Effects by how well they do from plain starts, in wide valleys."""
         work = self._work
         names = [e.name for e in self._fitted if e.unknowns]
         chi2 = []
@@ -185,7 +193,7 @@ class Search:
         ):
             work.learn(name, state)
             chi2.append(min(f.chi2 for f in state[0]["plain"]))
-        return {names[k] for k in np.argsort(chi2)[:LEADERS]}
+        return [names[k] for k in np.argsort(chi2)]
 
     def told(self, effects: Sequence[Effect]) -> Trial:
         """These effects together, none of them weighed; `FittingError` where the data cannot carry one."""
@@ -237,12 +245,35 @@ class Search:
         full = [(tasks[k][0].fitted, tasks[k][1], looks[k]) for k in chosen.values()]
         fits = each(work.second, full, lambda x: report(0.4 + 0.4 * x))
         found = sorted((self._judged(f) for f in fits if f is not None), key=lambda t: t.bic)
-        if wide and found and not found[0].fitted.chi2_per_dof < UNCLEAR:
-            # None will do yet: the best may only have begun from the wrong place.
+        if wide and found and not self._will_do([*leaders[:1], *found]):
+            # The best may only have begun from the wrong place, or not have looked promising.
             again = [(t.fitted, {n: work.state(n) for n in self._plainly(t)}) for t in found[:RETRIED]]
             found += [self._judged(f) for fits in each(work.together, again) for f in fits]
+            if not self._will_do(found):
+                found += self._every_second([t for t in singles if self._plainly(t)], found)
         report(1.0)
         return _best_of_each(found)
+
+    def _will_do(self, trials: Sequence[Trial]) -> bool:
+        """Whether any, the law being of the stated kind, leaves little."""
+        plain = (t for t in trials if len(self._plainly(t)) == len(t.names))
+        return any(t.fitted.chi2_per_dof < WILL_DO for t in plain)
+
+    def _every_second(self, leaders: Sequence[Trial], pairs: Sequence[Trial]) -> list[Trial]:
+        """Every effect beside the leading ones roughly; the best pairs that are new to the end."""
+        work, each = self._work, self.hands.each
+        known = {frozenset(t.names) for t in pairs}
+        first = {t.names[0] for t in leaders[:EVERY_SECOND]} | set(self._order_of_plain()[:EVERY_SECOND])
+        wanted = [
+            (name, work.state(name), (e.name, number))
+            for name in sorted(first)
+            for e in self.effects
+            if e.name != name and not e.replaces_law and {name, e.name} not in known
+            for number in range(len(e.variants()))
+        ]
+        rough = [f for fits in each(work.roughly, wanted) for f in fits]
+        best = sorted(rough, key=lambda f: f.chi2)[:PAIRS_A_LEADER]
+        return [self._judged(f) for f in each(work.ended, best)]
 
     def _plainly(self, pair: Trial) -> list[str]:
         return [e.name for e in pair.fitted.effects if not e.replaces_law]

@@ -3,6 +3,8 @@
 Thresholds are those that clean sweeps of a solid plate pass (docs/diagnosis.md says how they were found).
 """
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -33,24 +35,36 @@ def structure(sweep: Sweep, evidence: Evidence, whitened: Array, chi2_per_dof: f
     return tuple(said)
 
 
+def roughness(sweep: Sweep, whitened: Array, parts: int) -> float:
+    """Mean square of what jumps from point to point: noise alone, whatever the model misses smoothly."""
+    jumps = [np.diff(r, 2) for r in _traces(sweep, whitened, parts) if len(r) > 2]
+    # The variance of r_1 - 2 r_2 + r_3.
+    return float(np.mean(np.concatenate(jumps) ** 2) / 6) if jumps else float("nan")
+
+
 def _along_frequency(sweep: Sweep, whitened: Array, parts: int) -> tuple[float, float]:
     """Fewer runs than chance, and Ljung-Box's statistic above its mean, both in standard deviations."""
     runs_short, runs_variance, box, box_count = 0.0, 0.0, 0.0, 0
+    for r in _traces(sweep, whitened, parts):
+        if len(r) < _FEWEST:
+            continue
+        short, variance = _runs(r)
+        runs_short, runs_variance = runs_short + short, runs_variance + variance
+        box, box_count = box + _ljung_box(r), box_count + 1
+    runs = runs_short / np.sqrt(runs_variance) if runs_variance > 0 else 0.0
+    memory = (box - LAGS * box_count) / np.sqrt(2 * LAGS * box_count) if box_count else 0.0
+    return float(runs), float(memory)
+
+
+def _traces(sweep: Sweep, whitened: Array, parts: int) -> Iterator[Array]:
+    """Residuals along frequency, every pass of a segment and every part for itself."""
     keys = np.column_stack([sweep.segment, sweep.sweep, np.round(sweep.commanded_m_s2, 9)])
     _, which = np.unique(keys, axis=0, return_inverse=True)
     for number in range(int(which.max()) + 1):
         inside = np.flatnonzero(which.ravel() == number)
         inside = inside[np.argsort(sweep.frequency_hz[inside], kind="stable")]
         for part in range(parts):
-            r = whitened[inside + part * len(sweep)]
-            if len(r) < _FEWEST:
-                continue
-            short, variance = _runs(r)
-            runs_short, runs_variance = runs_short + short, runs_variance + variance
-            box, box_count = box + _ljung_box(r), box_count + 1
-    runs = runs_short / np.sqrt(runs_variance) if runs_variance > 0 else 0.0
-    memory = (box - LAGS * box_count) / np.sqrt(2 * LAGS * box_count) if box_count else 0.0
-    return float(runs), float(memory)
+            yield whitened[inside + part * len(sweep)]
 
 
 def _runs(r: Array) -> tuple[float, float]:

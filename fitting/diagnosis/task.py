@@ -47,6 +47,8 @@ class Task:
     """The unchanged plate's exact answer at every point."""
     fine: Grid
     coarse: Grid
+    passes: Grid | None
+    """As fine, every pass of a segment for itself; None where each is swept once."""
 
     @classmethod
     def of(
@@ -58,14 +60,18 @@ class Task:
     ) -> "Task":
         """`rational` gives the unchanged plate's sum on an ascending grid in rad/s."""
         grids = [Nodes.of(sweep.omega, least) for least in (FINE, COARSE)]
+        apart = Nodes.of(sweep.omega, FINE, sweep.sweep)
+        if len(np.unique(apart.cluster)) > len(np.unique(grids[0].cluster)):
+            grids.append(apart)
         omega = np.unique(np.concatenate([sweep.omega, *(g.omega for g in grids)]))
         whole = rational(omega)
 
         def at(some: Array) -> RationalSweep:
             return whole.at(np.searchsorted(omega, some * (1 - 1e-12)))
 
-        fine, coarse = (Grid(g, at(g.omega)) for g in grids)
-        return cls(sweep, specimen, plate, points_of(sweep, specimen), at(sweep.omega), fine, coarse)
+        fine, coarse, *rest = (Grid(g, at(g.omega)) for g in grids)
+        passes = rest[0] if rest else None
+        return cls(sweep, specimen, plate, points_of(sweep, specimen), at(sweep.omega), fine, coarse, passes)
 
     @property
     def stated_law(self) -> CoreLaw:
@@ -84,10 +90,12 @@ class Task:
     def around(self, law: CoreLaw) -> "Task":
         """The same, its grids made for the poles that the plate has under a law."""
         found = PlatePoles(self.plate, law)
-        fine, coarse = (
-            replace(g, nodes=g.nodes.around(found.near, found.frozen)) for g in (self.fine, self.coarse)
-        )
-        return replace(self, fine=fine, coarse=coarse)
+
+        def made_for(grid: Grid) -> Grid:
+            return replace(grid, nodes=grid.nodes.around(found.near, found.frozen))
+
+        passes = made_for(self.passes) if self.passes is not None else None
+        return replace(self, fine=made_for(self.fine), coarse=made_for(self.coarse), passes=passes)
 
 
 def points_of(sweep: Sweep, specimen: Specimen) -> Points:

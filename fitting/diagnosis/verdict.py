@@ -14,14 +14,14 @@ WITHIN = 15.0
 """Candidates this near to the best are not told from it."""
 FIRST = 7.0
 """A first effect must gain this much over none."""
-SECOND = 20.0
+SECOND = 12.0
 """A second effect must gain this much, and more where the first one's model `misses` something."""
 PREDICTED = 2.0
 """Times the noise on data held out: as good as can be asked of anything."""
-POOR, HARDLY_BETTER = 3.0, 0.4
+POOR, HARDLY_BETTER = 3.0, 0.5
 """Times the noise, and times the error without any effect: what predicts no better explains nothing."""
-EXTENSION = 9.0
-"""Chi-square that a candidate must gain over a simpler one it contains: three standard errors."""
+EXTENSION, HINTED = 9.0, 3.0
+"""Chi-square to be gained over a simpler effect that is contained: to be named, and to be held possible."""
 WITHIN_UNKNOWN_NOISE, FIRST_UNKNOWN_NOISE = 10.0, 6.0
 """The same where noise is estimated from the residual itself."""
 GOOD = 1.15
@@ -60,6 +60,20 @@ def idle_over(trial: Trial, trials: Sequence[Trial]) -> tuple[str, ...]:
     return tuple(found)
 
 
+def standing_for(trial: Trial, trials: Sequence[Trial]) -> dict[str, tuple[str, ...]]:
+    """Of each of a trial's effects, what may be meant by it: a simpler one, or a wider one hinted at."""
+    idle, found = idle_over(trial, trials), {}
+    for effect in trial.fitted.effects:
+        rest = set(trial.names) - {effect.name}
+        names = [effect.extends] if effect.extends in idle else []
+        for other in trials:
+            wider = [e for e in other.fitted.effects if e.extends == effect.name]
+            if wider and set(other.names) == rest | {wider[0].name}:
+                names += [wider[0].name] * (other.fitted.chi2 < trial.fitted.chi2 - HINTED)
+        found[effect.name] = tuple(name for name in dict.fromkeys(names) if name is not None)
+    return found
+
+
 def without_idle_extensions(trials: Sequence[Trial], unnamed: Sequence[Effect] = ()) -> list[Trial]:
     """Trials best first, those left out that contain a simpler one and gain too little over it.
 
@@ -77,13 +91,13 @@ def judge(
     noise_known: bool,
     structured: bool,
     held_out: Callable[[Trial], float],
-    standing_for: Mapping[str, tuple[str, ...]],
+    meant: Callable[[Trial], Mapping[str, tuple[str, ...]]],
 ) -> Judgement:
     """Weigh trials, best first.
 
     `structured`: whether the fit without any effect leaves more than chance. `held_out`: error of a trial
-    over noise on data it has not seen, NaN where there are none. `standing_for`: simpler effects that may
-    not be named, by what contains them and is no better.
+    over noise on data it has not seen, NaN where there are none. `meant`: what else may be meant by each
+    effect of a trial.
     """
     first = FIRST if noise_known else FIRST_UNKNOWN_NOISE
     if not singles or none.bic - singles[0].bic < first:
@@ -98,7 +112,7 @@ def judge(
         return Judgement("unknown", None, {})
     within = WITHIN if noise_known else WITHIN_UNKNOWN_NOISE
     near = [t for t in (pairs if second else singles) if t.bic - best.bic < within]
-    equivalent = {}
+    equivalent, others_meant = {}, meant(best)
     for name in best.names:
         rest = set(best.names) - {name}
         others = (
@@ -106,7 +120,7 @@ def judge(
             if rest
             else [set(t.names) for t in near]
         )
-        names = [name, *(n for o in others for n in o if n != name), *standing_for.get(name, ())]
+        names = [name, *(n for o in others for n in o if n != name), *others_meant.get(name, ())]
         equivalent[name] = tuple(dict.fromkeys(names))
     alone = all(len(group) == 1 for group in equivalent.values())
     return Judgement("effect" if alone else "ambiguous", best, equivalent)

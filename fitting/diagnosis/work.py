@@ -6,7 +6,7 @@ from itertools import permutations
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.diagnosis.candidates import FINISHED, Contender, Known, Start, look
+from fitting.diagnosis.candidates import FINISHED, Contender, Known, Start, look, polished
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.prediction import held_out
 from fitting.diagnosis.refit import Fitted, refit
@@ -108,6 +108,18 @@ class Work:
         before, form, starts = one
         contender = self._beside(before, self.form(form), starts)
         return contender.finished(contender.near[0]) if contender.near else None
+
+    def roughly(self, one: tuple[str, State, Form]) -> list[Fitted]:
+        """A second effect beside another in wide valleys, then roughly."""
+        name, state, form = one
+        self.learn(name, state)
+        before = self.contenders[name][0].plain[0]
+        return self._beside(before, self.form(form)).quick
+
+    def ended(self, rough: Fitted) -> Fitted:
+        """A rough fit followed to the end."""
+        priors = self.priors(rough.effects)
+        return polished(self.task, rough.effects, self.evidence, rough.law, rough.u, priors)
 
     def together(self, one: tuple[Fitted, dict[str, State]]) -> list[Fitted]:
         """A pair again, each of its effects beside the other fitted alone, in wide valleys."""

@@ -132,7 +132,9 @@ class Run:
                 return "the shaker is silent; resume measures the step again"
             case "calibration" | "sweep":
                 return self._step_words()
-            case "done" | "stopped":
+            case "done":
+                return self.message or "what was found stands on Material and Diagnosis"
+            case "stopped":
                 return self.ending
             case "identifying":
                 return "the law from all points"
