@@ -16,7 +16,7 @@ Complex = NDArray[np.complex128]
 
 _HZ_A_NODE = 4.0
 MOST_POLES = 4
-_FARTHEST = 0.2
+_FARTHEST, _LEAST_DAMPED = 0.4, 0.25
 
 
 @dataclass(frozen=True)
@@ -37,8 +37,6 @@ class Nodes:
     """Of the unchanged plate in and near the clusters, rad/s. Shape (poles,)."""
     pole_node: NDArray[np.intp]
     """The node nearest to each pole."""
-    frozen: Complex
-    """Where the poles would be if the modulus stayed what it is at their node. Shape (poles,)."""
 
     @classmethod
     def of(cls, omega: Array, least: int, passes: NDArray[np.intp] | None = None) -> "Nodes":
@@ -70,38 +68,35 @@ class Nodes:
             np.concatenate(clusters),
             np.empty(0, complex),
             none,
-            np.empty(0, complex),
         )
 
-    def around(
-        self, poles: Callable[[float, float], Complex], frozen: Callable[[complex, float], complex]
-    ) -> "Nodes":
-        """The same, made for a plate whose poles near two frequencies (rad/s) are known.
-
-        `frozen` takes a pole and a node's frequency.
-        """
-        found, nearest, still = [], [], []
+    def around(self, poles: Callable[[float, float], Complex]) -> "Nodes":
+        """The same, made for a plate whose poles near two frequencies (rad/s) are known."""
+        found, nearest = [], []
         for number in np.unique(self.cluster):
             here = np.flatnonzero(self.cluster == number)
             for p in poles(float(self.omega[here[0]]), float(self.omega[here[-1]])):
                 found.append(p)
                 nearest.append(here[np.argmin(np.abs(self.omega[here] - p.real))])
-                still.append(frozen(p, float(self.omega[nearest[-1]])))
         return replace(
             self,
             poles=np.array(found, complex),
             pole_node=np.array(nearest, dtype=np.intp),
-            frozen=np.array(still, complex),
         )
 
-    def spread(self, values: Complex, moved: Complex, unchanged: Complex | None = None) -> Complex:
-        """From nodes to points. Shapes (..., nodes) to (..., points).
+    def slope(self, values: Complex) -> Complex:
+        """d/d omega at the nodes of the poles. Shape (nodes,) to (poles,)."""
+        found = np.zeros(len(self.omega), complex)
+        for number in np.unique(self.cluster):
+            here = np.flatnonzero(self.cluster == number)
+            if len(here) > 1:
+                found[here] = np.gradient(values[here], self.omega[here])
+        return found[self.pole_node]
 
-        `moved` are the changed plate's poles as if the modulus stayed what it is at their node; `unchanged`
-        the unchanged plate's likewise, where that modulus is not the law's.
-        """
-        poles = self.poles if unchanged is None else self._near(self.poles + unchanged - self.frozen)
-        moved = self._near(self.poles + moved - self.frozen, poles)
+    def spread(self, values: Complex, first: Complex, second: Complex) -> Complex:
+        """From nodes to points of what has two sets of poles. Shapes (..., nodes) to (..., points)."""
+        poles = self._near(first, self.poles)
+        moved = self._near(second, poles)
         nodes, points = (self._flat(w, poles, moved) for w in (self.omega, self.points))
         found = np.zeros((*values.shape[:-1], len(self.points)), complex)
         for number in np.unique(self.cluster):
@@ -113,11 +108,11 @@ class Nodes:
             found[..., inside] = weighted @ self.plain[np.ix_(inside, here)].T / at_points[inside]
         return found
 
-    def _near(self, moved: Complex, otherwise: Complex | None = None) -> Complex:
+    def _near(self, moved: Complex, otherwise: Complex) -> Complex:
         # Where two modes overlap the estimate may be of neither; then the unchanged pole serves twice.
         far = np.abs(moved - self.poles) > _FARTHEST * np.abs(self.poles)
-        lost = far | (moved.imag < 0.5 * self.poles.imag)
-        return np.where(lost, self.poles if otherwise is None else otherwise, moved)
+        lost = far | (moved.imag < _LEAST_DAMPED * self.poles.imag)
+        return np.where(lost, otherwise, moved)
 
     def _flat(self, omega: Array, poles: Complex, moved: Complex) -> Complex:
         """(w^2 - p^2) (w^2 - p'^2) over |p|^4 for every pole. Shape (poles, len(omega))."""

@@ -14,7 +14,23 @@ from fitting.effects.spanned import SpannedPlate
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-_POLE_STEPS = 1
+_POLE_STEPS = 2
+_OFF = 1e-9
+"""Beside a pole, so that there is something to solve."""
+
+
+@dataclass(frozen=True)
+class ModulusNear:
+    """G* near some frequencies, off the real axis too: to first order."""
+
+    omega: Array
+    G: Complex
+    slope: Complex
+    """dG/d omega, Pa s."""
+
+    def at(self, p: Complex) -> Complex:
+        """Near the frequency of the same place."""
+        return np.asarray(self.G + self.slope * (p - self.omega))
 
 
 @dataclass(frozen=True)
@@ -38,13 +54,14 @@ def answer(
     change: Change,
     nearby: list[tuple[Change, Change, float]],
     pole_node: NDArray[np.intp],
+    modulus: ModulusNear | None = None,
     *,
     with_pitch: bool,
 ) -> Answer:
     """Solve the nodes.
 
-    `pole_node` has a node near every pole wanted; `nearby` for every unknown the changes a step above and
-    below, and the step between them.
+    `pole_node` has a node near every pole wanted, `modulus` what is near them; `nearby` for every unknown the
+    changes a step above and below, and the step between them.
     """
     C_1 = change.damping * ((plate.U * plate.d) @ plate.U.T)
     K_1 = plate.K_1 + change.K_1
@@ -67,7 +84,18 @@ def answer(
         pitch_by_u=np.array([step.by(d, p, 0.0) for d in pairs])
         if pairs and p is not None
         else np.zeros((len(pairs), len(omega)), complex),
-        poles=_poles(A, q, plate.M + change.M, omega, pole_node),
+        poles=poles_near(
+            plate.K_0 + change.K,
+            K_1,
+            plate.M + change.M,
+            C_1,
+            q[pole_node],
+            omega[pole_node].astype(complex),
+            modulus,
+            _POLE_STEPS,
+        )
+        if modulus is not None and len(pole_node)
+        else np.empty(0, complex),
     )
 
 
@@ -79,22 +107,37 @@ def _dynamic(K_0: Complex, K_1: Array, M: Array, C_1: Array, omega: Array, G: Co
     return np.asarray((factors @ parts).reshape(len(omega), *M.shape))
 
 
-def _poles(A: Complex, q: Complex, M: Array, omega: Array, node: NDArray[np.intp]) -> Complex:
-    """Poles near some nodes, by inverse iteration from the responses there and Rayleigh's quotient.
+def poles_near(
+    K_0: Complex,
+    K_1: Array,
+    M: Array,
+    C_1: Array,
+    y: Complex,
+    p: Complex,
+    modulus: ModulusNear,
+    steps: int,
+) -> Complex:
+    """Poles p of (K_0 + G(p) K_1 + i p C_1 - p^2 M) y = 0 from guesses, by Rayleigh's quotient iteration.
 
-    Modulus and damping are those at the node.
+    Shapes (poles, k) of `y` and (poles,) of `p`.
     """
-    if not len(node):
-        return np.empty(0, complex)
-    y, square = q[node], omega[node] ** 2 + 0j
-    K = A[node] + square.real[:, None, None] * M
-    for _ in range(_POLE_STEPS):
+    for _ in range(steps):
+        K = _stiffness(K_0, K_1, C_1, p, modulus)
         My = y @ M
-        square = np.einsum("pi,pij,pj->p", y, K, y, optimize=True) / np.einsum("pi,pi->p", y, My)
-        turned = np.linalg.solve(K - square[:, None, None] * M, My[:, :, None])[:, :, 0]
+        square = _rayleigh(K, y, My)
+        turned = np.linalg.solve(K - (square * (1 + _OFF))[:, None, None] * M, My[:, :, None])[:, :, 0]
         y = np.asarray(turned / np.linalg.norm(turned, axis=1)[:, None], dtype=complex)
-    My = y @ M
-    return np.sqrt(np.einsum("pi,pij,pj->p", y, K, y, optimize=True) / np.einsum("pi,pi->p", y, My))
+        p = np.asarray(np.sqrt(_rayleigh(K, y, y @ M)), dtype=np.complex128)
+    return np.asarray(np.sqrt(_rayleigh(_stiffness(K_0, K_1, C_1, p, modulus), y, y @ M)))
+
+
+def _stiffness(K_0: Complex, K_1: Array, C_1: Array, p: Complex, modulus: ModulusNear) -> Complex:
+    G = modulus.at(p)
+    return np.asarray(K_0 + G[:, None, None] * K_1 + (1j * p)[:, None, None] * C_1)
+
+
+def _rayleigh(K: Complex, y: Complex, My: Complex) -> Complex:
+    return np.asarray(((K @ y[:, :, None])[:, :, 0] * y).sum(axis=1) / (y * My).sum(axis=1))
 
 
 def _between(up: Change, down: Change, per_step: float) -> Change:
@@ -132,15 +175,6 @@ class _Step:
         if isinstance(d.observe, np.ndarray):
             found += q @ d.observe
         return found
-
-
-def unchanged_poles(plate: SpannedPlate, omega: Array, G: Complex, pole_node: NDArray[np.intp]) -> Complex:
-    """Where the poles of the unchanged plate would be with these moduli of the nodes, rad/s."""
-    near, which = np.unique(pole_node, return_inverse=True)
-    A = _dynamic(plate.K_0, plate.K_1, plate.M, (plate.U * plate.d) @ plate.U.T, omega[near], G[near])
-    rhs = np.broadcast_to(plate.load[:, None].astype(complex), (len(near), len(plate.load), 1))
-    q = np.asarray(np.linalg.solve(A, rhs)[:, :, 0], dtype=np.complex128)
-    return _poles(A, q, plate.M, omega[near], which)
 
 
 def core_strain(plate: SpannedPlate, omega: Array, G: Complex, mean_square: Array, change: Change) -> Array:

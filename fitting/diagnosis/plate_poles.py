@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.diagnosis.nodes import MOST_POLES
+from fitting.diagnosis.plate_answer import ModulusNear, poles_near
 from fitting.effects.spanned import SpannedPlate
 from fitting.laws import CoreLaw
 
@@ -46,13 +47,12 @@ class PlatePoles:
             found.append(pole)
         return np.array(found, complex)
 
-    def frozen(self, pole: complex, omega: float) -> complex:
-        """Where one of them would be with the modulus of a frequency."""
-        G, y = complex(self.law.modulus(np.array([omega]))[0]), self._known[pole]
-        at = pole
-        for _ in range(_STEPS):
-            at, y = self._step(at, y, G)
-        return at
+    def moved(self, poles: Complex, modulus: ModulusNear) -> Complex:
+        """Where poles that were found have gone under another modulus."""
+        if not len(poles):
+            return poles
+        y = np.array([self._known[complex(p)] for p in poles])
+        return poles_near(self.K_0, self.K_1, self.M, self.C_1, y, poles, modulus, steps=1)
 
     def _step(self, pole: complex, y: Complex, G: complex) -> tuple[complex, Complex]:
         """Inverse iteration and Rayleigh's quotient."""

@@ -12,7 +12,7 @@ from functools import reduce
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.diagnosis.plate_answer import Answer, answer, core_strain, unchanged_poles
+from fitting.diagnosis.plate_answer import Answer, answer, core_strain
 from fitting.diagnosis.task import Grid, Task
 from fitting.effects.base import Change, Effect, ModulusAt, Unknown
 from fitting.effects.spanned import SpannedPlate
@@ -46,9 +46,9 @@ class Response:
         grid = grid or task.fine
         if self._shifting and (self._changing or self._pitching):
             # The modulus is another one in every pass.
-            grid = task.passes or grid
+            grid = task.passes
         self.grid = grid
-        self._last: tuple[bytes, Answer, Complex | None, Complex] | None = None
+        self._last: tuple[bytes, Answer, Complex] | None = None
         self._strains: dict[bytes, Array] = {}
         self._strained = bool(self._shifting) and "strain" in spans
         self._largest: float | None = None
@@ -85,10 +85,10 @@ class Response:
             reduce(Change.and_then, (c for c in found if c is not None), Change()),
             [(last.change(self.plate, u) or Change(), Change(), 1.0) for u in starts],
             nodes.pole_node,
+            self.grid.modulus_near_poles(G),
             with_pitch=bool(self._pitching),
         )
-        unchanged = others._unchanged(G)
-        by_u = nodes.spread(np.stack([solved.heave_by_u, solved.pitch_by_u]), solved.poles, unchanged)
+        by_u = nodes.spread(np.stack([solved.heave_by_u, solved.pitch_by_u]), solved.poles, solved.poles)
         raw = at.per_x * (by_u[0] + at.pitch * by_u[1])
         return np.array([others._read(at.raw + d, known) - at.v for d in raw])
 
@@ -112,8 +112,12 @@ class Response:
         found = None
         if self._changing or self._pitching:
             G_nodes, smooth = self._bearing(law, G_law, G)
-            found, (moved, steeper, turned) = self._answer(u, G_nodes)
-            x, slope = x + moved + steeper * (G - smooth), slope + steeper
+            found, (moved, turned, changed_slope) = self._answer(u, G_nodes)
+            x = x + moved
+            if self._shifting:
+                _, plain_slope = self.task.rational.with_derivative(smooth)
+                x = x + (changed_slope - plain_slope) * (G - smooth)
+            slope = changed_slope
             for k in self._pitching:
                 h = self.effects[k].pitch(omega, self._of(k, u))
                 pitch = pitch + (h if h is not None else 0.0)
@@ -122,8 +126,7 @@ class Response:
         raw = per_x * (x + pitch * turned) + lever * pitch
         if points.reads == "absolute":
             raw = raw + a / (1j * omega)
-        unchanged = self._last[2] if self._last is not None else None
-        return _At(self._read(raw, u), raw, G, slope, per_x, pitch, turned, lever, found, unchanged)
+        return _At(self._read(raw, u), raw, G, slope, per_x, pitch, turned, lever, found)
 
     def _bearing(self, law: CoreLaw, G_law: Complex, G: Complex) -> tuple[Complex, Complex]:
         """The modulus at the nodes, and the smooth one at every point that goes through it."""
@@ -134,15 +137,8 @@ class Response:
         share = nodes.fit @ (G / G_law)
         return at_nodes * share, G_law * (nodes.plain @ share)
 
-    def _unchanged(self, G: Complex) -> Complex | None:
-        """The unchanged plate's poles with these moduli of the nodes; None where they are the law's."""
-        if not self._shifting:
-            return None
-        nodes = self.grid.nodes
-        return unchanged_poles(self.plate, nodes.omega, G, nodes.pole_node)
-
     def _answer(self, u: Array, G: Complex) -> tuple[Answer, Complex]:
-        """At the nodes; and change of x, of dx/dG, and the answer to pitch at every point."""
+        """At the nodes; and at every point the change of x, the answer to pitch, and dx/dG."""
         changing = [self._of(k, u) for k in self._changing]
         key = G.tobytes() + b"".join(c.tobytes() for c in changing)
         if self._last is None or self._last[0] != key:
@@ -158,13 +154,21 @@ class Response:
                     nearby.append((one[0] or Change(), one[1] or Change(), 2 * h))
             nodes = self.grid.nodes
             solved = answer(
-                self.plate, nodes.omega, G, changes, nearby, nodes.pole_node, with_pitch=bool(self._pitching)
+                self.plate,
+                nodes.omega,
+                G,
+                changes,
+                nearby,
+                nodes.pole_node,
+                self.grid.modulus_near_poles(G),
+                with_pitch=bool(self._pitching),
             )
-            x_0, slope_0 = self.grid.rational.with_derivative(G)
-            changed = np.array([solved.heave - x_0, solved.heave_by_G - slope_0, solved.pitch])
-            unchanged = self._unchanged(G)
-            self._last = key, solved, unchanged, nodes.spread(changed, solved.poles, unchanged)
-        return self._last[1], self._last[3]
+            changed = np.array([solved.heave - self.grid.rational.displacement(G), solved.pitch])
+            simple = nodes.spread(changed, self.grid.unchanged_poles(G), solved.poles)
+            # A derivative has every pole twice, and only those of the changed plate.
+            slope = nodes.spread(solved.heave_by_G, solved.poles, solved.poles)
+            self._last = key, solved, np.array([*simple, slope])
+        return self._last[1], self._last[2]
 
     def _changes(self, u: Array) -> Change:
         found = [self.effects[k].change(self.plate, self._of(k, u)) or Change() for k in self._changing]
@@ -205,7 +209,7 @@ class Response:
         """Ln strain at every point as a cubic of the softening. Shape (4, points)."""
         key = law.values.tobytes() + b"".join(self._of(k, u).tobytes() for k in self._changing)
         if key not in self._strains:
-            nodes = self.task.fine.nodes
+            nodes = self.task.dense
             G, changes = law.modulus(nodes.omega), self._changes(u)
             square = self.plate.matrix("strain.mean_square")
             logs = [
@@ -246,7 +250,7 @@ class Response:
             heave, turned = nodes.spread(
                 np.array([at.answer.heave_by_u[place], at.answer.pitch_by_u[place]]),
                 at.answer.poles,
-                at.unchanged,
+                at.answer.poles,
             )
             found = found + at.per_x * (heave + at.pitch * turned)
         if k in self._pitching:
@@ -290,8 +294,6 @@ class _At:
     """Displacement per pitch acceleration."""
     lever: Complex
     answer: Answer | None
-    unchanged: Complex | None
-    """Poles of the unchanged plate, where its modulus is not the law's."""
 
 
 def _moved(u: Array, n: int, h: float) -> Array:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.diagnosis.nodes import Nodes
+from fitting.diagnosis.plate_answer import ModulusNear
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.effects.base import Points
 from fitting.effects.spanned import SpannedPlate
@@ -18,8 +19,9 @@ from fitting.sweep import Sweep
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-FINE, COARSE = 16, 7
-"""Nodes a cluster of frequencies: for fits, and for a first look."""
+
+DENSE, FINE, COARSE = 16, 10, 6
+"""Nodes a cluster of frequencies: of strains, for fits, and for a first look."""
 _SIZES = (0.25, 0.5, 1.0, 2.0, 4.0)
 _ANGLES = (0.2, 0.6, 1.0)
 """Of the modulus' argument, rad."""
@@ -33,6 +35,19 @@ class Grid:
 
     nodes: Nodes
     rational: RationalSweep
+    poles: PlatePoles | None = None
+    """Of the unchanged plate, as the nodes are made for them."""
+
+    def modulus_near_poles(self, G: Complex) -> ModulusNear:
+        """G* near every pole, from its values at the nodes."""
+        at = self.nodes.pole_node
+        return ModulusNear(self.nodes.omega[at], G[at], self.nodes.slope(G))
+
+    def unchanged_poles(self, G: Complex) -> Complex:
+        """Of the unchanged plate under a modulus, given at the nodes."""
+        if self.poles is None:
+            return self.nodes.poles
+        return self.poles.moved(self.nodes.poles, self.modulus_near_poles(G))
 
 
 @dataclass(frozen=True)
@@ -47,8 +62,10 @@ class Task:
     """The unchanged plate's exact answer at every point."""
     fine: Grid
     coarse: Grid
-    passes: Grid | None
-    """As fine, every pass of a segment for itself; None where each is swept once."""
+    passes: Grid
+    """Dense, every pass of a segment for itself."""
+    dense: Nodes
+    """For what has poles that are not taken out."""
 
     @classmethod
     def of(
@@ -59,19 +76,19 @@ class Task:
         rational: Callable[[Array], RationalSweep],
     ) -> "Task":
         """`rational` gives the unchanged plate's sum on an ascending grid in rad/s."""
-        grids = [Nodes.of(sweep.omega, least) for least in (FINE, COARSE)]
-        apart = Nodes.of(sweep.omega, FINE, sweep.sweep)
-        if len(np.unique(apart.cluster)) > len(np.unique(grids[0].cluster)):
-            grids.append(apart)
+        grids = [
+            *(Nodes.of(sweep.omega, n) for n in (FINE, COARSE)),
+            Nodes.of(sweep.omega, DENSE, sweep.sweep),
+        ]
         omega = np.unique(np.concatenate([sweep.omega, *(g.omega for g in grids)]))
         whole = rational(omega)
 
         def at(some: Array) -> RationalSweep:
             return whole.at(np.searchsorted(omega, some * (1 - 1e-12)))
 
-        fine, coarse, *rest = (Grid(g, at(g.omega)) for g in grids)
-        passes = rest[0] if rest else None
-        return cls(sweep, specimen, plate, points_of(sweep, specimen), at(sweep.omega), fine, coarse, passes)
+        fine, coarse, passes = (Grid(g, at(g.omega)) for g in grids)
+        points, dense = points_of(sweep, specimen), Nodes.of(sweep.omega, DENSE)
+        return cls(sweep, specimen, plate, points, at(sweep.omega), fine, coarse, passes, dense)
 
     @property
     def stated_law(self) -> CoreLaw:
@@ -92,10 +109,10 @@ class Task:
         found = PlatePoles(self.plate, law)
 
         def made_for(grid: Grid) -> Grid:
-            return replace(grid, nodes=grid.nodes.around(found.near, found.frozen))
+            return replace(grid, nodes=grid.nodes.around(found.near), poles=found)
 
-        passes = made_for(self.passes) if self.passes is not None else None
-        return replace(self, fine=made_for(self.fine), coarse=made_for(self.coarse), passes=passes)
+        fine, coarse, passes = (made_for(g) for g in (self.fine, self.coarse, self.passes))
+        return replace(self, fine=fine, coarse=coarse, passes=passes)
 
 
 def points_of(sweep: Sweep, specimen: Specimen) -> Points:

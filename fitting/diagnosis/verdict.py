@@ -18,6 +18,8 @@ SECOND = 12.0
 """A second effect must gain this much, and more where the first one's model `misses` something."""
 PREDICTED = 2.0
 """Times the noise on data held out: as good as can be asked of anything."""
+NO_WORSE = 1.25
+"""Times the error of the first effect alone, that a pair may make on data held out."""
 POOR, HARDLY_BETTER = 3.0, 0.5
 """Times the noise, and times the error without any effect: what predicts no better explains nothing."""
 EXTENSION, HINTED = 9.0, 3.0
@@ -136,7 +138,7 @@ def _second(
         if not best.bic - pair.bic > wanted:
             return None
         off = held_out(pair)
-        if not (off > POOR or off > max(PREDICTED, held_out(best))):
+        if not (off > POOR or off > max(PREDICTED, NO_WORSE * held_out(best))):
             return pair
     return None
 
