@@ -39,6 +39,7 @@ def diagnosis_facts(found: Diagnosed, sweep: Sweep) -> dict[str, Any]:
         "next_measurement": r.next_measurement,
         "explanation": list(r.explanation),
         "warnings": list(r.warnings),
+        "by_hand": r.by_hand,
         "points": _points(sweep.take(r.used), r.before, r.after),
         "set_aside_hz": sweep.frequency_hz[~r.used].tolist(),
         "seconds": found.seconds,

@@ -122,6 +122,7 @@ def diagnose_task(
         ),
         used=np.ones(len(task.sweep), bool) if used is None else used,
         warnings=_warnings(task, judgement),
+        by_hand=judgement.by_hand,
     )
 
 

@@ -100,3 +100,5 @@ class Diagnosis:
     used: NDArray[np.bool_]
     """Points that took part; the others carry hum. Shape (points,)."""
     warnings: tuple[str, ...]
+    by_hand: bool = False
+    """Accepted or declined on someone's word."""

@@ -109,6 +109,13 @@ def test_what_channels_show_is_not_said_to_be_the_verdict(found):
     assert line.startswith("verdict: none: nothing beyond noise; the channels by themselves show mains_hum (")
 
 
+def test_what_someone_decided_is_not_said_to_be_the_data_s_word(found):
+    declined = {**found, "verdict": "none", "effects": [], "equivalent": {}, "by_hand": True}
+    assert verdict_line(declined) == "verdict: none: by your word, no effect is accepted"
+    accepted = verdict_line({**found, "by_hand": True})
+    assert "by your word, " in accepted
+
+
 @pytest.mark.parametrize("phase", [True, False])
 def test_figures_are_saved(tmp_path, phase):
     paths = save_diagnosis_figures(facts(phase=phase), tmp_path / "new")

@@ -1,7 +1,7 @@
 import numpy as np
 
 from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.structure import structure
+from fitting.diagnosis.structure import roughness, structure
 from fitting.sweep import Sweep
 
 N = 118
@@ -47,3 +47,11 @@ def test_nothing_is_said_where_the_noise_is_unknown():
         data.velocity_m_s, np.ones(len(data)), np.ones(len(data)), np.zeros((2 * len(data), 1)), False
     )
     assert structure(data, unknown, np.full(2 * len(data), 9.0), 81.0) == ()
+
+
+def test_what_jumps_from_point_to_point_is_noise_whatever_is_missed_smoothly():
+    data = sweep()
+    noise = 0.7 * np.random.default_rng(1).normal(size=2 * len(data))
+    wave = 5 * np.sin(2 * np.pi * np.arange(2 * len(data)) / 60)
+    for left in (noise, noise + wave):
+        assert abs(roughness(data, left, parts=2) / 0.49 - 1) < 0.2
