@@ -25,8 +25,8 @@ from fitting.sweep import Sweep
 from instrument.cache import cached
 from instrument.errors import BadInput
 from instrument.models import Models
-from instrument.processes import hands
 from instrument.progress import Progress, quiet
+from instrument.second_process import hands
 
 Array = NDArray[np.float64]
 Hammer = tuple[Array, Array] | tuple[Array, Array, Sensor | None]

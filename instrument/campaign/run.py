@@ -22,8 +22,8 @@ from instrument.campaign.tables import summary
 from instrument.campaign.visibility import visible_chi2
 from instrument.errors import BadInput, StoppedByUser
 from instrument.files.text import read_text
-from instrument.processes import VARIABLE as PROCESSES
 from instrument.progress import Progress, quiet
+from instrument.second_process import VARIABLE as PROCESSES
 
 OUTCOMES, BEGUN, SUMMARY = "outcomes.jsonl", "campaign.json", "summary.md"
 ROTATION = (*KINDS, NONE, NONE, PAIR, PAIR)

@@ -3,7 +3,7 @@ import json
 import pytest
 
 from instrument.cli.main import run
-from instrument.processes import VARIABLE
+from instrument.second_process import VARIABLE
 
 
 @pytest.mark.timing

@@ -15,7 +15,7 @@ from instrument.errors import BadInput
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.paper_case import case_file
-from instrument.processes import VARIABLE
+from instrument.second_process import VARIABLE
 from instrument.simulated_case import case_file as simulated_file
 from tests.conftest import DATA
 
@@ -51,7 +51,7 @@ def test_a_hidden_effect_is_named_and_the_law_put_right(name):
 def test_a_second_process_changes_nothing(monkeypatch):
     alone = diagnose(practice("005"), specimen()).result
     monkeypatch.delenv(VARIABLE)
-    monkeypatch.setattr("instrument.processes.processors", lambda: 2)
+    monkeypatch.setattr("instrument.second_process.processors", lambda: 2)
     shared = diagnose(practice("005"), specimen()).result
     assert repr(shared.candidates) == repr(alone.candidates)
     assert shared.explanation == alone.explanation

@@ -5,8 +5,9 @@ import os
 import pytest
 from squares import Squares
 
-from fitting.diagnosis.hands import ALONE, TwoHands
+from fitting.diagnosis.hands import ALONE
 from fitting.errors import OutsideModel
+from instrument.second_process import TwoHands
 
 
 @pytest.fixture(scope="module")
