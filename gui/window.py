@@ -4,7 +4,7 @@ from pathlib import Path
 from time import monotonic
 
 from PySide6.QtCore import Qt, QTimer
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence, QShortcut
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence, QShortcut, QShowEvent
 from PySide6.QtWidgets import QMainWindow, QMessageBox, QTabWidget, QVBoxLayout, QWidget
 
 from gui.desk import Desk
@@ -41,7 +41,7 @@ class Window(QMainWindow):
         self.replay = ReplayBar()
         self.log = LogPane()
         self._escaped_s = -_TWICE_S
-        self._closing = False
+        self._closing = self._drawn = False
         self._arrange()
         self.menus = Menus(self)
         self._shortcuts()
@@ -77,6 +77,13 @@ class Window(QMainWindow):
 
     # What Qt tells
 
+    def showEvent(self, event: QShowEvent) -> None:
+        """Draw every page once now: the first time takes longest, and must not fall into a run."""
+        super().showEvent(event)
+        if not self._drawn:
+            self._drawn = True
+            QTimer.singleShot(0, self, lambda: self._draw(0))
+
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Files may be dropped anywhere."""
         if event.mimeData().hasUrls():
@@ -110,6 +117,16 @@ class Window(QMainWindow):
         super().closeEvent(event)
 
     # Inside
+
+    def _draw(self, number: int) -> None:
+        """One page a turn of the event loop."""
+        if self._closing or number == len(self.pages):
+            return
+        page, shown = self.pages[number], self.tabs.currentWidget()
+        if page is not shown:
+            page.resize(shown.size())
+            page.grab()
+        QTimer.singleShot(0, self, lambda: self._draw(number + 1))
 
     def _arrange(self) -> None:
         for number, page in enumerate(self.pages, start=1):

@@ -9,6 +9,7 @@ from fitting.diagnosis import words
 from fitting.diagnosis.evidence import BareModes, Evidence
 from fitting.diagnosis.hands import ALONE, Hands
 from fitting.diagnosis.model_error import model_error
+from fitting.diagnosis.pairs import Pairs
 from fitting.diagnosis.prediction import over_noise
 from fitting.diagnosis.refit import Fitted, refit
 from fitting.diagnosis.response import Response
@@ -182,7 +183,7 @@ def _pairs(search: Search, singles: Sequence[Trial], report: Report) -> list[Tri
     if best.fitted.chi2_per_dof < NOTHING_LEFT and not flexible:
         return []
     wide = best.fitted.chi2_per_dof > CLEAN_ENOUGH or flexible
-    return search.pairs(singles, report, wide=wide)
+    return Pairs(search).best(singles, report, wide=wide)
 
 
 def _candidate(task: Task, trial: Trial, best: float, *, noise_known: bool) -> Candidate:

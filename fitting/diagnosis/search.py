@@ -1,4 +1,4 @@
-"""The catalogue tried on a residual: single effects, other laws, pairs where one does not suffice."""
+"""The catalogue tried on a residual, effect by effect."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -26,18 +26,7 @@ UNCLEAR = 1.1
 PROMISING = 5.0
 """In BIC, over none: below it nothing is gone into twice."""
 LEADERS = 5
-"""Single effects that a second one is looked for beside."""
-PAIRS = 16
-"""Pairs fitted in full."""
-PAIRS_A_LEADER = 5
-WILL_DO = 1.25
-"""Chi-square per degree of freedom that strong effects may leave."""
-RETRIED = 3
-"""Pairs begun again from other places where none of them will do."""
-EVERY_SECOND = 4
-"""Leaders beside which every other effect is then fitted roughly."""
-LEAST_EXPECTED = 12.0
-"""Chi-square that a second effect must promise where the first leaves little."""
+"""Effects that are gone into twice, and that a second one is looked for beside."""
 LEFT_BEHIND = 4.0
 """Times the least chi-square: rough fits beyond are not followed to the end."""
 _SPARE = 2
@@ -80,8 +69,8 @@ class Search:
         fitted = [e for e in (*self.effects, *self.unnamed) if not e.laws(stated, task.points)]
         # Those that take longest come first: hands then end at the same time.
         self._fitted = sorted(fitted, key=has_place, reverse=True)
-        self._work = Work(task, evidence, none, [*self.effects, *self.unnamed])
-        self.none = self._judged(none)
+        self.work = Work(task, evidence, none, [*self.effects, *self.unnamed])
+        self.none = self.judged(none)
 
     def with_evidence(self, evidence: Evidence) -> "Search":
         """The same search of data that are worth something else."""
@@ -89,7 +78,8 @@ class Search:
         again = refit(Response(self.task, ()), evidence, none.law, none.u)
         return Search(self.task, evidence, again, self.effects, self.hands, self.unnamed)
 
-    def _judged(self, fitted: Fitted) -> Trial:
+    def judged(self, fitted: Fitted) -> Trial:
+        """A fit with what it costs."""
         n = self.evidence.count + (len(self.evidence.bare.shift) if self.evidence.bare else 0)
         parameters = fitted.parameters
         if any(e.replaces_law for e in fitted.effects):
@@ -112,7 +102,7 @@ class Search:
         """What a trial says of data it has not seen."""
         key = id(trial)
         if key not in self._validations:
-            self._validations[key] = trial, self._work.held_out(trial.fitted)
+            self._validations[key] = trial, self.work.held_out(trial.fitted)
         return self._validations[key][1]
 
     def alone(self, trial: Trial) -> list[Trial]:
@@ -122,19 +112,19 @@ class Search:
             u = trial.fitted.u[start : start + len(effect.unknowns)]
             start += len(effect.unknowns)
             if not effect.replaces_law and not any(e.replaces_law for e in trial.fitted.effects):
-                priors = self._work.priors([effect])
+                priors = self.work.priors([effect])
                 found.append(
-                    self._judged(polished(self.task, [effect], self.evidence, trial.fitted.law, u, priors))
+                    self.judged(polished(self.task, [effect], self.evidence, trial.fitted.law, u, priors))
                 )
         return found
 
     def singles(self, report: Report) -> list[Trial]:
         """Every effect beside the law, best first; the leading ones are gone into twice."""
         found: dict[str, Trial] = {}
-        work, each = self._work, self.hands.each
+        work, each = self.work, self.hands.each
 
         def keep(fits: Iterable[Fitted]) -> None:
-            for trial in (self._judged(f) for f in fits if self._determined(f)):
+            for trial in (self.judged(f) for f in fits if self._determined(f)):
                 name = trial.names[0]
                 if name not in found or trial.bic < found[name].bic:
                     found[name] = trial
@@ -181,11 +171,11 @@ class Search:
         """Where the law so far is no place to begin: the effects that do best from plain starts."""
         if not self.none.fitted.chi2_per_dof > WRONG:
             return set()
-        return set(self._order_of_plain()[:LEADERS])
+        return set(self.order_of_plain()[:LEADERS])
 
-    def _order_of_plain(self) -> list[str]:
+    def order_of_plain(self) -> list[str]:
         """Effects by how well they do from plain starts, in wide valleys."""
-        work = self._work
+        work = self.work
         names = [e.name for e in self._fitted if e.unknowns]
         chi2 = []
         for name, state in zip(
@@ -204,84 +194,13 @@ class Search:
             if objection is not None:
                 raise OutsideModel(f"{effect.name}: {objection}")
             if effect.replaces_law:
-                fits = self._work.other_laws(effect)
-                fitted = min(fits, key=lambda f: self._judged(f).bic)
+                fits = self.work.other_laws(effect)
+                fitted = min(fits, key=lambda f: self.judged(f).bic)
                 continue
-            priors = self._work.priors([*fitted.effects, effect])
+            priors = self.work.priors([*fitted.effects, effect])
             contenders = [
                 Contender(self.task, self.evidence, fitted, form, priors) for form in effect.variants()
             ]
             fits = [c.finished(f) for c in contenders for f in [*c.near[:1], *c.far[:1]]]
             fitted = min(fits, key=lambda f: f.chi2)
-        return self._judged(fitted)
-
-    def pairs(self, singles: Sequence[Trial], report: Report, *, wide: bool) -> list[Trial]:
-        """Second effects beside the leading single ones, or the first alone; best first."""
-        work, each = self._work, self.hands.each
-        leaders = list(singles[: LEADERS if wide else 1])
-        tasks = [
-            (t, (e.name, number))
-            for t in leaders
-            for e in self.effects
-            if e.name not in t.names and not e.replaces_law
-            for number in range(len(e.variants()))
-        ]
-        asked = [(t.fitted, form) for t, form in tasks]
-        looks = list(each(work.look, asked, lambda x: report(0.4 * x)))
-        expected = [
-            t.fitted.chi2 - starts[0][0] if starts else np.inf
-            for (t, _), starts in zip(tasks, looks, strict=True)
-        ]
-        chosen: dict[frozenset[str], int] = {}
-        beside: dict[Trial, int] = {}
-        enough = singles[0].fitted.chi2 - LEAST_EXPECTED
-        for k in np.argsort(expected):
-            trial, (name, _) = tasks[k]
-            # Each leader has its say: a linear step from a poor one promises too much.
-            many = len(chosen) == PAIRS or beside.get(trial, 0) == PAIRS_A_LEADER
-            if not many and (wide or expected[k] < enough):
-                beside[trial] = beside.get(trial, 0) + 1
-                chosen.setdefault(frozenset((*trial.names, name)), int(k))
-        full = [(tasks[k][0].fitted, tasks[k][1], looks[k]) for k in chosen.values()]
-        fits = each(work.second, full, lambda x: report(0.4 + 0.4 * x))
-        found = sorted((self._judged(f) for f in fits if f is not None), key=lambda t: t.bic)
-        if wide and found and not self._will_do([*leaders[:1], *found]):
-            # The best may only have begun from the wrong place, or not have looked promising.
-            again = [(t.fitted, {n: work.state(n) for n in self._plainly(t)}) for t in found[:RETRIED]]
-            found += [self._judged(f) for fits in each(work.together, again) for f in fits]
-            if not self._will_do(found):
-                found += self._every_second([t for t in singles if self._plainly(t)], found)
-        report(1.0)
-        return _best_of_each(found)
-
-    def _will_do(self, trials: Sequence[Trial]) -> bool:
-        """Whether any, the law being of the stated kind, leaves little."""
-        plain = (t for t in trials if len(self._plainly(t)) == len(t.names))
-        return any(t.fitted.chi2_per_dof < WILL_DO for t in plain)
-
-    def _every_second(self, leaders: Sequence[Trial], pairs: Sequence[Trial]) -> list[Trial]:
-        """Every effect beside the leading ones roughly; the best pairs that are new to the end."""
-        work, each = self._work, self.hands.each
-        known = {frozenset(t.names) for t in pairs}
-        first = {t.names[0] for t in leaders[:EVERY_SECOND]} | set(self._order_of_plain()[:EVERY_SECOND])
-        wanted = [
-            (name, work.state(name), (e.name, number))
-            for name in sorted(first)
-            for e in self.effects
-            if e.name != name and not e.replaces_law and {name, e.name} not in known
-            for number in range(len(e.variants()))
-        ]
-        rough = [f for fits in each(work.roughly, wanted) for f in fits]
-        best = sorted(rough, key=lambda f: f.chi2)[:PAIRS_A_LEADER]
-        return [self._judged(f) for f in each(work.ended, best)]
-
-    def _plainly(self, pair: Trial) -> list[str]:
-        return [e.name for e in pair.fitted.effects if not e.replaces_law]
-
-
-def _best_of_each(trials: Sequence[Trial]) -> list[Trial]:
-    """One trial of each set of effects, best first."""
-    best: dict[frozenset[str], Trial] = {}
-    for trial in sorted(trials, key=lambda t: t.bic):
-        best.setdefault(frozenset(trial.names), trial)
-    return list(best.values())
+        return self.judged(fitted)

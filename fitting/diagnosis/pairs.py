@@ -1,0 +1,103 @@
+"""Two effects together, where one does not suffice."""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from fitting.diagnosis.search import LEADERS, Search, Trial
+
+Report = Callable[[float], None]
+
+PAIRS = 16
+"""Pairs fitted in full."""
+PAIRS_A_LEADER = 5
+WILL_DO = 1.25
+"""Chi-square per degree of freedom that strong effects may leave."""
+RETRIED = 3
+"""Pairs begun again from other places where none of them will do."""
+EVERY_SECOND = 4
+"""Leaders beside which every other effect is then fitted roughly."""
+LEAST_EXPECTED = 12.0
+"""Chi-square that a second effect must promise where the first leaves little."""
+
+
+class Pairs:
+    """Of one search."""
+
+    def __init__(self, search: Search) -> None:
+        self._search = search
+
+    def best(self, singles: Sequence[Trial], report: Report, *, wide: bool) -> list[Trial]:
+        """Second effects beside the leading single ones, or the first alone; best first."""
+        search, work, each = self._search, self._search.work, self._search.hands.each
+        leaders = list(singles[: LEADERS if wide else 1])
+        tasks = [
+            (t, (e.name, number))
+            for t in leaders
+            for e in search.effects
+            if e.name not in t.names and not e.replaces_law
+            for number in range(len(e.variants()))
+        ]
+        asked = [(t.fitted, form) for t, form in tasks]
+        looks = list(each(work.look, asked, lambda x: report(0.4 * x)))
+        expected = [
+            t.fitted.chi2 - starts[0][0] if starts else np.inf
+            for (t, _), starts in zip(tasks, looks, strict=True)
+        ]
+        chosen: dict[frozenset[str], int] = {}
+        beside: dict[Trial, int] = {}
+        enough = singles[0].fitted.chi2 - LEAST_EXPECTED
+        for k in np.argsort(expected):
+            trial, (name, _) = tasks[k]
+            # Each leader has its say: a linear step from a poor one promises too much.
+            many = len(chosen) == PAIRS or beside.get(trial, 0) == PAIRS_A_LEADER
+            if not many and (wide or expected[k] < enough):
+                beside[trial] = beside.get(trial, 0) + 1
+                chosen.setdefault(frozenset((*trial.names, name)), int(k))
+        full = [(tasks[k][0].fitted, tasks[k][1], looks[k]) for k in chosen.values()]
+        fits = each(work.second, full, lambda x: report(0.4 + 0.4 * x))
+        found = sorted((search.judged(f) for f in fits if f is not None), key=lambda t: t.bic)
+        if wide and found and not _will_do([*leaders[:1], *found]):
+            # The best may only have begun from the wrong place, or not have looked promising.
+            again = [(t.fitted, {n: work.state(n) for n in _plainly(t)}) for t in found[:RETRIED]]
+            found += [search.judged(f) for fits in each(work.together, again) for f in fits]
+            if not _will_do(found):
+                found += self._every_second([t for t in singles if _plainly(t)], found)
+        report(1.0)
+        return _best_of_each(found)
+
+    def _every_second(self, leaders: Sequence[Trial], pairs: Sequence[Trial]) -> list[Trial]:
+        """Every effect beside the leading ones roughly; the best pairs that are new to the end."""
+        search, work, each = self._search, self._search.work, self._search.hands.each
+        known = {frozenset(t.names) for t in pairs}
+        order = [*(t.names[0] for t in leaders[:EVERY_SECOND]), *search.order_of_plain()[:EVERY_SECOND]]
+        first = set(order) & {e.name for e in search.effects}
+        wanted = [
+            (name, work.state(name), (e.name, number))
+            for name in sorted(first)
+            for e in search.effects
+            if e.name != name and not e.replaces_law and {name, e.name} not in known
+            for number in range(len(e.variants()))
+        ]
+        rough = [f for fits in each(work.roughly, wanted) for f in fits]
+        best = sorted(rough, key=lambda f: f.chi2)[:PAIRS_A_LEADER]
+        return [search.judged(f) for f in each(work.ended, best)]
+
+
+def _plainly(trial: Trial) -> list[str]:
+    """Its effects beside the law."""
+    return [e.name for e in trial.fitted.effects if not e.replaces_law]
+
+
+def _will_do(trials: Sequence[Trial]) -> bool:
+    """Whether any, the law being of the stated kind, leaves little."""
+    plain = (t for t in trials if len(_plainly(t)) == len(t.names))
+    return any(t.fitted.chi2_per_dof < WILL_DO for t in plain)
+
+
+def _best_of_each(trials: Sequence[Trial]) -> list[Trial]:
+    """One trial of each set of effects, best first."""
+    best: dict[frozenset[str], Trial] = {}
+    for trial in sorted(trials, key=lambda t: t.bic):
+        best.setdefault(frozenset(trial.names), trial)
+    return list(best.values())
