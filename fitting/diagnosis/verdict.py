@@ -134,11 +134,13 @@ def _second(
     """The pair that explains more than an error of the first effect's own model could, and predicts it."""
     # What the first one's own model misses looks like another effect.
     wanted = SECOND + max(e.misses for e in best.fitted.effects) * (none.bic - best.bic)
+    suffices = not best.fitted.chi2_per_dof > TOO_MUCH
     for pair in pairs:
         if not best.bic - pair.bic > wanted:
             return None
         off = held_out(pair)
-        if not (off > POOR or off > max(PREDICTED, NO_WORSE * held_out(best))):
+        worse = off > POOR or off > max(PREDICTED, NO_WORSE * held_out(best))
+        if not (worse if suffices else _predicts_nothing(none, pair, held_out)):
             return pair
     return None
 

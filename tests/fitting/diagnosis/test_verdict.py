@@ -117,3 +117,11 @@ def test_what_does_not_predict_is_refused(off, none_off):
 
 def test_what_leaves_too_much_is_refused():
     assert weighed(NONE, [Weighed(("added_mass",), 0.0, chi2_per_dof=1.1 * TOO_MUCH)]).verdict == "unknown"
+
+
+def test_a_pair_need_not_predict_better_than_an_effect_that_explains_too_little():
+    pair = ("absolute_velocity", "core_thickness")
+    single = Weighed(pair[:1], 500.0, chi2_per_dof=1.1 * TOO_MUCH)
+    off = {pair: 5.0, pair[:1]: 3.5}
+    assert weighed(NONE, [single], [Weighed(pair, 0.0)], off={**off, (): 50.0}).accepted.names == pair
+    assert weighed(NONE, [single], [Weighed(pair, 0.0)], off={**off, (): 6.0}).verdict == "unknown"
