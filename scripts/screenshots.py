@@ -23,12 +23,13 @@ from gui.pages.run import RunPage
 from gui.settings import Settings
 from gui.theme import Appearance
 from gui.window import Window
+from gui.work import Command, Work
 from instrument.simulated_case import case_file
 
 WIDTH, HEIGHT = 1366, 768
 PATIENCE_S = 600.0
-_LOOKS_S = 3.0
-"""For what a page computes or reads when it is first seen."""
+_LOOKS_S = 1.0
+"""Without any work: then a page has computed and read what it shows."""
 _DARK = "sweep"
 
 
@@ -48,11 +49,11 @@ def main() -> int:
         _fill(window, given.session)
         for number, page in enumerate(window.pages):
             window.show_page(number)
-            _wait(_LOOKS_S)
+            _rest(window)
             _save(window, given.to / f"window-{page.title.lower()}.png")
             if page.title.lower() == _DARK:
                 appearance.choose("dark")
-                _wait(_LOOKS_S)
+                _rest(window)
                 _save(window, given.to / "window-dark.png")
                 appearance.choose("light")
         window.close()
@@ -77,6 +78,19 @@ def _wait(seconds: float, until: Callable[[], bool] = lambda: False) -> bool:
         QApplication.processEvents()
         time.sleep(0.01)
     return until()
+
+
+def _rest(window: Window) -> None:
+    """Until nothing has been at work for a while."""
+    last = time.monotonic()
+
+    def rested() -> bool:
+        nonlocal last
+        if not all(work.over for work in (*window.findChildren(Work), *window.findChildren(Command))):
+            last = time.monotonic()
+        return time.monotonic() - last > _LOOKS_S
+
+    _wait(PATIENCE_S, rested)
 
 
 def _save(window: Window, path: Path) -> None:
