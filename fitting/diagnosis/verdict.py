@@ -136,7 +136,7 @@ def _second(
     wanted = SECOND + max(e.misses for e in best.fitted.effects) * (none.bic - best.bic)
     suffices = not best.fitted.chi2_per_dof > TOO_MUCH
     for pair in pairs:
-        if not best.bic - pair.bic > wanted:
+        if not best.bic - pair.bic > wanted or pair.bic > pairs[0].bic + WITHIN:
             return None
         off = held_out(pair)
         worse = off > POOR or off > max(PREDICTED, NO_WORSE * held_out(best))

@@ -42,7 +42,7 @@ class AddedMass(Effect):
         Unknown("y", "m", 0.0, np.inf, 0.05, neutral=None),
     )
     spans = (PointMass(),)
-    misses = 0.01
+    misses = 0.003
     splits = "a look at the plate and a balance; a second spot off the axis"
 
     def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:

@@ -47,7 +47,7 @@ class AirAddedMass(Effect):
         Unknown("bare_plate_too", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),
     )
     spans = (Air(),)
-    misses = 0.01
+    misses = 0.003
     splits = "the bare plate's natural frequencies (hammer test); a run in vacuum"
 
     def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:

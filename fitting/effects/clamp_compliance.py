@@ -86,7 +86,7 @@ class ClampCompliance(Effect):
     source = "elastic foundation of the root face, e.g. MacBain and Genin, J. Sound Vib. 27 (1973)"
     unknowns = (Unknown("k", "N/m^3", 1e12, 1e16, 5e13, logarithmic=True, neutral=float("inf")),)
     spans = (Root(),)
-    misses = 0.01
+    misses = 0.003
     splits = "the same plate clamped anew, or its root watched by the laser"
 
     def objection(self, points: Points, plate: SpannedPlate) -> str | None:

@@ -101,6 +101,13 @@ def test_a_second_effect_must_gain_and_predict():
     )
 
 
+def test_a_pair_far_behind_the_best_one_is_not_taken_in_its_place():
+    single, best = Weighed(("added_mass",), 100.0), ("added_mass", "gain_error")
+    pairs = [Weighed(best, 0.0), Weighed(("added_mass", "partial_debond"), 2 * WITHIN)]
+    off = {single.names: 1.0, best: 2.5}
+    assert weighed(NONE, [single], pairs, off=off).accepted.names == single.names
+
+
 def test_the_share_its_own_model_misses_is_not_a_second_effect():
     single, pair = Weighed(("clamp_friction",), 100.0), ("clamp_friction", "fixture_resonance")
     strong = Weighed(pair, 100.0 - 1.1 * SECOND)
