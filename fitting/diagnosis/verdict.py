@@ -134,7 +134,7 @@ def _second(
     """The pair that explains more than an error of the first effect's own model could, and predicts it."""
     # What the first one's own model misses looks like another effect.
     wanted = SECOND + max(e.misses for e in best.fitted.effects) * (none.bic - best.bic)
-    suffices = not best.fitted.chi2_per_dof > TOO_MUCH
+    suffices = not best.fitted.chi2_per_dof > TOO_MUCH and not _predicts_nothing(none, best, held_out)
     for pair in pairs:
         if not best.bic - pair.bic > wanted or pair.bic > pairs[0].bic + WITHIN:
             return None
