@@ -28,7 +28,7 @@ WITHIN_UNKNOWN_NOISE, FIRST_UNKNOWN_NOISE = 10.0, 6.0
 """The same where noise is estimated from the residual itself."""
 GOOD = 1.15
 """Chi-square per degree of freedom of an explanation that needs nothing more."""
-TOO_MUCH = 1.6
+TOO_MUCH = 1.25
 """Chi-square per degree of freedom that no candidate may leave."""
 
 
