@@ -41,7 +41,8 @@ class Window(QMainWindow):
         self.replay = ReplayBar()
         self.log = LogPane()
         self._escaped_s = -_TWICE_S
-        self._closing = self._drawn = False
+        self._closing = False
+        self._undrawn = list(self.pages)
         self._arrange()
         self.menus = Menus(self)
         self._shortcuts()
@@ -54,6 +55,8 @@ class Window(QMainWindow):
         self._timer.setInterval(TURN_MS)
         self._timer.timeout.connect(self.turn)
         self._timer.start()
+        self._first_drawing = QTimer(self)
+        self._first_drawing.timeout.connect(self._draw_next)
         settings.restore(self)
 
     def turn(self) -> None:
@@ -80,9 +83,7 @@ class Window(QMainWindow):
     def showEvent(self, event: QShowEvent) -> None:
         """Draw every page once now: the first time takes longest, and must not fall into a run."""
         super().showEvent(event)
-        if not self._drawn:
-            self._drawn = True
-            QTimer.singleShot(0, self, lambda: self._draw(0))
+        self._first_drawing.start()
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Files may be dropped anywhere."""
@@ -108,6 +109,7 @@ class Window(QMainWindow):
                 self.desk.stop()
             return
         self._timer.stop()
+        self._first_drawing.stop()
         self.settings.keep(self)
         for work in self.findChildren(Work):
             work.close()
@@ -118,15 +120,15 @@ class Window(QMainWindow):
 
     # Inside
 
-    def _draw(self, number: int) -> None:
+    def _draw_next(self) -> None:
         """One page a turn of the event loop."""
-        if self._closing or number == len(self.pages):
+        if not self._undrawn:
+            self._first_drawing.stop()
             return
-        page, shown = self.pages[number], self.tabs.currentWidget()
+        page, shown = self._undrawn.pop(), self.tabs.currentWidget()
         if page is not shown:
             page.resize(shown.size())
             page.grab()
-        QTimer.singleShot(0, self, lambda: self._draw(number + 1))
 
     def _arrange(self) -> None:
         for number, page in enumerate(self.pages, start=1):

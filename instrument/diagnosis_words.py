@@ -14,9 +14,9 @@ def verdict_line(facts: Facts) -> str:
     accepted = [e for e in facts["effects"] if e["name"] in groups]
     channels = [e for e in facts["effects"] if e["name"] not in groups]
     said = _SAID.get(facts["verdict"]) or " and ".join(_sized(e) for e in accepted)
-    if facts.get("by_hand"):
-        said = "by your word, " + (said if accepted else "no effect is accepted")
-    parts = [f"verdict: {facts['verdict']}: {said}"]
+    if facts.get("by_hand") and not accepted:
+        said = "no effect accepted"
+    parts = [f"verdict: {'by your word' if facts.get('by_hand') else facts['verdict']}: {said}"]
     for name, group in groups.items():
         others = [n for n in group if n != name]
         if others:
