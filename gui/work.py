@@ -17,6 +17,7 @@ from PySide6.QtCore import QObject, QProcess, QProcessEnvironment, Qt, Signal
 
 from drivers.errors import DriverError
 from fitting.errors import FittingError
+from instrument.background import VARIABLE as BACKGROUND
 from instrument.errors import BadInput
 from instrument.progress import LINES
 
@@ -122,6 +123,7 @@ class Command(QObject):
         self._process.setArguments(["-m", "instrument.cli", *arguments, "--json", "-"])
         environment = QProcessEnvironment.systemEnvironment()
         environment.insert(LINES, "lines")
+        environment.insert(BACKGROUND, "1")
         # With a thread for every processor it would take the window's own.
         environment.insert("OPENBLAS_NUM_THREADS", "1")
         self._process.setProcessEnvironment(environment)

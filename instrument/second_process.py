@@ -17,6 +17,7 @@ from typing import Any, TypeVar
 from loky import ProcessPoolExecutor
 
 from fitting.diagnosis.hands import ALONE, Hands, Report
+from instrument.background import step_back
 
 A = TypeVar("A")
 B = TypeVar("B")
@@ -109,6 +110,7 @@ _owner: Any = None
 def _begin(first: int) -> None:
     # Ctrl-C is for the first process, which ends this one; if that is killed, nobody would.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    step_back()
     Thread(target=_end_after, args=(first,), daemon=True).start()
     import fitting.effects  # noqa: F401
 

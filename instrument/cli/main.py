@@ -1,5 +1,6 @@
 """The command `viscorig`: its commands, and one line instead of a traceback."""
 
+import os
 import sys
 from contextlib import suppress
 from importlib import import_module
@@ -10,6 +11,8 @@ import click
 
 from drivers.errors import DriverError
 from fitting.errors import FittingError
+from instrument.background import VARIABLE as BACKGROUND
+from instrument.background import step_back
 from instrument.errors import BadInput, RigStopped, StoppedByUser
 
 BAD_INPUT = 2
@@ -67,6 +70,8 @@ def viscorig() -> None:
 
 def main(arguments: list[str] | None = None) -> None:
     """Run and exit: 0 done, 2 bad input or usage, 3 the rig stopped itself, 130 stopped by the user."""
+    if os.environ.get(BACKGROUND):
+        step_back()
     sys.exit(run(arguments))
 
 
