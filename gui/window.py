@@ -21,6 +21,8 @@ from gui.work import Command, Work
 
 TURN_MS = 33
 """Between two looks at what has come: 30 a second."""
+_REST, _MOST_REST_MS = 3.0, 300.0
+"""Times as long as a look came late, until the next one; at most."""
 _TWICE_S = 1.0
 """Two presses of Esc within this time are meant."""
 
@@ -53,7 +55,8 @@ class Window(QMainWindow):
         self.desk.experiment_chosen.connect(self._chosen)
         self._timer = QTimer(self)
         self._timer.setInterval(TURN_MS)
-        self._timer.timeout.connect(self.turn)
+        self._timer.timeout.connect(self._tick)
+        self._ticked_s = monotonic()
         self._timer.start()
         self._first_drawing = QTimer(self)
         self._first_drawing.timeout.connect(self._draw_next)
@@ -119,6 +122,14 @@ class Window(QMainWindow):
         super().closeEvent(event)
 
     # Inside
+
+    def _tick(self) -> None:
+        """Turn, and look again later where the machine is behind: painting must not fill all of its time."""
+        now = monotonic()
+        late_ms = 1e3 * (now - self._ticked_s) - self._timer.interval()
+        self._ticked_s = now
+        self.turn()
+        self._timer.setInterval(TURN_MS + round(min(_MOST_REST_MS, max(0.0, _REST * late_ms))))
 
     def _draw_next(self) -> None:
         """One page a turn of the event loop."""
