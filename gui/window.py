@@ -124,12 +124,13 @@ class Window(QMainWindow):
     # Inside
 
     def _tick(self) -> None:
-        """Turn, and look again later where the machine is behind: painting must not fill all of its time."""
+        """Turn, and in a run look again later where the machine is behind: painting must not fill its time."""
         now = monotonic()
         late_ms = 1e3 * (now - self._ticked_s) - self._timer.interval()
         self._ticked_s = now
         self.turn()
-        self._timer.setInterval(TURN_MS + round(min(_MOST_REST_MS, max(0.0, _REST * late_ms))))
+        rest_ms = min(_MOST_REST_MS, max(0.0, _REST * late_ms)) if self.desk.running else 0.0
+        self._timer.setInterval(TURN_MS + round(rest_ms))
 
     def _draw_next(self) -> None:
         """One page a turn of the event loop."""
