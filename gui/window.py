@@ -124,7 +124,7 @@ class Window(QMainWindow):
     # Inside
 
     def _tick(self) -> None:
-        """Turn, and in a run look again later where the machine is behind: painting must not fill its time."""
+        """Turn; in a run look again later where the machine is behind: painting must not fill its time."""
         now = monotonic()
         late_ms = 1e3 * (now - self._ticked_s) - self._timer.interval()
         self._ticked_s = now
