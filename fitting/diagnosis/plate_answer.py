@@ -93,7 +93,7 @@ def answer(
             omega[pole_node].astype(complex),
             modulus,
             _POLE_STEPS,
-        )
+        )[0]
         if modulus is not None and len(pole_node)
         else np.empty(0, complex),
     )
@@ -116,10 +116,10 @@ def poles_near(
     p: Complex,
     modulus: ModulusNear,
     steps: int,
-) -> Complex:
+) -> tuple[Complex, Complex]:
     """Poles p of (K_0 + G(p) K_1 + i p C_1 - p^2 M) y = 0 from guesses, by Rayleigh's quotient iteration.
 
-    Shapes (poles, k) of `y` and (poles,) of `p`.
+    Shapes (poles,) of `p` and (poles, k) of `y`; better ones are returned in this order.
     """
     for _ in range(steps):
         K = _stiffness(K_0, K_1, C_1, p, modulus)
@@ -128,7 +128,7 @@ def poles_near(
         turned = np.linalg.solve(K - (square * (1 + _OFF))[:, None, None] * M, My[:, :, None])[:, :, 0]
         y = np.asarray(turned / np.linalg.norm(turned, axis=1)[:, None], dtype=complex)
         p = np.asarray(np.sqrt(_rayleigh(K, y, y @ M)), dtype=np.complex128)
-    return np.asarray(np.sqrt(_rayleigh(_stiffness(K_0, K_1, C_1, p, modulus), y, y @ M)))
+    return np.asarray(np.sqrt(_rayleigh(_stiffness(K_0, K_1, C_1, p, modulus), y, y @ M))), y
 
 
 def _stiffness(K_0: Complex, K_1: Array, C_1: Array, p: Complex, modulus: ModulusNear) -> Complex:

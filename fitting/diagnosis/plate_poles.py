@@ -38,26 +38,15 @@ class PlatePoles:
         margin = 0.5 * (high - low) + 0.1 * middle
         inside = np.flatnonzero((p.real > low - margin) & (p.real < high + margin))
         inside = inside[np.argsort(np.abs(p[inside] - middle))][:MOST_POLES]
-        found = []
-        for k in inside:
-            pole, y = complex(p[k]), np.asarray(vectors[:, k], dtype=complex)
-            for _ in range(_STEPS):
-                pole, y = self._step(pole, y, complex(G + slope * (pole - middle)))
-            self._known[pole] = y
-            found.append(pole)
-        return np.array(found, complex)
+        modulus = ModulusNear(*(np.array([value]) for value in (middle, G, slope)))
+        y = np.asarray(vectors[:, inside].T, dtype=complex)
+        found, y = poles_near(self.K_0, self.K_1, self.M, self.C_1, y, p[inside], modulus, _STEPS)
+        self._known |= {complex(pole): shape for pole, shape in zip(found, y, strict=True)}
+        return found
 
     def moved(self, poles: Complex, modulus: ModulusNear) -> Complex:
         """Where poles that were found have gone under another modulus."""
         if not len(poles):
             return poles
         y = np.array([self._known[complex(p)] for p in poles])
-        return poles_near(self.K_0, self.K_1, self.M, self.C_1, y, poles, modulus, steps=1)
-
-    def _step(self, pole: complex, y: Complex, G: complex) -> tuple[complex, Complex]:
-        """Inverse iteration and Rayleigh's quotient."""
-        K = self.K_0 + G * self.K_1 + 1j * pole * self.C_1
-        turned = np.linalg.solve(K - (pole**2) * (1 + 1e-9) * self.M, self.M @ y)
-        turned = turned / np.linalg.norm(turned)
-        moved = complex(np.sqrt((turned @ K @ turned) / (turned @ self.M @ turned)))
-        return moved, turned.astype(complex)
+        return poles_near(self.K_0, self.K_1, self.M, self.C_1, y, poles, modulus, steps=1)[0]

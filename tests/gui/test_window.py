@@ -3,7 +3,7 @@ from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent, QPalette
 from session_cases import Tape, configuration
 
-from gui.window import Window
+from gui.window import TURN_MS, Window
 
 
 def drop(window, path):
@@ -18,6 +18,22 @@ def test_opens_with_every_page_and_nothing_running(window):
     assert "idle" in window.bar.state.text()
     assert not window.bar.stop.isEnabled()
     assert not window.replay.isVisible()
+
+
+def test_every_page_is_drawn_before_it_is_looked_at(qtbot, window):
+    size = window.tabs.currentWidget().size()
+    qtbot.waitUntil(lambda: all(page.size() == size for page in window.pages))
+
+
+def test_a_window_that_is_late_looks_less_often_in_a_run_only(window, monkeypatch):
+    timer = window._timer
+    monkeypatch.setattr("gui.window.monotonic", lambda: window._ticked_s + 1.0)
+    window._tick()
+    assert timer.interval() == TURN_MS
+    with monkeypatch.context() as patched:
+        patched.setattr(type(window.desk), "running", property(lambda desk: True))
+        window._tick()
+    assert timer.interval() > 5 * TURN_MS
 
 
 @pytest.mark.parametrize("number", range(5))

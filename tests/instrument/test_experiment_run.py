@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import h5py
 import pytest
+from at_point import AtPoint
 from formula_rig import formula_rig, gain
 
 from drivers.simulated.rig import SimulatedRig
@@ -27,20 +28,6 @@ def no_fit(number, last_step, points, damping, specimen):
 
 def run(experiment, folder, parts, **options):
     return run_experiment(experiment, folder, parts, fit=no_fit, **options)
-
-
-def at_point(number: int, do: Callable[[], None]):
-    """A watcher that does something once so many points are on the disk."""
-    seen = []
-
-    def watch(events):
-        for event in events:
-            if isinstance(event, PointMeasured):
-                seen.append(event)
-                if len(seen) == number:
-                    do()
-
-    return watch
 
 
 def events_of(path):
@@ -114,7 +101,7 @@ def test_a_fault_stops_the_run_silently_with_everything_complete_kept(tmp_path, 
             fault(rig)
 
         with pytest.raises(RigStopped, match=said) as stopped:
-            run(experiment, tmp_path, ("sweep",), watch=at_point(3, strike))
+            run(experiment, tmp_path, ("sweep",), companion=AtPoint(3, strike))
         _wait_until_silent(rig)
     assert "\n" not in str(stopped.value)
     silent = [e for e in rig.device.log if e.what == "silent"][-1]
@@ -144,7 +131,7 @@ def test_serial_garbage_is_got_over(tmp_path):
         def strike():
             rig.vibrometer.faults.garbled_replies = 1
 
-        finished = run(experiment, tmp_path, ("sweep",), watch=at_point(3, strike))
+        finished = run(experiment, tmp_path, ("sweep",), companion=AtPoint(3, strike))
     assert len(finished.points) == 15
 
 
@@ -168,7 +155,7 @@ def test_an_abort_ends_the_run_and_a_resume_measures_only_what_is_missing(tmp_pa
                 tmp_path,
                 ("sweep",),
                 control=control,
-                watch=at_point(6, lambda: control.abort("enough for today")),
+                companion=AtPoint(6, lambda: control.abort("enough for today")),
             )
         (folder,) = tmp_path.glob("*.running")
         (session,) = tmp_path.glob("*.h5")
@@ -197,15 +184,15 @@ def test_a_hold_silences_and_resuming_goes_on(tmp_path):
 
             threading.Thread(target=look).start()
 
-        finished = run(experiment, tmp_path, ("sweep",), control=control, watch=at_point(3, hold_and_look))
+        finished = run(experiment, tmp_path, ("sweep",), control=control, companion=AtPoint(3, hold_and_look))
     assert drives == [0.0]
     assert len(finished.points) == 15
 
 
 def test_a_watcher_that_fails_does_not_stop_the_measurement(tmp_path):
-    def fail():
+    def fail(events):
         raise ValueError("a plot went wrong")
 
     with formula_rig(tmp_path) as (_, experiment):
-        finished = run(experiment, tmp_path, ("sweep",), watch=at_point(2, fail))
+        finished = run(experiment, tmp_path, ("sweep",), watch=fail)
     assert len(finished.points) == 15

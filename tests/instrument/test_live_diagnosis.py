@@ -6,6 +6,7 @@ import signal
 import threading
 
 import pytest
+from at_point import AtPoint
 from diagnosis_cases import facts
 from formula_rig import formula_rig
 
@@ -21,7 +22,7 @@ from instrument.live_diagnosis import apart, diagnose_points
 from instrument.replay import replay
 from instrument.session.storage import SessionFile
 from instrument.simulated_case import EFFECTS, chosen_effect
-from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated, PointMeasured
+from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated
 from instrument.stream.raw import DiagnosisStarted, SessionEnded
 
 
@@ -100,17 +101,18 @@ def test_without_a_law_nothing_is_asked(tmp_path):
 
 
 def test_a_sweep_that_is_stopped_is_not_diagnosed_and_its_resumed_whole_is(tmp_path):
-    control, seen = Control(), []
-
-    def watch(events):
-        seen.extend(e for e in events if isinstance(e, PointMeasured))
-        if len(seen) > 5:
-            control.abort("enough")
-
+    control = Control()
+    enough = AtPoint(6, lambda: control.abort("enough"))
     with formula_rig(tmp_path) as (_, experiment):
         with pytest.raises(RigStopped, match="enough"):
             run_experiment(
-                experiment, tmp_path, ("sweep",), control=control, watch=watch, fit=a_law, diagnose=refused
+                experiment,
+                tmp_path,
+                ("sweep",),
+                control=control,
+                companion=enough,
+                fit=a_law,
+                diagnose=refused,
             )
         (folder,) = tmp_path.glob("*.running")
         finished = run_experiment(experiment, tmp_path, ("sweep",), resume=folder, fit=a_law, diagnose=times)

@@ -1,6 +1,7 @@
 """Carrying on a run that broke off: with its calibration, and with nothing but its own experiment."""
 
 import pytest
+from at_point import AtPoint
 from formula_rig import formula_rig
 
 from instrument.control import Control
@@ -42,16 +43,11 @@ def calibrated(experiment):
 
 
 def broken_off(experiment, folder, after):
-    """Run until so many points are on the disk, then abort; the folder."""
-    control, seen = Control(), []
-
-    def watch(events):
-        seen.extend(e for e in events if isinstance(e, PointMeasured))
-        if len(seen) >= after:
-            control.abort("broken off")
-
+    """Run until so many points are measured, then abort; the folder."""
+    control = Control()
+    enough = AtPoint(after, lambda: control.abort("broken off"))
     with pytest.raises(RigStopped, match="broken off"):
-        run(experiment, folder, control=control, watch=watch)
+        run(experiment, folder, control=control, companion=enough)
     (running,) = folder.glob("*.running")
     return running
 

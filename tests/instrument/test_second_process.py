@@ -33,6 +33,16 @@ def test_the_second_process_takes_its_share(two):
     assert until_shared()
 
 
+def test_the_second_process_lets_others_go_first(two):
+    own = os.nice(0)
+    seen: set[int] = set()
+    for _ in range(100):
+        seen |= set(two.each(Squares().niceness, list(range(500))))
+        if len(seen) == 2:
+            break
+    assert seen == {own, min(19, own + 10)}
+
+
 def test_progress_ends_at_one(two):
     told = []
     list(two.each(Squares().square, list(range(20)), told.append))

@@ -19,6 +19,7 @@ from engine_cases import (
     wait_until,
     without_samples,
 )
+from formula_rig import SWEEP
 from quick_engine import QUICK_ENGINE, no_fit
 
 from instrument.engine import Engine, Order
@@ -45,6 +46,10 @@ from instrument.stream.raw import (
     SessionBegan,
     SessionEnded,
 )
+
+POINTS = 49
+SWEEP_OF_POINTS = SWEEP.replace("points = 6", "points = 40")
+"""Long beside what a word to the engine takes, on a busy machine too."""
 
 
 def events_of(path, *, with_samples: bool = False):
@@ -167,7 +172,10 @@ def test_a_run_that_waits_for_its_operator_can_be_aborted(tmp_path):
 
 
 def test_a_hold_silences_and_resuming_goes_on(tmp_path):
-    with engine_rig(tmp_path) as (rig, experiment), engine_of(Order(experiment, tmp_path)) as engine:
+    with (
+        engine_rig(tmp_path, sweep=SWEEP_OF_POINTS) as (rig, experiment),
+        engine_of(Order(experiment, tmp_path)) as engine,
+    ):
         points, held = [], []
 
         def react(message):
@@ -184,11 +192,11 @@ def test_a_hold_silences_and_resuming_goes_on(tmp_path):
         end = ended(follow(engine, react))
     assert held == [0.0]
     assert end.why == "done"
-    assert len(points_of(end.session)) == 15
+    assert len(points_of(end.session)) == POINTS
 
 
 def test_an_abort_keeps_what_is_complete_and_a_resume_tells_it_again(tmp_path):
-    with engine_rig(tmp_path) as (rig, experiment):
+    with engine_rig(tmp_path, sweep=SWEEP_OF_POINTS) as (rig, experiment):
         with engine_of(Order(experiment, tmp_path)) as engine:
             seen = []
 
@@ -205,11 +213,11 @@ def test_an_abort_keeps_what_is_complete_and_a_resume_tells_it_again(tmp_path):
         assert f"kept in {end.session}" in end.message
         assert told(messages)[-1] == SessionEnded("stopped by the user", "")
         first = points_of(end.session)
-        assert 4 <= len(first) < 15
+        assert 4 <= len(first) < POINTS
         with engine_of(Order(experiment, tmp_path, resume=end.folder)) as engine:
             again = follow(engine)
     assert [e for e in told(again) if isinstance(e, PointMeasured)][: len(first)] == first
-    assert len(points_of(ended(again).session)) == 15
+    assert len(points_of(ended(again).session)) == POINTS
     assert without_samples(told(again)) == without_samples(events_of(ended(again).session))
 
 
