@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from PySide6.QtCore import QObject, Qt
-from PySide6.QtGui import QColor, QGuiApplication, QPalette
+from PySide6.QtGui import QColor, QGuiApplication, QPalette, QPixmapCache
 from PySide6.QtWidgets import QApplication
 
 Mode = Literal["system", "light", "dark"]
@@ -17,6 +17,7 @@ Role = Literal[
 ]  # fmt: skip
 SCALES = (0.8, 0.9, 1.0, 1.15, 1.3, 1.5, 1.75, 2.0)
 """Type sizes to choose from."""
+_DRAWINGS_KB = 1024
 
 
 @dataclass(frozen=True)
@@ -106,6 +107,8 @@ class Appearance(QObject):
         super().__init__(application)
         self._application = application
         application.setStyle("Fusion")
+        # Drawings are kept by palette, and every new widget's is another one: few are ever used again.
+        QPixmapCache.setCacheLimit(_DRAWINGS_KB)
         self._points = application.font().pointSizeF()
         self.mode: Mode = mode
         self.scale = scale

@@ -123,12 +123,20 @@ class Contender:
     @cached_property
     def elsewhere(self) -> list[Fitted]:
         """The same from some more starts of an effect whose place is to be found: valleys are many."""
-        more = MORE_PLACES if has_place(self.effect) else 0
-        return self._from(self._starts[self._first : self._first + more])
+        return self._from(self._starts[self._first : self._first + self._more])
+
+    @cached_property
+    def everywhere(self) -> list[Fitted]:
+        """The same from all that are left."""
+        return self._from(self._starts[self._first + self._more :])
 
     @property
     def _first(self) -> int:
         return FOLLOWED_PLACES if has_place(self.effect) else FOLLOWED
+
+    @property
+    def _more(self) -> int:
+        return MORE_PLACES if has_place(self.effect) else 0
 
     def _from(self, starts: Sequence[Start]) -> list[Fitted]:
         fits = [self._rough(self.before.law, u, self.evidence) for _, u in starts]

@@ -18,7 +18,15 @@ from fitting.diagnosis.search import Search, Trial
 from fitting.diagnosis.stage import found_effects, stage_of
 from fitting.diagnosis.structure import roughness, structure
 from fitting.diagnosis.task import Task
-from fitting.diagnosis.verdict import FIRST, Judgement, judge, standing_for, told, without_idle_extensions
+from fitting.diagnosis.verdict import (
+    FIRST,
+    Judgement,
+    foremost,
+    judge,
+    standing_for,
+    told,
+    without_idle_extensions,
+)
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
 from fitting.identification.direct import fit_direct
@@ -174,15 +182,16 @@ def _pairs(search: Search, singles: Sequence[Trial], report: Report) -> list[Tri
     """Two effects, where one leaves something or only another law explains it all."""
     if not singles or not search.evidence.scale_known:
         return []
-    best = singles[0]
+    best = foremost(search.none, singles)
     if search.evidence.count < _NUMBERS_A_PARAMETER * (best.fitted.parameters + 2):
         return []
     flexible = any(e.replaces_law for e in best.fitted.effects)
     if search.none.bic - best.bic < FIRST:
         return []
-    if best.fitted.chi2_per_dof < NOTHING_LEFT and not flexible:
+    doubtful = flexible or best.leans
+    if best.fitted.chi2_per_dof < NOTHING_LEFT and not doubtful:
         return []
-    wide = best.fitted.chi2_per_dof > CLEAN_ENOUGH or flexible
+    wide = best.fitted.chi2_per_dof > CLEAN_ENOUGH or doubtful
     return Pairs(search).best(singles, report, wide=wide)
 
 

@@ -6,6 +6,8 @@ Every segment's resonances a little off, its gain and its phase: sizes as in `id
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.refit import Fitted
 from fitting.diagnosis.task import Task
 from fitting.identification.systematic import FREQUENCY_ERROR, GAIN_ERROR
 from fitting.laws import CoreLaw
@@ -27,3 +29,13 @@ def model_error(task: Task, reduced: ReducedPlate, law: CoreLaw, v: Complex) -> 
         if task.points.has_phase:
             rows.append(1j * GAIN_ERROR * v * inside)
     return np.array(rows)
+
+
+def excess(evidence: Evidence, fitted: Fitted) -> float:
+    """Chi-square along these changes above their number, one standard deviation each.
+
+    What explains rightly leaves less than none: the fit has taken some of them up. What only fits, bends the
+    plate by more than it is known to be wrong. In the chi-square of hundreds of points that is not seen.
+    """
+    along = evidence.whitening.along(fitted.residuals[: fitted.data])
+    return float(along @ along) - len(along)

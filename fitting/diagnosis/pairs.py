@@ -4,6 +4,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from fitting.diagnosis.candidates import has_place
 from fitting.diagnosis.search import LEADERS, Search, Trial
 
 Report = Callable[[float], None]
@@ -63,6 +64,7 @@ class Pairs:
             found += [search.judged(f) for fits in each(work.together, again) for f in fits]
             if not _will_do(found):
                 found += self._every_second([t for t in singles if _plainly(t)], found)
+            found += self._swapped(found)
         report(1.0)
         return _best_of_each(found)
 
@@ -83,6 +85,30 @@ class Pairs:
         best = sorted(rough, key=lambda f: f.chi2)[:PAIRS_A_LEADER]
         return [search.judged(f) for f in each(work.ended, best)]
 
+    def _swapped(self, pairs: Sequence[Trial]) -> list[Trial]:
+        """Other effects beside those of the best pair that have a place: a wrong second may have found it."""
+        search, work, each = self._search, self._search.work, self._search.hands.each
+        plain = [t for t in sorted(pairs, key=lambda t: t.bic) if len(_plainly(t)) == 2]
+        best = next((t for t in plain if not t.leans), plain[0] if plain else None)
+        if best is None:
+            return []
+        placed = [e for e in best.fitted.effects if has_place(e)]
+        befores = list(each(work.alone, [(best.fitted, e) for e in placed]))
+        asked = [
+            (before, (e.name, number))
+            for before in befores
+            for e in search.effects
+            if e.name not in best.names and not e.replaces_law
+            for number in range(len(e.variants()))
+        ]
+        looks = list(each(work.look, asked))
+        promising = sorted(
+            (one for one in zip(asked, looks, strict=True) if one[1]),
+            key=lambda one: one[0][0].chi2 - one[1][0][0],
+        )[:PAIRS_A_LEADER]
+        fits = each(work.second, [(before, form, starts) for (before, form), starts in promising])
+        return [search.judged(f) for f in fits if f is not None]
+
 
 def _plainly(trial: Trial) -> list[str]:
     """Its effects beside the law."""
@@ -90,9 +116,9 @@ def _plainly(trial: Trial) -> list[str]:
 
 
 def _will_do(trials: Sequence[Trial]) -> bool:
-    """Whether any, the law being of the stated kind, leaves little."""
+    """Whether any, the law being of the stated kind, leaves little and does not lean."""
     plain = (t for t in trials if len(_plainly(t)) == len(t.names))
-    return any(t.fitted.chi2_per_dof < WILL_DO for t in plain)
+    return any(t.fitted.chi2_per_dof < WILL_DO and not t.leans for t in plain)
 
 
 def _best_of_each(trials: Sequence[Trial]) -> list[Trial]:

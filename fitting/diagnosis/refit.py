@@ -95,6 +95,13 @@ def refit(
     return problem.fitted(found.x)
 
 
+def kept(response: Response, evidence: Evidence, law: CoreLaw, u: Array, priors: Array) -> Fitted:
+    """As `refit`, nothing moved."""
+    problem = _Problem(response, evidence, law, u, None, priors)
+    lower, upper = problem.limits
+    return problem.fitted(np.clip(problem.start, lower, upper))
+
+
 class _Problem:
     def __init__(
         self,

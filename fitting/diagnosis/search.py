@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from fitting.diagnosis.candidates import WRONG, Contender, has_place, polished
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.hands import Hands
+from fitting.diagnosis.model_error import excess
 from fitting.diagnosis.refit import Fitted, refit
 from fitting.diagnosis.response import Response
 from fitting.diagnosis.task import Task
@@ -39,6 +40,8 @@ class Trial:
 
     fitted: Fitted
     bic: float
+    leans: bool = False
+    """Whether it fits only by bending the plate more than a layer-wise plate and its own model are wrong."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -87,9 +90,16 @@ class Search:
             parameters = max(parameters, len(self.stated.names)) + 2
         paid = parameters * np.log(n) + sum(self._choices(e) for e in fitted.effects)
         if self.evidence.scale_known:
-            return Trial(fitted, fitted.chi2 + paid)
+            bic = fitted.chi2 + paid
+            return Trial(fitted, bic, self._leans(fitted, bic))
         # Noise of unknown size: its estimate is in the likelihood.
         return Trial(fitted, n * np.log(max(fitted.chi2, 1e-300) / n) + paid)
+
+    def _leans(self, fitted: Fitted, bic: float) -> bool:
+        if not fitted.effects:
+            return False
+        own = max(e.bends for e in fitted.effects) * (self.none.bic - bic)
+        return excess(self.evidence, fitted) > max(own, 0.0)
 
     def _choices(self, effect: Effect) -> float:
         """What it costs that a place was chosen among many: one of them fits noise best."""
@@ -139,8 +149,12 @@ class Search:
         ahead = [best for name in self._ahead(found) for best in work.best_near(name)]
         keep(each(work.finished, ahead, lambda x: report(0.4 + 0.2 * x)))
         further = [(name, work.state(name)) for name in self._worth_more(found)]
-        for fits in each(work.thorough, further, lambda x: report(0.6 + 0.4 * x)):
+        for fits in each(work.thorough, further, lambda x: report(0.6 + 0.3 * x)):
             keep(fits)
+        if self._lost(found):
+            places = [(e.name, work.state(e.name)) for e in self._fitted if has_place(e)]
+            for fits in each(work.everywhere, places, lambda x: report(0.9 + 0.1 * x)):
+                keep(fits)
         return sorted(found.values(), key=lambda t: t.bic)
 
     def _determined(self, fitted: Fitted) -> bool:
@@ -166,6 +180,14 @@ class Search:
         if not best.chi2_per_dof < UNCLEAR or any(e.replaces_law for e in best.effects):
             names |= {t.names[0] for t in order[:LEADERS]} | self._promising()
         return [e.name for e in self._fitted if e.name in names and e.unknowns]
+
+    def _lost(self, found: Mapping[str, Trial]) -> bool:
+        """Whether all that lead lean: the right place may not have been among the first."""
+        order = sorted(found.values(), key=lambda t: t.bic)
+        if not order or self.none.bic - order[0].bic < PROMISING:
+            return False
+        leading = [t for t in order if t.bic < order[0].bic + NEAR]
+        return all(t.leans or any(e.replaces_law for e in t.fitted.effects) for t in leading)
 
     def _promising(self) -> set[str]:
         """Where the law so far is no place to begin: the effects that do best from plain starts."""

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import chi2
 
 from fitting.diagnosis.evidence import Evidence
 from fitting.sweep import Sweep
@@ -16,6 +17,7 @@ Array = NDArray[np.float64]
 CHI2_PER_DOF = 1.35
 RUNS_SIGMA = 5.0
 MEMORY_SIGMA = 6.0
+BENT_BY_CHANCE = 1e-4
 LAGS = 8
 _FEWEST = 20
 
@@ -32,6 +34,10 @@ def structure(sweep: Sweep, evidence: Evidence, whitened: Array, chi2_per_dof: f
         said.append(f"its signs keep together along frequency ({runs:.1f} sigma, runs test)")
     if memory > MEMORY_SIGMA:
         said.append(f"neighbouring points agree ({memory:.1f} sigma, Ljung-Box over {LAGS} lags)")
+    along = evidence.whitening.along(whitened)
+    if len(along) and along @ along > chi2.isf(BENT_BY_CHANCE, len(along)):
+        times = float(np.sqrt(along @ along / len(along)))
+        said.append(f"the plate would have to be off by {times:.2g} times what a layer-wise plate is")
     return tuple(said)
 
 

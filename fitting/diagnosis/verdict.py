@@ -41,6 +41,10 @@ class Judgement:
     equivalent: dict[str, tuple[str, ...]]
     by_hand: bool = False
     """Accepted on someone's word, not by the data's."""
+    refused: tuple[str, ...] = ()
+    """What comes nearest where nothing will do."""
+    why: str = ""
+    """What speaks against it: half a sentence."""
 
 
 def told(trial: Trial) -> Judgement:
@@ -57,7 +61,9 @@ def idle_over(trial: Trial, trials: Sequence[Trial]) -> tuple[str, ...]:
         if effect.extends is None:
             continue
         simpler = by_names.get(frozenset(trial.names) - {effect.name} | {effect.extends})
-        if simpler is not None and not trial.fitted.chi2 < simpler.fitted.chi2 - EXTENSION:
+        if simpler is None or (simpler.leans and not trial.leans):
+            continue
+        if not trial.fitted.chi2 < simpler.fitted.chi2 - EXTENSION:
             found.append(effect.extends)
     return tuple(found)
 
@@ -85,6 +91,12 @@ def without_idle_extensions(trials: Sequence[Trial], unnamed: Sequence[Effect] =
     return [t for t in trials if not hidden & set(t.names) and hidden >= set(idle_over(t, trials))]
 
 
+def foremost(none: Trial, singles: Sequence[Trial]) -> Trial:
+    """The best of those near the top that does not lean; the best where all do."""
+    limit = min(singles[0].bic + WITHIN, none.bic - FIRST)
+    return next((t for t in singles if t.bic < limit and not t.leans), singles[0])
+
+
 def judge(
     none: Trial,
     singles: Sequence[Trial],
@@ -106,14 +118,14 @@ def judge(
         much = noise_known and structured and none.fitted.chi2_per_dof > TOO_MUCH
         return Judgement("unknown" if much else "none", None, {})
     pairs = _without_flexible(singles, pairs)
-    second = _second(none, singles[0], pairs, held_out)
-    best = second or singles[0]
-    # What is too weak to show as structure is too weak to be refuted by what it predicts.
-    refuted = structured and _predicts_nothing(none, best, held_out)
-    if noise_known and (best.fitted.chi2_per_dof > TOO_MUCH or refuted):
-        return Judgement("unknown", None, {})
+    alone = foremost(none, singles)
+    second = _second(none, alone, pairs, held_out)
+    best = second or alone
+    why = _against(none, best, held_out, structured=structured) if noise_known else ""
+    if why:
+        return Judgement("unknown", None, {}, refused=best.names, why=why)
     within = WITHIN if noise_known else WITHIN_UNKNOWN_NOISE
-    near = [t for t in (pairs if second else singles) if t.bic - best.bic < within]
+    near = [t for t in (pairs if second else singles) if t.bic - best.bic < within and not t.leans]
     equivalent, others_meant = {}, meant(best)
     for name in best.names:
         rest = set(best.names) - {name}
@@ -124,20 +136,36 @@ def judge(
         )
         names = [name, *(n for o in others for n in o if n != name), *others_meant.get(name, ())]
         equivalent[name] = tuple(dict.fromkeys(names))
-    alone = all(len(group) == 1 for group in equivalent.values())
-    return Judgement("effect" if alone else "ambiguous", best, equivalent)
+    apart = all(len(group) == 1 for group in equivalent.values())
+    return Judgement("effect" if apart else "ambiguous", best, equivalent)
+
+
+def _against(none: Trial, best: Trial, held_out: Callable[[Trial], float], *, structured: bool) -> str:
+    """Why the best explanation is none; empty where nothing speaks against it."""
+    if best.fitted.chi2_per_dof > TOO_MUCH:
+        return f"leaves {best.fitted.chi2_per_dof:.3g} times what noise and model error explain"
+    if best.leans:
+        return "fits only if the plate were off by more than a layer-wise plate is"
+    # What is too weak to show as structure is too weak to be refuted by what it predicts.
+    if structured and _predicts_nothing(none, best, held_out):
+        return "does not predict the segments it has not seen"
+    return ""
 
 
 def _second(
     none: Trial, best: Trial, pairs: Sequence[Trial], held_out: Callable[[Trial], float]
 ) -> Trial | None:
     """The pair that explains more than an error of the first effect's own model could, and predicts it."""
-    # What the first one's own model misses looks like another effect.
-    wanted = SECOND + max(e.misses for e in best.fitted.effects) * (none.bic - best.bic)
-    suffices = not best.fitted.chi2_per_dof > TOO_MUCH and not _predicts_nothing(none, best, held_out)
+    # What the first one's own model misses looks like another effect; where it leans, it is more than that.
+    own = max(e.misses for e in best.fitted.effects)
+    wanted = FIRST if best.leans else SECOND + own * (none.bic - best.bic)
+    poor = best.leans or best.fitted.chi2_per_dof > TOO_MUCH
+    suffices = not poor and not _predicts_nothing(none, best, held_out)
     for pair in pairs:
         if not best.bic - pair.bic > wanted or pair.bic > pairs[0].bic + WITHIN:
             return None
+        if pair.leans:
+            continue
         off = held_out(pair)
         worse = off > POOR or off > max(PREDICTED, NO_WORSE * held_out(best))
         if not (worse if suffices else _predicts_nothing(none, pair, held_out)):
@@ -146,7 +174,9 @@ def _second(
 
 
 def _predicts_nothing(none: Trial, best: Trial, held_out: Callable[[Trial], float]) -> bool:
-    """Whether data that were held out speak against an explanation that fits the others."""
+    """Whether data that were held out speak against an explanation that fits by another law's freedom."""
+    if not any(e.replaces_law for e in best.fitted.effects):
+        return False
     off = held_out(best)
     return off > POOR and off > HARDLY_BETTER * held_out(none)
 

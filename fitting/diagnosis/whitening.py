@@ -31,6 +31,10 @@ class Whitening:
         U, s, _ = np.linalg.svd(B, full_matrices=False)
         return cls(U, 1 - 1 / np.sqrt(1 + s**2))
 
+    def along(self, whitened: Array) -> Array:
+        """Parts of whitened residuals along the model's error. Shape (nuisances that have a size,)."""
+        return np.asarray((self.U.T @ whitened)[self.shrink > 0])
+
     def __call__(self, r: Array) -> Array:
         """Shape (data,) or (data, any), as given."""
         along = self.U.T @ r

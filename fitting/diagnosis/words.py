@@ -41,6 +41,8 @@ def explain(
             "There is structure, but nothing in the catalogue explains it. What remains is largest in "
             f"segment {worst}: {'; '.join(before.structure) or 'see the residual over frequency'}."
         )
+        if judgement.refused:
+            said.append(f"What comes nearest, {' with '.join(judgement.refused)}, {judgement.why}.")
         return tuple(said)
     stories = [story(e, f) for e, f in zip(trial.fitted.effects, found, strict=True)]
     likely = "By your word" if judgement.by_hand else "Most likely"

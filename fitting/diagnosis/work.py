@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from fitting.diagnosis.candidates import FINISHED, Contender, Known, Start, look, polished
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.prediction import held_out
-from fitting.diagnosis.refit import Fitted, refit
+from fitting.diagnosis.refit import Fitted, kept, refit
 from fitting.diagnosis.response import Response
 from fitting.diagnosis.task import Task
 from fitting.effects.base import Effect
@@ -98,6 +98,13 @@ class Work:
         far = _best_first([(c, f) for c in contenders for f in c.far])[:FINISHED]
         return [c.finished(f) for c, f in [*near, *far]]
 
+    def everywhere(self, one: tuple[str, State]) -> list[Fitted]:
+        """From all starts not followed so far; the best to the end."""
+        name, state = one
+        self.learn(name, state)
+        fits = [(c, f) for c in self.contenders[name] for f in [*c.elsewhere, *c.everywhere]]
+        return [c.finished(f) for c, f in _best_first(fits)[:FINISHED]]
+
     def look(self, one: tuple[Fitted, Form]) -> list[Start]:
         """Starts of a second effect beside a fit."""
         before, form = one
@@ -108,6 +115,15 @@ class Work:
         before, form, starts = one
         contender = self._beside(before, self.form(form), starts)
         return contender.finished(contender.near[0]) if contender.near else None
+
+    def alone(self, one: tuple[Fitted, Effect]) -> Fitted:
+        """One effect of a pair as the pair has it, law and all, the other one taken away."""
+        pair, effect = one
+        start = 0
+        for e in pair.effects[: pair.effects.index(effect)]:
+            start += len(e.unknowns)
+        u = pair.u[start : start + len(effect.unknowns)]
+        return kept(Response(self.task, [effect]), self.evidence, pair.law, u, self.priors([effect]))
 
     def roughly(self, one: tuple[str, State, Form]) -> list[Fitted]:
         """A second effect beside another in wide valleys, then roughly."""

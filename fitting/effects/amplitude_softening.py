@@ -39,6 +39,7 @@ class AmplitudeSoftening(Effect):
     source = "Payne, J. Appl. Polym. Sci. 6 (1962), first order in the strain amplitude"
     unknowns = (Unknown("k", "1", -0.5, 0.8, 0.1),)
     spans = (Strain(),)
+    misses = 0.004
     splits = "a second level"
 
     def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex:

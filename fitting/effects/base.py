@@ -139,6 +139,9 @@ class Effect:
     misses: ClassVar[float] = 0.0
     """Share of the chi-square it explains that its own model may leave, looking like another effect."""
 
+    bends: ClassVar[float] = 0.0
+    """The same share that may look as if the plate were off by more than a layer-wise one is."""
+
     extends: ClassVar[str | None] = None
     """A simpler effect that this one contains."""
 

@@ -87,6 +87,7 @@ class ClampCompliance(Effect):
     unknowns = (Unknown("k", "N/m^3", 1e12, 1e16, 5e13, logarithmic=True, neutral=float("inf")),)
     spans = (Root(),)
     misses = 0.003
+    bends = 0.002
     splits = "the same plate clamped anew, or its root watched by the laser"
 
     def objection(self, points: Points, plate: SpannedPlate) -> str | None:

@@ -1,6 +1,8 @@
 """Steady sweeps of the plant without the rig: what the plate does at each point, per base acceleration.
 
 Phasors of e^{i w t}. The velocity is relative to the clamp; what channels make of it is in `channels.py`.
+Friction in the clamp is independent of rate here, k (1 + i loss). The rig's plant lives in time: its friction
+needs elements that relax, which stiffen with frequency too.
 """
 
 from collections.abc import Callable
@@ -55,12 +57,13 @@ def steady(
     plate = sandwich(replace(effects, core_law=None))
     pitch = pitch_per_acceleration(effects, omega)
     G = modulus(omega * time_shift(effects.temperature_drift, time_s))
+    root = 1 + 1j * (effects.clamp_friction.loss_factor if effects.clamp_friction else 0.0)
     soft = effects.amplitude_softening
     if soft is None:
-        bare = _Loaded(plate, plate.structure, omega, pitch)
+        bare = _Loaded(plate, plate.structure, omega, pitch, root)
         v, strain = bare.solved(G, slice(None))
         return Steady(v, strain * level_m_s2, G)
-    loaded = _Loaded(plate, _condensed(plate.structure, modulus), omega, pitch)
+    loaded = _Loaded(plate, _condensed(plate.structure, modulus), omega, pitch, root)
     factor = np.ones(len(omega))
     moving = np.arange(len(omega))
     for _ in range(_MOST_STEPS):
@@ -103,6 +106,8 @@ class _Loaded:
     structure: Structure
     omega: Array
     pitch: Complex
+    root: complex
+    """Factor on the springs of the clamp."""
 
     def solved(self, G: Complex, points: NDArray[np.intp] | slice) -> tuple[Complex, Array]:
         """Velocity and core strain per base acceleration at some points, G their modulus."""
@@ -122,7 +127,7 @@ class _Loaded:
         s, w = self.structure, omega[:, None, None]
         Z = s.K - w**2 * s.M + 1j * w * s.C + G[:, None, None] * s.branches[0].K
         for branch in s.branches[1:]:
-            Z += branch.law.modulus(omega)[:, None, None] * branch.K
+            Z += self.root * branch.K
         load = s.loads[:, 0] + pitch[:, None] * s.loads[:, 1]
         return np.asarray(np.linalg.solve(Z, load[:, :, None])[:, :, 0])
 

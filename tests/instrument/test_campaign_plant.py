@@ -22,7 +22,6 @@ REACHED = 5e-6
 ROCKING = e.Effects(base_rocking=e.BaseRocking(0.1), fixture_resonance=e.FixtureResonance(130.0, 0.02, 0.05))
 ALL_IN_ONE = e.Effects(
     clamp_compliance=e.ClampCompliance(3e13, 2e13),
-    clamp_friction=e.ClampFriction(0.1),
     spot_offset=e.SpotOffset(0.004, -0.002),
     added_mass=e.AddedMass(0.003, 0.27, 0.06),
     air_added_mass=e.AirAddedMass(1.2),
@@ -51,6 +50,20 @@ def test_agrees_with_the_shaken_plate(effects):
         relative = (s["spot_velocity"] - s["base_velocity"]) / s["base_acceleration"]
         assert abs(v / relative - 1) < REACHED
         assert strain == pytest.approx(9.81 * abs(s["core_strain"] / s["base_acceleration"]), rel=REACHED)
+
+
+def test_friction_independent_of_rate_is_the_shaken_plate_s_at_60_hz():
+    rubbing = e.Effects(clamp_compliance=ALL_IN_ONE.clamp_compliance, clamp_friction=e.ClampFriction(0.2))
+    shaken = ShakenPlate(rubbing)
+    frequencies_hz = np.array([60.0, 19.3])
+    found = at(rubbing, frequencies_hz).velocity_per_acceleration_s
+    off = []
+    for f, v in zip(frequencies_hz, found, strict=True):
+        s = shaken.steady_state(f)
+        off.append(abs(v / ((s["spot_velocity"] - s["base_velocity"]) / s["base_acceleration"]) - 1))
+    # Elements that relax are softer below.
+    assert off[0] < 2e-3
+    assert off[1] > 10 * off[0]
 
 
 def test_an_absolute_reading_is_the_shaken_plate_s_spot():

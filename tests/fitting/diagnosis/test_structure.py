@@ -21,7 +21,24 @@ def sweep(segments=3):
 
 def evidence(data):
     ones = np.ones(len(data))
-    return Evidence(data.velocity_m_s, ones, ones, np.zeros((2 * len(data), 1)), True)
+    B = np.array([np.tile(data.segment == k, 2) * ones[0] for k in (1, 2, 3)]).T
+    return Evidence(data.velocity_m_s, ones, ones, B, True)
+
+
+def bending(data, times):
+    """Evidence whose plate may be off in each segment, and residuals of one that is, so many times more."""
+    B = np.array([np.tile(data.segment == k, 2) * 0.3 for k in (1, 2, 3)]).T
+    known = Evidence(data.velocity_m_s, np.ones(len(data)), np.ones(len(data)), B, True)
+    rng = np.random.default_rng(2)
+    return known, known.whitening(rng.normal(size=2 * len(data)) + times * B @ np.array([1.0, -1.0, 1.0]))
+
+
+def test_a_plate_that_is_off_by_more_than_it_may_be_is_structure():
+    data = sweep()
+    for times, told in ((1.0, False), (5.0, True)):
+        known, r = bending(data, times)
+        said = structure(data, known, r, float(r @ r / len(r)))
+        assert any("layer-wise" in one for one in said) == told
 
 
 def test_white_residuals_are_rarely_taken_for_structure():

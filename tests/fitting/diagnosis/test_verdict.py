@@ -27,6 +27,7 @@ class Weighed:
     bic: float
     chi2: float = 0.0
     chi2_per_dof: float = 1.0
+    leans: bool = False
     fitted: SimpleNamespace = field(init=False)
 
     def __post_init__(self):
@@ -116,10 +117,44 @@ def test_the_share_its_own_model_misses_is_not_a_second_effect():
 
 
 @pytest.mark.parametrize(("off", "none_off"), [(3.5, 4.0), (30.0, 40.0)])
-def test_what_does_not_predict_is_refused(off, none_off):
-    best = Weighed(("added_mass",), 0.0)
+def test_another_law_that_does_not_predict_is_refused(off, none_off):
+    best = Weighed(("core_law",), 0.0)
     assert weighed(NONE, [best], off={best.names: off, (): none_off}).verdict == "unknown"
     assert weighed(NONE, [best], off={best.names: off, (): 10 * none_off}).verdict == "effect"
+
+
+def test_what_two_segments_cannot_place_is_believed_all_the_same():
+    assert weighed(NONE, [Weighed(("added_mass",), 0.0)], off={("added_mass",): 30.0}).verdict == "effect"
+
+
+def test_what_bends_the_plate_too_much_is_refused_and_said():
+    said = weighed(NONE, [Weighed(("gain_error",), 0.0, leans=True)])
+    assert (said.verdict, said.refused) == ("unknown", ("gain_error",))
+    assert "layer-wise plate" in said.why
+
+
+def test_what_does_not_bend_it_is_named_before_what_does():
+    singles = [Weighed(("gain_error",), 0.0, leans=True), Weighed(("spot_offset",), 0.9 * WITHIN)]
+    said = weighed(NONE, singles)
+    assert (said.verdict, said.equivalent) == ("effect", {"spot_offset": ("spot_offset",)})
+    assert weighed(NONE, [singles[0], Weighed(("spot_offset",), 1.1 * WITHIN)]).verdict == "unknown"
+    assert weighed(Weighed((), FIRST + 1.0), singles).verdict == "unknown"
+
+
+def test_a_wider_effect_is_named_where_the_simpler_one_bends_the_plate():
+    every = [Weighed(("base_rocking",), 0.0, 300.0, leans=True), Weighed(("fixture_resonance",), 5.0, 299.0)]
+    assert without_idle_extensions(every) == every
+    assert weighed(NONE, every).accepted.names == ("fixture_resonance",)
+
+
+def test_a_pair_that_bends_the_plate_is_passed_over():
+    single = Weighed(("gain_error",), 100.0, leans=True)
+    pairs = [
+        Weighed(("gain_error", "added_mass"), 0.0, leans=True),
+        Weighed(("gain_error", "core_thickness"), 0.9 * WITHIN),
+    ]
+    assert weighed(NONE, [single], pairs).accepted is pairs[1]
+    assert weighed(NONE, [single], pairs[:1]).verdict == "unknown"
 
 
 def test_what_leaves_too_much_is_refused():
@@ -127,7 +162,7 @@ def test_what_leaves_too_much_is_refused():
 
 
 def test_a_pair_need_not_predict_better_than_an_effect_that_explains_too_little():
-    pair = ("absolute_velocity", "core_thickness")
+    pair = ("absolute_velocity", "core_law")
     single = Weighed(pair[:1], 500.0, chi2_per_dof=1.1 * TOO_MUCH)
     off = {pair: 5.0, pair[:1]: 3.5}
     assert weighed(NONE, [single], [Weighed(pair, 0.0)], off={**off, (): 50.0}).accepted.names == pair
