@@ -24,6 +24,8 @@ FOLLOWED, FOLLOWED_PLACES = 2, 4
 """Of an effect's starts, how many are fitted roughly; of one with a place to be found."""
 MORE_PLACES = 6
 """Further starts of the latter, in a thorough search."""
+MOST_PLACES = 30
+"""And of the rest, where all that lead lean."""
 FINISHED = 2
 """Rough fits of a kind that are followed to the end by a thorough search."""
 WRONG = 2.0
@@ -127,8 +129,9 @@ class Contender:
 
     @cached_property
     def everywhere(self) -> list[Fitted]:
-        """The same from all that are left."""
-        return self._from(self._starts[self._first + self._more :])
+        """The same from those that are left."""
+        followed = self._first + self._more
+        return self._from(self._starts[followed : followed + MOST_PLACES])
 
     @property
     def _first(self) -> int:

@@ -16,7 +16,7 @@ WILL_DO = 1.25
 """Chi-square per degree of freedom that strong effects may leave."""
 RETRIED = 3
 """Pairs begun again from other places where none of them will do."""
-EVERY_SECOND = 4
+EVERY_SECOND = 3
 """Leaders beside which every other effect is then fitted roughly."""
 LEAST_EXPECTED = 12.0
 """Chi-square that a second effect must promise where the first leaves little."""

@@ -123,7 +123,10 @@ def judge(
     best = second or alone
     why = _against(none, best, held_out, structured=structured) if noise_known else ""
     if why:
-        return Judgement("unknown", None, {}, refused=best.names, why=why)
+        nearest = min([best, *pairs[:1]], key=lambda t: t.bic)
+        also = _against(none, nearest, held_out, structured=structured)
+        refused = nearest if also else best
+        return Judgement("unknown", None, {}, refused=refused.names, why=also or why)
     within = WITHIN if noise_known else WITHIN_UNKNOWN_NOISE
     near = [t for t in (pairs if second else singles) if t.bic - best.bic < within and not t.leans]
     equivalent, others_meant = {}, meant(best)

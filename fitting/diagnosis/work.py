@@ -99,7 +99,7 @@ class Work:
         return [c.finished(f) for c, f in [*near, *far]]
 
     def everywhere(self, one: tuple[str, State]) -> list[Fitted]:
-        """From all starts not followed so far; the best to the end."""
+        """From starts not followed so far; the best to the end."""
         name, state = one
         self.learn(name, state)
         fits = [(c, f) for c in self.contenders[name] for f in [*c.elsewhere, *c.everywhere]]

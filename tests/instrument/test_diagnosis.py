@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from fitting.diagnosis.diagnose import seen_in_channels
+from fitting.diagnosis.verdict import TOO_MUCH
 from fitting.effects import CATALOGUE
 from fitting.errors import OutsideModel
 from fitting.laws.fractional_zener import FractionalZener
@@ -46,6 +47,29 @@ def test_a_hidden_effect_is_named_and_the_law_put_right(name):
     assert np.abs(after.real / true.real - 1).max() < 0.5 * np.abs(before.real / true.real - 1).max()
     assert found.after.chi2_per_dof < 1.2 < found.before.chi2_per_dof
     assert "instead of" in " ".join(found.explanation)
+
+
+def all_but(*names):
+    return set(CATALOGUE) - set(names)
+
+
+def test_what_only_fits_is_refused_and_said_to_be_nearest():
+    """A shifted spot is well imitated by a gain beside a mass: their chi-square per degree is 1.2."""
+    without = all_but("gain_error", "added_mass")
+    found = diagnose(practice("005"), specimen(), without=without).result
+    assert found.verdict == "unknown"
+    assert min(c.chi2_per_dof for c in found.candidates) < TOO_MUCH
+    assert "gain_error with added_mass, fits only if the plate were off" in " ".join(found.explanation)
+
+
+def test_where_all_that_lead_lean_every_place_is_tried():
+    """The mass's own place promises least of seven by a linear step."""
+    case = draw("added_mass", 96002)
+    found = diagnose(case.sweep, case.specimen, without=all_but("added_mass")).result
+    (mass,) = found.effects
+    place = mass.parameters["x"].value, mass.parameters["y"].value
+    truth = case.truth.effects["added_mass"]
+    assert np.hypot(place[0] - truth["x_m"], place[1] - truth["y_m"]) < 5e-3
 
 
 def test_a_second_process_changes_nothing(monkeypatch):
