@@ -29,7 +29,7 @@ WITHIN_UNKNOWN_NOISE, FIRST_UNKNOWN_NOISE = 10.0, 6.0
 GOOD = 1.15
 """Chi-square per degree of freedom of an explanation that needs nothing more."""
 TOO_MUCH = 1.25
-"""Chi-square per degree of freedom that no candidate may leave."""
+"""Chi-square per degree of freedom that no candidate may leave, but for what its own model misses."""
 
 
 @dataclass(frozen=True)
@@ -115,7 +115,7 @@ def judge(
     """
     first = FIRST if noise_known else FIRST_UNKNOWN_NOISE
     if not singles or none.bic - singles[0].bic < first:
-        much = noise_known and structured and none.fitted.chi2_per_dof > TOO_MUCH
+        much = noise_known and structured and _leaves_too_much(none, none)
         return Judgement("unknown" if much else "none", None, {})
     pairs = _without_flexible(singles, pairs)
     alone = foremost(none, singles)
@@ -145,7 +145,7 @@ def judge(
 
 def _against(none: Trial, best: Trial, held_out: Callable[[Trial], float], *, structured: bool) -> str:
     """Why the best explanation is none; empty where nothing speaks against it."""
-    if best.fitted.chi2_per_dof > TOO_MUCH:
+    if _leaves_too_much(none, best):
         return f"leaves {best.fitted.chi2_per_dof:.3g} times what noise and model error explain"
     if best.leans:
         return "fits only if the plate were off by more than a layer-wise plate is"
@@ -160,9 +160,8 @@ def _second(
 ) -> Trial | None:
     """The pair that explains more than an error of the first effect's own model could, and predicts it."""
     # What the first one's own model misses looks like another effect; where it leans, it is more than that.
-    own = max(e.misses for e in best.fitted.effects)
-    wanted = FIRST if best.leans else SECOND + own * (none.bic - best.bic)
-    poor = best.leans or best.fitted.chi2_per_dof > TOO_MUCH
+    wanted = FIRST if best.leans else SECOND + _missed(none, best)
+    poor = best.leans or _leaves_too_much(none, best)
     suffices = not poor and not _predicts_nothing(none, best, held_out)
     for pair in pairs:
         if not best.bic - pair.bic > wanted or pair.bic > pairs[0].bic + WITHIN:
@@ -174,6 +173,17 @@ def _second(
         if not (worse if suffices else _predicts_nothing(none, pair, held_out)):
             return pair
     return None
+
+
+def _missed(none: Trial, trial: Trial) -> float:
+    """Chi-square that the models of a trial's effects may leave themselves."""
+    return max((e.misses for e in trial.fitted.effects), default=0.0) * (none.bic - trial.bic)
+
+
+def _leaves_too_much(none: Trial, trial: Trial) -> bool:
+    """More than noise, and more than its effects' own models miss."""
+    share = trial.fitted.chi2_per_dof / TOO_MUCH
+    return share > 1 and trial.fitted.chi2 * (1 - 1 / share) > _missed(none, trial)
 
 
 def _predicts_nothing(none: Trial, best: Trial, held_out: Callable[[Trial], float]) -> bool:

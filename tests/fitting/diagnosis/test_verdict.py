@@ -32,7 +32,8 @@ class Weighed:
 
     def __post_init__(self):
         effects = tuple(CATALOGUE[name] for name in self.names)
-        fitted = SimpleNamespace(effects=effects, chi2=self.chi2, chi2_per_dof=self.chi2_per_dof)
+        chi2 = self.chi2 or 500 * self.chi2_per_dof
+        fitted = SimpleNamespace(effects=effects, chi2=chi2, chi2_per_dof=self.chi2_per_dof)
         object.__setattr__(self, "fitted", fitted)
 
 
@@ -159,6 +160,15 @@ def test_a_pair_that_bends_the_plate_is_passed_over():
 
 def test_what_leaves_too_much_is_refused():
     assert weighed(NONE, [Weighed(("added_mass",), 0.0, chi2_per_dof=1.1 * TOO_MUCH)]).verdict == "unknown"
+
+
+def test_what_its_own_model_misses_may_be_left():
+    much = 1.1 * TOO_MUCH
+    left = 500 * (much - TOO_MUCH)
+    share = CATALOGUE["amplitude_softening"].misses
+    for gain, verdict in ((0.5 * left / share, "unknown"), (2 * left / share, "effect")):
+        one = Weighed(("amplitude_softening",), 0.0, chi2_per_dof=much)
+        assert weighed(Weighed((), gain), [one]).verdict == verdict
 
 
 def test_a_pair_need_not_predict_better_than_an_effect_that_explains_too_little():
