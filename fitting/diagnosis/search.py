@@ -151,10 +151,9 @@ class Search:
         further = [(name, work.state(name)) for name in self._worth_more(found)]
         for fits in each(work.thorough, further, lambda x: report(0.6 + 0.3 * x)):
             keep(fits)
-        if self._lost(found):
-            places = [(e.name, work.state(e.name)) for e in self._fitted if has_place(e)]
-            for fits in each(work.everywhere, places, lambda x: report(0.9 + 0.1 * x)):
-                keep(fits)
+        places = [(name, work.state(name)) for name in self._misplaced(found)]
+        for fits in each(work.everywhere, places, lambda x: report(0.9 + 0.1 * x)):
+            keep(fits)
         return sorted(found.values(), key=lambda t: t.bic)
 
     def _determined(self, fitted: Fitted) -> bool:
@@ -181,13 +180,16 @@ class Search:
             names |= {t.names[0] for t in order[:LEADERS]} | self._promising()
         return [e.name for e in self._fitted if e.name in names and e.unknowns]
 
-    def _lost(self, found: Mapping[str, Trial]) -> bool:
-        """Whether all that lead lean: the right place may not have been among the first."""
+    def _misplaced(self, found: Mapping[str, Trial]) -> list[str]:
+        """Where all that lead lean, those of them whose right place may not have been among the first."""
         order = sorted(found.values(), key=lambda t: t.bic)
         if not order or self.none.bic - order[0].bic < PROMISING:
-            return False
-        leading = [t for t in order if t.bic < order[0].bic + NEAR]
-        return all(t.leans or any(e.replaces_law for e in t.fitted.effects) for t in leading)
+            return []
+        effects = {e.name: e for e in self._fitted}
+        leading = [t for t in order if t.bic < order[0].bic + NEAR and t.names[0] in effects]
+        if not all(t.leans for t in leading):
+            return []
+        return [t.names[0] for t in leading if has_place(effects[t.names[0]])]
 
     def _promising(self) -> set[str]:
         """Where the law so far is no place to begin: the effects that do best from plain starts."""
