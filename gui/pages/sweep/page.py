@@ -95,10 +95,11 @@ class SweepPage(Page):
         self.step.clear()
 
     def showEvent(self, event: QShowEvent) -> None:
-        """Go on where hiding broke off."""
+        """Go on where hiding broke off: in a run pane by pane, all at once it would hold up the window."""
         super().showEvent(event)
-        self.model.want(self._picture)
-        self._draw_all()
+        if not self.desk.running:
+            self.model.want(self._picture)
+            self._draw_all()
 
     def changeEvent(self, event: QEvent) -> None:
         """Plots follow the colours by themselves; lists and legends are written again."""

@@ -201,6 +201,21 @@ def test_a_page_that_is_left_computes_nothing(qtbot, opened, page):
     assert page.model.busy
 
 
+@pytest.mark.parametrize(("running", "most"), [(True, 1), (False, 3)])
+def test_in_a_run_a_page_that_is_shown_again_is_drawn_pane_by_pane(opened, page, monkeypatch, running, most):
+    drawn, draw = [], page.turns._draw
+    opened.show_page(0)
+    with monkeypatch.context() as patched:
+        patched.setattr(type(opened.desk), "running", property(lambda desk: running))
+        patched.setattr(page.turns, "_draw", lambda pane: (drawn.append(pane), draw(pane)))
+        page._mark_all()
+        page._version = -1
+        opened.show_page(1)
+        first = len(drawn)
+    assert 1 <= first <= most
+    assert (first == 3) == (not running)
+
+
 def test_drift_of_the_sentinel(page):
     page.tabs.setCurrentWidget(page.drift)
     _, percent = shown(page.drift.amplitude, "sentinel")
