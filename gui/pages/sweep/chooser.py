@@ -1,6 +1,6 @@
 """The list of segments: how each stands, and which one the plots show."""
 
-from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtCore import QEvent, QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QListWidget, QListWidgetItem, QWidget
 
 from gui.pages.sweep.segments import Standing
@@ -45,10 +45,16 @@ class Chooser(QListWidget):
             for row, standing in enumerate(standings, start=1):
                 self.item(row).setText(standing.lines)
                 self.item(row).setData(Qt.ItemDataRole.UserRole, standing.number)
-                self.item(row).setForeground(current_theme().color(_COLORS[standing.state]))
+            self._color()
             numbers = [s.number for s in standings]
             self.setCurrentRow(numbers.index(self.segment) + 1 if self.segment in numbers else 0)
         self._row_changed(self.currentRow())
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Rows follow the colours of the window."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "_standings"):
+            self._color()
 
     def choose(self, segment: int | None) -> None:
         """As if it were clicked."""
@@ -57,6 +63,11 @@ class Chooser(QListWidget):
                 self.setCurrentRow(row)
                 return
         self.setCurrentRow(0)
+
+    def _color(self) -> None:
+        theme = current_theme()
+        for row, standing in enumerate(self._standings, start=1):
+            self.item(row).setForeground(theme.color(_COLORS[standing.state]))
 
     def _row_changed(self, row: int) -> None:
         segment = self.item(row).data(Qt.ItemDataRole.UserRole) if row > 0 else None

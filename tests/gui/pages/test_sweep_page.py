@@ -282,8 +282,11 @@ def test_a_step_is_followed_to_its_rest(qtbot, alone):
 def test_colours_follow_the_window(qtbot, opened, page):
     page.tabs.setCurrentWidget(page.quality)
     before = page.quality.channels.text()
+    row = page.chooser.item(1)
+    assert row.foreground().color().lightness() < 100
     opened.appearance.choose("dark")
     qtbot.waitUntil(lambda: page.quality.channels.text() != before)
+    assert row.foreground().color().lightness() > 150
     opened.appearance.choose("light")
     qtbot.waitUntil(lambda: page.quality.channels.text() == before)
 
