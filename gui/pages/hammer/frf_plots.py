@@ -1,5 +1,6 @@
 """The accelerance: magnitude, phase and coherence over one axis; the whole band or one mode."""
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
 
 from fitting.modal.frf import Frf
 from gui.pages.hammer.findings import Averaged, Modes
-from gui.pages.hammer.traces import Lines, Surroundings
+from gui.pages.hammer.traces import Lines, Surroundings, accelerance
 from gui.plots import Axis, Plot
 from gui.theme import Role
 from instrument.impact.curves import HalfPowerMarks
@@ -26,6 +27,7 @@ _EXPECTED_AT, *_LABELS_AT = 0.36, 0.08, 0.22
 _HEIGHTS = (46, 24, 30)
 _AXIS_LETTERS = 3.6
 """Width of the axis beside the plots, in heights of a letter."""
+_BESIDE: tuple[Role, ...] = ("second", "fourth")
 _AVERAGE, _HIT, _MODES = "average", "selected hit", "modes"
 
 
@@ -85,6 +87,13 @@ class FrfPlots(QWidget):
         """The selected hit by itself."""
         seen = averaged.seen.get(number)
         self._show_lines(_HIT, _first(seen.alone.frfs) if seen is not None else None, "third")
+
+    def show_beside(self, frfs: Mapping[str, Frf]) -> None:
+        """Those of other files, by the names they are listed under."""
+        for k, (name, frf) in enumerate(frfs.items()):
+            if len(frf.frequency_hz) < 2:
+                continue
+            self._show_lines(name, accelerance(frf), _BESIDE[k % len(_BESIDE)])
 
     def show_modes(self, modes: Modes | None) -> None:
         """A mark on each peak, to be clicked."""

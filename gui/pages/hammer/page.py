@@ -177,8 +177,16 @@ class HammerPage(Page):
         self.frf.show_average(self._averaged)
         self.frf.show_hit(self._averaged, self.hits.number)
         self.frf.show_expected(self._expected_hz)
+        self._show_beside()
         self.frf.show_modes(self._modes)
         self._zoom()
+
+    def _show_beside(self) -> None:
+        """What other files hold: drawn with the session's own hits, once there are any."""
+        if self._averaged is None:
+            return
+        files = self.desk.beside.items()
+        self.frf.show_beside({f"{path.name}: {name}": frf for path, f in files for name, frf, _ in f.frfs})
 
     def _zoom(self) -> None:
         """About the mode selected; the whole band where none is, or none is computed yet."""
@@ -261,6 +269,7 @@ class HammerPage(Page):
 
     def _connect(self) -> None:
         self.desk.changed.connect(self._another_session)
+        self.desk.beside_changed.connect(self._show_beside)
         self.bench.averaged.connect(self._is_averaged)
         self.bench.modes_found.connect(self._has_modes)
         self.bench.expected.connect(self._is_expected)

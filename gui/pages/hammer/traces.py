@@ -109,6 +109,15 @@ def _curve(mode: Mode, low_hz: float, high_hz: float) -> Lines | None:
     return Lines(f, np.abs(H), _degrees(H))
 
 
+_DERIVATIVES = {"displacement": 2, "velocity": 1, "acceleration": 0}
+
+
+def accelerance(frf: Frf) -> Frf:
+    """The same measurement as acceleration over force."""
+    H = frf.H * (1j * frf.omega) ** _DERIVATIVES[frf.motion]
+    return Frf(frf.frequency_hz, H, "acceleration", frf.added_decay_1_s)
+
+
 def _degrees(H: Complex) -> Array:
     """From -90 to 270: a plate's response is mostly near 0 or 180, and must not jump there."""
     return np.asarray(np.mod(np.degrees(np.angle(H)) + 90, 360) - 90)

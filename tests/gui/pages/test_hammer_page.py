@@ -1,5 +1,6 @@
 import json
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -8,16 +9,19 @@ from PySide6.QtCore import Qt
 from quick_engine import QUICK_ENGINE
 from session_cases import Tape, configuration
 
+from fitting.modal.frf import Frf
 from gui.feeds.live import LiveFeed
 from gui.pages.hammer.choice import WhatIf, standing_of
 from gui.pages.hammer.findings import Sight, modes_of
 from gui.pages.hammer.mode_words import mode_rows
+from gui.pages.hammer.traces import accelerance
 from gui.pages.hammer.words import hit_rows
 from instrument.engine import Engine, Order
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.impact.damping import damping_of_hits
 from instrument.impact.facts import damping_facts
 from instrument.interchange.contents import contents_of
+from instrument.interchange.found import Found
 from instrument.plain import plain
 from instrument.session.configuration import read_whole_experiment
 from instrument.session.storage import SessionFile
@@ -198,6 +202,18 @@ def test_the_selected_hit_is_drawn(page):
     seen = page._averaged.seen[2].judged
     assert force == pytest.approx(seen.hit.force_n)
     assert "selected hit" in page.hit_plots.spectrum.names
+
+
+def test_an_frf_of_another_file_is_drawn_as_accelerance(page, opened):
+    f = np.linspace(1.0, 500.0, 500)
+    mobility = Frf(f, np.full(500, 2.0 + 0j), "velocity")
+    opened.desk.beside[Path("other.uff")] = Found(frfs=[("3z over 1z", mobility, None)])
+    opened.desk.beside_changed.emit()
+    name = "other.uff: 3z over 1z"
+    assert name in page.frf.magnitude.names
+    assert name in page.frf.phase.names
+    np.testing.assert_allclose(np.abs(accelerance(mobility).H), 4 * np.pi * f)
+    np.testing.assert_allclose(np.angle(accelerance(mobility).H, deg=True), 90.0)
 
 
 def test_before_the_first_blow_nothing_is_drawn(qtbot, page, opened):
