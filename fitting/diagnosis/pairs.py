@@ -6,6 +6,7 @@ import numpy as np
 
 from fitting.diagnosis.candidates import has_place
 from fitting.diagnosis.search import LEADERS, Search, Trial
+from fitting.diagnosis.work import Form
 
 Report = Callable[[float], None]
 
@@ -32,13 +33,7 @@ class Pairs:
         """Second effects beside the leading single ones, or the first alone; best first."""
         search, work, each = self._search, self._search.work, self._search.hands.each
         leaders = list(singles[: LEADERS if wide else 1])
-        tasks = [
-            (t, (e.name, number))
-            for t in leaders
-            for e in search.effects
-            if e.name not in t.names and not e.replaces_law
-            for number in range(len(e.variants()))
-        ]
+        tasks = [(t, form) for t in leaders for form in self._others(t.names)]
         asked = [(t.fitted, form) for t, form in tasks]
         looks = list(each(work.look, asked, lambda x: report(0.4 * x)))
         expected = [
@@ -68,6 +63,15 @@ class Pairs:
         report(1.0)
         return _best_of_each(found)
 
+    def _others(self, names: Sequence[str]) -> list[Form]:
+        """Every form of the effects that may stand beside some."""
+        return [
+            (e.name, number)
+            for e in self._search.effects
+            if e.name not in names and not e.replaces_law
+            for number in range(len(e.variants()))
+        ]
+
     def _every_second(self, leaders: Sequence[Trial], pairs: Sequence[Trial]) -> list[Trial]:
         """Every effect beside the leading ones roughly; the best pairs that are new to the end."""
         search, work, each = self._search, self._search.work, self._search.hands.each
@@ -75,11 +79,10 @@ class Pairs:
         order = [*(t.names[0] for t in leaders[:EVERY_SECOND]), *search.order_of_plain()[:EVERY_SECOND]]
         first = set(order) & {e.name for e in search.effects}
         wanted = [
-            (name, work.state(name), (e.name, number))
+            (name, work.state(name), form)
             for name in sorted(first)
-            for e in search.effects
-            if e.name != name and not e.replaces_law and {name, e.name} not in known
-            for number in range(len(e.variants()))
+            for form in self._others([name])
+            if {name, form[0]} not in known
         ]
         rough = [f for fits in each(work.roughly, wanted) for f in fits]
         best = sorted(rough, key=lambda f: f.chi2)[:PAIRS_A_LEADER]
@@ -94,13 +97,7 @@ class Pairs:
             return []
         placed = [e for e in best.fitted.effects if has_place(e)]
         befores = list(each(work.alone, [(best.fitted, e) for e in placed]))
-        asked = [
-            (before, (e.name, number))
-            for before in befores
-            for e in search.effects
-            if e.name not in best.names and not e.replaces_law
-            for number in range(len(e.variants()))
-        ]
+        asked = [(before, form) for before in befores for form in self._others(best.names)]
         looks = list(each(work.look, asked))
         promising = sorted(
             (one for one in zip(asked, looks, strict=True) if one[1]),

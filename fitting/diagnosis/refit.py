@@ -55,6 +55,11 @@ class Fitted:
         dof = self.data - self.parameters
         return float(np.sum(self.residuals[: self.data] ** 2) / dof) if dof > 0 else float("nan")
 
+    def of(self, effect: Effect) -> Array:
+        """The unknowns of one of its effects."""
+        start = sum(len(e.unknowns) for e in self.effects[: self.effects.index(effect)])
+        return self.u[start : start + len(effect.unknowns)]
+
     @property
     def covariance(self) -> Array:
         """Of the fitted parameters, scaled by the residual: only upwards where the noise is known."""

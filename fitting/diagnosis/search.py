@@ -117,16 +117,13 @@ class Search:
 
     def alone(self, trial: Trial) -> list[Trial]:
         """Each effect of a pair fitted alone from where the pair left it."""
-        found, start = [], 0
-        for effect in trial.fitted.effects:
-            u = trial.fitted.u[start : start + len(effect.unknowns)]
-            start += len(effect.unknowns)
-            if not effect.replaces_law and not any(e.replaces_law for e in trial.fitted.effects):
-                priors = self.work.priors([effect])
-                found.append(
-                    self.judged(polished(self.task, [effect], self.evidence, trial.fitted.law, u, priors))
-                )
-        return found
+        pair = trial.fitted
+        if any(e.replaces_law for e in pair.effects):
+            return []
+        return [
+            self.judged(polished(self.task, [e], self.evidence, pair.law, pair.of(e), self.work.priors([e])))
+            for e in pair.effects
+        ]
 
     def singles(self, report: Report) -> list[Trial]:
         """Every effect beside the law, best first; the leading ones are gone into twice."""

@@ -119,11 +119,8 @@ class Work:
     def alone(self, one: tuple[Fitted, Effect]) -> Fitted:
         """One effect of a pair as the pair has it, law and all, the other one taken away."""
         pair, effect = one
-        start = 0
-        for e in pair.effects[: pair.effects.index(effect)]:
-            start += len(e.unknowns)
-        u = pair.u[start : start + len(effect.unknowns)]
-        return kept(Response(self.task, [effect]), self.evidence, pair.law, u, self.priors([effect]))
+        response = Response(self.task, [effect])
+        return kept(response, self.evidence, pair.law, pair.of(effect), self.priors([effect]))
 
     def roughly(self, one: tuple[str, State, Form]) -> list[Fitted]:
         """A second effect beside another in wide valleys, then roughly."""

@@ -9,6 +9,7 @@ from fitting.modal.frf import Frf
 from instrument.impact.curves import HalfPowerMarks, fit_curve, half_power_at
 from instrument.impact.damping import Damping, Mode
 from instrument.impact.judge import Judged
+from instrument.interchange.units import DERIVATIVE
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -109,12 +110,9 @@ def _curve(mode: Mode, low_hz: float, high_hz: float) -> Lines | None:
     return Lines(f, np.abs(H), _degrees(H))
 
 
-_DERIVATIVES = {"displacement": 2, "velocity": 1, "acceleration": 0}
-
-
 def accelerance(frf: Frf) -> Frf:
     """The same measurement as acceleration over force."""
-    H = frf.H * (1j * frf.omega) ** _DERIVATIVES[frf.motion]
+    H = frf.H * (1j * frf.omega) ** (DERIVATIVE["acceleration"] - DERIVATIVE[frf.motion])
     return Frf(frf.frequency_hz, H, "acceleration", frf.added_decay_1_s)
 
 
