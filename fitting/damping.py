@@ -23,19 +23,22 @@ class ViscousDamping:
     """M Phi. Shape (n, modes)."""
     d: Array
     """2 zeta_r omega_r in rad/s. Shape (modes,)."""
+    mode: NDArray[np.intp]
+    """Which of the plate's modes each is, in frequency order from 0. Shape (modes,)."""
 
     def projected(self, P: sp.csc_array) -> "ViscousDamping":
         """The same damping in the subspace of P, modes outside it dropped."""
         U = np.asarray(P.T @ self.U)
         inside = np.linalg.norm(U, axis=0) > 1e-6 * np.linalg.norm(self.U, axis=0)
-        return ViscousDamping(U[:, inside], self.d[inside])
+        return ViscousDamping(U[:, inside], self.d[inside], self.mode[inside])
 
 
 def viscous_damping(plate: Plate) -> ViscousDamping:
     """C_1 = M Phi diag(2 zeta_r omega_r) Phi^T M with the ratios paired in frequency order."""
     ratios = np.array(plate.specimen.modal_ratios)
     if not ratios.any():
-        return ViscousDamping(np.empty((plate.size, 0)), np.empty(0))
+        return ViscousDamping(np.empty((plate.size, 0)), np.empty(0), np.empty(0, dtype=np.intp))
     modes = real_modes(plate, REFERENCE_MODULUS_PA, len(ratios))
     damped = ratios > 0
-    return ViscousDamping(plate.M @ modes.shapes[:, damped], (2 * ratios * modes.omega)[damped])
+    d = (2 * ratios * modes.omega)[damped]
+    return ViscousDamping(plate.M @ modes.shapes[:, damped], d, np.flatnonzero(damped))

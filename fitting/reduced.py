@@ -17,10 +17,10 @@ from threadpoolctl import threadpool_limits
 from fitting.damping import ViscousDamping
 from fitting.direct import solve_direct
 from fitting.domain import Domain
-from fitting.element import DOFS, W
+from fitting.element import THETA_X, THETA_Y, W
 from fitting.linear import factorise
-from fitting.plate import Plate, element_matrices
-from fitting.properties import PROPERTIES, with_property_scaled
+from fitting.parts import load_part, projected_parts
+from fitting.plate import Plate
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -39,18 +39,17 @@ class ReducedPlate:
     K_1: Array
     U: Array
     d: Array
+    mode: NDArray[np.intp]
+    """Which of the plate's modes each column of U damps, in frequency order from 0."""
     load: Array
     observe: Array
     domain: Domain
-    dM: Array
-    """Derivative of M to the logarithm of each of `PROPERTIES`; so of K_0', K_1 and load below.
-
-    Shape (properties, k, k).
-    """
-    dK_0: Array
-    dK_1: Array
-    dload: Array
-    """Shape (properties, k)."""
+    parts: Array
+    """Of K_0, K_1 and M by what is stated (`fitting.parts`), one after the other. Shape (parts, k, k)."""
+    load_part: Array
+    """Shape (k,)."""
+    deflection: Array
+    """w, dw/dy and -dw/dx of every vector at every node. Shape (nodes, 3, k)."""
     gram: Array
     """Inner products, in the inverse stiffness, of load, pickup, M V, K_0' V, K_0'' V, K_1 V and U."""
     V: Array
@@ -70,24 +69,16 @@ class ReducedPlate:
         """Estimated relative error of `displacement`, by its residuals. Shape (points,)."""
         return np.asarray(self._solve(omega, G)[1])
 
-    def derivatives(self, omega: Array, G: Complex) -> tuple[Complex, Complex]:
-        """Derivatives of `displacement` to what the plate is made of, the viscous damping kept.
-
-        To the logarithm of all natural frequencies, shape (points,), and to that of each of
-        `PROPERTIES`, shape (properties, points).
-        """
+    def by_frequency(self, omega: Array, G: Complex) -> Complex:
+        """Derivative of `displacement` to the logarithm of all natural frequencies. Shape (points,)."""
         rhs = np.stack([self.load, self.observe], axis=1).astype(complex)
         both = np.broadcast_to(rhs, (len(omega), *rhs.shape))
         q, z = np.moveaxis(np.linalg.solve(self.matrices(omega, G), both), 2, 0)
 
         def between(A: Array | Complex) -> Complex:
-            return np.einsum("pi,...ij,pj->...p", z, A, q, optimize=True)
+            return np.asarray(np.einsum("pi,ij,pj->p", z, A, q, optimize=True))
 
-        to_stiffness = -(between(self.K_0) + G * between(self.K_1))
-        to_properties = np.einsum("pi,ni->np", z, self.dload) - (
-            between(self.dK_0) + G * between(self.dK_1) - omega**2 * between(self.dM)
-        )
-        return 2 * to_stiffness, np.asarray(to_properties)
+        return np.asarray(-2 * (between(self.K_0) + G * between(self.K_1)))
 
     def _solve(self, omega: Array, G: Complex) -> tuple[Complex, Array]:
         displacement, error = [], []
@@ -171,47 +162,38 @@ class _Builder:
         self.V = np.hstack([self.V, W @ (vectors[:, keep] / np.sqrt(values[keep]))])
 
     def project(self, *, final: bool = False) -> ReducedPlate:
-        """The reduced plate of the present basis; its derivatives to properties when `final`."""
+        """The reduced plate of the present basis; with its parts when `final`."""
         V, U = self.V, self.damping.U
         products = [self.M @ V, self.K_0.real @ V, self.K_0.imag @ V, self.K_1 @ V]
         columns = np.hstack([self.load[:, None], self.observe[:, None], *products, U])
         gram = columns.T @ self.unload(columns)
-        dM, dK_0, dK_1, dload = self._derivatives() if final else (np.empty(0),) * 4
+        parts, load, deflection = self._parts() if final else (np.empty(0),) * 3
         return ReducedPlate(
             M=V.T @ products[0],
             K_0=V.T @ products[1] + 1j * (V.T @ products[2]),
             K_1=V.T @ products[3],
             U=V.T @ U,
             d=self.damping.d,
+            mode=self.damping.mode,
             load=V.T @ self.load,
             observe=V.T @ self.observe,
             domain=self.domain,
-            dM=dM,
-            dK_0=dK_0,
-            dK_1=dK_1,
-            dload=dload,
+            parts=parts,
+            load_part=load,
+            deflection=deflection,
             gram=(gram + gram.T) / 2,
             V=V,
         )
 
-    def _derivatives(self) -> tuple[Array, Array, Array, Array]:
-        """Central differences of the element's matrices, projected; shapes as in `ReducedPlate`."""
-        plate, h = self.plate, 1e-4
-        V = plate.on_elements(plate.even @ self.V)
-        w = np.tile(np.eye(DOFS)[W], 4)
-        found: list[list[Array]] = [[], [], [], []]
-        for name in PROPERTIES:
-            up, down = (
-                element_matrices(with_property_scaled(plate.specimen, name, 1 + s), plate.mesh)
-                for s in (h, -h)
-            )
-            for k, part in enumerate(("M", "K_0", "K_1")):
-                dAe = (getattr(up, part) - getattr(down, part)) / (2 * h)
-                found[k].append(np.tensordot(V, dAe @ V, axes=([0, 1], [0, 1])))
-            dMe = (up.M - down.M) / (2 * h)
-            found[3].append(-np.einsum("eik,i->k", V, dMe @ w))
-        dM, dK_0, dK_1, dload = (np.array(f) for f in found)
-        return dM, dK_0, dK_1, dload
+    def _parts(self) -> tuple[Array, Array, Array]:
+        """As in `ReducedPlate`."""
+        plate = self.plate
+        V = plate.even @ self.V
+        return (
+            projected_parts(plate, V),
+            V.T @ load_part(plate.specimen)[plate.free],
+            plate.on_nodes(V)[:, [W, THETA_X, THETA_Y]],
+        )
 
     def worst_points(self, reduced: ReducedPlate) -> tuple[list[tuple[float, complex]], float]:
         """The worst training point and the worst one away from it, and the worst estimate."""

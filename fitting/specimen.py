@@ -56,7 +56,10 @@ class Specimen:
     reads: Reading = "relative"
     base_acceleration_m_s2: float = 9.81
     tolerances: Mapping[str, float] = field(default_factory=dict)
-    """Relative standard deviations of properties (`fitting.properties`) that were measured or looked up."""
+    """Standard deviations of stated numbers (`fitting.tolerances`): relative, m or s. Not named: typical
+    ones."""
+    exact: bool = False
+    """Everything stated is exact: a simulation of this very plate, or a published case."""
     elements: tuple[int, int] | None = None
     """Elements along x and y; None for the default mesh."""
 

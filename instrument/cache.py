@@ -6,8 +6,9 @@ A file that is damaged, of another version or not writable is never an error: th
 import hashlib
 import json
 import os
+import re
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from functools import cache
 from pathlib import Path
@@ -28,12 +29,15 @@ def cache_folder() -> Path:
     return Path(os.environ.get("VISCORIG_CACHE") or platformdirs.user_cache_dir("viscorig"))
 
 
-def cached(name: str, depends_on: Any, cls: type[T], build: Callable[[], T]) -> T:
+def cached(
+    name: str, depends_on: Any, cls: type[T], build: Callable[[], T], modules: Sequence[str] = ()
+) -> T:
     """A `cls` from the cache, or built and kept.
 
-    `depends_on` is anything JSON or dataclasses can say; the sources of `fitting` count too.
+    `depends_on` is anything JSON or dataclasses can say; the sources of the module that `cls` is from count
+    too, and those of further `modules`.
     """
-    digest = _digest([name, depends_on])
+    digest = _digest([name, depends_on], (cls.__module__, *modules))
     path = cache_folder() / f"{name}-{digest[:32]}.npz"
     found = _load(path, digest, cls)
     if found is None:
@@ -65,9 +69,9 @@ def _store(path: Path, digest: str, value: Any) -> None:
         return
 
 
-def _digest(depends_on: Any) -> str:
+def _digest(depends_on: Any, modules: tuple[str, ...]) -> str:
     said = json.dumps(
-        [_sources(), np.__version__, scipy.__version__, depends_on], default=_plain, sort_keys=True
+        [_sources(modules), np.__version__, scipy.__version__, depends_on], default=_plain, sort_keys=True
     )
     return hashlib.sha256(said.encode()).hexdigest()
 
@@ -77,10 +81,27 @@ def _plain(value: Any) -> Any:
 
 
 @cache
-def _sources() -> str:
-    """A digest of the code that builds models: an older version's files are stale."""
+def _sources(modules: tuple[str, ...]) -> str:
+    """A digest of the code that builds models: an older version's files are stale.
+
+    Of some modules of `fitting` and all that they import from it, not of those that only use models.
+    """
     folder = Path(fitting.__file__).parent
-    digest = hashlib.sha256()
-    for file in sorted(folder.rglob("*.py")):
-        digest.update(file.read_bytes())
+    digest, left, seen = hashlib.sha256(), list(modules), set[Path]()
+    while left:
+        for path in _files(folder, left.pop()):
+            if path not in seen:
+                seen.add(path)
+                left += _IMPORTED.findall(path.read_text(encoding="utf-8"))
+    for path in sorted(seen):
+        digest.update(path.read_bytes())
     return digest.hexdigest()
+
+
+_IMPORTED = re.compile(r"^from (fitting[\w.]*) import", re.MULTILINE)
+
+
+def _files(folder: Path, module: str) -> list[Path]:
+    place = folder.joinpath(*module.split(".")[1:])
+    found = [place.with_suffix(".py"), place / "__init__.py"]
+    return [path for path in found if path.is_file()]

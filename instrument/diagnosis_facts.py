@@ -9,7 +9,7 @@ from fitting.diagnosis.result import Candidate, FoundEffect, Stage
 from fitting.noise import noise_of
 from fitting.sweep import Sweep
 from instrument.diagnosis import Diagnosed
-from instrument.identification_facts import held_out_facts, law_facts
+from instrument.identification_facts import adjusted_facts, held_out_facts, law_facts
 
 Array = NDArray[np.float64]
 
@@ -20,7 +20,7 @@ def diagnosis_facts(found: Diagnosed, sweep: Sweep) -> dict[str, Any]:
     return {
         "verdict": r.verdict,
         "effects": [
-            {"name": e.name, "parameters": _parameters(e)}
+            {"name": e.name, "parameters": _parameters(e), "probability": e.probability}
             # One that is both seen in a channel and fitted is listed once, as fitted.
             for e in (*r.effects, *(c for c in r.channels if c.name not in {a.name for a in r.effects}))
         ],
@@ -28,14 +28,20 @@ def diagnosis_facts(found: Diagnosed, sweep: Sweep) -> dict[str, Any]:
         "candidates": [
             {
                 "name": c.name,
-                "delta_bic": c.delta_bic,
+                "delta_bic": c.delta_cost,
+                "probability": c.probability,
                 "chi2_per_dof": c.chi2_per_dof,
                 "parameters": _all_parameters(c),
+                "law": law_facts(c.law) if c.law is not None else [],
+                "checks": dict(c.checks),
             }
             for c in r.candidates
         ],
         "before": _stage(r.before),
         "after": _stage(r.after),
+        "adjusted": adjusted_facts(r.after.adjusted),
+        "p_value": None,
+        "nested_held_out_rms_percent": None,
         "next_measurement": r.next_measurement,
         "explanation": list(r.explanation),
         "warnings": list(r.warnings),
@@ -77,6 +83,7 @@ def _stage(s: Stage) -> dict[str, Any]:
         "standard_errors": dict(s.standard_errors),
         "law": law_facts(s.band),
         "structure": list(s.structure),
+        "adjusted": adjusted_facts(s.adjusted),
     }
 
 

@@ -8,13 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
+from fitting.diagnosis.begin import Begun, begin
+from fitting.diagnosis.prediction import held_out
 from fitting.errors import OutsideModel
-from fitting.identification import direct, paper
+from fitting.identification import paper
+from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
 from fitting.identification.fit import Fit
-from fitting.identification.model import SweepModel
-from fitting.identification.residuals import Residuals
+from fitting.identification.joint import fit_of
 from fitting.identification.result import Identification, differences_percent, summarise
-from fitting.identification.systematic import Systematic, systematic_of
 from fitting.identification.validation import Mask, Validation, validate
 from fitting.laws import CoreLaw
 from fitting.noise import Noise, noise_of
@@ -22,6 +23,7 @@ from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.models import Models
 from instrument.progress import Progress, Report, quiet
+from instrument.set_up import Hammer, SetUp, set_up
 
 Array = NDArray[np.float64]
 Method = Literal["direct", "paper"]
@@ -42,23 +44,36 @@ class Identified:
 
 
 def identify(
-    sweep: Sweep, specimen: Specimen, method: Method = "direct", progress: Progress = quiet
+    sweep: Sweep,
+    specimen: Specimen,
+    method: Method = "direct",
+    progress: Progress = quiet,
+    hammer: Hammer | None = None,
 ) -> Identified:
     """The core's law from a sweep, the specimen's own law as the start.
 
-    The reduced model is certified where the fit ends; beyond that it is widened and the fit repeated.
+    Directly: law, stated numbers within their tolerances, model error and the bare plate's `hammer` test in
+    one posterior. The reduced model is certified where the fit ends; beyond that it is widened and the fit
+    repeated.
     """
     if specimen.core is None:
         raise OutsideModel("a bare plate has no core to identify, expected [core] and [constraining]")
     start, noise = specimen.core.law, noise_of(sweep)
-    models = Models.of(specimen, sweep.frequency_hz, progress)
+    if method == "paper" and hammer is not None:
+        specimen = with_bare_plate(specimen, fit_bare_plate(specimen, *hammer))
+    models: Models | None = Models.of(specimen, sweep.frequency_hz, progress) if method == "paper" else None
     setup = seconds = 0.0
     further: tuple[str, ...] = ()
-    if method == "paper" and specimen.tolerances:
-        further = ("the paper's method leaves the stated tolerances out of its band",)
+    if method == "paper" and not specimen.exact:
+        further = ("the paper's method takes what is stated for exact: tolerances are not in its band",)
     for widened in range(_MOST_WIDENINGS + 1):
         began = perf_counter()
-        task = _Direct(sweep, noise, models) if method == "direct" else _Paper(sweep, models)
+        if method == "paper":
+            assert models is not None
+            task: _Direct | _Paper = _Paper(sweep, models)
+        else:
+            ready_made = set_up(sweep, specimen, hammer, progress, with_effects=False, models=models)
+            models, task = ready_made.models, _Direct(ready_made, noise)
         ready = perf_counter()
         with threadpool_limits(1, "blas"), progress(f"fitting ({method})") as report:
             fit = task.fit(start, report)
@@ -72,45 +87,31 @@ def identify(
         models = replace(models, domain=models.domain.widened(fit.law, sweep.frequency_hz))
     began = perf_counter()
     with threadpool_limits(1, "blas"), progress("validating") as report:
-        validation = _validate(sweep, noise, task, fit, report)
-    result = summarise(method, sweep, noise, fit, validation, task.systematic(fit.law), further)
+        validation = task.validated(sweep, noise, fit, report)
+    result = summarise(method, sweep, noise, fit, validation, further)
     return Identified(result, setup, seconds, perf_counter() - began)
 
 
 class _Direct:
-    def __init__(self, sweep: Sweep, noise: Noise, models: Models) -> None:
-        rational = models.rational(np.unique(sweep.omega))
-        model = SweepModel.of(sweep, rational, models.specimen.reads)
-        self.residuals = Residuals.of(sweep, noise, model)
-        self._sweep, self._models = sweep, models
-        self.uses_phase = sweep.has_phase
+    def __init__(self, ready: SetUp, noise: Noise) -> None:
+        self._ready, self._noise = ready, noise
+        self._begun: Begun | None = None
 
     def fit(self, start: CoreLaw, report: Report) -> Fit:
-        return direct.fit_direct(self.residuals, start)
+        self._begun = begin(self._ready.task, self._ready.reduced, self._noise, self._ready.bare, start)
+        return fit_of(self._begun)
 
-    def systematic(self, law: CoreLaw) -> Systematic:
-        return systematic_of(
-            self.residuals, self._sweep.segment, self._models.reduced, self._models.specimen, law
-        )
-
-    def learnt(self, law: CoreLaw, points: Mask) -> CoreLaw:
-        return direct.refit(self.residuals.take(points), law)
-
-    def velocity(self, law: CoreLaw) -> NDArray[np.complex128]:
-        return self.residuals.model.velocity(law)
+    def validated(self, sweep: Sweep, noise: Noise, fit: Fit, report: Report) -> Validation:
+        assert self._begun is not None
+        return held_out(self._begun.task, self._begun.evidence, self._begun.none)
 
 
 class _Paper:
-    uses_phase = False
-
     def __init__(self, sweep: Sweep, models: Models) -> None:
         self.problem = paper.PaperProblem.of(sweep, models.real_modes, models.specimen.reads)
 
     def fit(self, start: CoreLaw, report: Report) -> Fit:
         return paper.fit_paper(self.problem, start, lambda step: report(step / paper.MOST_STEPS))
-
-    def systematic(self, law: CoreLaw) -> None:
-        """None stated: the real modes' own error is larger than any of these, and not estimated."""
 
     def learnt(self, law: CoreLaw, points: Mask) -> CoreLaw:
         return paper.refit(self.problem.take(points), law)
@@ -118,15 +119,14 @@ class _Paper:
     def velocity(self, law: CoreLaw) -> NDArray[np.complex128]:
         return self.problem.velocity([law])[0]
 
-
-def _validate(sweep: Sweep, noise: Noise, task: _Direct | _Paper, fit: Fit, report: Report) -> Validation:
-    size = np.abs(sweep.response_m_s)
-    return validate(
-        segment=sweep.segment,
-        points_needed=-(-len(fit.law.names) // (2 if task.uses_phase else 1)),
-        differences_percent=lambda points: differences_percent(
-            sweep, task.velocity(task.learnt(fit.law, points))
-        ),
-        progress=report,
-        noise_percent=100 * noise.std_m_s / size if noise.is_known else np.full(len(sweep), np.nan),
-    )
+    def validated(self, sweep: Sweep, noise: Noise, fit: Fit, report: Report) -> Validation:
+        size = np.abs(sweep.response_m_s)
+        return validate(
+            segment=sweep.segment,
+            points_needed=len(fit.law.names),
+            differences_percent=lambda points: differences_percent(
+                sweep, self.velocity(self.learnt(fit.law, points))
+            ),
+            progress=report,
+            noise_percent=100 * noise.std_m_s / size if noise.is_known else np.full(len(sweep), np.nan),
+        )

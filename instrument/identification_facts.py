@@ -1,7 +1,10 @@
 """An identification as JSON holds it."""
 
+from collections.abc import Sequence
+from dataclasses import asdict
 from typing import Any
 
+from fitting.identification.adjusted import Adjusted
 from fitting.identification.bare_plate import BarePlateFit
 from fitting.identification.result import LawBand
 from fitting.identification.validation import Validation
@@ -56,12 +59,18 @@ def identification_facts(found: Identified, sweep: Sweep) -> dict[str, Any]:
         "criterion_met": r.fit.criterion_met,
         "warnings": list(r.warnings),
         "law": law_facts(r.band),
+        "adjusted": adjusted_facts(r.fit.adjusted),
     }
 
 
+def adjusted_facts(found: Sequence[Adjusted]) -> list[dict[str, Any]]:
+    """The stated numbers beside what the fit found them to be."""
+    return [asdict(one) for one in found]
+
+
 def bare_plate_facts(bare: BarePlateFit, specimen: Specimen) -> dict[str, Any]:
-    """What the hammer test gave; `specimen` already has its stiffness."""
-    young = specimen.substrate.young_pa
+    """What the hammer test gives by itself; `specimen` as stated."""
+    young = specimen.substrate.young_pa * bare.young_scale
     return {
         "substrate_young_pa": young,
         "substrate_young_standard_error_pa": young * bare.standard_error,

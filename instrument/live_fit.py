@@ -7,7 +7,7 @@ from pydantic import ValidationError
 from threadpoolctl import threadpool_limits
 
 from fitting.errors import FittingError
-from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
+from fitting.identification.bare_plate import fit_bare_plate
 from fitting.specimen import Specimen
 from instrument.files.hammer_file import hammer_modes
 from instrument.identification import identify
@@ -47,12 +47,13 @@ def _facts(
     used: list[PointMeasured], damping: DampingFound | None, specimen: Specimen, progress: Progress
 ) -> dict[str, object]:
     hammer: dict[str, object] = {}
+    modes = None
     if damping is not None and any(m["accepted"] for m in damping.facts_json["modes"]):
-        bare = fit_bare_plate(specimen, *hammer_modes(damping.facts_json))
-        specimen = with_bare_plate(specimen, bare)
-        hammer = {"hammer": bare_plate_facts(bare, specimen)}
+        modes = hammer_modes(damping.facts_json)
+        hammer = {"hammer": bare_plate_facts(fit_bare_plate(specimen, *modes), specimen)}
     sweep = sweep_of(used)
-    facts = identification_facts(identify(sweep, specimen, progress=progress), sweep)
+    found = identify(sweep, specimen, progress=progress, hammer=modes)
+    facts = identification_facts(found, sweep)
     facts["warnings"] += uncalibrated(used)
     kept = {key: value for key, value in facts.items() if key not in _SECONDS}
     return dict(plain({**kept, **hammer, **_temperature(used)}))

@@ -91,7 +91,9 @@ class Models:
     def without_law(self) -> Specimen:
         """The specimen as far as these models depend on it: neither law nor level nor reading."""
         core = replace(self.specimen.core, law=None) if self.specimen.core else None  # type: ignore[arg-type]
-        return replace(self.specimen, core=core, base_acceleration_m_s2=1.0, reads="relative", tolerances={})
+        return replace(
+            self.specimen, core=core, base_acceleration_m_s2=1.0, reads="relative", tolerances={}, exact=True
+        )
 
     def predict(self, law: CoreLaw | None, frequency_hz: Array, *, real_modes: bool = False) -> Complex:
         """Velocity phasors at the pickup in m/s; a point that is not certified is solved in full."""

@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.bent_law import BentLaw
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.refit import ROUGH, Fitted, refit
 from fitting.diagnosis.response import Response
@@ -43,13 +44,13 @@ def look(task: Task, evidence: Evidence, before: Fitted, effect: Effect) -> list
     plain = Response(task, before.effects, task.coarse)
     law, known = before.law, before.u
     v = plain.velocity(law, known)
-    rows = before.data + (len(evidence.bare.shift) if evidence.bare is not None else 0)
-    r = before.residuals[:rows]
-    Q, _ = np.linalg.qr(before.jacobian[:rows])
+    r = before.residuals
+    Q, _ = np.linalg.qr(before.jacobian)
+    stated = np.zeros(before.stated)
     lower, upper = effect.limits(response.plate)
     starts, found = effect.starts(response.plate, task.points), []
     for u, moved in zip(starts, _moves(response, law, known, starts, v), strict=True):
-        s = np.concatenate([evidence.jacobian(v, moved[None])[:, 0], evidence.bare_moves(effect, u)])
+        s = np.concatenate([evidence.jacobian(v, moved[None])[:, 0], evidence.bare_moves(effect, u), stated])
         s = s - Q @ (Q.T @ s)
         size = float(s @ s)
         if not np.isfinite(size) or size <= 0:
@@ -86,12 +87,11 @@ class Contender:
         evidence: Evidence,
         before: Fitted,
         effect: Effect,
-        priors: Array,
         starts: Sequence[Start] | None = None,
     ) -> None:
         """`starts` as `look` gives them, where they are known."""
         self.task, self.evidence, self.before = task, evidence, before
-        self.effect, self.priors = effect, priors
+        self.effect = effect
         self._looked = starts
 
     @property
@@ -113,9 +113,13 @@ class Contender:
     def _response(self) -> Response:
         return Response(self.task, [*self.before.effects, self.effect], self.task.coarse)
 
-    def _rough(self, law: CoreLaw, u: Array, evidence: Evidence) -> Fitted:
-        start = np.concatenate([self.before.u, u])
-        return refit(self._response, evidence, law, start, tolerance=ROUGH, priors=self.priors)
+    def _rough(self, law: CoreLaw, u: Array, evidence: Evidence, *, as_stated: bool = False) -> Fitted:
+        known = self.before.u.copy()
+        if as_stated:
+            # Without the effect the stated numbers may have been moved to do its work.
+            known[: self.before.stated] = 0.0
+        start = np.concatenate([known, u])
+        return refit(self._response, evidence, law, start, tolerance=ROUGH)
 
     @cached_property
     def near(self) -> list[Fitted]:
@@ -156,8 +160,9 @@ class Contender:
         """One rough fit, begun in a wide valley from the better of the first and the most promising start."""
         first = self.effect.starts(self.task.plate, self.task.points)[:1]
         blunt, starts = self.evidence.blunt(), [*first, *(u for _, u in self._starts[:1])]
-        wide = min((self._rough(self.before.law, u, blunt) for u in starts), key=_chi2)
-        return [refit(self._response, self.evidence, wide.law, wide.u, tolerance=ROUGH, priors=self.priors)]
+        rough = (self._rough(self.before.law, u, blunt, as_stated=True) for u in starts)
+        wide = min(rough, key=_chi2)
+        return [refit(self._response, self.evidence, wide.law, wide.u, tolerance=ROUGH)]
 
     @cached_property
     def far(self) -> list[Fitted]:
@@ -170,12 +175,18 @@ class Contender:
 
     def _wide(self, u: Array) -> list[Fitted]:
         blunt = self.evidence.blunt()
-        fits = [self._rough(law, u, blunt) for law in (self.before.law, self.task.stated_law)]
+        laws = (self.before.law, bent_as(self.before.law, self.task.stated_law))
+        fits = [self._rough(law, u, blunt, as_stated=True) for law in laws]
         return sorted(fits, key=_chi2)
 
     def finished(self, rough: Fitted) -> Fitted:
         """A rough fit followed to the end."""
-        return polished(self.task, rough.effects, self.evidence, rough.law, rough.u, self.priors)
+        return polished(self.task, rough.effects, self.evidence, rough.law, rough.u)
+
+
+def bent_as(law: CoreLaw, other: CoreLaw) -> CoreLaw:
+    """Another law, as free to bend as one is."""
+    return BentLaw.over(other, np.array(law.knots_hz)) if isinstance(law, BentLaw) else other
 
 
 def _chi2(fitted: Fitted) -> float:
@@ -187,12 +198,10 @@ def has_place(effect: Effect) -> bool:
     return any(q.neutral is None and not q.fixed for q in effect.unknowns)
 
 
-def polished(
-    task: Task, effects: Sequence[Effect], evidence: Evidence, law: CoreLaw, u: Array, priors: Array
-) -> Fitted:
+def polished(task: Task, effects: Sequence[Effect], evidence: Evidence, law: CoreLaw, u: Array) -> Fitted:
     """A fit to the end, its grid made for the law it starts from, and again where the law has moved far."""
     for _ in range(_ROUNDS):
-        fitted = refit(Response(task.around(law), effects), evidence, law, u, priors=priors)
+        fitted = refit(Response(task.around(law), effects), evidence, law, u)
         if fitted.chi2_per_dof > HOPELESS:
             break
         omega = task.fine.nodes.omega

@@ -1,37 +1,25 @@
 """From a sweep to a verdict: structure, the catalogue, the group that fits as well, held-out data."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fitting.diagnosis import words
-from fitting.diagnosis.evidence import BareModes, Evidence
+from fitting.diagnosis.begin import begin
+from fitting.diagnosis.evidence import BareModes
 from fitting.diagnosis.hands import ALONE, Hands
-from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.pairs import Pairs
 from fitting.diagnosis.prediction import over_noise
-from fitting.diagnosis.refit import Fitted, refit
-from fitting.diagnosis.response import Response
 from fitting.diagnosis.result import Candidate, Diagnosis, Estimate, FoundEffect
 from fitting.diagnosis.search import Search, Trial
-from fitting.diagnosis.stage import found_effects, stage_of
-from fitting.diagnosis.structure import roughness, structure
+from fitting.diagnosis.stage import few_of_law, found_effects, mixed_band, stage_of
+from fitting.diagnosis.structure import roughness
 from fitting.diagnosis.task import Task
-from fitting.diagnosis.verdict import (
-    FIRST,
-    Judgement,
-    foremost,
-    judge,
-    standing_for,
-    told,
-    without_idle_extensions,
-)
+from fitting.diagnosis.verdict import Judgement, judge, told
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
-from fitting.identification.direct import fit_direct
-from fitting.identification.model import SweepModel
-from fitting.identification.residuals import Residuals
 from fitting.laws import CoreLaw
 from fitting.noise import Noise, noise_of
 from fitting.reduced import ReducedPlate
@@ -41,7 +29,7 @@ Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 Report = Callable[[float], None]
 
-NOTHING_LEFT = 0.97
+NOTHING_LEFT = 0.5
 """Chi-square per degree of freedom below which no second effect is looked for."""
 CLEAN_ENOUGH = 1.08
 """Chi-square per degree of freedom above which a second effect is looked for beside all leading ones."""
@@ -63,20 +51,6 @@ def seen_in_channels(sweep: Sweep, effects: Sequence[Effect]) -> tuple[Mask, tup
     return used, tuple(found), noise if used.all() else noise_of(sweep.take(used))
 
 
-def begin(
-    task: Task, reduced: ReducedPlate, noise: Noise, bare: BareModes | None, start: CoreLaw
-) -> tuple[Task, Evidence, Fitted]:
-    """The fit without any effect, and the evidence all candidates are judged by."""
-    sweep = task.sweep
-    model = SweepModel(task.rational, np.arange(len(sweep)), sweep.commanded_m_s2, task.specimen.reads)
-    law = fit_direct(Residuals.of(sweep, noise, model), start).law
-    task = task.condensed(law).around(law)
-    v = model.velocity(law)
-    evidence = Evidence.of(sweep, noise, model_error(task, reduced, law, v), v, bare)
-    none = refit(Response(task, ()), evidence, law, np.empty(0))
-    return task, evidence, none
-
-
 def diagnose_task(
     task: Task,
     reduced: ReducedPlate,
@@ -94,7 +68,8 @@ def diagnose_task(
 
     With `accepted_by_hand` these effects are fitted and nothing is searched for.
     """
-    task, evidence, none = begin(task, reduced, noise, bare, start)
+    begun = begin(task, reduced, noise, bare, start)
+    task, evidence, none = begun.task, begun.evidence, begun.none
     known_names = {e.name for e in effects}
     bases = [CATALOGUE[e.extends] for e in effects if e.extends and e.extends not in known_names]
     search = Search(task, evidence, none, effects, hands, bases)
@@ -107,21 +82,27 @@ def diagnose_task(
         trials = [judgement.accepted] if judgement.accepted is not None else []
     known = evidence.scale_known
     report(0.8)
-    before = stage_of(task, evidence, search.none.fitted, search.validation(search.none))
+    none = search.none.fitted
+    before = stage_of(task, evidence, none, search.validation(search.none), 1.0)
     report(0.9)
     accepted = judgement.accepted
     after, found = before, tuple[FoundEffect, ...]()
     if accepted is not None:
-        after = stage_of(task, evidence, accepted.fitted, search.validation(accepted))
-        found = found_effects(accepted.fitted, task.plate)
-    trials = sorted([search.none, *trials], key=lambda t: t.bic)
+        scale = search.temper(accepted)
+        after = stage_of(task, evidence, accepted.fitted, search.validation(accepted), scale)
+        found = found_effects(accepted.fitted, task.plate, scale)
+    if judgement.verdict != "unknown":
+        after = replace(after, band=mixed_band(task, search, judgement.group))
+    trials = sorted([search.none, *trials], key=_cost)
     seen = tuple(words.story(catalogue[c.name], c) for c in channels)
     return Diagnosis(
         verdict=judgement.verdict,
-        effects=found,
+        effects=tuple(replace(e, probability=judgement.of_effect(e.name)) for e in found),
         channels=channels,
         equivalent=judgement.equivalent,
-        candidates=tuple(_candidate(task, t, trials[0].bic, noise_known=known) for t in trials),
+        candidates=tuple(
+            _candidate(task, t, search, judgement, trials[0].cost, noise_known=known) for t in trials
+        ),
         before=before,
         after=after,
         next_measurement=words.next_measurement(judgement, catalogue, with_hammer=bare is not None),
@@ -137,31 +118,27 @@ def diagnose_task(
 
 def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, list[Trial], Judgement]:
     """The whole catalogue, and the verdict; the search as it ended."""
-    every = search.singles(lambda x: report(0.5 * x))
-    share = _noise_left(search, every) if noise.source == "local scatter" else 1.0
+    singles = search.singles(lambda x: report(0.5 * x))
+    share = _noise_left(search, singles) if noise.source == "local scatter" else 1.0
     if share < OVERSTATED:
         # What scatters from point to point need not be noise: a drift does, in a sweep that jumps about.
         search = search.with_evidence(search.evidence.scaled(float(np.sqrt(share))))
-        every = search.singles(lambda x: report(0.5))
-    singles = without_idle_extensions(every, search.unnamed)
-    all_pairs = _pairs(search, singles, lambda x: report(0.5 + 0.3 * x))
-    pairs = without_idle_extensions(all_pairs)
+        singles = search.singles(lambda x: report(0.5))
+    pairs = _pairs(search, singles, lambda x: report(0.5 + 0.3 * x))
     for trial in [one for pair in pairs[:1] for one in search.alone(pair)]:
         # A pair may have found a better place for one effect than it found alone.
-        every = sorted([*(t for t in every if t.names != trial.names or t.bic < trial.bic), trial], key=_bic)
-    singles = without_idle_extensions(every, search.unnamed)
-    none, evidence = search.none.fitted, search.evidence
-    left = structure(search.task.sweep, evidence, none.residuals[: none.data], none.chi2_per_dof)
+        singles = sorted(
+            [*(t for t in singles if t.names != trial.names or t.cost < trial.cost), trial], key=_cost
+        )
+    trials = sorted([*singles, *pairs], key=_cost)
     judgement = judge(
         search.none,
-        singles,
-        pairs,
-        noise_known=evidence.scale_known,
-        structured=bool(left),
+        trials,
+        temper=search.temper(min([search.none, *trials], key=_cost)),
+        hidden=frozenset(e.name for e in search.unnamed),
         held_out=lambda trial: over_noise(search.validation(trial)),
-        meant=lambda trial: standing_for(trial, [*every, *all_pairs]),
     )
-    return search, [*singles, *pairs], judgement
+    return search, [t for t in trials if t.names in judgement.probability], judgement
 
 
 def _noise_left(search: Search, trials: Sequence[Trial]) -> float:
@@ -174,30 +151,40 @@ def _noise_left(search: Search, trials: Sequence[Trial]) -> float:
     return float(np.nanmin([best.chi2_per_dof, rough]))
 
 
-def _bic(trial: Trial) -> float:
-    return trial.bic
+def _cost(trial: Trial) -> float:
+    return trial.cost
 
 
 def _pairs(search: Search, singles: Sequence[Trial], report: Report) -> list[Trial]:
     """Two effects, where one leaves something or only another law explains it all."""
     if not singles or not search.evidence.scale_known:
         return []
-    best = foremost(search.none, singles)
+    best = singles[0]
     if search.evidence.count < _NUMBERS_A_PARAMETER * (best.fitted.parameters + 2):
         return []
     flexible = any(e.replaces_law for e in best.fitted.effects)
-    if search.none.bic - best.bic < FIRST:
+    if search.none.cost < best.cost:
         return []
-    doubtful = flexible or best.leans
-    if best.fitted.chi2_per_dof < NOTHING_LEFT and not doubtful:
+    doubtful = flexible or best.fails
+    left = best.fitted.chi2_per_dof / search.allowed(best)
+    if left < NOTHING_LEFT and not doubtful:
         return []
-    wide = best.fitted.chi2_per_dof > CLEAN_ENOUGH or doubtful
-    return Pairs(search).best(singles, report, wide=wide)
+    return Pairs(search).best(singles, report, wide=left > CLEAN_ENOUGH or doubtful)
 
 
-def _candidate(task: Task, trial: Trial, best: float, *, noise_known: bool) -> Candidate:
+def _candidate(
+    task: Task, trial: Trial, search: Search, judgement: Judgement, best: float, *, noise_known: bool
+) -> Candidate:
     chi2 = trial.fitted.chi2_per_dof if noise_known else float("nan")
-    return Candidate(found_effects(trial.fitted, task.plate), trial.bic - best, chi2)
+    scale = search.temper(trial)
+    return Candidate(
+        found_effects(trial.fitted, task.plate, scale),
+        trial.cost - best,
+        chi2,
+        judgement.probability.get(trial.names, 0.0),
+        few_of_law(task, trial.fitted, scale),
+        dict(trial.checks),
+    )
 
 
 def _warnings(task: Task, judgement: Judgement) -> tuple[str, ...]:

@@ -1,6 +1,7 @@
 """Data a candidate is judged by: the sweep, whitened, and the bare plate's frequencies beside it."""
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,6 +9,7 @@ from numpy.typing import NDArray
 from fitting.diagnosis.whitening import SHARE, Whitening
 from fitting.effects.base import Effect
 from fitting.noise import Noise
+from fitting.nuisances import Nuisances
 from fitting.sweep import Sweep
 
 Array = NDArray[np.float64]
@@ -32,11 +34,49 @@ class BareModes:
     """Fall for unit density of air."""
     clamp: float
     """Prior standard deviation of the root's yielding in the hammer test."""
+    stiffness: Complex
+    """phi^T P_p phi for the parts of K_0, on the model's modes. Shape (modes, parts)."""
+    inertia: Array
+    """The same for M. Shape (modes, parts)."""
+    sensor: Array
+    """What the sensor adds to phi^T M phi. Shape (modes,)."""
+    by_line: Array
+    """Fall of ln f for a metre of free length more: this test has a clamp line of its own. Shape (modes,)."""
+    line_m: float
+    """Standard deviation of where it is."""
+
+    @cached_property
+    def _whitening(self) -> Whitening:
+        columns = [self.clamp * self.softness, self.line_m * self.by_line]
+        return Whitening.of((np.array(columns) / self.scatter).T)
 
     def whitened(self, expected: Array) -> Array:
-        """(measured - expected shift) in standard deviations, the root marginalised. Shape (modes,)."""
-        B = (self.clamp * self.softness / self.scatter)[:, None]
-        return Whitening.of(B)((self.shift - expected) / self.scatter)
+        """(measured - expected shift) in standard deviations, the clamp marginalised. Shape (modes,)."""
+        return self.whitened_change(self.shift - expected)
+
+    def whitened_change(self, shift: Array) -> Array:
+        """Shifts of ln f in standard deviations, the clamp marginalised. Shape (modes,) or (modes, any)."""
+        return self._whitening((shift.T / self.scatter).T)
+
+    def stated_shift(self, nuisances: Nuisances, z: Array) -> Array:
+        """Shift of ln f as the stated numbers move, by Rayleigh's quotient. Shape (modes,)."""
+        if not len(z):
+            return np.zeros(len(self.shift))
+        k, m = self._energies(nuisances.bare_coefficients(z))
+        k_0, m_0 = self._energies(nuisances.bare_coefficients(0 * z))
+        return np.asarray(np.log((k / m) / (k_0 / m_0)) / 2)
+
+    def by_stated(self, nuisances: Nuisances, z: Array) -> Array:
+        """Derivatives of `stated_shift` to z. Shape (count, modes)."""
+        h, found = 1e-3, np.zeros((len(z), len(self.shift)))
+        for k in nuisances.of_bare_plate:
+            up, down = z.copy(), z.copy()
+            up[k], down[k] = z[k] + h, z[k] - h
+            found[k] = (self.stated_shift(nuisances, up) - self.stated_shift(nuisances, down)) / (2 * h)
+        return found
+
+    def _energies(self, c: tuple[Complex, Array]) -> tuple[Array, Array]:
+        return np.asarray((self.stiffness @ c[0]).real), self.inertia @ c[1] + self.sensor
 
 
 @dataclass(frozen=True)

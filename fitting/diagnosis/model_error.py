@@ -1,16 +1,15 @@
-"""What a layer-wise plate gets wrong against a solid, as changes of the response of known size.
+"""What the model gets wrong, as changes of the response of known size, marginalised in every fit.
 
-Every segment's resonances a little off, its gain and its phase: sizes as in `identification.systematic`.
+Of each segment: its resonances a little off, their damping, its gain and its phase, and a slow change of
+gain and phase along it, as instruments drift. Sizes are the specimen's own (`fitting.model_error`).
 """
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.refit import Fitted
 from fitting.diagnosis.task import Task
-from fitting.identification.systematic import FREQUENCY_ERROR, GAIN_ERROR
 from fitting.laws import CoreLaw
+from fitting.model_error import DRIFT, GAIN, model_error_at
 from fitting.reduced import ReducedPlate
 
 Array = NDArray[np.float64]
@@ -20,22 +19,20 @@ Complex = NDArray[np.complex128]
 def model_error(task: Task, reduced: ReducedPlate, law: CoreLaw, v: Complex) -> Complex:
     """Changes of the velocity `v`, one standard deviation each. Shape (nuisances, points)."""
     omega, index = np.unique(task.points.omega, return_inverse=True)
-    dx, _ = reduced.derivatives(omega, law.modulus(omega))
+    dx = reduced.by_frequency(omega, law.modulus(omega))
     dv = (1j * omega * dx)[index.ravel()] * task.points.acceleration_m_s2
     rows = []
     for number in np.unique(task.sweep.segment):
         inside = task.sweep.segment == number
-        rows += [FREQUENCY_ERROR * dv * inside, GAIN_ERROR * v * inside]
+        f = task.sweep.frequency_hz[inside]
+        middle = np.array([np.sqrt(f.min() * f.max())])
+        size = model_error_at(task.specimen, middle, law.modulus(2 * np.pi * middle))
+        # d ln f = 1/2 d ln K, and a loss is the imaginary part of ln K.
+        by_loss = 0.5j * float(size.modal_loss[0]) * dv
+        rows += [size.frequency[0] * dv * inside, size.loss[0] * by_loss * inside, GAIN * v * inside]
+        along = np.zeros(len(v))
+        along[inside] = 2 * (f - f.min()) / max(float(np.ptp(f)), 1e-9) - 1
+        rows.append(DRIFT * along * v)
         if task.points.has_phase:
-            rows.append(1j * GAIN_ERROR * v * inside)
+            rows += [1j * GAIN * v * inside, 1j * DRIFT * along * v]
     return np.array(rows)
-
-
-def excess(evidence: Evidence, fitted: Fitted) -> float:
-    """Chi-square along these changes above their number, one standard deviation each.
-
-    What explains rightly leaves less than none: the fit has taken some of them up. What only fits, bends the
-    plate by more than it is known to be wrong. In the chi-square of hundreds of points that is not seen.
-    """
-    along = evidence.whitening.along(fitted.residuals[: fitted.data])
-    return float(along @ along) - len(along)

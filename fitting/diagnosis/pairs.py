@@ -42,7 +42,7 @@ class Pairs:
         ]
         chosen: dict[frozenset[str], int] = {}
         beside: dict[Trial, int] = {}
-        enough = singles[0].fitted.chi2 - LEAST_EXPECTED
+        enough = singles[0].fitted.chi2 - LEAST_EXPECTED * search.temper(singles[0])
         for k in np.argsort(expected):
             trial, (name, _) = tasks[k]
             # Each leader has its say: a linear step from a poor one promises too much.
@@ -52,16 +52,21 @@ class Pairs:
                 chosen.setdefault(frozenset((*trial.names, name)), int(k))
         full = [(tasks[k][0].fitted, tasks[k][1], looks[k]) for k in chosen.values()]
         fits = each(work.second, full, lambda x: report(0.4 + 0.4 * x))
-        found = sorted((search.judged(f) for f in fits if f is not None), key=lambda t: t.bic)
-        if wide and found and not _will_do([*leaders[:1], *found]):
+        found = sorted((search.judged(f) for f in fits if f is not None), key=lambda t: t.cost)
+        if wide and found and not self._will_do([*leaders[:1], *found]):
             # The best may only have begun from the wrong place, or not have looked promising.
             again = [(t.fitted, {n: work.state(n) for n in _plainly(t)}) for t in found[:RETRIED]]
             found += [search.judged(f) for fits in each(work.together, again) for f in fits]
-            if not _will_do(found):
+            if not self._will_do(found):
                 found += self._every_second([t for t in singles if _plainly(t)], found)
             found += self._swapped(found)
         report(1.0)
         return _best_of_each(found)
+
+    def _will_do(self, trials: Sequence[Trial]) -> bool:
+        """Whether any, the law being of the stated kind, leaves little and fails no check."""
+        plain = (t for t in trials if len(_plainly(t)) == len(t.names))
+        return any(t.fitted.chi2_per_dof < WILL_DO * self._search.allowed(t) and not t.fails for t in plain)
 
     def _others(self, names: Sequence[str]) -> list[Form]:
         """Every form of the effects that may stand beside some."""
@@ -91,8 +96,8 @@ class Pairs:
     def _swapped(self, pairs: Sequence[Trial]) -> list[Trial]:
         """Other effects beside those of the best pair that have a place: a wrong second may have found it."""
         search, work, each = self._search, self._search.work, self._search.hands.each
-        plain = [t for t in sorted(pairs, key=lambda t: t.bic) if len(_plainly(t)) == 2]
-        best = next((t for t in plain if not t.leans), plain[0] if plain else None)
+        plain = [t for t in sorted(pairs, key=lambda t: t.cost) if len(_plainly(t)) == 2]
+        best = next((t for t in plain if not t.fails), plain[0] if plain else None)
         if best is None:
             return []
         placed = [e for e in best.fitted.effects if has_place(e)]
@@ -112,15 +117,9 @@ def _plainly(trial: Trial) -> list[str]:
     return [e.name for e in trial.fitted.effects if not e.replaces_law]
 
 
-def _will_do(trials: Sequence[Trial]) -> bool:
-    """Whether any, the law being of the stated kind, leaves little and does not lean."""
-    plain = (t for t in trials if len(_plainly(t)) == len(t.names))
-    return any(t.fitted.chi2_per_dof < WILL_DO and not t.leans for t in plain)
-
-
 def _best_of_each(trials: Sequence[Trial]) -> list[Trial]:
     """One trial of each set of effects, best first."""
     best: dict[frozenset[str], Trial] = {}
-    for trial in sorted(trials, key=lambda t: t.bic):
+    for trial in sorted(trials, key=lambda t: t.cost):
         best.setdefault(frozenset(trial.names), trial)
     return list(best.values())

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from fitting.effects.base import Change
 from fitting.effects.spanned import SpannedPlate
+from fitting.nuisances import Nuisances
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -43,6 +44,9 @@ class Answer:
     heave_by_u: Complex
     """To each unknown. Shape (unknowns, nodes)."""
     pitch_by_u: Complex
+    heave_by_z: Complex
+    """To each stated number, in standard deviations. Shape (count, nodes)."""
+    pitch_by_z: Complex
     poles: Complex
     """Where the poles that were asked for have gone, rad/s."""
 
@@ -57,33 +61,44 @@ def answer(
     modulus: ModulusNear | None = None,
     *,
     with_pitch: bool,
+    nuisances: tuple[Nuisances, Array] | None = None,
 ) -> Answer:
     """Solve the nodes.
 
     `pole_node` has a node near every pole wanted, `modulus` what is near them; `nearby` for every unknown the
-    changes a step above and below, and the step between them.
+    changes a step above and below, and the step between them. `nuisances` with where they are: `change` has
+    what they change in it.
     """
-    C_1 = change.damping * ((plate.U * plate.d) @ plate.U.T)
+    C_1 = (plate.U * (plate.d * change.damping)) @ plate.U.T
     K_1 = plate.K_1 + change.K_1
     A = _dynamic(plate.K_0 + change.K, K_1, plate.M + change.M, C_1, omega, G)
     load, observe = plate.load + change.load, plate.observe + change.observe
     sides = [load, observe, plate.pitch] if with_pitch else [load, observe]
     rhs = np.stack(sides, axis=1).astype(complex)
-    sides_by_node = np.broadcast_to(rhs, (len(omega), *rhs.shape))
+    sides_by_node = np.array(np.broadcast_to(rhs, (len(omega), *rhs.shape)))
+    travel = -1 / omega**2
+    sides_by_node[:, :, 0] += travel[:, None] * change.travel_load
     solved = np.asarray(np.linalg.solve(A, sides_by_node), dtype=np.complex128)
     q, z = solved[:, :, 0], solved[:, :, 1]
     p = solved[:, :, 2] if with_pitch else None
     step = _Step(plate, omega, G, z)
     pairs = [(_between(up, down, 1 / h)) for up, down, h in nearby]
     none = np.zeros((0, len(omega)), complex)
+    by_z = pitch_by_z = none
+    if nuisances is not None:
+        who, at = nuisances
+        by_z = who.by_response(plate, omega, G, q, z, at)
+        pitch_by_z = who.by_pitch(plate, omega, G, p, z, at) if p is not None else 0 * by_z
     return Answer(
-        heave=q @ observe,
+        heave=q @ observe + travel * change.travel,
         heave_by_G=-np.einsum("pi,pi->p", z, q @ K_1.T),
         pitch=p @ observe if p is not None else np.zeros(len(omega), complex),
-        heave_by_u=np.array([step.by(d, q, d.load) for d in pairs]) if pairs else none,
-        pitch_by_u=np.array([step.by(d, p, 0.0) for d in pairs])
+        heave_by_u=np.array([step.by(d, q) + step.by_base(d) for d in pairs]) if pairs else none,
+        pitch_by_u=np.array([step.by(d, p) for d in pairs])
         if pairs and p is not None
         else np.zeros((len(pairs), len(omega)), complex),
+        heave_by_z=by_z,
+        pitch_by_z=pitch_by_z,
         poles=poles_near(
             plate.K_0 + change.K,
             K_1,
@@ -144,7 +159,7 @@ def _between(up: Change, down: Change, per_step: float) -> Change:
     return Change(
         *(
             (getattr(up, n) - getattr(down, n)) * per_step
-            for n in ("K", "K_1", "M", "load", "observe", "damping")
+            for n in ("K", "K_1", "M", "load", "observe", "damping", "travel_load", "travel")
         )
     )
 
@@ -156,8 +171,14 @@ class _Step:
     G: Complex
     z: Complex
 
-    def by(self, d: Change, q: Complex, load: Array | float) -> Complex:
-        """Derivative of x along the derivative `d` of a change. Shape (nodes,)."""
+    def by_base(self, d: Change) -> Complex:
+        """Derivative of x along what the derivative `d` of a change makes of the base's motion."""
+        travel = -1 / self.omega**2
+        load = d.load + travel[:, None] * d.travel_load
+        return np.asarray((self.z * load).sum(axis=1) + travel * d.travel, dtype=np.complex128)
+
+    def by(self, d: Change, q: Complex) -> Complex:
+        """And along what it makes of the plate's motion `q`. Shape (nodes,)."""
         found = np.zeros(len(self.omega), complex)
         parts: list[tuple[object, Complex | Array | float]] = [
             (d.K, 1.0),
@@ -167,11 +188,9 @@ class _Step:
         for A, factor in parts:
             if isinstance(A, np.ndarray):
                 found -= factor * np.einsum("pi,pi->p", self.z, q @ A.T)
-        if d.damping:
-            U, weights = self.plate.U, self.plate.d
-            found -= d.damping * 1j * self.omega * np.einsum("pr,pr,r->p", self.z @ U, q @ U, weights)
-        if isinstance(load, np.ndarray):
-            found += self.z @ load
+        if np.any(d.damping):
+            U, weights = self.plate.U, self.plate.d * d.damping
+            found -= 1j * self.omega * np.einsum("pr,pr,r->p", self.z @ U, q @ U, weights)
         if isinstance(d.observe, np.ndarray):
             found += q @ d.observe
         return found
@@ -186,8 +205,7 @@ def core_strain(plate: SpannedPlate, omega: Array, G: Complex, mean_square: Arra
 
 def answer_motion(plate: SpannedPlate, omega: Array, G: Complex, change: Change) -> Complex:
     """Motion q of A q = load. Shape (nodes, k)."""
-    C_1 = change.damping * ((plate.U * plate.d) @ plate.U.T)
+    C_1 = (plate.U * (plate.d * change.damping)) @ plate.U.T
     A = _dynamic(plate.K_0 + change.K, plate.K_1 + change.K_1, plate.M + change.M, C_1, omega, G)
-    load = plate.load + change.load
-    rhs = np.broadcast_to(load[:, None].astype(complex), (len(omega), len(load), 1))
-    return np.asarray(np.linalg.solve(A, rhs)[:, :, 0])
+    load = plate.load + change.load - change.travel_load / (omega**2)[:, None]
+    return np.asarray(np.linalg.solve(A, load[:, :, None].astype(complex))[:, :, 0])

@@ -25,9 +25,16 @@ class PlatePoles:
         U = plate.U[own]
         self.C_1 = (U * plate.d) @ U.T
         self._known: dict[complex, Complex] = {}
+        self._found: dict[tuple[float, float], Complex] = {}
 
     def near(self, low: float, high: float) -> Complex:
         """In and beside a range (rad/s), the law continued off the real axis to first order."""
+        key = round(low, 6), round(high, 6)
+        if key not in self._found:
+            self._found[key] = self._near(low, high)
+        return self._found[key]
+
+    def _near(self, low: float, high: float) -> Complex:
         middle, h = (low + high) / 2, 1e-3 * (low + high)
         below, G, above = self.law.modulus(np.array([middle - h, middle, middle + h]))
         slope = (above - below) / (2 * h)

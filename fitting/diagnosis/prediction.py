@@ -13,13 +13,13 @@ from fitting.identification.validation import Mask, Validation, validate
 Array = NDArray[np.float64]
 
 
-def held_out(task: Task, evidence: Evidence, fitted: Fitted, priors: Array) -> Validation:
+def held_out(task: Task, evidence: Evidence, fitted: Fitted) -> Validation:
     """Every segment predicted by a law and effects fitted to the others; few points one by one."""
     size = np.abs(task.sweep.response_m_s)
     response = Response(task.around(fitted.law), fitted.effects)
 
     def differences(points: Mask) -> Array:
-        learnt = refit(response, evidence, fitted.law, fitted.u, points=points, priors=priors)
+        learnt = refit(response, evidence, fitted.law, fitted.u, points=points)
         return differences_percent(task.sweep, learnt.velocity_m_s)
 
     return validate(

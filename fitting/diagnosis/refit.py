@@ -1,6 +1,6 @@
 """Law and unknowns of some effects fitted together: bounded least squares on whitened residuals."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,6 +9,7 @@ from scipy.optimize import least_squares
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.response import Response
 from fitting.effects.base import Effect
+from fitting.identification.uncertainty import limits_reached
 from fitting.laws import CoreLaw
 
 Array = NDArray[np.float64]
@@ -17,6 +18,8 @@ Mask = NDArray[np.bool_]
 
 _MOST_EVALUATIONS = 25
 _ROUGH_EVALUATIONS = 10
+_WIDEST = 3.0
+"""Times a standard error, that a flat chi-square may widen it."""
 ROUGH, GOOD = 1e-3, 1e-5
 """Relative change of chi-square and parameters at which a fit stops: to choose, and to compare."""
 
@@ -28,21 +31,27 @@ class Fitted:
     effects: tuple[Effect, ...]
     law: CoreLaw
     u: Array
+    """The stated numbers, in standard deviations, then the effects' unknowns."""
     velocity_m_s: Complex
     residuals: Array
-    """Whitened; the bare plate's after the sweep's, then priors."""
+    """Whitened; the bare plate's after the sweep's, then the stated numbers'."""
     jacobian: Array
-    """To the log parameters of the law and to the free unknowns as they are fitted."""
+    """To the log parameters of the law, to the stated numbers and to the free unknowns as they are fitted."""
     data: int
     """How many of `residuals` are readings."""
     free: Array
-    """Which of the unknowns are fitted. Shape (unknowns,), true or false."""
+    """Which of `u` are fitted. Shape of `u`, true or false."""
+    stated: int
+    """How many of `u` are stated numbers."""
     noise_known: bool
+    iterations: int = 0
+    evaluations: int = 0
+    converged: bool = True
 
     @property
     def parameters(self) -> int:
-        """How many numbers were fitted."""
-        return self.jacobian.shape[1]
+        """How many numbers were fitted that nothing was known of: neither stated ones nor the law's bend."""
+        return self.jacobian.shape[1] - self.stated - self.law.bends
 
     @property
     def chi2(self) -> float:
@@ -57,20 +66,48 @@ class Fitted:
 
     def of(self, effect: Effect) -> Array:
         """The unknowns of one of its effects."""
-        start = sum(len(e.unknowns) for e in self.effects[: self.effects.index(effect)])
+        start = self.stated + sum(len(e.unknowns) for e in self.effects[: self.effects.index(effect)])
         return self.u[start : start + len(effect.unknowns)]
 
     @property
+    def z(self) -> Array:
+        """The stated numbers, in standard deviations of their tolerances."""
+        return self.u[: self.stated]
+
+    @property
+    def unexplained(self) -> float:
+        """What the stated numbers had to be moved: their sum of squares."""
+        return float(self.z @ self.z)
+
+    @property
     def covariance(self) -> Array:
-        """Of the fitted parameters, scaled by the residual: only upwards where the noise is known."""
-        scale = np.linalg.norm(self.jacobian, axis=0)
-        scale = np.where(scale > 0, scale, 1.0)
-        _, s, Vt = np.linalg.svd(self.jacobian / scale, full_matrices=False)
-        root = Vt.T / np.maximum(s, 1e-12 * s.max()) / scale[:, None]
+        """Of the fitted parameters, scaled by the residual: only upwards where the noise is known.
+
+        A parameter of the law that sits at a limit is taken as fixed there; what the data leave open is
+        bounded by the ranges that are searched.
+        """
         chi2 = self.chi2_per_dof
+        scale = chi2 if np.isfinite(chi2) else 1.0
         if self.noise_known:
-            chi2 = max(1.0, chi2)
-        return np.asarray(root @ root.T * (chi2 if np.isfinite(chi2) else 1.0))
+            scale = max(1.0, scale)
+        fixed = limits_reached(self.law)
+        kept = np.array([name not in fixed for name in self.law.names] + [True] * self._others)
+        J = self.jacobian[:, kept] / np.sqrt(scale)
+        widths = self.law.search_widths
+        bounds = np.zeros((len(widths), self.jacobian.shape[1]))
+        bounds[:, : len(widths)] = np.diag(1 / widths)
+        J = np.vstack([J, bounds[:, kept]])
+        size = np.linalg.norm(J, axis=0)
+        size = np.where(size > 0, size, 1.0)
+        _, s, Vt = np.linalg.svd(J / size, full_matrices=False)
+        root = Vt.T / np.maximum(s, 1e-12 * s.max()) / size[:, None]
+        found = np.zeros((len(kept), len(kept)))
+        found[np.ix_(kept, kept)] = root @ root.T
+        return found
+
+    @property
+    def _others(self) -> int:
+        return self.jacobian.shape[1] - len(self.law.names)
 
 
 def refit(
@@ -81,10 +118,9 @@ def refit(
     *,
     tolerance: float = GOOD,
     points: Mask | None = None,
-    priors: Array | None = None,
 ) -> Fitted:
     """The best law and unknowns from `law` and `u` on; `points` limits the sweep's points that count."""
-    problem = _Problem(response, evidence, law, u, points, priors)
+    problem = _Problem(response, evidence, law, u, points)
     lower, upper = problem.limits
     found = least_squares(
         problem.residuals,
@@ -97,12 +133,41 @@ def refit(
         gtol=1e-10,
         max_nfev=_ROUGH_EVALUATIONS if tolerance >= ROUGH else _MOST_EVALUATIONS,
     )
-    return problem.fitted(found.x)
+    return replace(
+        problem.fitted(found.x),
+        iterations=int(found.njev),
+        evaluations=int(found.nfev),
+        converged=bool(found.status > 0),
+    )
 
 
-def kept(response: Response, evidence: Evidence, law: CoreLaw, u: Array, priors: Array) -> Fitted:
+def posterior(response: Response, evidence: Evidence, fitted: Fitted) -> Array:
+    """`Fitted.covariance`, wider where chi-square is flatter than its curvature says.
+
+    Looked at along the directions of the stated numbers that the fit has moved by more than a standard
+    deviation: one posterior standard deviation off, chi-square must have risen by one.
+    """
+    C = fitted.covariance
+    moved = np.flatnonzero(np.abs(fitted.z) > 1)
+    if not len(moved) or not fitted.noise_known:
+        return C
+    problem = _Problem(response, evidence, fitted.law, fitted.u, None)
+    x, (lower, upper) = problem.start, problem.limits
+    n = len(fitted.law.names)
+    for k in n + moved:
+        step = C[:, k] / np.sqrt(C[k, k])
+        rises = [
+            np.sum(problem.residuals(np.clip(x + s * step, lower, upper)) ** 2) - fitted.chi2 for s in (1, -1)
+        ]
+        rise = float(np.clip(np.mean(rises), 1 / _WIDEST**2, None))
+        if rise < 1:
+            C = C + (1 / rise - 1) * np.outer(step, step)
+    return C
+
+
+def kept(response: Response, evidence: Evidence, law: CoreLaw, u: Array) -> Fitted:
     """As `refit`, nothing moved."""
-    problem = _Problem(response, evidence, law, u, None, priors)
+    problem = _Problem(response, evidence, law, u, None)
     lower, upper = problem.limits
     return problem.fitted(np.clip(problem.start, lower, upper))
 
@@ -115,13 +180,12 @@ class _Problem:
         law: CoreLaw,
         u: Array,
         points: Mask | None,
-        priors: Array | None,
     ) -> None:
         self.response, self.law, self.u = response, law, np.asarray(u, float)
         self.points = points
         self.evidence = evidence if points is None else evidence.take(points)
-        self.priors = np.full(len(self.u), np.inf) if priors is None else priors
         q = response.unknowns
+        self._z = len(response.nuisances)
         self.free = np.array([not x.fixed for x in q], dtype=bool)
         self.logarithmic = np.array([x.logarithmic for x in q], dtype=bool)
         self._last: tuple[bytes, Array, Array, Complex] | None = None
@@ -143,10 +207,12 @@ class _Problem:
     @property
     def limits(self) -> tuple[Array, Array]:
         low, high = self.law.log_limits
-        found = [e.limits(self.response.plate) for e in self.response.effects]
-        u_low, u_high = (
-            self._to_inner(np.concatenate([np.empty(0), *(f[k] for f in found)]))[self.free] for k in (0, 1)
-        )
+        stated = self.response.unknowns[: self._z]
+        found = [
+            (np.array([q.lower for q in stated]), np.array([q.upper for q in stated])),
+            *(e.limits(self.response.plate) for e in self.response.effects),
+        ]
+        u_low, u_high = (self._to_inner(np.concatenate([f[k] for f in found]))[self.free] for k in (0, 1))
         return np.concatenate([low, u_low]), np.concatenate([high, u_high])
 
     def _split(self, x: Array) -> tuple[CoreLaw, Array]:
@@ -173,7 +239,7 @@ class _Problem:
         rows = [(r, J)]
         if self.evidence.bare is not None:
             rows.append(self._bare(u))
-        rows.append(self._prior(u))
+        rows += [self._prior(u), self._bend(law)]
         r, J = np.concatenate([a for a, _ in rows]), np.vstack([b for _, b in rows])
         self._last = key, r, J, v
         return r, J, v
@@ -183,7 +249,7 @@ class _Problem:
         assert bare is not None
 
         def rows(u: Array) -> Array:
-            start, expected = 0, np.zeros(len(bare.shift))
+            start, expected = self._z, bare.stated_shift(self.response.nuisances, u[: self._z])
             for e in self.response.effects:
                 stop = start + len(e.unknowns)
                 expected = expected + e.bare_shift(bare.lowering_per_density, u[start:stop])
@@ -192,7 +258,12 @@ class _Problem:
 
         r = rows(u)
         J = np.zeros((len(r), self._n + int(self.free.sum())))
+        if self._z:
+            by_z = bare.by_stated(self.response.nuisances, u[: self._z])
+            J[:, self._n : self._n + self._z] = bare.whitened_change(by_z.T)
         for column, k in enumerate(np.flatnonzero(self.free)):
+            if k < self._z:
+                continue
             h = 1e-5 * (abs(u[k]) if self.logarithmic[k] else self.response.unknowns[k].typical or 1.0)
             moved = u.copy()
             moved[k] += h
@@ -201,14 +272,16 @@ class _Problem:
         return r, J
 
     def _prior(self, u: Array) -> tuple[Array, Array]:
-        known = np.flatnonzero(self.free & np.isfinite(self.priors))
-        neutral = np.array([self.response.unknowns[k].neutral for k in known], dtype=float)
-        r = (u[known] - neutral) / self.priors[known]
-        J = np.zeros((len(known), self._n + int(self.free.sum())))
-        place = np.cumsum(self.free) - 1
-        for row, k in enumerate(known):
-            J[row, self._n + place[k]] = 1 / self.priors[k]
-        return r, J
+        """Of the stated numbers: each in standard deviations of its tolerance."""
+        J = np.zeros((self._z, self._n + int(self.free.sum())))
+        J[:, self._n : self._n + self._z] = np.eye(self._z)
+        return u[: self._z], J
+
+    def _bend(self, law: CoreLaw) -> tuple[Array, Array]:
+        """Of the law's bend, whitened."""
+        J = np.zeros((law.bends, self._n + int(self.free.sum())))
+        J[:, self._n - law.bends : self._n] = np.eye(law.bends)
+        return np.log(law.values[self._n - law.bends :]), J
 
     def fitted(self, x: Array) -> Fitted:
         r, J, v = self._both(x)
@@ -222,5 +295,6 @@ class _Problem:
             J,
             self.evidence.count,
             self.free,
+            self._z,
             self.evidence.scale_known,
         )

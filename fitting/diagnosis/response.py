@@ -1,5 +1,7 @@
 """What a sweep reads of a plate with some effects, and how that changes with law and unknowns.
 
+The stated numbers come first among the unknowns (`fitting.nuisances`), then those of each effect.
+
 The unchanged plate is exact at every point (a rational sum in G*). What effects change of the plate is
 solved at a few nodes and interpolated, to first order in how far a point's modulus is off the law's.
 Channels, sharp factors and the law itself act at every point.
@@ -23,20 +25,30 @@ Complex = NDArray[np.complex128]
 
 _H = 1e-4
 """Step of differences, of an unknown's typical size."""
+_SMALL = 1e-6
+"""Of the velocity: the step along which a derivative of it is read."""
 _SOFTENED = np.array([-0.3, 0.0, 0.25, 0.5])
 _ONE_G = 9.81
 _KEPT = 8
 
 
 class Response:
-    """The sweep of a task under a law and effects. `u` holds their unknowns, one effect after the other."""
+    """The sweep of a task under a law and effects.
+
+    `u` holds the stated numbers in standard deviations, then the effects' unknowns, one after the other.
+    """
 
     def __init__(self, task: Task, effects: Sequence[Effect], grid: Grid | None = None) -> None:
-        self.task, self.effects = task, tuple(effects)
-        self.unknowns: tuple[Unknown, ...] = tuple(u for e in effects for u in e.unknowns)
+        self.task, self.effects, self.nuisances = task, tuple(effects), task.nuisances
+        count = len(self.nuisances)
+        self.unknowns: tuple[Unknown, ...] = (
+            *(_STATED,) * count,
+            *(u for e in effects for u in e.unknowns),
+        )
         spans = {s.name: s for e in effects for s in e.spans}
         self.plate: SpannedPlate = task.plate.take(spans.values())
-        self._slices, start = [], 0
+        self._stated = slice(0, count)
+        self._slices, start = [], count
         for effect in self.effects:
             self._slices.append(slice(start, start + len(effect.unknowns)))
             start += len(effect.unknowns)
@@ -44,7 +56,7 @@ class Response:
         self._pitching = [k for k, e in enumerate(self.effects) if type(e).pitch is not Effect.pitch]
         self._shifting = [k for k, e in enumerate(self.effects) if type(e).modulus is not Effect.modulus]
         grid = grid or task.fine
-        if self._shifting and (self._changing or self._pitching):
+        if self._shifting and (self._changing or self._pitching or self.nuisances):
             # The modulus is another one in every pass.
             grid = task.passes
         self.grid = grid
@@ -61,11 +73,17 @@ class Response:
         """Phasors, and their derivatives to log parameters and then to `u`. Shape (parameters, points)."""
         at = self._at(law, u)
         by_law = self._modulus_by_law(law, u, at) * (at.slope * at.per_x)
-        by_u = [self._by(k, law, u, at) for k in range(len(self.unknowns))]
-        raw = np.array([*by_law, *by_u]).reshape(-1, len(at.raw))
-        moved = np.array([self._read(at.raw + d, u) - at.v for d in raw])
-        for k in range(len(self.unknowns)):
+        count = len(self.nuisances)
+        by_z = self._by_stated(at) if count else []
+        by_u = [self._by(k, law, u, at) for k in range(count, len(self.unknowns))]
+        raw = np.array([*by_law, *by_z, *by_u]).reshape(-1, len(at.raw))
+        moved = np.array([self._read_along(at, d, u) for d in raw])
+        for k in range(count, len(self.unknowns)):
             moved[len(by_law) + k] += self._read_by(k, at.raw, u)
+        if count:
+            by_reading = self.nuisances.by_reading(at.v, self.task.points.omega, u[self._stated])
+            for k, d in by_reading.items():
+                moved[len(by_law) + k] += d
         return at.v, moved
 
     def signatures(self, law: CoreLaw, known: Array, starts: Sequence[Array]) -> Complex:
@@ -77,6 +95,8 @@ class Response:
         at = others._at(law, known)
         nodes, last = self.grid.nodes, self.effects[-1]
         found = [others.effects[k].change(self.plate, others._of(k, known)) for k in others._changing]
+        if self.nuisances:
+            found.append(self.nuisances.change(self.plate, known[self._stated]))
         G, _ = others._bearing(law, law.modulus(self.task.points.omega), at.G)
         solved = answer(
             self.plate,
@@ -90,7 +110,7 @@ class Response:
         )
         by_u = nodes.spread(np.stack([solved.heave_by_u, solved.pitch_by_u]), solved.poles, solved.poles)
         raw = at.per_x * (by_u[0] + at.pitch * by_u[1])
-        return np.array([others._read(at.raw + d, known) - at.v for d in raw])
+        return np.array([others._read_along(at, d, known) for d in raw])
 
     def beside(self, effect: Effect) -> "Response":
         """The same with one more effect."""
@@ -110,7 +130,7 @@ class Response:
         pitch = np.zeros(len(omega), complex)
         turned = np.zeros(len(omega), complex)
         found = None
-        if self._changing or self._pitching:
+        if self._changing or self._pitching or self.nuisances:
             G_nodes, smooth = self._bearing(law, G_law, G)
             found, (moved, turned, changed_slope) = self._answer(u, G_nodes)
             x = x + moved
@@ -139,7 +159,7 @@ class Response:
 
     def _answer(self, u: Array, G: Complex) -> tuple[Answer, Complex]:
         """At the nodes; and at every point the change of x, the answer to pitch, and dx/dG."""
-        changing = [self._of(k, u) for k in self._changing]
+        changing = [u[self._stated], *(self._of(k, u) for k in self._changing)]
         key = G.tobytes() + b"".join(c.tobytes() for c in changing)
         if self._last is None or self._last[0] != key:
             changes = self._changes(u)
@@ -162,6 +182,7 @@ class Response:
                 nodes.pole_node,
                 self.grid.modulus_near_poles(G),
                 with_pitch=bool(self._pitching),
+                nuisances=(self.nuisances, u[self._stated]) if self.nuisances else None,
             )
             changed = np.array([solved.heave - self.grid.rational.displacement(G), solved.pitch])
             simple = nodes.spread(changed, self.grid.unchanged_poles(G), solved.poles)
@@ -172,6 +193,8 @@ class Response:
 
     def _changes(self, u: Array) -> Change:
         found = [self.effects[k].change(self.plate, self._of(k, u)) or Change() for k in self._changing]
+        if self.nuisances:
+            found.append(self.nuisances.change(self.plate, u[self._stated]))
         return reduce(Change.and_then, found, Change())
 
     def _modulus(self, law: CoreLaw, u: Array, G_law: Complex, strained: CoreLaw | None = None) -> Complex:
@@ -208,6 +231,7 @@ class Response:
     def _strain_table(self, law: CoreLaw, u: Array) -> Array:
         """Ln strain at every point as a cubic of the softening. Shape (4, points)."""
         key = law.values.tobytes() + b"".join(self._of(k, u).tobytes() for k in self._changing)
+        key += u[self._stated].tobytes()
         if key not in self._strains:
             nodes = self.task.dense
             G, changes = law.modulus(nodes.omega), self._changes(u)
@@ -227,7 +251,16 @@ class Response:
         for k, effect in enumerate(self.effects):
             read = effect.reading(v, self.task.points, self._of(k, u))
             v = v if read is None else read
-        return v
+        return self.nuisances.reading(v, self.task.points.omega, u[self._stated]) if self.nuisances else v
+
+    def _read_along(self, at: "_At", d: Complex, u: Array) -> Complex:
+        """What is read of a derivative `d` of the velocity before the channels."""
+        size = np.abs(d).max()
+        if size == 0:
+            return np.zeros(len(d), complex)
+        # A channel may bend, and a derivative to 10^14 N/m^3 drowns beside the velocity.
+        h = _SMALL * np.abs(at.raw).max() / size
+        return (self._read(at.raw + h * d, u) - at.v) / h
 
     # Derivatives to unknown n.
 
@@ -268,6 +301,15 @@ class Response:
             found = found + at.per_x * at.slope * dG
         return found
 
+    def _by_stated(self, at: "_At") -> list[Complex]:
+        """Of the velocity before the channels to each stated number."""
+        assert at.answer is not None
+        found = at.answer
+        heave, turned = self.grid.nodes.spread(
+            np.array([found.heave_by_z, found.pitch_by_z]), found.poles, found.poles
+        )
+        return list(at.per_x * (heave + at.pitch * turned))
+
     def _place_of(self, n: int) -> int:
         order = [m for k in self._changing for m in range(self._slices[k].start, self._slices[k].stop)]
         return order.index(n)
@@ -278,6 +320,10 @@ class Response:
             return np.zeros(len(raw), complex)
         h = self._step(n, u)
         return (self._read(raw, _moved(u, n, h)) - self._read(raw, _moved(u, n, -h))) / (2 * h)
+
+
+_STATED = Unknown("stated", "1", -12.0, 12.0, 1.0)
+"""A stated number, in standard deviations of its tolerance."""
 
 
 @dataclass(frozen=True)

@@ -1,12 +1,13 @@
 """What a diagnosis says."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.identification.adjusted import Adjusted
 from fitting.identification.result import LawBand
 from fitting.identification.validation import Validation, rms
 from fitting.laws import CoreLaw
@@ -31,6 +32,8 @@ class FoundEffect:
 
     name: str
     parameters: Mapping[str, Estimate]
+    probability: float = 1.0
+    """That it is there, alone or beside another."""
 
 
 @dataclass(frozen=True)
@@ -38,10 +41,16 @@ class Candidate:
     """One effect, or two together, fitted with the law."""
 
     effects: tuple[FoundEffect, ...]
-    delta_bic: float
-    """Above the best candidate's; of `none` too."""
+    delta_cost: float
+    """-2 ln of prior times marginal likelihood, above the best candidate's; of `none` too."""
     chi2_per_dof: float
     """NaN where the noise is unknown."""
+    probability: float = float("nan")
+    """One of all that were tried being right."""
+    law: LawBand | None = None
+    """At a few frequencies, its own."""
+    checks: Mapping[str, float] = field(default_factory=dict)
+    """Tail probabilities of posterior predictive checks, by what was looked at."""
 
     @property
     def name(self) -> str:
@@ -66,6 +75,8 @@ class Stage:
     validation: Validation
     structure: tuple[str, ...]
     """Tests that find the whitened residuals not random, in words."""
+    adjusted: tuple[Adjusted, ...] = ()
+    """The stated numbers as the fit has them."""
 
     @property
     def rms_percent(self) -> float:

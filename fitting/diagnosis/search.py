@@ -1,7 +1,7 @@
 """The catalogue tried on a residual, effect by effect."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from fitting.diagnosis.candidates import WRONG, Contender, has_place, polished
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.hands import Hands
-from fitting.diagnosis.model_error import excess
+from fitting.diagnosis.marginal import cost
+from fitting.diagnosis.predictive import checks, form_error, passes, temper
 from fitting.diagnosis.refit import Fitted, refit
 from fitting.diagnosis.response import Response
 from fitting.diagnosis.task import Task
@@ -21,11 +22,11 @@ from fitting.identification.validation import Validation
 Array = NDArray[np.float64]
 Report = Callable[[float], None]
 NEAR = 40.0
-"""In BIC, above the best: effects so near are gone into twice."""
+"""In cost above the best: effects so near are gone into twice."""
 UNCLEAR = 1.1
 """Chi-square per degree of freedom above which the first pass may have missed the cause."""
 PROMISING = 5.0
-"""In BIC, over none: below it nothing is gone into twice."""
+"""In cost below none's: below it nothing is gone into twice."""
 LEADERS = 5
 """Effects that are gone into twice, and that a second one is looked for beside."""
 LEFT_BEHIND = 4.0
@@ -36,17 +37,23 @@ _SPARE = 2
 
 @dataclass(frozen=True, eq=False)
 class Trial:
-    """A fitted candidate and its evidence: chi-square with every parameter paid for (BIC)."""
+    """A fitted explanation, what it is worth, and what speaks against it."""
 
     fitted: Fitted
-    bic: float
-    leans: bool = False
-    """Whether it fits only by bending the plate more than a layer-wise plate and its own model are wrong."""
+    cost: float
+    """-2 ln of prior times marginal likelihood (`marginal`)."""
+    checks: Mapping[str, float] = field(default_factory=dict)
+    """Tail probabilities of posterior predictive checks (`predictive`)."""
 
     @property
     def names(self) -> tuple[str, ...]:
         """Of its effects; empty for none."""
         return tuple(e.name for e in self.fitted.effects)
+
+    @property
+    def fails(self) -> bool:
+        """Whether such data are not what it would leave."""
+        return not passes(self.checks)
 
 
 class Search:
@@ -64,7 +71,6 @@ class Search:
         """`unnamed` are fitted alone, for comparison, and never named."""
         self.task, self.evidence, self.hands = task, evidence, hands
         self.stated = stated = none.law
-        self._choosing: dict[str, float] = {}
         self._validations: dict[int, tuple[Trial, Validation]] = {}
         self.effects, self.unnamed = (
             [e for e in some if e.objection(task.points, task.plate) is None] for some in (effects, unnamed)
@@ -73,6 +79,7 @@ class Search:
         # Those that take longest come first: hands then end at the same time.
         self._fitted = sorted(fitted, key=has_place, reverse=True)
         self.work = Work(task, evidence, none, [*self.effects, *self.unnamed])
+        self._none = none
         self.none = self.judged(none)
 
     def with_evidence(self, evidence: Evidence) -> "Search":
@@ -82,31 +89,18 @@ class Search:
         return Search(self.task, evidence, again, self.effects, self.hands, self.unnamed)
 
     def judged(self, fitted: Fitted) -> Trial:
-        """A fit with what it costs."""
-        n = self.evidence.count + (len(self.evidence.bare.shift) if self.evidence.bare else 0)
-        parameters = fitted.parameters
-        if any(e.replaces_law for e in fitted.effects):
-            # One of many laws: choosing is a parameter too, and none counts less than the stated one.
-            parameters = max(parameters, len(self.stated.names)) + 2
-        paid = parameters * np.log(n) + sum(self._choices(e) for e in fitted.effects)
-        if self.evidence.scale_known:
-            bic = fitted.chi2 + paid
-            return Trial(fitted, bic, self._leans(fitted, bic))
-        # Noise of unknown size: its estimate is in the likelihood.
-        return Trial(fitted, n * np.log(max(fitted.chi2, 1e-300) / n) + paid)
+        """A fit with what it is worth."""
+        found = checks(self.task.sweep, self.evidence, self._none, fitted)
+        return Trial(fitted, cost(fitted, self.task.plate), found)
 
-    def _leans(self, fitted: Fitted, bic: float) -> bool:
-        if not fitted.effects:
-            return False
-        own = max(e.bends for e in fitted.effects) * (self.none.bic - bic)
-        return excess(self.evidence, fitted) > max(own, 0.0)
+    def temper(self, best: Trial) -> float:
+        """How much less a difference of costs says, where the best explains far more than noise."""
+        return temper(self._none, best.fitted) if self.evidence.scale_known else 1.0
 
-    def _choices(self, effect: Effect) -> float:
-        """What it costs that a place was chosen among many: one of them fits noise best."""
-        if effect.name not in self._choosing:
-            many = len(effect.starts(self.task.plate, self.task.points)) if has_place(effect) else 1
-            self._choosing[effect.name] = 2 * float(np.log(many))
-        return self._choosing[effect.name]
+    def allowed(self, trial: Trial) -> float:
+        """Chi-square per degree of freedom that the formulas of a trial's effects may leave."""
+        dof = max(1, trial.fitted.data - trial.fitted.parameters)
+        return 1 + form_error(self._none, trial.fitted) / dof
 
     def validation(self, trial: Trial) -> Validation:
         """What a trial says of data it has not seen."""
@@ -121,7 +115,9 @@ class Search:
         if any(e.replaces_law for e in pair.effects):
             return []
         return [
-            self.judged(polished(self.task, [e], self.evidence, pair.law, pair.of(e), self.work.priors([e])))
+            self.judged(
+                polished(self.task, [e], self.evidence, pair.law, np.concatenate([pair.z, pair.of(e)]))
+            )
             for e in pair.effects
         ]
 
@@ -133,7 +129,7 @@ class Search:
         def keep(fits: Iterable[Fitted]) -> None:
             for trial in (self.judged(f) for f in fits if self._determined(f)):
                 name = trial.names[0]
-                if name not in found or trial.bic < found[name].bic:
+                if name not in found or trial.cost < found[name].cost:
                     found[name] = trial
 
         laws = [e for e in self.effects if e not in self._fitted]
@@ -151,7 +147,7 @@ class Search:
         places = [(name, work.state(name)) for name in self._misplaced(found)]
         for fits in each(work.everywhere, places, lambda x: report(0.9 + 0.1 * x)):
             keep(fits)
-        return sorted(found.values(), key=lambda t: t.bic)
+        return sorted(found.values(), key=lambda t: t.cost)
 
     def _determined(self, fitted: Fitted) -> bool:
         return fitted.parameters <= self.evidence.count - _SPARE
@@ -168,23 +164,23 @@ class Search:
 
     def _worth_more(self, found: Mapping[str, Trial]) -> list[str]:
         """Effects that better starts might bring to the top, after a first pass."""
-        order = sorted(found.values(), key=lambda t: t.bic)
-        if not order or self.none.bic - order[0].bic < PROMISING:
+        order = sorted(found.values(), key=lambda t: t.cost)
+        if not order or self.none.cost - order[0].cost < PROMISING:
             return []
-        names = {t.names[0] for t in order if t.bic < order[0].bic + NEAR}
+        names = {t.names[0] for t in order if t.cost < order[0].cost + NEAR}
         best = order[0].fitted
         if not best.chi2_per_dof < UNCLEAR or any(e.replaces_law for e in best.effects):
             names |= {t.names[0] for t in order[:LEADERS]} | self._promising()
         return [e.name for e in self._fitted if e.name in names and e.unknowns]
 
     def _misplaced(self, found: Mapping[str, Trial]) -> list[str]:
-        """Where all that lead lean, those of them whose right place may not have been among the first."""
-        order = sorted(found.values(), key=lambda t: t.bic)
-        if not order or self.none.bic - order[0].bic < PROMISING:
+        """Where all that lead fail, those of them whose right place may not have been among the first."""
+        order = sorted(found.values(), key=lambda t: t.cost)
+        if not order or self.none.cost - order[0].cost < PROMISING:
             return []
         effects = {e.name: e for e in self._fitted}
-        leading = [t for t in order if t.bic < order[0].bic + NEAR and t.names[0] in effects]
-        if not all(t.leans for t in leading):
+        leading = [t for t in order if t.cost < order[0].cost + NEAR and t.names[0] in effects]
+        if not all(t.fails for t in leading):
             return []
         return [t.names[0] for t in leading if has_place(effects[t.names[0]])]
 
@@ -216,12 +212,9 @@ class Search:
                 raise OutsideModel(f"{effect.name}: {objection}")
             if effect.replaces_law:
                 fits = self.work.other_laws(effect)
-                fitted = min(fits, key=lambda f: self.judged(f).bic)
+                fitted = min(fits, key=lambda f: self.judged(f).cost)
                 continue
-            priors = self.work.priors([*fitted.effects, effect])
-            contenders = [
-                Contender(self.task, self.evidence, fitted, form, priors) for form in effect.variants()
-            ]
+            contenders = [Contender(self.task, self.evidence, fitted, form) for form in effect.variants()]
             fits = [c.finished(f) for c in contenders for f in [*c.near[:1], *c.far[:1]]]
             fitted = min(fits, key=lambda f: f.chi2)
         return self.judged(fitted)

@@ -1,39 +1,44 @@
 """A fit before or after, with everything that is said of it."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.refit import Fitted
+from fitting.diagnosis.refit import Fitted, posterior
+from fitting.diagnosis.response import Response
 from fitting.diagnosis.result import Estimate, FoundEffect, Stage
+from fitting.diagnosis.search import Search, Trial
 from fitting.diagnosis.structure import structure
 from fitting.diagnosis.task import Task
 from fitting.effects.spanned import SpannedPlate
-from fitting.identification.result import differences_percent, law_band
+from fitting.identification.adjusted import Adjusted, adjusted
+from fitting.identification.result import LawBand, differences_percent, law_band
 from fitting.identification.uncertainty import Uncertainty, limits_reached
 from fitting.identification.validation import Validation
 
 Array = NDArray[np.float64]
 
+_FEW = 9
+"""Frequencies at which a candidate's law is listed, and the reference ones."""
 
-def stage_of(task: Task, evidence: Evidence, fitted: Fitted, validation: Validation) -> Stage:
-    """`validation` is what the fit says of data it has not seen."""
+
+def stage_of(task: Task, evidence: Evidence, fitted: Fitted, validation: Validation, scale: float) -> Stage:
+    """`validation` is what the fit says of data it has not seen; `scale` multiplies its covariance."""
     law = fitted.law
-    reached = limits_reached(law)
-    n = len(law.names)
-    covariance = fitted.covariance
-    # What sits at a limit has no first-order error of its own.
-    at_limit = np.array([name in reached for name in law.names])
-    by_law = covariance[:n, :n] * ~np.logical_or.outer(at_limit, at_limit)
-    errors = np.sqrt(np.diag(by_law)) * law.values
-    uncertainty = Uncertainty(by_law, np.zeros((n, n)), reached, fitted.chi2_per_dof)
+    C = scale * posterior(Response(task, fitted.effects), evidence, fitted)
+    uncertainty = _of_law(fitted, C)
+    reached = uncertainty.at_bound
+    plain = law.plain
+    errors = uncertainty.of_first(len(plain.names)).standard_errors * plain.values
     whitened = fitted.residuals[: fitted.data]
     chi2 = fitted.chi2_per_dof if evidence.scale_known else float("nan")
     return Stage(
-        law=law,
+        law=plain,
         standard_errors={
             name: float("nan") if name in reached else float(e)
-            for name, e in zip(law.names, errors, strict=True)
+            for name, e in zip(plain.names, errors, strict=True)
         },
         band=law_band(task.sweep, law, uncertainty),
         predicted_m_s=fitted.velocity_m_s,
@@ -42,15 +47,62 @@ def stage_of(task: Task, evidence: Evidence, fitted: Fitted, validation: Validat
         chi2_per_dof=chi2,
         validation=validation,
         structure=structure(task.sweep, evidence, whitened, chi2),
+        adjusted=adjusted_of(task, fitted, C),
     )
 
 
-def found_effects(fitted: Fitted, plate: SpannedPlate) -> tuple[FoundEffect, ...]:
-    """The effects of a fit with their sizes and standard errors."""
+def _of_law(fitted: Fitted, covariance: Array) -> Uncertainty:
+    law = fitted.law
+    reached = limits_reached(law)
+    n = len(law.names)
+    # What sits at a limit has no first-order error of its own.
+    at_limit = np.array([name in reached for name in law.names])
+    by_law = covariance[:n, :n] * ~np.logical_or.outer(at_limit, at_limit)
+    return Uncertainty(by_law, reached, fitted.chi2_per_dof)
+
+
+def adjusted_of(task: Task, fitted: Fitted, covariance: Array) -> tuple[Adjusted, ...]:
+    """The stated numbers as a fit has them."""
+    n = len(fitted.law.names)
+    errors = np.sqrt(np.maximum(np.diag(covariance)[n : n + fitted.stated], 0))
+    return adjusted(task.specimen, task.nuisances.each, fitted.z, errors)
+
+
+def few_of_law(task: Task, fitted: Fitted, scale: float) -> LawBand:
+    """The law of a fit at a few frequencies."""
+    uncertainty = _of_law(fitted, scale * fitted.covariance)
+    return law_band(task.sweep, fitted.law, uncertainty, points=_FEW)
+
+
+def mixed_band(task: Task, search: Search, group: Sequence[tuple[Trial, float]]) -> LawBand:
+    """The law over all explanations of a group: mean and standard deviation of their mixture.
+
+    Each brings its own posterior; where they disagree, so does the band.
+    """
+    bands, shares = [], np.array([p for _, p in group])
+    for trial, _ in group:
+        fitted = trial.fitted
+        C = posterior(Response(task, fitted.effects), search.evidence, fitted)
+        bands.append(law_band(task.sweep, fitted.law, _of_law(fitted, search.temper(trial) * C)))
+
+    def mixture(value: str, error: str) -> tuple[Array, Array]:
+        means = np.array([getattr(b, value) for b in bands])
+        errors = np.array([getattr(b, error) for b in bands])
+        mean = shares @ means
+        return mean, np.sqrt(shares @ (errors**2 + (means - mean) ** 2))
+
+    G, G_error = mixture("storage_modulus_pa", "storage_modulus_standard_error_pa")
+    eta, eta_error = mixture("loss_factor", "loss_factor_standard_error")
+    return LawBand(bands[0].frequency_hz, G, eta, G_error, eta_error)
+
+
+def found_effects(fitted: Fitted, plate: SpannedPlate, scale: float = 1.0) -> tuple[FoundEffect, ...]:
+    """The effects of a fit with their sizes and standard errors; `scale` multiplies the covariance."""
+    covariance = scale * fitted.covariance
     n = len(fitted.law.names)
     inner = np.full(len(fitted.u), np.nan)
-    inner[fitted.free] = np.sqrt(np.maximum(np.diag(fitted.covariance)[n:], 0))
-    found, start = [], 0
+    inner[fitted.free] = np.sqrt(np.maximum(np.diag(covariance)[n:], 0))
+    found, start = [], fitted.stated
     for effect in fitted.effects:
         lower, upper = effect.limits(plate)
         parameters = {}
@@ -63,7 +115,7 @@ def found_effects(fitted: Fitted, plate: SpannedPlate) -> tuple[FoundEffect, ...
                 error = float("nan")
             parameters[q.key] = Estimate(value, error, q.unit)
         if effect.replaces_law:
-            errors = np.sqrt(np.diag(fitted.covariance)[:n]) * fitted.law.values
+            errors = np.sqrt(np.diag(covariance)[:n]) * fitted.law.values
             for name, value, error in zip(fitted.law.names, fitted.law.values, errors, strict=True):
                 parameters[name] = Estimate(float(value), float(error), _unit(name))
         found.append(FoundEffect(effect.name, parameters))

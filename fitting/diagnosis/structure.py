@@ -29,7 +29,7 @@ def structure(sweep: Sweep, evidence: Evidence, whitened: Array, chi2_per_dof: f
     said = []
     if chi2_per_dof > CHI2_PER_DOF:
         said.append(f"the residual is {chi2_per_dof:.3g} times what noise and model error explain")
-    runs, memory = _along_frequency(sweep, whitened, parts=2 if evidence.has_phase else 1)
+    runs, memory = along_frequency(sweep, whitened, parts=2 if evidence.has_phase else 1)
     if runs > RUNS_SIGMA:
         said.append(f"its signs keep together along frequency ({runs:.1f} sigma, runs test)")
     if memory > MEMORY_SIGMA:
@@ -48,8 +48,11 @@ def roughness(sweep: Sweep, whitened: Array, parts: int) -> float:
     return float(np.mean(np.concatenate(jumps) ** 2) / 6) if jumps else float("nan")
 
 
-def _along_frequency(sweep: Sweep, whitened: Array, parts: int) -> tuple[float, float]:
-    """Fewer runs than chance, and Ljung-Box's statistic above its mean, both in standard deviations."""
+def along_frequency(sweep: Sweep, whitened: Array, parts: int) -> tuple[float, float]:
+    """Fewer runs than chance, and Ljung-Box's statistic above its mean, both in standard deviations.
+
+    Of whitened residuals, `parts` of every point one after the other.
+    """
     runs_short, runs_variance, box, box_count = 0.0, 0.0, 0.0, 0
     for r in _traces(sweep, whitened, parts):
         if len(r) < _FEWEST:

@@ -12,6 +12,7 @@ from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.effects.base import Points
 from fitting.effects.spanned import SpannedPlate
 from fitting.laws import CoreLaw
+from fitting.nuisances import Nuisances, nuisances_of
 from fitting.rational import RationalSweep
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
@@ -25,6 +26,8 @@ DENSE, FINE, COARSE = 16, 10, 6
 _SIZES = (0.25, 0.5, 1.0, 2.0, 4.0)
 _ANGLES = (0.2, 0.6, 1.0)
 """Of the modulus' argument, rad."""
+_PLACES, _REACH, _PLACES_SEED = 4, 2.0, 5
+"""Of the tolerances' box, that a condensed plate answers for: how many, how far in standard deviations."""
 _SECONDS_A_POINT = 10.0
 """Pace assumed where no time is kept."""
 
@@ -66,6 +69,8 @@ class Task:
     """Dense, every pass of a segment for itself."""
     dense: Nodes
     """For what has poles that are not taken out."""
+    nuisances: Nuisances
+    """The stated numbers that may move."""
 
     @classmethod
     def of(
@@ -88,7 +93,8 @@ class Task:
 
         fine, coarse, passes = (Grid(g, at(g.omega)) for g in grids)
         points, dense = points_of(sweep, specimen), Nodes.of(sweep.omega, DENSE)
-        return cls(sweep, specimen, plate, points, at(sweep.omega), fine, coarse, passes, dense)
+        nuisances = nuisances_of(specimen, plate, has_phase=sweep.has_phase)
+        return cls(sweep, specimen, plate, points, at(sweep.omega), fine, coarse, passes, dense, nuisances)
 
     @property
     def stated_law(self) -> CoreLaw:
@@ -97,12 +103,24 @@ class Task:
         return self.specimen.core.law.lifted()
 
     def condensed(self, law: CoreLaw) -> "Task":
-        """The same, its plate condensed to moduli within a decade or so about a law."""
+        """The same, its plate condensed to moduli within a decade or so of a law, and to the tolerances."""
+        if not len(self.plate.names):
+            # Nothing but what is stated changes this plate: it is small as it is.
+            return self
         omega = self.coarse.nodes.omega
         size = np.abs(law.modulus(omega))
         factors = [s * np.exp(1j * angle) for s in _SIZES for angle in _ANGLES]
         G = np.concatenate([size * f for f in factors])
-        return replace(self, plate=self.plate.condensed(np.tile(omega, len(factors)), G))
+        random = np.random.default_rng(_PLACES_SEED)
+        places = _REACH * random.standard_normal((_PLACES if self.nuisances else 0, len(self.nuisances)))
+        changes = [self.nuisances.change(self.plate, z) for z in places]
+        plate = self.plate.condensed(np.tile(omega, len(factors)), G, changes, omega, law.modulus(omega))
+        return replace(self, plate=plate)
+
+    @property
+    def as_stated(self) -> Array:
+        """Where every stated number is what it is stated to be."""
+        return np.zeros(len(self.nuisances))
 
     def around(self, law: CoreLaw) -> "Task":
         """The same, its grids made for the poles that the plate has under a law."""

@@ -1,44 +1,36 @@
-"""Which candidates the data support, which they cannot tell apart, and whether any of them will do.
+"""Which explanations the data support, how probable each is, and whether any of them will do.
 
-Differences in BIC. The thresholds are calibrated on sweeps of a 3D solid (docs/diagnosis.md).
+One rule ranks: prior times marginal likelihood (`marginal`). The group is every explanation up to 95 %. One
+test refuses: such data are not what it would leave (`predictive`).
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+import numpy as np
+
+from fitting.diagnosis.marginal import probabilities
+from fitting.diagnosis.predictive import LEVEL, weakest
 from fitting.diagnosis.result import Verdict
 from fitting.diagnosis.search import Trial
-from fitting.effects.base import Effect
 
-WITHIN = 15.0
-"""Candidates this near to the best are not told from it."""
-FIRST = 7.0
-"""A first effect must gain this much over none."""
-SECOND = 12.0
-"""A second effect must gain this much, and more where the first one's model `misses` something."""
-PREDICTED = 2.0
-"""Times the noise on data held out: as good as can be asked of anything."""
-NO_WORSE = 1.25
-"""Times the error of the first effect alone, that a pair may make on data held out."""
+CREDIBLE = 0.95
+"""Probability that the group must hold, and above which one explanation stands alone."""
 POOR, HARDLY_BETTER = 3.0, 0.5
 """Times the noise, and times the error without any effect: what predicts no better explains nothing."""
-EXTENSION, HINTED = 9.0, 3.0
-"""Chi-square to be gained over a simpler effect that is contained: to be named, and to be held possible."""
-WITHIN_UNKNOWN_NOISE, FIRST_UNKNOWN_NOISE = 10.0, 6.0
-"""The same where noise is estimated from the residual itself."""
-GOOD = 1.15
-"""Chi-square per degree of freedom of an explanation that needs nothing more."""
-TOO_MUCH = 1.25
-"""Chi-square per degree of freedom that no candidate may leave, but for what its own model misses."""
 
 
 @dataclass(frozen=True)
 class Judgement:
-    """The accepted candidate (None for none) and each of its effects' equals."""
+    """The accepted explanation (None for none) and each of its effects' equals."""
 
     verdict: Verdict
     accepted: Trial | None
     equivalent: dict[str, tuple[str, ...]]
+    group: tuple[tuple[Trial, float], ...] = ()
+    """Every explanation up to 95 %, none too where it may be; their probabilities add up to one."""
+    probability: Mapping[tuple[str, ...], float] = field(default_factory=dict)
+    """Of every explanation, by its effects' names."""
     by_hand: bool = False
     """Accepted on someone's word, not by the data's."""
     refused: tuple[str, ...] = ()
@@ -46,159 +38,118 @@ class Judgement:
     why: str = ""
     """What speaks against it: half a sentence."""
 
+    def of_effect(self, name: str) -> float:
+        """Probability that an effect is there, alone or beside another."""
+        return float(sum(p for names, p in self.probability.items() if name in names))
+
 
 def told(trial: Trial) -> Judgement:
     """What someone has decided: each effect stands for itself."""
     names: dict[str, tuple[str, ...]] = {name: (name,) for name in trial.names}
-    return Judgement("effect" if names else "none", trial if names else None, names, by_hand=True)
-
-
-def idle_over(trial: Trial, trials: Sequence[Trial]) -> tuple[str, ...]:
-    """Simpler effects that one of a trial's contains and gains too little over."""
-    by_names = {frozenset(t.names): t for t in trials}
-    found = []
-    for effect in trial.fitted.effects:
-        if effect.extends is None:
-            continue
-        simpler = by_names.get(frozenset(trial.names) - {effect.name} | {effect.extends})
-        if simpler is None or (simpler.leans and not trial.leans):
-            continue
-        if not trial.fitted.chi2 < simpler.fitted.chi2 - EXTENSION:
-            found.append(effect.extends)
-    return tuple(found)
-
-
-def standing_for(trial: Trial, trials: Sequence[Trial]) -> dict[str, tuple[str, ...]]:
-    """Of each of a trial's effects, what may be meant by it: a simpler one, or a wider one hinted at."""
-    idle, found = idle_over(trial, trials), {}
-    for effect in trial.fitted.effects:
-        rest = set(trial.names) - {effect.name}
-        names = [effect.extends] if effect.extends in idle else []
-        for other in trials:
-            wider = [e for e in other.fitted.effects if e.extends == effect.name]
-            if wider and set(other.names) == rest | {wider[0].name}:
-                names += [wider[0].name] * (other.fitted.chi2 < trial.fitted.chi2 - HINTED)
-        found[effect.name] = tuple(name for name in dict.fromkeys(names) if name is not None)
-    return found
-
-
-def without_idle_extensions(trials: Sequence[Trial], unnamed: Sequence[Effect] = ()) -> list[Trial]:
-    """Trials best first, those left out that contain a simpler one and gain too little over it.
-
-    Where the simpler one may not be named, the other stays and stands for it.
-    """
-    hidden = {e.name for e in unnamed}
-    return [t for t in trials if not hidden & set(t.names) and hidden >= set(idle_over(t, trials))]
-
-
-def foremost(none: Trial, singles: Sequence[Trial]) -> Trial:
-    """The best of those near the top that does not lean; the best where all do."""
-    limit = min(singles[0].bic + WITHIN, none.bic - FIRST)
-    return next((t for t in singles if t.bic < limit and not t.leans), singles[0])
+    return Judgement(
+        "effect" if names else "none",
+        trial if names else None,
+        names,
+        group=((trial, 1.0),),
+        probability={trial.names: 1.0},
+        by_hand=True,
+    )
 
 
 def judge(
     none: Trial,
-    singles: Sequence[Trial],
-    pairs: Sequence[Trial],
+    trials: Sequence[Trial],
     *,
-    noise_known: bool,
-    structured: bool,
+    temper: float,
+    hidden: frozenset[str],
     held_out: Callable[[Trial], float],
-    meant: Callable[[Trial], Mapping[str, tuple[str, ...]]],
 ) -> Judgement:
-    """Weigh trials, best first.
+    """Weigh explanations.
 
-    `structured`: whether the fit without any effect leaves more than chance. `held_out`: error of a trial
-    over noise on data it has not seen, NaN where there are none. `meant`: what else may be meant by each
-    effect of a trial.
+    `temper`: how much less a difference of costs says. `hidden`: effects that may not be named, fitted for
+    comparison. `held_out`: error of a trial over noise on data it has not seen, NaN where there are none.
     """
-    first = FIRST if noise_known else FIRST_UNKNOWN_NOISE
-    if not singles or none.bic - singles[0].bic < first:
-        much = noise_known and structured and _leaves_too_much(none, none)
-        return Judgement("unknown" if much else "none", None, {})
-    pairs = _without_flexible(singles, pairs)
-    alone = foremost(none, singles)
-    second = _second(none, alone, pairs, held_out)
-    best = second or alone
-    why = _against(none, best, held_out, structured=structured) if noise_known else ""
-    if why:
-        nearest = min([best, *pairs[:1]], key=lambda t: t.bic)
-        also = _against(none, nearest, held_out, structured=structured)
-        refused = nearest if also else best
-        return Judgement("unknown", None, {}, refused=refused.names, why=also or why)
-    within = WITHIN if noise_known else WITHIN_UNKNOWN_NOISE
-    near = [t for t in (pairs if second else singles) if t.bic - best.bic < within and not t.leans]
-    equivalent, others_meant = {}, meant(best)
+    every = _best_of_each([none, *trials])
+    p = probabilities(np.array([t.cost for t in every]), temper)
+    order = np.argsort(-p, kind="stable")
+    ranked = [(every[k], float(p[k])) for k in order]
+    probability = {t.names: share for t, share in ranked}
+    group = _group(ranked)
+
+    def judgement(verdict: Verdict, accepted: Trial | None, **more: object) -> Judgement:
+        equivalent = _equivalent(accepted, group, hidden) if accepted is not None else {}
+        return Judgement(verdict, accepted, equivalent, group, probability, **more)  # type: ignore[arg-type]
+
+    visible = [t for t, _ in group if not hidden & set(t.names)]
+    named = [t for t in visible if t.names]
+    if probability[()] > 1 - CREDIBLE or not named:
+        if none.fails or not visible:
+            return _unknown(judgement, none, ranked)
+        return judgement("none", None)
+    best = named[0]
+    if all(_against(none, t, held_out) for t in named):
+        return _unknown(judgement, best, ranked, _against(none, best, held_out))
+    alone = all(set(best.names) <= set(t.names) for t, _ in group)
+    return judgement("effect" if alone else "ambiguous", best)
+
+
+def _unknown(
+    judgement: Callable[..., Judgement], nearest: Trial, ranked: Sequence[tuple[Trial, float]], why: str = ""
+) -> Judgement:
+    best = nearest if nearest.names else next((t for t, _ in ranked if t.names), nearest)
+    return judgement("unknown", None, refused=best.names if why else (), why=why)
+
+
+def _group(ranked: Sequence[tuple[Trial, float]]) -> tuple[tuple[Trial, float], ...]:
+    """The first of them that hold 95 %, their shares scaled to one."""
+    found, total = [], 0.0
+    for trial, share in ranked:
+        if total >= CREDIBLE:
+            break
+        found.append((trial, share))
+        total += share
+    return tuple((t, share / total) for t, share in found)
+
+
+def _equivalent(
+    best: Trial, group: Sequence[tuple[Trial, float]], hidden: frozenset[str]
+) -> dict[str, tuple[str, ...]]:
+    """For each effect of the best what stands in its place in others of the group."""
+    found = {}
     for name in best.names:
         rest = set(best.names) - {name}
-        others = (
-            [set(t.names) - rest for t in near if rest < set(t.names)]
-            if rest
-            else [set(t.names) for t in near]
-        )
-        names = [name, *(n for o in others for n in o if n != name), *others_meant.get(name, ())]
-        equivalent[name] = tuple(dict.fromkeys(names))
-    apart = all(len(group) == 1 for group in equivalent.values())
-    return Judgement("effect" if apart else "ambiguous", best, equivalent)
+        names = [name]
+        for trial, _ in group:
+            instead = set(trial.names) - rest
+            if name not in instead and rest <= set(trial.names):
+                names += [n for n in trial.names if n in instead and n not in hidden]
+            elif name not in trial.names and not rest & set(trial.names):
+                # Another explanation altogether stands for all of it.
+                names += [n for n in trial.names if n not in hidden and n not in best.names]
+        found[name] = tuple(dict.fromkeys(names))
+    return found
 
 
-def _against(none: Trial, best: Trial, held_out: Callable[[Trial], float], *, structured: bool) -> str:
-    """Why the best explanation is none; empty where nothing speaks against it."""
-    if _leaves_too_much(none, best):
-        return f"leaves {best.fitted.chi2_per_dof:.3g} times what noise and model error explain"
-    if best.leans:
-        return "fits only if the plate were off by more than a layer-wise plate is"
-    # What is too weak to show as structure is too weak to be refuted by what it predicts.
-    if structured and _predicts_nothing(none, best, held_out):
+def _against(none: Trial, best: Trial, held_out: Callable[[Trial], float]) -> str:
+    """Why an explanation is none; empty where nothing speaks against it."""
+    worst = weakest(best.checks)
+    if worst is not None and worst[1] < LEVEL:
+        return f"would leave such data once in {1 / max(worst[1], 1e-99):.2g} times ({worst[0]})"
+    if _predicts_nothing(none, best, held_out):
         return "does not predict the segments it has not seen"
     return ""
 
 
-def _second(
-    none: Trial, best: Trial, pairs: Sequence[Trial], held_out: Callable[[Trial], float]
-) -> Trial | None:
-    """The pair that explains more than an error of the first effect's own model could, and predicts it."""
-    # What the first one's own model misses looks like another effect; where it leans, it is more than that.
-    wanted = FIRST if best.leans else SECOND + _missed(none, best)
-    poor = best.leans or _leaves_too_much(none, best)
-    suffices = not poor and not _predicts_nothing(none, best, held_out)
-    for pair in pairs:
-        if not best.bic - pair.bic > wanted or pair.bic > pairs[0].bic + WITHIN:
-            return None
-        if pair.leans:
-            continue
-        off = held_out(pair)
-        worse = off > POOR or off > max(PREDICTED, NO_WORSE * held_out(best))
-        if not (worse if suffices else _predicts_nothing(none, pair, held_out)):
-            return pair
-    return None
-
-
-def _missed(none: Trial, trial: Trial) -> float:
-    """Chi-square that the models of a trial's effects may leave themselves."""
-    return max((e.misses for e in trial.fitted.effects), default=0.0) * (none.bic - trial.bic)
-
-
-def _leaves_too_much(none: Trial, trial: Trial) -> bool:
-    """More than noise, and more than its effects' own models miss."""
-    share = trial.fitted.chi2_per_dof / TOO_MUCH
-    return share > 1 and trial.fitted.chi2 * (1 - 1 / share) > _missed(none, trial)
-
-
 def _predicts_nothing(none: Trial, best: Trial, held_out: Callable[[Trial], float]) -> bool:
     """Whether data that were held out speak against an explanation that fits by another law's freedom."""
-    if not any(e.replaces_law for e in best.fitted.effects):
+    if not none.fails or not any(e.replaces_law for e in best.fitted.effects):
         return False
     off = held_out(best)
     return off > POOR and off > HARDLY_BETTER * held_out(none)
 
 
-def _without_flexible(singles: Sequence[Trial], pairs: Sequence[Trial]) -> list[Trial]:
-    """Pairs, those with another law left out where an explanation without one is good enough.
-
-    A law free to bend takes up half of any effect: with a second one beside it it explains too much.
-    """
-    plain = [p for p in pairs if not any(e.replaces_law for e in p.fitted.effects)]
-    candidates = [t for t in (*singles[:1], *plain[:1]) if not any(e.replaces_law for e in t.fitted.effects)]
-    return plain if any(t.fitted.chi2_per_dof < GOOD for t in candidates) else list(pairs)
+def _best_of_each(trials: Sequence[Trial]) -> list[Trial]:
+    best: dict[frozenset[str], Trial] = {}
+    for trial in sorted(trials, key=lambda t: t.cost):
+        best.setdefault(frozenset(trial.names), trial)
+    return list(best.values())

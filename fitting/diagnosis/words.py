@@ -97,7 +97,7 @@ def _worst_segment(task: Task, before: Stage) -> int:
 
 def _moved(task: Task, fitted: Fitted) -> str:
     """How much the effect changes the response, segment by segment, the law kept."""
-    plain = Response(task, ()).velocity(fitted.law, np.empty(0))
+    plain = Response(task, ()).velocity(fitted.law, fitted.z)
     changed = 100 * np.abs(fitted.velocity_m_s / plain - 1)
     parts = []
     for number in np.unique(task.sweep.segment):

@@ -14,7 +14,6 @@ from fitting.diagnosis.response import Response
 from fitting.diagnosis.task import Task
 from fitting.effects.base import Effect
 from fitting.identification.validation import Validation
-from fitting.properties import PROPERTIES
 
 Array = NDArray[np.float64]
 Form = tuple[str, int]
@@ -30,8 +29,7 @@ class Work:
         self.task, self.evidence, self.none = task, evidence, none
         self.effects = {e.name: e for e in effects}
         self.contenders = {
-            e.name: [Contender(task, evidence, none, form, self.priors([form])) for form in e.variants()]
-            for e in effects
+            e.name: [Contender(task, evidence, none, form) for form in e.variants()] for e in effects
         }
 
     def form(self, form: Form) -> Effect:
@@ -48,15 +46,9 @@ class Work:
         for contender, known in zip(self.contenders[name], state, strict=True):
             contender.learn(known)
 
-    def priors(self, effects: Sequence[Effect]) -> Array:
-        """Standard deviations of unknowns about their neutral values: the specimen's tolerances."""
-        stated = self.task.specimen.tolerances
-        found = {str(name): stated[name] for name in PROPERTIES if name in stated}
-        return np.array([found.get(e.tolerance or "", np.inf) for e in effects for _ in e.unknowns])
-
     def held_out(self, fitted: Fitted) -> Validation:
         """What a fit says of data it has not seen."""
-        return held_out(self.task, self.evidence, fitted, self.priors(fitted.effects))
+        return held_out(self.task, self.evidence, fitted)
 
     def other_laws(self, effect: Effect) -> list[Fitted]:
         """Fits with each of the laws that an effect has in the place of the stated one."""
@@ -120,7 +112,8 @@ class Work:
         """One effect of a pair as the pair has it, law and all, the other one taken away."""
         pair, effect = one
         response = Response(self.task, [effect])
-        return kept(response, self.evidence, pair.law, pair.of(effect), self.priors([effect]))
+        u = np.concatenate([pair.z, pair.of(effect)])
+        return kept(response, self.evidence, pair.law, u)
 
     def roughly(self, one: tuple[str, State, Form]) -> list[Fitted]:
         """A second effect beside another in wide valleys, then roughly."""
@@ -131,8 +124,7 @@ class Work:
 
     def ended(self, rough: Fitted) -> Fitted:
         """A rough fit followed to the end."""
-        priors = self.priors(rough.effects)
-        return polished(self.task, rough.effects, self.evidence, rough.law, rough.u, priors)
+        return polished(self.task, rough.effects, self.evidence, rough.law, rough.u)
 
     def together(self, one: tuple[Fitted, dict[str, State]]) -> list[Fitted]:
         """A pair again, each of its effects beside the other fitted alone, in wide valleys."""
@@ -148,8 +140,7 @@ class Work:
         return found
 
     def _beside(self, before: Fitted, effect: Effect, starts: list[Start] | None = None) -> Contender:
-        priors = self.priors([*before.effects, effect])
-        return Contender(self.task, self.evidence, before, effect, priors, starts)
+        return Contender(self.task, self.evidence, before, effect, starts)
 
 
 def _best_first(fits: list[tuple[Contender, Fitted]]) -> list[tuple[Contender, Fitted]]:

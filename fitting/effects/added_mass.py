@@ -37,12 +37,13 @@ class AddedMass(Effect):
     enters = "mass"
     source = "mass loading, Ewins, Modal Testing (2000), section 3.5"
     unknowns = (
-        Unknown("mass", "kg", 0.0, 0.05, 3e-3),
+        Unknown("mass", "kg", 0.0, 0.05, 3e-3, spread=5e-3),
         Unknown("x", "m", 0.0, np.inf, 0.05, neutral=None),
         Unknown("y", "m", 0.0, np.inf, 0.05, neutral=None),
     )
     spans = (PointMass(),)
     misses = 0.003
+    chance = 0.03
     splits = "a look at the plate and a balance; a second spot off the axis"
 
     def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:

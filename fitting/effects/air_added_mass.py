@@ -43,11 +43,12 @@ class AirAddedMass(Effect):
     enters = "mass"
     source = "potential flow about an unbaffled plate, `fitting.air`"
     unknowns = (
-        Unknown("density", "kg/m^3", 0.0, 3.0, 1.2),
+        Unknown("density", "kg/m^3", 0.0, 3.0, 1.2, spread=1.2),
         Unknown("bare_plate_too", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),
     )
     spans = (Air(),)
     misses = 0.003
+    chance = 0.05
     splits = "the bare plate's natural frequencies (hammer test); a run in vacuum"
 
     def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:

@@ -37,9 +37,10 @@ class AmplitudeSoftening(Effect):
     name = "amplitude_softening"
     enters = "level"
     source = "Payne, J. Appl. Polym. Sci. 6 (1962), first order in the strain amplitude"
-    unknowns = (Unknown("k", "1", -0.5, 0.8, 0.1),)
+    unknowns = (Unknown("k", "1", -0.5, 0.8, 0.1, spread=0.15),)
     spans = (Strain(),)
     misses = 0.004
+    chance = 0.03
     splits = "a second level"
 
     def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex:

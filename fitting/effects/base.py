@@ -3,7 +3,8 @@
 To add one, put a file beside this one with a class derived from `Effect`. It says where the effect enters
 by overriding some of the hooks; all others leave the response as it is.
 
-    v = channel(i w (x + h y_p) a + added),   A x = load,   A = -w^2 M + i w C_1 + K_0 + G K_1 + changes
+    v = channel(i w (x + h y_p + t travel) a + added),   A x = load + t travel_load,   t = -1 / w^2,
+    A = -w^2 M + i w C_1 + K_0 + G K_1 + changes
 """
 
 from __future__ import annotations
@@ -46,6 +47,13 @@ class Unknown:
     """Where the effect is absent; None for an unknown that only says where or how."""
     fixed: bool = False
     """Not moved by a fit: one of the starts."""
+    spread: float | None = None
+    """How large such a thing is in a laboratory that has it, in `unit`: the scale of its prior. None: 3
+    `typical`.
+
+    An unknown without a neutral value is as likely anywhere within its limits, one with a logarithm in its
+    logarithm.
+    """
 
 
 @dataclass(frozen=True)
@@ -57,8 +65,12 @@ class Change:
     M: Any = 0.0
     load: Any = 0.0
     observe: Any = 0.0
-    damping: float = 1.0
-    """Factor on C_1."""
+    damping: Any = 1.0
+    """Factor on C_1, or one on each of its modes. Shape () or (modes,)."""
+    travel_load: Any = 0.0
+    """Load per displacement of the base, -1 / omega^2 of its acceleration; N/m. Shape (k,)."""
+    travel: Any = 0.0
+    """Displacement read per displacement of the base, beside that of the plate."""
 
     def and_then(self, other: Change) -> Change:
         """Both changes."""
@@ -69,6 +81,8 @@ class Change:
             self.load + other.load,
             self.observe + other.observe,
             self.damping * other.damping,
+            self.travel_load + other.travel_load,
+            self.travel + other.travel,
         )
 
 
@@ -133,14 +147,12 @@ class Effect:
     spans: tuple[Span, ...] = ()
     splits: ClassVar[str] = ""
     """The measurement that shows this effect apart from others."""
-    tolerance: ClassVar[str | None] = None
-    """Property (`fitting.properties`) whose stated tolerance is a prior on the one unknown."""
     replaces_law: ClassVar[bool] = False
     misses: ClassVar[float] = 0.0
-    """Share of the chi-square it explains that its own model may leave, looking like another effect."""
+    """Share of the chi-square it explains that its own formula may leave (`fitting.diagnosis.predictive`)."""
 
-    bends: ClassVar[float] = 0.0
-    """The same share that may look as if the plate were off by more than a layer-wise one is."""
+    chance: ClassVar[float] = 0.02
+    """Prior probability that a laboratory's set-up has it, to be seen or not."""
 
     extends: ClassVar[str | None] = None
     """A simpler effect that this one contains."""

@@ -28,8 +28,9 @@ class BaseRocking(Effect):
     name = "base_rocking"
     enters = "load"
     source = "rigid turn of the base about the root, inertia load -M r_p"
-    unknowns = (Unknown("pitch", "rad/m", -2.0, 2.0, 0.05),)
+    unknowns = (Unknown("pitch", "rad/m", -2.0, 2.0, 0.05, spread=0.1),)
     spans = (Pitch(),)
+    chance = 0.03
     splits = "two accelerometers on the base, one behind the other"
 
     def pitch(self, omega: Array, u: Array) -> Complex:

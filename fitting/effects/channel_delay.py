@@ -18,7 +18,8 @@ class ChannelDelay(Effect):
     name = "channel_delay"
     enters = "channel"
     source = "a decoder's or filter's constant group delay"
-    unknowns = (Unknown("delay", "s", -3e-3, 3e-3, 5e-5),)
+    unknowns = (Unknown("delay", "s", -3e-3, 3e-3, 5e-5, spread=1e-4),)
+    chance = 0.04
     splits = "the laser on the base beside the accelerometer: its phase over frequency is the delay"
 
     def objection(self, points: Points, plate: SpannedPlate) -> str | None:

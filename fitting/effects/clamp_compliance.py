@@ -5,15 +5,14 @@ stiffness move it by nothing that shows: one stiffness serves for both.
 """
 
 from collections.abc import Mapping
-from functools import partial
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fitting.direct import solve_direct
 from fitting.effects.base import Change, Effect, Points, Span, Unknown
 from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.released_root import released
 from fitting.effects.spanned import SpannedPlate
 from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
 
@@ -34,20 +33,11 @@ class Root(Span):
         return {"x": root_springs(full, "x"), "z": root_springs(full, "z")}
 
     def responses(self, full: FullPlate, at: Snapshot) -> Complex:
-        P = full.loose.even
-        S_x, S_y, S_z = (
-            P.T @ full.once(f"root {axis}", partial(root_springs, full, axis)) @ P for axis in ("x", "y", "z")
-        )
-        A = P.T @ full.loose.dynamic_stiffness(at.omega, at.G) @ P
-        C = full.damping
-        U = P.T @ (full.lift @ C.U)
-        loads = np.column_stack([-(full.loose.M @ full.heave), full.loose.observe(*full.pickup_m)])
-        found = []
-        for k in _SPANNED:
-            springs = k * (S_x + S_z) + RIGID_N_M3 * S_y
-            X = P @ solve_direct(A + springs, at.omega, type(C)(U, C.d), P.T @ loads)
-            found.append(X / np.sqrt(np.real(np.einsum("ij,ij->j", X.conj(), full.scale @ X))))
-        return np.hstack(found)
+        if full.specimen.boundary != "cantilever":
+            return super().responses(full, at)
+        root = released(full, at, (U_C, U_B, W, THETA_Y), odd=False)
+        S = full.once("root springs", lambda: root_springs(full, "x") + root_springs(full, "z"))
+        return np.hstack([root.answers(full, k * S) for k in _SPANNED])
 
 
 def root_springs(full: FullPlate, axis: str) -> sp.csc_array:
@@ -87,7 +77,7 @@ class ClampCompliance(Effect):
     unknowns = (Unknown("k", "N/m^3", 1e12, 1e16, 5e13, logarithmic=True, neutral=float("inf")),)
     spans = (Root(),)
     misses = 0.003
-    bends = 0.002
+    chance = 0.05
     splits = "the same plate clamped anew, or its root watched by the laser"
 
     def objection(self, points: Points, plate: SpannedPlate) -> str | None:

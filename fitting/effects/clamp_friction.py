@@ -18,11 +18,11 @@ class ClampFriction(Effect):
     name = "clamp_friction"
     enters = "stiffness"
     source = "hysteretic joint damping, Beards, Structural Vibration (1996), ch. 4"
-    unknowns = (*ClampCompliance.unknowns, Unknown("loss_factor", "1", 0.0, 1.0, 0.1))
+    unknowns = (*ClampCompliance.unknowns, Unknown("loss_factor", "1", 0.0, 1.0, 0.1, spread=0.3))
     spans = ClampCompliance.spans
     extends = "clamp_compliance"
     misses = 0.003
-    bends = 0.002
+    chance = 0.03
     splits = "the hammer test repeated with the clamp tightened: its losses change, the core's do not"
 
     def objection(self, points: Points, plate: SpannedPlate) -> str | None:

@@ -21,6 +21,7 @@ class OtherCoreLaw(Effect):
     enters = "core law"
     source = "Ferry (generalised Maxwell); Golla, Hughes and McTavish; natural splines of ln G' and ln eta"
     replaces_law = True
+    chance = 0.03
     splits = "a second specimen of another thickness: the law is the same, errors of the plate are not"
 
     def laws(self, stated: CoreLaw, points: Points) -> list[CoreLaw]:

@@ -10,7 +10,7 @@ from fitting.effects.base import Change, Effect, Span, Unknown
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.spanned import SpannedPlate
 from fitting.plate import element_matrices
-from fitting.properties import with_property_scaled
+from fitting.tolerances import moved
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -47,7 +47,7 @@ class Thickness(Span):
 def _difference(full: FullPlate, scale: float, part: str) -> sp.csc_array:
     def make() -> sp.csc_array:
         mesh, specimen = full.loose.mesh, full.specimen
-        other = with_property_scaled(specimen, "core_thickness", scale)
+        other = moved(specimen, ["core_thickness"], [float(np.log(scale))])
         Ae = getattr(element_matrices(other, mesh), part) - getattr(element_matrices(specimen, mesh), part)
         return full.loose.scatter(Ae)
 
@@ -60,9 +60,9 @@ class CoreThickness(Effect):
     name = "core_thickness"
     enters = "stiffness"
     source = "the paper's Eq. (15) to (18) with another H_v"
-    unknowns = (Unknown("scale", "1", 0.7, 1.3, 1.05, neutral=1.0),)
+    unknowns = (Unknown("scale", "1", 0.7, 1.3, 1.05, neutral=1.0, spread=0.08),)
     spans = (Thickness(),)
-    tolerance = "core_thickness"
+    chance = 0.04
     splits = "a gauge; a second specimen of another thickness"
 
     def change(self, plate: SpannedPlate, u: Array) -> Change:

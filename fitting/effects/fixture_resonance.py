@@ -25,7 +25,7 @@ class FixtureResonance(Effect):
     unknowns = (
         Unknown("frequency", "Hz", 1.0, 5000.0, 100.0, logarithmic=True, neutral=None),
         Unknown("damping_ratio", "1", 1e-3, 0.3, 0.02, logarithmic=True, neutral=None),
-        Unknown("gain", "rad/m", -1.0, 1.0, 0.02),
+        Unknown("gain", "rad/m", -1.0, 1.0, 0.02, spread=0.1),
     )
     spans = BaseRocking.spans
     extends = "base_rocking"

@@ -17,7 +17,8 @@ class GainError(Effect):
     name = "gain_error"
     enters = "channel"
     source = "calibration of the measuring chain"
-    unknowns = (Unknown("factor", "1", 0.5, 2.0, 1.02, neutral=1.0),)
+    unknowns = (Unknown("factor", "1", 0.5, 2.0, 1.02, neutral=1.0, spread=0.02),)
+    chance = 0.04
     splits = "the laser on the base beside the accelerometer; a second spot"
 
     def reading(self, v: Complex, points: Points, u: Array) -> Complex:

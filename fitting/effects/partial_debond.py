@@ -61,6 +61,7 @@ class PartialDebond(Effect):
     enters = "stiffness"
     source = "shear coupling lost in a strip, e.g. Wang and Wereley, AIAA J. 40 (2002)"
     misses = 0.02
+    chance = 0.03
     splits = "a tap test or ultrasound over the plate; a second spot off the axis"
 
     def __init__(self, along: str = "x") -> None:
@@ -68,7 +69,7 @@ class PartialDebond(Effect):
         self.spans = (Strips(along),)
         self.unknowns = (
             Unknown(f"{along}_from", "m", 0.0, np.inf, 0.02, neutral=None),
-            Unknown("width", "m", 0.0, 0.15, _WIDTH_M),
+            Unknown("width", "m", 0.0, 0.15, _WIDTH_M, spread=0.03),
         )
 
     def variants(self) -> tuple[Effect, ...]:

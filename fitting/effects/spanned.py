@@ -16,11 +16,13 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from fitting.effects.base import Span
+from fitting.effects.base import Change, Span
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.element import DOFS, THETA_X, THETA_Y, Shape, W
 from fitting.linear import factorise
+from fitting.parts import load_part, projected_parts
 from fitting.plate import Mesh
+from fitting.reduced import ReducedPlate
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -29,7 +31,7 @@ Names = NDArray[np.str_]
 SNAPSHOTS = 12
 TOLERANCE = 3e-3
 """Of a typical change, what may be missed; the reading's error goes with its square."""
-CONDENSED = 1e-7
+CONDENSED = 1e-6
 """Of the largest singular value, what a condensed plate may leave out."""
 _OVERLAP = 1e-6
 """Columns of two groups closer than this are one."""
@@ -64,6 +66,10 @@ class SpannedPlate:
     """Length and width in m, elements along each."""
     pickup: Array
     """Position of the pickup in m. Shape (2,)."""
+    parts: Array
+    """By what is stated (`fitting.parts`). Shape (parts, k, k)."""
+    load_part: Array
+    """Shape (k,)."""
 
     def take(self, spans: Iterable[Span], *, wanted: Sequence[str] | None = None) -> "SpannedPlate":
         """The plate on its own columns and those of `spans`, matrices of other spans left out."""
@@ -80,7 +86,8 @@ class SpannedPlate:
             self,
             group=self.group[columns],
             **{name: getattr(self, name)[square] for name in ("M", "K_0", "K_1", "gram")},
-            **{name: getattr(self, name)[columns] for name in ("U", "load", "pitch", "observe")},
+            **{name: getattr(self, name)[columns] for name in ("U", "load", "pitch", "observe", "load_part")},
+            parts=self.parts[:, columns][:, :, columns],
             names=self.names[kept],
             matrices=self.matrices[kept][:, columns][:, :, columns],
             vector_names=self.vector_names[kept_vectors],
@@ -89,16 +96,51 @@ class SpannedPlate:
         )
         return taken._independent() if len(spans) > 1 else taken
 
-    def condensed(self, omega: Array, G: Complex) -> "SpannedPlate":
-        """Its own even columns as far as they answer at some frequencies and moduli; others as they are."""
+    @classmethod
+    def plain(cls, reduced: ReducedPlate, mesh: Mesh, pickup_m: tuple[float, float]) -> "SpannedPlate":
+        """The reduced plate as one that carries no effects but what is stated."""
+        k = len(reduced.load)
+        none = np.zeros(0, dtype=str)
+        return cls(
+            group=np.full(k, "plate"),
+            M=reduced.M,
+            K_0=np.asarray(reduced.K_0, dtype=complex),
+            K_1=reduced.K_1,
+            U=reduced.U,
+            d=reduced.d,
+            load=reduced.load,
+            pitch=np.zeros(k),
+            observe=reduced.observe,
+            gram=np.eye(k),
+            names=none,
+            matrices=np.zeros((0, k, k)),
+            vector_names=none,
+            vectors=np.zeros((0, k)),
+            deflection=reduced.deflection,
+            size=np.array([mesh.length_m, mesh.width_m, mesh.n_x, mesh.n_y], dtype=float),
+            pickup=np.array(pickup_m),
+            parts=reduced.parts,
+            load_part=reduced.load_part,
+        )
+
+    def condensed(
+        self,
+        omega: Array,
+        G: Complex,
+        changes: Sequence[Change] = (),
+        changed_omega: Array | None = None,
+        changed_G: Complex | None = None,
+    ) -> "SpannedPlate":
+        """Its own even columns as far as they answer at some frequencies and moduli; others as they are.
+
+        `changes` are of the plate, on its columns: answers with each of them at `changed_omega` and
+        `changed_G` are kept too.
+        """
         own = np.flatnonzero(self.group == "plate")
-        square = np.ix_(own, own)
-        C_1 = (self.U[own] * self.d) @ self.U[own].T
-        A = self.K_0[square] + G[:, None, None] * self.K_1[square]
-        A = A - (omega**2)[:, None, None] * self.M[square] + 1j * omega[:, None, None] * C_1
-        sides = np.stack([self.load[own], self.observe[own], self.pitch[own]], axis=1).astype(complex)
-        X = np.linalg.solve(A, np.broadcast_to(sides, (len(omega), *sides.shape)))
-        X = np.concatenate(X / np.linalg.norm(X, axis=1, keepdims=True), axis=1)
+        found = [self._answers(own, omega, G, Change())]
+        if changed_omega is not None and changed_G is not None:
+            found += [self._answers(own, changed_omega, changed_G, c) for c in changes]
+        X = np.concatenate(found, axis=1)
         V, size, _ = np.linalg.svd(np.hstack([X.real, X.imag]), full_matrices=False)
         V = V[:, size > CONDENSED * size[0]]
         rest = np.flatnonzero(self.group != "plate")
@@ -106,6 +148,21 @@ class SpannedPlate:
         T[own, : V.shape[1]] = V
         T[rest, V.shape[1] + np.arange(len(rest))] = 1.0
         return self._on(T, np.concatenate([np.full(V.shape[1], "plate"), self.group[rest]]))
+
+    def _answers(self, own: NDArray[np.intp], omega: Array, G: Complex, change: Change) -> Complex:
+        """Of its own columns to base, pickup and pitch, of unit size. Shape (k, any)."""
+        square = np.ix_(own, own)
+        K_0, K_1, M = (
+            (getattr(self, a) + getattr(change, b))[square]
+            for a, b in (("K_0", "K"), ("K_1", "K_1"), ("M", "M"))
+        )
+        C_1 = (self.U[own] * (self.d * change.damping)) @ self.U[own].T
+        A = K_0 + G[:, None, None] * K_1
+        A = A - (omega**2)[:, None, None] * M + 1j * omega[:, None, None] * C_1
+        given = [self.load + change.load, self.observe + change.observe, self.pitch]
+        sides = np.stack([side[own] for side in given if np.any(side)], axis=1).astype(complex)
+        X = np.linalg.solve(A, np.broadcast_to(sides, (len(omega), *sides.shape)))
+        return np.concatenate(X / np.linalg.norm(X, axis=1, keepdims=True), axis=1)
 
     def _independent(self) -> "SpannedPlate":
         """On an orthonormal basis of the same motions: two spans may share some."""
@@ -130,6 +187,8 @@ class SpannedPlate:
             K_1=square(self.K_1),
             gram=square(self.gram),
             matrices=square(self.matrices),
+            parts=square(self.parts),
+            load_part=T.T @ self.load_part,
             U=T.T @ self.U,
             load=T.T @ self.load,
             pitch=T.T @ self.pitch,
@@ -273,6 +332,8 @@ def _project(full: FullPlate, V: Array, group: Names, spans: Sequence[Span]) -> 
         deflection=loose.on_nodes(V)[:, [W, THETA_X, THETA_Y]],
         size=np.array([s.length_m, s.width_m, loose.mesh.n_x, loose.mesh.n_y], dtype=float),
         pickup=np.array(full.pickup_m),
+        parts=projected_parts(loose, V),
+        load_part=V.T @ load_part(s)[loose.free],
     )
 
 

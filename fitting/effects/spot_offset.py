@@ -40,8 +40,12 @@ class SpotOffset(Effect):
     name = "spot_offset"
     enters = "observation"
     source = "shape functions at the shifted point"
-    unknowns = (Unknown("dx", "m", -0.02, 0.02, 3e-3), Unknown("dy", "m", -0.02, 0.02, 3e-3))
+    unknowns = (
+        Unknown("dx", "m", -0.02, 0.02, 3e-3, spread=5e-3),
+        Unknown("dy", "m", -0.02, 0.02, 3e-3, spread=5e-3),
+    )
     spans = (Spot(),)
+    chance = 0.04
     splits = "a second spot, its distance to the first measured; an accelerometer under the spot"
 
     def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:

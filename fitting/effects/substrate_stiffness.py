@@ -34,9 +34,9 @@ class SubstrateStiffness(Effect):
     name = "substrate_stiffness"
     enters = "stiffness"
     source = "the paper's Eq. (15a)"
-    unknowns = (Unknown("scale", "1", 0.7, 1.4, 1.03, neutral=1.0),)
+    unknowns = (Unknown("scale", "1", 0.7, 1.4, 1.03, neutral=1.0, spread=0.05),)
     spans = (Substrate(),)
-    tolerance = "substrate_young"
+    chance = 0.03
     splits = "the bare plate's natural frequencies (hammer test)"
 
     def bare_shift(self, lowering_per_density: Array, u: Array) -> Array:

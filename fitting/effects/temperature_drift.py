@@ -22,9 +22,10 @@ class TemperatureDrift(Effect):
     enters = "time"
     source = "Williams, Landel and Ferry, J. Am. Chem. Soc. 77 (1955)"
     unknowns = (
-        Unknown("warming", "K", -25.0, 25.0, 2.0),
+        Unknown("warming", "K", -25.0, 25.0, 2.0, spread=5.0),
         Unknown("time_constant", "s", 20.0, 1e5, 600.0, logarithmic=True, neutral=None),
     )
+    chance = 0.04
     splits = "the first segment repeated at the end, or the order of the segments reversed"
 
     def objection(self, points: Points, plate: SpannedPlate) -> str | None:

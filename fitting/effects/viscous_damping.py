@@ -17,7 +17,8 @@ class ViscousDamping(Effect):
     name = "viscous_damping"
     enters = "damping"
     source = "the paper's section 4: C_1 is taken over from the bare plate"
-    unknowns = (Unknown("scale", "1", 0.0, 8.0, 2.0, neutral=1.0),)
+    unknowns = (Unknown("scale", "1", 0.0, 8.0, 2.0, neutral=1.0, spread=1.0),)
+    chance = 0.05
     splits = "the hammer test of the treated plate at two core temperatures"
 
     def objection(self, points: Points, plate: SpannedPlate) -> str | None:

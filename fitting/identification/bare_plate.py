@@ -16,15 +16,18 @@ from numpy.typing import NDArray
 from fitting.air import air_lowering
 from fitting.bare_modes import Sensor, bare_modes, clamp_softness
 from fitting.errors import TooFewPoints
+from fitting.parts import MASS, STIFFNESS, coefficients, projected_parts
 from fitting.plate import Plate
 from fitting.specimen import Specimen
+from fitting.tolerances import moved, tolerance
 
 Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
 FREQUENCY_SCATTER = 5e-4
 """Standard deviation of ln f: remounting and reading 0.03 %, the plate model 0.04 %."""
-DEFAULT_TOLERANCE = 0.2
-"""Of the stiffness, where the specimen states none: wide enough to leave it to the test."""
+_STIFFNESS = 0.2
+"""Prior of the stiffness in a test by itself: wide enough to leave it to the test."""
 CLAMP = 0.01
 """Prior standard deviation of kappa: a soft root may take 1 % off mode 1."""
 _MOST_PRIORS = 5
@@ -67,6 +70,14 @@ class MatchedModes:
     ratios: tuple[float, ...]
     """For the plate's modes in order: the measured one where there is one, else the specimen's."""
     left_out_hz: tuple[float, ...]
+    stiffness: Complex
+    """phi^T P_p phi for the parts of K_0 (`fitting.parts`). Shape (modes, parts)."""
+    inertia: Array
+    """The same for M. Shape (modes, parts)."""
+    sensor: Array
+    """What the sensor adds to phi^T M phi. Shape (modes,)."""
+    by_line: Array
+    """Fall of ln f for a metre of free length more. Shape (modes,)."""
 
     @property
     def shift(self) -> Array:
@@ -97,7 +108,15 @@ def match_modes(
             f"only {len(pairs)} of {len(measured_hz)} hammer modes match the bare plate: is it this specimen?"
         )
     which, index = (np.array(side) for side in zip(*pairs, strict=True))
+    shapes = modes.shapes[:, index]
+    parts = np.einsum("pmm->mp", projected_parts(plate, shapes))
+    of_K, of_M = parts[:, : len(STIFFNESS)], parts[:, -len(MASS) :]
+    row = plate.observe(sensor.x_m, sensor.y_m) if sensor is not None else np.zeros(plate.size)
     return MatchedModes(
+        stiffness=of_K.astype(complex),
+        inertia=of_M,
+        sensor=(sensor.mass_kg if sensor is not None else 0.0) * (row @ shapes) ** 2,
+        by_line=_by_line(specimen.bare, of_K, of_M),
         measured_hz=measured_hz[order][which],
         model_hz=model_hz[index],
         softness=clamp_softness(plate, modes)[index],
@@ -113,8 +132,9 @@ def fit_bare_plate(
 ) -> BarePlateFit:
     """Stiffness and ratios, by `match_modes` from a hammer test. Raises `TooFewPoints`, `OutsideModel`."""
     m = match_modes(specimen, measured_hz, measured_ratios, sensor)
-    tolerance = specimen.tolerances.get("substrate_young", DEFAULT_TOLERANCE)
-    scale, error, kappa = _solve(m.shift, m.softness, m.scatter, tolerance)
+    scale, error, kappa = _solve(
+        m.shift, m.softness, m.scatter, max(_STIFFNESS, tolerance(specimen, "substrate_young"))
+    )
     if abs(kappa) > _MOST_PRIORS * CLAMP:
         raise TooFewPoints(
             f"the hammer modes want a clamp that moves mode 1 by {-100 * kappa:+.1f} %, "
@@ -166,6 +186,16 @@ def _solve(shift: Array, softness: Array, scatter: Array, tolerance: float) -> t
     left = shift / scatter - J @ found
     covariance = np.linalg.inv(A) * max(1.0, float(left @ left) / max(1, len(shift) - 2))
     return float(np.exp(found[0])), float(np.sqrt(covariance[0, 0])), float(found[1])
+
+
+def _by_line(bare: Specimen, of_K: Array, of_M: Array) -> Array:
+    """-d ln f / d length, by Rayleigh's quotient. Shape (modes,)."""
+    h = 1e-4
+    logs = []
+    for step in (h, -h):
+        c = coefficients(moved(bare, ["length"], [step]), bare)
+        logs.append(np.log((of_K @ c.K_0.real) / (of_M @ c.M)) / 2)
+    return np.asarray(-(logs[0] - logs[1]) / (2 * h))
 
 
 def _ratios(specimen: Specimen, index: NDArray[np.intp], ratio: Array) -> tuple[float, ...]:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.identification.adjusted import Adjusted
 from fitting.laws import CoreLaw
 
 Array = NDArray[np.float64]
@@ -14,8 +15,8 @@ Array = NDArray[np.float64]
 class Fit:
     """The end of a fit.
 
-    `residuals` and `jacobian` are whitened, derivatives to the log parameters:
-    shapes (data,) and (data, parameters).
+    `residuals` and `jacobian` are whitened: derivatives to the log parameters of the law, then to the stated
+    numbers that the fit may move. Shapes (data,) and (data, parameters).
     """
 
     law: CoreLaw
@@ -26,6 +27,12 @@ class Fit:
     iterations: int
     evaluations: int
     converged: bool
+    readings: int | None = None
+    """How many of `residuals` are readings of the sweep; None for all."""
+    covariance: Array | None = None
+    """Of the law's log parameters, everything else marginalised; None to take it from `jacobian`."""
+    adjusted: tuple[Adjusted, ...] = ()
+    """The stated numbers as the fit has them."""
     weights: Array | None = None
     """What `residuals` and `jacobian` were multiplied by beyond the noise; None for nothing."""
     criterion_met: bool | None = None

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.identification.fit import Fit
-from fitting.identification.systematic import Systematic
 from fitting.identification.uncertainty import Uncertainty, uncertainty_of
 from fitting.identification.validation import Validation, rms
 from fitting.laws import CoreLaw
@@ -89,15 +88,15 @@ def summarise(
     noise: Noise,
     fit: Fit,
     validation: Validation,
-    systematic: Systematic | None = None,
     further_warnings: tuple[str, ...] = (),
 ) -> Identification:
     """Put the facts of a fit together."""
     known = noise.is_known and method == "direct"
-    uncertainty = uncertainty_of(fit, systematic, noise_is_known=known)
+    whole = uncertainty_of(fit, noise_is_known=known)
+    uncertainty = whole.of_first(len(fit.law.plain.names))
     return Identification(
         method=method,
-        law=fit.law,
+        law=fit.law.plain,
         fit=fit,
         uncertainty=uncertainty,
         noise=noise,
@@ -105,23 +104,23 @@ def summarise(
         predicted_m_s=np.abs(fit.velocity_m_s),
         difference_percent=differences_percent(sweep, fit.velocity_m_s),
         validation=validation,
-        band=law_band(sweep, fit.law, uncertainty),
+        band=law_band(sweep, fit.law, whole),
         warnings=(*_warnings(sweep, fit, uncertainty, known), *further_warnings),
     )
 
 
-def law_band(sweep: Sweep, law: CoreLaw, uncertainty: Uncertainty) -> LawBand:
+def law_band(sweep: Sweep, law: CoreLaw, uncertainty: Uncertainty, points: int = _BAND_POINTS) -> LawBand:
     """The law over the measured range, logarithmic in frequency, with the reference frequencies inside it."""
     low, high = float(sweep.frequency_hz.min()), float(sweep.frequency_hz.max())
     inside = [f for f in REFERENCE_FREQUENCIES_HZ if low <= f <= high]
-    f = np.unique(np.concatenate([np.geomspace(low, high, _BAND_POINTS), inside]))
+    f = np.unique(np.concatenate([np.geomspace(low, high, points), inside]))
     omega = 2 * np.pi * f
     G, eta = law.storage_and_loss(omega)
     return LawBand(f, G, eta, *uncertainty.law_band(law, omega))
 
 
 def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: bool) -> list[str]:
-    law, said = fit.law, []
+    law, said = fit.law.plain, []
     data = len(sweep) * (2 if sweep.has_phase else 1)
     if data <= len(law.names):
         said.append(

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.identification.fit import Fit
-from fitting.identification.systematic import Systematic
 from fitting.laws import CoreLaw
 
 Array = NDArray[np.float64]
@@ -20,9 +19,8 @@ class Uncertainty:
     """First-order uncertainty of a fit."""
 
     covariance: Array
-    """By noise, of the log parameters; zero rows for those at a limit, NaN where the data do not suffice."""
-    systematic: Array
-    """By the model's own error and the specimen's tolerances; it adds to `covariance` in the law's band."""
+    """Of the log parameters, noise, model error and tolerances together; zero rows for those at a limit, NaN
+    where the data do not suffice."""
     at_bound: dict[str, str]
     """Parameter name to "lower" or "upper"."""
     chi2_per_dof: float
@@ -47,12 +45,15 @@ class Uncertainty:
         d_eta = (dG.imag - eta * dG.real) / G
         return self._propagate(dG.real), self._propagate(d_eta)
 
+    def of_first(self, count: int) -> "Uncertainty":
+        """Of the first parameters alone, the others marginalised."""
+        return Uncertainty(self.covariance[:count, :count], self.at_bound, self.chi2_per_dof)
+
     def _propagate(self, gradient: Array) -> Array:
-        C = self.covariance + self.systematic
-        return np.sqrt(np.maximum(np.einsum("if,ij,jf->f", gradient, C, gradient), 0))
+        return np.sqrt(np.maximum(np.einsum("if,ij,jf->f", gradient, self.covariance, gradient), 0))
 
 
-def uncertainty_of(fit: Fit, systematic: Systematic | None, *, noise_is_known: bool) -> Uncertainty:
+def uncertainty_of(fit: Fit, *, noise_is_known: bool) -> Uncertainty:
     """Covariance (J^T J)^-1, scaled by the residual.
 
     Always where the noise is unknown; where it is known only upwards, since a misfit must not look certain.
@@ -60,23 +61,24 @@ def uncertainty_of(fit: Fit, systematic: Systematic | None, *, noise_is_known: b
     names = fit.law.names
     at_bound = limits_reached(fit.law)
     free = np.array([name not in at_bound for name in names])
-    dof = len(fit.residuals) - len(names)
+    readings = len(fit.residuals) if fit.readings is None else fit.readings
+    dof = readings - len(fit.law.plain.names)
     weights = np.ones(len(fit.residuals)) if fit.weights is None else fit.weights
-    noise = fit.residuals / weights
+    noise = (fit.residuals / weights)[:readings]
     chi2_per_dof = float(noise @ noise / dof) if dof > 0 else float("nan")
-    covariance, by_systematic = np.zeros((2, len(names), len(names)))
-    if dof > 0 and free.any():
+    covariance = np.zeros((len(names), len(names)))
+    if dof <= 0:
+        return Uncertainty(covariance * np.nan, at_bound, chi2_per_dof)
+    block = np.ix_(free, free)
+    if fit.covariance is not None:
+        covariance[block] = fit.covariance[block]
+    elif free.any():
         scale = max(1.0, chi2_per_dof) if noise_is_known else chi2_per_dof
         solve = _pseudo_inverse(fit.jacobian[:, free])
         # Weights choose among the points; the noise they let through is still the points' own.
         let_through = solve * weights
-        covariance[np.ix_(free, free)] = scale * let_through @ let_through.T
-        if systematic is not None:
-            moved = solve @ systematic.B
-            by_systematic[np.ix_(free, free)] = moved @ moved.T
-    elif dof <= 0:
-        covariance[:] = np.nan
-    return Uncertainty(covariance, by_systematic, at_bound, chi2_per_dof)
+        covariance[block] = scale * let_through @ let_through.T
+    return Uncertainty(covariance, at_bound, chi2_per_dof)
 
 
 def _pseudo_inverse(J: Array) -> Array:

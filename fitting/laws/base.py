@@ -79,6 +79,16 @@ class CoreLaw:
                     f"expected {low:g} to {high:g}"
                 )
 
+    @property
+    def plain(self) -> "CoreLaw":
+        """The law as its kind has it, without a bend."""
+        return self
+
+    @property
+    def bends(self) -> int:
+        """How many of the last parameters only bend the law: they have priors (`fitting.bent_law`)."""
+        return 0
+
     def modulus(self, omega: Array) -> Complex:
         """G* in Pa at real angular frequencies `omega` in rad/s. Shape of `omega`."""
         raise NotImplementedError
@@ -146,6 +156,16 @@ class CoreLaw:
         """Logarithms of the physical limits. Shape (parameters,) each."""
         lower, upper = np.log([(q.lower, q.upper) for q in self.limits]).T
         return lower, upper
+
+    @property
+    def search_widths(self) -> Array:
+        """Standard deviations of the log parameters, as likely anywhere in the ranges that are searched.
+
+        Of the plain law's. Shape (parameters,).
+        """
+        low, high = np.log([q.search for q in self.plain.limits]).T
+        # The variance of a uniform density is its width squared over twelve.
+        return np.asarray((high - low) / np.sqrt(12.0))
 
     def with_logs(self, logs: Array) -> Self:
         """The same law with the exponentials of `logs` as parameters, kept within their limits."""

@@ -82,7 +82,7 @@ def said_of(case: Case, found: Diagnosis, seconds: float, setup_seconds: float) 
         effects=tuple(e.name for e in found.effects),
         channels=tuple(e.name for e in found.channels),
         equivalent={name: tuple(group) for name, group in found.equivalent.items()},
-        candidates=tuple((c.name, c.delta_bic, c.chi2_per_dof) for c in found.candidates),
+        candidates=tuple((c.name, c.delta_cost, c.chi2_per_dof) for c in found.candidates),
         before=_stage(case.truth.law, found.before),
         after=_stage(case.truth.law, found.after),
         seconds=seconds,

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import click
 
-from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
+from fitting.identification.bare_plate import fit_bare_plate
 from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_identification import print_bare_plate, print_identification
@@ -48,16 +48,14 @@ def identify(
     """
     out = Output(json_path)
     given = read_data(out, data, specimen, hammer, no_hammer=no_hammer)
-    read, bare = given.specimen, None
-    if given.modes is not None:
-        bare = fit_bare_plate(read, *given.modes)
-        read = with_bare_plate(read, bare)
+    read = given.specimen
     if no_viscous_damping:
         read = replace(read, modal_ratios=())
-    found: Identified = identify_sweep(given.sweep, read, method, bar)
+    found: Identified = identify_sweep(given.sweep, read, method, bar, given.modes)
     print_identification(out, found, given.sweep)
     facts = identification_facts(found, given.sweep)
-    if bare is not None:
+    if given.modes is not None:
+        bare = fit_bare_plate(read, *given.modes)
         print_bare_plate(out, bare, read)
         facts["hammer"] = bare_plate_facts(bare, read)
     out.result({**facts, **given.facts})

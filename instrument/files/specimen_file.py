@@ -65,16 +65,32 @@ class _Mesh(Table):
 
 
 class _Tolerances(Table):
-    """Standard deviations in percent of what was measured or looked up."""
+    """Standard deviations of what was measured or looked up; typical ones where a key is left out."""
 
     substrate_young_percent: NotNegative | None = None
     substrate_thickness_percent: NotNegative | None = None
     substrate_density_percent: NotNegative | None = None
+    substrate_poisson_percent: NotNegative | None = None
     constraining_young_percent: NotNegative | None = None
     constraining_thickness_percent: NotNegative | None = None
     constraining_density_percent: NotNegative | None = None
+    constraining_poisson_percent: NotNegative | None = None
     core_thickness_percent: NotNegative | None = None
     core_density_percent: NotNegative | None = None
+    core_poisson_percent: NotNegative | None = None
+    length_mm: NotNegative | None = None
+    width_mm: NotNegative | None = None
+    pickup_mm: NotNegative | None = None
+    damping_percent: NotNegative | None = None
+    gain_percent: NotNegative | None = None
+    delay_us: NotNegative | None = None
+    mass_percent: NotNegative | None = None
+    exact: bool = False
+
+
+_UNITS = {"percent": 1e-2, "mm": 1e-3, "us": 1e-6}
+"""Of the keys' endings, in what `fitting.tolerances` counts in."""
+_MOST_PERCENT = 50.0
 
 
 class SpecimenDocument(Table):
@@ -130,13 +146,22 @@ def specimen_of(d: SpecimenDocument) -> Specimen:
         reads=d.pickup.reads if d.pickup else "relative",
         base_acceleration_m_s2=d.base.acceleration_m_s2,
         tolerances=_tolerances(d),
+        exact=d.tolerances is not None and d.tolerances.exact,
         elements=(d.mesh.elements_x, d.mesh.elements_y) if d.mesh else None,
     )
 
 
 def _tolerances(d: SpecimenDocument) -> dict[str, float]:
-    given = d.tolerances.model_dump(exclude_none=True) if d.tolerances is not None else {}
-    return {name.removesuffix("_percent"): percent / 100 for name, percent in given.items() if percent > 0}
+    given = d.tolerances.model_dump(exclude_none=True, exclude={"exact"}) if d.tolerances is not None else {}
+    found = {}
+    for key, value in given.items():
+        name, _, unit = key.rpartition("_")
+        if unit == "percent" and value > _MOST_PERCENT:
+            raise OutsideModel(
+                f"tolerances.{key} = {value:g}, expected a standard deviation of at most {_MOST_PERCENT:g} %"
+            )
+        found[name] = value * _UNITS[unit]
+    return found
 
 
 def _law(table: dict[str, Any]) -> CoreLaw:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from pydantic import ValidationError
 
-from fitting.identification.bare_plate import BarePlateFit, fit_bare_plate, with_bare_plate
+from fitting.identification.bare_plate import BarePlateFit, fit_bare_plate
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.errors import BadInput
@@ -23,7 +23,6 @@ class SessionFit:
     identified: Identified
     sweep: Sweep
     specimen: Specimen
-    """Stiffness and ratios as the hammer test has them, where it took part."""
     bare: BarePlateFit | None
 
 
@@ -36,9 +35,8 @@ def identify_session(contents: Contents, progress: Progress = quiet) -> SessionF
     modes = session_modes(contents)
     if modes is not None:
         bare = fit_bare_plate(specimen, *modes)
-        specimen = with_bare_plate(specimen, bare)
     sweep = session_sweep(contents, specimen)
-    return SessionFit(identify(sweep, specimen, "direct", progress), sweep, specimen, bare)
+    return SessionFit(identify(sweep, specimen, "direct", progress, modes), sweep, specimen, bare)
 
 
 def session_sweep(contents: Contents, specimen: Specimen) -> Sweep:

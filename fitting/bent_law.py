@@ -1,0 +1,125 @@
+"""A core law that a material follows only nearly: bent smoothly within a few percent.
+
+    G' = G'_law exp(b_G(ln f)),   eta = eta_law exp(b_eta(ln f))
+
+b is a Gaussian process in the logarithm of the frequency, here by its values at knots: no material has read
+the formula. Its whitened values are unknowns with priors of unit width, fitted beside the law's parameters.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.laws.base import CoreLaw, Quantity
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+STORAGE, LOSS = 0.025, 0.045
+"""Standard deviations of b_G and b_eta: how far Maxwell, Havriliak-Negami and tabulated materials lie from
+the nearest fractional Zener over a decade (docs/uncertainty.md)."""
+REACH = 1.0
+"""Distance in ln f over which a bend goes on."""
+_A_KNOT = 0.7
+_MOST = 8.0
+_BEND = Quantity("", 1.0, float(np.exp(-_MOST)), float(np.exp(_MOST)), (float(np.exp(-1)), float(np.exp(1))))
+
+
+@dataclass(frozen=True)
+class BentLaw(CoreLaw):
+    """`law` with a bend; its parameters come first, then the exponentials of the whitened bend."""
+
+    law: CoreLaw
+    knots_hz: tuple[float, ...]
+    bend: tuple[float, ...]
+    """Exponentials of whitened values: of b_G at the knots, then of b_eta."""
+
+    @classmethod
+    def over(cls, law: CoreLaw, frequency_hz: Array) -> "BentLaw":
+        """`law` unbent, free to bend over a range of frequencies."""
+        low, high = float(np.min(frequency_hz)), float(np.max(frequency_hz))
+        count = 2 + int(np.log(high / low) / _A_KNOT)
+        knots = tuple(float(f) for f in np.geomspace(low, high, count))
+        return cls(law, knots, (1.0,) * (2 * count))
+
+    @property
+    def plain(self) -> CoreLaw:
+        """The law that is bent."""
+        return self.law
+
+    @property
+    def kind(self) -> str:  # type: ignore[override]
+        """Of the law that is bent."""
+        return self.law.kind
+
+    @property
+    def bends(self) -> int:
+        """How many of the parameters, the last ones, have priors of unit width in their logarithms."""
+        return len(self.bend)
+
+    @property
+    def names(self) -> list[str]:
+        """Of the law's own parameters, then of the bend."""
+        return [*self.law.names, *(f"bend_{k + 1}" for k in range(len(self.bend)))]
+
+    @property
+    def values(self) -> Array:
+        """In the order of `names`."""
+        return np.concatenate([self.law.values, self.bend])
+
+    @property
+    def limits(self) -> list[Quantity]:
+        """In the order of `names`."""
+        return [*self.law.limits, *(_BEND,) * len(self.bend)]
+
+    def with_values(self, values: Array) -> Self:
+        """The same law with other parameters and another bend."""
+        n = len(self.law.names)
+        bend = tuple(float(v) for v in values[n:])
+        return type(self)(self.law.with_values(values[:n]), self.knots_hz, bend)
+
+    def objections(self) -> list[str]:
+        """Of the law that is bent."""
+        return self.law.objections()
+
+    def modulus(self, omega: Array) -> Complex:
+        """G* in Pa at `omega` in rad/s."""
+        g, e = self._bent(np.asarray(omega, dtype=float))
+        G = self.law.modulus(omega)
+        return np.asarray(np.exp(g) * (G.real + 1j * np.exp(e) * G.imag))
+
+    def jacobian(self, omega: Array) -> Complex:
+        """dG*/dp, in the order of `names`. Shape (parameters, frequencies)."""
+        omega = np.asarray(omega, dtype=float)
+        g, e = self._bent(omega)
+        own = self.law.jacobian(omega)
+        own = np.exp(g) * (own.real + 1j * np.exp(e) * own.imag)
+        W, G = self._weights(omega), self.modulus(omega)
+        half = len(self.knots_hz)
+        by_g = STORAGE * W * G / np.array(self.bend[:half]).reshape(-1, *(1,) * np.ndim(omega))
+        by_e = LOSS * W * 1j * G.imag / np.array(self.bend[half:]).reshape(-1, *(1,) * np.ndim(omega))
+        return np.concatenate([own, by_g, by_e])
+
+    def _bent(self, omega: Array) -> tuple[Array, Array]:
+        xi = np.log(np.array(self.bend)).reshape(2, -1)
+        W = self._weights(omega)
+        return STORAGE * np.tensordot(xi[0], W, axes=1), LOSS * np.tensordot(xi[1], W, axes=1)
+
+    def _weights(self, omega: Array) -> Array:
+        """Of the whitened values at each frequency: k(f, knots) L^-T. Shape (knots, ...)."""
+        x = np.log(np.maximum(omega, 1e-9) / (2 * np.pi))
+        between = np.exp(-0.5 * ((x[..., None] - self._at) / REACH) ** 2)
+        return np.moveaxis(between @ self._whiten, -1, 0)
+
+    @cached_property
+    def _at(self) -> Array:
+        return np.log(np.array(self.knots_hz))
+
+    @cached_property
+    def _whiten(self) -> Array:
+        K = np.exp(-0.5 * ((self._at[:, None] - self._at) / REACH) ** 2)
+        L = np.linalg.cholesky(K + 1e-9 * np.eye(len(K)))
+        return np.asarray(np.linalg.inv(L).T)

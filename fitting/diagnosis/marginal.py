@@ -1,0 +1,87 @@
+"""What an explanation is worth: its marginal likelihood, by Laplace's approximation about the fit.
+
+    Z = integral of p(data | law, stated numbers, unknowns) p(law) p(stated numbers) p(unknowns)
+      ~ exp(-chi2 / 2) p(where the fit is) (2 pi)^(k/2) det(J^T J)^(-1/2)
+
+So every number that is fitted is paid for by how much narrower the data made it than it was expected to be: a
+law free to bend, a place chosen among many, a small gain, by one rule. `cost` is -2 ln Z, without what all
+explanations share; the prior probability of the effects themselves is in it.
+"""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.diagnosis.refit import Fitted
+from fitting.effects.base import Effect, Unknown
+from fitting.effects.spanned import SpannedPlate
+
+Array = NDArray[np.float64]
+
+_TYPICALS = 3.0
+"""An unknown whose `spread` is not stated is expected to be of a few typical sizes."""
+_UNIFORM = 12.0
+"""Variance of a uniform density is its width squared over this."""
+
+
+def cost(fitted: Fitted, plate: SpannedPlate) -> float:
+    """-2 ln of prior times marginal likelihood. Where the noise is unknown its size is integrated too."""
+    law_widths = fitted.law.search_widths
+    priors = [_prior(q, lower, upper, u) for q, lower, upper, u in _free(fitted, plate)]
+    widths = np.array([*law_widths, *(width for _, width in priors)])
+    densities = np.array([*np.log(1 / (law_widths * np.sqrt(_UNIFORM))), *(density for density, _ in priors)])
+    n, bends = len(law_widths), fitted.law.bends
+    J = fitted.jacobian
+    if not fitted.noise_known:
+        J = J / np.sqrt(max(fitted.chi2, 1e-300) / max(1, fitted.data))
+    H = J.T @ J
+    # What the data leave open, the prior still bounds.
+    bounded = np.concatenate([np.arange(n), np.arange(n + bends + fitted.stated, len(H))])
+    H[bounded, bounded] += 1 / widths**2
+    _, logdet = np.linalg.slogdet(H)
+    k = len(widths)
+    paid = float(logdet) - k * np.log(2 * np.pi) - 2 * float(densities.sum())
+    return _misfit(fitted) + paid + sum(_odds(e) for e in fitted.effects)
+
+
+def _misfit(fitted: Fitted) -> float:
+    if fitted.noise_known:
+        return fitted.chi2
+    n = fitted.data
+    return n * float(np.log(max(fitted.chi2, 1e-300) / n))
+
+
+def _odds(effect: Effect) -> float:
+    """-2 ln of the odds that a set-up has it."""
+    return -2 * float(np.log(effect.chance / (1 - effect.chance)))
+
+
+def _free(fitted: Fitted, plate: SpannedPlate) -> list[tuple[Unknown, float, float, float]]:
+    """Every fitted unknown of the effects with its limits and where it is."""
+    found, start = [], fitted.stated
+    for effect in fitted.effects:
+        lower, upper = effect.limits(plate)
+        for k, q in enumerate(effect.unknowns):
+            if fitted.free[start + k]:
+                found.append((q, float(lower[k]), float(upper[k]), float(fitted.u[start + k])))
+        start += len(effect.unknowns)
+    return found
+
+
+def _prior(q: Unknown, lower: float, upper: float, u: float) -> tuple[float, float]:
+    """Ln density where the fit is, and the prior's width, both as the unknown is fitted."""
+    if q.logarithmic:
+        width = np.log(upper / lower)
+        return float(-np.log(width)), float(width / np.sqrt(_UNIFORM))
+    if q.neutral is None:
+        width = upper - lower
+        return float(-np.log(width)), float(width / np.sqrt(_UNIFORM))
+    # Cauchy's: most are small, some are not, and no size is ruled out.
+    s = q.spread or _TYPICALS * q.typical
+    sides = 1 if lower < q.neutral < upper else 2
+    return float(np.log(sides / (np.pi * s * (1 + ((u - q.neutral) / s) ** 2)))), s
+
+
+def probabilities(costs: Array, temper: float = 1.0) -> Array:
+    """Of explanations from their costs, one of them being right. Shape of `costs`."""
+    relative = np.exp(-(costs - costs.min()) / (2 * temper))
+    return np.asarray(relative / relative.sum())

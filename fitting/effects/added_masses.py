@@ -1,0 +1,58 @@
+"""Two point masses on the plate: a sensor and its cable's clip, two reflectors."""
+
+from collections.abc import Mapping
+from itertools import combinations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.effects.added_mass import AddedMass
+from fitting.effects.base import Change, Effect, Points, Unknown
+from fitting.effects.spanned import SpannedPlate
+
+Array = NDArray[np.float64]
+
+_PLACES = [(x, y) for x in (0.4, 0.7, 0.97) for y in (0.2, 0.8)]
+"""Shares of length and width. Fifteen pairs: most do little that the others do not."""
+_START_KG = 3e-3
+
+
+class AddedMasses(Effect):
+    """m_1 w^2 at (x_1, y_1) and m_2 w^2 at (x_2, y_2)."""
+
+    name = "added_masses"
+    enters = "mass"
+    source = AddedMass.source
+    unknowns = tuple(
+        Unknown(f"{key}_{number}", unit, lower, upper, typical, neutral=neutral, spread=spread)
+        for number in (1, 2)
+        for key, unit, lower, upper, typical, neutral, spread in (
+            ("mass", "kg", 0.0, 0.05, 3e-3, 0.0, 5e-3),
+            ("x", "m", 0.0, np.inf, 0.05, None, None),
+            ("y", "m", 0.0, np.inf, 0.05, None, None),
+        )
+    )
+    spans = AddedMass.spans
+    misses = AddedMass.misses
+    extends = "added_mass"
+    chance = 0.005
+    splits = AddedMass.splits
+
+    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+        places = [(x * plate.length_m, y * plate.width_m) for x, y in _PLACES]
+        return [np.array([_START_KG, *a, _START_KG, *b]) for a, b in combinations(places, 2)]
+
+    def limits(self, plate: SpannedPlate) -> tuple[Array, Array]:
+        lower, upper = super().limits(plate)
+        return lower, np.minimum(upper, [np.inf, plate.length_m, plate.width_m] * 2)
+
+    def change(self, plate: SpannedPlate, u: Array) -> Change:
+        one, other = (AddedMass().change(plate, u[k : k + 3]) for k in (0, 3))
+        return one.and_then(other)
+
+    def story(self, u: Mapping[str, float]) -> str:
+        both = (
+            f"{1e3 * u[f'mass_{n}']:.2g} g near ({1e3 * u[f'x_{n}']:.0f}, {1e3 * u[f'y_{n}']:.0f}) mm"
+            for n in (1, 2)
+        )
+        return f"two masses sit on the plate, {' and '.join(both)}"

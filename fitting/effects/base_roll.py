@@ -1,0 +1,70 @@
+"""The base turns about the plate's axis while it lifts: roll in fixed proportion to its acceleration."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.effects.base import Change, Effect, Points, Span, Unknown
+from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.spanned import SpannedPlate
+from fitting.element import DOFS, THETA_X, V_C, W
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_ON_AXIS_M = 1e-4
+"""A pickup so near to the axis hardly sees a roll."""
+
+
+class Roll(Span):
+    """Responses to a base that turns about x."""
+
+    name = "roll"
+    odd = True
+    columns = 16
+
+    def vectors(self, full: FullPlate) -> Mapping[str, Array]:
+        return {"load": -(full.loose.M @ rolling(full))}
+
+    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
+        X = at.solve(-(full.loose.M @ rolling(full))[:, None], odd=True)
+        return np.asarray(0.3 * X / np.sqrt(np.real(np.vdot(X, full.scale @ X))))
+
+
+def rolling(full: FullPlate) -> Array:
+    """Rigid turn about the plate's axis, w = y - width / 2; the layers move along. Shape (n,)."""
+    s = full.specimen
+    r = np.zeros((full.loose.mesh.nodes, DOFS))
+    r[:, W] = full.loose.mesh.node_positions()[:, 1] - s.width_m / 2
+    r[:, THETA_X] = 1.0
+    if s.core is not None and s.constraining is not None:
+        r[:, V_C] = -(s.core.thickness_m + (s.substrate.thickness_m + s.constraining.thickness_m) / 2)
+    return np.asarray(r.ravel()[full.loose.free])
+
+
+class BaseRoll(Effect):
+    """Positive roll lifts the far edge, y = width, with the base."""
+
+    name = "base_roll"
+    enters = "load"
+    source = "rigid turn of the base about x, inertia load -M r_r"
+    unknowns = (Unknown("roll", "rad/m", -2.0, 2.0, 0.05, spread=0.1),)
+    spans = (Roll(),)
+    chance = 0.015
+    splits = (
+        "two accelerometers on the base, side by side; two spots at the same x on either side of the axis"
+    )
+
+    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+        if abs(plate.pickup[1] - plate.width_m / 2) < _ON_AXIS_M:
+            return "a pickup on the axis does not see the base roll"
+        return None
+
+    def change(self, plate: SpannedPlate, u: Array) -> Change:
+        # The pickup is turned along with the base.
+        lever = plate.pickup[1] - plate.width_m / 2
+        return Change(load=u[0] * plate.vector("roll.load"), travel=u[0] * lever)
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return f"the base rolls with its acceleration ({u['roll']:+.2g} rad/m)"

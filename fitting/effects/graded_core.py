@@ -1,0 +1,96 @@
+"""The core's modulus changes along the plate: cured, aged or warmed more at one end."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from fitting.effects.base import Change, Effect, Span, Unknown
+from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.partial_debond import strips
+from fitting.effects.spanned import SpannedPlate
+from fitting.element import DOFS, Shape, core_shear
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+_GRADE = 2.0
+"""Of the motions spanned."""
+
+
+class Grading(Span):
+    """Motions with a graded core. Apart from the strips' own: these add up where a strip's do not."""
+
+    columns = 10
+
+    def __init__(self, along: str) -> None:
+        self.along = along
+        self.name = f"grading_{along}"
+        self.odd = along == "y"
+
+    def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
+        return {"K_1": tilted(full, self.along)}
+
+    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
+        dA = _GRADE * at.G * tilted(full, self.along)
+        first = at.solve(dA @ at.both, odd=self.odd)
+        return np.hstack([first, at.solve(dA @ first, odd=self.odd)])
+
+
+def tilted(full: FullPlate, along: str) -> sp.csc_array:
+    """Shear stiffness for G = 1 Pa times s - 1/2, s from 0 to 1 along x or y. Shape (n, n)."""
+
+    def make() -> sp.csc_array:
+        rows = strips(full, along)
+        found = full.loose.scatter(_tilted_element(full, along) / len(rows))
+        for k, A in enumerate(rows):
+            found = found + ((k + 0.5) / len(rows) - 0.5) * A
+        return sp.csc_array(found)
+
+    return full.once(f"tilted along {along}", make)
+
+
+def _tilted_element(full: FullPlate, along: str) -> Array:
+    """An element's shear stiffness times s - 1/2, s from 0 to 1 within it. Shape (28, 28)."""
+    s = full.specimen
+    assert s.core is not None
+    assert s.constraining is not None
+    shape = Shape(*full.loose.mesh.sides_m)
+    t, weight = np.polynomial.legendre.leggauss(4)
+    found = np.zeros((4 * DOFS, 4 * DOFS))
+    for tx, wx in zip(t, weight, strict=True):
+        for ty, wy in zip(t, weight, strict=True):
+            x, y = shape.a_m * (tx + 1) / 2, shape.b_m * (ty + 1) / 2
+            N = np.array(core_shear(shape, s.core, s.substrate, s.constraining, x, y))
+            dA = shape.a_m * shape.b_m / 4 * wx * wy
+            found += (tx if along == "x" else ty) / 2 * s.core.thickness_m * dA * (N.T @ N)
+    return found
+
+
+class GradedCore(Effect):
+    """G times 1 + grade (s - 1/2), s along the length or across the width from 0 to 1."""
+
+    name = "graded_core"
+    enters = "stiffness"
+    source = "first order in the place; the core's shear alone"
+    misses = 0.004
+    chance = 0.015
+    splits = "strips of the core tested one by one; the sweep repeated after hours at one temperature"
+
+    def __init__(self, along: str = "x") -> None:
+        self.along = along
+        self.spans = (Grading(along),)
+        self.unknowns = (Unknown(f"grade_{along}", "1", -1.5, 1.5, 0.2, spread=0.3),)
+
+    def variants(self) -> tuple[Effect, ...]:
+        return (self, GradedCore("y"))
+
+    def change(self, plate: SpannedPlate, u: Array) -> Change:
+        return Change(K_1=u[0] * plate.matrix(f"grading_{self.along}.K_1"))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        along = "length, tip over root" if self.along == "x" else "width, far edge over near edge"
+        grade = u[f"grade_{self.along}"]
+        return f"the core's modulus changes by {100 * grade:+.0f} % along the plate's {along}"

@@ -1,0 +1,54 @@
+"""The phase meter's scale is off: phases come out a few percent too large or too small."""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.spanned import SpannedPlate
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_HIGHEST = np.pi / 2
+"""Of a peak's phase, rad; the lowest lies a turn below."""
+_GAP = 0.1
+"""In ln f, beyond which two points belong to different segments."""
+
+
+class PhaseScale(Effect):
+    """|v| e^{i factor phi}, phi continuous along each segment.
+
+    A plate's velocity relative to its base passes -pi at a resonance (below it -pi/2, above it -3 pi/2), or 0
+    where the pickup moves against the tip. So the phase of every segment's largest reading is taken between
+    -3 pi/2 and pi/2, a quarter turn off either; the others follow from it without a jump.
+    """
+
+    name = "phase_scale"
+    enters = "channel"
+    source = "gain error of a phase detector's output, phases taken as lags behind the reference"
+    unknowns = (Unknown("factor", "1", 0.8, 1.2, 1.02, neutral=1.0, spread=0.03),)
+    chance = 0.005
+    splits = "two channels on one generator with a known phase between them"
+
+    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+        return None if points.has_phase else "amplitudes do not show a phase"
+
+    def reading(self, v: Complex, points: Points, u: Array) -> Complex:
+        return np.asarray(v * np.exp(1j * (u[0] - 1) * continuous_phase(v, points.omega)))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return f"phases are read {100 * (u['factor'] - 1):+.2g} % off"
+
+
+def continuous_phase(v: Complex, omega: Array) -> Array:
+    """Argument of `v` (m/s over a real reference), rad, without jumps in a segment. Shape of `omega`."""
+    order = np.argsort(omega, kind="stable")
+    gaps = np.flatnonzero(np.diff(np.log(omega[order])) > _GAP) + 1
+    phase = np.empty(len(omega))
+    for here in np.split(order, gaps):
+        found = np.unwrap(np.angle(v[here]))
+        peak = found[np.argmax(np.abs(v[here]))]
+        phase[here] = found - 2 * np.pi * np.ceil((peak - _HIGHEST) / (2 * np.pi))
+    return phase

@@ -1,0 +1,111 @@
+"""The root let go in some of its motions: the held plate's answers condensed on them. No effect by itself.
+
+With r the released motions of the root and i all that the clamp leaves free,
+
+    T = E_r - A_ii^-1 A_ir,   (T^T A T + S) y = T^T f,   x = A_ii^-1 f_i + T y
+
+so one factorisation of the held plate serves every spring S at the root. Its motions are smooth along y:
+a few polynomials do.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.element import DOFS
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+Indices = NDArray[np.intp]
+
+_PAIRS = 5
+"""Of an even and an odd polynomial along the root, for each of a node's degrees of freedom."""
+
+
+@dataclass(frozen=True)
+class ReleasedRoot:
+    """A point of frequency and modulus; r released motions."""
+
+    root: Indices
+    """Released degrees of freedom of the loose plate."""
+    T: Complex
+    """Responses to the released motions. Shape (n, r)."""
+    stiffness: Complex
+    """T^T A T. Shape (r, r)."""
+    forces: Complex
+    """T^T f for a unit base acceleration and a unit force at the pickup. Shape (r, 2)."""
+    held: Complex
+    """Responses of the held plate to the same. Shape (n, 2)."""
+
+    def answers(self, full: FullPlate, springs: sp.sparray) -> Complex:
+        """Responses on springs at the root, of unit size. Shape (n, 2)."""
+        T = self.T[self.root]
+        S = T.T @ (sp.csr_array(springs)[self.root][:, self.root] @ T)
+        X = self.held + self.T @ np.linalg.solve(self.stiffness + S, self.forces)
+        return np.asarray(X / np.sqrt(np.real(np.einsum("ij,ij->j", X.conj(), full.scale @ X))))
+
+
+def released(full: FullPlate, at: Snapshot, dofs: Sequence[int], *, odd: bool) -> ReleasedRoot:
+    """The root released in some of a node's degrees of freedom; `odd` for motions odd in y too."""
+    loose = full.loose
+    root = root_dofs(full, dofs)
+    along = _along(loose.mesh.n_y + 1)
+    E = np.zeros((loose.size, along.shape[1] * len(dofs)))
+    E[root] = np.kron(along, np.eye(len(dofs)))
+    A = loose.dynamic_stiffness(at.omega, at.G).tocsr()
+    loads = np.column_stack([-(loose.M @ full.heave), loose.observe(*full.pickup_m)])
+    # An even and an odd motion in one column: its response and the mirrored one tell them apart.
+    answered = at.solve(np.hstack([A @ E, loads]), odd=odd)
+    follow, held = answered[:, : E.shape[1]], answered[:, E.shape[1] :]
+    if odd:
+        F = E - follow
+        T = np.hstack([F + _mirrored(full, F), F - _mirrored(full, F)])
+    else:
+        T = E + _mirrored(full, E) - 2 * follow
+    return ReleasedRoot(root, T, T[root].T @ (A[root] @ T), T.T @ loads, held)
+
+
+def _along(nodes: int) -> Array:
+    """Legendre's polynomials at the root's nodes, each even one plus the next odd one. Shape (nodes, few)."""
+    count = min(2 * _PAIRS, nodes // 2 * 2)
+    L = np.polynomial.legendre.legvander(np.linspace(-1, 1, nodes), count - 1)
+    return np.asarray(L[:, 0::2] + L[:, 1::2])
+
+
+def _mirrored(full: FullPlate, X: Array | Complex) -> Array | Complex:
+    """Motions of the loose plate seen in the mirror y to width - y."""
+    P = full.loose.even
+    return np.asarray(2 * (P @ (P.T @ X)) - X)
+
+
+def root_dofs(full: FullPlate, dofs: Sequence[int]) -> Indices:
+    """Places of the root nodes' degrees of freedom among the loose plate's."""
+    wanted = (np.arange(full.loose.mesh.n_y + 1)[:, None] * DOFS + np.asarray(dofs)).ravel()
+    return np.asarray(np.searchsorted(full.loose.free, wanted), dtype=np.intp)
+
+
+def along_root(full: FullPlate, weight: Array | None = None) -> sp.csr_array:
+    """Integral along y of two of the root's linear shape functions, in m. Shape (n_y + 1, n_y + 1).
+
+    `weight` is given at the nodes, linear between them.
+    """
+    n_y, b = full.loose.mesh.n_y, full.loose.mesh.sides_m[1]
+    g = np.ones(n_y + 1) if weight is None else weight
+    low, high = g[:-1], g[1:]
+    diagonal = np.zeros(n_y + 1)
+    diagonal[:-1] += b * (low / 4 + high / 12)
+    diagonal[1:] += b * (low / 12 + high / 4)
+    beside = b * (low + high) / 12
+    return sp.csr_array(sp.diags_array([beside, diagonal, beside], offsets=[-1, 0, 1]))
+
+
+def on_root(full: FullPlate, along: sp.sparray, local: Array) -> sp.csc_array:
+    """A stiffness per area of the root, or per width, on the loose plate. `local` (7, 7) of a node's."""
+    n = full.loose.mesh.nodes * DOFS
+    block = sp.kron(along, local).tocoo()
+    whole = sp.coo_array((block.data, (block.row, block.col)), (n, n)).tocsr()
+    return sp.csc_array(whole[full.loose.free][:, full.loose.free])

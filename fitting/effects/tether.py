@@ -1,0 +1,60 @@
+"""A cable hangs on the plate: a spring, with losses, from a point of it to the floor.
+
+The floor stands still: the spring feels the plate's motion relative to the base and the base's own,
+
+    force = -k (1 + i loss) (w + w_base),   w_base = -a / omega^2
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.effects.added_mass import PointMass
+from fitting.effects.base import Change, Effect, Points, Unknown
+from fitting.effects.spanned import SpannedPlate
+
+Array = NDArray[np.float64]
+
+_LOSS = 0.2
+_START_N_M = 50.0
+
+
+class Tether(Effect):
+    """A spring k (1 + i loss) at (x, y)."""
+
+    name = "tether"
+    enters = "stiffness"
+    source = "cable stiffness and damping, Ewins, Modal Testing (2000), section 3.5"
+    unknowns = (
+        Unknown("k", "N/m", 0.0, 2e3, _START_N_M, spread=100.0),
+        Unknown("loss_factor", "1", 0.0, 2.0, _LOSS, neutral=None),
+        Unknown("x", "m", 0.0, np.inf, 0.05, neutral=None),
+        Unknown("y", "m", 0.0, np.inf, 0.05, neutral=None),
+    )
+    spans = (PointMass(),)
+    misses = 0.003
+    chance = 0.015
+    splits = "a look at the plate; the cable taped down elsewhere, or taken off"
+
+    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+        along, across = (0.3, 0.5, 0.7, 0.85, 0.98), (0.1, 0.5, 0.9)
+        return [
+            np.array([_START_N_M, _LOSS, x * plate.length_m, y * plate.width_m])
+            for x in along
+            for y in across
+        ]
+
+    def limits(self, plate: SpannedPlate) -> tuple[Array, Array]:
+        lower, upper = super().limits(plate)
+        return lower, np.minimum(upper, [np.inf, np.inf, plate.length_m, plate.width_m])
+
+    def change(self, plate: SpannedPlate, u: Array) -> Change:
+        w, k = plate.row(u[2], u[3]), u[0] * (1 + 1j * u[1])
+        return Change(K=k * np.outer(w, w), travel_load=-k * w)
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return (
+            f"a cable pulls at the plate near ({1e3 * u['x']:.0f}, {1e3 * u['y']:.0f}) mm "
+            f"({u['k']:.2g} N/m, loss factor {u['loss_factor']:.2g})"
+        )

@@ -1,0 +1,69 @@
+"""The clamp holds the substrate alone: core and constraining layer end free at the root.
+
+A free end of the constraining layer carries no tension: the plate is softer there, and its core shears
+otherwise. The springs that hold it in its plane say how free it is.
+"""
+
+from collections.abc import Mapping
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from fitting.effects.base import Change, Effect, Points, Span, Unknown
+from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.released_root import along_root, on_root, released
+from fitting.effects.spanned import SpannedPlate
+from fitting.element import DOFS, U_C, V_C
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_SPANNED = (1e6, 1e8, 4e8, 3e9)
+
+
+class FreeTreatment(Span):
+    """Motions with the constraining layer let go at the root, w and the substrate held."""
+
+    name = "treatment"
+    columns = 12
+
+    def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
+        return {"hold": hold(full)}
+
+    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
+        if full.specimen.boundary != "cantilever":
+            return super().responses(full, at)
+        root = released(full, at, (U_C, V_C), odd=False)
+        S = full.once("hold of the treatment", lambda: hold(full))
+        return np.hstack([root.answers(full, k * S) for k in _SPANNED])
+
+
+def hold(full: FullPlate) -> sp.csc_array:
+    """Unit springs per width on the constraining layer's root, along x and y. Shape (n, n)."""
+    local = np.zeros((DOFS, DOFS))
+    local[U_C, U_C] = local[V_C, V_C] = 1.0
+    return on_root(full, along_root(full), local)
+
+
+class TreatmentNotGripped(Effect):
+    """Springs k per width hold the constraining layer's root in its plane; none would leave it free."""
+
+    name = "treatment_not_gripped"
+    enters = "stiffness"
+    source = "free end of a constrained layer, e.g. Plunkett and Lee, J. Acoust. Soc. Am. 48 (1970)"
+    unknowns = (Unknown("k", "N/m^2", 1e6, 1e12, 1e8, logarithmic=True, neutral=float("inf")),)
+    spans = (FreeTreatment(),)
+    splits = "a look at the clamp: whether the treatment reaches between the jaws; a strip of it glued down"
+
+    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+        return None if "treatment" in plate.group else "the plate has no clamp"
+
+    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+        return [np.array([k]) for k in (1e7, 3e8)]
+
+    def change(self, plate: SpannedPlate, u: Array) -> Change:
+        return Change(K=u[0] * plate.matrix("treatment.hold"))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return f"the clamp hardly holds the constraining layer ({u['k']:.2g} N/m^2 in its plane)"

@@ -1,0 +1,85 @@
+"""The clamp holds one side better than the other: springs at the root that vary along the width."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from fitting.effects.base import Change, Effect, Points, Span, Unknown
+from fitting.effects.clamp_compliance import ClampCompliance, root_springs
+from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.released_root import along_root, released
+from fitting.effects.spanned import SpannedPlate
+from fitting.element import DOFS, THETA_Y, U_B, U_C, W
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_MOST = 0.95
+_SPANNED = ((6e12, 0.7), (2e13, 0.9), (6e13, 0.9), (4e14, 0.9))
+
+
+class UnevenRoot(Span):
+    """Motions with a root that yields more on one side. Along y it is held, as between jaws."""
+
+    name = "uneven"
+    odd = True
+    columns = 14
+
+    def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
+        return dict(zip(("mean", "slope"), uneven_springs(full), strict=True))
+
+    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
+        if full.specimen.boundary != "cantilever":
+            return super().responses(full, at)
+        root = released(full, at, (U_C, U_B, W, THETA_Y), odd=True)
+        mean, slope = uneven_springs(full)
+        return np.hstack([root.answers(full, k * (mean + s * slope)) for k, s in _SPANNED])
+
+
+def uneven_springs(full: FullPlate) -> tuple[sp.csc_array, sp.csc_array]:
+    """Unit springs per area of the root, along x and z; and times 2 y / width - 1. Shape (n, n) each."""
+
+    def make() -> tuple[sp.csc_array, sp.csc_array]:
+        even = along_root(full).toarray()
+        odd = along_root(full, np.linspace(-1, 1, len(even))).toarray()
+        mean = (root_springs(full, "x") + root_springs(full, "z")).tocoo()
+        i, j = (full.loose.free[place] // DOFS for place in mean.coords)
+        slope = sp.coo_array((mean.data * odd[i, j] / even[i, j], mean.coords), mean.shape)
+        return sp.csc_array(mean), sp.csc_array(slope)
+
+    return full.once("uneven springs", make)
+
+
+class UnevenClamp(Effect):
+    """Springs k (1 + slope (2 y / width - 1)) per area of the root face."""
+
+    name = "uneven_clamp"
+    enters = "stiffness"
+    source = "elastic foundation of the root face, stiffness linear along the width"
+    unknowns = (*ClampCompliance.unknowns, Unknown("slope", "1", -_MOST, _MOST, 0.3, spread=0.4))
+    spans = (UnevenRoot(),)
+    extends = "clamp_compliance"
+    misses = 0.003
+    chance = 0.015
+    splits = "two spots at the same x, one on either side of the axis; the screws tightened by torque"
+
+    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+        return None if "uneven" in plate.group else "the plate has no clamp"
+
+    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+        return [np.array([k, slope]) for k in (5e13, 1.5e13) for slope in (0.6, -0.6)]
+
+    def scaled(self, u: Array, a: float) -> Array:
+        return np.array([u[0] / a, u[1]])
+
+    def change(self, plate: SpannedPlate, u: Array) -> Change:
+        return Change(K=u[0] * (plate.matrix("uneven.mean") + u[1] * plate.matrix("uneven.slope")))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        side = "the far" if u["slope"] > 0 else "the near"
+        return (
+            f"the clamp yields ({u['k']:.2g} N/m^3 of root face on average) and is stiffer on {side} side, "
+            f"by {100 * abs(u['slope']):.0f} %"
+        )

@@ -1,0 +1,72 @@
+"""The stated numbers as a joint fit found them, beside what was stated."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import exp
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.nuisances import Nuisance
+from fitting.specimen import Specimen
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Adjusted:
+    """One stated number; values in `unit`."""
+
+    name: str
+    stated: float
+    tolerance: float
+    """Standard deviation, as stated or typical."""
+    found: float
+    standard_error: float
+    pull: float
+    """(found - stated) in tolerances."""
+    unit: str
+
+
+_LAYERS = {
+    "young": ("young_pa", 1e-9, "GPa"),
+    "thickness": ("thickness_m", 1e3, "mm"),
+    "density": ("density_kg_m3", 1.0, "kg/m^3"),
+    "poisson": ("poisson", 1.0, "1"),
+}
+
+
+def adjusted(specimen: Specimen, each: Sequence[Nuisance], z: Array, errors: Array) -> tuple[Adjusted, ...]:
+    """`z` and its standard `errors` in standard deviations of the tolerances. Shape (count,) both."""
+    return tuple(
+        _one(specimen, n, float(at), float(error)) for n, at, error in zip(each, z, errors, strict=True)
+    )
+
+
+def _one(specimen: Specimen, n: Nuisance, z: float, error: float) -> Adjusted:
+    stated, factor, unit = _stated(specimen, n)
+    if n.unit == "1" and n.kind != "gain":
+        # Moved in the logarithm.
+        found, sigma = stated * exp(n.sigma * z), stated * n.sigma
+        spread = found * n.sigma * error
+    else:
+        found, sigma, spread = stated + n.sigma * z, n.sigma, n.sigma * error
+    return Adjusted(n.name, factor * stated, factor * sigma, factor * found, factor * spread, z, unit)
+
+
+def _stated(specimen: Specimen, n: Nuisance) -> tuple[float, float, str]:
+    """The number in SI, and its unit in results with the factor to it."""
+    if n.kind in ("length", "width"):
+        return getattr(specimen, f"{n.kind}_m"), 1e3, "mm"
+    if n.kind == "pickup":
+        assert specimen.pickup_m is not None
+        return specimen.pickup_m["xy".index(n.name[-1])], 1e3, "mm"
+    if n.kind == "damping":
+        return specimen.modal_ratios[int(n.name.split("_")[1]) - 1], 1e2, "%"
+    if n.kind == "gain":
+        return 1.0, 1.0, "1"
+    if n.kind == "delay":
+        return 0.0, 1e6, "us"
+    layer, _, quantity = n.kind.partition("_")
+    field, factor, unit = _LAYERS[quantity]
+    return getattr(getattr(specimen, layer), field), factor, unit

@@ -1,0 +1,26 @@
+"""The joint fit as an identification: the posterior of the law, and the stated numbers as it has them."""
+
+from fitting.diagnosis.begin import Begun
+from fitting.diagnosis.refit import posterior
+from fitting.diagnosis.response import Response
+from fitting.diagnosis.stage import adjusted_of
+from fitting.identification.fit import Fit
+
+
+def fit_of(begun: Begun) -> Fit:
+    """The fit without effects as `fitting.identification.result.summarise` takes it."""
+    none, first = begun.none, begun.first
+    C = posterior(Response(begun.task, ()), begun.evidence, none)
+    n = len(none.law.names)
+    return Fit(
+        law=none.law,
+        residuals=none.residuals,
+        jacobian=none.jacobian,
+        velocity_m_s=none.velocity_m_s,
+        iterations=first.iterations + none.iterations,
+        evaluations=first.evaluations + none.evaluations,
+        converged=first.converged and none.converged,
+        readings=none.data,
+        covariance=C[:n, :n],
+        adjusted=adjusted_of(begun.task, none, C),
+    )

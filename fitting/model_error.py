@@ -1,0 +1,48 @@
+"""Sizes of what a layer-wise plate gets wrong against a solid, at a specimen's own frequencies and moduli.
+
+Inside, exact elasticity of the layers says how wrong (`fitting.theory_error`); at clamp and edges a solid
+gives way a little more. What is left is the mesh, and what solids and plates of several shapes differ by.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.specimen import Specimen
+from fitting.theory_error import EDGE_FREQUENCY, EDGE_LOSS, theory_error
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+FREQUENCY = 3.5e-4
+"""Of a resonance, relative: the mesh, and the scatter between plates."""
+LOSS = 1e-3
+"""Of a modal loss factor, relative."""
+GAIN = 2e-3
+"""Of the response, in size and in phase."""
+DRIFT = 1e-3
+"""Of an instrument's gain from one end of a segment to the other."""
+
+
+@dataclass(frozen=True)
+class ModelError:
+    """Standard deviations, relative. Shape (frequencies,) each."""
+
+    frequency: Array
+    loss: Array
+    modal_loss: Array
+    """The loss factor of a plate wave there: what `loss` is a share of."""
+
+
+def model_error_at(specimen: Specimen, frequency_hz: Array, G: Complex) -> ModelError:
+    """Around some frequencies, the core's modulus there given."""
+    found = theory_error(specimen, frequency_hz, G)
+    layers = (specimen.substrate, specimen.core, specimen.constraining)
+    thickness = sum(layer.thickness_m for layer in layers if layer is not None)
+    edge = (thickness / min(specimen.length_m, specimen.width_m)) ** 2
+    return ModelError(
+        frequency=np.sqrt(FREQUENCY**2 + found.frequency_error**2 + (EDGE_FREQUENCY * edge) ** 2),
+        loss=np.sqrt(LOSS**2 + found.loss_factor_error**2 + (EDGE_LOSS * edge) ** 2),
+        modal_loss=found.loss_factor,
+    )

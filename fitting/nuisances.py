@@ -1,0 +1,257 @@
+"""The stated numbers of a specimen as unknowns of a fit, in standard deviations of their tolerances.
+
+Each is zero as stated, with a prior of unit width. They enter by the coefficients of the plate's parts, by
+the row that reads the pickup, by the modal ratios and by the velocity channel. Coefficients are exact;
+derivatives of the response follow from theirs by the chain rule.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.effects.base import Change
+from fitting.effects.spanned import SpannedPlate
+from fitting.parts import CORE, MASS, STIFFNESS, coefficients
+from fitting.specimen import Specimen
+from fitting.tolerances import PLATE, STATED, Unit, moved, tolerance
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_H = 1e-2
+"""Step of differences, in standard deviations."""
+_UNHEARD = 1e-6
+"""Share of a mode that the plate's motions carry, below which its ratio plays no part."""
+_TREATMENT = ("constraining", "core")
+
+
+@dataclass(frozen=True)
+class Nuisance:
+    """A stated number that a fit may move within its tolerance."""
+
+    name: str
+    """As results list it: `pickup_x`, `damping_1`."""
+    kind: str
+    """Of `fitting.tolerances.STATED`."""
+    sigma: float
+    """Relative, m or s."""
+
+    @property
+    def unit(self) -> Unit:
+        """Of `sigma`."""
+        return STATED[self.kind].unit
+
+
+def nuisances_of(specimen: Specimen, plate: SpannedPlate, *, has_phase: bool) -> "Nuisances":
+    """All stated numbers of a specimen that its sweep can feel."""
+    names = [n for n in PLATE if specimen.core is not None or not n.startswith(_TREATMENT)]
+    found = [Nuisance(n, n, tolerance(specimen, n)) for n in names]
+    found += [Nuisance(f"pickup_{axis}", "pickup", tolerance(specimen, "pickup")) for axis in "xy"]
+    share = np.linalg.norm(plate.U, axis=0)
+    heard = share > _UNHEARD * share.max(initial=0.0)
+    damping = tolerance(specimen, "damping")
+    found += [
+        Nuisance(f"damping_{r + 1}", "damping", damping)
+        for r, ratio in enumerate(specimen.modal_ratios[: len(heard)])
+        if ratio > 0 and heard[r] and plate.d[r] > 0
+    ]
+    found.append(Nuisance("gain", "gain", tolerance(specimen, "gain")))
+    if has_phase:
+        found.append(Nuisance("delay", "delay", tolerance(specimen, "delay")))
+    return Nuisances(specimen, tuple(n for n in found if n.sigma > 0))
+
+
+@dataclass(frozen=True)
+class Nuisances:
+    """Of one specimen. `z` has shape (count,) throughout, in standard deviations."""
+
+    specimen: Specimen
+    each: tuple[Nuisance, ...] = ()
+
+    def __len__(self) -> int:
+        return len(self.each)
+
+    @cached_property
+    def _sigma(self) -> Array:
+        return np.array([n.sigma for n in self.each], dtype=float)
+
+    @cached_property
+    def _of_plate(self) -> list[int]:
+        return [k for k, n in enumerate(self.each) if n.kind in PLATE]
+
+    @cached_property
+    def of_bare_plate(self) -> list[int]:
+        """Those that a hammer test of the bare plate feels."""
+        return [k for k in self._of_plate if not self.each[k].kind.startswith((*_TREATMENT, "length"))]
+
+    @cached_property
+    def _stated(self) -> Array:
+        return self._coefficients(np.zeros(len(self)))
+
+    @cached_property
+    def _places(self) -> dict[str, int]:
+        return {n.name: k for k, n in enumerate(self.each)}
+
+    @cached_property
+    def _damped(self) -> list[tuple[int, int]]:
+        """Nuisance and mode."""
+        return [(k, int(n.name.split("_")[1]) - 1) for k, n in enumerate(self.each) if n.kind == "damping"]
+
+    def moved_specimen(self, z: Array) -> Specimen:
+        """The specimen whose plate is so."""
+        names = [self.each[k].name for k in self._of_plate]
+        return moved(self.specimen, names, (self._sigma * z)[self._of_plate].tolist())
+
+    def _coefficients(self, z: Array) -> Array:
+        """Of all parts, and of the load. Complex where a face has a loss factor. Shape (parts + 1,)."""
+        c = coefficients(self.moved_specimen(z), self.specimen)
+        found = np.concatenate([c.K_0, c.K_1, c.M, [c.load]])
+        return np.asarray(found if np.any(found.imag) else found.real)
+
+    def bare_coefficients(self, z: Array) -> tuple[Complex, Array]:
+        """Of the bare plate's stiffness and mass, its length as stated. Shapes of `STIFFNESS` and `MASS`."""
+        length = self._places.get("length")
+        at = z.copy()
+        if length is not None:
+            # A hammer test is a mounting of its own.
+            at[length] = 0.0
+        c = coefficients(self.moved_specimen(at).bare, self.specimen.bare)
+        return c.K_0, c.M
+
+    @cached_property
+    def _kept(self) -> "_Kept":
+        return _Kept()
+
+    def coefficients(self, z: Array) -> Array:
+        """Of all parts and the load above their stated values. Shape (parts + 1,)."""
+        return self._kept.get("c", z, lambda: self._coefficients(z) - self._stated)
+
+    def by_coefficients(self, z: Array) -> Array:
+        """Their derivatives to z. Shape (count, parts + 1)."""
+
+        def differences() -> Array:
+            found = np.zeros((len(self), len(self._stated)), self._stated.dtype)
+            for k in self._of_plate:
+                up, down = z.copy(), z.copy()
+                up[k], down[k] = z[k] + _H, z[k] - _H
+                found[k] = (self._coefficients(up) - self._coefficients(down)) / (2 * _H)
+            return found
+
+        return self._kept.get("dc", z, differences)
+
+    def change(self, plate: SpannedPlate, z: Array) -> Change:
+        """What they change of a plate that has the parts of `specimen`."""
+        c = self.coefficients(z)
+        n_0, n_1, n_M = len(STIFFNESS), len(CORE), len(MASS)
+        K, K_1, M = (
+            np.tensordot(c[a:b], plate.parts[a:b], axes=1)
+            for a, b in ((0, n_0), (n_0, n_0 + n_1), (n_0 + n_1, n_0 + n_1 + n_M))
+        )
+        return Change(
+            K=K,
+            K_1=K_1.real,
+            M=M.real,
+            load=-float(np.real(c[-1])) * plate.load_part,
+            observe=self.row(plate, z) - self.row(plate, 0 * z),
+            damping=self._damping(len(plate.d), z),
+        )
+
+    def row(self, plate: SpannedPlate, z: Array) -> Array:
+        """Reads w at the pickup, where it is on the plate as long and as wide as it is. Shape (k,)."""
+        s = self.specimen
+        L, B = (getattr(s, f"{name}_m") + self._by(name, z) for name in ("length", "width"))
+        x, y = (plate.pickup[i] + self._by(f"pickup_{axis}", z) for i, axis in enumerate("xy"))
+        return plate.row(x * s.length_m / L, y * s.width_m / B)
+
+    def rows_by(self, plate: SpannedPlate, z: Array) -> dict[int, Array]:
+        """Derivatives of `row` to those that move it."""
+        found = {}
+        for name in ("length", "width", "pickup_x", "pickup_y"):
+            k = self._places.get(name)
+            if k is not None:
+                up, down = z.copy(), z.copy()
+                up[k], down[k] = z[k] + _H, z[k] - _H
+                found[k] = (self.row(plate, up) - self.row(plate, down)) / (2 * _H)
+        return found
+
+    def _by(self, name: str, z: Array) -> float:
+        k = self._places.get(name)
+        return float(self._sigma[k] * z[k]) if k is not None else 0.0
+
+    def _damping(self, modes: int, z: Array) -> Array:
+        found = np.ones(modes)
+        for k, mode in self._damped:
+            found[mode] = np.exp(self._sigma[k] * z[k])
+        return found
+
+    def by_response(
+        self, plate: SpannedPlate, omega: Array, G: Complex, q: Complex, adjoint: Complex, z: Array
+    ) -> Complex:
+        """Derivatives of adjoint . (load - A q) + observe . q. Shapes (points, k) of both; (count, points).
+
+        For a load that does not depend on the stated numbers take `by_pitch`.
+        """
+        found = self._by_matrices(plate, omega, G, q, adjoint, z)
+        found -= self.by_coefficients(z)[:, -1:].real * (adjoint @ plate.load_part)
+        return found
+
+    def by_pitch(
+        self, plate: SpannedPlate, omega: Array, G: Complex, p: Complex, adjoint: Complex, z: Array
+    ) -> Complex:
+        """The same for the answer `p` to a turning base."""
+        return self._by_matrices(plate, omega, G, p, adjoint, z)
+
+    def _by_matrices(
+        self, plate: SpannedPlate, omega: Array, G: Complex, q: Complex, adjoint: Complex, z: Array
+    ) -> Complex:
+        # z . P q for every part at every point.
+        between = np.einsum("npi,pi->np", q @ plate.parts, adjoint)
+        n_0, n_1 = len(STIFFNESS), len(CORE)
+        between[n_0 : n_0 + n_1] *= G
+        between[n_0 + n_1 :] *= -(omega**2)
+        found = np.asarray(-(self.by_coefficients(z)[:, :-1] @ between), dtype=complex)
+        for k, row in self.rows_by(plate, z).items():
+            found[k] += q @ row
+        factor = self._damping(len(plate.d), z)
+        for k, mode in self._damped:
+            u = plate.U[:, mode]
+            strength = self._sigma[k] * factor[mode] * plate.d[mode]
+            found[k] -= 1j * omega * strength * (adjoint @ u) * (q @ u)
+        return found
+
+    def reading(self, v: Complex, omega: Array, z: Array) -> Complex:
+        """What the velocity channel makes of a velocity. Shape (points,)."""
+        gain, delay = self._by("gain", z), self._by("delay", z)
+        if not gain and not delay:
+            return v
+        return np.asarray(v * ((1 + gain) * np.exp(-1j * omega * delay)))
+
+    def by_reading(self, read: Complex, omega: Array, z: Array) -> dict[int, Complex]:
+        """Derivatives of what has been read. Shape (points,) each."""
+        found: dict[int, Complex] = {}
+        k = self._places.get("gain")
+        if k is not None:
+            found[k] = read * (self._sigma[k] / (1 + self._by("gain", z)))
+        k = self._places.get("delay")
+        if k is not None:
+            found[k] = read * (-1j * omega * self._sigma[k])
+        return found
+
+
+class _Kept:
+    """The last results of a few functions."""
+
+    def __init__(self) -> None:
+        self._known: dict[str, tuple[bytes, Array]] = {}
+
+    def get(self, name: str, z: Array, make: Callable[[], Array]) -> Array:
+        """What `make` returns for this z."""
+        key = z.tobytes()
+        known = self._known.get(name)
+        if known is None or known[0] != key:
+            known = key, make()
+            self._known[name] = known
+        return known[1]

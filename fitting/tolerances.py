@@ -1,0 +1,96 @@
+"""What is stated is not known: every stated number with its tolerance, and a specimen with some moved.
+
+A tolerance is the standard deviation of a stated number about the truth: relative, in the number's
+logarithm, or in metres or seconds. Where a specimen names none, a careful laboratory's typical one stands
+in (docs/specimen.md).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import exp
+from typing import Any, Literal
+
+from fitting.specimen import Face, Specimen
+
+Unit = Literal["1", "m", "s"]
+
+
+@dataclass(frozen=True)
+class Stated:
+    """One kind of stated number."""
+
+    name: str
+    unit: Unit
+    """1 for a relative tolerance."""
+    typical: float
+    """Standard deviation of a careful laboratory."""
+    why: str
+
+
+_STATED = (
+    Stated("substrate_young", "1", 0.01, "rolled sheet from one data sheet to another"),
+    Stated("substrate_thickness", "1", 0.005, "a micrometer at several places of a sheet"),
+    Stated("substrate_density", "1", 0.005, "plate weighed, sides by caliper"),
+    Stated("substrate_poisson", "1", 0.02, "data sheets of metals"),
+    Stated("constraining_young", "1", 0.01, "as the substrate's"),
+    Stated("constraining_thickness", "1", 0.015, "a foil: a micrometer's few micrometres"),
+    Stated("constraining_density", "1", 0.005, "as the substrate's"),
+    Stated("constraining_poisson", "1", 0.02, "as the substrate's"),
+    Stated("core_thickness", "1", 0.03, "the difference of two thicknesses, or a data sheet"),
+    Stated("core_density", "1", 0.02, "data sheets of polymers"),
+    Stated("core_poisson", "1", 0.01, "rubbery: between 0.48 and 0.5"),
+    Stated("length", "m", 3e-4, "where the clamp's edge bites"),
+    Stated("width", "m", 1e-4, "a caliper"),
+    Stated("pickup", "m", 3e-4, "a laser's spot of half a millimetre, placed by a rule; each coordinate"),
+    Stated("damping", "1", 0.1, "a bare plate's ratios from one mounting to the next; each mode"),
+    Stated("gain", "1", 0.003, "two calibrated channels"),
+    Stated("delay", "s", 2e-6, "decoder against accelerometer, a known delay taken out"),
+    Stated("mass", "1", 0.02, "what sits on the plate, on a letter balance"),
+)
+STATED: dict[str, Stated] = {s.name: s for s in _STATED}
+"""Every kind of stated number by its name, in the order in which results list them."""
+
+PLATE = tuple(s.name for s in _STATED[:13])
+"""Those that change the plate's matrices."""
+_FIELDS = {
+    "young": "young_pa",
+    "thickness": "thickness_m",
+    "density": "density_kg_m3",
+    "poisson": "poisson",
+}
+_LARGEST_POISSON = 0.4999
+
+
+def tolerance(specimen: Specimen, name: str) -> float:
+    """Standard deviation of a stated number: named, else typical; zero for `exact`."""
+    if specimen.exact:
+        return 0.0
+    return float(specimen.tolerances.get(name, STATED[name].typical))
+
+
+def moved(specimen: Specimen, names: Sequence[str], by: Sequence[float]) -> Specimen:
+    """The specimen with some of `PLATE` moved: by a share in the logarithm, or by metres.
+
+    The pickup stays where it is stated, so many metres from the clamp.
+    """
+    for name, step in zip(names, by, strict=True):
+        if step:
+            specimen = _moved(specimen, name, float(step))
+    return specimen
+
+
+def _moved(specimen: Specimen, name: str, step: float) -> Specimen:
+    if name in ("length", "width"):
+        field = f"{name}_m"
+        # The mesh is kept: its elements stretch.
+        changes: dict[str, Any] = {field: getattr(specimen, field) + step, "elements": specimen.mesh}
+        return replace(specimen, **changes)
+    layer_name, quantity = name.split("_")
+    layer: Face | None = getattr(specimen, layer_name)
+    if layer is None:
+        return specimen
+    field = _FIELDS[quantity]
+    value = getattr(layer, field) * exp(step)
+    if quantity == "poisson":
+        value = min(value, _LARGEST_POISSON)
+    return replace(specimen, **{layer_name: replace(layer, **{field: value})})  # type: ignore[arg-type]

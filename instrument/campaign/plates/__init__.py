@@ -1,0 +1,1 @@
+"""Do identification and diagnosis hold on other plates? Many solids, each told as a careful lab knows it."""

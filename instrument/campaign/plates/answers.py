@@ -1,0 +1,187 @@
+"""What an identification or a diagnosis said of a case, as plain data, beside the truth."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from itertools import product
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from instrument.campaign.plates.cases import PlateCase
+from instrument.plain import plain
+
+Array = NDArray[np.float64]
+Facts = Mapping[str, Any]
+
+LAW = "core_law"
+"""No fault where the true law is none that the specimen's kind can follow."""
+
+
+@dataclass(frozen=True)
+class Band:
+    """G' in Pa and eta with standard errors, over frequency. Shape (frequencies,) each."""
+
+    frequency_hz: tuple[float, ...]
+    storage_pa: tuple[float, ...]
+    loss: tuple[float, ...]
+    storage_error_pa: tuple[float, ...]
+    loss_error: tuple[float, ...]
+
+    def at(self, frequency_hz: Sequence[float]) -> "Band":
+        """Interpolated: logarithms over that of the frequency, errors as shares."""
+        x, wanted = np.log(self.frequency_hz), np.log(frequency_hz)
+
+        def read(values: ArrayLike) -> Array:
+            return np.interp(wanted, x, np.asarray(values, dtype=float))
+
+        storage, loss = np.exp(read(np.log(self.storage_pa))), np.exp(read(np.log(self.loss)))
+        shares = np.divide(self.storage_error_pa, self.storage_pa), np.divide(self.loss_error, self.loss)
+        errors = storage * read(shares[0]), loss * read(shares[1])
+        found = (np.asarray(frequency_hz, dtype=float), storage, loss, *errors)
+        return Band(*(tuple(v.tolist()) for v in found))
+
+
+def band_from(rows: Sequence[Facts]) -> Band:
+    """Of `law` in the JSON of `identify`, or of a stage of `diagnose`."""
+    keys = (
+        "frequency_hz",
+        "storage_modulus_pa",
+        "loss_factor",
+        "storage_modulus_standard_error_pa",
+        "loss_factor_standard_error",
+    )
+    known = sorted(rows, key=lambda row: float(row["frequency_hz"]))
+    return Band(*(tuple(_number(row[key]) for row in known) for key in keys))
+
+
+def _number(value: float | None) -> float:
+    return float("nan") if value is None else float(value)
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a diagnosis said."""
+
+    verdict: str
+    effects: tuple[str, ...]
+    """Named, the surest first."""
+    equivalent: dict[str, tuple[str, ...]]
+    """Named one to all that the data cannot tell from it."""
+    probabilities: dict[str, float]
+    """Of each explanation; names of a pair are joined by " + ", "none" is no effect."""
+    before: Band | None
+    after: Band | None
+    seconds: float = float("nan")
+
+    def group_of(self, name: str) -> tuple[str, ...]:
+        """What is not told from a named effect, itself included."""
+        return self.equivalent.get(name, (name,))
+
+
+def answer_from(facts: Facts) -> Answer:
+    """Of the JSON of `diagnose`."""
+    candidates = facts.get("candidates", ())
+    return Answer(
+        verdict=str(facts["verdict"]),
+        effects=tuple(str(e["name"]) for e in facts["effects"]),
+        equivalent={str(k): tuple(v) for k, v in facts.get("equivalent", {}).items()},
+        probabilities={
+            str(c["name"]): float(c["probability"]) for c in candidates if c.get("probability") is not None
+        },
+        before=band_from(facts["before"]["law"]) if facts.get("before") else None,
+        after=band_from(facts["after"]["law"]) if facts.get("after") else None,
+        seconds=_number(facts.get("seconds")),
+    )
+
+
+@dataclass(frozen=True)
+class PlateOutcome:
+    """A case and what was said of it; bands are read at the three frequencies at which the law is judged."""
+
+    kind: str
+    seed: int
+    exact: bool
+    plate: str
+    truth: tuple[str, ...]
+    """Effects that are there."""
+    near: dict[str, tuple[str, ...]]
+    """Effect to other names that would not be wrong."""
+    strange: bool
+    """Whether one of them is in no catalogue."""
+    usual_law: bool
+    hammer: bool
+    levels: int
+    frequency_hz: tuple[float, ...]
+    storage_pa: tuple[float, ...]
+    loss: tuple[float, ...]
+    identified: Band | None = None
+    said: Answer | None = None
+    error: str = ""
+
+
+def outcome_of(
+    case: PlateCase, identified: Band | None, said: Answer | None, error: str = ""
+) -> PlateOutcome:
+    """The case beside what was said of it."""
+    truth, f = case.truth, case.truth.resonances_hz
+    G = truth.law.modulus(2 * np.pi * np.array(f))
+    if said is not None:
+        before, after = (b.at(f) if b is not None else None for b in (said.before, said.after))
+        said = Answer(**{**vars(said), "before": before, "after": after})
+    return PlateOutcome(
+        kind=case.kind,
+        seed=case.seed,
+        exact=case.exact,
+        plate=truth.plate.name,
+        truth=truth.names,
+        near={h.name: h.near for h in truth.effects},
+        strange=any(not h.in_catalogue for h in truth.effects),
+        usual_law=truth.law.is_usual,
+        hammer=case.hammer is not None,
+        levels=len(np.unique(case.sweep.commanded_m_s2)),
+        frequency_hz=tuple(f),
+        storage_pa=tuple(G.real.tolist()),
+        loss=tuple((G.imag / G.real).tolist()),
+        identified=identified.at(f) if identified is not None else None,
+        said=said,
+        error=error,
+    )
+
+
+def explains(outcome: PlateOutcome, names: Sequence[str]) -> bool:
+    """Whether an explanation is the truth: every effect, by a name that is not wrong, and nothing else.
+
+    Another law counts for nothing where the true one is not of the kind that the specimen states.
+    """
+    said = {n for n in names if n != "none" and (outcome.usual_law or n != LAW)}
+    choices = [(name, *outcome.near[name]) for name in outcome.truth]
+    return any(said == set(choice) for choice in product(*choices))
+
+
+def line_of(outcome: PlateOutcome) -> dict[str, Any]:
+    """As JSON knows it."""
+    facts: dict[str, Any] = plain(asdict(outcome))
+    return facts
+
+
+def outcome_from(line: Facts) -> PlateOutcome:
+    """The inverse of `line_of`."""
+    tuples = {k: tuple(line[k]) for k in ("truth", "frequency_hz", "storage_pa", "loss")}
+    said = line["said"]
+    if said is not None:
+        lists = {
+            "effects": tuple(said["effects"]),
+            "equivalent": {k: tuple(v) for k, v in said["equivalent"].items()},
+            "before": _band(said["before"]),
+            "after": _band(said["after"]),
+            "seconds": _number(said["seconds"]),
+        }
+        said = Answer(**{**said, **lists})
+    near = {k: tuple(v) for k, v in line["near"].items()}
+    known = {**line, **tuples, "near": near, "identified": _band(line["identified"]), "said": said}
+    return PlateOutcome(**known)
+
+
+def _band(facts: Facts | None) -> Band | None:
+    return None if facts is None else Band(**{k: tuple(_number(v) for v in vs) for k, vs in facts.items()})

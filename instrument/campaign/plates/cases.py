@@ -1,0 +1,192 @@
+"""A case: a sweep of one of the plates as a lab would hand it in, and what was hidden in it."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.specimen import Specimen
+from fitting.sweep import Sweep
+from instrument.campaign.plates.geometry import PLATES, TruePlate, plate_named
+from instrument.campaign.plates.hammer import HammerTest
+from instrument.campaign.plates.hidden import HIDDEN, draw_hidden, names_of
+from instrument.campaign.plates.hidden.base import Hidden, Setting
+from instrument.campaign.plates.kept import clean_plate
+from instrument.campaign.plates.materials import TrueLaw, draw_law, fits
+from instrument.campaign.plates.noise import PlateNoise, draw_noise
+from instrument.campaign.plates.schedule import (
+    draw_schedule,
+    measured_resonances,
+    widest_band_hz,
+)
+from instrument.campaign.plates.simulate import Channel, clean_reading, struck
+from instrument.campaign.plates.stated import CAREFUL, G_M_S2, draw_stated, specimen_from, toml
+from instrument.campaign.schedule import Schedule
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+NONE, PAIR = "none", "pair"
+KINDS = (NONE, *HIDDEN, PAIR)
+_THREE_LEVELS = (0.25, 0.5, 1.0)
+_ONE_LEVEL_SHARE = {"amplitude_softening": 1 / 3}
+"""Of cases at 1 g alone; `_ONE_LEVEL_ELSE` of all others."""
+_ONE_LEVEL_ELSE = 0.9
+_HAMMER_SHARE = 0.5
+_LARGEST_LOSS = 0.35
+"""Of a resonance: beyond it no peak is left to measure around."""
+_MOST_LAWS = 200
+
+
+@dataclass(frozen=True)
+class PlateTruth:
+    """What was hidden."""
+
+    plate: TruePlate
+    """As it really is, but for the effects."""
+    effects: tuple[Hidden, ...]
+    law: TrueLaw
+    noise: PlateNoise
+    channel: Channel
+    resonances_hz: tuple[float, ...]
+    """Middle of the three segments: where the law is judged."""
+    lowest_share: float
+    """Least share that the core has in the stiffness, d ln f^2 / d ln G', of the three resonances."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the effects."""
+        return tuple(h.name for h in self.effects)
+
+    @property
+    def facts(self) -> dict[str, Any]:
+        """As JSON has it."""
+        G = self.law.modulus(2 * np.pi * np.array(self.resonances_hz))
+        return {
+            "plate": self.plate.name,
+            "effects": {h.name: h.facts for h in self.effects},
+            "law": {"kind": self.law.kind, "values": list(self.law.values)},
+            "noise": {
+                "fraction_of_peak": self.noise.white.fraction_of_peak,
+                "repeat_scatter": self.noise.white.repeat_scatter,
+                "wander": self.noise.wander,
+                "wander_points": self.noise.wander_points,
+                "gain_drift": self.noise.gain_drift,
+            },
+            "channel": {"gain": self.channel.gain, "delay_s": self.channel.delay_s},
+            "resonances_hz": list(self.resonances_hz),
+            "storage_modulus_pa": G.real.tolist(),
+            "loss_factor": (G.imag / G.real).tolist(),
+            "lowest_share": self.lowest_share,
+        }
+
+
+@dataclass(frozen=True)
+class PlateCase:
+    """What an identification or a diagnosis is given, and the truth that it is not."""
+
+    kind: str
+    seed: int
+    exact: bool
+    sweep: Sweep
+    specimen: Specimen
+    specimen_toml: str
+    hammer_test: HammerTest | None
+    truth: PlateTruth
+
+    @property
+    def hammer(self) -> tuple[Array, Array] | None:
+        """Natural frequencies in Hz and ratios of the bare plate."""
+        return self.hammer_test.pair if self.hammer_test else None
+
+
+def draw_case(
+    kind: str, seed: int, exact: bool = False, *, plate: str | None = None, law: str | None = None
+) -> PlateCase:
+    """A random case of one of `KINDS`, always the same for the same arguments.
+
+    `exact`: the specimen says the truth, and says so. `plate` and `law` ask for one plate or kind of law.
+    Law, segments, noise and effects of a seed are the same for exact and stated cases.
+    """
+    if kind not in KINDS:
+        raise ValueError(f"kind {kind!r}, expected one of {', '.join(KINDS)}")
+
+    def rng(purpose: str) -> np.random.Generator:
+        return np.random.default_rng([seed, *kind.encode(), 0, *purpose.encode()])
+
+    chance = rng("plate")
+    true = plate_named(plate) if plate else PLATES[int(chance.integers(len(PLATES)))]
+    names = names_of(kind, rng("names"))
+    alone = min((_ONE_LEVEL_SHARE.get(name, _ONE_LEVEL_ELSE) for name in names), default=_ONE_LEVEL_ELSE)
+    levels = (1.0,) if chance.random() < alone else _THREE_LEVELS
+    found, schedule = _law_and_schedule(rng("law"), true, law, levels)
+    clean, middle = clean_plate(true), tuple(_middles(schedule))
+    at = Setting(true, middle, float(schedule.time_s.max()))
+    hidden = draw_hidden(names, rng("effects"), at)
+    noise, chance = draw_noise(rng("noise figures")), rng("stated")
+    stated = draw_stated(chance, true)
+    off = chance.standard_normal(2)
+    channel = Channel() if exact else Channel(float(np.exp(CAREFUL.gain * off[0])), CAREFUL.delay_s * off[1])
+    stated = true if exact else stated
+    text = toml(stated, None if exact else CAREFUL, middle[1])
+    chance = rng("hammer")
+    test = None
+    if chance.random() < _HAMMER_SHARE:
+        test = struck(true, hidden, chance, 0.0 if exact else CAREFUL.damping, yields=not exact)
+    shares = [_share(clean, found, f) for f in middle]
+    truth = PlateTruth(true, hidden, found, noise, channel, middle, min(shares))
+    sweep = measured(truth, schedule, rng("noise"))
+    return PlateCase(kind, seed, exact, sweep, specimen_from(text), text, test, truth)
+
+
+def _law_and_schedule(
+    rng: np.random.Generator, true: TruePlate, kind: str | None, levels: tuple[float, ...]
+) -> tuple[TrueLaw, Schedule]:
+    """A law that keeps within the campaign's limits over the segments that it leads to."""
+    clean = clean_plate(true)
+    band = widest_band_hz(clean, true)
+    for _ in range(_MOST_LAWS):
+        law = draw_law(rng, band, kind)
+        try:
+            chosen = measured_resonances(clean, true.spot_m, law)
+        except ArithmeticError:
+            continue
+        schedule = draw_schedule(rng, chosen, levels)
+        if fits(law, schedule.frequency_hz) and max(r.loss_factor for r in chosen) < _LARGEST_LOSS:
+            return law, schedule
+    raise ArithmeticError(f"no law found that leaves three resonances on plate {true.name}")
+
+
+def _middles(schedule: Schedule) -> list[float]:
+    """Of the three segments, in ascending order."""
+    f, k = schedule.frequency_hz, schedule.segment
+    return sorted(float((f[k == n].min() + f[k == n].max()) / 2) for n in np.unique(k))
+
+
+def _share(clean: Any, law: TrueLaw, frequency_hz: float) -> float:
+    """Of the core in the stiffness of the mode nearest to a frequency."""
+    omega = 2 * np.pi * frequency_hz
+    G = float(law.modulus(omega).real)
+    lam, phi = clean.modes(G, 14)
+    r = int(np.argmin(np.abs(np.sqrt(lam) - omega)))
+    return float(G * (phi[:, r] @ clean.whole_core @ phi[:, r]) / lam[r])
+
+
+def measured(truth: PlateTruth, schedule: Schedule, rng: np.random.Generator) -> Sweep:
+    """The sweep as the rig would record it."""
+    ratio = clean_reading(truth.plate, truth.effects, truth.law, schedule, truth.channel)
+    commanded = schedule.level_g * G_M_S2
+    white = truth.noise.white
+    base = commanded * white.drive(rng, len(commanded))
+    velocity = ratio * base * truth.noise.factor(rng, schedule)
+    velocity = velocity + white.added(rng, ratio * commanded, schedule.sweep)
+    return Sweep(
+        frequency_hz=schedule.frequency_hz,
+        velocity_m_s=velocity,
+        commanded_m_s2=commanded,
+        segment=schedule.segment,
+        sweep=schedule.sweep,
+        base_m_s2=base,
+        time_s=schedule.time_s,
+    )

@@ -1,0 +1,63 @@
+"""Effects that a case may hide, a file for each place where they sit."""
+
+import numpy as np
+
+from instrument.campaign.plates.hidden import attached, base_motion, channels, clamp, core, layers, strange
+from instrument.campaign.plates.hidden.base import Hidden, Setting
+
+_CLASSES: tuple[type[Hidden], ...] = (
+    clamp.ClampCompliance,
+    clamp.ClampLine,
+    clamp.TreatmentNotGripped,
+    clamp.UnevenClamp,
+    layers.ConstrainingStiffness,
+    layers.ConstrainingThickness,
+    layers.SubstrateStiffness,
+    layers.OrthotropicSubstrate,
+    layers.CoreThickness,
+    core.GradedCore,
+    core.PartialDebond,
+    core.TemperatureDrift,
+    core.AmplitudeSoftening,
+    attached.AddedMass,
+    attached.AirAddedMass,
+    attached.Tether,
+    base_motion.BaseRocking,
+    base_motion.BaseRoll,
+    base_motion.FixtureResonance,
+    channels.SpotOffset,
+    channels.AbsoluteVelocity,
+    channels.ChannelDelay,
+    channels.GainError,
+    channels.SensorLowpass,
+    channels.AcCoupling,
+    channels.PhaseScale,
+    channels.ViscousDamping,
+    attached.TwoMasses,
+    attached.TunedAbsorber,
+    attached.TipMagnet,
+    strange.CrackedSubstrate,
+    strange.WrinkledConstraining,
+)
+HIDDEN: dict[str, type[Hidden]] = {h.name: h for h in _CLASSES}
+"""Every effect by its name; those of the diagnosis's catalogue first."""
+STRANGE = tuple(h.name for h in _CLASSES if not h.in_catalogue)
+"""What no catalogue has."""
+
+
+def names_of(kind: str, rng: np.random.Generator) -> tuple[str, ...]:
+    """Names of the effects of a kind of case."""
+    if kind == "none":
+        return ()
+    if kind != "pair":
+        return (kind,)
+    able = [name for name in HIDDEN if name not in STRANGE]
+    while True:
+        first, second = (str(name) for name in rng.choice(able, 2, replace=False))
+        if HIDDEN[first].place != HIDDEN[second].place:
+            return first, second
+
+
+def draw_hidden(names: tuple[str, ...], rng: np.random.Generator, at: Setting) -> tuple[Hidden, ...]:
+    """An effect of each name."""
+    return tuple(HIDDEN[name].draw(rng, at) for name in names)

@@ -1,0 +1,209 @@
+"""What sits on the plate, hangs on it or surrounds it."""
+
+# ruff: noqa: D102 -- the hooks are described in base.py
+
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+
+from instrument.campaign.plates.geometry import TruePlate
+from instrument.campaign.plates.hidden.base import (
+    Array,
+    Attachment,
+    Hidden,
+    Setting,
+    either_sign,
+    log_uniform,
+)
+from instrument.campaign.plates.response import Motion
+from instrument.campaign.plates.solid import Build, Patch
+
+
+def plate_mass_kg(true: TruePlate) -> float:
+    """Of all layers."""
+    layers = (true.substrate, true.core, true.constraining)
+    return (
+        true.length_m * true.width_m * sum(k.thickness_m * k.density_kg_m3 for k in layers if k is not None)
+    )
+
+
+def _patch(rng: np.random.Generator, true: TruePlate, least: float) -> tuple[float, float, float, float]:
+    """Mass, x, y, side."""
+    side = float(rng.uniform(0.006, 0.014))
+    x = float(rng.uniform(least * true.length_m, true.length_m - side / 2))
+    y = float(rng.uniform(side / 2, true.width_m - side / 2))
+    return plate_mass_kg(true) * log_uniform(rng, 0.006, 0.02), x, y, side
+
+
+@dataclass(frozen=True)
+class AddedMass(Hidden):
+    """A mass of a size of its own on the constraining layer, its own height left out."""
+
+    name: ClassVar[str] = "added_mass"
+    place: ClassVar[str] = "mass"
+    changes_solid: ClassVar[bool] = True
+
+    mass_kg: float
+    x_m: float
+    y_m: float
+    side_m: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "AddedMass":
+        return cls(*_patch(rng, at.plate, 0.5))
+
+    def build(self, build: Build, true: TruePlate) -> Build:
+        patch = Patch(self.mass_kg, self.x_m, self.y_m, self.side_m)
+        return replace(build, patches=(*build.patches, patch))
+
+
+@dataclass(frozen=True)
+class TwoMasses(Hidden):
+    """Two such masses apart from each other."""
+
+    name: ClassVar[str] = "two_masses"
+    place: ClassVar[str] = "mass"
+    near: ClassVar[tuple[str, ...]] = ("added_mass",)
+    in_catalogue: ClassVar[bool] = False
+    changes_solid: ClassVar[bool] = True
+
+    first_kg: float
+    first_x_m: float
+    first_y_m: float
+    second_kg: float
+    second_x_m: float
+    second_y_m: float
+    side_m: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "TwoMasses":
+        while True:
+            first, second = _patch(rng, at.plate, 0.4), _patch(rng, at.plate, 0.4)
+            if np.hypot(first[1] - second[1], first[2] - second[2]) > 0.3 * at.plate.length_m:
+                return cls(*first[:3], *second[:3], first[3])
+
+    def build(self, build: Build, true: TruePlate) -> Build:
+        first = Patch(self.first_kg, self.first_x_m, self.first_y_m, self.side_m)
+        second = Patch(self.second_kg, self.second_x_m, self.second_y_m, self.side_m)
+        return replace(build, patches=(*build.patches, first, second))
+
+
+@dataclass(frozen=True)
+class AirAddedMass(Hidden):
+    """Still air on both faces, about the simulated rig's own lattice of vortex rings."""
+
+    name: ClassVar[str] = "air_added_mass"
+    place: ClassVar[str] = "air"
+    changes_solid: ClassVar[bool] = True
+
+    density_kg_m3: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "AirAddedMass":
+        return cls(float(rng.uniform(1.1, 1.25)))
+
+    @property
+    def air_kg_m3(self) -> float:
+        return self.density_kg_m3
+
+
+@dataclass(frozen=True)
+class Tether(Hidden):
+    """A cable: spring and dashpot from a point of the plate to the floor, or to what moves with the base."""
+
+    name: ClassVar[str] = "tether"
+    place: ClassVar[str] = "cable"
+    changes_solid: ClassVar[bool] = True
+
+    stiffness_n_m: float
+    damping_ns_m: float
+    x_m: float
+    y_m: float
+    to_floor: bool
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "Tether":
+        true = at.plate
+        # A cantilever's first mode moves its tip as a quarter of its mass on a spring would.
+        tip = plate_mass_kg(true) / 4 * (2 * np.pi * at.resonances_hz[0]) ** 2
+        stiffness = tip * log_uniform(rng, 0.005, 0.04)
+        # Loss factor of the cable at the first resonance.
+        damping = stiffness * log_uniform(rng, 0.05, 0.4) / (2 * np.pi * at.resonances_hz[0])
+        x, y = true.length_m * rng.uniform(0.5, 0.98), true.width_m * rng.uniform(0.05, 0.95)
+        return cls(stiffness, damping, float(x), float(y), bool(rng.random() < 0.5))
+
+    def points(self) -> tuple[tuple[float, float], ...]:
+        return ((self.x_m, self.y_m),)
+
+    def attached(self, omega: Array, motion: Motion, width_m: float) -> tuple[Attachment, ...]:
+        k = np.asarray(self.stiffness_n_m + 1j * omega * self.damping_ns_m)
+        # The floor sees the base's displacement -a / w^2 of the point too.
+        force = k / omega**2 * motion.at(self.x_m, self.y_m, width_m) if self.to_floor else 0 * k
+        return (Attachment(self.x_m, self.y_m, k, np.asarray(force)),)
+
+
+@dataclass(frozen=True)
+class TunedAbsorber(Hidden):
+    """A small mass on a spring of its own: a loose screw, a liquid that sloshes."""
+
+    name: ClassVar[str] = "tuned_absorber"
+    place: ClassVar[str] = "strange"
+    in_catalogue: ClassVar[bool] = False
+    changes_solid: ClassVar[bool] = True
+
+    mass_kg: float
+    frequency_hz: float
+    loss_factor: float
+    x_m: float
+    y_m: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "TunedAbsorber":
+        true = at.plate
+        x, y = true.length_m * rng.uniform(0.5, 0.95), true.width_m * rng.uniform(0.1, 0.9)
+        near = at.resonances_hz[int(rng.integers(3))] * (1 + either_sign(rng, 0.0, 0.08))
+        mass = plate_mass_kg(true) * log_uniform(rng, 0.003, 0.012)
+        return cls(mass, near, log_uniform(rng, 0.02, 0.1), float(x), float(y))
+
+    def points(self) -> tuple[tuple[float, float], ...]:
+        return ((self.x_m, self.y_m),)
+
+    def attached(self, omega: Array, motion: Motion, width_m: float) -> tuple[Attachment, ...]:
+        k = (2 * np.pi * self.frequency_hz) ** 2 * (1 + 1j * self.loss_factor)
+        felt_kg = self.mass_kg * k / (k - omega**2)
+        force = -felt_kg * motion.at(self.x_m, self.y_m, width_m)
+        return (Attachment(self.x_m, self.y_m, -(omega**2) * felt_kg, force),)
+
+
+@dataclass(frozen=True)
+class TipMagnet(Hidden):
+    """A magnet near the free end: it pulls the more, the nearer the plate comes. A negative spring."""
+
+    name: ClassVar[str] = "tip_magnet"
+    place: ClassVar[str] = "strange"
+    near: ClassVar[tuple[str, ...]] = ("tether",)
+    in_catalogue: ClassVar[bool] = False
+    changes_solid: ClassVar[bool] = True
+
+    stiffness_n_m: float
+    x_m: float
+    y_m: float
+    to_floor: bool
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "TipMagnet":
+        tether = Tether.draw(rng, at)
+        return cls(
+            -tether.stiffness_n_m,
+            0.98 * at.plate.length_m,
+            at.plate.width_m * float(rng.uniform(0.3, 0.7)),
+            tether.to_floor,
+        )
+
+    def points(self) -> tuple[tuple[float, float], ...]:
+        return ((self.x_m, self.y_m),)
+
+    def attached(self, omega: Array, motion: Motion, width_m: float) -> tuple[Attachment, ...]:
+        pull = Tether(self.stiffness_n_m, 0.0, self.x_m, self.y_m, self.to_floor)
+        return pull.attached(omega, motion, width_m)

@@ -1,0 +1,136 @@
+"""What every hidden effect is: where it may reach into the plate, the base, the channels. By default nowhere.
+
+None of them shares a formula with the catalogue of the diagnosis: they are parts of a solid, or of a rig.
+"""
+
+from dataclasses import asdict, dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from instrument.campaign.plates.geometry import TruePlate
+from instrument.campaign.plates.response import Motion
+from instrument.campaign.plates.solid import Build, Field
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+def times(first: Field | None, second: Field) -> Field:
+    """The product of two factors over the plate."""
+    return second if first is None else lambda x, y: first(x, y) * second(x, y)
+
+
+def either_sign(rng: np.random.Generator, low: float, high: float) -> float:
+    """Of a size between."""
+    return float(rng.choice([-1.0, 1.0]) * rng.uniform(low, high))
+
+
+def log_uniform(rng: np.random.Generator, low: float, high: float) -> float:
+    """Even in the logarithm."""
+    return float(np.exp(rng.uniform(np.log(low), np.log(high))))
+
+
+@dataclass(frozen=True)
+class Attachment:
+    """Something hung on the plate at a point; stiffness and force are across the plate."""
+
+    x_m: float
+    y_m: float
+    stiffness_n_m: Complex
+    """Dynamic, against the plate's motion relative to the base. Shape (points,)."""
+    force_n: Complex
+    """On the plate per acceleration of the base. Shape (points,)."""
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What severities are chosen by."""
+
+    plate: TruePlate
+    """Without effects."""
+    resonances_hz: tuple[float, ...]
+    """The three that are measured."""
+    duration_s: float
+    """Of the sweep."""
+
+
+@dataclass(frozen=True)
+class Hidden:
+    """An effect with its severity as fields. `draw` makes one that matters on a plate."""
+
+    name: ClassVar[str]
+    """As the diagnosis calls it, or what it is where no catalogue has it."""
+    groups: ClassVar[str] = "whole"
+    """Whose moduli differ within the core: see `reduced`."""
+    changes_solid: ClassVar[bool] = False
+    """Whether the clean plate's basis will not do."""
+    place: ClassVar[str]
+    """Where it sits; a pair comes from two places."""
+    near: ClassVar[tuple[str, ...]] = ()
+    """Other names of the catalogue that would not be wrong."""
+    in_catalogue: ClassVar[bool] = True
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "Hidden":
+        """One of random severity."""
+        raise NotImplementedError
+
+    @property
+    def facts(self) -> dict[str, Any]:
+        """Its severity as JSON has it."""
+        return asdict(self)
+
+    def plate(self, true: TruePlate) -> TruePlate:
+        """The plate as it is with the effect, where only its sizes or metals differ."""
+        return true
+
+    def build(self, build: Build, true: TruePlate) -> Build:
+        """What else differs in the solid."""
+        return build
+
+    def at_hammer(self, plate: TruePlate, build: Build) -> tuple[TruePlate, Build]:
+        """The bare plate of the hammer test: only what sits in the substrate comes along."""
+        return plate, build
+
+    def stirred(self, true: TruePlate) -> tuple[Field, ...]:
+        """Shares of the core whose forces the basis shall answer, as they vary from point to point."""
+        return ()
+
+    @property
+    def air_kg_m3(self) -> float:
+        """Density of the air around the plate."""
+        return 0.0
+
+    def points(self) -> tuple[tuple[float, float], ...]:
+        """Where it hangs on."""
+        return ()
+
+    def attached(self, omega: Array, motion: Motion, width_m: float) -> tuple[Attachment, ...]:
+        """What hangs there."""
+        return ()
+
+    def ratios(self, ratios: Array) -> Array:
+        """Remaining damping of the treated plate."""
+        return ratios
+
+    def frequency_factor(self, time_s: Array, x: Array, length_m: float) -> Array | None:
+        """Factor on the frequency at which the law is read, at each point and group of bricks; None: one."""
+        return None
+
+    def motion(self, motion: Motion, omega: Array) -> Motion:
+        """How else the base moves."""
+        return motion
+
+    def spot(self, spot_m: tuple[float, float], true: TruePlate) -> tuple[float, float]:
+        """Where the laser really points."""
+        return spot_m
+
+    def channel(self, velocity_s: Complex, omega: Array, base_s: Complex) -> Complex:
+        """What the velocity channel makes of a velocity per base acceleration; `base_s` is the base's own."""
+        return velocity_s
+
+    def reference(self, base: Complex, omega: Array) -> Complex:
+        """What the reference channel makes of the acceleration of the plate's root."""
+        return base

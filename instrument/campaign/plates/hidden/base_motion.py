@@ -1,0 +1,86 @@
+"""A base that does more than heave, and a plate whose base is not where the reference channel sits."""
+
+# ruff: noqa: D102 -- the hooks are described in base.py
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from instrument.campaign.plates.hidden.base import Array, Complex, Hidden, Setting, either_sign, log_uniform
+from instrument.campaign.plates.response import Motion
+
+
+@dataclass(frozen=True)
+class BaseRocking(Hidden):
+    """Pitch in proportion to the base's acceleration."""
+
+    name: ClassVar[str] = "base_rocking"
+    place: ClassVar[str] = "base"
+
+    pitch_rad_m: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "BaseRocking":
+        return cls(either_sign(rng, 0.01, 0.06) / at.plate.length_m)
+
+    def motion(self, motion: Motion, omega: Array) -> Motion:
+        return Motion(motion.pitch_rad_m + self.pitch_rad_m, motion.roll_rad_m)
+
+
+@dataclass(frozen=True)
+class BaseRoll(Hidden):
+    """Roll about the plate's axis in proportion to the base's acceleration."""
+
+    name: ClassVar[str] = "base_roll"
+    place: ClassVar[str] = "base"
+
+    roll_rad_m: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "BaseRoll":
+        return cls(either_sign(rng, 0.08, 0.4) / at.plate.width_m)
+
+    def motion(self, motion: Motion, omega: Array) -> Motion:
+        return Motion(motion.pitch_rad_m, motion.roll_rad_m + self.roll_rad_m)
+
+
+@dataclass(frozen=True)
+class FixtureResonance(Hidden):
+    """The fixture yields between reference sensor and root, and it pitches.
+
+    The root moves by 1 + gain r^2/(1 - r^2) of the reference, r the frequency over that of the fixture.
+    """
+
+    name: ClassVar[str] = "fixture_resonance"
+    place: ClassVar[str] = "base"
+    near: ClassVar[tuple[str, ...]] = ("base_rocking",)
+
+    frequency_hz: float
+    damping_ratio: float
+    gain: float
+    pitch_rad_m: float
+    """Per acceleration of the reference, times the same r^2/(1 - r^2)."""
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "FixtureResonance":
+        low, high = at.resonances_hz[0] * 1.5, at.resonances_hz[2] * 1.6
+        return cls(
+            log_uniform(rng, low, high),
+            log_uniform(rng, 0.01, 0.05),
+            either_sign(rng, 0.01, 0.05),
+            either_sign(rng, 0.005, 0.03) / at.plate.length_m,
+        )
+
+    def _resonance(self, omega: Array) -> Complex:
+        r = omega / (2 * np.pi * self.frequency_hz)
+        return np.asarray(r**2 / (1 - r**2 + 2j * self.damping_ratio * r))
+
+    def motion(self, motion: Motion, omega: Array) -> Motion:
+        swing = self._resonance(omega)
+        return Motion(
+            motion.pitch_rad_m + self.pitch_rad_m * swing / (1 + self.gain * swing), motion.roll_rad_m
+        )
+
+    def reference(self, base: Complex, omega: Array) -> Complex:
+        return np.asarray(base / (1 + self.gain * self._resonance(omega)))

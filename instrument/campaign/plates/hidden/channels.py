@@ -1,0 +1,149 @@
+"""What the laser looks at and what its channel makes of it, and damping that the hammer did not see."""
+
+# ruff: noqa: D102 -- the hooks are described in base.py
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from instrument.campaign.plates.geometry import TruePlate
+from instrument.campaign.plates.hidden.base import Array, Complex, Hidden, Setting, either_sign, log_uniform
+
+
+@dataclass(frozen=True)
+class SpotOffset(Hidden):
+    """The spot is elsewhere."""
+
+    name: ClassVar[str] = "spot_offset"
+    place: ClassVar[str] = "spot"
+
+    dx_m: float
+    dy_m: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "SpotOffset":
+        size, angle = float(rng.uniform(2e-3, 6e-3)), float(rng.uniform(-np.pi / 3, np.pi / 3))
+        return cls(float(rng.choice([-1, 1])) * size * float(np.cos(angle)), size * float(np.sin(angle)))
+
+    def spot(self, spot_m: tuple[float, float], true: TruePlate) -> tuple[float, float]:
+        x, y = spot_m[0] + self.dx_m, spot_m[1] + self.dy_m
+        return min(max(x, 0.0), true.length_m), min(max(y, 0.0), true.width_m)
+
+
+@dataclass(frozen=True)
+class AbsoluteVelocity(Hidden):
+    """The laser stands on the floor and reads the base too."""
+
+    name: ClassVar[str] = "absolute_velocity"
+    place: ClassVar[str] = "velocity channel"
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "AbsoluteVelocity":
+        return cls()
+
+    def channel(self, velocity_s: Complex, omega: Array, base_s: Complex) -> Complex:
+        return velocity_s + base_s
+
+
+@dataclass(frozen=True)
+class ChannelDelay(Hidden):
+    """The velocity comes late."""
+
+    name: ClassVar[str] = "channel_delay"
+    place: ClassVar[str] = "velocity channel"
+
+    delay_s: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "ChannelDelay":
+        return cls(float(rng.uniform(30e-6, 150e-6)))
+
+    def channel(self, velocity_s: Complex, omega: Array, base_s: Complex) -> Complex:
+        return np.asarray(velocity_s * np.exp(-1j * omega * self.delay_s))
+
+
+@dataclass(frozen=True)
+class GainError(Hidden):
+    """The velocity channel's scale."""
+
+    name: ClassVar[str] = "gain_error"
+    place: ClassVar[str] = "velocity channel"
+
+    factor: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "GainError":
+        return cls(1 + either_sign(rng, 0.015, 0.04))
+
+    def channel(self, velocity_s: Complex, omega: Array, base_s: Complex) -> Complex:
+        return velocity_s * self.factor
+
+
+@dataclass(frozen=True)
+class SensorLowpass(Hidden):
+    """A first-order filter in the velocity channel."""
+
+    name: ClassVar[str] = "sensor_lowpass"
+    place: ClassVar[str] = "velocity channel"
+
+    corner_hz: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "SensorLowpass":
+        return cls(log_uniform(rng, 1e3, 5e3))
+
+    def channel(self, velocity_s: Complex, omega: Array, base_s: Complex) -> Complex:
+        return np.asarray(velocity_s / (1 + 1j * omega / (2 * np.pi * self.corner_hz)))
+
+
+@dataclass(frozen=True)
+class AcCoupling(Hidden):
+    """The velocity channel has lost its constant part, and some of what is slow."""
+
+    name: ClassVar[str] = "ac_coupling"
+    place: ClassVar[str] = "velocity channel"
+
+    corner_hz: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "AcCoupling":
+        return cls(log_uniform(rng, 0.3, 2.0))
+
+    def channel(self, velocity_s: Complex, omega: Array, base_s: Complex) -> Complex:
+        return np.asarray(velocity_s / (1 + 2 * np.pi * self.corner_hz / (1j * omega)))
+
+
+@dataclass(frozen=True)
+class PhaseScale(Hidden):
+    """A phase meter that counts from 0 to 360 degrees shows a few per cent too many of them."""
+
+    name: ClassVar[str] = "phase_scale"
+    place: ClassVar[str] = "velocity channel"
+
+    factor: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "PhaseScale":
+        return cls(float(rng.uniform(1.02, 1.05)))
+
+    def channel(self, velocity_s: Complex, omega: Array, base_s: Complex) -> Complex:
+        phase = np.angle(velocity_s) % (2 * np.pi)
+        return np.asarray(np.abs(velocity_s) * np.exp(1j * self.factor * phase))
+
+
+@dataclass(frozen=True)
+class ViscousDamping(Hidden):
+    """The treated plate's remaining damping is not the bare plate's."""
+
+    name: ClassVar[str] = "viscous_damping"
+    place: ClassVar[str] = "remaining damping"
+
+    scale: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "ViscousDamping":
+        return cls(float(rng.uniform(1.5, 3.0)))
+
+    def ratios(self, ratios: Array) -> Array:
+        return ratios * self.scale

@@ -1,0 +1,148 @@
+"""A core that is not the same everywhere, or not the same all the time."""
+
+# ruff: noqa: D102 -- the hooks are described in base.py
+
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+
+from instrument.campaign.plates.geometry import TruePlate
+from instrument.campaign.plates.hidden.base import Array, Hidden, Setting, either_sign, log_uniform, times
+from instrument.campaign.plates.solid import Build, Field
+
+GAS_J_MOL_K = 8.314
+_ROOM_K = 296.0
+
+
+@dataclass(frozen=True)
+class GradedCore(Hidden):
+    """The modulus grows along x or y."""
+
+    name: ClassVar[str] = "graded_core"
+    place: ClassVar[str] = "core"
+    changes_solid: ClassVar[bool] = True
+
+    along: str
+    slope: float
+    """From one end to the other, over the mean."""
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "GradedCore":
+        return cls(str(rng.choice(["x", "y"])), either_sign(rng, 0.2, 0.4))
+
+    def build(self, build: Build, true: TruePlate) -> Build:
+        def factor(x: Array, y: Array) -> Array:
+            share = x / true.length_m if self.along == "x" else y / true.width_m
+            return np.asarray(1 + self.slope * (share - 0.5))
+
+        return replace(build, core_factor=times(build.core_factor, factor))
+
+
+@dataclass(frozen=True)
+class PartialDebond(Hidden):
+    """A strip has come loose; towards its edges the bond is gradually better."""
+
+    name: ClassVar[str] = "partial_debond"
+    place: ClassVar[str] = "core"
+    changes_solid: ClassVar[bool] = True
+
+    along: str
+    """"x": all of the width between two x; "y": all of the length between two y."""
+    from_m: float
+    to_m: float
+    edge_m: float
+    """Over which the bond recovers."""
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "PartialDebond":
+        along = str(rng.choice(["x", "y"]))
+        side = at.plate.length_m if along == "x" else at.plate.width_m
+        wide = side * float(rng.uniform(0.06, 0.16))
+        begin = float(rng.uniform(0, side - wide))
+        if along == "y":
+            # Where it comes loose along the length it begins at an edge.
+            begin = 0.0 if rng.random() < 0.5 else side - wide
+        return cls(along, begin, begin + wide, side * float(rng.uniform(0.008, 0.025)))
+
+    def build(self, build: Build, true: TruePlate) -> Build:
+        def factor(x: Array, y: Array) -> Array:
+            at = x if self.along == "x" else y
+            side = true.length_m if self.along == "x" else true.width_m
+            low = -1.0 if self.from_m <= 0 else self.from_m
+            high = side + 1.0 if self.to_m >= side * (1 - 1e-9) else self.to_m
+            into = (np.tanh((at - low) / self.edge_m) - np.tanh((at - high) / self.edge_m)) / 2
+            return np.asarray(1 - 0.985 * into)
+
+        changed = replace(build, core_factor=times(build.core_factor, factor))
+        ends = tuple(e + d for e in (self.from_m, self.to_m) for d in (-self.edge_m, self.edge_m))
+        if self.along == "x":
+            return replace(changed, lines_x_m=(*build.lines_x_m, *ends))
+        return replace(changed, lines_y_m=(*build.lines_y_m, *ends))
+
+
+@dataclass(frozen=True)
+class TemperatureDrift(Hidden):
+    """The core warms, more at one end than at the other; its times shift as Arrhenius has it."""
+
+    name: ClassVar[str] = "temperature_drift"
+    place: ClassVar[str] = "core"
+    groups: ClassVar[str] = "columns"
+    changes_solid: ClassVar[bool] = True
+
+    kelvin: float
+    """In the end, at the middle of the plate."""
+    time_constant_s: float
+    gradient: float
+    """Difference of both ends over that of the middle; positive: the clamp is warmer."""
+    activation_j_mol: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "TemperatureDrift":
+        sign = -1.0 if rng.random() < 0.25 else 1.0
+        return cls(
+            sign * float(rng.uniform(3, 7)),
+            at.duration_s * float(rng.uniform(0.3, 1.0)),
+            either_sign(rng, 0.1, 0.6),
+            float(rng.uniform(70e3, 130e3)),
+        )
+
+    def stirred(self, true: TruePlate) -> tuple[Field, ...]:
+        return (lambda x, y: x / true.length_m + 0 * y,)
+
+    def frequency_factor(self, time_s: Array, x: Array, length_m: float) -> Array | None:
+        share = 1 + self.gradient * (0.5 - x / length_m)
+        kelvin = -self.kelvin * np.expm1(-time_s / self.time_constant_s)[:, None] * share
+        shift = self.activation_j_mol / GAS_J_MOL_K * (1 / (_ROOM_K + kelvin) - 1 / _ROOM_K)
+        return np.asarray(np.exp(shift))
+
+
+@dataclass(frozen=True)
+class AmplitudeSoftening(Hidden):
+    """Each brick softens with its own strain, as filled rubber does (Kraus): G (1 - d r / (1 + r)).
+
+    r is the brick's strain amplitude over a strain at which half of what can be lost is lost.
+    """
+
+    name: ClassVar[str] = "amplitude_softening"
+    place: ClassVar[str] = "core"
+    groups: ClassVar[str] = "bricks"
+    changes_solid: ClassVar[bool] = True
+
+    k: float
+    """Lost at the core's rms strain of the first resonance at 1 g."""
+    most: float
+    """What can be lost at all."""
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "AmplitudeSoftening":
+        return cls(log_uniform(rng, 0.05, 0.2), 0.5)
+
+    def stirred(self, true: TruePlate) -> tuple[Field, ...]:
+        # Strain of the first mode is largest near the clamp, of the others in several places.
+        return tuple(lambda x, y, n=n: np.cos(n * np.pi * x / true.length_m) + 0 * y for n in (1, 2))
+
+    def factor(self, strain: Array, reference: float) -> Array:
+        """On the modulus of bricks of given strain; `reference` is that at which `k` is lost."""
+        r = strain / reference * self.k / (self.most - self.k)
+        return np.asarray(1 - self.most * r / (1 + r))

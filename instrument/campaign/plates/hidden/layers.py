@@ -1,0 +1,116 @@
+"""Layers that are not what the specimen file says, by more than its tolerances."""
+
+# ruff: noqa: D102 -- the hooks are described in base.py
+
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+
+from instrument.campaign.plates.geometry import TruePlate
+from instrument.campaign.plates.hidden.base import Hidden, Setting, either_sign
+from instrument.campaign.plates.solid import Build
+
+
+@dataclass(frozen=True)
+class ConstrainingStiffness(Hidden):
+    """Young's modulus of the constraining layer."""
+
+    name: ClassVar[str] = "constraining_stiffness"
+    place: ClassVar[str] = "constraining layer"
+    changes_solid: ClassVar[bool] = True
+
+    scale: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "ConstrainingStiffness":
+        return cls(1 + either_sign(rng, 0.05, 0.1))
+
+    def plate(self, true: TruePlate) -> TruePlate:
+        c = true.constraining
+        assert c is not None
+        return replace(true, constraining=replace(c, young_pa=c.young_pa * self.scale))
+
+
+@dataclass(frozen=True)
+class ConstrainingThickness(Hidden):
+    """Thickness of the constraining layer."""
+
+    name: ClassVar[str] = "constraining_thickness"
+    place: ClassVar[str] = "constraining layer"
+    changes_solid: ClassVar[bool] = True
+
+    scale: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "ConstrainingThickness":
+        return cls(1 + either_sign(rng, 0.05, 0.1))
+
+    def plate(self, true: TruePlate) -> TruePlate:
+        c = true.constraining
+        assert c is not None
+        return replace(true, constraining=replace(c, thickness_m=c.thickness_m * self.scale))
+
+
+@dataclass(frozen=True)
+class SubstrateStiffness(Hidden):
+    """Young's modulus of the substrate."""
+
+    name: ClassVar[str] = "substrate_stiffness"
+    place: ClassVar[str] = "substrate"
+    changes_solid: ClassVar[bool] = True
+
+    scale: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "SubstrateStiffness":
+        return cls(1 + either_sign(rng, 0.04, 0.08))
+
+    def plate(self, true: TruePlate) -> TruePlate:
+        s = true.substrate
+        return replace(true, substrate=replace(s, young_pa=s.young_pa * self.scale))
+
+    def at_hammer(self, plate: TruePlate, build: Build) -> tuple[TruePlate, Build]:
+        return self.plate(plate), build
+
+
+@dataclass(frozen=True)
+class OrthotropicSubstrate(Hidden):
+    """A rolled sheet: stiffer along x than along y, or the other way round."""
+
+    name: ClassVar[str] = "orthotropic_substrate"
+    place: ClassVar[str] = "substrate"
+    changes_solid: ClassVar[bool] = True
+
+    rolled: float
+    """Difference of both moduli over their mean."""
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "OrthotropicSubstrate":
+        return cls(either_sign(rng, 0.03, 0.06))
+
+    def plate(self, true: TruePlate) -> TruePlate:
+        return replace(true, substrate=replace(true.substrate, rolled=self.rolled))
+
+    def at_hammer(self, plate: TruePlate, build: Build) -> tuple[TruePlate, Build]:
+        return self.plate(plate), build
+
+
+@dataclass(frozen=True)
+class CoreThickness(Hidden):
+    """Thickness of the core."""
+
+    name: ClassVar[str] = "core_thickness"
+    place: ClassVar[str] = "core"
+    changes_solid: ClassVar[bool] = True
+
+    scale: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "CoreThickness":
+        return cls(1 + either_sign(rng, 0.1, 0.15))
+
+    def plate(self, true: TruePlate) -> TruePlate:
+        c = true.core
+        assert c is not None
+        return replace(true, core=replace(c, thickness_m=c.thickness_m * self.scale))

@@ -1,0 +1,89 @@
+"""Faults of a plate that no catalogue has: a diagnosis should say that it does not know."""
+
+# ruff: noqa: D102 -- the hooks are described in base.py
+
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+
+from instrument.campaign.plates.geometry import TruePlate
+from instrument.campaign.plates.hidden.base import Array, Hidden, Setting, times
+from instrument.campaign.plates.solid import Build
+
+
+@dataclass(frozen=True)
+class CrackedSubstrate(Hidden):
+    """A soft line across part of the substrate, from one long edge."""
+
+    name: ClassVar[str] = "cracked_substrate"
+    place: ClassVar[str] = "strange"
+    in_catalogue: ClassVar[bool] = False
+    changes_solid: ClassVar[bool] = True
+
+    x_m: float
+    reaches_m: float
+    """From the edge y = 0."""
+    half_width_m: float
+    left: float
+    """Of the stiffness within."""
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "CrackedSubstrate":
+        length, width = at.plate.length_m, at.plate.width_m
+        return cls(
+            float(rng.uniform(0.08, 0.5)) * length,
+            float(rng.uniform(0.3, 0.7)) * width,
+            0.5 * at.plate.substrate.thickness_m,
+            float(rng.uniform(0.15, 0.4)),
+        )
+
+    def _with_crack(self, build: Build) -> Build:
+        def factor(x: Array, y: Array) -> Array:
+            inside = (np.abs(x - self.x_m) < self.half_width_m) & (y < self.reaches_m)
+            return np.where(inside, self.left, 1.0)
+
+        ends = (self.x_m - self.half_width_m, self.x_m + self.half_width_m)
+        return replace(
+            build,
+            substrate_factor=times(build.substrate_factor, factor),
+            lines_x_m=(*build.lines_x_m, *ends),
+            lines_y_m=(*build.lines_y_m, self.reaches_m),
+        )
+
+    def build(self, build: Build, true: TruePlate) -> Build:
+        return self._with_crack(build)
+
+    def at_hammer(self, plate: TruePlate, build: Build) -> tuple[TruePlate, Build]:
+        return plate, self._with_crack(build)
+
+
+@dataclass(frozen=True)
+class WrinkledConstraining(Hidden):
+    """The constraining layer is wavy in one region and stretches there more easily."""
+
+    name: ClassVar[str] = "wrinkled_constraining"
+    place: ClassVar[str] = "strange"
+    near: ClassVar[tuple[str, ...]] = ("partial_debond",)
+    in_catalogue: ClassVar[bool] = False
+    changes_solid: ClassVar[bool] = True
+
+    x_m: float
+    y_m: float
+    size_m: float
+    """Standard deviation of the region along x; along y it is twice as wide."""
+    lost: float
+    """Of the stiffness in its middle."""
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "WrinkledConstraining":
+        length, width = at.plate.length_m, at.plate.width_m
+        x, y = length * rng.uniform(0.15, 0.7), width * rng.uniform(0.2, 0.8)
+        return cls(float(x), float(y), length * float(rng.uniform(0.06, 0.12)), float(rng.uniform(0.4, 0.75)))
+
+    def build(self, build: Build, true: TruePlate) -> Build:
+        def factor(x: Array, y: Array) -> Array:
+            away = ((x - self.x_m) / self.size_m) ** 2 + ((y - self.y_m) / (2 * self.size_m)) ** 2
+            return np.asarray(1 - self.lost * np.exp(-away / 2))
+
+        return replace(build, constraining_factor=times(build.constraining_factor, factor))

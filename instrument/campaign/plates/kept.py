@@ -1,0 +1,107 @@
+"""Reduced plates kept on disk, named by a digest of all that they depend on, their own code included.
+
+`instrument.cache` also counts the sources of `fitting`, which have no part in these.
+"""
+
+import ast
+import hashlib
+import json
+import os
+import tempfile
+from collections.abc import Callable
+from dataclasses import asdict, replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import scipy
+
+from drivers.simulated.plant import air
+from instrument.arrays import pack, unpack
+from instrument.cache import cache_folder
+from instrument.campaign.plates import brick, grid, reduced, solid
+from instrument.campaign.plates.geometry import TruePlate
+from instrument.campaign.plates.grid import Fineness
+from instrument.campaign.plates.reduced import MODULI_PA, ReducedPlate
+from instrument.campaign.plates.solid import Build, RootSprings, Solid
+
+BARE_SPRINGS_N_M3 = 1e14
+"""Of the softer of two clamps that a bare plate is kept with."""
+_BARE_MODES = 24
+
+
+@cache
+def clean_plate(plate: TruePlate, fineness: Fineness | None = None) -> ReducedPlate:
+    """The treated plate without any effect, from the cache or built (about 10 s) and kept."""
+    fineness = fineness or Fineness()
+    said = ["treated", _made_of(plate), asdict(fineness), MODULI_PA]
+    return _kept("plate", said, lambda: reduced.reduced(Solid(plate, None, fineness)))
+
+
+@cache
+def bare_plate(plate: TruePlate, sprung: bool, fineness: Fineness | None = None) -> ReducedPlate:
+    """The substrate alone, in a rigid clamp or in one of `BARE_SPRINGS_N_M3`."""
+    fineness = fineness or Fineness()
+    said = ["bare", _made_of(plate.bare), asdict(fineness), sprung, BARE_SPRINGS_N_M3]
+
+    return _kept("bare-plate", said, lambda: bare_solid(plate.bare, Build(), sprung, fineness))
+
+
+def _made_of(plate: TruePlate) -> dict[str, Any]:
+    """Neither the spot nor the damping has a part in it."""
+    return asdict(replace(plate, spot_m=(0.0, 0.0), ratios=()))
+
+
+def bare_solid(
+    plate: TruePlate, build: Build, sprung: bool, fineness: Fineness | None = None
+) -> ReducedPlate:
+    """The same as `build` has it, never kept."""
+    root = RootSprings(_even, _even) if sprung else None
+    return reduced.reduced(Solid(plate, replace(build, root=root), fineness), modes=_BARE_MODES)
+
+
+def _even(y: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    return np.full(y.shape, BARE_SPRINGS_N_M3)
+
+
+def _kept(name: str, said: Any, build: Callable[[], ReducedPlate]) -> ReducedPlate:
+    text = json.dumps([_sources(), np.__version__, scipy.__version__, said], sort_keys=True)
+    digest = hashlib.sha256(text.encode()).hexdigest()
+    path = cache_folder() / f"campaign-{name}-{digest[:32]}.npz"
+    found = _load(path)
+    if found is None:
+        found = build()
+        _store(path, found)
+    return found
+
+
+def _load(path: Path) -> ReducedPlate | None:
+    """None for a file that is not there, torn or of another version: it is built again."""
+    try:
+        with np.load(path, allow_pickle=False) as file:
+            return unpack(ReducedPlate, {key: file[key] for key in file.files})
+    except Exception:  # whatever a damaged file makes a reader raise, the answer is the same
+        return None
+
+
+def _store(path: Path, plate: ReducedPlate) -> None:
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        # Written beside and renamed: another process sees the whole file or none.
+        with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".tmp", delete=False) as file:
+            arrays: dict[str, Any] = pack(plate)
+            np.savez(file, **arrays)
+        os.replace(file.name, path)
+    except OSError:
+        return
+
+
+@cache
+def _sources() -> str:
+    digest = hashlib.sha256()
+    for module in (air, brick, grid, reduced, solid):
+        # As the parser sees it: neither comments nor line breaks change a plate.
+        tree = ast.parse(Path(str(module.__file__)).read_text(encoding="utf-8"))
+        digest.update(ast.dump(tree).encode())
+    return digest.hexdigest()

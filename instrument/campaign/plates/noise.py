@@ -1,0 +1,63 @@
+"""Scatter of a sweep: white as in the campaign on one plate, and what drifts in the order of measurement."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from instrument.campaign.noise import NoiseFigures
+from instrument.campaign.schedule import Schedule
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_WHITE_SHARE = 0.5
+"""Of cases; the others drift as well, in one of two ways."""
+
+
+@dataclass(frozen=True)
+class PlateNoise:
+    """How noisy a sweep is."""
+
+    white: NoiseFigures
+    wander: float = 0.0
+    """Of a complex factor on the reading, in each part: an AR(1) walk from reading to reading."""
+    wander_points: float = 1.0
+    """Readings over which it forgets."""
+    gain_drift: float = 0.0
+    """Amplitude of a slow swing of the gain within a segment."""
+
+    def factor(self, rng: np.random.Generator, schedule: Schedule) -> Complex:
+        """On each reading. Shape (points,)."""
+        count = len(schedule.frequency_hz)
+        factor = np.ones(count, complex)
+        in_time = np.argsort(schedule.time_s)
+        if self.wander:
+            keep = np.exp(-1 / self.wander_points)
+            kicks = rng.standard_normal((count, 2)) @ np.array([1, 1j])
+            walk = np.empty(count, complex)
+            state = kicks[0]
+            for k, kick in enumerate(kicks):
+                state = keep * state + np.sqrt(1 - keep**2) * kick if k else state
+                walk[k] = state
+            factor[in_time] += self.wander * walk
+        if self.gain_drift:
+            for number in np.unique(schedule.sweep):
+                inside = np.flatnonzero(schedule.sweep == number)
+                t = schedule.time_s[inside]
+                share = (t - t.min()) / max(float(np.ptp(t)), 1e-9)
+                turns, phase = rng.uniform(0.3, 0.8), rng.uniform(0, 2 * np.pi)
+                factor[inside] *= 1 + self.gain_drift * np.sin(2 * np.pi * turns * share + phase)
+        return factor
+
+
+def draw_noise(rng: np.random.Generator) -> PlateNoise:
+    """Figures of a rig in use."""
+    white = NoiseFigures(float(rng.uniform(0.003, 0.009)), float(rng.uniform(0.0014, 0.0028)))
+    kind, size = rng.random(), float(rng.uniform(0.0008, 0.0025))
+    points, swing = float(rng.uniform(4, 25)), float(rng.uniform(0.001, 0.004))
+    if kind < _WHITE_SHARE:
+        return PlateNoise(white)
+    if kind < (1 + _WHITE_SHARE) / 2:
+        return PlateNoise(white, size, points)
+    return PlateNoise(white, gain_drift=swing)

@@ -1,0 +1,69 @@
+"""A campaign on many plates: cases identified and diagnosed in processes, a line kept of each.
+
+It goes on after a kill:
+
+from instrument.campaign.plates.run import plate_jobs, run_plates
+lines = run_plates(plate_jobs(200, seed=500), folder, identify=mine, diagnose=mine_too)
+"""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from instrument.campaign.plates.answers import Answer, Band, line_of, outcome_from, outcome_of
+from instrument.campaign.plates.cases import KINDS, NONE, PAIR, PlateCase, draw_case
+from instrument.campaign.plates.tables import summary
+from instrument.campaign.run import Job, run_campaign
+from instrument.progress import Progress, quiet
+
+SUMMARY = "summary.md"
+ROTATION = (*KINDS, *(NONE,) * 8, *(PAIR,) * 4)
+"""Kinds of successive cases: each effect once, clean ones nine times, pairs five."""
+
+Identify = Callable[[PlateCase], Band]
+Diagnose = Callable[[PlateCase], Answer]
+
+
+def plate_jobs(count: int, seed: int, kinds: Sequence[str] = ()) -> list[Job]:
+    """Kinds in rotation, seeds from `seed` on."""
+    rotation = tuple(kinds) or ROTATION
+    return [Job(rotation[k % len(rotation)], seed + k) for k in range(count)]
+
+
+def judge_plate(
+    job: Job, exact: bool, identify: Identify | None, diagnose: Diagnose | None
+) -> dict[str, Any]:
+    """Draw, identify, diagnose, compare. What raises leaves no answer and is tried again."""
+    case = draw_case(job.kind, job.seed, exact)
+    band: Band | None = None
+    said: Answer | None = None
+    error = ""
+    try:
+        band = identify(case) if identify is not None else None
+        said = diagnose(case) if diagnose is not None else None
+    except Exception as raised:
+        error = " ".join(f"{type(raised).__name__}: {raised}".split())
+    return line_of(outcome_of(case, band, said, error))
+
+
+def run_plates(
+    jobs: Sequence[Job],
+    folder: Path,
+    *,
+    exact: bool = False,
+    identify: Identify | None = None,
+    diagnose: Diagnose | None = None,
+    workers: int = 2,
+    progress: Progress = quiet,
+) -> list[dict[str, Any]]:
+    """Lines of all jobs, with those an earlier run left. Raises `BadInput`, `StoppedByUser`.
+
+    Kept in `folder`, exact and stated cases apart; `identify` and `diagnose` go to other processes, so they
+    must be functions of a module.
+    """
+    judged_by = partial(judge_plate, exact=exact, identify=identify, diagnose=diagnose)
+    kept = folder / ("exact" if exact else "stated")
+    lines = run_campaign(jobs, kept, workers=workers, judged_by=judged_by, progress=progress)
+    (kept / SUMMARY).write_text(summary([outcome_from(line) for line in lines]), encoding="utf-8")
+    return lines

@@ -1,0 +1,118 @@
+"""Which points a sweep has, and when each is read: three segments around resonances that the base excites."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from instrument.campaign.plates.geometry import TruePlate
+from instrument.campaign.plates.materials import TrueLaw
+from instrument.campaign.plates.reduced import ReducedPlate
+from instrument.campaign.schedule import Schedule
+
+Array = NDArray[np.float64]
+Integers = NDArray[np.intp]
+
+_POINTS = (60, 121)
+_SEEN = 0.008
+"""Peak velocity of a resonance at the spot over the largest: a lab would not measure less."""
+_APART = 1.25
+"""Ratio of frequencies of two resonances that get a segment each."""
+_HALF_WIDTHS = 1.3
+"""Half of a segment in loss factors of its resonance, within the next."""
+_SHARE = (0.08, 0.22)
+_STILL = 1e-3
+_CYCLES = 30
+_SECONDS = 1.2
+"""A point takes this and so many cycles."""
+_LATE_S = 0.05
+_BETWEEN_S = (40.0, 160.0)
+
+
+@dataclass(frozen=True)
+class Resonance:
+    """One that the base excites."""
+
+    frequency_hz: float
+    loss_factor: float
+    """That the core gives it."""
+    seen: float
+    """Peak velocity at the spot, in any unit."""
+
+
+def resonances(plate: ReducedPlate, spot_m: tuple[float, float], law: TrueLaw) -> list[Resonance]:
+    """The even ones in ascending order, the core's modulus taken at each frequency."""
+    found = []
+    row = plate.reading(*spot_m)
+    lam, _ = plate.modes(1e6, 14)
+    for r in range(len(lam)):
+        omega = float(np.sqrt(lam[r]))
+        for _ in range(12):
+            G = complex(law.modulus(omega))
+            squared, phi = plate.modes(G.real, 14)
+            omega = float(np.sqrt(squared[r]))
+        shape = phi[:, r]
+        pushed = float(shape @ plate.load[:, 0])
+        if pushed**2 < _STILL * float(plate.load[:, 0] @ np.linalg.solve(plate.M, plate.load[:, 0])):
+            continue
+        eta = G.imag * float(shape @ plate.whole_core @ shape) / omega**2
+        found.append(Resonance(omega / (2 * np.pi), eta, abs(float(row @ shape) * pushed) / (eta * omega)))
+    return found
+
+
+def measured_resonances(plate: ReducedPlate, spot_m: tuple[float, float], law: TrueLaw) -> list[Resonance]:
+    """The first three that the spot sees and that stand apart. Raises `ArithmeticError` if fewer."""
+    every = resonances(plate, spot_m, law)
+    largest = max(r.seen for r in every)
+    chosen: list[Resonance] = []
+    for r in every:
+        apart = not chosen or r.frequency_hz > _APART * chosen[-1].frequency_hz
+        if r.seen > _SEEN * largest and apart:
+            chosen.append(r)
+    if len(chosen) < 3:
+        raise ArithmeticError(f"{len(chosen)} resonances seen at {spot_m}, expected three: move the spot")
+    return chosen[:3]
+
+
+def draw_schedule(rng: np.random.Generator, chosen: list[Resonance], levels_g: tuple[float, ...]) -> Schedule:
+    """Three dense segments; levels from low to high, the segments of each in the same order."""
+    segments = [_around(rng, r) for r in chosen]
+    order = {0: [0, 1, 2], 1: [2, 1, 0], 2: list(rng.permutation(3))}[int(rng.integers(3))]
+    along = str(rng.choice(["up", "down", "random"], p=[0.7, 0.15, 0.15]))
+    parts: list[tuple[Array, Integers, Integers, Array, Array]] = []
+    now = 0.0
+    for level in levels_g:
+        for k in order:
+            f = segments[k]
+            count = len(f)
+            taken = _taken(rng, count, along)
+            takes = _SECONDS + _CYCLES / f[taken] + rng.exponential(_LATE_S, count)
+            when = now + np.cumsum(takes)
+            now = float(when[-1]) + float(rng.uniform(*_BETWEEN_S))
+            time = np.empty(count)
+            time[taken] = when
+            segment, number = np.full(count, k + 1, np.intp), np.full(count, len(parts) + 1, np.intp)
+            parts.append((f, segment, number, np.full(count, level), np.round(time, 3)))
+    return Schedule(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+
+
+def _around(rng: np.random.Generator, r: Resonance) -> Array:
+    count = int(rng.integers(*_POINTS))
+    half = float(np.clip(_HALF_WIDTHS * r.loss_factor, *_SHARE))
+    low, high = (half * float(rng.uniform(0.85, 1.15)) for _ in range(2))
+    return np.round(np.linspace(r.frequency_hz * (1 - low), r.frequency_hz * (1 + high), count), 3)
+
+
+def _taken(rng: np.random.Generator, count: int, along: str) -> Integers:
+    """Indices of the points in the order of time."""
+    up = np.arange(count, dtype=np.intp)
+    if along == "random":
+        return rng.permutation(up)
+    return up[::-1] if along == "down" else up
+
+
+def widest_band_hz(plate: ReducedPlate, true: TruePlate) -> tuple[float, float]:
+    """Where segments may lie, no law drawn yet: the first resonance at 0.3 MPa to the third at 2 MPa."""
+    soft, stiff = TrueLaw("maxwell", (0.3e6, 1e3, 1e-3)), TrueLaw("maxwell", (2e6, 1e3, 1e-3))
+    low, high = (resonances(plate, true.spot_m, law) for law in (soft, stiff))
+    return 0.75 * low[0].frequency_hz, 1.15 * high[2].frequency_hz

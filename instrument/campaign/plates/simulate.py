@@ -1,0 +1,124 @@
+"""What the rig would read without noise: the plate with its effects, moved and seen as it really is."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import reduce
+
+import numpy as np
+from numpy.typing import NDArray
+
+from instrument.campaign.plates.geometry import TruePlate
+from instrument.campaign.plates.grid import Fineness
+from instrument.campaign.plates.hammer import HammerTest, hammer_test
+from instrument.campaign.plates.hidden.base import Hidden
+from instrument.campaign.plates.hidden.core import AmplitudeSoftening
+from instrument.campaign.plates.kept import bare_plate, bare_solid, clean_plate
+from instrument.campaign.plates.materials import TrueLaw
+from instrument.campaign.plates.reduced import REFERENCE_MODULUS_PA, ReducedPlate, reduced
+from instrument.campaign.plates.response import Motion, Shaken, remaining_damping
+from instrument.campaign.plates.softening import softened
+from instrument.campaign.plates.solid import Build, Solid
+from instrument.campaign.schedule import Schedule
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class Channel:
+    """How far the velocity channel is off within its tolerance."""
+
+    gain: float = 1.0
+    delay_s: float = 0.0
+
+
+def built(
+    true: TruePlate, hidden: Sequence[Hidden], moduli_pa: Sequence[float], fineness: Fineness | None = None
+) -> ReducedPlate:
+    """The plate with its effects; without any, the one that is kept."""
+    if not any(h.changes_solid for h in hidden):
+        return clean_plate(true, fineness)
+    build, points = Build(), [at for h in hidden for at in h.points()]
+    for h in hidden:
+        build = h.build(build, true)
+    plate = reduce(lambda p, h: h.plate(p), hidden, true)
+    groups = {h.groups for h in hidden}
+    finest = next(g for g in ("bricks", "columns", "whole") if g in groups)
+    solid = Solid(plate, build, fineness)
+    return reduced(
+        solid,
+        moduli_pa,
+        groups=finest,
+        points_m=points,
+        air_density_kg_m3=sum(h.air_kg_m3 for h in hidden),
+        stirred=[solid.core_with(field) for h in hidden for field in h.stirred(plate)],
+    )
+
+
+def moduli_of(law: TrueLaw, frequency_hz: Array) -> tuple[float, ...]:
+    """Where the basis of a plate with this law is made."""
+    size = np.abs(law.modulus(2 * np.pi * np.array([frequency_hz.min(), frequency_hz.max()])))
+    low, high = min(size[0], REFERENCE_MODULUS_PA), max(1.2 * size[1], 1.5 * REFERENCE_MODULUS_PA)
+    return tuple(float(g) for g in np.geomspace(low, high, 3))
+
+
+def clean_reading(
+    true: TruePlate,
+    hidden: Sequence[Hidden],
+    law: TrueLaw,
+    schedule: Schedule,
+    channel: Channel,
+    fineness: Fineness | None = None,
+) -> Complex:
+    """The reading over the reference channel's at each point, in s."""
+    plate = built(true, hidden, moduli_of(law, schedule.frequency_hz), fineness)
+    omega = 2 * np.pi * schedule.frequency_hz
+    motion = reduce(lambda m, h: h.motion(m, omega), hidden, Motion.pure(len(omega)))
+    ratios = reduce(lambda r, h: h.ratios(r), hidden, np.array(true.ratios))
+    C_1 = remaining_damping(plate, ratios)
+    hung = [a for h in hidden for a in h.attached(omega, motion, true.width_m)]
+    attached = None
+    if hung:
+        rows = np.array([plate.reading(a.x_m, a.y_m) for a in hung])
+        attached = rows, np.array([a.stiffness_n_m for a in hung]), np.array([a.force_n for a in hung])
+    G = _modulus(plate, true, hidden, law, schedule)
+    shaken = Shaken(plate, C_1, omega, motion, attached)
+    soft = next((h for h in hidden if isinstance(h, AmplitudeSoftening)), None)
+    q = softened(shaken, G, soft, schedule) if soft else shaken.displacements(G)
+    spot = reduce(lambda s, h: h.spot(s, true), hidden, true.spot_m)
+    v = 1j * omega * (q @ plate.reading(*spot))
+    base = motion.at(*spot, true.width_m) / (1j * omega)
+    v = v + base - 1 / (1j * omega)
+    v = reduce(lambda s, h: h.channel(s, omega, np.ones(len(omega)) / (1j * omega)), hidden, v)
+    v = channel.gain * np.exp(-1j * omega * channel.delay_s) * v
+    return np.asarray(v / reduce(lambda b, h: h.reference(b, omega), hidden, np.ones(len(omega), complex)))
+
+
+def _modulus(
+    plate: ReducedPlate, true: TruePlate, hidden: Sequence[Hidden], law: TrueLaw, schedule: Schedule
+) -> Complex:
+    """Of each group of the core at each point, or of all alike."""
+    omega = 2 * np.pi * schedule.frequency_hz
+    for h in hidden:
+        factor = h.frequency_factor(schedule.time_s, plate.group_x_m, true.length_m)
+        if factor is not None:
+            return law.modulus(omega[:, None] * factor)
+    return law.modulus(omega)
+
+
+def struck(
+    true: TruePlate,
+    hidden: Sequence[Hidden],
+    rng: np.random.Generator,
+    ratio_scatter: float,
+    yields: bool,
+) -> HammerTest:
+    """A hammer test of the bare plate, which shares the substrate and its faults with the treated one."""
+    plate, build = true.bare, Build()
+    for h in hidden:
+        plate, build = h.at_hammer(plate, build)
+    if plate == true.bare and build == Build():
+        rigid, sprung = bare_plate(true, False), bare_plate(true, True)
+    else:
+        rigid, sprung = bare_solid(plate, build, False), bare_solid(plate, build, True)
+    return hammer_test(rng, rigid, sprung, np.array(true.ratios), ratio_scatter, yields)

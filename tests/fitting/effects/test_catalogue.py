@@ -1,0 +1,48 @@
+"""What every effect says of itself."""
+
+from inspect import getdoc, getmodule
+
+import numpy as np
+import pytest
+
+from fitting.effects import CATALOGUE
+
+FORMS = [form for effect in CATALOGUE.values() for form in effect.variants()]
+SPANNED = ("mass", "treatment", "uneven", "length", "roll")
+
+
+def ids(form):
+    return f"{form.name} {' '.join(q.key for q in form.unknowns)}"
+
+
+@pytest.mark.parametrize("form", FORMS, ids=ids)
+def test_it_says_what_it_is_and_what_shows_it_apart(form):
+    assert getdoc(getmodule(type(form)))
+    assert form.source
+    assert form.splits
+    assert 0 < form.chance <= 0.05
+    values = {q.key: q.typical for q in form.unknowns}
+    if form.name not in ("level_error", "mains_hum"):
+        assert len(form.story(values)) > 20
+
+
+@pytest.mark.parametrize("form", FORMS, ids=ids)
+def test_every_size_has_a_prior(form):
+    """What is absent at a number has a spread about it; places and logarithms are even in their limits."""
+    for q in form.unknowns:
+        even = q.logarithmic or q.neutral is None
+        assert (q.spread is None) == even or q.fixed, q.key
+        assert q.lower < q.upper
+        if q.spread is not None:
+            assert q.lower <= q.neutral <= q.upper
+            # The limits are no tighter than what is likely.
+            assert max(q.upper - q.neutral, q.neutral - q.lower) >= 2 * q.spread
+
+
+@pytest.mark.parametrize("form", [f for f in FORMS if {s.name for s in f.spans} & set(SPANNED)], ids=ids)
+def test_starts_lie_within_limits(full, form):
+    lower, upper = form.limits(full.spanned)
+    starts = form.starts(full.spanned, None)
+    assert all((lower <= u).all() and (u <= upper).all() for u in starts)
+    assert len(starts) <= 40
+    assert all(np.isfinite(u).all() for u in starts)

@@ -1,0 +1,110 @@
+"""Layers that are not what is stated: reduced plate beside full solves."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+
+from fitting.effects import CATALOGUE
+from fitting.effects.graded_core import GradedCore
+from fitting.effects.orthotropic_substrate import plane_stress, substrate_stiffness
+from fitting.element import DOFS, THETA_Y, U_B, V_B, Shape, core_shear, face_stiffness
+from fitting.plate import Plate
+from fitting.specimen import Face
+
+ORTHOTROPIC, GRADED = CATALOGUE["orthotropic_substrate"], CATALOGUE["graded_core"]
+STIFFNESS, THICKNESS = CATALOGUE["constraining_stiffness"], CATALOGUE["constraining_thickness"]
+LENGTH = CATALOGUE["clamp_line"]
+
+
+def test_one_modulus_both_ways_is_the_plain_substrate(full):
+    shape, face = Shape(*full.loose.mesh.sides_m), full.specimen.substrate
+    mine = substrate_stiffness(shape, face.thickness_m, plane_stress(face, 1.0))
+    plain = face_stiffness(shape, face, U_B, V_B)
+    assert np.abs(mine - plain).max() < 1e-12 * np.abs(plain).max()
+
+
+def test_stiffness_of_an_orthotropic_sheet():
+    """Compliance: E_x and E_y in tension, Poisson's ratio nu along x, its mirror in the ratio of moduli."""
+    face = Face(1e-3, 70e9, 0.3, 2700.0)
+    S = np.linalg.inv(plane_stress(face, 1.1))
+    assert 1 / S[0, 0] == pytest.approx(70e9)
+    assert 1 / S[1, 1] == pytest.approx(77e9)
+    assert -S[1, 0] / S[0, 0] == pytest.approx(0.3)
+    assert 1 / S[2, 2] == pytest.approx(np.sqrt(1.1) * 70e9 / 2.6)
+
+
+@pytest.mark.parametrize("ratio", [0.8, 0.97, 1.1, 1.3])
+def test_a_rolled_sheet(full, ratio):
+    shape, face = Shape(*full.loose.mesh.sides_m), full.specimen.substrate
+    D = plane_stress(face, ratio)
+    Ke = substrate_stiffness(shape, face.thickness_m, D) - face_stiffness(shape, face, U_B, V_B)
+    assert full.error(ORTHOTROPIC, [ratio], K=full.loose.scatter(Ke)) < 5e-4
+
+
+def graded(full, along, grade):
+    """The core's shear with the modulus of every Gauss point."""
+    s, mesh = full.specimen, full.loose.mesh
+    a, b = mesh.sides_m
+    shape = Shape(a, b)
+    t, weight = np.polynomial.legendre.leggauss(4)
+    flat, tilted = np.zeros((4 * DOFS, 4 * DOFS)), np.zeros((4 * DOFS, 4 * DOFS))
+    for tx, wx in zip(t, weight, strict=True):
+        for ty, wy in zip(t, weight, strict=True):
+            N = core_shear(shape, s.core, s.substrate, s.constraining, a * (tx + 1) / 2, b * (ty + 1) / 2)
+            Ke = s.core.thickness_m * a * b / 4 * wx * wy * sum(np.outer(n, n) for n in N)
+            flat += Ke
+            tilted += ((tx if along == "x" else ty) + 1) / 2 * Ke
+    i, j = np.divmod(np.arange(mesh.n_x * mesh.n_y), mesh.n_y)
+    place, count = (i, mesh.n_x) if along == "x" else (j, mesh.n_y)
+    total = sp.csc_array((full.loose.size, full.loose.size))
+    for k in range(count):
+        Ke = grade * ((k / count - 0.5) * flat + tilted / count)
+        total = total + full.loose.scatter(Ke, np.flatnonzero(place == k))
+    return total
+
+
+@pytest.mark.parametrize(("along", "grade"), [("x", 0.3), ("x", -1.2), ("y", 0.4), ("y", 1.3)])
+def test_a_graded_core(full, along, grade):
+    assert full.error(GradedCore(along), [grade], K_1=graded(full, along, grade)) < 1e-3
+
+
+@pytest.mark.parametrize("scale", [0.8, 1.06])
+def test_a_stiffer_constraining_layer(full, scale):
+    K = (scale - 1) * full.loose.K_constraining
+    assert full.error(STIFFNESS, [scale], K=K) < 5e-4
+
+
+@pytest.mark.parametrize("scale", [0.8, 0.94, 1.25])
+def test_another_constraining_layer(full, scale):
+    layer = full.specimen.constraining
+    other = replace(full.specimen, constraining=replace(layer, thickness_m=scale * layer.thickness_m))
+    assert full.error(THICKNESS, [scale], loose=Plate(replace(other, boundary="free"))) < 5e-4
+
+
+@pytest.mark.parametrize("dlength", [-7e-3, -2e-3, 4e-3])
+def test_another_free_length(full, dlength):
+    length = full.specimen.length_m + dlength
+    other = Plate(replace(full.specimen, length_m=length, boundary="free"))
+    # The stated plate's damping, taken over with its stretched shapes.
+    U = (full.full.lift @ full.damping.U).reshape(-1, DOFS, len(full.damping.d)).copy()
+    U[:, THETA_Y] *= length / full.specimen.length_m
+    U = U.reshape(full.loose.size, -1)
+    assert full.error(LENGTH, [dlength], loose=other, U=U) < 3e-4
+
+
+@pytest.mark.parametrize(
+    ("effect", "neutral"), [(ORTHOTROPIC, 1), (GRADED, 0), (STIFFNESS, 1), (THICKNESS, 1), (LENGTH, 0)]
+)
+def test_without_it_nothing_changes(full, effect, neutral):
+    assert effect.unknowns[0].neutral == neutral
+    assert full.error(effect, [neutral]) < 1e-5
+
+
+@pytest.mark.parametrize(
+    ("effect", "at"), [(ORTHOTROPIC, 1.0), (GRADED, 0.0), (STIFFNESS, 1.0), (THICKNESS, 1.05), (LENGTH, 1e-3)]
+)
+def test_derivatives(full, effect, at):
+    by, difference = full.slope(effect, [at], 0)
+    assert np.abs(by / difference - 1).max() < 1e-4

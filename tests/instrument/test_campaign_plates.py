@@ -1,0 +1,307 @@
+"""The campaign on many plates: its solid, its cases, what a specimen may know, its files and its score."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+
+from fitting.plate import Plate
+from fitting.real_modes import real_modes
+from instrument.campaign.plates import cases, kept, simulate
+from instrument.campaign.plates import reduced as reduced_plate
+from instrument.campaign.plates.answers import Answer, Band, line_of, outcome_from, outcome_of
+from instrument.campaign.plates.cases import KINDS, NONE, PAIR, draw_case
+from instrument.campaign.plates.files import load_case, save_case
+from instrument.campaign.plates.geometry import PLATES, plate_named
+from instrument.campaign.plates.grid import Fineness
+from instrument.campaign.plates.hidden import HIDDEN, STRANGE
+from instrument.campaign.plates.hidden.attached import AddedMass, AirAddedMass, TunedAbsorber
+from instrument.campaign.plates.hidden.base import Setting
+from instrument.campaign.plates.hidden.core import AmplitudeSoftening
+from instrument.campaign.plates.materials import KINDS as LAWS
+from instrument.campaign.plates.materials import LOSS, STORAGE_PA, TrueLaw, draw_law
+from instrument.campaign.plates.reduced import reduced
+from instrument.campaign.plates.response import Motion, Shaken, remaining_damping
+from instrument.campaign.plates.run import plate_jobs, run_plates
+from instrument.campaign.plates.schedule import Schedule
+from instrument.campaign.plates.score import reliability, score
+from instrument.campaign.plates.simulate import Channel, built, clean_reading
+from instrument.campaign.plates.solid import Build, RootSprings, Solid, factorised
+from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
+from instrument.campaign.plates.tables import summary
+
+COARSE = Fineness(6, 4, (0.4, 2.0), (1.0,))
+P2 = plate_named("P2")
+LAW = TrueLaw("fractional-zener", (0.4e6, 8e6, 2e-4, 0.7))
+MODULI = (0.4e6, 1.5e6)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _coarse(tmp_path_factory):
+    """Cases of the coarse solid, kept in a cache of their own."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("VISCORIG_CACHE", str(tmp_path_factory.mktemp("cache")))
+        patch.setattr(kept, "Fineness", lambda: COARSE)
+        patch.setattr(kept, "MODULI_PA", (0.4e6, 1.6e6))
+        patch.setattr(cases, "PLATES", (P2,))
+        patch.setattr(reduced_plate, "_AIR_PANELS", 300)
+        kept.clean_plate.cache_clear()
+        kept.bare_plate.cache_clear()
+        yield
+        kept.clean_plate.cache_clear()
+        kept.bare_plate.cache_clear()
+
+
+def few_points():
+    f = np.concatenate([np.linspace(18, 28, 8), np.linspace(110, 140, 8), np.linspace(300, 350, 8)])
+    segment = np.repeat([1, 2, 3], 8)
+    return Schedule(f, segment, segment, np.ones(24), np.arange(24.0))
+
+
+def setting(plate=P2):
+    return Setting(plate, (23.0, 120.0, 325.0), 600.0)
+
+
+def test_the_solid_of_an_exact_clean_case_has_the_frequencies_of_the_fits_own_plate():
+    plate = plate_named("P1")
+    specimen = specimen_from(toml(plate, None, 100.0))
+    omega = real_modes(Plate(replace(specimen, elements=(24, 16))), 1e6, 5).omega
+    lam, phi = kept.clean_plate(plate).modes(1e6, 5)
+    even = np.abs(phi.T @ kept.clean_plate(plate).load[:, 0]) > 1e-6
+    assert np.abs(omega / np.sqrt(lam) - 1)[even].max() < 3e-3
+
+
+def test_thin_bricks_do_not_lock():
+    """A coarse solid is within 0.3 % of a finer one in what the base excites."""
+    coarse, finer = (
+        np.sqrt(reduced(Solid(P2.bare, None, mesh), modes=4).modes(0.0, 3)[0])
+        for mesh in (COARSE, Fineness(10, 8))
+    )
+    assert np.abs(coarse / finer - 1).max() < 3e-3
+
+
+def test_a_rigid_motion_of_a_free_solid_costs_nothing():
+    """The assumed strain keeps the energy of stretching and turning as a whole: none."""
+    solid = Solid(plate_named("P7"), Build(), COARSE)
+    K = solid.K_0 + 1e6 * solid.K_1
+    stiffness = np.einsum("ij,ij->j", solid.rigid, K @ solid.rigid)
+    stretched = np.abs(K.diagonal()).max()
+    assert np.abs(stiffness).max() < 1e-9 * stretched
+
+
+def test_the_reduced_plate_answers_as_the_whole_solid_does():
+    solid = Solid(P2, None, COARSE)
+    plate, free = reduced(solid, MODULI), solid.free
+    for f, G in ((20.0, 0.3e6 * (1 + 0.5j)), (330.0, 2e6 * (1 + 1j))):
+        omega = 2 * np.pi * f
+        Z = (solid.K_0 + G * solid.K_1 - omega**2 * solid.M)[free][:, free]
+        full = factorised(sp.csr_array(Z.astype(complex))).solve(
+            -(solid.M @ solid.rigid)[free].astype(complex)
+        )
+        wanted = (solid.displacement(*P2.spot_m)[:, free] @ full).ravel()
+        q = np.linalg.solve(plate.K_0 + G * plate.whole_core - omega**2 * plate.M, -plate.load)
+        assert np.abs(plate.reading(*P2.spot_m) @ q / wanted - 1)[:2].max() < 1e-3
+
+
+def test_a_patch_weighs_what_it_weighs_and_air_makes_heavier():
+    solid = Solid(P2, AddedMass(0.01, 0.2, 0.1, 0.01).build(Build(), P2), COARSE)
+    bare = Solid(P2, None, COARSE)
+    heave = solid.rigid[:, 0]
+    assert heave @ (solid.M - bare.M) @ heave == pytest.approx(0.01)
+    air = AirAddedMass(1.2)
+    in_air = built(P2, (air,), MODULI, COARSE)
+    assert in_air.modes(1e6, 1)[0][0] < reduced(bare, MODULI).modes(1e6, 1)[0][0]
+
+
+def test_an_absorber_far_below_its_resonance_is_a_mass():
+    schedule, channel = few_points(), Channel()
+    absorber = TunedAbsorber(0.004, 1e5, 0.0, 0.25, 0.05)
+    mass = AddedMass(0.004, 0.25, 0.05, 1e-4)
+    hung, laid = (clean_reading(P2, (h,), LAW, schedule, channel, COARSE) for h in (absorber, mass))
+    assert np.abs(hung / laid - 1).max() < 2e-3
+
+
+def test_a_stiff_clamp_is_a_rigid_one():
+    springs = RootSprings(lambda y: np.full(y.shape, 1e18), lambda y: np.full(y.shape, 1e18))
+    soft, rigid = (
+        reduced(Solid(P2, Build(root=r), COARSE), MODULI).modes(1e6, 3)[0] for r in (springs, None)
+    )
+    assert np.abs(soft / rigid - 1).max() < 1e-3
+
+
+def test_softening_settles_brick_by_brick():
+    schedule, soft = few_points(), AmplitudeSoftening(0.15, 0.5)
+    plate = built(P2, (soft,), MODULI, COARSE)
+    shaken = Shaken(
+        plate,
+        remaining_damping(plate, np.array(P2.ratios)),
+        2 * np.pi * schedule.frequency_hz,
+        Motion.pure(24),
+    )
+    G = LAW.modulus(shaken.omega)
+    row = plate.reading(*P2.spot_m)
+    q = simulate.softened(shaken, G, soft, schedule) @ row
+    faint = simulate.softened(shaken, G, soft, replace(schedule, level_g=np.full(24, 1e-6))) @ row
+    linear = shaken.displacements(G) @ row
+    assert np.abs(faint / linear - 1).max() < 1e-4
+    assert np.abs(q / linear - 1)[:8].max() > 0.03
+
+
+@pytest.mark.parametrize("name", [n for n in HIDDEN if not HIDDEN[n].changes_solid])
+def test_an_effect_of_base_or_channels_shows(name):
+    schedule, channel = few_points(), Channel()
+    effect = HIDDEN[name].draw(np.random.default_rng(1), setting())
+    seen, clean = (clean_reading(P2, h, LAW, schedule, channel, COARSE) for h in ((effect,), ()))
+    off_axis = name == "base_roll"
+    assert off_axis or np.abs(seen / clean - 1).max() > 2e-3
+
+
+@pytest.mark.parametrize("name", list(HIDDEN))
+def test_severities_are_plain_facts_and_come_back(name):
+    effect = HIDDEN[name].draw(np.random.default_rng(3), setting())
+    assert HIDDEN[name](**effect.facts) == effect
+
+
+@pytest.mark.parametrize("kind", LAWS)
+def test_laws_keep_within_the_campaigns_limits(kind):
+    law = draw_law(np.random.default_rng(5), (15.0, 400.0), kind)
+    G = law.modulus(2 * np.pi * np.geomspace(15, 400, 9))
+    assert STORAGE_PA[0] < G.real.min()
+    assert G.real.max() < STORAGE_PA[1]
+    assert LOSS[0] < (G.imag / G.real).min()
+    assert (G.imag / G.real).max() < LOSS[1]
+
+
+def test_geometries_are_of_the_wanted_kinds():
+    assert len(PLATES) >= 8
+    for plate in PLATES:
+        assert 0.149 < plate.length_m < 0.401
+        assert 1.2 <= plate.length_m / plate.width_m < 2.2
+        assert 0 < plate.spot_m[0] < plate.length_m
+
+
+def test_what_is_stated_scatters_about_the_truth_as_its_tolerances_say():
+    rng = np.random.default_rng(0)
+    stated = [draw_stated(rng, P2) for _ in range(400)]
+    young = np.log([s.substrate.young_pa / P2.substrate.young_pa for s in stated])
+    lengths = [s.length_m - P2.length_m for s in stated]
+    assert np.std(young) == pytest.approx(CAREFUL.young, rel=0.1)
+    assert np.std(lengths) == pytest.approx(CAREFUL.length_m, rel=0.1)
+
+
+def test_a_case_is_the_same_again_and_its_specimen_hides_the_truth():
+    case, again = (draw_case(NONE, 4, plate="P2") for _ in range(2))
+    np.testing.assert_array_equal(case.sweep.velocity_m_s, again.sweep.velocity_m_s)
+    assert case.specimen == again.specimen
+    assert not case.specimen.exact
+    assert case.specimen.tolerances["substrate_young"] == pytest.approx(0.01)
+    assert case.specimen.length_m != P2.length_m
+    other = draw_case(NONE, 5, plate="P2")
+    assert len(other.sweep) != len(case.sweep) or other.specimen != case.specimen
+
+
+def test_an_exact_case_states_the_truth_of_the_same_sweep():
+    case, stated = draw_case(NONE, 4, exact=True, plate="P2"), draw_case(NONE, 4, plate="P2")
+    assert case.specimen.exact
+    assert case.specimen.length_m == pytest.approx(P2.length_m)
+    assert case.truth.law == stated.truth.law
+    np.testing.assert_array_equal(case.sweep.frequency_hz, stated.sweep.frequency_hz)
+
+
+def test_a_case_comes_back_from_its_files(tmp_path):
+    case = draw_case("sensor_lowpass", 2, plate="P7")
+    back = load_case(save_case(case, tmp_path / "case"))
+    np.testing.assert_allclose(back.sweep.velocity_m_s, case.sweep.velocity_m_s, rtol=1e-8)
+    assert back.specimen == case.specimen
+    assert back.truth == case.truth
+    assert (back.hammer is None) == (case.hammer is None)
+
+
+def test_a_pair_comes_from_two_places_of_the_catalogue():
+    names = {cases.names_of(PAIR, np.random.default_rng(k)) for k in range(20)}
+    for first, second in names:
+        assert HIDDEN[first].place != HIDDEN[second].place
+        assert not {first, second} & set(STRANGE)
+
+
+def test_an_unknown_kind_is_refused():
+    with pytest.raises(ValueError, match="expected one of"):
+        draw_case("gremlins", 1)
+
+
+def answered(case, verdict, effects=(), off=1.0, **more):
+    f = np.array(case.truth.resonances_hz)
+    G = case.truth.law.modulus(2 * np.pi * f)
+    storage, loss = off * G.real, G.imag / G.real
+    band = Band(*(tuple(v.tolist()) for v in (f, storage, loss, 0.02 * storage, 0.02 * loss)))
+    said = Answer(
+        verdict, tuple(effects), more.get("equivalent", {}), more.get("stated", {}), band, band, 1.0
+    )
+    return outcome_of(case, band, said)
+
+
+def test_the_score_of_hand_made_answers():
+    clean = draw_case(NONE, 4, plate="P2", law="fractional-zener")
+    late = draw_case("channel_delay", 1, plate="P2", law="fractional-zener")
+    right = answered(late, "effect", ["channel_delay"], stated={"channel_delay": 0.9, "gain_error": 0.1})
+    grouped = answered(
+        late,
+        "ambiguous",
+        ["sensor_lowpass"],
+        equivalent={"sensor_lowpass": ("sensor_lowpass", "channel_delay")},
+    )
+    wrong = answered(late, "effect", ["tether", "gain_error"], off=1.1)
+    nothing, alarm = answered(clean, "none"), answered(clean, "effect", ["tether"])
+    found = score("late", [right, grouped, wrong])
+    assert (found.first, found.in_group, found.whole, found.false_named, found.false_second) == (
+        1,
+        2,
+        1,
+        1,
+        1,
+    )
+    assert found.after["storage"].points == 9
+    assert found.after["storage"].inside_95 == pytest.approx(2 / 3)
+    assert found.after["loss"].rms_pull == pytest.approx(0.0, abs=1e-9)
+    assert score(NONE, [nothing, alarm]).first == score(NONE, [nothing, alarm]).false_named == 1
+    bins = reliability([right])
+    assert [(b.count, b.true) for b in bins] == [(1, 0.0), (1, 1.0)]
+    text = summary([right, grouped, wrong, nothing, alarm])
+    assert "| channel_delay | 3 | 1 | 2 |" in text
+    assert outcome_from(line_of(grouped)) == grouped
+
+
+def test_a_fault_of_no_catalogue_should_be_refused():
+    case = draw_case("gain_error", 1, plate="P2")
+    strange = replace(
+        answered(case, "unknown"),
+        kind="tip_magnet",
+        truth=("tip_magnet",),
+        near={"tip_magnet": ()},
+        strange=True,
+    )
+    assert score("strange", [strange]).first == score("strange", [strange]).refused == 1
+
+
+def true_band(case):
+    return answered(case, "none").identified
+
+
+def no_effect(case):
+    return answered(case, "none", stated={"none": 1.0}).said
+
+
+def test_a_campaign_goes_on_where_it_was_stopped(tmp_path):
+    jobs = plate_jobs(3, seed=11, kinds=(NONE, "gain_error"))
+    first = run_plates(jobs[:2], tmp_path, identify=true_band, diagnose=no_effect, workers=1)
+    with open(tmp_path / "stated" / "outcomes.jsonl", "a", encoding="utf-8") as file:
+        file.write('{"kind": "none", "se')
+    lines = run_plates(jobs, tmp_path, identify=true_band, diagnose=no_effect, workers=1)
+    assert [line["seed"] for line in lines] == [11, 12, 13]
+    assert lines[:2] == first
+    assert "gain_error" in (tmp_path / "stated" / "summary.md").read_text(encoding="utf-8")
+
+
+def test_every_kind_is_in_rotation():
+    assert {job.kind for job in plate_jobs(60, 0)} == set(KINDS)
