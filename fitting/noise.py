@@ -49,6 +49,19 @@ def noise_of(sweep: Sweep) -> Noise:
     return Noise(std, "local scatter")
 
 
+def scatter_over_stated(sweep: Sweep) -> float | None:
+    """Median over the points of local scatter over stated noise; None where either is not there."""
+    stated = sweep.response_std_m_s
+    if stated is None:
+        return None
+    ratios = [
+        _scatter(sweep.frequency_hz[group], sweep.response_m_s[group]) / stated[group]
+        for group in groups_of(sweep)
+        if len(np.unique(sweep.frequency_hz[group])) >= FEWEST
+    ]
+    return float(np.median(np.concatenate(ratios))) if ratios else None
+
+
 def groups_of(sweep: Sweep) -> list[NDArray[np.intp]]:
     """Points of one segment, one pass and one level: each group a curve of its own."""
     keys = np.column_stack([sweep.segment, sweep.sweep, np.round(sweep.commanded_m_s2, 9)])

@@ -26,6 +26,7 @@ _H = 1e-2
 _UNHEARD = 1e-6
 """Share of a mode that the plate's motions carry, below which its ratio plays no part."""
 _TREATMENT = ("constraining", "core")
+_MOST_KEPT = 64
 
 
 @dataclass(frozen=True)
@@ -45,8 +46,13 @@ class Nuisance:
         return STATED[self.kind].unit
 
 
-def nuisances_of(specimen: Specimen, plate: SpannedPlate, *, has_phase: bool) -> "Nuisances":
-    """All stated numbers of a specimen that its sweep can feel."""
+def nuisances_of(
+    specimen: Specimen, plate: SpannedPlate, *, has_phase: bool, reference: Specimen | None = None
+) -> "Nuisances":
+    """All stated numbers of a specimen that its sweep can feel.
+
+    `plate` is of `reference`, one like it, where that is given.
+    """
     names = [n for n in PLATE if specimen.core is not None or not n.startswith(_TREATMENT)]
     found = [Nuisance(n, n, tolerance(specimen, n)) for n in names]
     found += [Nuisance(f"pickup_{axis}", "pickup", tolerance(specimen, "pickup")) for axis in "xy"]
@@ -61,7 +67,7 @@ def nuisances_of(specimen: Specimen, plate: SpannedPlate, *, has_phase: bool) ->
     found.append(Nuisance("gain", "gain", tolerance(specimen, "gain")))
     if has_phase:
         found.append(Nuisance("delay", "delay", tolerance(specimen, "delay")))
-    return Nuisances(specimen, tuple(n for n in found if n.sigma > 0))
+    return Nuisances(specimen, tuple(n for n in found if n.sigma > 0), reference)
 
 
 @dataclass(frozen=True)
@@ -70,9 +76,21 @@ class Nuisances:
 
     specimen: Specimen
     each: tuple[Nuisance, ...] = ()
+    like: Specimen | None = None
+    """Whose parts and row the plate has, where they are not the specimen's own: one as long in elements."""
 
     def __len__(self) -> int:
         return len(self.each)
+
+    @property
+    def change_nothing(self) -> bool:
+        """Whether the plate stays as its model is."""
+        return not self.each and self.like is None
+
+    @property
+    def reference(self) -> Specimen:
+        """Whose parts and row the plate has."""
+        return self.like or self.specimen
 
     @cached_property
     def _sigma(self) -> Array:
@@ -89,7 +107,9 @@ class Nuisances:
 
     @cached_property
     def _stated(self) -> Array:
-        return self._coefficients(np.zeros(len(self)))
+        c = coefficients(self.reference, self.reference)
+        found = np.concatenate([c.K_0, c.K_1, c.M, [c.load]])
+        return np.asarray(found if np.any(found.imag) else found.real)
 
     @cached_property
     def _places(self) -> dict[str, int]:
@@ -107,7 +127,7 @@ class Nuisances:
 
     def _coefficients(self, z: Array) -> Array:
         """Of all parts, and of the load. Complex where a face has a loss factor. Shape (parts + 1,)."""
-        c = coefficients(self.moved_specimen(z), self.specimen)
+        c = coefficients(self.moved_specimen(z), self.reference)
         found = np.concatenate([c.K_0, c.K_1, c.M, [c.load]])
         return np.asarray(found if np.any(found.imag) else found.real)
 
@@ -126,11 +146,12 @@ class Nuisances:
         return _Kept()
 
     def coefficients(self, z: Array) -> Array:
-        """Of all parts and the load above their stated values. Shape (parts + 1,)."""
+        """Of all parts and the load above the reference's. Shape (parts + 1,)."""
         return self._kept.get("c", z, lambda: self._coefficients(z) - self._stated)
 
     def by_coefficients(self, z: Array) -> Array:
-        """Their derivatives to z. Shape (count, parts + 1)."""
+        """Their derivatives to z, at the nearest whole numbers: they hardly change. Shape (count, parts + 1)."""
+        z = np.round(z)
 
         def differences() -> Array:
             found = np.zeros((len(self), len(self._stated)), self._stated.dtype)
@@ -155,16 +176,17 @@ class Nuisances:
             K_1=K_1.real,
             M=M.real,
             load=-float(np.real(c[-1])) * plate.load_part,
-            observe=self.row(plate, z) - self.row(plate, 0 * z),
+            observe=self.row(plate, z) - plate.row(*plate.pickup),
             damping=self._damping(len(plate.d), z),
         )
 
     def row(self, plate: SpannedPlate, z: Array) -> Array:
         """Reads w at the pickup, where it is on the plate as long and as wide as it is. Shape (k,)."""
-        s = self.specimen
+        s, r = self.specimen, self.reference
+        assert s.pickup_m is not None
         L, B = (getattr(s, f"{name}_m") + self._by(name, z) for name in ("length", "width"))
-        x, y = (plate.pickup[i] + self._by(f"pickup_{axis}", z) for i, axis in enumerate("xy"))
-        return plate.row(x * s.length_m / L, y * s.width_m / B)
+        x, y = (s.pickup_m[i] + self._by(f"pickup_{axis}", z) for i, axis in enumerate("xy"))
+        return plate.row(x * r.length_m / L, y * r.width_m / B)
 
     def rows_by(self, plate: SpannedPlate, z: Array) -> dict[int, Array]:
         """Derivatives of `row` to those that move it."""
@@ -242,16 +264,16 @@ class Nuisances:
 
 
 class _Kept:
-    """The last results of a few functions."""
+    """Results of a few functions, the latest of each."""
 
     def __init__(self) -> None:
-        self._known: dict[str, tuple[bytes, Array]] = {}
+        self._known: dict[tuple[str, bytes], Array] = {}
 
     def get(self, name: str, z: Array, make: Callable[[], Array]) -> Array:
         """What `make` returns for this z."""
-        key = z.tobytes()
-        known = self._known.get(name)
-        if known is None or known[0] != key:
-            known = key, make()
-            self._known[name] = known
-        return known[1]
+        key = name, z.tobytes()
+        if key not in self._known:
+            while len(self._known) >= _MOST_KEPT:
+                del self._known[next(iter(self._known))]
+            self._known[key] = make()
+        return self._known[key]

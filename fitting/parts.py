@@ -8,6 +8,7 @@ density, Poisson's ratio, length or width has the same parts, and a model reduce
 exactly on its basis. Integrands are those of `fitting.element` (the paper's Eq. (15) to (18)).
 """
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,6 +19,7 @@ from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, Shape, W
 from fitting.element import _points as gauss_points
 from fitting.plate import Mesh, Plate
 from fitting.specimen import Face, Specimen
+from fitting.tolerances import STATED, moved
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -76,19 +78,40 @@ def load_part(reference: Specimen) -> Array:
 
 def projected_parts(plate: Plate, V: Array) -> Array:
     """V^T P_p V of every part: of K_0, then of K_1, then of M. `V` of shape (n, k); shape (parts, k, k)."""
+    parts = np.concatenate(element_parts(plate.specimen))
+    return np.array([V.T @ forces for forces in forces_of(plate, parts, V)])
+
+
+def forces_of(plate: Plate, elements: Array | Complex, V: Array | Complex) -> Iterator[Array | Complex]:
+    """A V of every A that has the same matrix in all elements: (any, 28, 28) and (n, k) to (n, k) each."""
     dofs = plate.mesh.element_dofs()
-    full = np.zeros((plate.mesh.nodes * DOFS, V.shape[1]))
+    full = np.zeros((plate.mesh.nodes * DOFS, V.shape[1]), V.dtype)
     full[plate.free] = V
     on_elements = full[dofs.T].reshape(4 * DOFS, -1)
     # Sums what the elements give each degree of freedom.
     gather = sp.csr_array(
         (np.ones(dofs.size), (dofs.T.ravel(), np.arange(dofs.size))), shape=(len(full), dofs.size)
     )[plate.free]
+    for A in elements:
+        yield gather @ (A @ on_elements).reshape(dofs.size, -1)
+
+
+def stated_steps(reference: Specimen, names: Sequence[str]) -> tuple[Complex, Array, Array]:
+    """What a typical tolerance of some stated numbers changes of an element's K_0, K_1 and M, to first order.
+
+    Shape (names, 28, 28) each.
+    """
     found = []
-    for P in np.concatenate(element_parts(plate.specimen)):
-        forces = gather @ (P @ on_elements).reshape(dofs.size, -1)
-        found.append(V.T @ forces)
-    return np.array(found)
+    for name in names:
+        up, down = (
+            coefficients(moved(reference, [name], [s * STATED[name].typical]), reference) for s in (1, -1)
+        )
+        found.append([(getattr(up, m) - getattr(down, m)) / 2 for m in ("K_0", "K_1", "M")])
+    K_0, K_1, M = (
+        np.tensordot(np.array(c), parts, axes=1)
+        for c, parts in zip(zip(*found, strict=True), element_parts(reference), strict=True)
+    )
+    return K_0, K_1, M
 
 
 def coefficients(specimen: Specimen, reference: Specimen) -> Coefficients:

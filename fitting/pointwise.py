@@ -121,6 +121,15 @@ def velocity_of_sweep(sweep: Sweep, rational: RationalSweep, reads: Reading) -> 
     return velocity_of
 
 
+def phase_is_kept(sweep: Sweep) -> None:
+    """Raises `TooFewPoints` for amplitudes."""
+    if not sweep.has_phase:
+        raise TooFewPoints(
+            f"{len(sweep)} amplitudes without phase, expected phasors: "
+            "G* at a frequency is two numbers and an amplitude is one"
+        )
+
+
 def pointwise_law(
     sweep: Sweep,
     noise: Noise,
@@ -135,11 +144,7 @@ def pointwise_law(
     (nuisances, points). `bands_an_octave` None takes only points of the same frequency together. Raises
     `TooFewPoints` for amplitudes.
     """
-    if not sweep.has_phase:
-        raise TooFewPoints(
-            f"{len(sweep)} amplitudes without phase, expected phasors: "
-            "G* at a frequency is two numbers and an amplitude is one"
-        )
+    phase_is_kept(sweep)
     which = _bands_of(sweep.frequency_hz, bands_an_octave)
     dv = np.zeros((0, len(sweep)), complex) if nuisances is None else np.asarray(nuisances)
 

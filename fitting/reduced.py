@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from fitting.damping import ViscousDamping
-from fitting.direct import solve_direct
+from fitting.direct import direct_solver, solve_direct
 from fitting.domain import Domain
 from fitting.element import THETA_X, THETA_Y, W
 from fitting.linear import factorise
-from fitting.parts import load_part, projected_parts
+from fitting.parts import forces_of, load_part, projected_parts, stated_steps
 from fitting.plate import Plate
 
 Array = NDArray[np.float64]
@@ -28,6 +28,13 @@ Complex = NDArray[np.complex128]
 TOLERANCE = 1e-6
 """Relative error of the pickup's reading that the basis is built for."""
 LARGEST_BASIS = 60
+FOLLOWING, MOST_FOLLOWING = 5e-4, 20
+"""What further vectors may leave of the answers' change by a typical tolerance of a stated number, and how
+many there may be: two tolerances off, answers are then good to 1e-4."""
+_OF_A_FACE = ("young", "thickness", "poisson")
+_FACES = tuple(f"{layer}_{n}" for layer in ("substrate", "constraining") for n in _OF_A_FACE)
+"""What the basis does not follow by itself: it spans moduli of the core and frequencies."""
+_SPREAD, _STIRRED = 8, 6
 
 
 @dataclass(frozen=True)
@@ -111,11 +118,13 @@ def reduce_plate(
 ) -> ReducedPlate:
     """Build the basis: a few spread snapshots, then two at a time where the residual is worst.
 
-    Stops at `TOLERANCE` or at `LARGEST_BASIS` vectors; `estimated_error` says what was reached.
+    Stops at `TOLERANCE` or at `LARGEST_BASIS` vectors; `estimated_error` says what was reached. Then a few
+    more, for plates that are not quite as stated.
     """
     builder = _Builder(plate, damping, domain)
     with threadpool_limits(1, "blas"), ThreadPoolExecutor(2) as pool:
-        points = [domain.point((0.5 + k * 0.7549) % 1, (0.5 + k * 0.5698) % 1, 0.5) for k in range(8)]
+        spread = [domain.point((0.5 + k * 0.7549) % 1, (0.5 + k * 0.5698) % 1, 0.5) for k in range(_SPREAD)]
+        points = spread
         while True:
             for snapshot in pool.map(builder.snapshot, points):
                 builder.extend(snapshot)
@@ -124,6 +133,7 @@ def reduce_plate(
             size = builder.V.shape[1]
             progress(min(1.0, size / LARGEST_BASIS))
             if worst < TOLERANCE or size + 4 > LARGEST_BASIS:
+                builder.follow(np.hstack(list(pool.map(builder.stirred, spread[:_STIRRED]))))
                 return builder.project(final=True)
 
 
@@ -148,6 +158,28 @@ class _Builder:
         omega, G = point
         A = self.K_0 + G * self.K_1 - omega**2 * self.M
         return solve_direct(A, omega, self.damping, np.column_stack([self.load, self.observe]))
+
+    def stirred(self, point: tuple[float, complex]) -> Complex:
+        """What tolerances of the faces change of both responses, over their size. Shape (n, any)."""
+        omega, G = point
+        solve = direct_solver(self.K_0 + G * self.K_1 - omega**2 * self.M, omega, self.damping)
+        X = solve(np.column_stack([self.load, self.observe]))
+        X = X / np.sqrt(np.real(np.einsum("ij,ij->j", X.conj(), self.stiffness @ X)))
+        K_0, K_1, M = stated_steps(self.plate.specimen, _FACES)
+        P = self.plate.even
+        forces = forces_of(self.plate, K_0 + G * K_1 - omega**2 * M, P @ X)
+        return solve(np.hstack([P.T @ f for f in forces]))
+
+    def follow(self, X: Complex) -> None:
+        """Add the leading ones of some changes of responses, orthonormal in the stiffness."""
+        W = np.hstack([X.real, X.imag])
+        for _ in range(2):
+            W = W - self.V @ (self.V.T @ (self.stiffness @ W))
+        values, vectors = np.linalg.eigh(W.T @ (self.stiffness @ W))
+        few = np.argsort(values)[::-1][:MOST_FOLLOWING]
+        few = few[values[few] > FOLLOWING**2]
+        V = W @ (vectors[:, few] / np.sqrt(values[few]))
+        self.V = np.hstack([self.V, V - self.V @ (self.V.T @ (self.stiffness @ V))])
 
     def extend(self, X: Complex) -> None:
         """Add real and imaginary parts, orthonormal in the stiffness."""

@@ -61,6 +61,15 @@ _FIELDS = {
 _LARGEST_POISSON = 0.4999
 
 
+def kind_of(name: str) -> str:
+    """The kind that one number is of: `pickup` of `pickup_x`. Raises `ValueError`."""
+    kind, _, number = name.partition("_")
+    known = name if name in STATED else kind
+    if known not in STATED or (kind == "damping" and not number.isdecimal()):
+        raise ValueError(f"no stated number is called {name!r}")
+    return known
+
+
 def tolerance(specimen: Specimen, name: str) -> float:
     """Standard deviation of a stated number: named, else typical; zero for `exact`."""
     if specimen.exact:

@@ -9,6 +9,7 @@ import numpy as np
 
 from drivers.vibrometer.models import MODELS
 from fitting.errors import FittingError
+from fitting.specimen import Specimen
 from instrument.errors import BadInput
 from instrument.files.experiment_file import experiment_faults, read_experiment
 from instrument.files.rig_file import RigDocument
@@ -26,6 +27,8 @@ from instrument.session.configuration import Experiment, hammer_settings, read_w
 from instrument.session.faults import experiment_objections
 from instrument.stepped_sine.plan import PlannedSegment
 from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2, SweepSettings
+from instrument.theory import theory_remark
+from instrument.tolerance_words import tolerance_facts
 
 _HIT_AND_RING_S = 3.0
 """A person's time for a hit, beside its record."""
@@ -55,6 +58,7 @@ class DryRun:
     mode_hz: tuple[float, ...]
     hammer_record_s: float | None
     seconds: float
+    specimen: Specimen
     warnings: tuple[str, ...]
 
     def facts(self) -> dict[str, Any]:
@@ -64,6 +68,8 @@ class DryRun:
             "modes_hz": self.mode_hz,
             "hammer_record_s": self.hammer_record_s,
             "seconds": self.seconds,
+            "exact": self.specimen.exact,
+            "tolerances": tolerance_facts(self.specimen),
             "warnings": self.warnings,
         }
 
@@ -100,6 +106,10 @@ def dry_run(path: Path) -> DryRun:
         segments, seconds, warnings = _sweep(experiment, forecast, settings)
     except FittingError as error:
         raise BadInput(f"{path}: {error}") from None
+    band = np.array([f for s in segments for f in (s.low_hz, s.high_hz)])
+    if len(band) and specimen.core is not None:
+        remark = theory_remark(specimen, specimen.core.law, band)
+        warnings += [f"with the law to start from, {remark}"] if remark else []
     if hammer is not None:
         seconds += hammer.hits * (hammer.record_s + _HIT_AND_RING_S)
     return DryRun(
@@ -107,6 +117,7 @@ def dry_run(path: Path) -> DryRun:
         tuple(float(f) for f in forecast.mode_hz),
         hammer.record_s if hammer is not None else None,
         seconds,
+        specimen,
         tuple(warnings),
     )
 

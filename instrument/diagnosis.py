@@ -1,7 +1,7 @@
 """Diagnose a sweep: models made or loaded, then everything in `fitting.diagnosis`, timed."""
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from time import perf_counter
 
 from threadpoolctl import threadpool_limits
@@ -14,8 +14,10 @@ from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.errors import BadInput
 from instrument.progress import Progress, quiet
+from instrument.remarks import remarks_on_noise, remarks_on_tolerances
 from instrument.second_process import hands
 from instrument.set_up import Hammer, set_up
+from instrument.theory import theory_over, theory_remark
 
 
 @dataclass(frozen=True)
@@ -36,12 +38,17 @@ def diagnose(
     without: Collection[str] = frozenset(),
     progress: Progress = quiet,
     accept: Sequence[str] | None = None,
+    like: Specimen | None = None,
+    resamples: int | None = None,
 ) -> Diagnosed:
     """What the specimen's law cannot explain, traced to an effect. Raises `BadInput`, `FittingError`.
 
+    `OutsideModel` also where the layer-wise theory does not hold for the law it ends with.
+
     `hammer` is the bare plate's test as `fit_bare_plate` takes it; names in `without` are not considered.
     Where `accept` is given its effects are fitted on the user's word, and nothing is searched for; empty
-    declines them all.
+    declines them all. `like` as `set_up` takes it. The search is repeated on
+    `resamples` sweeps without effects, by default where points are few.
     """
     unknown = sorted({*without, *(accept or ())} - set(CATALOGUE))
     if unknown:
@@ -56,7 +63,7 @@ def diagnose(
     with threadpool_limits(1, "blas"), hands() as workers:
         effects = [e for name, e in CATALOGUE.items() if name not in without]
         used, channels, noise = seen_in_channels(sweep, effects)
-        ready_made = set_up(sweep.take(used), specimen, hammer, progress)
+        ready_made = set_up(sweep.take(used), specimen, hammer, progress, like=like)
         ready = perf_counter()
         with progress("tracing the residual") as report:
             result = diagnose_task(
@@ -71,5 +78,14 @@ def diagnose(
                 report,
                 accept,
                 workers,
+                ready_made.remade,
+                resamples,
             )
-    return Diagnosed(result, ready - began, perf_counter() - ready)
+    seconds = perf_counter() - ready
+    theory_over(specimen, result.after.law, sweep.frequency_hz)
+    further = (*remarks_on_noise(sweep), *remarks_on_tolerances(specimen))
+    before = theory_remark(specimen, result.before.law, sweep.frequency_hz)
+    if before:
+        further += (f"before, without any effect, the law is outside the theory: {before}",)
+    result = replace(result, warnings=(*result.warnings, *further))
+    return Diagnosed(result, ready - began, seconds)

@@ -11,6 +11,7 @@ from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from fitting.sweep import segments_by_gap
+from instrument.diagnosis_words import log_odds, probability_words, with_verdict
 from instrument.errors import BadInput
 from instrument.report.drawing import DATA, MARK, MODEL, SECOND, WIDTH_IN, label, legend_above
 
@@ -95,26 +96,27 @@ def evidence_figure(facts: Facts) -> Figure:
     candidates = facts["candidates"]
     shown = candidates[:_MOST_BARS]
     shown = shown + [c for c in candidates[_MOST_BARS:] if c["name"] == "none"]
-    none = next(c["delta_bic"] for c in candidates if c["name"] == "none")
-    gain = np.array([none - c["delta_bic"] for c in shown])
+    odds = dict(zip((c["name"] for c in candidates), log_odds(facts), strict=True))
+    gain = np.array([odds[c["name"]] for c in shown], dtype=float)
     colours = [_bar_colour(c["name"], facts) for c in shown]
     figure = Figure(figsize=(WIDTH_IN, 1.4 + 0.3 * len(shown)), layout="constrained")
     ax = figure.subplots()
     ax.barh(np.arange(len(shown)), gain, color=colours)
     ax.axvline(0, color="#444444", linewidth=1)
     # What is far worse than no effect at all needs no scale.
-    lowest = max(1.1 * float(gain.min()), -max(none, 20.0))
-    ax.set_xlim(lowest, max(1.3 * none, 0.5 * abs(lowest), 10.0))
+    best = float(gain.max())
+    lowest = max(1.1 * float(gain.min()), -max(best, 10.0))
+    ax.set_xlim(lowest, max(1.3 * best, 0.5 * abs(lowest), 5.0))
     for k, c in enumerate(shown):
         chi2 = "" if c["chi2_per_dof"] is None else f", chi² {c['chi2_per_dof']:.3g}"
-        said = "best" if c["delta_bic"] == 0 else f"{c['delta_bic']:.1f} below"
+        said = probability_words(c, facts)
         place = (max(float(gain[k]), 0.0), k)
         ax.annotate(said + chi2, place, (4, 0), textcoords="offset points", va="center", fontsize=8)
     ax.set_yticks(np.arange(len(shown)), [c["name"] for c in shown])
     ax.invert_yaxis()
     label(
         ax,
-        x="BIC gained over the fit without any effect (labels: below the best, chi² per degree of freedom)",
+        x="ln odds over the fit without any effect (labels: probability, chi² per degree of freedom)",
     )
     handles = [Patch(color=colour, label=name) for colour, name in _BAR_NAMES.items() if colour in colours]
     figure.legend(handles=handles, loc="outside upper center", ncols=4, fontsize=8, frameon=False)
@@ -150,7 +152,8 @@ def law_figure(facts: Facts) -> Figure:
     for ax, y in ((left, "Storage modulus G' / MPa"), (right, "Loss factor η")):
         label(ax, x="Frequency / Hz", y=y)
         ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
-    left.set_title("The core's law without and with the effects found, 95 % bands", fontsize=10, loc="left")
+    title = with_verdict("The core's law without and with the effects found, 95 % bands", facts)
+    left.set_title(title, fontsize=10, loc="left")
     left.legend(fontsize=8, frameon=False)
     return figure
 

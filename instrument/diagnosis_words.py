@@ -5,6 +5,9 @@ from typing import Any
 Facts = dict[str, Any]
 
 _MOST_PARAMETERS = 4
+UNKNOWN = "verdict unknown"
+_LEAST = 1e-3
+"""Probability below which, or above one less which, no digits are said."""
 _SAID = {"none": "nothing beyond noise", "unknown": "structure that nothing in the catalogue explains"}
 
 
@@ -24,6 +27,27 @@ def verdict_line(facts: Facts) -> str:
     if channels:
         parts.append(f"the channels by themselves show {' and '.join(_sized(e) for e in channels)}")
     return "; ".join(parts)
+
+
+def with_verdict(title: str, facts: Facts) -> str:
+    """The title of what shows a diagnosis's law: it says so where nothing explains the data."""
+    return f"{title} ({UNKNOWN})" if facts["verdict"] == "unknown" else title
+
+
+def probability_words(candidate: Facts, facts: Facts) -> str:
+    """Of an explanation, one of those tried being right; a dash where none was weighed."""
+    p = candidate.get("probability")
+    if facts.get("by_hand") or p is None or p != p:
+        return "-"
+    if p < _LEAST:
+        return f"< {100 * _LEAST:g} %"
+    return f"> {100 * (1 - _LEAST):g} %" if p > 1 - _LEAST else f"{100 * p:.1f} %"
+
+
+def log_odds(facts: Facts) -> list[float | None]:
+    """Of each candidate against none, natural logarithm; None where none was not fitted."""
+    none = next((c["delta_bic"] for c in facts["candidates"] if c["name"] == "none"), None)
+    return [None if none is None else (none - c["delta_bic"]) / 2 for c in facts["candidates"]]
 
 
 def some_parameters(parameters: Facts) -> str:

@@ -15,20 +15,33 @@ from fitting.identification import paper
 from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
 from fitting.identification.fit import Fit
 from fitting.identification.joint import fit_of
-from fitting.identification.result import Identification, differences_percent, summarise
-from fitting.identification.validation import Mask, Validation, validate
+from fitting.identification.result import LOST_PERCENT, Identification, differences_percent, summarise
+from fitting.identification.validation import Mask, Validation, rms, validate
 from fitting.laws import CoreLaw
 from fitting.noise import Noise, noise_of
+from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
+from fitting.theory_error import TheoryError
 from instrument.models import Models
 from instrument.progress import Progress, Report, quiet
+from instrument.remarks import remarks_on_noise, remarks_on_tolerances
 from instrument.set_up import Hammer, SetUp, set_up
+from instrument.theory import theory_over
 
 Array = NDArray[np.float64]
 Method = Literal["direct", "paper"]
 
 _MOST_WIDENINGS = 2
+
+
+@dataclass(frozen=True)
+class Joint:
+    """The joint fit itself and the plate it was made with."""
+
+    begun: Begun
+    reduced: ReducedPlate
+    """As stated."""
 
 
 @dataclass(frozen=True)
@@ -41,6 +54,10 @@ class Identified:
     seconds: float
     """The fit."""
     validation_seconds: float
+    theory: TheoryError | None = None
+    """The layer-wise theory's error under the law found; None for the paper's method."""
+    joint: Joint | None = None
+    """What a second look at the same fit needs; None for the paper's method."""
 
 
 def identify(
@@ -54,7 +71,7 @@ def identify(
 
     Directly: law, stated numbers within their tolerances, model error and the bare plate's `hammer` test in
     one posterior. The reduced model is certified where the fit ends; beyond that it is widened and the fit
-    repeated.
+    repeated. Raises `OutsideModel` where the layer-wise theory does not hold for the law found.
     """
     if specimen.core is None:
         raise OutsideModel("a bare plate has no core to identify, expected [core] and [constraining]")
@@ -63,9 +80,11 @@ def identify(
         specimen = with_bare_plate(specimen, fit_bare_plate(specimen, *hammer))
     models: Models | None = Models.of(specimen, sweep.frequency_hz, progress) if method == "paper" else None
     setup = seconds = 0.0
-    further: tuple[str, ...] = ()
-    if method == "paper" and not specimen.exact:
-        further = ("the paper's method takes what is stated for exact: tolerances are not in its band",)
+    further = remarks_on_noise(sweep)
+    if method == "direct":
+        further += remarks_on_tolerances(specimen)
+    elif not specimen.exact:
+        further += ("the paper's method takes what is stated for exact: tolerances are not in its band",)
     for widened in range(_MOST_WIDENINGS + 1):
         began = perf_counter()
         if method == "paper":
@@ -85,17 +104,35 @@ def identify(
                 "the law found lies where the reduced model is not certified: take it as provisional",
             )
         models = replace(models, domain=models.domain.widened(fit.law, sweep.frequency_hz))
+    theory = _checked(specimen, sweep, fit) if method == "direct" else None
     began = perf_counter()
     with threadpool_limits(1, "blas"), progress("validating") as report:
         validation = task.validated(sweep, noise, fit, report)
     result = summarise(method, sweep, noise, fit, validation, further)
-    return Identified(result, setup, seconds, perf_counter() - began)
+    return Identified(result, setup, seconds, perf_counter() - began, theory, task.joint)
+
+
+def _checked(specimen: Specimen, sweep: Sweep, fit: Fit) -> TheoryError:
+    """Raises `OutsideModel`; where the fit is lost besides, the line says so."""
+    try:
+        return theory_over(specimen, fit.law, sweep.frequency_hz)
+    except OutsideModel as error:
+        off = rms(differences_percent(sweep, fit.velocity_m_s))
+        if off < LOST_PERCENT:
+            raise
+        raise OutsideModel(
+            f"{error}; nor does the fit follow the data (rms {off:.3g} %): check units, level and pickup"
+        ) from None
 
 
 class _Direct:
     def __init__(self, ready: SetUp, noise: Noise) -> None:
         self._ready, self._noise = ready, noise
         self._begun: Begun | None = None
+
+    @property
+    def joint(self) -> Joint | None:
+        return Joint(self._begun, self._ready.reduced) if self._begun is not None else None
 
     def fit(self, start: CoreLaw, report: Report) -> Fit:
         self._begun = begin(self._ready.task, self._ready.reduced, self._noise, self._ready.bare, start)
@@ -107,6 +144,8 @@ class _Direct:
 
 
 class _Paper:
+    joint: Joint | None = None
+
     def __init__(self, sweep: Sweep, models: Models) -> None:
         self.problem = paper.PaperProblem.of(sweep, models.real_modes, models.specimen.reads)
 

@@ -4,12 +4,18 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from typing import Any
 
+import numpy as np
+
+from fitting.bent_law import BentLaw
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.bare_plate import BarePlateFit
+from fitting.identification.fit import Fit
 from fitting.identification.result import LawBand
 from fitting.identification.validation import Validation
+from fitting.laws import CoreLaw
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
+from fitting.theory_error import TheoryError
 from instrument.identification import Identified
 
 
@@ -60,12 +66,40 @@ def identification_facts(found: Identified, sweep: Sweep) -> dict[str, Any]:
         "warnings": list(r.warnings),
         "law": law_facts(r.band),
         "adjusted": adjusted_facts(r.fit.adjusted),
+        "bend": _bend(r.fit.law),
+        "posterior": _posterior(r.fit),
+        "theory_error": theory_facts(found.theory),
     }
+
+
+def _bend(law: CoreLaw) -> dict[str, list[float]] | None:
+    """How a law was bent, in standard deviations at its knots: storage, then loss."""
+    if not isinstance(law, BentLaw):
+        return None
+    return {"knots_hz": list(law.knots_hz), "whitened": np.log(law.bend).tolist()}
+
+
+def _posterior(fit: Fit) -> dict[str, Any] | None:
+    """The lower triangle of the whole covariance: parameters in their logarithms, the rest in its sizes."""
+    C = fit.posterior
+    if C is None or not np.isfinite(C).all():
+        return None
+    names = [*fit.law.names, *(one.name for one in fit.adjusted)]
+    return {"names": names, "rows": [C[k, : k + 1].tolist() for k in range(len(names))]}
 
 
 def adjusted_facts(found: Sequence[Adjusted]) -> list[dict[str, Any]]:
     """The stated numbers beside what the fit found them to be."""
     return [asdict(one) for one in found]
+
+
+def theory_facts(theory: TheoryError | None) -> list[dict[str, Any]] | None:
+    """How far resonances and modal loss factors of the plate are off exact elasticity, relative."""
+    if theory is None:
+        return None
+    keys = ("frequency_hz", "frequency_error", "loss_factor_error")
+    rows = zip(*(getattr(theory, key).tolist() for key in keys), strict=True)
+    return [dict(zip(keys, row, strict=True)) for row in rows]
 
 
 def bare_plate_facts(bare: BarePlateFit, specimen: Specimen) -> dict[str, Any]:

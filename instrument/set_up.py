@@ -1,5 +1,6 @@
 """What `identify` and `diagnose` share before they fit: the models of a specimen for one sweep."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,6 +12,7 @@ from fitting.diagnosis.task import Task
 from fitting.effects import SPANS
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.spanned import SpannedPlate, span_plate
+from fitting.errors import OutsideModel
 from fitting.identification.bare_plate import CLAMP, MatchedModes, match_modes
 from fitting.plate import Mesh
 from fitting.rational import RationalSweep, rational_sweep
@@ -28,6 +30,8 @@ Hammer = tuple[Array, Array] | tuple[Array, Array, Sensor | None]
 
 _USUAL_RATIO = 2e-3
 _USUAL_MODES = 12
+_LIKE = 0.15
+"""How far a stated value may be off that of another specimen whose models are used."""
 
 
 @dataclass(frozen=True)
@@ -39,6 +43,8 @@ class SetUp:
     models: Models
     """Of the specimen with usual damping ratios: those are put in afterwards."""
     bare: BareModes | None
+    remade: Callable[[Sweep], Task]
+    """The task of some of its points."""
 
     @property
     def specimen(self) -> Specimen:
@@ -54,9 +60,11 @@ def set_up(
     *,
     with_effects: bool = True,
     models: Models | None = None,
+    like: Specimen | None = None,
 ) -> SetUp:
     """Models for a sweep, made or loaded. `models` where they are to hold over a domain of their own.
 
+    `like` is a specimen that differs in stated values by a few percent at most: its models serve this one too.
     Raises `TooFewPoints` where the hammer test is not of this plate.
     """
     bare = None
@@ -64,7 +72,10 @@ def set_up(
         modes = match_modes(specimen, *hammer)
         specimen = replace(specimen, modal_ratios=modes.ratios)
         bare = _bare(modes, tolerance(specimen, "length"))
-    usual = replace(specimen, modal_ratios=(_USUAL_RATIO,) * max(_USUAL_MODES, len(specimen.modal_ratios)))
+    if like is not None:
+        _check_like(specimen, like)
+    count = max(_USUAL_MODES, len(specimen.modal_ratios))
+    usual = replace(like or specimen, modal_ratios=(_USUAL_RATIO,) * count)
     models = models or Models.of(usual, sweep.frequency_hz, progress)
     factor = np.zeros(len(usual.modal_ratios))
     factor[: len(specimen.modal_ratios)] = np.array(specimen.modal_ratios) / _USUAL_RATIO
@@ -85,7 +96,34 @@ def set_up(
         depends_on = [models.without_law, models.domain, list(specimen.modal_ratios), omega]
         return cached("rational", depends_on, RationalSweep, build)
 
-    return SetUp(Task.of(sweep, specimen, plate, rational), reduced, models, bare)
+    def remade(some: Sweep) -> Task:
+        return Task.of(some, specimen, plate, lambda omega: rational_sweep(reduced, omega), like)
+
+    task = Task.of(sweep, specimen, plate, rational, like)
+    return SetUp(task, reduced, models, bare, remade)
+
+
+def _check_like(specimen: Specimen, like: Specimen) -> None:
+    """Raise `OutsideModel` where one plate's model cannot serve the other."""
+    for name, ours, theirs in _numbers(specimen, like):
+        if abs(ours / theirs - 1) > _LIKE:
+            raise OutsideModel(
+                f"{name} is {100 * (ours / theirs - 1):+.1f} % off the model's, expected within {100 * _LIKE:g} %"
+            )
+    if specimen.boundary != like.boundary:
+        raise OutsideModel(f"boundary {specimen.boundary!r} is not the model's {like.boundary!r}")
+
+
+def _numbers(specimen: Specimen, like: Specimen) -> list[tuple[str, float, float]]:
+    found = [(n, getattr(specimen, n), getattr(like, n)) for n in ("length_m", "width_m")]
+    for layer in ("substrate", "constraining"):
+        ours, theirs = getattr(specimen, layer), getattr(like, layer)
+        if ours is not None and theirs is not None:
+            names = ("thickness_m", "young_pa", "density_kg_m3")
+            found += [(f"{layer} {n}", getattr(ours, n), getattr(theirs, n)) for n in names]
+    if specimen.core is not None and like.core is not None:
+        found.append(("core thickness_m", specimen.core.thickness_m, like.core.thickness_m))
+    return found
 
 
 def _plain(reduced: ReducedPlate, specimen: Specimen) -> SpannedPlate:

@@ -45,7 +45,7 @@ def used(s):
 def stage(s, off, *, one_by_one=None):
     predicted = s.response_m_s * (1 + off)
     n = len(TABLE_4.values)
-    uncertainty = Uncertainty(1e-4 * np.eye(n), np.zeros((n, n)), {}, 1.0)
+    uncertainty = Uncertainty(1e-4 * np.eye(n), {}, 1.0)
     held = tuple(HeldOutSegment(k, 100 * abs(off), 0.1) for k in (1, 2, 3))
     parts = 2 if s.has_phase else 1
     return Stage(

@@ -46,11 +46,11 @@ def look(task: Task, evidence: Evidence, before: Fitted, effect: Effect) -> list
     v = plain.velocity(law, known)
     r = before.residuals
     Q, _ = np.linalg.qr(before.jacobian)
-    stated = np.zeros(before.stated)
+    priors = np.zeros(before.stated + before.law.bends)
     lower, upper = effect.limits(response.plate)
     starts, found = effect.starts(response.plate, task.points), []
     for u, moved in zip(starts, _moves(response, law, known, starts, v), strict=True):
-        s = np.concatenate([evidence.jacobian(v, moved[None])[:, 0], evidence.bare_moves(effect, u), stated])
+        s = np.concatenate([evidence.jacobian(v, moved[None])[:, 0], evidence.bare_moves(effect, u), priors])
         s = s - Q @ (Q.T @ s)
         size = float(s @ s)
         if not np.isfinite(size) or size <= 0:

@@ -12,12 +12,13 @@ from fitting.diagnosis.evidence import BareModes
 from fitting.diagnosis.hands import ALONE, Hands
 from fitting.diagnosis.pairs import Pairs
 from fitting.diagnosis.prediction import over_noise
+from fitting.diagnosis.resampling import Again, Resampled, gain, resampled_of
 from fitting.diagnosis.result import Candidate, Diagnosis, Estimate, FoundEffect
 from fitting.diagnosis.search import Search, Trial
 from fitting.diagnosis.stage import few_of_law, found_effects, mixed_band, stage_of
 from fitting.diagnosis.structure import roughness
 from fitting.diagnosis.task import Task
-from fitting.diagnosis.verdict import Judgement, judge, told
+from fitting.diagnosis.verdict import Judgement, in_light_of, judge, told
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
@@ -63,11 +64,16 @@ def diagnose_task(
     report: Report = lambda fraction: None,
     accepted_by_hand: Sequence[str] | None = None,
     hands: Hands = ALONE,
+    remade: Callable[[Sweep], Task] | None = None,
+    resamples: int | None = None,
 ) -> Diagnosis:
     """Everything that can be said of a sweep's residual; `task` holds the points in use.
 
-    With `accepted_by_hand` these effects are fitted and nothing is searched for.
+    With `accepted_by_hand` these effects are fitted and nothing is searched for. `remade` gives the task of some
+    of the points; with it the search is repeated on `resamples` sweeps without effects (None: where points are
+    few) and with points held out.
     """
+    given = task
     begun = begin(task, reduced, noise, bare, start)
     task, evidence, none = begun.task, begun.evidence, begun.none
     known_names = {e.name for e in effects}
@@ -80,6 +86,11 @@ def diagnose_task(
     else:
         judgement = told(search.told([catalogue[name] for name in accepted_by_hand]))
         trials = [judgement.accepted] if judgement.accepted is not None else []
+    resampled = Resampled()
+    if accepted_by_hand is None and remade is not None:
+        again = Again(given, remade, reduced, effects, bare, start, search.none.fitted, noise)
+        resampled = resampled_of(again, gain(search.none, trials), resamples, hands, report)
+        judgement = in_light_of(judgement, resampled.p_value)
     known = evidence.scale_known
     report(0.8)
     none = search.none.fitted
@@ -113,6 +124,8 @@ def diagnose_task(
         used=np.ones(len(task.sweep), bool) if used is None else used,
         warnings=_warnings(task, judgement),
         by_hand=judgement.by_hand,
+        p_value=resampled.p_value,
+        nested_held_out_rms_percent=resampled.nested_rms_percent,
     )
 
 

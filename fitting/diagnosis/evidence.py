@@ -67,8 +67,9 @@ class BareModes:
         return np.asarray(np.log((k / m) / (k_0 / m_0)) / 2)
 
     def by_stated(self, nuisances: Nuisances, z: Array) -> Array:
-        """Derivatives of `stated_shift` to z. Shape (count, modes)."""
+        """Derivatives of `stated_shift` to z, at the nearest whole numbers. Shape (count, modes)."""
         h, found = 1e-3, np.zeros((len(z), len(self.shift)))
+        z = np.round(z)
         for k in nuisances.of_bare_plate:
             up, down = z.copy(), z.copy()
             up[k], down[k] = z[k] + h, z[k] - h

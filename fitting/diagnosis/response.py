@@ -56,7 +56,7 @@ class Response:
         self._pitching = [k for k, e in enumerate(self.effects) if type(e).pitch is not Effect.pitch]
         self._shifting = [k for k, e in enumerate(self.effects) if type(e).modulus is not Effect.modulus]
         grid = grid or task.fine
-        if self._shifting and (self._changing or self._pitching or self.nuisances):
+        if self._shifting and (self._changing or self._pitching or not self.nuisances.change_nothing):
             # The modulus is another one in every pass.
             grid = task.passes
         self.grid = grid
@@ -95,7 +95,7 @@ class Response:
         at = others._at(law, known)
         nodes, last = self.grid.nodes, self.effects[-1]
         found = [others.effects[k].change(self.plate, others._of(k, known)) for k in others._changing]
-        if self.nuisances:
+        if not self.nuisances.change_nothing:
             found.append(self.nuisances.change(self.plate, known[self._stated]))
         G, _ = others._bearing(law, law.modulus(self.task.points.omega), at.G)
         solved = answer(
@@ -130,7 +130,7 @@ class Response:
         pitch = np.zeros(len(omega), complex)
         turned = np.zeros(len(omega), complex)
         found = None
-        if self._changing or self._pitching or self.nuisances:
+        if self._changing or self._pitching or not self.nuisances.change_nothing:
             G_nodes, smooth = self._bearing(law, G_law, G)
             found, (moved, turned, changed_slope) = self._answer(u, G_nodes)
             x = x + moved
@@ -193,7 +193,7 @@ class Response:
 
     def _changes(self, u: Array) -> Change:
         found = [self.effects[k].change(self.plate, self._of(k, u)) or Change() for k in self._changing]
-        if self.nuisances:
+        if not self.nuisances.change_nothing:
             found.append(self.nuisances.change(self.plate, u[self._stated]))
         return reduce(Change.and_then, found, Change())
 

@@ -113,3 +113,7 @@ class Diagnosis:
     warnings: tuple[str, ...]
     by_hand: bool = False
     """Accepted or declined on someone's word."""
+    p_value: float | None = None
+    """Chance that data without any effect gain as much, by resampling; None where not asked for."""
+    nested_held_out_rms_percent: float | None = None
+    """Held out with the selection repeated."""

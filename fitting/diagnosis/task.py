@@ -79,8 +79,12 @@ class Task:
         specimen: Specimen,
         plate: SpannedPlate,
         rational: Callable[[Array], RationalSweep],
+        reference: Specimen | None = None,
     ) -> "Task":
-        """`rational` gives the unchanged plate's sum on an ascending grid in rad/s."""
+        """`rational` gives the unchanged plate's sum on an ascending grid in rad/s.
+
+        `plate` and `rational` are of `reference`, a specimen like this one, where that is given.
+        """
         grids = [
             *(Nodes.of(sweep.omega, n) for n in (FINE, COARSE)),
             Nodes.of(sweep.omega, DENSE, sweep.sweep),
@@ -93,7 +97,7 @@ class Task:
 
         fine, coarse, passes = (Grid(g, at(g.omega)) for g in grids)
         points, dense = points_of(sweep, specimen), Nodes.of(sweep.omega, DENSE)
-        nuisances = nuisances_of(specimen, plate, has_phase=sweep.has_phase)
+        nuisances = nuisances_of(specimen, plate, has_phase=sweep.has_phase, reference=reference)
         return cls(sweep, specimen, plate, points, at(sweep.omega), fine, coarse, passes, dense, nuisances)
 
     @property

@@ -5,7 +5,7 @@ test refuses: such data are not what it would leave (`predictive`).
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -54,6 +54,15 @@ def told(trial: Trial) -> Judgement:
         probability={trial.names: 1.0},
         by_hand=True,
     )
+
+
+def in_light_of(judgement: Judgement, p_value: float | None) -> Judgement:
+    """Nothing is named that as many sweeps without any effect would name: the band stays that of the group."""
+    if p_value is None or p_value <= 1 - CREDIBLE + 1e-9 or judgement.verdict not in ("effect", "ambiguous"):
+        return judgement
+    why = f"gains no more than {100 * p_value:.2g} % of sweeps without any effect do"
+    nearest = judgement.accepted.names if judgement.accepted is not None else ()
+    return replace(judgement, verdict="none", accepted=None, equivalent={}, refused=nearest, why=why)
 
 
 def judge(

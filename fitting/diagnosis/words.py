@@ -34,6 +34,8 @@ def explain(
         return tuple(said)
     if judgement.verdict == "none":
         said.append("That is what noise and a layer-wise plate's own error leave: no effect is called for.")
+        if judgement.refused:
+            said.append(f"The nearest, {' with '.join(judgement.refused)}, {judgement.why}.")
         return tuple(said)
     if trial is None:
         worst = _worst_segment(task, before)

@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from fitting.diagnosis.candidates import FINISHED, Contender, Known, Start, look, polished
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.prediction import held_out
-from fitting.diagnosis.refit import Fitted, kept, refit
+from fitting.diagnosis.marginal import cost
+from fitting.diagnosis.refit import ROUGH, Fitted, kept, refit
 from fitting.diagnosis.response import Response
 from fitting.diagnosis.task import Task
 from fitting.effects.base import Effect
@@ -18,6 +19,8 @@ from fitting.identification.validation import Validation
 Array = NDArray[np.float64]
 Form = tuple[str, int]
 """An effect by its name, and the number of its variant."""
+LAWS_FINISHED = 2
+"""Other laws that are fitted to the end, of those fitted roughly."""
 State = list[Known]
 """What is known of each variant of an effect."""
 
@@ -53,8 +56,11 @@ class Work:
     def other_laws(self, effect: Effect) -> list[Fitted]:
         """Fits with each of the laws that an effect has in the place of the stated one."""
         response = Response(self.task, [*self.none.effects, effect])
+        coarse = Response(self.task, [*self.none.effects, effect], self.task.coarse)
         laws = effect.laws(self.none.law, self.task.points)
-        return [refit(response, self.evidence, law, self.none.u) for law in laws]
+        rough = [refit(coarse, self.evidence, law, self.none.u, tolerance=ROUGH) for law in laws]
+        best = sorted(rough, key=lambda f: cost(f, self.task.plate))[:LAWS_FINISHED]
+        return [refit(response, self.evidence, f.law, f.u) for f in best]
 
     def rough(self, name: str) -> State:
         """Rough fits near by."""

@@ -44,9 +44,8 @@ def adjusted(specimen: Specimen, each: Sequence[Nuisance], z: Array, errors: Arr
 
 
 def _one(specimen: Specimen, n: Nuisance, z: float, error: float) -> Adjusted:
-    stated, factor, unit = _stated(specimen, n)
-    if n.unit == "1" and n.kind != "gain":
-        # Moved in the logarithm.
+    stated, factor, unit = stated_number(specimen, n)
+    if is_relative(n):
         found, sigma = stated * exp(n.sigma * z), stated * n.sigma
         spread = found * n.sigma * error
     else:
@@ -54,7 +53,12 @@ def _one(specimen: Specimen, n: Nuisance, z: float, error: float) -> Adjusted:
     return Adjusted(n.name, factor * stated, factor * sigma, factor * found, factor * spread, z, unit)
 
 
-def _stated(specimen: Specimen, n: Nuisance) -> tuple[float, float, str]:
+def is_relative(n: Nuisance) -> bool:
+    """Whether a number is moved in its logarithm; else by so much."""
+    return n.unit == "1" and n.kind != "gain"
+
+
+def stated_number(specimen: Specimen, n: Nuisance) -> tuple[float, float, str]:
     """The number in SI, and its unit in results with the factor to it."""
     if n.kind in ("length", "width"):
         return getattr(specimen, f"{n.kind}_m"), 1e3, "mm"

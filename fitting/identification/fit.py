@@ -31,6 +31,8 @@ class Fit:
     """How many of `residuals` are readings of the sweep; None for all."""
     covariance: Array | None = None
     """Of the law's log parameters, everything else marginalised; None to take it from `jacobian`."""
+    posterior: Array | None = None
+    """The same beside the stated numbers', in standard deviations of their tolerances."""
     adjusted: tuple[Adjusted, ...] = ()
     """The stated numbers as the fit has them."""
     weights: Array | None = None

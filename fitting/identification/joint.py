@@ -22,5 +22,6 @@ def fit_of(begun: Begun) -> Fit:
         converged=first.converged and none.converged,
         readings=none.data,
         covariance=C[:n, :n],
+        posterior=C,
         adjusted=adjusted_of(begun.task, none, C),
     )

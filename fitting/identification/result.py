@@ -18,7 +18,10 @@ REFERENCE_FREQUENCIES_HZ = (20.0, 100.0, 280.0)
 """Where the band is always stated, as far as they lie inside the measured range."""
 _BAND_POINTS = 41
 _STRONG_CORRELATION = 0.99
-_LOST_PERCENT = 30.0
+LOST_PERCENT = 30.0
+"""Difference in amplitude beyond which a fit has not followed the data at all."""
+_PULLED = 3.0
+"""Tolerances that a stated number may be moved without a word."""
 _MISFIT = 1.5
 """Chi-square per degree of freedom that noise alone does not explain."""
 
@@ -137,8 +140,16 @@ def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: 
     if fit.criterion_met is False:
         said.append("the 5 % criterion is not met: some point differs by more than 5 %")
     off = rms(differences_percent(sweep, fit.velocity_m_s))
-    if off > _LOST_PERCENT:
+    if off > LOST_PERCENT:
         said.append(f"the fit does not follow the data (rms {off:.3g} %): check units, level and pickup")
+    pulled = sorted((one for one in fit.adjusted if abs(one.pull) > _PULLED), key=lambda one: -abs(one.pull))
+    if pulled:
+        named = ", ".join(f"{one.name} by {one.pull:+.1f}" for one in pulled)
+        said.append(
+            f"stated numbers had to be moved further than their tolerances say ({named} standard deviations, "
+            f"limit {_PULLED:g}): they are stated wrongly or the model lacks something, and the law may be "
+            "biased beyond its band; see 'viscorig diagnose'"
+        )
     if noise_is_known and uncertainty.chi2_per_dof > _MISFIT:
         said.append(
             f"the residual is {uncertainty.chi2_per_dof:.3g} times what the noise explains "

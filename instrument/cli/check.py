@@ -9,6 +9,7 @@ from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.progress import bar
+from instrument.tolerance_words import tolerance_rows
 
 
 @click.command()
@@ -46,6 +47,7 @@ def check(experiment: Path, json_path: str | None) -> None:
     if run.hammer_record_s is not None:
         out.say(f"hammer: records of {run.hammer_record_s:g} s")
     out.say(f"about {run.seconds:.0f} s in all, with calibration, sentinel and hits where there are any")
+    out.say("tolerances: " + ", ".join(" ".join(row) for row in tolerance_rows(run.specimen)))
     for warning in run.warnings:
         out.say(f"warning: {warning}")
     out.result(run.facts())

@@ -15,7 +15,7 @@ from instrument.cli.stopping import safe_stop
 from instrument.cli.watching import Watcher
 from instrument.control import Control
 from instrument.diagnosis_figures import save_diagnosis_figures
-from instrument.diagnosis_words import law_at
+from instrument.diagnosis_words import law_at, with_verdict
 from instrument.errors import BadInput
 from instrument.experiment_run import Finished, run_experiment
 from instrument.interchange.contents import contents_of
@@ -114,7 +114,8 @@ def _print_beside_plant(out: Output, finished: Finished) -> None:
             ]
         )
     columns = ["f/Hz", "G'/MPa before", "after", "plant's", "loss factor before", "after", "plant's"]
-    out.table("the core: what was found beside the simulated plate's own law", columns, rows)
+    title = with_verdict("the core: what was found beside the simulated plate's own law", found.facts_json)
+    out.table(title, columns, rows)
 
 
 def _beside(value: float, true: float, scale: float) -> str:

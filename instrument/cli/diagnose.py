@@ -31,6 +31,12 @@ from instrument.progress import bar
     help="Add this effect on your word and search no further; may be given several times, `none` alone.",
 )
 @click.option(
+    "--resamples",
+    type=click.IntRange(0, 1000),
+    help="Repeat the search on so many sweeps drawn without any effect (p-value), and with segments held out. "
+    "Always done for 30 points or fewer; 0 for never.",
+)
+@click.option(
     "--figures",
     type=click.Path(path_type=Path, file_okay=False),
     metavar="FOLDER",
@@ -44,6 +50,7 @@ def diagnose(
     no_hammer: bool,
     without: tuple[str, ...],
     accept: tuple[str, ...],
+    resamples: int | None,
     figures: Path | None,
     json_path: str | None,
 ) -> None:
@@ -55,7 +62,9 @@ def diagnose(
     out = Output(json_path)
     given = read_data(out, data, specimen, hammer, no_hammer=no_hammer)
     declined, accepted = frozenset(without), _accepted(accept)
-    found = diagnose_sweep(given.sweep, given.specimen, given.modes, declined, bar, accepted)
+    found = diagnose_sweep(
+        given.sweep, given.specimen, given.modes, declined, bar, accepted, resamples=resamples
+    )
     facts = plain(diagnosis_facts(found, given.sweep))
     print_diagnosis(out, facts)
     if figures is not None:

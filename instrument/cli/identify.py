@@ -6,6 +6,7 @@ from pathlib import Path
 import click
 
 from fitting.identification.bare_plate import fit_bare_plate
+from fitting.pointwise import phase_is_kept
 from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_identification import print_bare_plate, print_identification
@@ -13,6 +14,7 @@ from instrument.cli.reading import read_data, reading_options
 from instrument.identification import Identified, Method
 from instrument.identification import identify as identify_sweep
 from instrument.identification_facts import bare_plate_facts, identification_facts
+from instrument.pointwise import pointwise_of, save_pointwise_figure
 from instrument.progress import bar
 
 
@@ -31,6 +33,17 @@ from instrument.progress import bar
     is_flag=True,
     help="Leave the remaining viscous damping out, as in the paper's Fig. 10.",
 )
+@click.option(
+    "--pointwise",
+    is_flag=True,
+    help="Also G* band by band without a law, and whether G' and eta are those of one causal core.",
+)
+@click.option(
+    "--figures",
+    type=click.Path(path_type=Path, file_okay=False),
+    metavar="FOLDER",
+    help="With --pointwise: save the law band by band as PNG.",
+)
 @json_option
 def identify(
     data: Path,
@@ -39,6 +52,8 @@ def identify(
     hammer: Path | None,
     no_hammer: bool,
     no_viscous_damping: bool,
+    pointwise: bool,
+    figures: Path | None,
     json_path: str | None,
 ) -> None:
     """The core's complex shear modulus from DATA, with its uncertainty.
@@ -46,16 +61,29 @@ def identify(
     DATA is a sweep (.csv), a recorded session (.h5), or an FRF of the pickup over the base's acceleration
     (.csv, .uff, .unv, .mat).
     """
+    if pointwise and method == "paper":
+        raise click.UsageError("--pointwise and --method paper: expected the direct method")
+    if figures is not None and not pointwise:
+        raise click.UsageError("--figures shows the law band by band, expected --pointwise with it")
     out = Output(json_path)
     given = read_data(out, data, specimen, hammer, no_hammer=no_hammer)
     read = given.specimen
     if no_viscous_damping:
         read = replace(read, modal_ratios=())
+    if pointwise:
+        # Said before the work, not after it.
+        phase_is_kept(given.sweep)
     found: Identified = identify_sweep(given.sweep, read, method, bar, given.modes)
-    print_identification(out, found, given.sweep)
+    print_identification(out, found, given.sweep, read)
     facts = identification_facts(found, given.sweep)
     if given.modes is not None:
         bare = fit_bare_plate(read, *given.modes)
         print_bare_plate(out, bare, read)
         facts["hammer"] = bare_plate_facts(bare, read)
+    if pointwise:
+        bands = pointwise_of(found, given.sweep)
+        out.say(bands.words)
+        facts |= bands.facts()
+        if figures is not None:
+            out.say(f"saved {save_pointwise_figure(bands, found.result.band, figures)}")
     out.result({**facts, **given.facts})

@@ -15,6 +15,7 @@ from instrument.files.specimen_file import read_specimen
 from instrument.fitted_response import fitted_response
 from instrument.models import Models
 from instrument.progress import bar
+from instrument.theory import theory_remark
 
 
 @click.command()
@@ -31,7 +32,7 @@ from instrument.progress import bar
 @click.option(
     "--fit",
     type=click.Path(path_type=Path),
-    help="JSON of 'viscorig identify': its law instead of the specimen's, with the response's errors.",
+    help="JSON of 'viscorig identify': its law and plate as found there, with the response's errors.",
 )
 @click.option(
     "--hammer",
@@ -55,15 +56,17 @@ def predict(
     if hammer is not None:
         read = with_bare_plate(read, fit_bare_plate(read, *read_hammer(hammer)))
     errors: dict[str, NDArray[np.float64]] = {}
+    law = read.core.law if read.core is not None else None
     if fit is not None:
-        found = fitted_response(read, read_fit(fit), frequencies, bar)
+        known = read_fit(fit)
+        found = fitted_response(read, known, frequencies, bar)
+        law = known.law(law) if law is not None else None
         v = found.velocity_m_s
         errors = {
             "velocity_standard_error_m_s": found.amplitude_standard_error_m_s,
             "phase_standard_error_rad": found.phase_standard_error_rad,
         }
     else:
-        law = read.core.law if read.core is not None else None
         v = Models.of(read, frequencies, bar).predict(law, frequencies, real_modes=real_modes)
     points = [
         {
@@ -81,4 +84,7 @@ def predict(
     ]
     title = f"{read.reads} velocity at {read.base_acceleration_m_s2:g} m/s^2 base acceleration"
     out.table(title, ["frequency/Hz", "amplitude/(m/s)", "real/(m/s)", "imaginary/(m/s)"], rows)
-    out.result({"points": points})
+    remark = theory_remark(read, law, frequencies)
+    if remark:
+        out.say(f"note: {remark}")
+    out.result({"points": points, "notes": [remark] if remark else []})

@@ -5,7 +5,7 @@ from typing import Any
 
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from instrument.cli.output import Output
-from instrument.diagnosis_words import law_at, some_parameters, verdict_line
+from instrument.diagnosis_words import law_at, probability_words, some_parameters, verdict_line, with_verdict
 
 Facts = dict[str, Any]
 
@@ -73,14 +73,14 @@ def _print_candidates(out: Output, facts: Facts) -> None:
     rows = [
         [
             c["name"],
-            f"{c['delta_bic']:.1f}",
+            probability_words(c, facts),
             _two(c["chi2_per_dof"]),
             some_parameters(c["parameters"]) or "-",
         ]
         for c in shown
     ]
     more = f", {len(shown)} of {len(candidates)}" if len(shown) < len(candidates) else ""
-    columns = ["effect", "delta BIC", "chi2/degree", "parameters, +- one standard error"]
+    columns = ["effect", "probability", "chi2/degree", "parameters, +- one standard error"]
     out.table(f"candidates, best first{more}", columns, rows)
 
 
@@ -99,7 +99,7 @@ def _print_law(out: Output, facts: Facts) -> None:
         )
     columns = ["f/Hz", "G'/MPa before", "after", "loss factor before", "after"]
     if rows:
-        out.table("the core's law, +- one standard error", columns, rows)
+        out.table(with_verdict("the core's law, +- one standard error", facts), columns, rows)
 
 
 def _banded(row: Facts | None, key: str, error: str, scale: float) -> str:

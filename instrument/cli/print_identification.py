@@ -6,14 +6,15 @@ from fitting.identification.bare_plate import BarePlateFit
 from fitting.identification.result import Identification
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
+from instrument.adjusted_words import COLUMNS, adjusted_rows, more_adjusted
 from instrument.cli.output import Output
 from instrument.identification import Identified
 
 _MOST_ROWS = 30
 
 
-def print_identification(out: Output, found: Identified, sweep: Sweep) -> None:
-    """What was found, how well it is known, and what the data do not say."""
+def print_identification(out: Output, found: Identified, sweep: Sweep, specimen: Specimen) -> None:
+    """What was found, how well it is known, and what the data do not say; `specimen` as stated."""
     r = found.result
     errors = r.standard_errors
     rows = [[n, f"{v:.5g}", _relative(errors[n], v)] for n, v in zip(r.law.names, r.law.values, strict=True)]
@@ -26,6 +27,7 @@ def print_identification(out: Output, found: Identified, sweep: Sweep) -> None:
     out.say()
     out.say(f"difference in amplitude: rms {r.rms_percent:.2f} %, largest {r.max_percent:.2f} %")
     _print_validation(out, r)
+    _print_adjusted(out, r, specimen)
     for warning in r.warnings:
         out.say(f"note: {warning}")
     out.say(
@@ -35,11 +37,11 @@ def print_identification(out: Output, found: Identified, sweep: Sweep) -> None:
 
 
 def print_bare_plate(out: Output, bare: BarePlateFit, specimen: Specimen) -> None:
-    """What the hammer test gave; `specimen` already has its stiffness."""
-    young, error = specimen.substrate.young_pa / 1e9, 100 * bare.standard_error
+    """What the hammer test gives by itself; `specimen` as stated."""
+    young, error = specimen.substrate.young_pa * bare.young_scale / 1e9, 100 * bare.standard_error
     worst = 100 * np.max(np.abs(bare.measured_hz / bare.fitted_hz - 1))
     out.say(
-        f"hammer test: substrate {young:.2f} GPa +- {error:.2f} %, "
+        f"hammer test by itself: substrate {young:.2f} GPa +- {error:.2f} %, "
         f"{100 * (bare.young_scale - 1):+.2f} % from the stated; "
         f"its own clamp takes {bare.clamp_percent:.2f} % off mode 1; "
         f"{len(bare.measured_hz)} modes within {worst:.2f} %"
@@ -69,6 +71,18 @@ def _print_band(out: Output, r: Identification) -> None:
         ["frequency/Hz", "G'/MPa", "loss factor"],
         rows,
     )
+
+
+def _print_adjusted(out: Output, r: Identification, specimen: Specimen) -> None:
+    found = r.fit.adjusted
+    if not found:
+        return
+    out.say()
+    out.table("stated numbers the data moved", list(COLUMNS), adjusted_rows(found, specimen))
+    more = more_adjusted(found)
+    if more:
+        out.say(more)
+    out.say()
 
 
 def _print_points(out: Output, r: Identification, sweep: Sweep) -> None:

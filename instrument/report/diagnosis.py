@@ -4,7 +4,7 @@ from typing import Any
 
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from instrument.diagnosis_figures import evidence_figure, law_figure, residual_figure
-from instrument.diagnosis_words import law_at, some_parameters, verdict_line
+from instrument.diagnosis_words import law_at, probability_words, some_parameters, verdict_line, with_verdict
 from instrument.interchange.contents import Contents
 from instrument.report.blocks import Block, Section, Sentence, Table
 from instrument.report.drawing import picture
@@ -39,7 +39,7 @@ def diagnosis_sections(contents: Contents) -> list[Section]:
         _candidates(facts),
         picture(evidence_figure(facts), "Evidence for each candidate"),
         _law(facts),
-        picture(law_figure(facts), "The core's law before and after, with 95 % bands"),
+        picture(law_figure(facts), with_verdict("The core's law before and after, with 95 % bands", facts)),
     ]
     return [Section(_TITLE, tuple(blocks))]
 
@@ -70,7 +70,7 @@ def _candidates(facts: Facts) -> Table:
     rows = tuple(
         (
             c["name"],
-            f"{c['delta_bic']:.1f}",
+            probability_words(c, facts),
             plain(c["chi2_per_dof"], 3),
             some_parameters(c["parameters"]) or "-",
         )
@@ -78,7 +78,7 @@ def _candidates(facts: Facts) -> Table:
         if k < _MOST_CANDIDATES or c["name"] == "none"
     )
     title = f"Candidates, best first ({len(facts['candidates'])} were fitted)"
-    return Table(title, ("effect", "delta BIC", "chi² / degree", "parameters"), rows)
+    return Table(title, ("effect", "probability", "chi² / degree", "parameters"), rows)
 
 
 def _law(facts: Facts) -> Table:
@@ -92,4 +92,4 @@ def _law(facts: Facts) -> Table:
         eta = (with_error(r["loss_factor"], r["loss_factor_standard_error"]) for r in known)
         rows.append((f"{f:g}", *G, *eta))
     columns = ("f / Hz", "G' / MPa before", "after", "loss factor before", "after")
-    return Table("The core's law, ± one standard error", columns, tuple(rows))
+    return Table(with_verdict("The core's law, ± one standard error", facts), columns, tuple(rows))

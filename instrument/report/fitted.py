@@ -8,10 +8,12 @@ from numpy.typing import NDArray
 
 from fitting.errors import FittingError
 from instrument.errors import BadInput
+from instrument.files.fit_file import found_law
+from instrument.fitted_response import FittedModel
 from instrument.identification_facts import identification_facts
 from instrument.interchange.contents import Contents
 from instrument.interchange.identified import SessionFit, identify_session
-from instrument.models import Models
+from instrument.plain import plain
 from instrument.progress import Progress, quiet
 
 Array = NDArray[np.float64]
@@ -39,13 +41,18 @@ class Fitted:
         return identification_facts(self.fit.identified, self.fit.sweep) if self.fit is not None else {}
 
     @cached_property
-    def _models(self) -> Models | None:
-        return Models.of(self.fit.specimen, self.fit.sweep.frequency_hz) if self.fit is not None else None
+    def _model(self) -> FittedModel | None:
+        """The plate that was fitted, not the one that was stated."""
+        if self.fit is None:
+            return None
+        facts = plain(self.facts)
+        if self.fit.bare is not None:
+            facts["hammer"] = {"modal_ratios": list(self.fit.bare.ratios)}
+        return FittedModel.of(self.fit.specimen, found_law(facts), self.fit.sweep.frequency_hz)
 
     def over_base(self, frequency_hz: Array) -> Complex | None:
         """The model's velocity over base acceleration in s at any frequency."""
         if self.fit is None:
             return None
-        assert self._models is not None
-        v = self._models.predict(self.fit.identified.result.law, frequency_hz)
-        return np.asarray(v / self.fit.specimen.base_acceleration_m_s2)
+        assert self._model is not None
+        return np.asarray(self._model.velocity(frequency_hz) / self.fit.specimen.base_acceleration_m_s2)

@@ -3,6 +3,8 @@
 import numpy as np
 
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ, Identification
+from instrument.adjusted_words import COLUMNS, adjusted_rows
+from instrument.diagnosis_words import UNKNOWN
 from instrument.interchange.contents import Contents
 from instrument.interchange.identified import SessionFit
 from instrument.report.blocks import Block, Facts, Section, Sentence, Table
@@ -28,11 +30,13 @@ def identification_section(contents: Contents, fitted: Fitted) -> Section:
         Sentence(
             f"{r.law.kind} law from {len(fit.sweep)} points by {r.method} least squares, {_hammer(fit)}."
         ),
+        *_doubt(contents),
         *(Sentence(warning, "note") for warning in r.warnings),
         picture(law_figure(fit), f"Shear modulus and loss factor in the measured band, {_banded(r)}"),
         _band(r),
         _parameters(r),
         _correlations(r),
+        *_adjusted(fit),
         _live(contents, r),
     ]
     blocks += [
@@ -95,10 +99,16 @@ _HELD_OUT = ("segment", "rms / %", "its noise / %")
 def _hammer(fit: SessionFit) -> str:
     if fit.bare is None:
         return "without a hammer test: stiffness and viscous damping as the specimen states them"
-    young = with_error(
-        fit.specimen.substrate.young_pa, fit.specimen.substrate.young_pa * fit.bare.standard_error, 1e-9
-    )
-    return f"jointly with the hammer test: substrate {young} GPa, {len(fit.bare.measured_hz)} modes"
+    young = fit.specimen.substrate.young_pa * fit.bare.young_scale
+    said = f"{with_error(young, young * fit.bare.standard_error, 1e-9)} GPa by itself"
+    return f"jointly with the hammer test: {len(fit.bare.measured_hz)} modes, substrate {said}"
+
+
+def _doubt(contents: Contents) -> list[Block]:
+    found = contents.diagnosis
+    if found is None or found.facts_json.get("verdict") != "unknown":
+        return []
+    return [Sentence(f"Diagnosis: {UNKNOWN}. The law may be far off its band.", "warning")]
 
 
 def _banded(r: Identification) -> str:
@@ -146,6 +156,15 @@ def _correlations(r: Identification) -> Table:
         for name, row in zip(names, C, strict=True)
     )
     return Table("Correlations of the logarithms of the parameters", ("", *names), rows)
+
+
+def _adjusted(fit: SessionFit) -> list[Block]:
+    """The stated numbers as the fit has them; nothing where all are exact."""
+    found = fit.identified.result.fit.adjusted
+    if not found:
+        return []
+    rows = tuple(tuple(row) for row in adjusted_rows(found, fit.specimen, len(found)))
+    return [Table("Stated numbers the data moved, most moved first", COLUMNS, rows, folded=True)]
 
 
 def _live(contents: Contents, r: Identification) -> Sentence:

@@ -5,6 +5,7 @@ from instrument.files.specimen_file import SpecimenDocument
 from instrument.interchange.contents import Contents
 from instrument.report.blocks import Block, Facts, Section, Sentence, Table
 from instrument.report.numbers import plain
+from instrument.tolerance_words import tolerance_rows
 
 _SENSITIVITY_UNITS = {
     "base": "mV/(m/s²)",
@@ -22,11 +23,7 @@ def specimen_section(contents: Contents) -> Section:
     if s.core is not None:
         rows = [(k, str(v)) for k, v in s.core.law.items()]
         blocks.append(Facts("Core law to start from", tuple(rows)))
-    if s.tolerances is not None:
-        known = s.tolerances.model_dump(exclude_none=True)
-        rows = [(k.removesuffix("_percent").replace("_", " "), f"{v:g} %") for k, v in known.items()]
-        if rows:
-            blocks.append(Facts("Stated tolerances (one standard deviation)", tuple(rows)))
+    blocks.append(Facts("Tolerances (one standard deviation)", tuple(tolerance_rows(contents.specimen))))
     return Section("Specimen", tuple(blocks))
 
 

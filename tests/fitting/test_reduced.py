@@ -9,9 +9,8 @@ from fitting.domain import Domain, domain_of, highest_frequency_hz
 from fitting.errors import OutsideModel
 from fitting.laws.constant import ConstantModulus
 from fitting.plate import Plate
-from fitting.properties import PROPERTIES, with_property_scaled
 from fitting.rational import rational_sweep
-from fitting.reduced import LARGEST_BASIS, reduce_plate
+from fitting.reduced import LARGEST_BASIS, MOST_FOLLOWING, reduce_plate
 
 
 def random_points(count, seed):
@@ -31,7 +30,7 @@ def test_rational_sum_agrees_with_direct_solves_at_random_points(reduced, zn1_mo
     x = displacement_direct(zn1_models.plate, zn1_models.damping, omega, G)
     found = rational_sweep(reduced, omega).displacement(G)
     assert np.max(np.abs(found / x - 1)) < 1e-6
-    assert len(reduced.M) <= LARGEST_BASIS
+    assert len(reduced.M) <= LARGEST_BASIS + MOST_FOLLOWING
     # the certificate covers what was seen, down to the direct solves' own rounding
     assert np.all(np.abs(found / x - 1) < 3 * reduced.estimated_error(omega, G) + 1e-9)
 
@@ -60,27 +59,13 @@ def test_derivative_of_the_rational_sum_agrees_with_central_differences(reduced)
     assert np.max(np.abs(dx - difference) * np.abs(G) / np.abs(x)) < 1e-6 * np.max(np.abs(dx * G / x))
 
 
-@pytest.mark.parametrize("name", PROPERTIES)
-def test_derivatives_to_properties_agree_with_changed_plates(reduced, zn1, zn1_models, name):
-    omega, G = 2 * np.pi * np.array([30.0, 110.0, 290.0]), np.array([0.3, 0.5, 0.9]) * 1e6 * (1 + 0.8j)
-    h = 1e-4
-    up, down = (
-        displacement_direct(Plate(with_property_scaled(zn1, name, 1 + s)), zn1_models.damping, omega, G)
-        for s in (h, -h)
-    )
-    found = reduced.derivatives(omega, G)[1][PROPERTIES.index(name)]
-    scale = np.abs(reduced.displacement(omega, G))
-    np.testing.assert_allclose(found / scale, (up - down) / (2 * h) / scale, atol=2e-3)
-
-
 def test_raising_all_frequencies_moves_the_response_along_the_axis(reduced):
     # x(omega; all stiffness (1 + 2 s)) = x(omega/(1 + s)) / (1 + s)^2, but for the viscous damping
     omega, G = 2 * np.pi * np.array([60.0, 130.0]), np.array([0.3, 0.5]) * 1e6 * (1 + 0.8j)
     s = 1e-4
     moved = reduced.displacement(omega / (1 + s), G) / (1 + s) ** 2
     still = reduced.displacement(omega, G)
-    found = reduced.derivatives(omega, G)[0]
-    np.testing.assert_allclose(found, (moved - still) / s, rtol=2e-2)
+    np.testing.assert_allclose(reduced.by_frequency(omega, G), (moved - still) / s, rtol=2e-2)
 
 
 def test_bare_plate_reduces_too(zn1):

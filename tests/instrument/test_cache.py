@@ -105,6 +105,42 @@ def test_unwritable_folder_is_no_error(tmp_path, monkeypatch):
 def test_changed_sources_make_other_files(folder, monkeypatch):
     build = Builder()
     cache.cached("kept", 1, Kept, build)
-    monkeypatch.setattr(cache, "_sources", lambda: "changed")
+    monkeypatch.setattr(cache, "_sources", lambda modules: "changed")
     cache.cached("kept", 1, Kept, build)
     assert build.built == 2
+
+
+@pytest.fixture
+def sources(tmp_path, monkeypatch):
+    """A few modules: `a` imports `b`, `b` a package that imports `c`; `d` stands alone."""
+    package = tmp_path / "fitting"
+    (package / "effects").mkdir(parents=True)
+    (package / "__init__.py").write_text("")
+    (package / "a.py").write_text("from fitting.b import one\n")
+    (package / "b.py").write_text("import numpy as np\nfrom fitting.effects import CATALOGUE\n")
+    (package / "effects" / "__init__.py").write_text("from fitting.c import two\n")
+    (package / "c.py").write_text("two = 2\n")
+    (package / "d.py").write_text("three = 3\n")
+    monkeypatch.setattr(cache.fitting, "__file__", str(package / "__init__.py"))
+    return package
+
+
+def digest(*modules):
+    return cache._sources.__wrapped__(modules)
+
+
+@pytest.mark.parametrize(
+    ("changed", "counts"),
+    [("a.py", True), ("b.py", True), ("effects/__init__.py", True), ("c.py", True), ("d.py", False)],
+)
+def test_sources_are_a_module_and_all_that_it_imports(sources, changed, counts):
+    before = digest("fitting.a")
+    (sources / changed).write_text((sources / changed).read_text() + "# another version\n")
+    assert (digest("fitting.a") != before) == counts
+
+
+def test_further_modules_count_too(sources):
+    before = digest("fitting.a", "fitting.d")
+    (sources / "d.py").write_text("three = 4\n")
+    assert digest("fitting.a", "fitting.d") != before
+    assert digest("fitting.a") != digest("fitting.a", "fitting.d")

@@ -31,10 +31,10 @@ from instrument.campaign.plates.solid import Build, RootSprings, Solid, factoris
 from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
 from instrument.campaign.plates.tables import summary
 
-COARSE = Fineness(6, 4, (0.4, 2.0), (1.0,))
+COARSE = Fineness(5, 3, (0.5, 2.0), (1.0,))
 P2 = plate_named("P2")
 LAW = TrueLaw("fractional-zener", (0.4e6, 8e6, 2e-4, 0.7))
-MODULI = (0.4e6, 1.5e6)
+MODULI = (0.4e6, 1.6e6)
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -43,7 +43,7 @@ def _coarse(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("VISCORIG_CACHE", str(tmp_path_factory.mktemp("cache")))
         patch.setattr(kept, "Fineness", lambda: COARSE)
-        patch.setattr(kept, "MODULI_PA", (0.4e6, 1.6e6))
+        patch.setattr(kept, "MODULI_PA", MODULI)
         patch.setattr(cases, "PLATES", (P2,))
         patch.setattr(reduced_plate, "_AIR_PANELS", 300)
         kept.clean_plate.cache_clear()
@@ -67,8 +67,10 @@ def test_the_solid_of_an_exact_clean_case_has_the_frequencies_of_the_fits_own_pl
     plate = plate_named("P1")
     specimen = specimen_from(toml(plate, None, 100.0))
     omega = real_modes(Plate(replace(specimen, elements=(24, 16))), 1e6, 5).omega
-    lam, phi = kept.clean_plate(plate).modes(1e6, 5)
-    even = np.abs(phi.T @ kept.clean_plate(plate).load[:, 0]) > 1e-6
+    solid = reduced(Solid(plate, None, Fineness(9, 6)), (1e6,), modes=6)
+    lam, phi = solid.modes(1e6, 5)
+    even = np.abs(phi.T @ solid.load[:, 0]) > 1e-6
+    assert even.sum() >= 3
     assert np.abs(omega / np.sqrt(lam) - 1)[even].max() < 3e-3
 
 
@@ -92,7 +94,7 @@ def test_a_rigid_motion_of_a_free_solid_costs_nothing():
 
 def test_the_reduced_plate_answers_as_the_whole_solid_does():
     solid = Solid(P2, None, COARSE)
-    plate, free = reduced(solid, MODULI), solid.free
+    plate, free = kept.clean_plate(P2), solid.free
     for f, G in ((20.0, 0.3e6 * (1 + 0.5j)), (330.0, 2e6 * (1 + 1j))):
         omega = 2 * np.pi * f
         Z = (solid.K_0 + G * solid.K_1 - omega**2 * solid.M)[free][:, free]
@@ -111,7 +113,7 @@ def test_a_patch_weighs_what_it_weighs_and_air_makes_heavier():
     assert heave @ (solid.M - bare.M) @ heave == pytest.approx(0.01)
     air = AirAddedMass(1.2)
     in_air = built(P2, (air,), MODULI, COARSE)
-    assert in_air.modes(1e6, 1)[0][0] < reduced(bare, MODULI).modes(1e6, 1)[0][0]
+    assert in_air.modes(1e6, 1)[0][0] < kept.clean_plate(P2).modes(1e6, 1)[0][0]
 
 
 def test_an_absorber_far_below_its_resonance_is_a_mass():
@@ -124,10 +126,8 @@ def test_an_absorber_far_below_its_resonance_is_a_mass():
 
 def test_a_stiff_clamp_is_a_rigid_one():
     springs = RootSprings(lambda y: np.full(y.shape, 1e18), lambda y: np.full(y.shape, 1e18))
-    soft, rigid = (
-        reduced(Solid(P2, Build(root=r), COARSE), MODULI).modes(1e6, 3)[0] for r in (springs, None)
-    )
-    assert np.abs(soft / rigid - 1).max() < 1e-3
+    soft = reduced(Solid(P2, Build(root=springs), COARSE), MODULI).modes(1e6, 3)[0]
+    assert np.abs(soft / kept.clean_plate(P2).modes(1e6, 3)[0] - 1).max() < 1e-3
 
 
 def test_softening_settles_brick_by_brick():

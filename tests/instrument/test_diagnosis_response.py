@@ -10,9 +10,9 @@ from fitting.diagnosis.plate_answer import answer
 from fitting.diagnosis.response import Response
 from fitting.effects import CATALOGUE
 from fitting.effects.temperature_drift import C_1, C_2_K
-from instrument.diagnosis import set_up
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
+from instrument.set_up import set_up
 from instrument.simulated_case import case_file
 from tests.conftest import DATA
 
@@ -51,7 +51,7 @@ def at_every_point(task, law, effect, u, G):
 @pytest.mark.parametrize("make", [lambda s: s, again], ids=["one pass", "two passes"])
 def test_a_core_that_warms_on_a_root_that_yields(once_up, make):
     with threadpool_limits(1, "blas"):
-        task, _ = set_up(make(once_up), read_specimen(case_file("specimen.toml")))
+        task = set_up(make(once_up), read_specimen(case_file("specimen.toml"))).task
         law = task.stated_law
         task = task.condensed(law).around(law)
         clamp, drift = CATALOGUE["clamp_compliance"], CATALOGUE["temperature_drift"]

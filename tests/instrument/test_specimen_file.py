@@ -3,6 +3,7 @@ import re
 import pytest
 
 from fitting.laws import LAWS
+from fitting.tolerances import STATED, tolerance
 from instrument.errors import BadInput
 from instrument.files.specimen_file import read_specimen
 from instrument.paper_case import case_file
@@ -62,16 +63,60 @@ def test_optional_parts(tmp_path):
     s = read_specimen(write(tmp_path, bare))
     assert s.core is None
     assert s.constraining is None
-    more = GOOD + "\n[mesh]\nelements_x = 10\nelements_y = 10\n[tolerances]\nsubstrate_young_percent = 2.0\n"
+    more = GOOD + "\n[mesh]\nelements_x = 10\nelements_y = 10\n"
     s = read_specimen(write(tmp_path, more.replace("y_mm = 60.0", 'y_mm = 60.0\nreads = "absolute"')))
     assert s.mesh == (10, 10)
-    assert s.tolerances == {"substrate_young": 0.02}
     assert s.reads == "absolute"
     whole = GOOD.replace("length_mm = 300.2", "length_mm = 300")
     assert read_specimen(write(tmp_path, whole)).length_m == 0.3
 
 
+STATED_ALONE = re.sub(r"\n\[tolerances\].*", "", GOOD, flags=re.S)
+
+
+def test_the_published_plate_is_exact(tmp_path):
+    s = read_specimen(case_file("zn1.toml"))
+    assert s.exact
+    assert all(tolerance(s, name) == 0 for name in STATED)
+
+
+def test_what_names_no_tolerance_has_a_typical_one(tmp_path):
+    for text in (STATED_ALONE, STATED_ALONE + "\n[tolerances]\n"):
+        s = read_specimen(write(tmp_path, text))
+        assert (s.exact, s.tolerances) == (False, {})
+        assert all(tolerance(s, name) == one.typical > 0 for name, one in STATED.items())
+
+
+def test_tolerances_are_read_in_their_units_and_the_others_are_typical(tmp_path):
+    units = {"1": ("percent", 1e-2), "m": ("mm", 1e-3), "s": ("us", 1e-6)}
+    keys = {name: units[one.unit] for name, one in STATED.items()}
+    table = "".join(f"{name}_{unit} = {n + 1}.5\n" for n, (name, (unit, _)) in enumerate(keys.items()))
+    s = read_specimen(write(tmp_path, f"{STATED_ALONE}\n[tolerances]\n{table}"))
+    expected = {name: (n + 1.5) * factor for n, (name, (_, factor)) in enumerate(keys.items())}
+    assert s.tolerances == pytest.approx(expected)
+    one = read_specimen(write(tmp_path, f"{STATED_ALONE}\n[tolerances]\nsubstrate_young_percent = 2.0\n"))
+    assert one.tolerances == {"substrate_young": 0.02}
+    assert tolerance(one, "substrate_young") == 0.02
+    assert tolerance(one, "core_thickness") == STATED["core_thickness"].typical
+
+
+def test_a_tolerance_of_zero_is_exact_in_that_number_alone(tmp_path):
+    s = read_specimen(write(tmp_path, f"{STATED_ALONE}\n[tolerances]\ngain_percent = 0.0\n"))
+    assert not s.exact
+    assert tolerance(s, "gain") == 0
+    assert tolerance(s, "delay") > 0
+
+
 BAD = {
+    "tolerance": (
+        f"{STATED_ALONE}\n[tolerances]\nsubstrate_young_percent = 70\n",
+        "tolerances.substrate_young_percent = 70, expected a standard deviation of at most 50 %",
+    ),
+    "negative tolerance": (f"{STATED_ALONE}\n[tolerances]\nlength_mm = -1\n", "tolerances.length_mm"),
+    "unknown tolerance": (
+        f"{STATED_ALONE}\n[tolerances]\nlength_percent = 1\n",
+        "tolerances.length_percent: unknown key",
+    ),
     "empty": ("", "empty"),
     "binary": (b"\x89PNG\r\n\x1a\n\xff\xfe", "not UTF-8"),
     "nul": (b"[plate]\0", "NUL"),

@@ -13,8 +13,8 @@ _COLUMNS = {
     "effect": "Missing effect that was fitted together with the law",
     "standing": "Found: accepted by the data. Not told from it: fits as well, within the data's power. "
     "Or your word: accepted effects are fitted, declined ones left out of the search",
-    "ΔBIC": "Difference in BIC (chi² plus ln n a number fitted) to the best candidate; within 15 the data do "
-    "not tell them apart. The bar is the evidence: what the effect gains over the fit without any.",
+    "probability": "Of this explanation, one of those that were tried being right: prior times marginal "
+    "likelihood. The bar is the evidence: ln odds over the fit without any effect.",
     "χ²/degree": "What is left, in units of noise and model error: 1 where nothing is",
     "parameters ± standard error": "Of the effect, as fitted with the law",
 }
@@ -128,7 +128,7 @@ class Candidates(QWidget):
                 row.name, about(row.name), bold=marked, faint=faint, edge=role if marked else None, left=True
             ),
             self._standing_cell(row),
-            Cell(row.behind_words, row.gain_words, faint=faint, fill=role, share=share),
+            Cell(row.probability, row.gain_words, faint=faint, fill=role, share=share),
             Cell("–" if row.chi2_per_dof is None else f"{row.chi2_per_dof:.3g}", faint=faint),
             Cell(parameters or "–", "\n".join(row.parameters), faint=faint, left=True),
         ]

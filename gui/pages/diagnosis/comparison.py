@@ -9,6 +9,7 @@ from gui.pages.law.plots import LawLine, LawPlots
 from gui.rediagnosis import Facts
 from gui.tables import Cell, Table
 from gui.theme import Role
+from instrument.diagnosis_words import UNKNOWN, with_verdict
 from instrument.report.numbers import plain, with_error
 
 _ERRORS = {
@@ -57,6 +58,7 @@ class LawChange(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.plots, self.table = LawPlots(), Table(_LAW)
+        self.doubt = QLabel(f"{UNKNOWN[0].upper()}{UNKNOWN[1:]}: no law here is to be relied on.")
         split = QSplitter(Qt.Orientation.Vertical)
         split.addWidget(self.plots)
         split.addWidget(self.table)
@@ -65,12 +67,14 @@ class LawChange(QWidget):
         split.setSizes([300, 110])
         column = QVBoxLayout(self)
         column.setContentsMargins(4, 4, 4, 0)
-        column.addWidget(split)
+        column.addWidget(self.doubt)
+        column.addWidget(split, 1)
 
     def show_diagnosis(self, facts: Facts) -> None:
         """Before and after."""
         before, after = laws(facts)
-        lines = [LawLine("before", before, "model", dashed=True)]
+        self.doubt.setVisible(facts["verdict"] == "unknown")
+        lines = [LawLine(with_verdict("before", facts), before, "model", dashed=True)]
         if facts["equivalent"]:
             lines.append(LawLine(f"after: with {' and '.join(facts['equivalent'])}", after, "data"))
         self.plots.show_lines(lines)

@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 from fitting.effects import CATALOGUE
 from gui.rediagnosis import effects_of
-from instrument.diagnosis_words import parameter_words
+from instrument.diagnosis_words import log_odds, parameter_words, probability_words
 
 Facts = dict[str, Any]
 Standing = Literal["found", "equal", "none", "other", "not fitted"]
@@ -27,41 +27,32 @@ class Row:
     name: str
     standing: Standing
     gain: float | None = None
-    """BIC gained over the fit without any effect."""
-    behind: float | None = None
-    """BIC to the best one."""
+    """Ln odds over the fit without any effect."""
+    probability: str = "–"
+    """One of all that were tried being right, in words."""
     chi2_per_dof: float | None = None
     parameters: tuple[str, ...] = ()
-
-    @property
-    def behind_words(self) -> str:
-        """As it stands in the table."""
-        if self.behind is None:
-            return "–"
-        return "best" if self.behind == 0 else f"+{self.behind:.1f}"
 
     @property
     def gain_words(self) -> str:
         """What the bar means."""
         if self.gain is None:
             return "not among the candidates of this search"
-        return f"BIC {self.gain:.1f} better than the fit without any effect"
+        return f"ln odds {self.gain:+.1f} over the fit without any effect"
 
 
 def ranked(facts: Facts) -> list[Row]:
     """Best first; then what the catalogue holds beside them, so that it can be accepted too."""
-    candidates = facts["candidates"]
-    none = next((c["delta_bic"] for c in candidates if c["name"] == "none"), None)
     rows = [
         Row(
             c["name"],
             _standing(c["name"], facts),
-            None if none is None else none - c["delta_bic"],
-            c["delta_bic"],
+            gain,
+            probability_words(c, facts).replace("-", "–"),
             c["chi2_per_dof"],
             tuple(parameter_words(key, p).replace("+-", "±") for key, p in c["parameters"].items()),
         )
-        for c in candidates
+        for c, gain in zip(facts["candidates"], log_odds(facts), strict=True)
     ]
     single = {row.name for row in rows}
     return rows + [Row(name, "not fitted") for name in sorted(CATALOGUE) if name not in single]

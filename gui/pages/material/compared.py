@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from gui.pages.law.curve import LawCurve
+from instrument.diagnosis_words import UNKNOWN
 from instrument.errors import BadInput
 from instrument.files.sweep_file import read_sweep
 from instrument.interchange.contents import contents_of
@@ -41,7 +42,10 @@ def recorded_laws(path: Path) -> list[Compared]:
     if fit is None or not fit.facts_json:
         raise BadInput(f"{path}: no law was fitted in this session, expected one with a finished fit")
     count = len(fit.facts_json["points"])
-    found = [Compared(path.stem, LawCurve.of(fit.facts_json["law"]), f"{path}: its own fit, {count} points")]
+    facts = diagnosis.facts_json if diagnosis is not None else {}
+    doubt = f", {UNKNOWN}" if facts.get("verdict") == "unknown" else ""
+    note = f"{path}: its own fit, {count} points{doubt}"
+    found = [Compared(f"{path.stem}{doubt}", LawCurve.of(fit.facts_json["law"]), note)]
     accepted = list(diagnosis.facts_json.get("equivalent", ())) if diagnosis is not None else []
     if diagnosis is not None and accepted:
         effects = " and ".join(accepted)

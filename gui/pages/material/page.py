@@ -14,6 +14,7 @@ from gui.pages.material.numbers import headline, parameters, places
 from gui.pages.material.tables import Correlations, Parameters, Places
 from gui.picture import Picture
 from gui.rediagnosis import Facts, Shown
+from instrument.diagnosis_words import UNKNOWN
 from instrument.stream.derived import FitUpdated
 
 _NOTHING = (
@@ -92,7 +93,8 @@ class MaterialPage(Page):
             earlier = joined([self._curve(fit) for fit in fits[:-1]])
             lines.append(LawLine(f"earlier fits ({len(fits) - 1})", earlier, "faint", width=1.0))
         if fits:
-            lines.append(LawLine("identified", self._curve(fits[-1]), "model"))
+            name = f"identified ({UNKNOWN})" if self._is_unknown else "identified"
+            lines.append(LawLine(name, self._curve(fits[-1]), "model"))
         lines += _diagnosed_lines(self._diagnosed) + self.comparison.lines
         self.plots.show_lines(lines, self._resonances)
 
@@ -100,6 +102,10 @@ class MaterialPage(Page):
         notes = list(facts["warnings"]) if facts is not None else []
         if shown is not None:
             notes += shown.facts["warnings"]
+        if self._is_unknown:
+            notes.insert(
+                0, f"{UNKNOWN}: nothing explains what the fit leaves, the law may be far off its band"
+            )
         self.notes.setPlainText("\n\n".join(f"{n[0].upper()}{n[1:]}." for n in notes) or "Nothing to note.")
         self.tabs.setTabText(self.tabs.indexOf(self.notes), f"Notes ({len(notes)})" if notes else "Notes")
         made_here = shown is not None and shown.asked is not None
@@ -127,6 +133,12 @@ class MaterialPage(Page):
         """The diagnosis shown, where an effect is accepted."""
         shown = self.desk.rediagnosis.shown(self.desk.picture)
         return shown if shown is not None and shown.facts["equivalent"] else None
+
+    @property
+    def _is_unknown(self) -> bool:
+        """Whether the diagnosis shown found no explanation."""
+        shown = self.desk.rediagnosis.shown(self.desk.picture)
+        return shown is not None and shown.facts["verdict"] == "unknown"
 
     @property
     def _resonances(self) -> list[float]:

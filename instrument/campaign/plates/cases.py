@@ -1,6 +1,6 @@
 """A case: a sweep of one of the plates as a lab would hand it in, and what was hidden in it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -15,12 +15,14 @@ from instrument.campaign.plates.hidden.base import Hidden, Setting
 from instrument.campaign.plates.kept import clean_plate
 from instrument.campaign.plates.materials import TrueLaw, draw_law, fits
 from instrument.campaign.plates.noise import PlateNoise, draw_noise
+from instrument.campaign.plates.reduced import ReducedPlate
 from instrument.campaign.plates.schedule import (
+    Resonance,
     draw_schedule,
     measured_resonances,
     widest_band_hz,
 )
-from instrument.campaign.plates.simulate import Channel, clean_reading, struck
+from instrument.campaign.plates.simulate import Channel, built, moduli_of, peaks_hz, reading, struck
 from instrument.campaign.plates.stated import CAREFUL, G_M_S2, draw_stated, specimen_from, toml
 from instrument.campaign.schedule import Schedule
 
@@ -116,14 +118,22 @@ def draw_case(
         return np.random.default_rng([seed, *kind.encode(), 0, *purpose.encode()])
 
     chance = rng("plate")
-    true = plate_named(plate) if plate else PLATES[int(chance.integers(len(PLATES)))]
     names = names_of(kind, rng("names"))
+    # A spot on the axis sees nothing of what is odd in y.
+    able = [p for p in PLATES if "base_roll" not in names or abs(p.spot_m[1] - p.width_m / 2) > 1e-3]
+    true = plate_named(plate) if plate else able[int(chance.integers(len(able)))]
     alone = min((_ONE_LEVEL_SHARE.get(name, _ONE_LEVEL_ELSE) for name in names), default=_ONE_LEVEL_ELSE)
     levels = (1.0,) if chance.random() < alone else _THREE_LEVELS
-    found, schedule = _law_and_schedule(rng("law"), true, law, levels)
-    clean, middle = clean_plate(true), tuple(_middles(schedule))
-    at = Setting(true, middle, float(schedule.time_s.max()))
+    found, chosen, schedule = _law_and_schedule(rng("law"), true, law, levels)
+    at = Setting(true, _middles(schedule), float(schedule.time_s.max()))
     hidden = draw_hidden(names, rng("effects"), at)
+    plate_built = built(true, hidden, moduli_of(found, schedule.frequency_hz))
+    if any(h.changes_solid for h in hidden):
+        # A lab measures around the peaks that it sees.
+        seen = peaks_hz(plate_built, true, hidden, found, [r.frequency_hz for r in chosen])
+        moved = [replace(r, frequency_hz=f) for r, f in zip(chosen, seen, strict=True)]
+        schedule = draw_schedule(rng("schedule"), moved, levels)
+    middle = _middles(schedule)
     noise, chance = draw_noise(rng("noise figures")), rng("stated")
     stated = draw_stated(chance, true)
     off = chance.standard_normal(2)
@@ -134,15 +144,15 @@ def draw_case(
     test = None
     if chance.random() < _HAMMER_SHARE:
         test = struck(true, hidden, chance, 0.0 if exact else CAREFUL.damping, yields=not exact)
-    shares = [_share(clean, found, f) for f in middle]
+    shares = [_share(clean_plate(true), found, r.frequency_hz) for r in chosen]
     truth = PlateTruth(true, hidden, found, noise, channel, middle, min(shares))
-    sweep = measured(truth, schedule, rng("noise"))
+    sweep = measured(truth, plate_built, schedule, rng("noise"))
     return PlateCase(kind, seed, exact, sweep, specimen_from(text), text, test, truth)
 
 
 def _law_and_schedule(
     rng: np.random.Generator, true: TruePlate, kind: str | None, levels: tuple[float, ...]
-) -> tuple[TrueLaw, Schedule]:
+) -> tuple[TrueLaw, list[Resonance], Schedule]:
     """A law that keeps within the campaign's limits over the segments that it leads to."""
     clean = clean_plate(true)
     band = widest_band_hz(clean, true)
@@ -154,17 +164,18 @@ def _law_and_schedule(
             continue
         schedule = draw_schedule(rng, chosen, levels)
         if fits(law, schedule.frequency_hz) and max(r.loss_factor for r in chosen) < _LARGEST_LOSS:
-            return law, schedule
+            return law, chosen, schedule
     raise ArithmeticError(f"no law found that leaves three resonances on plate {true.name}")
 
 
-def _middles(schedule: Schedule) -> list[float]:
+def _middles(schedule: Schedule) -> tuple[float, ...]:
     """Of the three segments, in ascending order."""
     f, k = schedule.frequency_hz, schedule.segment
-    return sorted(float((f[k == n].min() + f[k == n].max()) / 2) for n in np.unique(k))
+    middles = sorted(float((f[k == n].min() + f[k == n].max()) / 2) for n in np.unique(k))
+    return tuple(middles)
 
 
-def _share(clean: Any, law: TrueLaw, frequency_hz: float) -> float:
+def _share(clean: ReducedPlate, law: TrueLaw, frequency_hz: float) -> float:
     """Of the core in the stiffness of the mode nearest to a frequency."""
     omega = 2 * np.pi * frequency_hz
     G = float(law.modulus(omega).real)
@@ -173,9 +184,9 @@ def _share(clean: Any, law: TrueLaw, frequency_hz: float) -> float:
     return float(G * (phi[:, r] @ clean.whole_core @ phi[:, r]) / lam[r])
 
 
-def measured(truth: PlateTruth, schedule: Schedule, rng: np.random.Generator) -> Sweep:
+def measured(truth: PlateTruth, plate: ReducedPlate, schedule: Schedule, rng: np.random.Generator) -> Sweep:
     """The sweep as the rig would record it."""
-    ratio = clean_reading(truth.plate, truth.effects, truth.law, schedule, truth.channel)
+    ratio = reading(plate, truth.plate, truth.effects, truth.law, schedule, truth.channel)
     commanded = schedule.level_g * G_M_S2
     white = truth.noise.white
     base = commanded * white.drive(rng, len(commanded))

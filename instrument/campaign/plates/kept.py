@@ -36,7 +36,7 @@ def clean_plate(plate: TruePlate, fineness: Fineness | None = None) -> ReducedPl
     """The treated plate without any effect, from the cache or built (about 10 s) and kept."""
     fineness = fineness or Fineness()
     said = ["treated", _made_of(plate), asdict(fineness), MODULI_PA]
-    return _kept("plate", said, lambda: reduced.reduced(Solid(plate, None, fineness)))
+    return _kept("plate", said, lambda: reduced.reduced(Solid(plate, None, fineness), MODULI_PA))
 
 
 @cache

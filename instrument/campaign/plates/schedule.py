@@ -22,6 +22,7 @@ _HALF_WIDTHS = 1.3
 """Half of a segment in loss factors of its resonance, within the next."""
 _SHARE = (0.08, 0.22)
 _STILL = 1e-3
+_SETTLED, _MOST_STEPS = 1e-6, 12
 _CYCLES = 30
 _SECONDS = 1.2
 """A point takes this and so many cycles."""
@@ -47,10 +48,12 @@ def resonances(plate: ReducedPlate, spot_m: tuple[float, float], law: TrueLaw) -
     lam, _ = plate.modes(1e6, 14)
     for r in range(len(lam)):
         omega = float(np.sqrt(lam[r]))
-        for _ in range(12):
+        for _ in range(_MOST_STEPS):
             G = complex(law.modulus(omega))
             squared, phi = plate.modes(G.real, 14)
-            omega = float(np.sqrt(squared[r]))
+            last, omega = omega, float(np.sqrt(squared[r]))
+            if abs(omega / last - 1) < _SETTLED:
+                break
         shape = phi[:, r]
         pushed = float(shape @ plate.load[:, 0])
         if pushed**2 < _STILL * float(plate.load[:, 0] @ np.linalg.solve(plate.M, plate.load[:, 0])):

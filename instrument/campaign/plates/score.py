@@ -112,7 +112,7 @@ def score(name: str, outcomes: Sequence[PlateOutcome]) -> PlateScore:
 
 
 def named(outcome: PlateOutcome) -> tuple[str, ...]:
-    """Effects that were named; none where the diagnosis refused. Another law counts only where it is false."""
+    """Effects that were named; none where the diagnosis refused. Another law counts where it is false."""
     said = outcome.said
     if said is None or said.verdict in (UNKNOWN, NONE):
         return ()

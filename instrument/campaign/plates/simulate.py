@@ -23,6 +23,10 @@ from instrument.campaign.schedule import Schedule
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
+_LOOK, _LOOKED_AT = (0.62, 1.3), 90
+"""Of a clean resonance's frequency: where an effect may have moved it."""
+_NEAR = 0.15
+
 
 @dataclass(frozen=True)
 class Channel:
@@ -72,26 +76,56 @@ def clean_reading(
 ) -> Complex:
     """The reading over the reference channel's at each point, in s."""
     plate = built(true, hidden, moduli_of(law, schedule.frequency_hz), fineness)
+    return reading(plate, true, hidden, law, schedule, channel)
+
+
+def reading(
+    plate: ReducedPlate,
+    true: TruePlate,
+    hidden: Sequence[Hidden],
+    law: TrueLaw,
+    schedule: Schedule,
+    channel: Channel,
+) -> Complex:
+    """The same of a plate as `built`."""
     omega = 2 * np.pi * schedule.frequency_hz
     motion = reduce(lambda m, h: h.motion(m, omega), hidden, Motion.pure(len(omega)))
     ratios = reduce(lambda r, h: h.ratios(r), hidden, np.array(true.ratios))
-    C_1 = remaining_damping(plate, ratios)
     hung = [a for h in hidden for a in h.attached(omega, motion, true.width_m)]
     attached = None
     if hung:
         rows = np.array([plate.reading(a.x_m, a.y_m) for a in hung])
         attached = rows, np.array([a.stiffness_n_m for a in hung]), np.array([a.force_n for a in hung])
     G = _modulus(plate, true, hidden, law, schedule)
-    shaken = Shaken(plate, C_1, omega, motion, attached)
+    shaken = Shaken(plate, remaining_damping(plate, ratios), omega, motion, attached)
     soft = next((h for h in hidden if isinstance(h, AmplitudeSoftening)), None)
     q = softened(shaken, G, soft, schedule) if soft else shaken.displacements(G)
     spot = reduce(lambda s, h: h.spot(s, true), hidden, true.spot_m)
     v = 1j * omega * (q @ plate.reading(*spot))
-    base = motion.at(*spot, true.width_m) / (1j * omega)
-    v = v + base - 1 / (1j * omega)
+    # The base's own motion at the spot beyond its heave: what a laser that moves with the clamp would see.
+    v = v + (motion.at(*spot, true.width_m) - 1) / (1j * omega)
     v = reduce(lambda s, h: h.channel(s, omega, np.ones(len(omega)) / (1j * omega)), hidden, v)
     v = channel.gain * np.exp(-1j * omega * channel.delay_s) * v
     return np.asarray(v / reduce(lambda b, h: h.reference(b, omega), hidden, np.ones(len(omega), complex)))
+
+
+def peaks_hz(
+    plate: ReducedPlate,
+    true: TruePlate,
+    hidden: Sequence[Hidden],
+    law: TrueLaw,
+    expected_hz: Sequence[float],
+) -> list[float]:
+    """Where the response has its peak near each of the frequencies at which the clean plate has one."""
+    around = np.geomspace(*_LOOK, _LOOKED_AT)
+    f = np.concatenate([at * around for at in expected_hz])
+    at_rest = Schedule(f, *(np.ones(len(f), np.intp),) * 2, np.full(len(f), 1e-6), np.zeros(len(f)))
+    size = np.abs(reading(plate, true, hidden, law, at_rest, Channel())).reshape(len(expected_hz), -1)
+    # A far neighbour may be larger: the nearer counts more.
+    likely = size * np.exp(-((np.log(around) / _NEAR) ** 2) / 2)
+    inner = (likely[:, 1:-1] >= likely[:, :-2]) & (likely[:, 1:-1] >= likely[:, 2:])
+    best = 1 + np.argmax(np.where(inner, likely[:, 1:-1], 0.0), axis=1)
+    return [at * float(around[k]) for at, k in zip(expected_hz, best, strict=True)]
 
 
 def _modulus(

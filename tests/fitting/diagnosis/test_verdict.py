@@ -1,179 +1,181 @@
 """Trials weighed: what is named, what stands beside it, what is refused."""
 
-from dataclasses import dataclass, field
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from fitting.diagnosis.verdict import (
-    EXTENSION,
-    FIRST,
-    HINTED,
-    SECOND,
-    TOO_MUCH,
-    WITHIN,
-    judge,
-    standing_for,
-    without_idle_extensions,
-)
+from fitting.diagnosis.predictive import LEVEL
+from fitting.diagnosis.search import Trial
+from fitting.diagnosis.verdict import CREDIBLE, HARDLY_BETTER, POOR, judge, told
 from fitting.effects import CATALOGUE
 
-
-@dataclass(frozen=True, eq=False)
-class Weighed:
-    """As much of a trial as is looked at."""
-
-    names: tuple[str, ...]
-    bic: float
-    chi2: float = 0.0
-    chi2_per_dof: float = 1.0
-    leans: bool = False
-    fitted: SimpleNamespace = field(init=False)
-
-    def __post_init__(self):
-        effects = tuple(CATALOGUE[name] for name in self.names)
-        chi2 = self.chi2 or 500 * self.chi2_per_dof
-        fitted = SimpleNamespace(effects=effects, chi2=chi2, chi2_per_dof=self.chi2_per_dof)
-        object.__setattr__(self, "fitted", fitted)
+EVEN = 2 * np.log(CREDIBLE / (1 - CREDIBLE))
+"""In cost: so far below another, an explanation has just the probability that is asked for."""
 
 
-def weighed(none, singles, pairs=(), off=None, **how):
-    trials = sorted(singles, key=lambda t: t.bic)
+def trial(*names, cost, fails=False):
+    fitted = SimpleNamespace(effects=tuple(CATALOGUE[name] for name in names))
+    return Trial(fitted, cost, {"size": 0.5, "signs": 0.1 * LEVEL if fails else 0.5})
+
+
+def judged(none, *trials, temper=1.0, hidden=(), off=None):
     return judge(
         none,
         trials,
-        sorted(pairs, key=lambda t: t.bic),
-        noise_known=how.get("noise_known", True),
-        structured=True,
-        held_out=lambda trial: (off or {}).get(trial.names, 1.0),
-        meant=lambda trial: standing_for(trial, [*trials, *pairs]),
+        temper=temper,
+        hidden=frozenset(hidden),
+        held_out=lambda one: (off or {}).get(one.names, 1.0),
     )
 
 
-NONE = Weighed((), 1000.0, 1000.0, 3.0)
+POOR_NONE = trial(cost=1000.0, fails=True)
 
 
-def test_what_gains_too_little_is_not_named():
-    assert weighed(Weighed((), 100.0), [Weighed(("spot_offset",), 100.0 - 0.9 * FIRST)]).verdict == "none"
-    assert weighed(Weighed((), 100.0), [Weighed(("spot_offset",), 100.0 - 1.1 * FIRST)]).verdict == "effect"
-
-
-@pytest.mark.parametrize(("behind", "verdict"), [(0.9 * WITHIN, "ambiguous"), (1.1 * WITHIN, "effect")])
-def test_what_is_near_belongs_to_the_group(behind, verdict):
-    said = weighed(NONE, [Weighed(("gain_error",), 0.0), Weighed(("spot_offset",), behind)])
+@pytest.mark.parametrize(("gain", "verdict"), [(0.9 * EVEN, "none"), (1.1 * EVEN, "effect")])
+def test_an_effect_is_named_where_none_is_improbable(gain, verdict):
+    said = judged(trial(cost=100.0), trial("spot_offset", cost=100.0 - gain))
     assert said.verdict == verdict
+    assert (said.probability[()] > 0.05) == (verdict == "none")
+    assert (said.accepted is not None) == (verdict == "effect")
+
+
+def test_where_nothing_is_needed_nothing_is_named():
+    said = judged(trial(cost=0.0), trial("spot_offset", cost=9.0), trial("gain_error", cost=11.0))
+    assert (said.verdict, said.accepted, said.equivalent) == ("none", None, {})
+    assert said.probability[()] > 0.95
+
+
+@pytest.mark.parametrize(("behind", "verdict"), [(0.9 * EVEN, "ambiguous"), (1.1 * EVEN, "effect")])
+def test_the_group_holds_every_explanation_up_to_95_percent(behind, verdict):
+    said = judged(POOR_NONE, trial("gain_error", cost=0.0), trial("spot_offset", cost=behind))
+    assert said.verdict == verdict
+    assert said.accepted.names == ("gain_error",)
     assert ("spot_offset" in said.equivalent["gain_error"]) == (verdict == "ambiguous")
+    assert len(said.group) == (2 if verdict == "ambiguous" else 1)
 
 
-@pytest.mark.parametrize(
-    ("gain", "named", "group"),
-    [
-        (0.5 * HINTED, "base_rocking", ("base_rocking",)),
-        (0.5 * (HINTED + EXTENSION), "base_rocking", ("base_rocking", "fixture_resonance")),
-        (2 * EXTENSION, "fixture_resonance", ("fixture_resonance",)),
-    ],
-)
-def test_a_wider_effect_is_named_where_it_gains_and_mentioned_where_it_hints(gain, named, group):
-    every = [
-        Weighed(("base_rocking",), 0.0, 300.0),
-        Weighed(("fixture_resonance",), 10.0 - gain if gain > EXTENSION else 30.0, 300.0 - gain),
-    ]
-    every.sort(key=lambda t: t.bic)
-    said = judge(
-        NONE,
-        without_idle_extensions(every),
-        [],
-        noise_known=True,
-        structured=True,
-        held_out=lambda trial: 1.0,
-        meant=lambda trial: standing_for(trial, every),
+def test_many_that_are_each_improbable_may_hold_the_last_five_percent_together():
+    others = ("spot_offset", "core_thickness", "channel_delay", "added_mass")
+    costs = {name: EVEN + 1.0 for name in others}
+    said = judged(POOR_NONE, trial("gain_error", cost=0.0), *(trial(n, cost=c) for n, c in costs.items()))
+    assert said.verdict == "ambiguous"
+    assert said.probability[("gain_error",)] < 0.95 < sum(p for p in said.probability.values())
+
+
+COSTS = st.lists(st.floats(0, 30), min_size=1, max_size=8)
+
+
+@given(COSTS, st.floats(0, 30), st.floats(1, 5))
+def test_probabilities_add_up_to_one_and_the_group_is_the_smallest_of_95_percent(costs, none, temper):
+    names = sorted(CATALOGUE)[: len(costs)]
+    said = judged(
+        trial(cost=none), *(trial(n, cost=c) for n, c in zip(names, costs, strict=True)), temper=temper
     )
-    assert said.accepted.names == (named,)
-    if gain < EXTENSION:
-        assert said.equivalent[named] == group
+    assert sum(said.probability.values()) == pytest.approx(1)
+    assert sum(share for _, share in said.group) == pytest.approx(1)
+    held = [said.probability[t.names] for t, _ in said.group]
+    assert sum(held) >= CREDIBLE - 1e-12
+    assert sum(held[:-1]) < CREDIBLE
+    assert held == sorted(held, reverse=True)
+    assert sum(said.of_effect(n) for n in names) == pytest.approx(1 - said.probability[()])
 
 
-def test_a_second_effect_must_gain_and_predict():
-    single, pair = Weighed(("channel_delay",), 100.0), ("channel_delay", "spot_offset")
-    weak, strong = Weighed(pair, 100.0 - 0.9 * SECOND), Weighed(pair, 100.0 - 1.1 * SECOND)
-    assert weighed(NONE, [single], [weak]).accepted.names == single.names
-    assert weighed(NONE, [single], [strong]).accepted.names == pair
-    assert (
-        weighed(NONE, [single], [strong], off={pair: 2.6, single.names: 1.5}).accepted.names == single.names
+def test_costs_say_less_where_formulas_leave_something():
+    every = trial("gain_error", cost=0.0), trial("spot_offset", cost=1.5 * EVEN)
+    assert judged(POOR_NONE, *every).verdict == "effect"
+    assert judged(POOR_NONE, *every, temper=2.0).verdict == "ambiguous"
+
+
+def test_of_several_fits_of_one_explanation_the_best_counts():
+    said = judged(POOR_NONE, *(trial("gain_error", cost=c) for c in (3.0, 0.0, 1.0)))
+    assert set(said.probability) == {(), ("gain_error",)}
+    assert said.accepted.cost == 0.0
+    pair = [trial("gain_error", "added_mass", cost=2.0), trial("added_mass", "gain_error", cost=0.0)]
+    assert judged(POOR_NONE, *pair).accepted is pair[1]
+
+
+def test_where_all_that_may_be_named_fail_nothing_is_accepted_and_the_nearest_is_said():
+    said = judged(POOR_NONE, trial("gain_error", cost=0.0, fails=True))
+    assert (said.verdict, said.accepted, said.refused) == ("unknown", None, ("gain_error",))
+    assert "signs" in said.why
+    both = trial("gain_error", cost=0.0, fails=True), trial("spot_offset", cost=1.0, fails=True)
+    assert judged(POOR_NONE, *both).verdict == "unknown"
+
+
+def test_one_of_the_group_that_passes_is_enough():
+    every = trial("gain_error", cost=0.0, fails=True), trial("spot_offset", cost=1.0)
+    said = judged(POOR_NONE, *every)
+    assert said.verdict == "ambiguous"
+    assert set(said.equivalent["gain_error"]) == {"gain_error", "spot_offset"}
+    far = trial("gain_error", cost=0.0, fails=True), trial("spot_offset", cost=2 * EVEN)
+    assert judged(POOR_NONE, *far).verdict == "unknown"
+
+
+def test_what_is_unlikely_without_any_effect_but_no_effect_explains_is_unknown():
+    fails = trial(cost=0.0, fails=True)
+    assert judged(fails, trial("gain_error", cost=5.0)).verdict == "unknown"
+    assert judged(trial(cost=0.0), trial("gain_error", cost=5.0)).verdict == "none"
+
+
+def test_hidden_effects_are_weighed_and_not_named():
+    hidden = trial("base_rocking", cost=0.0)
+    said = judged(POOR_NONE, hidden, trial("fixture_resonance", cost=1.0), hidden=("base_rocking",))
+    assert said.verdict == "ambiguous"
+    assert said.accepted.names == ("fixture_resonance",)
+    assert said.equivalent == {"fixture_resonance": ("fixture_resonance",)}
+    assert said.probability[("base_rocking",)] > said.probability[("fixture_resonance",)]
+    alone = judged(POOR_NONE, hidden, trial("fixture_resonance", cost=2 * EVEN), hidden=("base_rocking",))
+    assert (alone.verdict, alone.accepted) == ("unknown", None)
+
+
+def test_a_second_effect_that_is_not_needed_leaves_the_first_alone():
+    """Every explanation of the group has the delay: it is there, whatever stands beside it."""
+    said = judged(
+        POOR_NONE, trial("channel_delay", cost=0.0), trial("channel_delay", "spot_offset", cost=1.0)
     )
+    assert (said.verdict, said.accepted.names) == ("effect", ("channel_delay",))
+    assert said.of_effect("channel_delay") == pytest.approx(1)
+    assert said.of_effect("spot_offset") == pytest.approx(1 / (1 + np.exp(0.5)))
 
 
-def test_a_pair_far_behind_the_best_one_is_not_taken_in_its_place():
-    single, best = Weighed(("added_mass",), 100.0), ("added_mass", "gain_error")
-    pairs = [Weighed(best, 0.0), Weighed(("added_mass", "partial_debond"), 2 * WITHIN)]
-    off = {single.names: 1.0, best: 2.5}
-    assert weighed(NONE, [single], pairs, off=off).accepted.names == single.names
+def test_each_effect_of_a_pair_has_its_own_equals():
+    pair = trial("channel_delay", "spot_offset", cost=0.0)
+    said = judged(POOR_NONE, pair, trial("channel_delay", "gain_error", cost=1.0))
+    assert said.verdict == "ambiguous"
+    assert said.accepted is pair
+    assert said.equivalent["channel_delay"] == ("channel_delay",)
+    assert set(said.equivalent["spot_offset"]) == {"spot_offset", "gain_error"}
 
 
-def test_the_share_its_own_model_misses_is_not_a_second_effect():
-    single, pair = Weighed(("clamp_friction",), 100.0), ("clamp_friction", "fixture_resonance")
-    strong = Weighed(pair, 100.0 - 1.1 * SECOND)
-    assert CATALOGUE["clamp_friction"].misses > 0
-    assert weighed(Weighed((), 1e4), [single], [strong]).accepted.names == single.names
+def test_another_explanation_altogether_stands_for_all_of_a_pair():
+    said = judged(
+        POOR_NONE, trial("channel_delay", "spot_offset", cost=0.0), trial("added_mass", cost=1.0)
+    )
+    assert said.verdict == "ambiguous"
+    for name in ("channel_delay", "spot_offset"):
+        assert set(said.equivalent[name]) == {name, "added_mass"}
 
 
-@pytest.mark.parametrize(("off", "none_off"), [(3.5, 4.0), (30.0, 40.0)])
+@pytest.mark.parametrize(("off", "none_off"), [(1.1 * POOR, 1.0), (10.0, 15.0)])
 def test_another_law_that_does_not_predict_is_refused(off, none_off):
-    best = Weighed(("core_law",), 0.0)
-    assert weighed(NONE, [best], off={best.names: off, (): none_off}).verdict == "unknown"
-    assert weighed(NONE, [best], off={best.names: off, (): 10 * none_off}).verdict == "effect"
+    law = trial("core_law", cost=0.0)
+    said = judged(POOR_NONE, law, off={("core_law",): off, (): none_off})
+    assert (said.verdict, said.refused) == ("unknown", ("core_law",))
+    assert "not seen" in said.why
+    assert judged(POOR_NONE, law, off={("core_law",): off, (): 1.1 * off / HARDLY_BETTER}).verdict == "effect"
+    assert judged(POOR_NONE, law, off={("core_law",): 0.9 * POOR, (): none_off}).verdict == "effect"
 
 
 def test_what_two_segments_cannot_place_is_believed_all_the_same():
-    assert weighed(NONE, [Weighed(("added_mass",), 0.0)], off={("added_mass",): 30.0}).verdict == "effect"
+    said = judged(POOR_NONE, trial("added_mass", cost=0.0), off={("added_mass",): 30.0})
+    assert said.verdict == "effect"
 
 
-def test_what_bends_the_plate_too_much_is_refused_and_said():
-    said = weighed(NONE, [Weighed(("gain_error",), 0.0, leans=True)])
-    assert (said.verdict, said.refused) == ("unknown", ("gain_error",))
-    assert "layer-wise plate" in said.why
-
-
-def test_what_does_not_bend_it_is_named_before_what_does():
-    singles = [Weighed(("gain_error",), 0.0, leans=True), Weighed(("spot_offset",), 0.9 * WITHIN)]
-    said = weighed(NONE, singles)
-    assert (said.verdict, said.equivalent) == ("effect", {"spot_offset": ("spot_offset",)})
-    assert weighed(NONE, [singles[0], Weighed(("spot_offset",), 1.1 * WITHIN)]).verdict == "unknown"
-    assert weighed(Weighed((), FIRST + 1.0), singles).verdict == "unknown"
-
-
-def test_a_wider_effect_is_named_where_the_simpler_one_bends_the_plate():
-    every = [Weighed(("base_rocking",), 0.0, 300.0, leans=True), Weighed(("fixture_resonance",), 5.0, 299.0)]
-    assert without_idle_extensions(every) == every
-    assert weighed(NONE, every).accepted.names == ("fixture_resonance",)
-
-
-def test_a_pair_that_bends_the_plate_is_passed_over():
-    single = Weighed(("gain_error",), 100.0, leans=True)
-    pairs = [
-        Weighed(("gain_error", "added_mass"), 0.0, leans=True),
-        Weighed(("gain_error", "core_thickness"), 0.9 * WITHIN),
-    ]
-    assert weighed(NONE, [single], pairs).accepted is pairs[1]
-    assert weighed(NONE, [single], pairs[:1]).verdict == "unknown"
-
-
-def test_what_leaves_too_much_is_refused():
-    assert weighed(NONE, [Weighed(("added_mass",), 0.0, chi2_per_dof=1.1 * TOO_MUCH)]).verdict == "unknown"
-
-
-def test_what_its_own_model_misses_may_be_left():
-    much = 1.1 * TOO_MUCH
-    left = 500 * (much - TOO_MUCH)
-    share = CATALOGUE["amplitude_softening"].misses
-    for gain, verdict in ((0.5 * left / share, "unknown"), (2 * left / share, "effect")):
-        one = Weighed(("amplitude_softening",), 0.0, chi2_per_dof=much)
-        assert weighed(Weighed((), gain), [one]).verdict == verdict
-
-
-def test_a_pair_need_not_predict_better_than_an_effect_that_explains_too_little():
-    pair = ("absolute_velocity", "core_law")
-    single = Weighed(pair[:1], 500.0, chi2_per_dof=1.1 * TOO_MUCH)
-    off = {pair: 5.0, pair[:1]: 3.5}
-    assert weighed(NONE, [single], [Weighed(pair, 0.0)], off={**off, (): 50.0}).accepted.names == pair
-    assert weighed(NONE, [single], [Weighed(pair, 0.0)], off={**off, (): 6.0}).verdict == "unknown"
+def test_what_someone_has_decided_stands_for_itself():
+    said = told(trial("gain_error", "channel_delay", cost=5.0))
+    assert (said.verdict, said.by_hand) == ("effect", True)
+    assert said.equivalent == {"gain_error": ("gain_error",), "channel_delay": ("channel_delay",)}
+    assert (told(trial(cost=5.0)).verdict, told(trial(cost=5.0)).accepted) == ("none", None)

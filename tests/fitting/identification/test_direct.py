@@ -98,7 +98,7 @@ def test_jacobian_agrees_with_central_differences(many, zn1_models, law, data, r
 
 def test_noisy_sweep_gives_back_its_law(many_residuals, zn1):
     fit = direct.fit_direct(many_residuals, zn1.core.law)
-    uncertainty = uncertainty_of(fit, None, noise_is_known=True)
+    uncertainty = uncertainty_of(fit, noise_is_known=True)
     z = (np.log(fit.law.values) - np.log(TABLE_4.values)) / uncertainty.standard_errors
     assert np.all(np.abs(z) < 4)
     assert uncertainty.chi2_per_dof == pytest.approx(1, abs=0.15)
@@ -124,7 +124,7 @@ def test_standard_errors_cover_the_truth_over_200_seeds(zn1, zn1_models, noise):
         law = direct.refit(fit_residuals, TABLE_4)
         r, J = fit_residuals.with_jacobian(law)
         fit = direct.Fit(law, r, J, model.velocity(law), 1, 1, converged=True)
-        u = uncertainty_of(fit, None, noise_is_known=True)
+        u = uncertainty_of(fit, noise_is_known=True)
         z.append((np.log(law.values) - np.log(TABLE_4.values)) / u.standard_errors)
         (G, eta), (dG, deta) = law.storage_and_loss(omega), u.law_band(law, omega)
         inside.append([np.abs(G - G_true) < 1.96 * dG, np.abs(eta - eta_true) < 1.96 * deta])
@@ -179,7 +179,7 @@ def test_misfit_beyond_the_noise_is_named_and_widens_the_errors(many, zn1_models
     residuals = residuals_of(bent, zn1_models)
     assert "the model lacks something" in warnings_of(bent, residuals, TABLE_4)
     fit = direct.fit_direct(residuals, TABLE_4)
-    wide = uncertainty_of(fit, None, noise_is_known=True)
+    wide = uncertainty_of(fit, noise_is_known=True)
     assert wide.chi2_per_dof > 2
     plain = np.linalg.inv(fit.jacobian.T @ fit.jacobian)
     np.testing.assert_allclose(wide.standard_errors, np.sqrt(np.diag(plain) * wide.chi2_per_dof), rtol=1e-6)
@@ -222,7 +222,7 @@ def test_unequal_weights_choose_and_pay_for_it(many, zn1_models):
     alone = residuals_of(many, zn1_models).take(rest)
     found, expected = (direct.fit_direct(r, TABLE_4) for r in (weighted, alone))
     np.testing.assert_allclose(found.law.values, expected.law.values, rtol=1e-3)
-    errors = [uncertainty_of(f, None, noise_is_known=True).standard_errors for f in (found, expected)]
+    errors = [uncertainty_of(f, noise_is_known=True).standard_errors for f in (found, expected)]
     np.testing.assert_allclose(errors[0], errors[1], rtol=0.1)
 
 
@@ -238,7 +238,7 @@ def test_all_parameters_at_their_bounds_leave_no_covariance(many, zn1_models):
     law = ConstantModulus(1e2, 1e-6)
     r, J = residuals.with_jacobian(law)
     u = uncertainty_of(
-        direct.Fit(law, r, J, residuals.model.velocity(law), 1, 1, converged=True), None, noise_is_known=True
+        direct.Fit(law, r, J, residuals.model.velocity(law), 1, 1, converged=True), noise_is_known=True
     )
     assert set(u.at_bound.values()) == {"lower"}
     assert not u.covariance.any()

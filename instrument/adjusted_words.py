@@ -1,0 +1,33 @@
+"""The stated numbers that a joint fit moved, as people read them: the most moved first."""
+
+from collections.abc import Sequence
+
+from fitting.identification.adjusted import Adjusted
+from fitting.specimen import Specimen
+from fitting.tolerances import kind_of
+
+COLUMNS = ("stated number", "stated", "tolerance", "found", "standard error", "pull", "tolerance is")
+MOST = 8
+
+
+def adjusted_rows(found: Sequence[Adjusted], specimen: Specimen, most: int = MOST) -> list[list[str]]:
+    """Rows of `COLUMNS`; the pull is how far the number was moved, in tolerances."""
+    order = sorted(found, key=lambda one: -abs(one.pull))
+    return [
+        [
+            one.name + ("" if one.unit == "1" else f" / {one.unit}"),
+            f"{one.stated:.5g}",
+            f"{one.tolerance:.2g}",
+            f"{one.found:.5g}",
+            f"{one.standard_error:.2g}",
+            f"{one.pull:+.2f}",
+            "named" if kind_of(one.name) in specimen.tolerances else "typical",
+        ]
+        for one in order[:most]
+    ]
+
+
+def more_adjusted(found: Sequence[Adjusted], most: int = MOST) -> str:
+    """How many are not listed, and how little they were moved; empty for none."""
+    rest = sorted((abs(one.pull) for one in found), reverse=True)[most:]
+    return f"{len(rest)} more moved by {rest[0]:.2f} tolerances or less" if rest else ""

@@ -1,0 +1,31 @@
+"""Whether the layer-wise theory holds for a law over a band: refused or remarked on where it does not."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.errors import OutsideModel
+from fitting.laws import CoreLaw
+from fitting.specimen import Specimen
+from fitting.theory_error import TheoryError, check_theory
+
+Array = NDArray[np.float64]
+
+_PLACES = 10
+"""Frequencies of a band that are looked at: the error is smooth in frequency."""
+
+
+def theory_over(specimen: Specimen, law: CoreLaw, frequency_hz: Array) -> TheoryError:
+    """The theory's error over the band of some frequencies. Raises `OutsideModel` beyond its limits."""
+    low, high = float(np.min(frequency_hz)), float(np.max(frequency_hz))
+    return check_theory(specimen, law, np.geomspace(low, high, _PLACES if high > low else 1))
+
+
+def theory_remark(specimen: Specimen, law: CoreLaw | None, frequency_hz: Array) -> str:
+    """What would be refused, in a line; empty where the theory holds or the plate has no core."""
+    if specimen.core is None or law is None:
+        return ""
+    try:
+        theory_over(specimen, law, frequency_hz)
+    except OutsideModel as error:
+        return str(error)
+    return ""

@@ -1,0 +1,51 @@
+"""The tolerances that a specimen's numbers are taken with: named in its file, typical, or none at all."""
+
+from typing import Any
+
+from fitting.specimen import Specimen
+from fitting.tolerances import STATED, tolerance
+
+_UNITS = {"1": ("percent", "%", 1e2), "m": ("mm", "mm", 1e3), "s": ("us", "µs", 1e6)}
+"""Ending of the file's key, unit for people, factor."""
+_NOT_OF_A_SWEEP = ("mass",)
+_OF_TREATMENT = ("constraining_", "core_")
+
+
+def asked(specimen: Specimen) -> list[str]:
+    """Kinds of stated numbers that a sweep of this plate can feel."""
+    return [
+        name
+        for name in STATED
+        if name not in _NOT_OF_A_SWEEP and (specimen.core is not None or not name.startswith(_OF_TREATMENT))
+    ]
+
+
+def not_named(specimen: Specimen) -> list[str]:
+    """Those of them whose tolerance is a typical one; none of an exact specimen."""
+    return [] if specimen.exact else [name for name in asked(specimen) if name not in specimen.tolerances]
+
+
+def tolerance_facts(specimen: Specimen) -> list[dict[str, Any]]:
+    """Every tolerance under the file's key; empty for an exact specimen."""
+    if specimen.exact:
+        return []
+    return [
+        {
+            "name": f"{name}_{_UNITS[STATED[name].unit][0]}",
+            "value": tolerance(specimen, name) * _UNITS[STATED[name].unit][2],
+            "source": "named" if name in specimen.tolerances else "typical",
+        }
+        for name in asked(specimen)
+    ]
+
+
+def tolerance_rows(specimen: Specimen) -> list[tuple[str, str]]:
+    """Name and value, marked where it is typical; one row for an exact specimen."""
+    if specimen.exact:
+        return [("all stated numbers", "exact")]
+    rows = []
+    for name in asked(specimen):
+        _, unit, factor = _UNITS[STATED[name].unit]
+        value = f"{tolerance(specimen, name) * factor:.3g} {unit}"
+        rows.append((name.replace("_", " "), value + ("" if name in specimen.tolerances else " (typical)")))
+    return rows
