@@ -10,6 +10,7 @@ Source: the paper's Eq. (15) to (18), with the thickness restored in Eq. (16) an
 """
 
 from dataclasses import dataclass
+from math import perm
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,16 +27,26 @@ CORNERS = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
 _POWERS = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2), (3, 0), (2, 1), (1, 2), (0, 3), (3, 1), (1, 3))
 
 
+_DERIVED = [np.array([[perm(n, d), max(n - d, 0)] for n in range(4)], dtype=float).T for d in range(4)]
+"""For every order of derivative of t^0 to t^3: factors and powers left."""
+_P, _Q = np.array(_POWERS).T
+
+
 def _monomials(x: float, y: float, dx: int = 0, dy: int = 0) -> Array:
     """The twelve terms x^p y^q of the deflection, differentiated `dx` and `dy` times."""
+    along_x, along_y = (factor * t**left for t, (factor, left) in ((x, _DERIVED[dx]), (y, _DERIVED[dy])))
+    return np.asarray(along_x[_P] * along_y[_Q])
 
-    def term(t: float, p: int, d: int) -> float:
-        factor = 1.0
-        for k in range(d):
-            factor *= p - k
-        return factor * t ** (p - d) if p >= d else 0.0
 
-    return np.array([term(x, p, dx) * term(y, q, dy) for p, q in _POWERS])
+def _unit() -> Array:
+    """Terms of the deflection by w, dw/dy and -dw/dx at the corners of a unit square. Shape (12, 12)."""
+    nodal = []
+    for x, y in CORNERS:
+        nodal += [_monomials(x, y), _monomials(x, y, dy=1), -_monomials(x, y, dx=1)]
+    return np.asarray(np.linalg.inv(np.array(nodal)))
+
+
+_UNIT = _unit()
 
 
 def _bilinear(a: float, b: float, x: float, y: float, dx: int = 0, dy: int = 0) -> Array:
@@ -65,14 +76,9 @@ class Shape:
     def deflection(self, x: float, y: float, dx: int = 0, dy: int = 0) -> Array:
         """N_5: w, or its derivative. Shape (28,)."""
         a, b = self.a_m, self.b_m
-        nodal = []
-        for cx, cy in CORNERS:
-            nodal.append(_monomials(cx * a, cy * b))
-            nodal.append(_monomials(cx * a, cy * b, dy=1))
-            nodal.append(-_monomials(cx * a, cy * b, dx=1))
-        values = np.linalg.solve(np.array(nodal).T, _monomials(x, y, dx, dy))
+        values = (_monomials(x / a, y / b, dx, dy) / (a**dx * b**dy)) @ _UNIT
         row = np.zeros((4, DOFS))
-        row[:, W:] = values.reshape(4, 3)
+        row[:, W:] = values.reshape(4, 3) * (1.0, b, a)
         return row.ravel()
 
     def membrane(self, u: int, v: int, x: float, y: float) -> Array:

@@ -8,8 +8,8 @@ density, Poisson's ratio, length or width has the same parts, and a model reduce
 exactly on its basis. Integrands are those of `fitting.element` (the paper's Eq. (15) to (18)).
 """
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -17,14 +17,16 @@ from numpy.typing import NDArray
 
 from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, Shape, W, core_stiffness
 from fitting.element import _points as gauss_points
+from fitting.laws.constant import ConstantModulus
 from fitting.plate import Mesh, Plate
-from fitting.specimen import Face, Specimen
+from fitting.specimen import Core, Face, Specimen
 from fitting.tolerances import STATED, moved
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Rows = dict[str, Array]
 
+_LAYER = ("thickness_m", "young_pa", "poisson", "density_kg_m3", "loss_factor")
 _MEMBRANE = ("11", "22", "12", "66 yy", "66 xx", "66 xy")
 _BENDING = ("11", "22", "12", "66")
 STIFFNESS = (
@@ -76,24 +78,32 @@ def load_part(reference: Specimen) -> Array:
     return found
 
 
-def projected_parts(plate: Plate, V: Array) -> Array:
-    """V^T P_p V of every part: of K_0, then of K_1, then of M. `V` of shape (n, k); shape (parts, k, k)."""
-    parts = np.concatenate(element_parts(plate.specimen))
-    return np.array([V.T @ forces for forces in forces_of(plate, parts, V)])
+def projected_parts(plate: Plate, V: Array, *, one_parity: bool = False) -> Array:
+    """V^T P_p V of every part: of K_0, then of K_1, then of M. `V` of shape (n, k); shape (parts, k, k).
 
-
-def forces_of(plate: Plate, elements: Array | Complex, V: Array | Complex) -> Iterator[Array | Complex]:
-    """A V of every A that has the same matrix in all elements: (any, 28, 28) and (n, k) to (n, k) each."""
-    dofs = plate.mesh.element_dofs()
-    full = np.zeros((plate.mesh.nodes * DOFS, V.shape[1]), V.dtype)
+    `one_parity`: all columns are even in y, or all are odd. Half of the elements do then.
+    """
+    dofs, weight = plate.mesh.element_dofs(), np.ones(plate.mesh.n_x * plate.mesh.n_y)
+    if one_parity:
+        n_y = plate.mesh.n_y
+        twice = 2 * (np.arange(len(dofs)) % n_y) + 1
+        dofs, weight = dofs[twice <= n_y], np.where(twice == n_y, 1.0, 2.0)[twice <= n_y]
+    full = np.zeros((plate.mesh.nodes * DOFS, V.shape[1]))
     full[plate.free] = V
-    on_elements = full[dofs.T].reshape(4 * DOFS, -1)
-    # Sums what the elements give each degree of freedom.
-    gather = sp.csr_array(
-        (np.ones(dofs.size), (dofs.T.ravel(), np.arange(dofs.size))), shape=(len(full), dofs.size)
-    )[plate.free]
-    for A in elements:
-        yield gather @ (A @ on_elements).reshape(dofs.size, -1)
+    P = np.concatenate(element_parts(plate.specimen))
+    # Stretching does not touch the deflection, nor bending the layers' planes: few rows are worked on.
+    kinds = [tuple(np.unique(np.flatnonzero(p.any(axis=0)) % DOFS)) for p in P]
+    found = np.zeros((len(P), V.shape[1], V.shape[1]))
+    for some in set(kinds) - {()}:
+        rows = np.flatnonzero(np.isin(np.arange(4 * DOFS) % DOFS, some))
+        touched, place = np.unique(dofs.T[rows], return_inverse=True)
+        # Sums what the elements give each degree of freedom.
+        gather = sp.csr_array((np.tile(weight, len(rows)), (place.ravel(), np.arange(place.size))))
+        ends = full[touched]
+        on_elements = full[dofs.T[rows]].reshape(len(rows), -1)
+        for p in (n for n, kind in enumerate(kinds) if kind == some):
+            found[p] = ends.T @ (gather @ (P[p][np.ix_(rows, rows)] @ on_elements).reshape(place.size, -1))
+    return found
 
 
 def stated_steps(reference: Specimen, names: Sequence[str]) -> tuple[Complex, Array, Array]:
@@ -153,6 +163,27 @@ def coefficients(specimen: Specimen, reference: Specimen) -> Coefficients:
         ]
     )
     return Coefficients(K_0, K_1, M, (m_b + m_c + m_v) * area)
+
+
+def layers_of(specimen: Specimen) -> Array:
+    """What `coefficients` asks of substrate, constraining layer and core, in the order of `_LAYER`.
+
+    Zero where a layer is missing or has no such number. Shape (3, 5).
+    """
+    each = (specimen.substrate, specimen.constraining, specimen.core)
+    return np.array([[getattr(layer, name, 0.0) for name in _LAYER] for layer in each])
+
+
+def specimen_of(size: Array, layers: Array) -> Specimen:
+    """As far as `coefficients` asks: `size` gives length and width in m and elements along each."""
+    substrate, constraining = (Face(*row) for row in layers[:2].tolist())
+    thickness, _, poisson, density, _ = layers[2].tolist()
+    length, width, n_x, n_y = size.tolist()
+    plain = Specimen(length, width, "free", substrate, elements=(int(n_x), int(n_y)))
+    if not thickness:
+        return plain
+    core = Core(thickness, poisson, density, ConstantModulus(1e6, 0.0))
+    return replace(plain, constraining=constraining, core=core)
 
 
 def stretched(specimen: Specimen, reference: Specimen) -> Array:

@@ -10,20 +10,21 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
+from fitting.assembly import Assembly
 from fitting.damping import ViscousDamping
-from fitting.direct import direct_solver, solve_direct
 from fitting.domain import Domain
 from fitting.element import THETA_X, THETA_Y, W
-from fitting.linear import factorise
-from fitting.parts import forces_of, load_part, projected_parts, stated_steps
+from fitting.half_plate import HalfPlate
+from fitting.linear import times
+from fitting.parts import load_part, projected_parts, stated_steps
 from fitting.plate import Plate
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+Point = tuple[float, complex]
 
 TOLERANCE = 1e-6
 """Relative error of the pickup's reading that the basis is built for."""
@@ -64,9 +65,12 @@ class ReducedPlate:
 
     def matrices(self, omega: Array, G: Complex) -> Complex:
         """A = -omega^2 M + i omega C_1 + K_0 + G K_1. Shape (points, k, k)."""
-        w, g = np.asarray(omega)[:, None, None], np.asarray(G)[:, None, None]
+        w, g = np.asarray(omega, dtype=float), np.asarray(G, dtype=complex)
         C_1 = (self.U * self.d) @ self.U.T
-        return np.asarray(self.K_0 + g * self.K_1 - w**2 * self.M + 1j * w * C_1)
+        factors = np.stack([np.ones_like(g), g, -(w**2), 1j * w], axis=1)
+        # One product: several times faster than sums of stacks of matrices.
+        each = np.stack([self.K_0, self.K_1, self.M, C_1]).astype(complex).reshape(4, -1)
+        return np.asarray((factors @ each).reshape(len(w), *self.M.shape))
 
     def displacement(self, omega: Array, G: Complex) -> Complex:
         """Relative displacement at the pickup for a base acceleration of 1 m/s^2, in m. Shape (points,)."""
@@ -123,8 +127,7 @@ def reduce_plate(
     """
     builder = _Builder(plate, damping, domain)
     with threadpool_limits(1, "blas"), ThreadPoolExecutor(2) as pool:
-        spread = [domain.point((0.5 + k * 0.7549) % 1, (0.5 + k * 0.5698) % 1, 0.5) for k in range(_SPREAD)]
-        points = spread
+        points = builder.spread
         while True:
             for snapshot in pool.map(builder.snapshot, points):
                 builder.extend(snapshot)
@@ -133,77 +136,109 @@ def reduce_plate(
             size = builder.V.shape[1]
             progress(min(1.0, size / LARGEST_BASIS))
             if worst < TOLERANCE or size + 4 > LARGEST_BASIS:
-                builder.follow(np.hstack(list(pool.map(builder.stirred, spread[:_STIRRED]))))
+                builder.follow(np.hstack(list(pool.map(builder.stirred, builder.spread[:_STIRRED]))))
                 return builder.project(final=True)
+
+
+_GIVEN, _M, _K_0, _LOSS, _K_1, _DAMPED = range(6)
+"""Kinds of columns of `ReducedPlate.gram`, in their order."""
 
 
 class _Builder:
     """The growing basis and its products, all in the subspace even in y."""
 
     def __init__(self, plate: Plate, damping: ViscousDamping, domain: Domain) -> None:
-        P = plate.even
-        self.plate = plate
-        self.domain = domain
-        self.damping = damping.projected(P)
-        self.M, self.K_0, self.K_1 = (sp.csc_array(P.T @ A @ P) for A in (plate.M, plate.K_0, plate.K_1))
-        self.load = np.asarray(P.T @ plate.base_load)
-        self.observe = np.asarray(P.T @ plate.pickup)
-        self.stiffness = self.K_0.real + np.sqrt(domain.modulus[0] * domain.modulus[1]) * self.K_1
-        self.unload = factorise(self.stiffness)
+        half = HalfPlate(plate, odd=False)
+        self.plate, self.half, self.domain = plate, half, domain
+        self.damping = damping.projected(half.P)
+        self.load = np.asarray(half.down @ plate.base_load)
+        self.observe = np.asarray(half.down @ plate.pickup)
+        self.stiffness = half.K_0.real + np.sqrt(domain.modulus[0] * domain.modulus[1]) * half.K_1
+        self.unload = half.chain.factorise(self.stiffness)
+        self.spread = [
+            domain.point((0.5 + k * 0.7549) % 1, (0.5 + k * 0.5698) % 1, 0.5) for k in range(_SPREAD)
+        ]
         self.V = np.empty((len(self.load), 0))
+        # What residuals are made of, the inverse stiffness on it, and of which kind each column is.
+        self.columns = self.unloaded = np.empty((len(self.load), 0))
+        self.kind = np.empty(0, dtype=np.intp)
+        self._keep(_GIVEN, np.column_stack([self.load, self.observe]))
+        self._keep(_DAMPED, self.damping.U)
         self.training = domain.grid(40, 7, (0.02, 0.2, 1.0))
+        self.steps, self.everywhere = stated_steps(plate.specimen, _FACES), Assembly(plate)
+        self.kept: dict[Point, Callable[[Array | Complex], Complex]] = {}
 
-    def snapshot(self, point: tuple[float, complex]) -> Complex:
+    def solver(self, point: Point) -> Callable[[Array | Complex], Complex]:
+        """Loads to responses at a point; those to be stirred are asked twice."""
+        if point in self.kept:
+            return self.kept[point]
+        found = self.half.solver(*point, self.damping)
+        if point in self.spread[:_STIRRED]:
+            self.kept[point] = found
+        return found
+
+    def snapshot(self, point: Point) -> Complex:
         """Responses to base and pickup, in full. Shape (n, 2)."""
-        omega, G = point
-        A = self.K_0 + G * self.K_1 - omega**2 * self.M
-        return solve_direct(A, omega, self.damping, np.column_stack([self.load, self.observe]))
+        return self.solver(point)(np.column_stack([self.load, self.observe]))
 
-    def stirred(self, point: tuple[float, complex]) -> Complex:
+    def stirred(self, point: Point) -> Complex:
         """What tolerances of the faces change of both responses, over their size. Shape (n, any)."""
         omega, G = point
-        solve = direct_solver(self.K_0 + G * self.K_1 - omega**2 * self.M, omega, self.damping)
-        X = solve(np.column_stack([self.load, self.observe]))
-        X = X / np.sqrt(np.real(np.einsum("ij,ij->j", X.conj(), self.stiffness @ X)))
-        K_0, K_1, M = stated_steps(self.plate.specimen, _FACES)
-        P = self.plate.even
-        forces = forces_of(self.plate, K_0 + G * K_1 - omega**2 * M, P @ X)
-        return solve(np.hstack([P.T @ f for f in forces]))
+        X = self.snapshot(point)
+        size = np.real(np.einsum("ij,ij->j", X.conj(), self.half.chain.times(self.stiffness, X)))
+        X = times(self.half.P, X / np.sqrt(size))
+        K_0, K_1, M = self.steps
+        forces = [self.everywhere.forces(A, X) for A in K_0 + G * K_1 - omega**2 * M]
+        return self.solver(point)(times(self.half.down, np.hstack(forces)))
 
     def follow(self, X: Complex) -> None:
         """Add the leading ones of some changes of responses, orthonormal in the stiffness."""
         W = np.hstack([X.real, X.imag])
         for _ in range(2):
-            W = W - self.V @ (self.V.T @ (self.stiffness @ W))
-        values, vectors = np.linalg.eigh(W.T @ (self.stiffness @ W))
+            W = W - self.V @ (self.V.T @ self._stiff(W))
+        values, vectors = np.linalg.eigh(W.T @ self._stiff(W))
         few = np.argsort(values)[::-1][:MOST_FOLLOWING]
         few = few[values[few] > FOLLOWING**2]
         V = W @ (vectors[:, few] / np.sqrt(values[few]))
-        self.V = np.hstack([self.V, V - self.V @ (self.V.T @ (self.stiffness @ V))])
+        self._add(V - self.V @ (self.V.T @ self._stiff(V)))
 
     def extend(self, X: Complex) -> None:
         """Add real and imaginary parts, orthonormal in the stiffness."""
         W = np.hstack([X.real, X.imag])
         for _ in range(2):
-            W = W - self.V @ (self.V.T @ (self.stiffness @ W))
-            size = np.sqrt(np.einsum("ij,ij->j", W, self.stiffness @ W))
+            W = W - self.V @ (self.V.T @ self._stiff(W))
+            size = np.sqrt(np.einsum("ij,ij->j", W, self._stiff(W)))
             # A lossless plate's response has no imaginary part.
             W = W[:, size > 0] / size[size > 0]
-        values, vectors = np.linalg.eigh(W.T @ (self.stiffness @ W))
+        values, vectors = np.linalg.eigh(W.T @ self._stiff(W))
         keep = values > 1e-10
-        self.V = np.hstack([self.V, W @ (vectors[:, keep] / np.sqrt(values[keep]))])
+        self._add(W @ (vectors[:, keep] / np.sqrt(values[keep])))
+
+    def _stiff(self, W: Array) -> Array:
+        return np.asarray(self.half.chain.times(self.stiffness, W))
+
+    def _add(self, W: Array) -> None:
+        half = self.half
+        self.V = np.hstack([self.V, W])
+        for kind, A in ((_M, half.M), (_K_0, half.K_0.real), (_LOSS, half.K_0.imag), (_K_1, half.K_1)):
+            self._keep(kind, half.chain.times(A, W))
+
+    def _keep(self, kind: int, columns: Array) -> None:
+        self.columns = np.hstack([self.columns, columns])
+        self.unloaded = np.hstack([self.unloaded, self.unload(columns)])
+        self.kind = np.append(self.kind, np.full(columns.shape[1], kind))
 
     def project(self, *, final: bool = False) -> ReducedPlate:
         """The reduced plate of the present basis; with its parts when `final`."""
         V, U = self.V, self.damping.U
-        products = [self.M @ V, self.K_0.real @ V, self.K_0.imag @ V, self.K_1 @ V]
-        columns = np.hstack([self.load[:, None], self.observe[:, None], *products, U])
-        gram = columns.T @ self.unload(columns)
+        order = np.argsort(self.kind, kind="stable")
+        gram = self.columns[:, order].T @ self.unloaded[:, order]
+        M, K_0, loss, K_1 = (V.T @ self.columns[:, self.kind == k] for k in (_M, _K_0, _LOSS, _K_1))
         parts, load, deflection = self._parts() if final else (np.empty(0),) * 3
         return ReducedPlate(
-            M=V.T @ products[0],
-            K_0=V.T @ products[1] + 1j * (V.T @ products[2]),
-            K_1=V.T @ products[3],
+            M=M,
+            K_0=K_0 + 1j * loss,
+            K_1=K_1,
             U=V.T @ U,
             d=self.damping.d,
             mode=self.damping.mode,
@@ -214,15 +249,15 @@ class _Builder:
             load_part=load,
             deflection=deflection,
             gram=(gram + gram.T) / 2,
-            V=V,
+            V=V[self.half.place],
         )
 
     def _parts(self) -> tuple[Array, Array, Array]:
         """As in `ReducedPlate`."""
         plate = self.plate
-        V = plate.even @ self.V
+        V = self.half.P @ self.V
         return (
-            projected_parts(plate, V),
+            projected_parts(plate, V, one_parity=True),
             V.T @ load_part(plate.specimen)[plate.free],
             plate.on_nodes(V)[:, [W, THETA_X, THETA_Y]],
         )

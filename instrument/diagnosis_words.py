@@ -44,6 +44,15 @@ def probability_words(candidate: Facts, facts: Facts) -> str:
     return f"> {100 * (1 - _LEAST):g} %" if p > 1 - _LEAST else f"{100 * p:.1f} %"
 
 
+def resampling_words(facts: Facts) -> str:
+    """What the search makes of data without any effect, and of data it has not seen; empty if not asked."""
+    p, rms = facts.get("p_value"), facts.get("nested_held_out_rms_percent")
+    said = [] if p is None else [f"sweeps without any effect gain as much in {100 * p:.2g} % of cases"]
+    if rms is not None:
+        said.append(f"data left out, the whole search repeated without them: {rms:.2g} % rms")
+    return "; ".join(said)
+
+
 def log_odds(facts: Facts) -> list[float | None]:
     """Of each candidate against none, natural logarithm; None where none was not fitted."""
     none = next((c["delta_bic"] for c in facts["candidates"] if c["name"] == "none"), None)

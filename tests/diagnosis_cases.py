@@ -75,10 +75,10 @@ def diagnosed(s, *, verdict="effect", one_by_one=None):
             "added_mass": ("added_mass", "spot_offset") if verdict == "ambiguous" else ("added_mass",)
         },
         candidates=(
-            Candidate((MASS,), 0.0, 1.0),
-            Candidate((SPOT,), 3.5, 1.02),
-            Candidate((MASS, SPOT), 6.0, 1.0),
-            Candidate((), 400.0, 9.0),
+            Candidate((MASS,), 0.0, 1.0, 0.82),
+            Candidate((SPOT,), 3.5, 1.02, 0.14),
+            Candidate((MASS, SPOT), 6.0, 1.0, 0.04),
+            Candidate((), 400.0, 9.0, 0.0),
         ),
         before=stage(part, BEFORE, one_by_one=one_by_one),
         after=stage(part, AFTER, one_by_one=one_by_one),

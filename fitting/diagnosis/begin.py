@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import least_squares
 
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.candidates import polished
@@ -27,6 +28,8 @@ Array = NDArray[np.float64]
 _FAR = 0.1
 """Relative change of the modulus from which the grids and the model's error are made anew."""
 _ROUNDS = 3
+_OPEN = 1e-9
+"""A range of one value is none for a bounded fit."""
 
 
 @dataclass(frozen=True)
@@ -46,10 +49,14 @@ def begin(task: Task, reduced: ReducedPlate, noise: Noise, bare: BareModes | Non
     sweep = task.sweep
     model = SweepModel(task.rational, np.arange(len(sweep)), sweep.commanded_m_s2, task.specimen.reads)
     first = fit_direct(Residuals.of(sweep, noise, model), start)
-    law: CoreLaw = first.law
+    laws: list[CoreLaw] = [first.law]
+    inside = within_search(first.law, sweep.omega)
+    if inside is not first.law:
+        # A law alone may end at its limits, where numbers that are not quite as stated keep it.
+        laws.append(inside)
     if not task.specimen.exact:
-        law = BentLaw.over(law, sweep.frequency_hz)
-    u = task.as_stated
+        laws = [BentLaw.over(one, sweep.frequency_hz) for one in laws]
+    law, u = laws[0], task.as_stated
     for _ in range(_ROUNDS):
         here = task.condensed(law).around(law)
         v = model.velocity(law)
@@ -58,10 +65,25 @@ def begin(task: Task, reduced: ReducedPlate, noise: Noise, bare: BareModes | Non
             # Tolerances weigh against readings: those need a size, and their misfit is all there is.
             dof = max(1, evidence.count - len(law.names))
             evidence = evidence.scaled(float(np.linalg.norm(first.residuals) / np.sqrt(dof)))
-        none = polished(here, (), evidence, law, u)
+        none = min((polished(here, (), evidence, one, u) for one in laws), key=lambda f: f.chi2)
         omega = task.coarse.nodes.omega
         moved = np.max(np.abs(none.law.modulus(omega) / law.modulus(omega) - 1))
-        law, u = none.law, none.u
+        law, u, laws = none.law, none.u, [none.law]
         if moved < _FAR:
             break
     return Begun(here, evidence, none, first)
+
+
+def within_search(law: CoreLaw, omega: Array) -> CoreLaw:
+    """The law of the ranges that are searched whose modulus is nearest to a law's; itself where it is one."""
+    low, high = np.log([q.search for q in law.limits]).T
+    logs = np.log(law.values)
+    if np.all((logs >= low) & (logs <= high)):
+        return law
+    wanted = np.log(law.modulus(omega))
+
+    def off(p: Array) -> Array:
+        d = np.log(law.with_logs(p).modulus(omega)) - wanted
+        return np.concatenate([d.real, d.imag])
+
+    return law.with_logs(least_squares(off, np.clip(logs, low, high), bounds=(low - _OPEN, high + _OPEN)).x)

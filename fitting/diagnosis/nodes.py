@@ -75,6 +75,9 @@ class Nodes:
         found, nearest = [], []
         for number in np.unique(self.cluster):
             here = np.flatnonzero(self.cluster == number)
+            if self._hits(here):
+                # Every frequency is a node: there is nothing to interpolate.
+                continue
             for p in poles(float(self.omega[here[0]]), float(self.omega[here[-1]])):
                 found.append(p)
                 nearest.append(here[np.argmin(np.abs(self.omega[here] - p.real))])
@@ -83,6 +86,11 @@ class Nodes:
             poles=np.array(found, complex),
             pole_node=np.array(nearest, dtype=np.intp),
         )
+
+    def _hits(self, here: NDArray[np.intp]) -> bool:
+        """Whether a cluster's points are its nodes."""
+        block = self.plain[:, here]
+        return bool(np.all((block == 0) | (block == 1)))
 
     def slope(self, values: Complex) -> Complex:
         """d/d omega at the nodes of the poles. Shape (nodes,) to (poles,)."""

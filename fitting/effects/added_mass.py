@@ -22,12 +22,12 @@ class PointMass(Span):
     name = "mass"
     odd = True
 
-    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
+    def forces(self, full: FullPlate, at: Snapshot) -> Complex:
         s = full.specimen
         rows = np.column_stack([full.loose.observe(x * s.length_m, y * s.width_m) for x, y in _GRID])
         # For reading and for being read: one column serves both, the response to a force there.
         size = np.abs(rows.T @ at.both).max(axis=1)
-        return at.solve(at.omega**2 * _TYPICAL_KG * rows * size, odd=True)
+        return at.omega**2 * _TYPICAL_KG * rows * size
 
 
 class AddedMass(Effect):

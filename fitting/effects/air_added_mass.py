@@ -27,9 +27,9 @@ class Air(Span):
         air = _air(full)
         return {"load": -air.L @ air.heave}
 
-    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
+    def forces(self, full: FullPlate, at: Snapshot) -> Complex:
         L = _air(full).L
-        return at.solve(at.omega**2 * (L @ (L.T @ at.both)), odd=False)
+        return at.omega**2 * (L @ (L.T @ at.both))
 
 
 def _air(full: FullPlate) -> StillAir:

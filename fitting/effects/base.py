@@ -132,9 +132,13 @@ class Span:
         """Loads over the full plate, by name."""
         return {}
 
-    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
-        """Responses to be spanned, to typical changes, of the size the effect gives them. Shape (n, any)."""
-        return np.empty((len(at.x), 0), complex)
+    def forces(self, full: FullPlate, at: Snapshot) -> Array | Complex:
+        """Of typical changes, as large as the effect makes them; their responses are spanned. (n, any)."""
+        return np.empty((len(at.x), 0))
+
+    def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
+        """What is to be spanned: the held plate's `answers` to `forces`, or what follows from them."""
+        return answers
 
 
 class Effect:

@@ -17,9 +17,11 @@ class Pitch(Span):
 
     name = "pitch"
 
-    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
-        X = at.solve(-(full.loose.M @ full.pitching)[:, None], odd=False)
-        return np.asarray(0.3 * X / np.sqrt(np.real(np.vdot(X, full.scale @ X))))
+    def forces(self, full: FullPlate, at: Snapshot) -> Array:
+        return -(full.loose.M @ full.pitching)[:, None]
+
+    def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
+        return 0.3 * full.unit(answers)
 
 
 class BaseRocking(Effect):

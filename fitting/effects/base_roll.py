@@ -27,9 +27,11 @@ class Roll(Span):
     def vectors(self, full: FullPlate) -> Mapping[str, Array]:
         return {"load": -(full.loose.M @ rolling(full))}
 
-    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
-        X = at.solve(-(full.loose.M @ rolling(full))[:, None], odd=True)
-        return np.asarray(0.3 * X / np.sqrt(np.real(np.vdot(X, full.scale @ X))))
+    def forces(self, full: FullPlate, at: Snapshot) -> Array:
+        return -(full.loose.M @ rolling(full))[:, None]
+
+    def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
+        return 0.3 * full.unit(answers)
 
 
 def rolling(full: FullPlate) -> Array:

@@ -4,20 +4,19 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from fitting.effects.base import Change, Effect, Points, Span, Unknown
 from fitting.effects.full_plate import FullPlate, Snapshot
-from fitting.effects.other_plates import between, loads, matrices, responses
+from fitting.effects.other_plates import changed_to, forces
 from fitting.effects.spanned import SpannedPlate
 from fitting.specimen import Specimen
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-_LENGTHS = {"short": 0.98, "long": 1.02}
-"""Over the stated one."""
+_SCALES = (0.98, 1.02)
+"""Over the stated length."""
 
 
 class Length(Span):
@@ -26,26 +25,23 @@ class Length(Span):
     name = "length"
     columns = 16
 
-    def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
-        return matrices(full, _others(full))
-
-    def vectors(self, full: FullPlate) -> Mapping[str, Array]:
-        return loads(full, _others(full))
-
-    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
+    def forces(self, full: FullPlate, at: Snapshot) -> Array | Complex:
         if full.specimen.boundary != "cantilever":
-            return super().responses(full, at)
+            return super().forces(full, at)
         x, y = full.pickup_m
         length = full.specimen.length_m
-        rows = np.column_stack([full.loose.observe(min(x / scale, length), y) for scale in _LENGTHS.values()])
-        X = at.solve(rows, odd=False)
-        X = 0.3 * X / np.sqrt(np.real(np.einsum("ij,ij->j", X.conj(), full.scale @ X)))
-        return np.hstack([responses(full, at, _others(full)), X])
+        rows = np.column_stack([full.loose.observe(min(x / scale, length), y) for scale in _SCALES])
+        others = [with_length(full.specimen, scale * length) for scale in _SCALES]
+        return np.hstack([forces(full, at, others), rows])
+
+    def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
+        few = 2 * len(_SCALES)
+        return np.hstack([answers[:, :few], 0.3 * full.unit(answers[:, few:])])
 
 
-def _others(full: FullPlate) -> dict[str, Specimen]:
-    s = full.specimen
-    return {name: replace(s, length_m=scale * s.length_m) for name, scale in _LENGTHS.items()}
+def with_length(specimen: Specimen, length_m: float) -> Specimen:
+    """The plate so long, of as many elements."""
+    return replace(specimen, length_m=length_m, elements=specimen.mesh)
 
 
 class ClampLine(Effect):
@@ -65,21 +61,10 @@ class ClampLine(Effect):
         return None if "length" in plate.group else "the plate has no clamp"
 
     def change(self, plate: SpannedPlate, u: Array) -> Change:
-        scale = float(1 + u[0] / plate.length_m)
+        length = plate.length_m + float(u[0])
         x, y = plate.pickup
-        # Bending along x goes with 1 / L^3, what it is coupled with to powers between that and L.
-        found = between(
-            plate,
-            "length",
-            _LENGTHS,
-            scale,
-            {
-                "K_0": lambda s: [s**-3 - 1, s - 1],
-                "K_1": lambda s: [1 / s - 1, s - 1],
-                "M": lambda s: [1 / s - 1, s - 1],
-            },
-        )
-        return replace(found, observe=plate.row(x / scale, y) - plate.row(x, y))
+        found = changed_to(plate, with_length(plate.specimen, length))
+        return replace(found, observe=plate.row(x * plate.length_m / length, y) - plate.row(x, y))
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"the plate is free over {1e3 * u['dlength']:+.1f} mm more than its stated length"

@@ -1,14 +1,16 @@
 """The constraining layer is stiffer or softer than its data sheet."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from fitting.effects.base import Change, Effect, Span, Unknown
 from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.other_plates import changed_to
 from fitting.effects.spanned import SpannedPlate
+from fitting.linear import times
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -22,11 +24,8 @@ class Constraining(Span):
     name = "constraining"
     columns = 8
 
-    def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
-        return {"K": full.loose.K_constraining}
-
-    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
-        return at.solve(_TYPICAL * (full.loose.K_constraining @ at.both), odd=False)
+    def forces(self, full: FullPlate, at: Snapshot) -> Array | Complex:
+        return _TYPICAL * times(full.loose.K_constraining, at.both)
 
 
 class ConstrainingStiffness(Effect):
@@ -41,7 +40,10 @@ class ConstrainingStiffness(Effect):
     splits = "a strip of the constraining layer in a tensile test, or its own bending frequencies"
 
     def change(self, plate: SpannedPlate, u: Array) -> Change:
-        return Change(K=(u[0] - 1) * plate.matrix("constraining.K"))
+        s = plate.specimen
+        assert s.constraining is not None
+        young = u[0] * s.constraining.young_pa
+        return changed_to(plate, replace(s, constraining=replace(s.constraining, young_pa=young)))
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"the constraining layer is {100 * (u['scale'] - 1):+.1f} % off its stated stiffness"

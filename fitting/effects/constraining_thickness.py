@@ -4,45 +4,35 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from fitting.effects.base import Change, Effect, Span, Unknown
 from fitting.effects.full_plate import FullPlate, Snapshot
-from fitting.effects.other_plates import between, loads, matrices, responses
+from fitting.effects.other_plates import changed_to, forces
 from fitting.effects.spanned import SpannedPlate
 from fitting.specimen import Specimen
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-_SCALES = {"thin_layer": 0.85, "thick_layer": 1.15}
+_SCALES = (0.85, 1.15)
 
 
 class ConstrainingLayer(Span):
-    """Motions with another constraining layer; its matrices at two others."""
+    """Motions with another constraining layer."""
 
     name = "layer"
     columns = 12
 
-    def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
-        return matrices(full, _others(full))
-
-    def vectors(self, full: FullPlate) -> Mapping[str, Array]:
-        return loads(full, _others(full))
-
-    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
-        return responses(full, at, _others(full))
+    def forces(self, full: FullPlate, at: Snapshot) -> Complex:
+        return forces(full, at, [with_layer(full.specimen, scale) for scale in _SCALES])
 
 
-def _others(full: FullPlate) -> dict[str, Specimen]:
-    s = full.specimen
-    assert s.constraining is not None
-    thickness = s.constraining.thickness_m
-    return {
-        name: replace(s, constraining=replace(s.constraining, thickness_m=scale * thickness))
-        for name, scale in _SCALES.items()
-    }
+def with_layer(specimen: Specimen, scale: float) -> Specimen:
+    """The plate with so many times its constraining layer's thickness."""
+    layer = specimen.constraining
+    assert layer is not None
+    return replace(specimen, constraining=replace(layer, thickness_m=scale * layer.thickness_m))
 
 
 class ConstrainingThickness(Effect):
@@ -57,18 +47,7 @@ class ConstrainingThickness(Effect):
     splits = "a micrometer at the layer's edge; the plate weighed before and after treatment"
 
     def change(self, plate: SpannedPlate, u: Array) -> Change:
-        # Stretching goes with H, bending with H^3; the faces' distance and the core's mean bring H^2.
-        return between(
-            plate,
-            "layer",
-            _SCALES,
-            float(u[0]),
-            {
-                "K_0": lambda s: [s - 1, s**3 - 1],
-                "K_1": lambda s: [s - 1, s**2 - 1],
-                "M": lambda s: [s - 1, s**2 - 1],
-            },
-        )
+        return changed_to(plate, with_layer(plate.specimen, float(u[0])))
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"the constraining layer is {100 * (u['scale'] - 1):+.1f} % off its stated thickness"

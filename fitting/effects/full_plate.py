@@ -1,23 +1,27 @@
 """The plate on all its degrees of freedom, the clamp's too: where what effects change is assembled."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from threading import RLock
 from typing import Any, TypeVar, cast
 
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
+from fitting.assembly import Assembly
 from fitting.damping import ViscousDamping
-from fitting.direct import direct_solver
 from fitting.element import DOFS, THETA_Y, U_C, W
+from fitting.half_plate import HalfPlate
+from fitting.linear import times
 from fitting.plate import Plate
 from fitting.specimen import Specimen
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 T = TypeVar("T")
+Solver = Callable[[Array | Complex], Complex]
 
 
 class FullPlate:
@@ -29,12 +33,24 @@ class FullPlate:
         self.loose = Plate(_loose(specimen)) if specimen.boundary == "cantilever" else plate
         self.lift = _lift(plate, self.loose)
         self._made: dict[str, Any] = {}
+        self._making = RLock()
 
     def once(self, name: str, make: Callable[[], T]) -> T:
         """What `make` returns, made when first asked for: assembling takes longer than solving."""
-        if name not in self._made:
-            self._made[name] = make()
-        return cast(T, self._made[name])
+        with self._making:
+            if name not in self._made:
+                self._made[name] = make()
+            return cast(T, self._made[name])
+
+    @property
+    def halves(self) -> "tuple[HeldHalf, HeldHalf]":
+        """The held plate's even and odd motions."""
+        return self.once("halves", lambda: (HeldHalf(self, odd=False), HeldHalf(self, odd=True)))
+
+    @property
+    def elements(self) -> Assembly:
+        """Of the loose plate."""
+        return self.once("elements", lambda: Assembly(self.loose))
 
     @property
     def specimen(self) -> Specimen:
@@ -67,29 +83,48 @@ class FullPlate:
         p = self.loose
         return sp.csc_array(p.K_0.real + 1e6 * p.K_1 + (2 * np.pi * 50) ** 2 * p.M)
 
+    def unit(self, X: Complex) -> Complex:
+        """Columns scaled to unit size."""
+        return np.asarray(X / np.sqrt(np.real(np.einsum("ij,ij->j", X.conj(), times(self.scale, X)))))
+
     def snapshot(self, omega: float, G: complex) -> "Snapshot":
         """Responses to base and pickup at a point of the domain."""
-        halves = []
-        for P in (self.held.even, self.held.odd):
-            A = P.T @ self.held.dynamic_stiffness(omega, G) @ P
-            halves.append((P, direct_solver(A, omega, self.damping.projected(P))))
+        even, odd = (half.solver(omega, G) for half in self.halves)
+        X, Z = even(self.loads), odd(self.loads[:, 1:])
+        return Snapshot(omega, G, X[:, 0], X[:, 1] + Z[:, 0], even, odd)
 
-        def solve(forces: NDArray[np.float64] | Complex, *, odd: bool) -> Complex:
-            f = self.lift.T @ forces
-            parts = halves if odd else halves[:1]
-            return np.asarray(sum(self.lift @ (P @ half(P.T @ f)) for P, half in parts), dtype=complex)
+    @property
+    def loads(self) -> Array:
+        """Of a unit base acceleration, and a unit force at the pickup. Shape (n, 2)."""
 
-        # -M r of the held plate carries the inertia of its root too.
-        loads = np.column_stack([-(self.loose.M @ self.heave), self.loose.observe(*self.pickup_m)])
-        X = solve(loads, odd=False)
-        Z = solve(loads[:, 1:], odd=True)
-        return Snapshot(omega, G, X[:, 0], Z[:, 0], solve)
+        def make() -> Array:
+            # -M r of the held plate carries the inertia of its root too.
+            return np.column_stack([-(self.loose.M @ self.heave), self.loose.observe(*self.pickup_m)])
+
+        return self.once("loads", make)
 
     @property
     def pickup_m(self) -> tuple[float, float]:
         """Of the specimen."""
         assert self.specimen.pickup_m is not None
         return self.specimen.pickup_m
+
+
+class HeldHalf:
+    """The held plate's motions of one parity, among the loose plate's."""
+
+    def __init__(self, full: FullPlate, *, odd: bool) -> None:
+        self.half = HalfPlate(full.held, odd=odd)
+        self.damping = full.damping.projected(self.half.P)
+        self.up = sp.csr_array(full.lift @ self.half.P)
+        self.down = sp.csr_array(self.up.T)
+        for name in ("M", "K_0", "K_1"):
+            getattr(self.half, name)
+
+    def solver(self, omega: float, G: complex) -> Solver:
+        """Forces on the loose plate to its responses. Shape (n, m) both."""
+        solve = self.half.solver(omega, G, self.damping)
+        return lambda forces: np.asarray(times(self.up, solve(times(self.down, forces))))
 
 
 @dataclass(frozen=True)
@@ -102,13 +137,36 @@ class Snapshot:
     """Response to a unit base acceleration. Shape (n,)."""
     z: Complex
     """Response to a unit force at the pickup, odd motions too. Shape (n,)."""
-    solve: Callable[..., Complex]
-    """Forces (n, m) to responses of the held plate; `odd` for motions odd in y too."""
+    even: Solver
+    """Forces, (n, m), to even responses of the held plate."""
+    odd: Solver
 
-    @property
+    def solve(self, forces: Array | Complex, *, odd: bool) -> Complex:
+        """The held plate's responses; `odd` for motions odd in y too. Shape (n, m)."""
+        found = self.even(forces)
+        if odd:
+            found += self.odd(forces)
+        return found
+
+    def answers(self, forces: Sequence[Array | Complex], odd: Sequence[bool]) -> list[Complex]:
+        """As `solve`, for many at once: far quicker."""
+        found = _side_by_side(self.even, forces)
+        twisting = [k for k, wanted in enumerate(odd) if wanted]
+        for k, more in zip(twisting, _side_by_side(self.odd, [forces[k] for k in twisting]), strict=True):
+            found[k] += more
+        return found
+
+    @cached_property
     def both(self) -> Complex:
         """X and z side by side, z of the size of x. Shape (n, 2)."""
         return np.column_stack([self.x, self.z * (np.linalg.norm(self.x) / np.linalg.norm(self.z))])
+
+
+def _side_by_side(solve: Solver, forces: Sequence[Array | Complex]) -> list[Complex]:
+    if not forces:
+        return []
+    ends = np.cumsum([f.shape[1] for f in forces])[:-1]
+    return list(np.split(solve(np.asarray(np.hstack(forces), dtype=complex)), ends, axis=1))
 
 
 def _loose(specimen: Specimen) -> Specimen:

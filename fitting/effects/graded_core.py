@@ -11,6 +11,7 @@ from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.partial_debond import strips
 from fitting.effects.spanned import SpannedPlate
 from fitting.element import DOFS, Shape, core_shear
+from fitting.linear import times
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -33,10 +34,14 @@ class Grading(Span):
     def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
         return {"K_1": tilted(full, self.along)}
 
-    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
-        dA = _GRADE * at.G * tilted(full, self.along)
-        first = at.solve(dA @ at.both, odd=self.odd)
-        return np.hstack([first, at.solve(dA @ first, odd=self.odd)])
+    def forces(self, full: FullPlate, at: Snapshot) -> Complex:
+        return self._of(full, at, at.both)
+
+    def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
+        return np.hstack([answers, at.solve(self._of(full, at, answers), odd=self.odd)])
+
+    def _of(self, full: FullPlate, at: Snapshot, X: Complex) -> Complex:
+        return np.asarray(_GRADE * at.G * times(tilted(full, self.along), X))
 
 
 def tilted(full: FullPlate, along: str) -> sp.csc_array:

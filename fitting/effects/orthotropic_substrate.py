@@ -3,42 +3,41 @@
 from collections.abc import Mapping
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from fitting.effects.base import Change, Effect, Span, Unknown
 from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.other_plates import mixed
 from fitting.effects.spanned import SpannedPlate
 from fitting.element import DOFS, U_B, V_B, Shape
+from fitting.parts import STIFFNESS
 from fitting.specimen import Face
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-_STEP = 0.15
+_RATIOS = (0.85, 1.15)
 
 
 class Orthotropy(Span):
-    """Motions with another stiffness across the plate; its stiffness at two others."""
+    """Motions with another stiffness across the plate."""
 
     name = "orthotropy"
     columns = 12
 
-    def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
-        return {"K_soft": _difference(full, 1 - _STEP), "K_stiff": _difference(full, 1 + _STEP)}
-
-    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
-        changes = [_difference(full, ratio) @ at.both for ratio in (1 - _STEP, 1 + _STEP)]
-        return at.solve(np.hstack(changes), odd=False)
+    def forces(self, full: FullPlate, at: Snapshot) -> Complex:
+        return np.hstack([full.elements.forces(A, at.both) for A in _differences(full)])
 
 
-def _difference(full: FullPlate, ratio: float) -> sp.csc_array:
-    def make() -> sp.csc_array:
+def _differences(full: FullPlate) -> list[Array]:
+    """What an element's stiffness differs by. Shape (28, 28) each."""
+
+    def make() -> list[Array]:
         shape, face = Shape(*full.loose.mesh.sides_m), full.specimen.substrate
-        change = plane_stress(face, ratio) - plane_stress(face, 1.0)
-        return full.loose.scatter(substrate_stiffness(shape, face.thickness_m, change))
+        changes = [plane_stress(face, ratio) - plane_stress(face, 1.0) for ratio in _RATIOS]
+        return [substrate_stiffness(shape, face.thickness_m, D) for D in changes]
 
-    return full.once(f"orthotropy {ratio}", make)
+    return full.once("orthotropy", make)
 
 
 def plane_stress(face: Face, ratio: float) -> Array:
@@ -66,6 +65,18 @@ def substrate_stiffness(shape: Shape, thickness_m: float, D: Array) -> Array:
     return K
 
 
+def substrate_coefficients(face: Face, D: Array) -> Complex:
+    """Of `fitting.parts` for a substrate with this D, its loss factor as stated. Shape of `STIFFNESS`."""
+    each = {"11": D[0, 0], "22": D[1, 1], "12": D[0, 1], "66": D[2, 2]}
+    by_layer = {"stretch b": face.thickness_m, "bend": face.thickness_m**3 / 12}
+    found = [
+        size * each[part.removeprefix(f"{layer} ")[:2]] if part.startswith(layer) else 0.0
+        for part in STIFFNESS
+        for layer, size in by_layer.items()
+    ]
+    return (1 + 1j * face.loss_factor) * np.reshape(found, (len(STIFFNESS), -1)).sum(axis=1)
+
+
 class OrthotropicSubstrate(Effect):
     """E_y over E_x, E_x as stated."""
 
@@ -79,11 +90,9 @@ class OrthotropicSubstrate(Effect):
     )
 
     def change(self, plate: SpannedPlate, u: Array) -> Change:
-        # In the ratio the stiffness is smooth: two others give it to third order.
-        r = np.array([1 - _STEP, 1 + _STEP])
-        columns = np.column_stack([r - 1, np.sqrt(r) - 1])
-        a, b = np.linalg.solve(columns.T, [u[0] - 1, np.sqrt(u[0]) - 1])
-        return Change(K=a * plate.matrix("orthotropy.K_soft") + b * plate.matrix("orthotropy.K_stiff"))
+        face = plate.specimen.substrate
+        change = plane_stress(face, float(u[0])) - plane_stress(face, 1.0)
+        return Change(K=mixed(substrate_coefficients(face, change), plate.parts[: len(STIFFNESS)]))
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"the substrate is {100 * (u['ratio'] - 1):+.1f} % stiffer across than along"

@@ -10,6 +10,7 @@ from fitting.effects.base import Change, Effect, Points, Span, Unknown
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.spanned import SpannedPlate
 from fitting.element import Shape, core_shear_stiffness
+from fitting.linear import times
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -33,25 +34,30 @@ class Strips(Span):
     def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
         return {f"{k:03d}": A for k, A in enumerate(strips(full, self.along))}
 
-    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
-        lost = [(1 - LEFT) * at.G * (A @ at.both) for A in strips(full, self.along)]
-        # Two rows of elements at a time.
-        pairs = [sum(lost[k : k + 2], start=0 * lost[0]) for k in range(0, len(lost), 2)]
-        return at.solve(np.hstack(pairs), odd=self.odd)
+    def forces(self, full: FullPlate, at: Snapshot) -> Complex:
+        def make() -> sp.csr_array:
+            # Two rows of elements at a time.
+            rows = strips(full, self.along)
+            return sp.csr_array(sp.vstack([sum(rows[k : k + 2]) for k in range(0, len(rows), 2)]))
+
+        lost = times(full.once(f"pairs of strips along {self.along}", make), at.both)
+        pairs = lost.reshape(-1, *at.both.shape).transpose(1, 0, 2).reshape(len(at.x), -1)
+        return np.asarray((1 - LEFT) * at.G * pairs)
 
 
 def strips(full: FullPlate, along: str) -> list[sp.csc_array]:
     """Shear stiffness for G = 1 Pa of every row of elements, counted along x or y. Shape (n, n) each."""
-    mesh, s = full.loose.mesh, full.specimen
-    assert s.core is not None
-    assert s.constraining is not None
-    Ae = core_shear_stiffness(Shape(*mesh.sides_m), s.core, s.substrate, s.constraining)
-    i, j = np.divmod(np.arange(mesh.n_x * mesh.n_y), mesh.n_y)
-    place, count = (i, mesh.n_x) if along == "x" else (j, mesh.n_y)
-    return full.once(
-        f"strips along {along}",
-        lambda: [full.loose.scatter(Ae, np.flatnonzero(place == k)) for k in range(count)],
-    )
+
+    def make() -> list[sp.csc_array]:
+        mesh, s = full.loose.mesh, full.specimen
+        assert s.core is not None
+        assert s.constraining is not None
+        Ae = core_shear_stiffness(Shape(*mesh.sides_m), s.core, s.substrate, s.constraining)
+        i, j = np.divmod(np.arange(mesh.n_x * mesh.n_y), mesh.n_y)
+        place, count = (i, mesh.n_x) if along == "x" else (j, mesh.n_y)
+        return [full.loose.scatter(Ae, np.flatnonzero(place == k)) for k in range(count)]
+
+    return full.once(f"strips along {along}", make)
 
 
 class PartialDebond(Effect):

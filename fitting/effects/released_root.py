@@ -8,7 +8,7 @@ so one factorisation of the held plate serves every spring S at the root. Its mo
 a few polynomials do.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.element import DOFS
+from fitting.linear import times
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -41,32 +42,56 @@ class ReleasedRoot:
     held: Complex
     """Responses of the held plate to the same. Shape (n, 2)."""
 
-    def answers(self, full: FullPlate, springs: sp.sparray) -> Complex:
-        """Responses on springs at the root, of unit size. Shape (n, 2)."""
-        T = self.T[self.root]
-        S = T.T @ (sp.csr_array(springs)[self.root][:, self.root] @ T)
-        X = self.held + self.T @ np.linalg.solve(self.stiffness + S, self.forces)
-        return np.asarray(X / np.sqrt(np.real(np.einsum("ij,ij->j", X.conj(), full.scale @ X))))
+    def answers(self, full: FullPlate, springs: Iterable[sp.sparray]) -> Complex:
+        """Responses on springs at the root, of unit size. Shape (n, 2 springs)."""
+        T, found = self.T[self.root], []
+        for each in springs:
+            S = T.T @ times(sp.csr_array(each)[self.root][:, self.root], T)
+            found.append(np.linalg.solve(self.stiffness + S, self.forces))
+        return full.unit(np.tile(self.held, len(found)) + self.T @ np.hstack(found))
 
 
-def released(full: FullPlate, at: Snapshot, dofs: Sequence[int], *, odd: bool) -> ReleasedRoot:
-    """The root released in some of a node's degrees of freedom; `odd` for motions odd in y too."""
-    loose = full.loose
-    root = root_dofs(full, dofs)
-    along = _along(loose.mesh.n_y + 1)
-    E = np.zeros((loose.size, along.shape[1] * len(dofs)))
-    E[root] = np.kron(along, np.eye(len(dofs)))
-    A = loose.dynamic_stiffness(at.omega, at.G).tocsr()
-    loads = np.column_stack([-(loose.M @ full.heave), loose.observe(*full.pickup_m)])
+def root_forces(full: FullPlate, at: Snapshot, dofs: Sequence[int]) -> Complex:
+    """What `released` asks the held plate's answers to. Shape (n, any)."""
+    return np.hstack([_beside_root(full, at, dofs) @ _moved(full, dofs), full.loads])
+
+
+def released(
+    full: FullPlate, at: Snapshot, dofs: Sequence[int], answers: Complex, *, odd: bool
+) -> ReleasedRoot:
+    """The root released in some of a node's degrees of freedom; `odd` for motions odd in y too.
+
+    `answers` are those of the held plate to `root_forces`.
+    """
+    root, moved = root_dofs(full, dofs), _moved(full, dofs)
     # An even and an odd motion in one column: its response and the mirrored one tell them apart.
-    answered = at.solve(np.hstack([A @ E, loads]), odd=odd)
-    follow, held = answered[:, : E.shape[1]], answered[:, E.shape[1] :]
+    follow, held = answers[:, : moved.shape[1]], answers[:, moved.shape[1] :]
+    E = np.zeros((full.loose.size, moved.shape[1]))
+    E[root] = moved
     if odd:
         F = E - follow
-        T = np.hstack([F + _mirrored(full, F), F - _mirrored(full, F)])
+        G = _mirrored(full, F)
+        T = np.hstack([F + G, F - G])
     else:
         T = E + _mirrored(full, E) - 2 * follow
-    return ReleasedRoot(root, T, T[root].T @ (A[root] @ T), T.T @ loads, held)
+    beside = sp.csr_array(_beside_root(full, at, dofs).T)
+    return ReleasedRoot(root, T, T[root].T @ (beside @ T), T.T @ full.loads, held)
+
+
+def _moved(full: FullPlate, dofs: Sequence[int]) -> Array:
+    """Motions of the root, smooth along y. Shape (released, few)."""
+    return np.asarray(np.kron(_along(full.loose.mesh.n_y + 1), np.eye(len(dofs))), dtype=float)
+
+
+def _beside_root(full: FullPlate, at: Snapshot, dofs: Sequence[int]) -> sp.csr_array:
+    """Columns of the dynamic stiffness at the root. Shape (n, released)."""
+
+    def make() -> list[sp.csr_array]:
+        root = root_dofs(full, dofs)
+        return [sp.csr_array(A[:, root]) for A in (full.loose.K_0, full.loose.K_1, full.loose.M)]
+
+    K_0, K_1, M = full.once(f"beside the root {dofs}", make)
+    return sp.csr_array(K_0 + at.G * K_1 - at.omega**2 * M)
 
 
 def _along(nodes: int) -> Array:
@@ -78,8 +103,13 @@ def _along(nodes: int) -> Array:
 
 def _mirrored(full: FullPlate, X: Array | Complex) -> Array | Complex:
     """Motions of the loose plate seen in the mirror y to width - y."""
-    P = full.loose.even
-    return np.asarray(2 * (P @ (P.T @ X)) - X)
+
+    def make() -> tuple[sp.csr_array, sp.csr_array]:
+        P = full.loose.even
+        return sp.csr_array(P), sp.csr_array(P.T)
+
+    up, down = full.once("even motions", make)
+    return np.asarray(2 * times(up, times(down, X)) - X)
 
 
 def root_dofs(full: FullPlate, dofs: Sequence[int]) -> Indices:

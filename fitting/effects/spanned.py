@@ -17,12 +17,23 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from fitting.effects.base import Change, Span
-from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.full_plate import FullPlate
+from fitting.effects.leading import Motions, Stirred
 from fitting.element import DOFS, THETA_X, THETA_Y, Shape, W
-from fitting.linear import factorise
-from fitting.parts import load_part, projected_parts
+from fitting.linear import times
+from fitting.parts import (
+    CORE,
+    STIFFNESS,
+    Coefficients,
+    coefficients,
+    layers_of,
+    load_part,
+    projected_parts,
+    specimen_of,
+)
 from fitting.plate import Mesh
 from fitting.reduced import ReducedPlate
+from fitting.specimen import Specimen
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -70,6 +81,8 @@ class SpannedPlate:
     """By what is stated (`fitting.parts`). Shape (parts, k, k)."""
     load_part: Array
     """Shape (k,)."""
+    layers: Array
+    """What is stated of them (`fitting.parts.layers_of`), zero for a plate that carries no effects."""
 
     def take(self, spans: Iterable[Span], *, wanted: Sequence[str] | None = None) -> "SpannedPlate":
         """The plate on its own columns and those of `spans`, matrices of other spans left out."""
@@ -121,6 +134,7 @@ class SpannedPlate:
             pickup=np.array(pickup_m),
             parts=reduced.parts,
             load_part=reduced.load_part,
+            layers=np.zeros((3, 5)),
         )
 
     def condensed(
@@ -198,6 +212,16 @@ class SpannedPlate:
         )
 
     @cached_property
+    def specimen(self) -> Specimen:
+        """As stated, as far as `parts` go."""
+        return specimen_of(self.size, self.layers)
+
+    @cached_property
+    def coefficients(self) -> Coefficients:
+        """Of its `parts`, as stated."""
+        return coefficients(self.specimen, self.specimen)
+
+    @cached_property
     def _place(self) -> dict[str, int]:
         return {str(n): k for k, n in enumerate(self.names)}
 
@@ -242,27 +266,30 @@ def span_plate(
     progress: Callable[[float], None] = lambda fraction: None,
 ) -> SpannedPlate:
     """Build it. `basis`: the unchanged plate's columns over the held degrees of freedom. Shape (held, k)."""
-    own = _orthonormal(full.scale, full.lift @ basis)
+    halves = Motions(full, odd=False), Motions(full, odd=True)
+    even, odd = halves
     with threadpool_limits(1, "blas"), ThreadPoolExecutor(2) as pool:
-        found: list[list[Complex]] = []
-        for answers in pool.map(lambda at: _responses(full, spans, at), _points()):
+        found: list[tuple[dict[str, Stirred], dict[str, Stirred]]] = []
+        for answers in pool.map(lambda at: _responses(full, halves, spans, at), _points()):
             found.append(answers)
             progress(0.8 * len(found) / SNAPSHOTS)
-        even, odd = full.loose.even, full.loose.odd
-        odd_own = _leading(
-            full.scale, odd, np.empty((full.scale.shape[0], 0)), [f[0] for f in found], 1e-4, 40
-        )
-        columns: list[Array] = [own, odd_own]
-        group = ["plate"] * own.shape[1] + ["plate/odd"] * odd_own.shape[1]
-        for k, span in enumerate(spans):
-            stirred = [f[k + 1] for f in found]
-            columns.append(_leading(full.scale, even, own, stirred, TOLERANCE, span.columns))
-            group += [span.name] * columns[-1].shape[1]
+        own = even.orthonormal(even.of(full.lift @ basis))
+        odd_own = odd.leading([by_name["plate"] for _, by_name in found], None, 1e-4, 40)
+        even.groups["plate"], odd.groups["plate/odd"] = own, odd_own
+
+        def motions(span: Span) -> list[Array]:
+            beside = ((even, own), (odd, odd_own)) if span.odd else ((even, own),)
+            return [
+                half.leading([both[n][span.name] for both in found], known, TOLERANCE, span.columns)
+                for n, (half, known) in enumerate(beside)
+            ]
+
+        for span, V in zip(spans, pool.map(motions, spans), strict=True):
+            even.groups[span.name] = V[0]
             if span.odd:
-                columns.append(_leading(full.scale, odd, odd_own, stirred, TOLERANCE, span.columns))
-                group += [f"{span.name}/odd"] * columns[-1].shape[1]
-            progress(0.8 + 0.2 * (k + 1) / len(spans))
-        return _project(full, np.hstack(columns), np.array(group), spans)
+                odd.groups[f"{span.name}/odd"] = V[1]
+            progress(0.8 + 0.1 * len(even.groups) / len(spans))
+        return _project(full, even, odd, spans, pool)
 
 
 def _points() -> list[tuple[float, complex]]:
@@ -273,58 +300,58 @@ def _points() -> list[tuple[float, complex]]:
     return [(float(w), complex(1e5 * 100.0**m * (1 + 0.6j))) for w, m in zip(omega, t, strict=True)]
 
 
-def _responses(full: FullPlate, spans: Sequence[Span], point: tuple[float, complex]) -> list[Complex]:
+def _responses(
+    full: FullPlate, halves: tuple[Motions, Motions], spans: Sequence[Span], point: tuple[float, complex]
+) -> tuple[dict[str, Stirred], dict[str, Stirred]]:
+    """To the pickup and of each span, by its name: even motions, and odd ones where it has any."""
+    even, odd = halves
     at = full.snapshot(*point)
-    size = np.sqrt(np.real(np.vdot(at.x, full.scale @ at.x)))
-    at = Snapshot(at.omega, at.G, at.x / size, at.both[:, 1] / size, at.solve)
-    return [at.both[:, 1:], *(span.responses(full, at) for span in spans)]
+    size = np.sqrt(np.real(np.vdot(at.x, times(full.scale, at.x))))
+    at = replace(at, x=at.x / size, z=at.both[:, 1] / size)
+    forces = [span.forces(full, at) for span in spans]
+    answers = at.answers(forces, [span.odd for span in spans])
+    found = {span.name: span.responses(full, at, X) for span, X in zip(spans, answers, strict=True)}
+    twisting = {span.name: found[span.name] for span in spans if span.odd} | {"plate": at.both[:, 1:]}
+    return (
+        dict(zip(found, even.stirred(list(found.values())), strict=True)),
+        dict(zip(twisting, odd.stirred(list(twisting.values())), strict=True)),
+    )
 
 
-def _leading(
-    scale: sp.csc_array, P: sp.csc_array, known: Array, responses: list[Complex], tolerance: float, most: int
-) -> Array:
-    """Orthonormal motions of one parity that the responses have beside `known`. Shape (n, few)."""
-    X = np.hstack(responses)
-    X = np.asarray(P @ (P.T @ np.hstack([X.real, X.imag])))
-    for _ in range(2):
-        X = X - known @ (known.T @ (scale @ X))
-    values, vectors = np.linalg.eigh(X.T @ (scale @ X))
-    few = np.argsort(values)[::-1][:most]
-    few = few[values[few] > tolerance**2]
-    V = X @ (vectors[:, few] / np.sqrt(values[few]))
-    V = V - known @ (known.T @ (scale @ V))
-    return _orthonormal(scale, V)
-
-
-def _orthonormal(scale: sp.csc_array, V: Array) -> Array:
-    for _ in range(2):
-        R = np.linalg.cholesky(V.T @ (scale @ V))
-        V = la.solve_triangular(R, V.T, lower=True).T
-    return np.asarray(V)
-
-
-def _project(full: FullPlate, V: Array, group: Names, spans: Sequence[Span]) -> SpannedPlate:
-    loose = full.loose
+def _project(
+    full: FullPlate, even: Motions, odd: Motions, spans: Sequence[Span], pool: ThreadPoolExecutor
+) -> SpannedPlate:
+    loose, s = full.loose, full.specimen
+    V = np.hstack([half.half.P @ half.columns for half in (even, odd)])
     matrices: dict[str, Array] = {}
     vectors: dict[str, Array] = {}
+    of_spans = [(f"{span.name}.{name}", A) for span in spans for name, A in span.matrices(full).items()]
+    projected = pool.map(lambda named: _between(V, named[1]), of_spans)
+    parts = [
+        pool.submit(projected_parts, loose, half.half.P @ half.columns, one_parity=True)
+        for half in (even, odd)
+    ]
     for span in spans:
-        for name, A in span.matrices(full).items():
-            matrices[f"{span.name}.{name}"] = _between(V, A)
         vectors |= {f"{span.name}.{name}": V.T @ v for name, v in span.vectors(full).items()}
+    for (name, _), A in zip(of_spans, projected, strict=True):
+        matrices[name] = A
     k = V.shape[1]
-    s = full.specimen
-    held_modes = full.lift @ _over_mass(full)
+    both = _in_blocks([found.result() for found in parts])
+    stated = coefficients(s, s)
+    # The inertia of held nodes loads their neighbours.
+    of_load = V.T @ load_part(s)[loose.free]
+    K_0, K_1, M = np.split(both, np.cumsum([len(STIFFNESS), len(CORE)]))
     return SpannedPlate(
-        group=group,
-        M=V.T @ (loose.M @ V),
-        K_0=np.asarray(V.T @ (loose.K_0 @ V), dtype=complex),
-        K_1=V.T @ (loose.K_1 @ V),
-        U=V.T @ (loose.M @ held_modes),
+        group=np.array(even.names + odd.names),
+        M=np.tensordot(stated.M, M, axes=1),
+        K_0=np.tensordot(stated.K_0, K_0, axes=1),
+        K_1=np.tensordot(stated.K_1, K_1, axes=1),
+        U=V.T @ (loose.M @ _over_mass(full)),
         d=full.damping.d,
-        load=-V.T @ (loose.M @ full.heave),
+        load=-stated.load * of_load,
         pitch=-V.T @ (loose.M @ full.pitching),
         observe=V.T @ loose.observe(*full.pickup_m),
-        gram=V.T @ (full.scale @ V),
+        gram=la.block_diag(even.gram, odd.gram),
         names=np.array(list(matrices), dtype=str),
         matrices=np.array(list(matrices.values())).reshape(-1, k, k),
         vector_names=np.array(list(vectors), dtype=str),
@@ -332,9 +359,21 @@ def _project(full: FullPlate, V: Array, group: Names, spans: Sequence[Span]) -> 
         deflection=loose.on_nodes(V)[:, [W, THETA_X, THETA_Y]],
         size=np.array([s.length_m, s.width_m, loose.mesh.n_x, loose.mesh.n_y], dtype=float),
         pickup=np.array(full.pickup_m),
-        parts=projected_parts(loose, V),
-        load_part=V.T @ load_part(s)[loose.free],
+        parts=both,
+        load_part=of_load,
+        layers=layers_of(s),
     )
+
+
+def _in_blocks(parts: Sequence[Array]) -> Array:
+    """Stacks of matrices along the diagonal. Shape (count, k, k)."""
+    k = sum(p.shape[1] for p in parts)
+    found, at = np.zeros((len(parts[0]), k, k)), 0
+    for p in parts:
+        there = slice(at, at + p.shape[1])
+        found[:, there, there] = p
+        at = there.stop
+    return found
 
 
 def _between(V: Array, A: sp.sparray | Array) -> Array:
@@ -350,10 +389,12 @@ def _between(V: Array, A: sp.sparray | Array) -> Array:
 
 
 def _over_mass(full: FullPlate) -> Array:
-    """Phi of C_1 = M Phi diag(d) Phi^T M. Shape (held, modes)."""
-    if not full.damping.d.size:
-        return np.empty((full.held.size, 0))
-    return factorise(full.held.M)(full.damping.U)
+    """Phi of C_1 = M Phi diag(d) Phi^T M, on the loose plate. Shape (n, modes)."""
+    found = np.zeros((full.loose.size, len(full.damping.d)))
+    for held in full.halves:
+        half = held.half
+        found += held.up @ half.chain.factorise(half.M)(half.down @ full.damping.U)
+    return found
 
 
 def _starting(names: Names, prefixes: tuple[str, ...]) -> NDArray[np.intp]:

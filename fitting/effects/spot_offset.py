@@ -20,9 +20,9 @@ class Spot(Span):
 
     name = "spot"
 
-    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
+    def forces(self, full: FullPlate, at: Snapshot) -> Array:
         s, (x, y) = full.specimen, full.pickup_m
-        rows = np.column_stack(
+        return np.column_stack(
             [
                 full.loose.observe(
                     float(np.clip(x + dx, 0, s.length_m)), float(np.clip(y + dy, 0, s.width_m))
@@ -30,8 +30,9 @@ class Spot(Span):
                 for dx, dy in _AROUND_M
             ]
         )
-        X = at.solve(rows, odd=False)
-        return np.asarray(0.3 * X / np.sqrt(np.real(np.einsum("ij,ij->j", X.conj(), full.scale @ X))))
+
+    def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
+        return 0.3 * full.unit(answers)
 
 
 class SpotOffset(Effect):

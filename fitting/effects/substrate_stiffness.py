@@ -1,14 +1,16 @@
 """The substrate is stiffer or softer than its data sheet."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from fitting.effects.base import Change, Effect, Span, Unknown
 from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.other_plates import changed_to
 from fitting.effects.spanned import SpannedPlate
+from fitting.linear import times
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -21,11 +23,8 @@ class Substrate(Span):
 
     name = "substrate"
 
-    def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
-        return {"K": full.loose.K_substrate}
-
-    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
-        return at.solve(_TYPICAL * (full.loose.K_substrate @ at.both), odd=False)
+    def forces(self, full: FullPlate, at: Snapshot) -> Array | Complex:
+        return _TYPICAL * times(full.loose.K_substrate, at.both)
 
 
 class SubstrateStiffness(Effect):
@@ -43,7 +42,9 @@ class SubstrateStiffness(Effect):
         return np.full(len(lowering_per_density), 0.5 * np.log(u[0]))
 
     def change(self, plate: SpannedPlate, u: Array) -> Change:
-        return Change(K=(u[0] - 1) * plate.matrix("substrate.K"))
+        s = plate.specimen
+        young = u[0] * s.substrate.young_pa
+        return changed_to(plate, replace(s, substrate=replace(s.substrate, young_pa=young)))
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"the substrate is {100 * (u['scale'] - 1):+.1f} % off its stated stiffness"

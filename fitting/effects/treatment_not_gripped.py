@@ -12,13 +12,14 @@ from numpy.typing import NDArray
 
 from fitting.effects.base import Change, Effect, Points, Span, Unknown
 from fitting.effects.full_plate import FullPlate, Snapshot
-from fitting.effects.released_root import along_root, on_root, released
+from fitting.effects.released_root import along_root, on_root, released, root_forces
 from fitting.effects.spanned import SpannedPlate
 from fitting.element import DOFS, U_C, V_C
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
+_RELEASED = (U_C, V_C)
 _SPANNED = (1e6, 1e8, 4e8, 3e9)
 
 
@@ -31,12 +32,17 @@ class FreeTreatment(Span):
     def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
         return {"hold": hold(full)}
 
-    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
+    def forces(self, full: FullPlate, at: Snapshot) -> Array | Complex:
         if full.specimen.boundary != "cantilever":
-            return super().responses(full, at)
-        root = released(full, at, (U_C, V_C), odd=False)
+            return super().forces(full, at)
+        return root_forces(full, at, _RELEASED)
+
+    def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
+        if full.specimen.boundary != "cantilever":
+            return answers
+        root = released(full, at, _RELEASED, answers, odd=False)
         S = full.once("hold of the treatment", lambda: hold(full))
-        return np.hstack([root.answers(full, k * S) for k in _SPANNED])
+        return root.answers(full, [k * S for k in _SPANNED])
 
 
 def hold(full: FullPlate) -> sp.csc_array:

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from fitting.effects.base import Change, Effect, Points, Span, Unknown
 from fitting.effects.clamp_compliance import ClampCompliance, root_springs
 from fitting.effects.full_plate import FullPlate, Snapshot
-from fitting.effects.released_root import along_root, released
+from fitting.effects.released_root import along_root, released, root_forces
 from fitting.effects.spanned import SpannedPlate
 from fitting.element import DOFS, THETA_Y, U_B, U_C, W
 
@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 _MOST = 0.95
+_RELEASED = (U_C, U_B, W, THETA_Y)
 _SPANNED = ((6e12, 0.7), (2e13, 0.9), (6e13, 0.9), (4e14, 0.9))
 
 
@@ -30,12 +31,17 @@ class UnevenRoot(Span):
     def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
         return dict(zip(("mean", "slope"), uneven_springs(full), strict=True))
 
-    def responses(self, full: FullPlate, at: Snapshot) -> Complex:
+    def forces(self, full: FullPlate, at: Snapshot) -> Array | Complex:
         if full.specimen.boundary != "cantilever":
-            return super().responses(full, at)
-        root = released(full, at, (U_C, U_B, W, THETA_Y), odd=True)
+            return super().forces(full, at)
+        return root_forces(full, at, _RELEASED)
+
+    def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
+        if full.specimen.boundary != "cantilever":
+            return answers
+        root = released(full, at, _RELEASED, answers, odd=True)
         mean, slope = uneven_springs(full)
-        return np.hstack([root.answers(full, k * (mean + s * slope)) for k, s in _SPANNED])
+        return root.answers(full, [k * (mean + s * slope) for k, s in _SPANNED])
 
 
 def uneven_springs(full: FullPlate) -> tuple[sp.csc_array, sp.csc_array]:

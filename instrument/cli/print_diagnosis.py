@@ -5,7 +5,14 @@ from typing import Any
 
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from instrument.cli.output import Output
-from instrument.diagnosis_words import law_at, probability_words, some_parameters, verdict_line, with_verdict
+from instrument.diagnosis_words import (
+    law_at,
+    probability_words,
+    resampling_words,
+    some_parameters,
+    verdict_line,
+    with_verdict,
+)
 
 Facts = dict[str, Any]
 
@@ -20,6 +27,9 @@ def print_diagnosis(out: Output, facts: Facts) -> None:
     _print_candidates(out, facts)
     out.say()
     print_before_after(out, facts)
+    resampled = resampling_words(facts)
+    if resampled:
+        out.say(f"by resampling: {resampled}")
     out.say()
     _print_law(out, facts)
     for text in facts["warnings"]:

@@ -4,7 +4,14 @@ from typing import Any
 
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from instrument.diagnosis_figures import evidence_figure, law_figure, residual_figure
-from instrument.diagnosis_words import law_at, probability_words, some_parameters, verdict_line, with_verdict
+from instrument.diagnosis_words import (
+    law_at,
+    probability_words,
+    resampling_words,
+    some_parameters,
+    verdict_line,
+    with_verdict,
+)
 from instrument.interchange.contents import Contents
 from instrument.report.blocks import Block, Section, Sentence, Table
 from instrument.report.drawing import picture
@@ -33,6 +40,8 @@ def diagnosis_sections(contents: Contents) -> list[Section]:
     if facts["next_measurement"]:
         blocks.append(Sentence(f"Next measurement: {facts['next_measurement']}", "note"))
     blocks += [Sentence(text, "note") for text in facts["warnings"]]
+    resampled = resampling_words(facts)
+    blocks += [Sentence(f"By resampling: {resampled}.")] if resampled else []
     blocks += [
         _before_after(facts),
         picture(residual_figure(facts), "Residual before and after: predicted over measured, less one"),

@@ -83,7 +83,7 @@ def test_the_moved_plate_answers_as_one_built_anew(moved):
         found, expected = moved.answer(z).heave, moved.anew(z)
         np.testing.assert_allclose(found, expected, rtol=1e-4)
         off.append(np.abs(expected / stated - 1).max())
-    assert max(off) > 0.05
+    assert max(off) > 0.02
 
 
 @pytest.mark.parametrize("name", PLATE)
@@ -94,7 +94,7 @@ def test_each_stated_number_moves_the_plate_as_one_built_anew(moved, name):
         np.testing.assert_allclose(moved.answer(z).heave, moved.anew(z), rtol=1e-4)
 
 
-@pytest.mark.parametrize(("part", "tolerance"), [(0.0, 1e-6), (0.4, 0.03)])
+@pytest.mark.parametrize(("part", "tolerance"), [(0.0, 1e-6), (0.4, 0.1)])
 def test_derivatives_agree_with_differences(moved, part, tolerance):
     """Exact at whole numbers of standard deviations, and between them as good as a fit needs."""
     z = np.round(next(moved.places())) + part

@@ -33,8 +33,8 @@ def given(monkeypatch):
     """What the command hands on, in place of a diagnosis that takes its time."""
     seen = {}
 
-    def stub(sweep, specimen, hammer, without, progress, accept):
-        seen.update(sweep=sweep, specimen=specimen, hammer=hammer, without=without, accept=accept)
+    def stub(sweep, specimen, hammer, without, progress, accept, **how):
+        seen.update(sweep=sweep, specimen=specimen, hammer=hammer, without=without, accept=accept, **how)
 
     monkeypatch.setattr(command, "diagnose_sweep", stub)
     monkeypatch.setattr(command, "diagnosis_facts", lambda found, sweep: facts())

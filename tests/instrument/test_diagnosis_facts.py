@@ -24,7 +24,9 @@ def test_every_key_that_others_rely_on_is_there(found):
         *("seconds", "setup_seconds"),
     }
     for candidate in found["candidates"]:
-        assert set(candidate) == {"name", "delta_bic", "chi2_per_dof", "parameters"}
+        assert set(candidate) == {
+            *("name", "delta_bic", "probability", "chi2_per_dof", "parameters", "law", "checks")
+        }
     for stage in (found["before"], found["after"]):
         assert set(stage) >= {
             *("rms_percent", "max_percent", "chi2_per_dof", "held_out", "held_out_rms_percent"),
@@ -150,7 +152,8 @@ def test_a_sentinel_far_off_does_not_stretch_its_segment(found):
 
 def test_evidence_stands_above_no_effect(found):
     (ax,) = evidence_figure(found).axes
-    assert [bar.get_width() for bar in ax.patches] == [400.0, 396.5, 394.0, 0.0]
+    assert [bar.get_width() for bar in ax.patches] == [200.0, 198.25, 197.0, 0.0]
+    assert [text.get_text().split(",")[0] for text in ax.texts] == ["82.0 %", "14.0 %", "4.0 %", "< 0.1 %"]
 
 
 def test_of_two_effects_together_one_alone_is_neither_accepted_nor_its_equal(found):

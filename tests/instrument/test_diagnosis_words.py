@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from instrument.diagnosis_words import log_odds, probability_words, with_verdict
+from instrument.diagnosis_words import log_odds, probability_words, resampling_words, with_verdict
 
 
 @pytest.mark.parametrize(
@@ -35,3 +35,12 @@ def test_odds_are_against_none():
     costs = [{"name": "a", "delta_bic": 0.0}, {"name": "none", "delta_bic": 8.0}]
     assert log_odds({"candidates": costs}) == [4.0, 0.0]
     assert log_odds({"candidates": costs[:1]}) == [None]
+
+
+def test_resampling_is_said_where_it_was_done():
+    assert resampling_words({"p_value": None}) == ""
+    said = resampling_words({"p_value": 0.05, "nested_held_out_rms_percent": 2.345})
+    assert said == (
+        "sweeps without any effect gain as much in 5 % of cases; "
+        "data left out, the whole search repeated without them: 2.3 % rms"
+    )

@@ -59,7 +59,7 @@ def test_a_fit_that_is_lost_besides_says_so(coarse):
     specimen = soft(coarse)
     sweep = sweep_of(specimen)
     lost = SimpleNamespace(law=specimen.core.law, velocity_m_s=2 * sweep.velocity_m_s)
-    with pytest.raises(OutsideModel, match="plate theory at .* check units, level and pickup"):
+    with pytest.raises(OutsideModel, match=r"plate theory at .* check units, level and pickup"):
         _checked(specimen, sweep, lost)
 
 

@@ -1,0 +1,202 @@
+"""The cost of an explanation beside its evidence integrated on a grid."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fitting.bent_law import BentLaw
+from fitting.diagnosis.marginal import cost, probabilities
+from fitting.diagnosis.refit import Fitted
+from fitting.effects.base import Effect, Unknown
+from fitting.laws.constant import ConstantModulus
+
+N = 60
+LAW = ConstantModulus(0.5e6, 0.5)
+
+
+class Placed(Effect):
+    """An effect with one unknown that is as likely anywhere between its limits."""
+
+    name, chance = "placed", 0.05
+    unknowns = (Unknown("x", "m", -0.5, 0.5, 0.1, neutral=None),)
+
+
+class Small(Effect):
+    """One with an unknown that is likely small."""
+
+    name, chance = "small", 0.05
+    unknowns = (Unknown("size", "1", -10.0, 10.0, 0.1, spread=0.1),)
+
+
+def linear(columns, data, stated=0, effects=(), law=LAW, noise_known=True):
+    """The end of a fit of data = columns . (what is fitted) + noise of unit size, begun at zero.
+
+    Columns are of the law's log parameters, of as many stated numbers, and of the effects' unknowns.
+    """
+    priors = law.bends + stated
+    own = len(law.names)
+    J = np.vstack([columns, np.zeros((priors, columns.shape[1]))])
+    J[len(data) + stated :, own - law.bends : own] = np.eye(law.bends)
+    J[len(data) : len(data) + stated, own : own + stated] = np.eye(stated)
+    start = -np.concatenate([data, np.zeros(priors)])
+    at = -np.linalg.lstsq(J, start, rcond=None)[0]
+    u = at[own:]
+    return Fitted(
+        effects=tuple(effects),
+        law=law.with_logs(np.log(law.values) + at[:own]),
+        u=u,
+        velocity_m_s=data.astype(complex),
+        residuals=start + J @ at,
+        jacobian=J,
+        data=len(data),
+        free=np.ones(len(u), dtype=bool),
+        stated=stated,
+        noise_known=noise_known,
+    )
+
+
+def design(seed, count):
+    return 40 * np.random.default_rng(seed).normal(size=(N, count))
+
+
+def evidence(columns, data, stated, prior_densities):
+    """-2 ln of the integral over law and unknowns on a grid, stated numbers integrated as the Gaussian they are.
+
+    Without the density of N numbers of unit noise at zero.
+    """
+    own = columns.shape[1] - stated
+    fixed = columns[:, 2 : 2 + stated]
+    C = np.eye(N) + fixed @ fixed.T
+    others = np.delete(columns, range(2, 2 + stated), axis=1)
+    P = np.linalg.inv(C)
+    best = np.linalg.solve(others.T @ P @ others, others.T @ P @ data)
+    root = np.linalg.cholesky(np.linalg.inv(others.T @ P @ others))
+    t = np.linspace(-7, 7, 41)
+    grid = np.stack(np.meshgrid(*[t] * own, indexing="ij"), axis=-1).reshape(-1, own)
+    at = best + grid @ root.T
+    r = data - at @ others.T
+    chi2 = np.einsum("gi,ij,gj->g", r, P, r)
+    log = -0.5 * chi2 + sum(np.log(d(at[:, k])) for k, d in enumerate(prior_densities))
+    volume = np.linalg.det(root) * (t[1] - t[0]) ** own
+    whole = np.log(np.sum(np.exp(log - log.max())) * volume) + log.max()
+    return -2 * whole + np.linalg.slogdet(C)[1]
+
+
+def searched(k):
+    """Density of a log parameter of `LAW`, uniform over the range that is searched."""
+    low, high = np.log(LAW.limits[k].search)
+    return lambda p: np.where((p > low - np.log(LAW.values[k])) & (p < high - np.log(LAW.values[k])), 1, 0) / (
+        high - low
+    )
+
+
+def odds(effect):
+    return -2 * np.log(effect.chance / (1 - effect.chance))
+
+
+PRIORS = {Placed: lambda u: np.full(len(u), 1.0), Small: lambda u: 0.1 / np.pi / (u**2 + 0.01)}
+
+
+@pytest.mark.parametrize("stated", [0, 3])
+@pytest.mark.parametrize("effect", [None, Placed, Small])
+def test_of_a_linear_gaussian_model_it_is_the_exact_evidence(stated, effect):
+    effects = [effect()] if effect else []
+    columns = design(1, 2 + stated + len(effects))
+    data = np.random.default_rng(2).normal(size=N) + columns[:, 2:] @ np.full(stated + len(effects), 0.3)
+    priors = [searched(0), searched(1), *([PRIORS[effect]] if effect else [])]
+    found = cost(linear(columns, data, stated, effects), None)
+    expected = evidence(columns, data, stated, priors) + sum(odds(e) for e in effects)
+    assert found == pytest.approx(expected, abs=0.02)
+
+
+def test_a_bend_is_a_stated_number_of_the_law():
+    """Columns of prior unit width weigh the same, whether the law or the plate has them."""
+    law = BentLaw.over(LAW, np.array([50.0, 90.0]))
+    columns, data = design(3, 2 + law.bends), np.random.default_rng(4).normal(size=N)
+    bent = cost(linear(columns, data, law=law), None)
+    assert bent == pytest.approx(cost(linear(columns, data, stated=law.bends), None), abs=1e-6)
+
+
+def test_a_parameter_that_explains_nothing_costs_by_how_well_it_is_known():
+    columns, data = design(5, 3), np.random.default_rng(6).normal(size=N)
+    # Nothing along the last column beyond the other two.
+    Q, _ = np.linalg.qr(columns)
+    data = data - Q @ (Q.T @ data)
+    plain = cost(linear(columns[:, :2], data), None)
+    costs = []
+    for size in (1.0, 10.0, 100.0):
+        with_it = np.column_stack([columns[:, :2], size * Q[:, 2]])
+        costs.append(cost(linear(with_it, data, effects=[Placed()]), None) - odds(Placed()) - plain)
+    assert np.all(np.diff(costs) > 2)
+    # Ten times as well known: 2 ln 10.
+    assert costs[2] - costs[1] == pytest.approx(2 * np.log(10), abs=0.15)
+
+
+def test_a_parameter_that_the_data_do_not_feel_costs_next_to_nothing():
+    columns, data = design(7, 2), np.random.default_rng(8).normal(size=N)
+    blind = linear(np.column_stack([columns, np.zeros(N)]), data, effects=[Placed()])
+    extra = cost(blind, None) - odds(Placed()) - cost(linear(columns, data), None)
+    assert 0 < extra < 1
+
+
+def test_what_it_must_explain_to_pay_for_itself():
+    """An effect of one unknown wins where it explains more than its odds and its narrowing."""
+    columns, noise = design(9, 3), np.random.default_rng(10).normal(size=N)
+    effect = Small()
+    gains = []
+    for size in np.linspace(0, 0.04, 9):
+        data = noise + size * columns[:, 2]
+        plain = cost(linear(columns[:, :2], data), None)
+        gains.append(plain - cost(linear(columns, data, effects=[effect]), None))
+    assert gains[0] < -odds(effect)
+    assert gains[-1] > 20
+    assert np.count_nonzero(np.diff(np.sign(gains))) == 1
+
+
+def test_an_unlikely_effect_costs_its_odds():
+    columns, data = design(11, 3), np.random.default_rng(12).normal(size=N)
+    rare, common = Small(), Small()
+    rare.chance, common.chance = 0.01, 0.5
+    a, b = (cost(linear(columns, data, effects=[e]), None) for e in (rare, common))
+    assert a - b == pytest.approx(2 * np.log(99))
+
+
+def test_a_small_value_is_likelier_than_a_large_one():
+    columns, data = design(13, 3), np.random.default_rng(14).normal(size=N)
+    at = [
+        cost(linear(columns, data + size * columns[:, 2], effects=[Small()]), None) for size in (0.0, 0.1, 3.0)
+    ]
+    assert at[1] - at[0] == pytest.approx(2 * np.log(2), abs=0.3)
+    assert at[2] - at[0] == pytest.approx(2 * np.log(901), abs=0.3)
+
+
+def test_at_a_physical_limit_there_is_one_side_only():
+    class OneSided(Effect):
+        name, chance = "one_sided", 0.05
+        unknowns = (Unknown("size", "1", 0.0, 10.0, 0.1, spread=0.1),)
+
+    columns, data = design(15, 3), np.random.default_rng(16).normal(size=N)
+    one, both = (cost(linear(columns, data, effects=[e()]), None) for e in (OneSided, Small))
+    assert both - one == pytest.approx(2 * np.log(2))
+
+
+def test_where_the_noise_is_unknown_only_ratios_count():
+    columns, data = design(17, 3), np.random.default_rng(18).normal(size=N)
+
+    def gain(scale):
+        fits = [
+            linear(columns[:, :2], data, noise_known=False),
+            linear(columns, data, effects=[Placed()], noise_known=False),
+        ]
+        fits = [replace(f, residuals=scale * f.residuals, jacobian=scale * f.jacobian) for f in fits]
+        return cost(fits[0], None) - cost(fits[1], None)
+
+    assert gain(1.0) == pytest.approx(gain(37.0), abs=0.05)
+
+
+def test_probabilities_follow_the_costs():
+    costs = np.array([0.0, 2 * np.log(19), 1e4])
+    assert probabilities(costs) == pytest.approx([0.95, 0.05, 0])
+    assert probabilities(costs + 1e5) == pytest.approx([0.95, 0.05, 0])
+    assert probabilities(costs, temper=2.0)[1] == pytest.approx(1 / (1 + np.sqrt(19)))

@@ -1,0 +1,134 @@
+"""Fits that leave noise and fits that leave more, checked by what data they would have left."""
+
+import numpy as np
+import pytest
+
+from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.predictive import (
+    LEVEL,
+    SHAPES,
+    checks,
+    form_error,
+    passes,
+    temper,
+    weakest,
+)
+from fitting.diagnosis.refit import Fitted
+from fitting.effects.base import Effect
+from fitting.laws.constant import ConstantModulus
+from fitting.sweep import Sweep
+
+N = 118
+SWEEP = Sweep(
+    frequency_hz=np.linspace(14, 300, 3 * N),
+    velocity_m_s=np.ones(3 * N) + 0j,
+    commanded_m_s2=np.full(3 * N, 9.81),
+    segment=np.repeat([1, 2, 3], N),
+    sweep=np.ones(3 * N, dtype=int),
+)
+SEGMENTS = np.array([np.tile(SWEEP.segment == k, 2) * 0.3 for k in (1, 2, 3)]).T
+ONES = np.ones(3 * N)
+EVIDENCE = Evidence(SWEEP.velocity_m_s, ONES, ONES, SEGMENTS, True)
+
+
+class Rough(Effect):
+    """Its formula may leave a hundredth of what it explains."""
+
+    name, misses = "rough", 0.01
+
+
+def fitted(r, z=(), effects=()):
+    """The end of a fit that leaves `r` of the readings and has moved the stated numbers to `z`."""
+    z = np.array(z, dtype=float)
+    law = ConstantModulus(0.5e6, 0.5)
+    residuals = np.concatenate([r, z])
+    J = np.zeros((len(residuals), len(law.names) + len(z)))
+    return Fitted(
+        effects=tuple(effects),
+        law=law,
+        u=z,
+        velocity_m_s=SWEEP.velocity_m_s,
+        residuals=residuals,
+        jacobian=J,
+        data=len(r),
+        free=np.ones(len(z), dtype=bool),
+        stated=len(z),
+        noise_known=True,
+    )
+
+
+def white(seed):
+    return np.random.default_rng(seed).normal(size=6 * N)
+
+
+def checked(r, z=(), **how):
+    one = fitted(r, z)
+    return checks(SWEEP, how.get("evidence", EVIDENCE), one, one)
+
+
+def test_noise_and_stated_numbers_as_expected_pass():
+    worst = [weakest(checked(white(s), np.random.default_rng(s + 1000).normal(size=20))) for s in range(300)]
+    assert min(p for _, p in worst) >= LEVEL
+
+
+def test_every_tail_is_looked_at():
+    found = checked(white(0), np.zeros(5))
+    assert set(found) == {"size", "the plate's own error", "tolerances", "signs", "memory"}
+    assert all(0 <= p <= 1 for p in found.values())
+    assert "tolerances" not in checked(white(0))
+
+
+@pytest.mark.parametrize(
+    ("what", "left", "z"),
+    [
+        ("size", lambda: 1.6 * white(1), ()),
+        ("signs", lambda: white(2) + 1.5 * np.sin(np.arange(6 * N) / 9), ()),
+        ("memory", lambda: np.convolve(white(3), [0.6, 0.6, 0.5], "same"), ()),
+        ("tolerances", lambda: white(4), np.full(20, 2.0)),
+        ("the plate's own error", lambda: white(5) + 1.2 * SEGMENTS @ np.array([1.0, -1.0, 1.0]), ()),
+    ],
+)
+def test_what_is_not_as_it_would_be_left_fails_by_name(what, left, z):
+    found = checked(left(), z)
+    assert not passes(found)
+    assert found[what] < LEVEL
+
+
+def test_the_noise_itself_is_known_to_a_tenth_or_so():
+    """Noise stated 20 % too small is no misfit, 60 % is."""
+    assert passes(checked(1.2 * white(6)))
+    assert not passes(checked(1.6 * white(6)))
+
+
+def test_nothing_is_checked_where_the_noise_is_unknown():
+    unknown = Evidence(SWEEP.velocity_m_s, ONES, ONES, SEGMENTS, False)
+    assert checked(5 * white(7), evidence=unknown) == {}
+    assert passes({})
+    assert weakest({}) is None
+
+
+def test_what_a_formula_may_leave_is_a_share_of_what_it_explains():
+    none, one = fitted(100 * white(8)), fitted(white(8), effects=[Rough()])
+    assert form_error(none, one) == pytest.approx(0.01 * (none.chi2 - one.chi2))
+    assert temper(none, one) == pytest.approx(1 + form_error(none, one) / SHAPES)
+    # What explains nothing may leave nothing.
+    assert form_error(one, none) == 0
+    assert temper(one, one) == 1
+
+
+def test_a_large_effect_may_leave_what_a_small_one_may_not():
+    left = 2.0 * white(9)
+    small, large = fitted(1.1 * white(9)), fitted(60 * white(9))
+    one = fitted(left, effects=[Rough()])
+    assert checks(SWEEP, EVIDENCE, small, one)["size"] < LEVEL
+    assert checks(SWEEP, EVIDENCE, large, one)["size"] > LEVEL
+    # Stated numbers are held against it less, too.
+    moved = fitted(white(9), np.full(20, 2.0), [Rough()])
+    assert checks(SWEEP, EVIDENCE, small, moved)["tolerances"] < LEVEL
+    assert checks(SWEEP, EVIDENCE, large, moved)["tolerances"] > LEVEL
+
+
+def test_one_check_below_the_level_is_enough_to_fail():
+    assert passes({"size": LEVEL, "signs": 0.5})
+    assert not passes({"size": 0.99 * LEVEL, "signs": 0.5})
+    assert weakest({"size": 0.3, "signs": 0.2}) == ("signs", 0.2)
