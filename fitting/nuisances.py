@@ -150,7 +150,7 @@ class Nuisances:
         return self._kept.get("c", z, lambda: self._coefficients(z) - self._stated)
 
     def by_coefficients(self, z: Array) -> Array:
-        """Their derivatives to z, at the nearest whole numbers: they hardly change. Shape (count, parts + 1)."""
+        """Their derivatives to z, at the nearest whole z: they hardly vary. Shape (count, parts + 1)."""
         z = np.round(z)
 
         def differences() -> Array:

@@ -64,7 +64,7 @@ def set_up(
 ) -> SetUp:
     """Models for a sweep, made or loaded. `models` where they are to hold over a domain of their own.
 
-    `like` is a specimen that differs in stated values by a few percent at most: its models serve this one too.
+    `like` is a specimen that differs in stated values by a few percent at most: its models serve this one.
     Raises `TooFewPoints` where the hammer test is not of this plate.
     """
     bare = None
@@ -108,7 +108,8 @@ def _check_like(specimen: Specimen, like: Specimen) -> None:
     for name, ours, theirs in _numbers(specimen, like):
         if abs(ours / theirs - 1) > _LIKE:
             raise OutsideModel(
-                f"{name} is {100 * (ours / theirs - 1):+.1f} % off the model's, expected within {100 * _LIKE:g} %"
+                f"{name} is {100 * (ours / theirs - 1):+.1f} % off the model's, "
+                f"expected within {100 * _LIKE:g} %"
             )
     if specimen.boundary != like.boundary:
         raise OutsideModel(f"boundary {specimen.boundary!r} is not the model's {like.boundary!r}")

@@ -69,9 +69,9 @@ def diagnose_task(
 ) -> Diagnosis:
     """Everything that can be said of a sweep's residual; `task` holds the points in use.
 
-    With `accepted_by_hand` these effects are fitted and nothing is searched for. `remade` gives the task of some
-    of the points; with it the search is repeated on `resamples` sweeps without effects (None: where points are
-    few) and with points held out.
+    With `accepted_by_hand` these effects are fitted and nothing is searched for. `remade` gives the task of
+    some of the points; with it the search is repeated on `resamples` sweeps without effects (None: where
+    points are few) and with points held out.
     """
     given = task
     begun = begin(task, reduced, noise, bare, start)

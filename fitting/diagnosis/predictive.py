@@ -33,6 +33,15 @@ def form_error(none: Fitted, fitted: Fitted) -> float:
     return share * max(0.0, none.chi2 - fitted.chi2)
 
 
+def _allowed(none: Fitted, fitted: Fitted) -> float:
+    """The same, of two effects as if the better known formula had explained all.
+
+    What two loose formulas together come near to is no evidence for either.
+    """
+    share = min((max(FORM, e.misses) for e in fitted.effects), default=0.0)
+    return share * max(0.0, none.chi2 - fitted.chi2)
+
+
 def temper(none: Fitted, best: Fitted) -> float:
     """How much less a difference in chi-square says where what was explained is far above the noise."""
     return 1.0 + form_error(none, best) / SHAPES
@@ -43,20 +52,21 @@ def checks(sweep: Sweep, evidence: Evidence, none: Fitted, fitted: Fitted) -> Ma
     if not evidence.scale_known:
         return {}
     dof = max(1, fitted.data - fitted.parameters)
-    allowed = 1 + form_error(none, fitted) / dof
+    may_leave = _allowed(none, fitted)
+    allowed = 1 + may_leave / dof
     left = fitted.chi2_per_dof / allowed
     # Ln of a mean square: its own scatter, and the noise's.
     spread = np.hypot(2 * NOISE, np.sqrt(2 / dof))
     whitened = fitted.residuals[: fitted.data]
     found = {"size": float(norm.sf(np.log(max(left, 1e-12)) / spread))}
     along = evidence.whitening.along(whitened)
-    t = temper(none, fitted)
+    t = 1 + may_leave / SHAPES
     if len(along):
         found["the plate's own error"] = float(chi2_of.sf(along @ along / t, len(along)))
     if fitted.stated:
         found["tolerances"] = float(chi2_of.sf(fitted.unexplained / t, fitted.stated))
     runs, memory = along_frequency(sweep, whitened, parts=2 if evidence.has_phase else 1)
-    excess = max(0.0, form_error(none, fitted) / dof)
+    excess = may_leave / dof
     found["signs"] = float(norm.sf(runs / (_WIDER * (1 + _BY_FORM * excess))))
     found["memory"] = float(norm.sf(memory / (_WIDER * (1 + _BY_FORM * excess))))
     return found

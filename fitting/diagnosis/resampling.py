@@ -1,4 +1,4 @@
-"""Evidence by resampling: what the same search makes of data without any effect, and of data with some left out.
+"""Evidence by resampling: what the same search makes of data without any effect, and with some left out.
 
 A search over many causes finds something in noise, too. How much, only the search itself can tell.
 """
@@ -109,7 +109,7 @@ class Resampled:
 
 
 def resampled_of(again: Again, found: float, repeats: int | None, hands: Hands, report: Report) -> Resampled:
-    """Both; `found` is the gain of the data themselves. Nothing where many points and no wish."""
+    """Both; `found` is the gain of the data. Nothing where points are many and nobody asks."""
     if repeats is None:
         repeats = REPEATS if len(again.task.sweep) <= SMALL else 0
     if not repeats:
@@ -120,7 +120,7 @@ def resampled_of(again: Again, found: float, repeats: int | None, hands: Hands, 
 
 
 def nested_rms_percent(again: Again, hands: Hands, report: Report) -> float | None:
-    """Error on points left out one by one, or segments; None where they cannot be, or nothing can be learnt."""
+    """Error on points left out one by one, or segments; None where nothing can be learnt without them."""
     sweep = again.task.sweep
     if len(sweep) <= SMALL:
         folds = [np.arange(len(sweep)) == k for k in range(len(sweep))]

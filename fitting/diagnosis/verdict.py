@@ -57,7 +57,7 @@ def told(trial: Trial) -> Judgement:
 
 
 def in_light_of(judgement: Judgement, p_value: float | None) -> Judgement:
-    """Nothing is named that as many sweeps without any effect would name: the band stays that of the group."""
+    """Nothing is named that sweeps without any effect would name too. The band stays the group's."""
     if p_value is None or p_value <= 1 - CREDIBLE + 1e-9 or judgement.verdict not in ("effect", "ambiguous"):
         return judgement
     why = f"gains no more than {100 * p_value:.2g} % of sweeps without any effect do"

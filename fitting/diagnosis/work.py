@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 
 from fitting.diagnosis.candidates import FINISHED, Contender, Known, Start, look, polished
 from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.prediction import held_out
 from fitting.diagnosis.marginal import cost
+from fitting.diagnosis.prediction import held_out
 from fitting.diagnosis.refit import ROUGH, Fitted, kept, refit
 from fitting.diagnosis.response import Response
 from fitting.diagnosis.task import Task

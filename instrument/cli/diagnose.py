@@ -33,8 +33,8 @@ from instrument.progress import bar
 @click.option(
     "--resamples",
     type=click.IntRange(0, 1000),
-    help="Repeat the search on so many sweeps drawn without any effect (p-value), and with segments held out. "
-    "Always done for 30 points or fewer; 0 for never.",
+    help="Repeat the search on so many sweeps drawn without any effect (p-value), and with segments held "
+    "out. Always done for 30 points or fewer; 0 for never.",
 )
 @click.option(
     "--figures",

@@ -71,10 +71,10 @@ def moved(request, zn1):
     plain = replace(zn1, exact=False, elements=(20, 14))
     if request.param == "as published":
         return Moved(plain)
-    faces = {
-        name: replace(getattr(plain, name), loss_factor=0.01) for name in ("substrate", "constraining")
-    }
-    return Moved(replace(plain, **faces, length_m=0.18, width_m=0.24, elements=(14, 18), pickup_m=(0.15, 0.1)))
+    faces = {name: replace(getattr(plain, name), loss_factor=0.01) for name in ("substrate", "constraining")}
+    return Moved(
+        replace(plain, **faces, length_m=0.18, width_m=0.24, elements=(14, 18), pickup_m=(0.15, 0.1))
+    )
 
 
 def test_the_moved_plate_answers_as_one_built_anew(moved):

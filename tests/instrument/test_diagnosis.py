@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from fitting.diagnosis.diagnose import seen_in_channels
-from fitting.diagnosis.verdict import TOO_MUCH
 from fitting.effects import CATALOGUE
 from fitting.errors import OutsideModel
 from fitting.laws.fractional_zener import FractionalZener
@@ -58,11 +57,11 @@ def test_what_only_fits_is_refused_and_said_to_be_nearest():
     without = all_but("gain_error", "added_mass")
     found = diagnose(practice("005"), specimen(), without=without).result
     assert found.verdict == "unknown"
-    assert min(c.chi2_per_dof for c in found.candidates) < TOO_MUCH
-    assert "gain_error with added_mass, fits only if the plate were off" in " ".join(found.explanation)
+    assert min(c.chi2_per_dof for c in found.candidates) < 1.25
+    assert "gain_error with added_mass, would leave such data once in" in " ".join(found.explanation)
 
 
-def test_where_all_that_lead_lean_every_place_is_tried():
+def test_where_all_that_lead_fail_every_place_is_tried():
     """The mass's own place promises least of seven by a linear step."""
     case = draw("added_mass", 96002)
     found = diagnose(case.sweep, case.specimen, without=all_but("added_mass")).result
@@ -86,7 +85,10 @@ def test_a_clean_sweep_is_said_to_be_clean():
     found = diagnose(practice("002"), specimen()).result
     assert found.verdict == "none"
     assert found.effects == ()
-    assert found.after is found.before
+    assert found.after.law == found.before.law
+    none = next(c for c in found.candidates if c.name == "none")
+    assert none.probability > 0.8
+    assert sum(c.probability for c in found.candidates) == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize("kind", ["mains_hum", "level_error"])
@@ -101,14 +103,21 @@ def test_nine_amplitudes_cannot_name_one_effect():
     plate = read_specimen(case_file("zn1.toml"))
     sweep = read_sweep(case_file("table5.csv")).sweep(plate.base_acceleration_m_s2)
     found = diagnose(sweep, plate).result
-    assert found.verdict == "ambiguous"
+    assert found.verdict == "none"
     assert found.before.rms_percent == pytest.approx(5.19, abs=0.02)
     assert found.before.validation.leave_one_out_rms_percent == pytest.approx(8.82, abs=0.05)
-    assert found.after.rms_percent < 2.6
-    assert found.after.validation.leave_one_out_rms_percent < 6.1
-    (group,) = found.equivalent.values()
-    assert "substrate_stiffness" in group
-    assert "hammer" in found.next_measurement
+    probable = {c.name: c.probability for c in found.candidates}
+    assert probable["none"] < 0.7
+    assert probable["substrate_stiffness"] > 0.03
+    # Without any effect a search finds as much; with the selection repeated it predicts no better.
+    assert found.p_value > 0.05
+    assert found.nested_held_out_rms_percent > 8.0
+    # What nine amplitudes leave open is in the band.
+    wider = (
+        found.after.band.storage_modulus_standard_error_pa
+        / found.before.band.storage_modulus_standard_error_pa
+    )
+    assert wider.max() > 1.2
 
 
 def test_effects_are_accepted_and_declined_by_hand():

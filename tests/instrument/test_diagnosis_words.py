@@ -2,7 +2,11 @@
 
 import numpy as np
 import pytest
+from diagnosis_cases import facts
 
+from instrument.cli.output import Output
+from instrument.cli.print_diagnosis import print_diagnosis
+from instrument.diagnosis_figures import law_figure
 from instrument.diagnosis_words import log_odds, probability_words, resampling_words, with_verdict
 
 
@@ -44,3 +48,19 @@ def test_resampling_is_said_where_it_was_done():
         "sweeps without any effect gain as much in 5 % of cases; "
         "data left out, the whole search repeated without them: 2.3 % rms"
     )
+
+
+def test_every_law_of_an_unknown_cause_is_marked(capsys):
+    found = {**facts(), "verdict": "unknown", "equivalent": {}}
+    print_diagnosis(Output(None), found)
+    assert "the core's law, +- one standard error (verdict unknown)" in capsys.readouterr().out
+    assert law_figure(found).axes[0].get_title(loc="left").endswith("(verdict unknown)")
+    assert "verdict unknown" not in law_figure(facts()).axes[0].get_title(loc="left")
+
+
+def test_candidates_are_printed_with_their_probability(capsys):
+    print_diagnosis(Output(None), facts())
+    said = capsys.readouterr().out
+    assert "probability" in said
+    assert "82.0 %" in said
+    assert "BIC" not in said

@@ -61,7 +61,8 @@ def design(seed, count):
 
 
 def evidence(columns, data, stated, prior_densities):
-    """-2 ln of the integral over law and unknowns on a grid, stated numbers integrated as the Gaussian they are.
+    """-2 ln of the integral over law and unknowns on a grid, stated numbers integrated as the Gaussian they
+    are.
 
     Without the density of N numbers of unit noise at zero.
     """
@@ -86,8 +87,8 @@ def evidence(columns, data, stated, prior_densities):
 def searched(k):
     """Density of a log parameter of `LAW`, uniform over the range that is searched."""
     low, high = np.log(LAW.limits[k].search)
-    return lambda p: np.where((p > low - np.log(LAW.values[k])) & (p < high - np.log(LAW.values[k])), 1, 0) / (
-        high - low
+    return lambda p: (
+        np.where((p > low - np.log(LAW.values[k])) & (p < high - np.log(LAW.values[k])), 1, 0) / (high - low)
     )
 
 
@@ -165,7 +166,8 @@ def test_an_unlikely_effect_costs_its_odds():
 def test_a_small_value_is_likelier_than_a_large_one():
     columns, data = design(13, 3), np.random.default_rng(14).normal(size=N)
     at = [
-        cost(linear(columns, data + size * columns[:, 2], effects=[Small()]), None) for size in (0.0, 0.1, 3.0)
+        cost(linear(columns, data + size * columns[:, 2], effects=[Small()]), None)
+        for size in (0.0, 0.1, 3.0)
     ]
     assert at[1] - at[0] == pytest.approx(2 * np.log(2), abs=0.3)
     assert at[2] - at[0] == pytest.approx(2 * np.log(901), abs=0.3)

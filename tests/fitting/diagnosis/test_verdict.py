@@ -59,7 +59,7 @@ def test_the_group_holds_every_explanation_up_to_95_percent(behind, verdict):
 
 def test_many_that_are_each_improbable_may_hold_the_last_five_percent_together():
     others = ("spot_offset", "core_thickness", "channel_delay", "added_mass")
-    costs = {name: EVEN + 1.0 for name in others}
+    costs = dict.fromkeys(others, EVEN + 1.0)
     said = judged(POOR_NONE, trial("gain_error", cost=0.0), *(trial(n, cost=c) for n, c in costs.items()))
     assert said.verdict == "ambiguous"
     assert said.probability[("gain_error",)] < 0.95 < sum(p for p in said.probability.values())
@@ -151,9 +151,7 @@ def test_each_effect_of_a_pair_has_its_own_equals():
 
 
 def test_another_explanation_altogether_stands_for_all_of_a_pair():
-    said = judged(
-        POOR_NONE, trial("channel_delay", "spot_offset", cost=0.0), trial("added_mass", cost=1.0)
-    )
+    said = judged(POOR_NONE, trial("channel_delay", "spot_offset", cost=0.0), trial("added_mass", cost=1.0))
     assert said.verdict == "ambiguous"
     for name in ("channel_delay", "spot_offset"):
         assert set(said.equivalent[name]) == {name, "added_mass"}

@@ -1,4 +1,5 @@
-"""The joint posterior of law, bend, stated numbers and model error: calibration on what the model itself says."""
+"""The joint posterior of law, bend, stated numbers and model error: calibration on what the model itself
+says."""
 
 from dataclasses import replace
 
@@ -37,7 +38,9 @@ class Drawn:
 
     def __init__(self, ready, seed):
         rng, task = np.random.default_rng(seed), ready.task
-        plain = TABLE_4.with_logs(np.log(TABLE_4.values) + np.array([0.1, 0.1, 0.1, 0.03]) * rng.normal(size=4))
+        plain = TABLE_4.with_logs(
+            np.log(TABLE_4.values) + np.array([0.1, 0.1, 0.1, 0.03]) * rng.normal(size=4)
+        )
         straight = BentLaw.over(plain, task.sweep.frequency_hz)
         bend = np.exp(rng.normal(size=straight.bends))
         self.law = straight.with_values(np.concatenate([plain.values, bend]))
