@@ -32,7 +32,9 @@ def cost(fitted: Fitted, plate: SpannedPlate) -> float:
     n, bends = len(law_widths), fitted.law.bends
     J = fitted.jacobian
     if not fitted.noise_known:
-        J = J / np.sqrt(max(fitted.chi2, 1e-300) / max(1, fitted.data))
+        # Of the readings: what is stated is as well known as it is said.
+        J = J.copy()
+        J[: fitted.data] /= np.sqrt(_mean_square(fitted))
     H = J.T @ J
     # What the data leave open, the prior still bounds.
     bounded = np.concatenate([np.arange(n), np.arange(n + bends + fitted.stated, len(H))])
@@ -46,8 +48,14 @@ def cost(fitted: Fitted, plate: SpannedPlate) -> float:
 def _misfit(fitted: Fitted) -> float:
     if fitted.noise_known:
         return fitted.chi2
-    n = fitted.data
-    return n * float(np.log(max(fitted.chi2, 1e-300) / n))
+    priors = fitted.residuals[fitted.data :]
+    return fitted.data * float(np.log(_mean_square(fitted))) + float(priors @ priors)
+
+
+def _mean_square(fitted: Fitted) -> float:
+    """Of what the readings leave."""
+    r = fitted.residuals[: fitted.data]
+    return max(float(r @ r), 1e-300) / max(1, fitted.data)
 
 
 def _odds(effect: Effect) -> float:

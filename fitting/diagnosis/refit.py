@@ -92,16 +92,20 @@ class Fitted:
             scale = max(1.0, scale)
         fixed = limits_reached(self.law)
         kept = np.array([name not in fixed for name in self.law.names] + [True] * self._others)
-        J = self.jacobian[:, kept] / np.sqrt(scale)
+        J = self.jacobian[:, kept]
+        # An unknown noise is the readings'; a misfit is everyone's.
+        J[slice(None) if self.noise_known else slice(self.data)] /= np.sqrt(scale)
         widths = self.law.search_widths
         bounds = np.zeros((len(widths), self.jacobian.shape[1]))
         bounds[:, : len(widths)] = np.diag(1 / widths)
         J = np.vstack([J, bounds[:, kept]])
+        found = np.zeros((len(kept), len(kept)))
+        if not kept.any():
+            return found
         size = np.linalg.norm(J, axis=0)
         size = np.where(size > 0, size, 1.0)
         _, s, Vt = np.linalg.svd(J / size, full_matrices=False)
         root = Vt.T / np.maximum(s, 1e-12 * s.max()) / size[:, None]
-        found = np.zeros((len(kept), len(kept)))
         found[np.ix_(kept, kept)] = root @ root.T
         return found
 

@@ -95,9 +95,10 @@ def judge(
         if none.fails or not visible:
             return _unknown(judgement, none, ranked)
         return judgement("none", None)
-    best = named[0]
-    if all(_against(none, t, held_out) for t in named):
-        return _unknown(judgement, best, ranked, _against(none, best, held_out))
+    standing = [t for t in named if not _against(none, t, held_out)]
+    if not standing:
+        return _unknown(judgement, named[0], ranked, _against(none, named[0], held_out))
+    best = standing[0]
     alone = all(set(best.names) <= set(t.names) for t, _ in group)
     return judgement("effect" if alone else "ambiguous", best)
 

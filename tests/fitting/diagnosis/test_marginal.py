@@ -197,6 +197,27 @@ def test_where_the_noise_is_unknown_only_ratios_count():
     assert gain(1.0) == pytest.approx(gain(37.0), abs=0.05)
 
 
+@pytest.mark.parametrize("stated", [0, 5, 2 * N])
+def test_a_worse_fit_costs_more_however_many_numbers_are_stated(stated):
+    """Of a noise of unknown size: what is stated stays as well known as it is said."""
+    columns, data = design(19, 2 + stated), np.random.default_rng(20).normal(size=N)
+    one = linear(columns, data, stated=stated, noise_known=False)
+    r = np.random.default_rng(21).normal(size=N)
+    costs = [
+        cost(replace(one, residuals=np.concatenate([size * r, np.zeros(stated)])), None)
+        for size in (0.5, 1.0, 2.0, 4.0)
+    ]
+    assert np.all(np.diff(costs) > 0)
+
+
+def test_what_a_stated_number_is_moved_costs_as_its_prior_says():
+    columns, data = design(22, 4), np.random.default_rng(23).normal(size=N)
+    one = linear(columns, data, stated=2, noise_known=False)
+    r = one.residuals[:N]
+    costs = [cost(replace(one, residuals=np.append(r, z)), None) for z in ([0.0, 0.0], [3.0, 0.0])]
+    assert costs[1] - costs[0] == pytest.approx(9)
+
+
 def test_probabilities_follow_the_costs():
     costs = np.array([0.0, 2 * np.log(19), 1e4])
     assert probabilities(costs) == pytest.approx([0.95, 0.05, 0])
