@@ -57,7 +57,7 @@ def coarse(tmp_path_factory):
 def test_nine_amplitudes_end_to_end(capsys, coarse, tmp_path):
     status, out, err = call(
         capsys,
-        *("diagnose", TABLE5, "--specimen", coarse, "--without", "core_law"),
+        *("diagnose", TABLE5, "--specimen", coarse, "--without", "core_law", "--resamples", "1"),
         *("--figures", tmp_path / "figures", "--json", tmp_path / "found.json"),
     )
     assert status == 0, err
@@ -67,6 +67,8 @@ def test_nine_amplitudes_end_to_end(capsys, coarse, tmp_path):
     assert out.startswith(f"verdict: {found['verdict']}")
     assert len(found["points"]) == 9
     assert found["before"]["rms_percent"] == pytest.approx(5.2, abs=0.4)
+    assert found["p_value"] in (0.5, 1.0)
+    assert found["nested_held_out_rms_percent"] > 5
     assert found["before"]["held_out_rms_percent"] == found["before"]["leave_one_out_rms_percent"] > 5
     assert "core_law" not in {c["name"] for c in found["candidates"]}
     assert found["seconds"] > 0
