@@ -7,7 +7,7 @@ the formula. Its whitened values are unknowns with priors of unit width, fitted 
 """
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import lru_cache
 from typing import Self
 
 import numpy as np
@@ -109,17 +109,17 @@ class BentLaw(CoreLaw):
         return STORAGE * np.tensordot(xi[0], W, axes=1), LOSS * np.tensordot(xi[1], W, axes=1)
 
     def _weights(self, omega: Array) -> Array:
-        """Of the whitened values at each frequency: k(f, knots) L^-T. Shape (knots, ...)."""
-        x = np.log(np.maximum(omega, 1e-9) / (2 * np.pi))
-        between = np.exp(-0.5 * ((x[..., None] - self._at) / REACH) ** 2)
-        return np.moveaxis(between @ self._whiten, -1, 0)
+        """Of the whitened values at each frequency. Shape (knots, ...)."""
+        found = _weights_at(self.knots_hz, omega.tobytes())
+        return found.reshape(-1, *np.shape(omega))
 
-    @cached_property
-    def _at(self) -> Array:
-        return np.log(np.array(self.knots_hz))
 
-    @cached_property
-    def _whiten(self) -> Array:
-        K = np.exp(-0.5 * ((self._at[:, None] - self._at) / REACH) ** 2)
-        L = np.linalg.cholesky(K + 1e-9 * np.eye(len(K)))
-        return np.asarray(np.linalg.inv(L).T)
+@lru_cache(maxsize=32)
+def _weights_at(knots_hz: tuple[float, ...], omega: bytes) -> Array:
+    """k(f, knots) L^-T for frequencies in rad/s, kept: every step of a fit asks for the same ones."""
+    x = np.log(np.maximum(np.frombuffer(omega), 1e-9) / (2 * np.pi))
+    at = np.log(np.array(knots_hz))
+    K = np.exp(-0.5 * ((at[:, None] - at) / REACH) ** 2)
+    L = np.linalg.cholesky(K + 1e-9 * np.eye(len(K)))
+    between = np.exp(-0.5 * ((x[:, None] - at) / REACH) ** 2)
+    return np.asarray(np.ascontiguousarray((between @ np.linalg.inv(L).T).T))

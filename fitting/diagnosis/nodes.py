@@ -5,6 +5,7 @@ A change of the plate moves poles: near one the response changes as 1/(w^2 - p^2
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,17 @@ Complex = NDArray[np.complex128]
 _HZ_A_NODE = 4.0
 MOST_POLES = 4
 _FARTHEST, _LEAST_DAMPED = 0.4, 0.25
+
+
+@dataclass(frozen=True)
+class _Cluster:
+    """Places of what belongs to a cluster of frequencies."""
+
+    nodes: NDArray[np.intp]
+    points: NDArray[np.intp]
+    poles: NDArray[np.intp]
+    plain: Complex
+    """Shape (points, nodes)."""
 
 
 @dataclass(frozen=True)
@@ -94,12 +106,8 @@ class Nodes:
 
     def slope(self, values: Complex) -> Complex:
         """d/d omega at the nodes of the poles. Shape (nodes,) to (poles,)."""
-        found = np.zeros(len(self.omega), complex)
-        for number in np.unique(self.cluster):
-            here = np.flatnonzero(self.cluster == number)
-            if len(here) > 1:
-                found[here] = np.gradient(values[here], self.omega[here])
-        return found[self.pole_node]
+        before, after = self._neighbours
+        return np.asarray((values[after] - values[before]) / (self.omega[after] - self.omega[before]))
 
     def spread(self, values: Complex, first: Complex, second: Complex) -> Complex:
         """From nodes to points of what has two sets of poles. Shapes (..., nodes) to (..., points)."""
@@ -107,13 +115,28 @@ class Nodes:
         moved = self._near(second, poles)
         nodes, points = (self._flat(w, poles, moved) for w in (self.omega, self.points))
         found = np.zeros((*values.shape[:-1], len(self.points)), complex)
+        for c in self._clusters:
+            at_nodes, at_points = (f[c.poles].prod(axis=0) for f in (nodes, points))
+            weighted = values[..., c.nodes] * at_nodes[c.nodes]
+            found[..., c.points] = weighted @ c.plain.T / at_points[c.points]
+        return found
+
+    @cached_property
+    def _neighbours(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """The nodes before and after each pole's, of the same cluster."""
+        at, n = self.pole_node, len(self.omega)
+        before, after = np.maximum(at - 1, 0), np.minimum(at + 1, n - 1)
+        same = [self.cluster[k] == self.cluster[at] for k in (before, after)]
+        return np.where(same[0], before, at), np.where(same[1], after, at)
+
+    @cached_property
+    def _clusters(self) -> list["_Cluster"]:
+        found = []
         for number in np.unique(self.cluster):
-            here = self.cluster == number
+            here = np.flatnonzero(self.cluster == number)
             inside = np.flatnonzero(np.abs(self.plain[:, here]).sum(axis=1) > 0)
             mine = np.flatnonzero(self.cluster[self.pole_node] == number)
-            at_nodes, at_points = (f[mine].prod(axis=0) for f in (nodes, points))
-            weighted = values[..., here] * at_nodes[here]
-            found[..., inside] = weighted @ self.plain[np.ix_(inside, here)].T / at_points[inside]
+            found.append(_Cluster(here, inside, mine, self.plain[np.ix_(inside, here)].astype(complex)))
         return found
 
     def _near(self, moved: Complex, otherwise: Complex) -> Complex:

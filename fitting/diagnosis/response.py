@@ -14,7 +14,7 @@ from functools import reduce
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.diagnosis.plate_answer import Answer, answer, core_strain
+from fitting.diagnosis.plate_answer import answer, core_strain
 from fitting.diagnosis.task import Grid, Task
 from fitting.effects.base import Change, Effect, ModulusAt, Unknown
 from fitting.effects.spanned import SpannedPlate
@@ -54,20 +54,21 @@ class Response:
             start += len(effect.unknowns)
         self._changing = [k for k, e in enumerate(self.effects) if type(e).change is not Effect.change]
         self._pitching = [k for k, e in enumerate(self.effects) if type(e).pitch is not Effect.pitch]
+        self._channelled = any(type(e).reading is not Effect.reading for e in self.effects)
         self._shifting = [k for k, e in enumerate(self.effects) if type(e).modulus is not Effect.modulus]
         grid = grid or task.fine
         if self._shifting and (self._changing or self._pitching or not self.nuisances.change_nothing):
             # The modulus is another one in every pass.
             grid = task.passes
         self.grid = grid
-        self._last: tuple[bytes, Answer, Complex] | None = None
+        self._last: tuple[bytes, _ByChange, Complex] | None = None
         self._strains: dict[bytes, Array] = {}
         self._strained = bool(self._shifting) and "strain" in spans
         self._largest: float | None = None
 
     def velocity(self, law: CoreLaw, u: Array) -> Complex:
         """Phasors in m/s. Shape (points,)."""
-        return self._at(law, u).v
+        return self._at(law, u, derivatives=False).v
 
     def with_derivatives(self, law: CoreLaw, u: Array) -> tuple[Complex, Complex]:
         """Phasors, and their derivatives to log parameters and then to `u`. Shape (parameters, points)."""
@@ -77,7 +78,7 @@ class Response:
         by_z = self._by_stated(at) if count else []
         by_u = [self._by(k, law, u, at) for k in range(count, len(self.unknowns))]
         raw = np.array([*by_law, *by_z, *by_u]).reshape(-1, len(at.raw))
-        moved = np.array([self._read_along(at, d, u) for d in raw])
+        moved = self._read_along(at, raw, u)
         for k in range(count, len(self.unknowns)):
             moved[len(by_law) + k] += self._read_by(k, at.raw, u)
         if count:
@@ -110,7 +111,7 @@ class Response:
         )
         by_u = nodes.spread(np.stack([solved.heave_by_u, solved.pitch_by_u]), solved.poles, solved.poles)
         raw = at.per_x * (by_u[0] + at.pitch * by_u[1])
-        return np.array([others._read_along(at, d, known) for d in raw])
+        return others._read_along(at, raw, known)
 
     def beside(self, effect: Effect) -> "Response":
         """The same with one more effect."""
@@ -121,7 +122,7 @@ class Response:
     def _of(self, k: int, u: Array) -> Array:
         return u[self._slices[k]]
 
-    def _at(self, law: CoreLaw, u: Array) -> "_At":
+    def _at(self, law: CoreLaw, u: Array, *, derivatives: bool = True) -> "_At":
         points = self.task.points
         omega, a = points.omega, points.acceleration_m_s2
         G_law = law.modulus(omega)
@@ -132,7 +133,7 @@ class Response:
         found = None
         if self._changing or self._pitching or not self.nuisances.change_nothing:
             G_nodes, smooth = self._bearing(law, G_law, G)
-            found, (moved, turned, changed_slope) = self._answer(u, G_nodes)
+            found, (moved, turned, changed_slope) = self._answer(u, G_nodes, derivatives)
             x = x + moved
             if self._shifting:
                 _, plain_slope = self.task.rational.with_derivative(smooth)
@@ -157,14 +158,15 @@ class Response:
         share = nodes.fit @ (G / G_law)
         return at_nodes * share, G_law * (nodes.plain @ share)
 
-    def _answer(self, u: Array, G: Complex) -> tuple[Answer, Complex]:
-        """At the nodes; and at every point the change of x, the answer to pitch, and dx/dG."""
+    def _answer(self, u: Array, G: Complex, derivatives: bool) -> tuple["_ByChange", Complex]:
+        """At every point its derivatives; and the change of x, the answer to pitch, and dx/dG."""
         changing = [u[self._stated], *(self._of(k, u) for k in self._changing)]
         key = G.tobytes() + b"".join(c.tobytes() for c in changing)
-        if self._last is None or self._last[0] != key:
+        key += b"d" * derivatives
+        if self._last is None or self._last[0] not in (key, key + b"d"):
             changes = self._changes(u)
             nearby = []
-            for k in self._changing:
+            for k in self._changing if derivatives else ():
                 part = self._slices[k]
                 for n in range(part.start, part.stop):
                     h = self._step(n, u)
@@ -182,13 +184,19 @@ class Response:
                 nodes.pole_node,
                 self.grid.modulus_near_poles(G),
                 with_pitch=bool(self._pitching),
-                nuisances=(self.nuisances, u[self._stated]) if self.nuisances else None,
+                nuisances=(self.nuisances, u[self._stated]) if self.nuisances and derivatives else None,
             )
             changed = np.array([solved.heave - self.grid.rational.displacement(G), solved.pitch])
             simple = nodes.spread(changed, self.grid.unchanged_poles(G), solved.poles)
             # A derivative has every pole twice, and only those of the changed plate.
-            slope = nodes.spread(solved.heave_by_G, solved.poles, solved.poles)
-            self._last = key, solved, np.array([*simple, slope])
+            twice = [solved.heave_by_G[None], solved.heave_by_z, solved.heave_by_u]
+            if self._pitching:
+                twice += [solved.pitch_by_z, solved.pitch_by_u]
+            spread = nodes.spread(np.concatenate(twice), solved.poles, solved.poles)
+            heaves = len(solved.heave_by_z) + len(solved.heave_by_u)
+            heave, turned = spread[1 : 1 + heaves], spread[1 + heaves :]
+            by = _ByChange(heave, turned if self._pitching else np.zeros_like(heave))
+            self._last = key, by, np.array([*simple, spread[0]])
         return self._last[1], self._last[2]
 
     def _changes(self, u: Array) -> Change:
@@ -251,16 +259,24 @@ class Response:
         for k, effect in enumerate(self.effects):
             read = effect.reading(v, self.task.points, self._of(k, u))
             v = v if read is None else read
+        return self._as_stated(v, u)
+
+    def _as_stated(self, v: Complex, u: Array) -> Complex:
+        """What the stated gain and delay make of it."""
         return self.nuisances.reading(v, self.task.points.omega, u[self._stated]) if self.nuisances else v
 
-    def _read_along(self, at: "_At", d: Complex, u: Array) -> Complex:
-        """What is read of a derivative `d` of the velocity before the channels."""
-        size = np.abs(d).max()
-        if size == 0:
-            return np.zeros(len(d), complex)
-        # A channel may bend, and a derivative to 10^14 N/m^3 drowns beside the velocity.
-        h = _SMALL * np.abs(at.raw).max() / size
-        return (self._read(at.raw + h * d, u) - at.v) / h
+    def _read_along(self, at: "_At", by: Complex, u: Array) -> Complex:
+        """What is read of derivatives of the velocity before the channels. Shape (any, points) of both."""
+        if not self._channelled:
+            return self._as_stated(by, u)
+        found = np.zeros_like(by)
+        largest = np.abs(at.raw).max()
+        for k, size in enumerate(np.abs(by).max(axis=1)):
+            if size > 0:
+                # A channel may bend, and a derivative to 10^14 N/m^3 drowns beside the velocity.
+                h = _SMALL * largest / size
+                found[k] = (self._read(at.raw + h * by[k], u) - at.v) / h
+        return found
 
     # Derivatives to unknown n.
 
@@ -277,15 +293,9 @@ class Response:
         found = np.zeros(len(omega), complex)
         h = self._step(n, u)
         up, down = _moved(u, n, h), _moved(u, n, -h)
-        if k in self._changing and at.answer is not None:
-            place = self._place_of(n)
-            nodes = self.grid.nodes
-            heave, turned = nodes.spread(
-                np.array([at.answer.heave_by_u[place], at.answer.pitch_by_u[place]]),
-                at.answer.poles,
-                at.answer.poles,
-            )
-            found = found + at.per_x * (heave + at.pitch * turned)
+        if k in self._changing and at.by is not None:
+            place = len(self.nuisances) + self._place_of(n)
+            found = found + at.per_x * (at.by.heave[place] + at.pitch * at.by.turned[place])
         if k in self._pitching:
             effect = self.effects[k]
             above, below = effect.pitch(omega, self._of(k, up)), effect.pitch(omega, self._of(k, down))
@@ -303,12 +313,9 @@ class Response:
 
     def _by_stated(self, at: "_At") -> list[Complex]:
         """Of the velocity before the channels to each stated number."""
-        assert at.answer is not None
-        found = at.answer
-        heave, turned = self.grid.nodes.spread(
-            np.array([found.heave_by_z, found.pitch_by_z]), found.poles, found.poles
-        )
-        return list(at.per_x * (heave + at.pitch * turned))
+        assert at.by is not None
+        stated = slice(0, len(self.nuisances))
+        return list(at.per_x * (at.by.heave[stated] + at.pitch * at.by.turned[stated]))
 
     def _place_of(self, n: int) -> int:
         order = [m for k in self._changing for m in range(self._slices[k].start, self._slices[k].stop)]
@@ -339,7 +346,16 @@ class _At:
     turned: Complex
     """Displacement per pitch acceleration."""
     lever: Complex
-    answer: Answer | None
+    by: "_ByChange | None"
+
+
+@dataclass(frozen=True)
+class _ByChange:
+    """Displacement per acceleration at every point, to the stated numbers and then to effects' unknowns."""
+
+    heave: Complex
+    """Shape (numbers, points)."""
+    turned: Complex
 
 
 def _moved(u: Array, n: int, h: float) -> Array:

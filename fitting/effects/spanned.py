@@ -42,8 +42,8 @@ Names = NDArray[np.str_]
 SNAPSHOTS = 12
 TOLERANCE = 3e-3
 """Of a typical change, what may be missed; the reading's error goes with its square."""
-CONDENSED = 1e-6
-"""Of the largest singular value, what a condensed plate may leave out."""
+CONDENSED = 1e-4
+"""Of the largest singular value, what a condensed plate may leave out; its reading is then off by 1e-5."""
 _OVERLAP = 1e-6
 """Columns of two groups closer than this are one."""
 
@@ -237,6 +237,11 @@ class SpannedPlate:
         """A span's vector. Shape (k,)."""
         return np.asarray(self.vectors[[str(n) for n in self.vector_names].index(name)])
 
+    @cached_property
+    def pickup_row(self) -> Array:
+        """`row` where it is stated to be read. Shape (k,)."""
+        return self.row(*self.pickup)
+
     @property
     def length_m(self) -> float:
         """Along x."""
@@ -247,15 +252,17 @@ class SpannedPlate:
         """Along y."""
         return float(self.size[1])
 
-    def row(self, x_m: float, y_m: float) -> Array:
-        """Reads w at a point of the plate; beyond an edge the nearest point of it. Shape (k,)."""
+    def row(self, x_m: float, y_m: float, dx: int = 0, dy: int = 0) -> Array:
+        """Reads w, or its derivative, at a point of the plate; beyond an edge the nearest one. Shape (k,)."""
         mesh = Mesh(self.length_m, self.width_m, int(self.size[2]), int(self.size[3]))
         a, b = mesh.sides_m
         x, y = np.clip(x_m, 0, mesh.length_m), np.clip(y_m, 0, mesh.width_m)
         i, j = min(int(x / a), mesh.n_x - 1), min(int(y / b), mesh.n_y - 1)
         first = i * (mesh.n_y + 1) + j
         corners = [first, first + mesh.n_y + 1, first + mesh.n_y + 2, first + 1]
-        shape = Shape(a, b).deflection(x - i * a, y - j * b).reshape(4, DOFS)[:, [W, THETA_X, THETA_Y]]
+        shape = (
+            Shape(a, b).deflection(x - i * a, y - j * b, dx, dy).reshape(4, DOFS)[:, [W, THETA_X, THETA_Y]]
+        )
         return np.einsum("cd,cdk->k", shape, self.deflection[corners])
 
 
