@@ -4,7 +4,7 @@ import hashlib
 import json
 import os
 import signal
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from functools import partial
@@ -92,10 +92,14 @@ def run_campaign(
     taken_out: bool = True,
     workers: int = 2,
     judged_by: Judge | None = None,
+    options: Mapping[str, Any] | None = None,
     progress: Progress = quiet,
 ) -> list[dict[str, Any]]:
-    """Lines of all jobs, with those an earlier run left in `folder`. Raises `BadInput`, `StoppedByUser`."""
-    _same_program(folder, {"taken_out": taken_out, "sources": fingerprint()})
+    """Lines of all jobs, with those an earlier run left in `folder`. Raises `BadInput`, `StoppedByUser`.
+
+    `options` are those of `judged_by`, by which outcomes differ.
+    """
+    _same_program(folder, {**(options or {"taken_out": taken_out}), "sources": fingerprint()})
     known = {(line["kind"], line["seed"]): line for line in read_lines(folder) if not line.get("error")}
     left = [job for job in jobs if (job.kind, job.seed) not in known]
     done = len(jobs) - len(left)

@@ -6,6 +6,9 @@ import click
 
 from instrument.bench import run_bench
 from instrument.campaign.cases import KINDS
+from instrument.campaign.plates.cases import KINDS as PLATE_KINDS
+from instrument.campaign.plates.judged import diagnosed, diagnosed_without_the_truth
+from instrument.campaign.plates.run import plate_jobs, run_plates, write_plate_summary
 from instrument.campaign.run import jobs_of, run_campaign, write_summary
 from instrument.cli.options import json_option
 from instrument.cli.output import Output
@@ -23,12 +26,27 @@ from instrument.progress import bar
     help="Instead: diagnose random sweeps of the 3D plant and score the answers. Goes on where it stopped.",
 )
 @click.option(
+    "--plates",
+    "plates_folder",
+    type=click.Path(path_type=Path, file_okay=False),
+    metavar="FOLDER",
+    help="Instead: the same on ten solid plates, each known only within a careful laboratory's tolerances.",
+)
+@click.option("--exact", is_flag=True, help="With --plates: what is stated is exact.")
+@click.option("--without-truth", is_flag=True, help="With --plates: what is hidden is not in the catalogue.")
+@click.option(
     "--count", type=click.IntRange(min=1), default=300, show_default=True, help="Sweeps to diagnose."
 )
 @click.option(
     "--seed", type=click.IntRange(min=0), default=1000, show_default=True, help="Of the first of them."
 )
-@click.option("--kind", "kinds", type=click.Choice(KINDS), multiple=True, help="Only these; may be repeated.")
+@click.option(
+    "--kind",
+    "kinds",
+    type=click.Choice([*PLATE_KINDS, *(k for k in KINDS if k not in PLATE_KINDS)]),
+    multiple=True,
+    help="Only these; may be repeated.",
+)
 @click.option("--workers", type=click.IntRange(min=1), default=2, show_default=True, help="Processes.")
 @click.option(
     "--taken-out/--no-taken-out",
@@ -39,6 +57,9 @@ from instrument.progress import bar
 def bench(
     json_path: str | None,
     folder: Path | None,
+    plates_folder: Path | None,
+    exact: bool,
+    without_truth: bool,
     count: int,
     seed: int,
     kinds: tuple[str, ...],
@@ -47,11 +68,24 @@ def bench(
 ) -> None:
     """Time the reduced model against direct solves and the paper's procedure, in this run on this machine."""
     out = Output(json_path)
-    if folder is None:
+    if folder is None and plates_folder is None:
         _times(out)
         return
+    if folder is not None and plates_folder is not None:
+        raise BadInput("--diagnosis and --plates are two campaigns, expected one of them")
     if json_path is not None:
-        raise BadInput("--json and --diagnosis: the outcomes are in the folder, a line of JSON each")
+        raise BadInput("--json and a campaign: the outcomes are in the folder, a line of JSON each")
+    known = KINDS if plates_folder is None else PLATE_KINDS
+    for kind in kinds:
+        if kind not in known:
+            raise BadInput(f"kind {kind!r} is not of this campaign, expected one of {', '.join(known)}")
+    if plates_folder is not None:
+        judged = diagnosed_without_the_truth if without_truth else diagnosed
+        jobs = plate_jobs(count, seed, kinds)
+        found = run_plates(jobs, plates_folder, exact=exact, diagnose=judged, workers=workers, progress=bar)
+        click.echo(write_plate_summary(found, plates_folder))
+        return
+    assert folder is not None
     lines = run_campaign(
         jobs_of(count, seed, kinds), folder, taken_out=taken_out, workers=workers, progress=bar
     )

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import scipy.sparse as sp
+from click.testing import CliRunner
 
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
@@ -30,6 +31,8 @@ from instrument.campaign.plates.simulate import Channel, built, clean_reading
 from instrument.campaign.plates.solid import Build, RootSprings, Solid, factorised
 from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
 from instrument.campaign.plates.tables import summary
+from instrument.cli.bench import bench
+from instrument.errors import BadInput
 
 COARSE = Fineness(5, 3, (0.5, 2.0), (1.0,))
 P2 = plate_named("P2")
@@ -295,12 +298,27 @@ def no_effect(case):
 def test_a_campaign_goes_on_where_it_was_stopped(tmp_path):
     jobs = plate_jobs(3, seed=11, kinds=(NONE, "gain_error"))
     first = run_plates(jobs[:2], tmp_path, identify=true_band, diagnose=no_effect, workers=1)
-    with open(tmp_path / "stated" / "outcomes.jsonl", "a", encoding="utf-8") as file:
+    with open(tmp_path / "outcomes.jsonl", "a", encoding="utf-8") as file:
         file.write('{"kind": "none", "se')
     lines = run_plates(jobs, tmp_path, identify=true_band, diagnose=no_effect, workers=1)
     assert [line["seed"] for line in lines] == [11, 12, 13]
     assert lines[:2] == first
-    assert "gain_error" in (tmp_path / "stated" / "summary.md").read_text(encoding="utf-8")
+    with pytest.raises(BadInput, match="other sources or options"):
+        run_plates(jobs, tmp_path, exact=True, identify=true_band, diagnose=no_effect, workers=1)
+
+
+def test_the_command_runs_it_and_keeps_the_summary(tmp_path, monkeypatch):
+    monkeypatch.setattr("instrument.cli.bench.diagnosed_without_the_truth", no_effect)
+    options = ["--count", "1", "--seed", "11", "--kind", "gain_error", "--workers", "1"]
+    result = CliRunner().invoke(bench, ["--plates", str(tmp_path), "--without-truth", *options])
+    assert result.exit_code == 0, result.output
+    assert "gain_error" in result.output
+    assert (tmp_path / "summary.md").read_text(encoding="utf-8") == result.output[:-1]
+
+
+def test_the_command_takes_kinds_of_one_campaign_only(tmp_path):
+    result = CliRunner().invoke(bench, ["--plates", str(tmp_path), "--kind", "mains_hum"])
+    assert isinstance(result.exception, BadInput)
 
 
 def test_every_kind_is_in_rotation():

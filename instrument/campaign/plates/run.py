@@ -1,9 +1,6 @@
 """A campaign on many plates: cases identified and diagnosed in processes, a line kept of each.
 
-It goes on after a kill:
-
-from instrument.campaign.plates.run import plate_jobs, run_plates
-lines = run_plates(plate_jobs(200, seed=500), folder, identify=mine, diagnose=mine_too)
+It goes on after a kill: `viscorig bench --plates FOLDER`, or `run_plates` with functions of one's own.
 """
 
 from collections.abc import Callable, Sequence
@@ -59,11 +56,17 @@ def run_plates(
 ) -> list[dict[str, Any]]:
     """Lines of all jobs, with those an earlier run left. Raises `BadInput`, `StoppedByUser`.
 
-    Kept in `folder`, exact and stated cases apart; `identify` and `diagnose` go to other processes, so they
-    must be functions of a module.
+    `identify` and `diagnose` go to other processes, so they must be functions of a module.
     """
     judged_by = partial(judge_plate, exact=exact, identify=identify, diagnose=diagnose)
-    kept = folder / ("exact" if exact else "stated")
-    lines = run_campaign(jobs, kept, workers=workers, judged_by=judged_by, progress=progress)
-    (kept / SUMMARY).write_text(summary([outcome_from(line) for line in lines]), encoding="utf-8")
-    return lines
+    options = {"exact": exact, "by": [f.__name__ for f in (identify, diagnose) if f is not None]}
+    return run_campaign(
+        jobs, folder, workers=workers, judged_by=judged_by, options=options, progress=progress
+    )
+
+
+def write_plate_summary(lines: Sequence[dict[str, Any]], folder: Path) -> str:
+    """The score as Markdown, kept in the folder."""
+    text = summary([outcome_from(line) for line in lines])
+    (folder / SUMMARY).write_text(text, encoding="utf-8")
+    return text

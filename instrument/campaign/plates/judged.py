@@ -1,0 +1,41 @@
+"""Cases of the campaign on many plates given to `diagnose`: functions of a module, for other processes."""
+
+from collections.abc import Collection
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+
+from fitting.specimen import Specimen
+from instrument.campaign.plates.answers import Answer, answer_from
+from instrument.campaign.plates.cases import PlateCase
+from instrument.campaign.plates.geometry import plate_named
+from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
+from instrument.diagnosis import diagnose
+from instrument.diagnosis_facts import diagnosis_facts
+
+_SEED, _MIDDLE_HZ, _RATIO = 7, 100.0, 2e-3
+
+
+def diagnosed(case: PlateCase) -> Answer:
+    """With the whole catalogue."""
+    return _diagnosed(case)
+
+
+def diagnosed_without_the_truth(case: PlateCase) -> Answer:
+    """With all of it but what is really there."""
+    return _diagnosed(case, case.truth.names)
+
+
+def _diagnosed(case: PlateCase, without: Collection[str] = ()) -> Answer:
+    like = None if case.exact else models_of(case.truth.plate.name)
+    found = diagnose(case.sweep, case.specimen, hammer=case.hammer, without=without, like=like)
+    return answer_from(diagnosis_facts(found, case.sweep))
+
+
+@lru_cache
+def models_of(plate: str) -> Specimen:
+    """One statement of a plate, as far off the truth as any other: its models serve all of them."""
+    rng = np.random.default_rng([_SEED, *plate.encode()])
+    stated = specimen_from(toml(draw_stated(rng, plate_named(plate)), CAREFUL, _MIDDLE_HZ))
+    return replace(stated, modal_ratios=(_RATIO,) * len(stated.modal_ratios))
