@@ -27,6 +27,8 @@ _UNHEARD = 1e-6
 """Share of a mode that the plate's motions carry, below which its ratio plays no part."""
 _TREATMENT = ("constraining", "core")
 _MOST_KEPT = 64
+_FELT = 0.3
+"""Standard deviations from which derivatives to stated numbers are taken to vary."""
 
 
 @dataclass(frozen=True)
@@ -101,10 +103,6 @@ class Nuisances:
         return [k for k, n in enumerate(self.each) if n.kind in PLATE]
 
     @cached_property
-    def _moves_plate(self) -> NDArray[np.bool_]:
-        return np.isin(np.arange(len(self.each)), self._of_plate)
-
-    @cached_property
     def of_bare_plate(self) -> list[int]:
         """Those that a hammer test of the bare plate feels."""
         return [k for k in self._of_plate if not self.each[k].kind.startswith((*_TREATMENT, "length"))]
@@ -154,9 +152,20 @@ class Nuisances:
         return self._kept.get("c", z, lambda: self._coefficients(z) - self._stated)
 
     def by_coefficients(self, z: Array) -> Array:
-        """Their derivatives to z, at the nearest whole z: they hardly vary. Shape (count, parts + 1)."""
-        z = np.where(self._moves_plate, np.round(z), 0.0)
+        """Their derivatives to z, as far as these vary linearly with z. Shape (count, parts + 1)."""
+        found = self._differences(np.zeros(len(self)))
+        for k in self._of_plate:
+            if abs(z[k]) > _FELT:
+                found = found + z[k] * self._second(k)
+        return found
 
+    def _second(self, k: int) -> Array:
+        """How derivatives vary with one number."""
+        step = np.zeros(len(self))
+        step[k] = 1.0
+        return self._kept.get("ddc", step, lambda: (self._differences(step) - self._differences(-step)) / 2)
+
+    def _differences(self, z: Array) -> Array:
         def differences() -> Array:
             found = np.zeros((len(self), len(self._stated)), self._stated.dtype)
             for k in self._of_plate:

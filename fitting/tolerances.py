@@ -82,24 +82,21 @@ def moved(specimen: Specimen, names: Sequence[str], by: Sequence[float]) -> Spec
 
     The pickup stays where it is stated, so many metres from the clamp.
     """
+    changes: dict[str, dict[str, Any]] = {}
+    sides: dict[str, Any] = {}
     for name, step in zip(names, by, strict=True):
-        if step:
-            specimen = _moved(specimen, name, float(step))
-    return specimen
-
-
-def _moved(specimen: Specimen, name: str, step: float) -> Specimen:
-    if name in ("length", "width"):
-        field = f"{name}_m"
-        # The mesh is kept: its elements stretch.
-        changes: dict[str, Any] = {field: getattr(specimen, field) + step, "elements": specimen.mesh}
-        return replace(specimen, **changes)
-    layer_name, quantity = name.split("_")
-    layer: Face | None = getattr(specimen, layer_name)
-    if layer is None:
-        return specimen
-    field = _FIELDS[quantity]
-    value = getattr(layer, field) * exp(step)
-    if quantity == "poisson":
-        value = min(value, _LARGEST_POISSON)
-    return replace(specimen, **{layer_name: replace(layer, **{field: value})})  # type: ignore[arg-type]
+        if not step:
+            continue
+        if name in ("length", "width"):
+            # The mesh is kept: its elements stretch.
+            sides |= {f"{name}_m": getattr(specimen, f"{name}_m") + step, "elements": specimen.mesh}
+            continue
+        layer_name, quantity = name.split("_")
+        layer: Face | None = getattr(specimen, layer_name)
+        if layer is not None:
+            value = getattr(layer, _FIELDS[quantity]) * exp(step)
+            if quantity == "poisson":
+                value = min(value, _LARGEST_POISSON)
+            changes.setdefault(layer_name, {})[_FIELDS[quantity]] = value
+    layers = {name: replace(getattr(specimen, name), **of_layer) for name, of_layer in changes.items()}
+    return replace(specimen, **layers, **sides) if layers or sides else specimen

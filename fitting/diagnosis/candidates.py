@@ -23,6 +23,10 @@ Known = dict[str, list[Fitted]]
 
 FOLLOWED, FOLLOWED_PLACES = 2, 4
 """Of an effect's starts, how many are fitted roughly; of one with a place to be found."""
+LEAST_PROMISE, PROMISE = 3.0, 0.1
+"""In chi-square, and as a share of the best start's: what a further start must promise."""
+LEAST_GAIN = 1.0
+"""In chi-square, gained or still to be made good after a few steps: then a start is followed all the same."""
 MORE_PLACES = 6
 """Further starts of the latter, in a thorough search."""
 MOST_PLACES = 30
@@ -113,18 +117,21 @@ class Contender:
     def _response(self) -> Response:
         return Response(self.task, [*self.before.effects, self.effect], self.task.coarse)
 
-    def _rough(self, law: CoreLaw, u: Array, evidence: Evidence, *, as_stated: bool = False) -> Fitted:
+    def _rough(
+        self, law: CoreLaw, u: Array, evidence: Evidence, *, as_stated: bool = False, brief: bool = False
+    ) -> Fitted:
         known = self.before.u.copy()
         if as_stated:
             # Without the effect the stated numbers may have been moved to do its work.
             known[: self.before.stated] = 0.0
         start = np.concatenate([known, u])
-        return refit(self._response, evidence, law, start, tolerance=ROUGH)
+        return refit(self._response, evidence, law, start, tolerance=ROUGH, brief=brief)
 
     @cached_property
     def near(self) -> list[Fitted]:
         """Rough fits from the law so far and the starts that promise most; best first."""
-        return self._from(self._starts[: self._first])
+        starts = self._starts[: self._first]
+        return self._from([s for k, s in enumerate(starts) if not k or s[0] > self._least_promise])
 
     @cached_property
     def elsewhere(self) -> list[Fitted]:
@@ -138,6 +145,11 @@ class Contender:
         return self._from(self._starts[followed : followed + MOST_PLACES])
 
     @property
+    def _least_promise(self) -> float:
+        """Chi-square that a further start must promise to be followed."""
+        return max(LEAST_PROMISE, PROMISE * self._starts[0][0])
+
+    @property
     def _first(self) -> int:
         return FOLLOWED_PLACES if has_place(self.effect) else FOLLOWED
 
@@ -146,8 +158,15 @@ class Contender:
         return MORE_PLACES if has_place(self.effect) else 0
 
     def _from(self, starts: Sequence[Start]) -> list[Fitted]:
-        fits = [self._rough(self.before.law, u, self.evidence) for _, u in starts]
+        fits = [self._followed(promise, u) for promise, u in starts]
         return sorted(fits, key=_chi2)
+
+    def _followed(self, promise: float, u: Array) -> Fitted:
+        if promise < LEAST_PROMISE:
+            brief = self._rough(self.before.law, u, self.evidence, brief=True)
+            if brief.converged or abs(self.before.chi2 - brief.chi2) < LEAST_GAIN:
+                return brief
+        return self._rough(self.before.law, u, self.evidence)
 
     @cached_property
     def plain(self) -> list[Fitted]:

@@ -18,6 +18,7 @@ Mask = NDArray[np.bool_]
 
 _MOST_EVALUATIONS = 25
 _ROUGH_EVALUATIONS = 10
+_BRIEF_EVALUATIONS = 3
 _WIDEST = 3.0
 """Times a standard error, that a flat chi-square may widen it."""
 ROUGH, GOOD = 1e-3, 1e-5
@@ -122,8 +123,12 @@ def refit(
     *,
     tolerance: float = GOOD,
     points: Mask | None = None,
+    brief: bool = False,
 ) -> Fitted:
-    """The best law and unknowns from `law` and `u` on; `points` limits the sweep's points that count."""
+    """The best law and unknowns from `law` and `u` on; `points` limits the sweep's points that count.
+
+    `brief` where little is to be gained.
+    """
     problem = _Problem(response, evidence, law, u, points)
     lower, upper = problem.limits
     found = least_squares(
@@ -135,7 +140,7 @@ def refit(
         xtol=tolerance,
         ftol=tolerance,
         gtol=1e-10,
-        max_nfev=_ROUGH_EVALUATIONS if tolerance >= ROUGH else _MOST_EVALUATIONS,
+        max_nfev=_BRIEF_EVALUATIONS if brief else _most(tolerance),
     )
     return replace(
         problem.fitted(found.x),
@@ -143,6 +148,10 @@ def refit(
         evaluations=int(found.nfev),
         converged=bool(found.status > 0),
     )
+
+
+def _most(tolerance: float) -> int:
+    return _ROUGH_EVALUATIONS if tolerance >= ROUGH else _MOST_EVALUATIONS
 
 
 def posterior(response: Response, evidence: Evidence, fitted: Fitted) -> Array:

@@ -22,7 +22,9 @@ from fitting.identification.validation import Validation
 Array = NDArray[np.float64]
 Report = Callable[[float], None]
 NEAR = 40.0
-"""In cost above the best: effects so near are gone into twice."""
+"""In cost above the best: effects so near are gone into twice, where the law so far is no place to begin."""
+NEARER = 12.0
+"""The same, where it is."""
 UNCLEAR = 1.1
 """Chi-square per degree of freedom above which the first pass may have missed the cause."""
 PROMISING = 5.0
@@ -132,13 +134,12 @@ class Search:
                 if name not in found or trial.cost < found[name].cost:
                     found[name] = trial
 
-        laws = [e for e in self.effects if e not in self._fitted]
-        for fits in each(work.other_laws, laws, lambda x: report(0.1 * x)):
-            keep(fits)
+        laws = [e.name for e in self.effects if e not in self._fitted]
         names = [e.name for e in self._fitted]
-        for name, state in zip(names, each(work.rough, names, lambda x: report(0.1 + 0.3 * x)), strict=True):
-            work.learn(name, state)
-            keep(f for known in state for f in known["near"])
+        for begun in each(work.begun, [*laws, *names], lambda x: report(0.4 * x)):
+            if begun.state:
+                work.learn(begun.name, begun.state)
+            keep(begun.fits)
         ahead = [best for name in self._ahead(found) for best in work.best_near(name)]
         keep(each(work.finished, ahead, lambda x: report(0.4 + 0.2 * x)))
         further = [(name, work.state(name)) for name in self._worth_more(found)]
@@ -154,12 +155,13 @@ class Search:
 
     def _ahead(self, found: Mapping[str, Trial]) -> list[str]:
         """Effects whose rough fit is among the best or not far behind."""
-        order = sorted(found.values(), key=lambda t: t.fitted.chi2)
-        names = {
-            t.names[0]
-            for place, t in enumerate(order)
-            if place < 2 * LEADERS and t.fitted.chi2 < LEFT_BEHIND * order[0].fitted.chi2
-        }
+        if self._astray:
+            order = sorted(found.values(), key=lambda t: t.fitted.chi2)
+            near = [t for t in order if t.fitted.chi2 < LEFT_BEHIND * order[0].fitted.chi2]
+        else:
+            order = sorted(found.values(), key=lambda t: t.cost)
+            near = [t for t in order if t.cost < order[0].cost + NEARER]
+        names = {t.names[0] for t in near[: 2 * LEADERS]}
         return [e.name for e in self._fitted if e.name in names]
 
     def _worth_more(self, found: Mapping[str, Trial]) -> list[str]:
@@ -167,11 +169,21 @@ class Search:
         order = sorted(found.values(), key=lambda t: t.cost)
         if not order or self.none.cost - order[0].cost < PROMISING:
             return []
+        fitted = {e.name: e for e in self._fitted if e.unknowns}
+        if not self._astray and not order[0].fails:
+            # What has no place to be found is where it belongs by now.
+            near = (t.names[0] for t in order if t.cost < min(order[0].cost + NEARER, self.none.cost))
+            return [name for name in near if name in fitted and has_place(fitted[name])]
         names = {t.names[0] for t in order if t.cost < order[0].cost + NEAR}
         best = order[0].fitted
         if not best.chi2_per_dof < UNCLEAR or any(e.replaces_law for e in best.effects):
             names |= {t.names[0] for t in order[:LEADERS]} | self._promising()
-        return [e.name for e in self._fitted if e.name in names and e.unknowns]
+        return [name for name in fitted if name in names]
+
+    @property
+    def _astray(self) -> bool:
+        """Whether the law so far is no place to begin."""
+        return self.none.fitted.chi2_per_dof > WRONG
 
     def _misplaced(self, found: Mapping[str, Trial]) -> list[str]:
         """Where all that lead fail, those of them whose right place may not have been among the first."""
@@ -186,7 +198,7 @@ class Search:
 
     def _promising(self) -> set[str]:
         """Where the law so far is no place to begin: the effects that do best from plain starts."""
-        if not self.none.fitted.chi2_per_dof > WRONG:
+        if not self._astray:
             return set()
         return set(self.order_of_plain()[:LEADERS])
 

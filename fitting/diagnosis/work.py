@@ -1,12 +1,13 @@
 """What can be done for one candidate without knowing of the others: any process can do it."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import permutations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.diagnosis.candidates import FINISHED, Contender, Known, Start, look, polished
+from fitting.diagnosis.candidates import FINISHED, WRONG, Contender, Known, Start, look, polished
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.prediction import held_out
@@ -23,6 +24,15 @@ LAWS_FINISHED = 2
 """Other laws that are fitted to the end, of those fitted roughly."""
 State = list[Known]
 """What is known of each variant of an effect."""
+
+
+@dataclass(frozen=True)
+class Begun:
+    """A first look at an effect."""
+
+    name: str
+    fits: list[Fitted]
+    state: State
 
 
 class Work:
@@ -59,14 +69,18 @@ class Work:
         coarse = Response(self.task, [*self.none.effects, effect], self.task.coarse)
         laws = effect.laws(self.none.law, self.task.points)
         rough = [refit(coarse, self.evidence, law, self.none.u, tolerance=ROUGH) for law in laws]
-        best = sorted(rough, key=lambda f: cost(f, self.task.plate))[:LAWS_FINISHED]
+        order = sorted(rough, key=lambda f: cost(f, self.task.plate))
+        worth = [f for f in order if f.chi2 < self.none.chi2]
+        best = worth[:LAWS_FINISHED] or order[:1]
         return [refit(response, self.evidence, f.law, f.u) for f in best]
 
-    def rough(self, name: str) -> State:
-        """Rough fits near by."""
-        for contender in self.contenders[name]:
-            _ = contender.near
-        return self.state(name)
+    def begun(self, name: str) -> "Begun":
+        """An effect's rough fits near by, or its other laws in the place of the stated one."""
+        effect = self.effects[name]
+        if effect.laws(self.none.law, self.task.points):
+            return Begun(name, self.other_laws(effect), [])
+        fits = [f for contender in self.contenders[name] for f in contender.near]
+        return Begun(name, fits, self.state(name))
 
     def plain(self, one: tuple[str, State]) -> State:
         """Fits of the first variant from plain starts."""
@@ -93,7 +107,8 @@ class Work:
         followed = _best_first([(c, f) for c in contenders for f in c.near])[:1]
         near = _best_first([(c, f) for c in contenders for f in [*c.near, *c.elsewhere]])[:FINISHED]
         near = [one for one in near if one not in followed]
-        far = _best_first([(c, f) for c in contenders for f in c.far])[:FINISHED]
+        astray = self.none.chi2_per_dof > WRONG
+        far = _best_first([(c, f) for c in contenders for f in c.far])[:FINISHED] if astray else []
         return [c.finished(f) for c, f in [*near, *far]]
 
     def everywhere(self, one: tuple[str, State]) -> list[Fitted]:
