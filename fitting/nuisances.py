@@ -147,6 +147,11 @@ class Nuisances:
     def _kept(self) -> "_Kept":
         return _Kept()
 
+    @cached_property
+    def _kept_differences(self) -> "_Kept":
+        # They are few, and dear.
+        return _Kept()
+
     def coefficients(self, z: Array) -> Array:
         """Of all parts and the load above the reference's. Shape (parts + 1,)."""
         return self._kept.get("c", z, lambda: self._coefficients(z) - self._stated)
@@ -163,7 +168,9 @@ class Nuisances:
         """How derivatives vary with one number."""
         step = np.zeros(len(self))
         step[k] = 1.0
-        return self._kept.get("ddc", step, lambda: (self._differences(step) - self._differences(-step)) / 2)
+        return self._kept_differences.get(
+            "ddc", step, lambda: (self._differences(step) - self._differences(-step)) / 2
+        )
 
     def _differences(self, z: Array) -> Array:
         def differences() -> Array:
@@ -174,7 +181,7 @@ class Nuisances:
                 found[k] = (self._coefficients(up) - self._coefficients(down)) / (2 * _H)
             return found
 
-        return self._kept.get("dc", z, differences)
+        return self._kept_differences.get("dc", z, differences)
 
     def change(self, plate: SpannedPlate, z: Array) -> Change:
         """What they change of a plate that has the parts of `specimen`."""

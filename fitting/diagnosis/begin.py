@@ -13,7 +13,8 @@ from fitting.bent_law import BentLaw
 from fitting.diagnosis.candidates import polished
 from fitting.diagnosis.evidence import BareModes, Evidence
 from fitting.diagnosis.model_error import model_error
-from fitting.diagnosis.refit import Fitted
+from fitting.diagnosis.refit import ROUGH, Fitted, refit
+from fitting.diagnosis.response import Response
 from fitting.diagnosis.task import Task
 from fitting.identification.direct import fit_direct
 from fitting.identification.fit import Fit
@@ -65,10 +66,15 @@ def begin(task: Task, reduced: ReducedPlate, noise: Noise, bare: BareModes | Non
             # Tolerances weigh against readings: those need a size, and their misfit is all there is.
             dof = max(1, evidence.count - len(law.names))
             evidence = evidence.scaled(float(np.linalg.norm(first.residuals) / np.sqrt(dof)))
-        none = min((polished(here, (), evidence, one, u) for one in laws), key=lambda f: f.chi2)
+        if len(laws) > 1:
+            rough = Response(here, (), here.coarse)
+            fits = [refit(rough, evidence, one, u, tolerance=ROUGH) for one in laws]
+            best = min(fits, key=lambda f: f.chi2)
+            law, u, laws = best.law, best.u, [best.law]
+        none = polished(here, (), evidence, law, u)
         omega = task.coarse.nodes.omega
         moved = np.max(np.abs(none.law.modulus(omega) / law.modulus(omega) - 1))
-        law, u, laws = none.law, none.u, [none.law]
+        law, u = none.law, none.u
         if moved < _FAR:
             break
     return Begun(here, evidence, none, first)

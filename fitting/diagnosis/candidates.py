@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,7 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Start = tuple[float, Array]
 """The chi-square that a start may gain, and its unknowns."""
-Known = dict[str, list[Fitted]]
+Known = dict[str, Any]
 """What a contender has found so far, by the name of the property."""
 
 FOLLOWED, FOLLOWED_PLACES = 2, 4
@@ -37,7 +38,7 @@ WRONG = 2.0
 """Chi-square per degree of freedom beyond which the law so far is no place to begin."""
 HOPELESS = 30.0
 """Chi-square per degree of freedom that finer grids will not mend."""
-_FOUND = ("near", "elsewhere", "plain", "far")
+_FOUND = ("starts", "near", "elsewhere", "plain", "far")
 _ROUNDS = 3
 _FAR = 0.02
 
@@ -108,7 +109,8 @@ class Contender:
         self.__dict__.update(known)
 
     @cached_property
-    def _starts(self) -> Sequence[Start]:
+    def starts(self) -> Sequence[Start]:
+        """As `look` gives them."""
         if self._looked is not None:
             return self._looked
         return look(self.task, self.evidence, self.before, self.effect)
@@ -130,24 +132,33 @@ class Contender:
     @cached_property
     def near(self) -> list[Fitted]:
         """Rough fits from the law so far and the starts that promise most; best first."""
-        starts = self._starts[: self._first]
+        starts = self.starts[: self._first]
         return self._from([s for k, s in enumerate(starts) if not k or s[0] > self._least_promise])
+
+    @property
+    def promise(self) -> float:
+        """Chi-square that the best start may gain."""
+        return self.starts[0][0] if self.starts else 0.0
+
+    def briefly(self) -> list[Fitted]:
+        """A few steps from the best start: where the effect cannot be what is looked for."""
+        return [self._rough(self.before.law, u, self.evidence, brief=True) for _, u in self.starts[:1]]
 
     @cached_property
     def elsewhere(self) -> list[Fitted]:
         """The same from some more starts of an effect whose place is to be found: valleys are many."""
-        return self._from(self._starts[self._first : self._first + self._more])
+        return self._from(self.starts[self._first : self._first + self._more])
 
     @cached_property
     def everywhere(self) -> list[Fitted]:
         """The same from those that are left."""
         followed = self._first + self._more
-        return self._from(self._starts[followed : followed + MOST_PLACES])
+        return self._from(self.starts[followed : followed + MOST_PLACES])
 
     @property
     def _least_promise(self) -> float:
         """Chi-square that a further start must promise to be followed."""
-        return max(LEAST_PROMISE, PROMISE * self._starts[0][0])
+        return max(LEAST_PROMISE, PROMISE * self.starts[0][0])
 
     @property
     def _first(self) -> int:
@@ -178,7 +189,7 @@ class Contender:
     def quick(self) -> list[Fitted]:
         """One rough fit, begun in a wide valley from the better of the first and the most promising start."""
         first = self.effect.starts(self.task.plate, self.task.points)[:1]
-        blunt, starts = self.evidence.blunt(), [*first, *(u for _, u in self._starts[:1])]
+        blunt, starts = self.evidence.blunt(), [*first, *(u for _, u in self.starts[:1])]
         rough = (self._rough(self.before.law, u, blunt, as_stated=True) for u in starts)
         wide = min(rough, key=_chi2)
         return [refit(self._response, self.evidence, wide.law, wide.u, tolerance=ROUGH)]
@@ -189,7 +200,7 @@ class Contender:
 
         A linear step from a wrong law may lead astray.
         """
-        begun = [f for _, u in self._starts[:1] for f in self._wide(u)]
+        begun = [f for _, u in self.starts[:1] for f in self._wide(u)]
         return sorted([*self.plain, *begun], key=_chi2)
 
     def _wide(self, u: Array) -> list[Fitted]:

@@ -14,7 +14,7 @@ from fitting.diagnosis.predictive import checks, form_error, passes, temper
 from fitting.diagnosis.refit import Fitted, refit
 from fitting.diagnosis.response import Response
 from fitting.diagnosis.task import Task
-from fitting.diagnosis.work import Work
+from fitting.diagnosis.work import Begun, Work
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.identification.validation import Validation
@@ -33,6 +33,8 @@ LEADERS = 5
 """Effects that are gone into twice, and that a second one is looked for beside."""
 LEFT_BEHIND = 4.0
 """Times the least chi-square: rough fits beyond are not followed to the end."""
+FIRST = 4
+"""Effects that are fitted before all others, where they promise most."""
 _SPARE = 2
 """Data a candidate must leave over."""
 
@@ -73,6 +75,7 @@ class Search:
         """`unnamed` are fitted alone, for comparison, and never named."""
         self.task, self.evidence, self.hands = task, evidence, hands
         self.stated = stated = none.law
+        self._found_at_once = False
         self._validations: dict[int, tuple[Trial, Validation]] = {}
         self.effects, self.unnamed = (
             [e for e in some if e.objection(task.points, task.plate) is None] for some in (effects, unnamed)
@@ -134,21 +137,51 @@ class Search:
                 if name not in found or trial.cost < found[name].cost:
                     found[name] = trial
 
+        def begin(tasks: Iterable[Begun]) -> None:
+            for begun in tasks:
+                if begun.state:
+                    work.learn(begun.name, begun.state)
+                keep(begun.fits)
+
         laws = [e.name for e in self.effects if e not in self._fitted]
         names = [e.name for e in self._fitted]
-        for begun in each(work.begun, [*laws, *names], lambda x: report(0.4 * x)):
-            if begun.state:
-                work.learn(begun.name, begun.state)
-            keep(begun.fits)
+        first, self._found_at_once = self._leading(names), False
+        if first:
+            begin(each(work.begun, [(n, work.state(n)) for n in first], lambda x: report(0.1 + 0.1 * x)))
+            leader = min(found.values(), key=lambda t: t.cost).names[0]
+            keep(each(work.finished, work.best_near(leader)))
+        left = [n for n in (*laws, *names) if n not in first]
+        best = min(found.values(), key=lambda t: t.cost, default=self.none)
+        if best is not self.none and self._settles(best):
+            self._found_at_once = True
+            again = [(n, work.state(n), best.fitted) for n in (*laws, *names) if n not in best.names]
+            begin(each(work.beside_the_best, again, lambda x: report(0.2 + 0.2 * x)))
+        else:
+            begin(each(work.begun, [(n, work.state(n)) for n in left], lambda x: report(0.2 + 0.2 * x)))
         ahead = [best for name in self._ahead(found) for best in work.best_near(name)]
         keep(each(work.finished, ahead, lambda x: report(0.4 + 0.2 * x)))
-        further = [(name, work.state(name)) for name in self._worth_more(found)]
+        further = [(name, work.state(name), self._astray) for name in self._worth_more(found)]
         for fits in each(work.thorough, further, lambda x: report(0.6 + 0.3 * x)):
             keep(fits)
         places = [(name, work.state(name)) for name in self._misplaced(found)]
         for fits in each(work.everywhere, places, lambda x: report(0.9 + 0.1 * x)):
             keep(fits)
         return sorted(found.values(), key=lambda t: t.cost)
+
+    def _leading(self, names: Sequence[str]) -> list[str]:
+        """Where something is left to be explained, the effects that promise most of it."""
+        work = self.work
+        for name, state in zip(names, self.hands.each(work.starts, names), strict=True):
+            work.learn(name, state)
+        order = sorted(names, key=work.promise, reverse=True)[:FIRST]
+        clean = self.none.fitted.chi2_per_dof < UNCLEAR and work.promise(order[0]) < NEAR
+        return [] if clean else order
+
+    def _settles(self, trial: Trial) -> bool:
+        """Whether an effect explains all there is."""
+        best = trial.fitted
+        enough = self.none.cost - trial.cost > PROMISING and best.chi2_per_dof < UNCLEAR
+        return enough and not trial.fails and not any(e.replaces_law for e in best.effects)
 
     def _determined(self, fitted: Fitted) -> bool:
         return fitted.parameters <= self.evidence.count - _SPARE
@@ -183,7 +216,7 @@ class Search:
     @property
     def _astray(self) -> bool:
         """Whether the law so far is no place to begin."""
-        return self.none.fitted.chi2_per_dof > WRONG
+        return self.none.fitted.chi2_per_dof > WRONG and not self._found_at_once
 
     def _misplaced(self, found: Mapping[str, Trial]) -> list[str]:
         """Where all that lead fail, those of them whose right place may not have been among the first."""

@@ -7,7 +7,7 @@ from itertools import permutations
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.diagnosis.candidates import FINISHED, WRONG, Contender, Known, Start, look, polished
+from fitting.diagnosis.candidates import FINISHED, Contender, Known, Start, look, polished
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.prediction import held_out
@@ -22,6 +22,8 @@ Form = tuple[str, int]
 """An effect by its name, and the number of its variant."""
 LAWS_FINISHED = 2
 """Other laws that are fitted to the end, of those fitted roughly."""
+ABLE = 0.2
+"""Of what the best explains: what another effect must promise, from where the best has got to."""
 State = list[Known]
 """What is known of each variant of an effect."""
 
@@ -74,13 +76,37 @@ class Work:
         best = worth[:LAWS_FINISHED] or order[:1]
         return [refit(response, self.evidence, f.law, f.u) for f in best]
 
-    def begun(self, name: str) -> "Begun":
+    def starts(self, name: str) -> State:
+        """What a first look at an effect promises."""
+        for contender in self.contenders[name]:
+            _ = contender.starts
+        return self.state(name)
+
+    def promise(self, name: str) -> float:
+        """Chi-square that an effect may gain by one linear step."""
+        return max((c.promise for c in self.contenders[name]), default=0.0)
+
+    def begun(self, one: tuple[str, State]) -> "Begun":
         """An effect's rough fits near by, or its other laws in the place of the stated one."""
-        effect = self.effects[name]
-        if effect.laws(self.none.law, self.task.points):
-            return Begun(name, self.other_laws(effect), [])
+        name, state = one
+        if self.effects[name].laws(self.none.law, self.task.points):
+            return Begun(name, self.other_laws(self.effects[name]), [])
+        self.learn(name, state)
         fits = [f for contender in self.contenders[name] for f in contender.near]
         return Begun(name, fits, self.state(name))
+
+    def beside_the_best(self, one: tuple[str, State, Fitted]) -> "Begun":
+        """The same, where another effect explains everything: from its law, if it can do the same there."""
+        name, state, best = one
+        if self.effects[name].laws(self.none.law, self.task.points):
+            return Begun(name, self.other_laws(self.effects[name]), [])
+        self.learn(name, state)
+        bare = kept(Response(self.task, ()), self.evidence, best.law, best.z)
+        there = [self._beside(bare, c.effect) for c in self.contenders[name]]
+        for contender, from_there in zip(self.contenders[name], there, strict=True):
+            able = from_there.promise > ABLE * (bare.chi2 - best.chi2)
+            contender.learn({"near": from_there.near if able else contender.briefly()})
+        return Begun(name, [f for c in self.contenders[name] for f in c.near], self.state(name))
 
     def plain(self, one: tuple[str, State]) -> State:
         """Fits of the first variant from plain starts."""
@@ -99,15 +125,17 @@ class Work:
         (name, number), rough = one
         return self.contenders[name][number].finished(rough)
 
-    def thorough(self, one: tuple[str, State]) -> list[Fitted]:
-        """Further starts, the best of them followed to the end, but for the one that has been."""
-        name, state = one
+    def thorough(self, one: tuple[str, State, bool]) -> list[Fitted]:
+        """Further starts, the best of them followed to the end, but for the one that has been.
+
+        With far ones, where the law so far is no place to begin.
+        """
+        name, state, astray = one
         self.learn(name, state)
         contenders = self.contenders[name]
         followed = _best_first([(c, f) for c in contenders for f in c.near])[:1]
         near = _best_first([(c, f) for c in contenders for f in [*c.near, *c.elsewhere]])[:FINISHED]
         near = [one for one in near if one not in followed]
-        astray = self.none.chi2_per_dof > WRONG
         far = _best_first([(c, f) for c in contenders for f in c.far])[:FINISHED] if astray else []
         return [c.finished(f) for c, f in [*near, *far]]
 
