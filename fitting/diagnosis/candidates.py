@@ -18,7 +18,7 @@ from fitting.laws import CoreLaw
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 Start = tuple[float, Array]
-"""The chi-square that a start may gain, and its unknowns."""
+"""The chi-square that a start may gain, and its unknowns; zero where a linear step cannot tell."""
 Known = dict[str, Any]
 """What a contender has found so far, by the name of the property."""
 
@@ -133,12 +133,19 @@ class Contender:
     def near(self) -> list[Fitted]:
         """Rough fits from the law so far and the starts that promise most; best first."""
         starts = self.starts[: self._first]
-        return self._from([s for k, s in enumerate(starts) if not k or s[0] > self._least_promise])
+        return self._from(
+            [s for k, s in enumerate(starts) if not k or s[0] == 0 or s[0] > self._least_promise]
+        )
 
     @property
     def promise(self) -> float:
         """Chi-square that the best start may gain."""
         return self.starts[0][0] if self.starts else 0.0
+
+    @property
+    def is_open(self) -> bool:
+        """Whether a linear step cannot tell what some start may gain."""
+        return any(promise == 0 for promise, _ in self.starts)
 
     def briefly(self) -> list[Fitted]:
         """A few steps from the best start: where the effect cannot be what is looked for."""
@@ -173,7 +180,7 @@ class Contender:
         return sorted(fits, key=_chi2)
 
     def _followed(self, promise: float, u: Array) -> Fitted:
-        if promise < LEAST_PROMISE:
+        if 0 < promise < LEAST_PROMISE:
             brief = self._rough(self.before.law, u, self.evidence, brief=True)
             if brief.converged or abs(self.before.chi2 - brief.chi2) < LEAST_GAIN:
                 return brief

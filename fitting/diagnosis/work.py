@@ -104,7 +104,7 @@ class Work:
         bare = kept(Response(self.task, ()), self.evidence, best.law, best.z)
         there = [self._beside(bare, c.effect) for c in self.contenders[name]]
         for contender, from_there in zip(self.contenders[name], there, strict=True):
-            able = from_there.promise > ABLE * (bare.chi2 - best.chi2)
+            able = from_there.is_open or from_there.promise > ABLE * (bare.chi2 - best.chi2)
             contender.learn({"near": from_there.near if able else contender.briefly()})
         return Begun(name, [f for c in self.contenders[name] for f in c.near], self.state(name))
 

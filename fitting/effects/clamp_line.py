@@ -30,13 +30,15 @@ class Length(Span):
             return super().forces(full, at)
         x, y = full.pickup_m
         length = full.specimen.length_m
-        rows = np.column_stack([full.loose.observe(min(x / scale, length), y) for scale in _SCALES])
+        places = [place for scale in _SCALES for place in (x / scale, (x + (scale - 1) * length) / scale)]
+        rows = np.column_stack([full.loose.observe(min(place, length), y) for place in places])
         others = [with_length(full.specimen, scale * length) for scale in _SCALES]
         return np.hstack([forces(full, at, others), rows])
 
     def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
         few = 2 * len(_SCALES)
-        return np.hstack([answers[:, :few], 0.3 * full.unit(answers[:, few:])])
+        rows = full.unit(answers[:, few:])
+        return np.hstack([answers[:, :few], 0.3 * rows])
 
 
 def with_length(specimen: Specimen, length_m: float) -> Specimen:
@@ -45,12 +47,19 @@ def with_length(specimen: Specimen, length_m: float) -> Specimen:
 
 
 class ClampLine(Effect):
-    """The free length is the stated one and `dlength`; the pickup stays where it is from the clamp."""
+    """The free length is the stated one and `dlength`.
+
+    The pickup stays where it is stated from the true line, or was measured from the visible edge too
+    (`pickup_too`).
+    """
 
     name = "clamp_line"
     enters = "stiffness"
     source = "the paper's Eq. (15) to (18) on a mesh stretched along x; the viscous damping kept"
-    unknowns = (Unknown("dlength", "m", -8e-3, 8e-3, 1e-3, spread=2e-3),)
+    unknowns = (
+        Unknown("dlength", "m", -8e-3, 8e-3, 1e-3, spread=2e-3),
+        Unknown("pickup_too", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),
+    )
     spans = (Length(),)
     chance = 0.03
     splits = (
@@ -60,11 +69,15 @@ class ClampLine(Effect):
     def objection(self, points: Points, plate: SpannedPlate) -> str | None:
         return None if "length" in plate.group else "the plate has no clamp"
 
+    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+        return [np.array([1e-3, too]) for too in (1.0, 0.0)]
+
     def change(self, plate: SpannedPlate, u: Array) -> Change:
         length = plate.length_m + float(u[0])
         x, y = plate.pickup
         found = changed_to(plate, with_length(plate.specimen, length))
-        return replace(found, observe=plate.row(x * plate.length_m / length, y) - plate.row(x, y))
+        place = (x + float(u[0] * u[1])) * plate.length_m / length
+        return replace(found, observe=plate.row(place, y) - plate.pickup_row)
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"the plate is free over {1e3 * u['dlength']:+.1f} mm more than its stated length"

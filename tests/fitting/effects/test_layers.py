@@ -83,15 +83,23 @@ def test_another_constraining_layer(full, scale):
     assert full.error(THICKNESS, [scale], loose=Plate(replace(other, boundary="free"))) < 5e-4
 
 
+@pytest.mark.parametrize("too", [0.0, 1.0])
 @pytest.mark.parametrize("dlength", [-7e-3, -2e-3, 4e-3])
-def test_another_free_length(full, dlength):
+def test_another_free_length(full, dlength, too):
     length = full.specimen.length_m + dlength
     other = Plate(replace(full.specimen, length_m=length, boundary="free"))
     # The stated plate's damping, taken over with its stretched shapes.
     U = (full.full.lift @ full.damping.U).reshape(-1, DOFS, len(full.damping.d)).copy()
     U[:, THETA_Y] *= length / full.specimen.length_m
     U = U.reshape(full.loose.size, -1)
-    assert full.error(LENGTH, [dlength], loose=other, U=U) < 3e-4
+    x, y = full.full.pickup_m
+    row = other.observe(x + too * dlength, y)
+    assert full.error(LENGTH, [dlength, too], loose=other, U=U, row=row) < 3e-4
+
+
+def _all(effect, first):
+    """All unknowns of an effect, zero after the first."""
+    return [first, *(0.0 for _ in effect.unknowns[1:])]
 
 
 @pytest.mark.parametrize(
@@ -99,12 +107,12 @@ def test_another_free_length(full, dlength):
 )
 def test_without_it_nothing_changes(full, effect, neutral):
     assert effect.unknowns[0].neutral == neutral
-    assert full.error(effect, [neutral]) < 1e-5
+    assert full.error(effect, _all(effect, neutral)) < 1e-5
 
 
 @pytest.mark.parametrize(
     ("effect", "at"), [(ORTHOTROPIC, 1.0), (GRADED, 0.0), (STIFFNESS, 1.0), (THICKNESS, 1.05), (LENGTH, 1e-3)]
 )
 def test_derivatives(full, effect, at):
-    by, difference = full.slope(effect, [at], 0)
+    by, difference = full.slope(effect, _all(effect, at), 0)
     assert np.abs(by / difference - 1).max() < 1e-4
