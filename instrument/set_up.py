@@ -71,7 +71,7 @@ def set_up(
     if hammer is not None:
         modes = match_modes(specimen, *hammer)
         specimen = replace(specimen, modal_ratios=modes.ratios)
-        bare = _bare(modes, tolerance(specimen, "length"))
+        bare = _bare(modes, specimen)
     if like is not None:
         _check_like(specimen, like)
     count = max(_USUAL_MODES, len(specimen.modal_ratios))
@@ -150,7 +150,7 @@ def _spanned(models: Models) -> SpannedPlate:
     return cached("spanned", [models.without_law, models.domain], SpannedPlate, build, spans)
 
 
-def _bare(modes: MatchedModes, line_m: float) -> BareModes:
+def _bare(modes: MatchedModes, specimen: Specimen) -> BareModes:
     return BareModes(
         shift=modes.shift,
         softness=modes.softness,
@@ -161,5 +161,6 @@ def _bare(modes: MatchedModes, line_m: float) -> BareModes:
         inertia=modes.inertia,
         sensor=modes.sensor,
         by_line=modes.by_line,
-        line_m=line_m,
+        line_m=tolerance(specimen, "length"),
+        substrate=specimen.substrate,
     )

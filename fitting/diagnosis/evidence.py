@@ -10,6 +10,7 @@ from fitting.diagnosis.whitening import SHARE, Whitening
 from fitting.effects.base import Effect
 from fitting.noise import Noise
 from fitting.nuisances import Nuisances
+from fitting.specimen import Face
 from fitting.sweep import Sweep
 
 Array = NDArray[np.float64]
@@ -44,6 +45,8 @@ class BareModes:
     """Fall of ln f for a metre of free length more: this test has a clamp line of its own. Shape (modes,)."""
     line_m: float
     """Standard deviation of where it is."""
+    substrate: Face
+    """As stated."""
 
     @cached_property
     def _whitening(self) -> Whitening:
@@ -143,7 +146,7 @@ class Evidence:
         """Change of the bare plate's whitened residuals as an effect comes in. Shape (modes,), or none."""
         if self.bare is None:
             return np.empty(0)
-        shift = effect.bare_shift(self.bare.lowering_per_density, u)
+        shift = effect.bare_shift(self.bare, u)
         return self.bare.whitened(np.zeros(len(shift))) - self.bare.whitened(shift)
 
     def blunt(self) -> "Evidence":

@@ -265,7 +265,7 @@ class _Problem:
             start, expected = self._z, bare.stated_shift(self.response.nuisances, u[: self._z])
             for e in self.response.effects:
                 stop = start + len(e.unknowns)
-                expected = expected + e.bare_shift(bare.lowering_per_density, u[start:stop])
+                expected = expected + e.bare_shift(bare, u[start:stop])
                 start = stop
             return -bare.whitened(expected)
 

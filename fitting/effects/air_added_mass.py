@@ -7,7 +7,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from fitting.air import StillAir, still_air
-from fitting.effects.base import Change, Effect, Points, Span, Unknown
+from fitting.effects.base import BarePlate, Change, Effect, Points, Span, Unknown
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.spanned import SpannedPlate
 
@@ -55,8 +55,8 @@ class AirAddedMass(Effect):
         # The bare plate feels the air too, unless its stated modulus was itself found by vibration in air.
         return [np.array([1.2, felt]) for felt in (0.0, 1.0)]
 
-    def bare_shift(self, lowering_per_density: Array, u: Array) -> Array:
-        return np.asarray(-0.5 * np.log1p(2 * u[0] * u[1] * lowering_per_density))
+    def bare_shift(self, bare: BarePlate, u: Array) -> Array:
+        return np.asarray(-0.5 * np.log1p(2 * u[0] * u[1] * bare.lowering_per_density))
 
     def change(self, plate: SpannedPlate, u: Array) -> Change:
         return Change(M=u[0] * plate.matrix("air.M"), load=u[0] * plate.vector("air.load"))

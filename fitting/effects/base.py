@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol
 
 import numpy as np
 import scipy.sparse as sp
@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from fitting.laws import CoreLaw
 from fitting.noise import Noise
+from fitting.specimen import Face
 from fitting.sweep import Sweep
 
 if TYPE_CHECKING:
@@ -27,6 +28,23 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+
+
+class BarePlate(Protocol):
+    """What effects may ask of the modes of a hammer test."""
+
+    @property
+    def lowering_per_density(self) -> Array:
+        """Fall of ln f for unit density of air. Shape (modes,)."""
+
+    @property
+    def stiffness(self) -> Complex:
+        """phi^T P_p phi for the parts of K_0 (`fitting.parts.STIFFNESS`). Shape (modes, parts)."""
+
+    @property
+    def substrate(self) -> Face:
+        """As stated."""
+
 
 Entry = Literal["stiffness", "mass", "load", "observation", "channel", "time", "level", "core law", "damping"]
 
@@ -210,9 +228,9 @@ class Effect:
         """What the channels make of the velocity `v` (m/s, per point)."""
         return None
 
-    def bare_shift(self, lowering_per_density: Array, u: Array) -> Array:
-        """Change of ln f of the bare plate's modes; given is what unit density of air takes off each."""
-        return np.zeros(len(lowering_per_density))
+    def bare_shift(self, bare: BarePlate, u: Array) -> Array:
+        """Change of ln f of the bare plate's modes. Shape (modes,)."""
+        return np.zeros(len(bare.lowering_per_density))
 
     def story(self, u: Mapping[str, float]) -> str:
         """What the plate or the rig does, in half a sentence with numbers."""

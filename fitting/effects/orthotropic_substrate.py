@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Change, Effect, Span, Unknown
+from fitting.effects.base import BarePlate, Change, Effect, Span, Unknown
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.other_plates import mixed
 from fitting.effects.spanned import SpannedPlate
@@ -88,6 +88,14 @@ class OrthotropicSubstrate(Effect):
     splits = (
         "torsional beside bending frequencies of the bare plate (hammer test); a strip cut across the sheet"
     )
+
+    def bare_shift(self, bare: BarePlate, u: Array) -> Array:
+        face = bare.substrate
+        now, stated = (
+            (bare.stiffness @ substrate_coefficients(face, plane_stress(face, ratio))).real
+            for ratio in (float(u[0]), 1.0)
+        )
+        return np.asarray(0.5 * np.log(now / stated))
 
     def change(self, plate: SpannedPlate, u: Array) -> Change:
         face = plate.specimen.substrate

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Change, Effect, Span, Unknown
+from fitting.effects.base import BarePlate, Change, Effect, Span, Unknown
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.other_plates import changed_to
 from fitting.effects.spanned import SpannedPlate
@@ -38,8 +38,8 @@ class SubstrateStiffness(Effect):
     chance = 0.03
     splits = "the bare plate's natural frequencies (hammer test)"
 
-    def bare_shift(self, lowering_per_density: Array, u: Array) -> Array:
-        return np.full(len(lowering_per_density), 0.5 * np.log(u[0]))
+    def bare_shift(self, bare: BarePlate, u: Array) -> Array:
+        return np.full(len(bare.lowering_per_density), 0.5 * np.log(u[0]))
 
     def change(self, plate: SpannedPlate, u: Array) -> Change:
         s = plate.specimen

@@ -9,6 +9,9 @@ from conftest import TABLE_4
 from scipy.sparse.linalg import eigsh
 
 from fitting.bare_modes import Sensor, bare_modes, clamp_softness, edge_softening, loaded_modes
+from fitting.effects import CATALOGUE
+from fitting.effects.orthotropic_substrate import plane_stress, substrate_stiffness
+from fitting.element import Shape
 from fitting.errors import TooFewPoints
 from fitting.identification.bare_plate import (
     FREQUENCY_SCATTER,
@@ -202,7 +205,11 @@ def bare_test(zn1):
     names = [
         n for n in STATED if n.startswith(("substrate", "constraining", "core_")) or n in ("length", "width")
     ]
-    return _bare(modes, 3e-4), Nuisances(zn1, tuple(Nuisance(n, n, STATED[n].typical) for n in names)), sensor
+    return (
+        _bare(modes, replace(zn1, exact=False)),
+        Nuisances(zn1, tuple(Nuisance(n, n, STATED[n].typical) for n in names)),
+        sensor,
+    )
 
 
 def test_as_stated_nothing_is_shifted(bare_test):
@@ -241,6 +248,21 @@ def test_derivatives_of_the_shift_agree_with_differences(bare_test):
     assert [nuisances.each[k].name for k in nuisances.of_bare_plate] == [
         n.name for k, n in enumerate(nuisances.each) if by[k].any()
     ]
+
+
+def test_a_rolled_sheet_shifts_the_modes_as_one_solved_anew(bare_test, zn1):
+    bare, _, _ = bare_test
+    plate, ratio = Plate(zn1.bare), 1.04
+    difference = plane_stress(zn1.substrate, ratio) - plane_stress(zn1.substrate, 1.0)
+    K_e = substrate_stiffness(Shape(*plate.mesh.sides_m), zn1.substrate.thickness_m, difference)
+    K = plate.K_0.real + plate.scatter(K_e)
+    solved, stated = (
+        np.sqrt(np.sort(eigsh(A.tocsc(), 8, plate.M.tocsc(), sigma=0.0)[0])) for A in (K, plate.K_0.real)
+    )
+    found = CATALOGUE["orthotropic_substrate"].bare_shift(bare, np.array([ratio]))
+    expected = np.log(solved / stated)
+    assert np.ptp(expected) > 5e-3
+    np.testing.assert_allclose(found[: len(expected)], expected, atol=0.4 * FREQUENCY_SCATTER)
 
 
 def test_a_clamp_line_further_out_lowers_the_modes(bare_test, zn1):
