@@ -33,6 +33,8 @@ LEADERS = 5
 """Effects that are gone into twice, and that a second one is looked for beside."""
 LEFT_BEHIND = 4.0
 """Times the least chi-square: rough fits beyond are not followed to the end."""
+SOME = 2
+"""Effects that are gone into twice at a time, until one explains everything."""
 FIRST = 4
 """Effects that are fitted before all others, where they promise most."""
 _SPARE = 2
@@ -160,9 +162,17 @@ class Search:
             begin(each(work.begun, [(n, work.state(n)) for n in left], lambda x: report(0.2 + 0.2 * x)))
         ahead = [best for name in self._ahead(found) for best in work.best_near(name)]
         keep(each(work.finished, ahead, lambda x: report(0.4 + 0.2 * x)))
-        further = [(name, work.state(name), self._astray) for name in self._worth_more(found)]
-        for fits in each(work.thorough, further, lambda x: report(0.6 + 0.3 * x)):
-            keep(fits)
+        further = self._worth_more(found)
+        while further:
+            some, further = (further[:SOME], further[SOME:]) if self._astray else (further, [])
+            tasks = [(name, work.state(name), self._astray) for name in some]
+            for fits in each(work.thorough, tasks, lambda x: report(0.6 + 0.2 * x)):
+                keep(fits)
+            best = min(found.values(), key=lambda t: t.cost)
+            if self._astray and self._settles(best):
+                again = [(n, work.state(n), best.fitted) for n in (*laws, *names) if n not in best.names]
+                begin(each(work.beside_the_best, again, lambda x: report(0.8 + 0.1 * x)))
+                break
         places = [(name, work.state(name)) for name in self._misplaced(found)]
         for fits in each(work.everywhere, places, lambda x: report(0.9 + 0.1 * x)):
             keep(fits)
@@ -210,7 +220,10 @@ class Search:
         names = {t.names[0] for t in order if t.cost < order[0].cost + NEAR}
         best = order[0].fitted
         if not best.chi2_per_dof < UNCLEAR or any(e.replaces_law for e in best.effects):
-            names |= {t.names[0] for t in order[:LEADERS]} | self._promising()
+            plain = self._promising()
+            names |= {t.names[0] for t in order[:LEADERS]} | set(plain)
+            rank = [*plain, *(t.names[0] for t in order)]
+            return sorted((name for name in fitted if name in names), key=rank.index)
         return [name for name in fitted if name in names]
 
     @property
@@ -229,11 +242,9 @@ class Search:
             return []
         return [t.names[0] for t in leading if has_place(effects[t.names[0]])]
 
-    def _promising(self) -> set[str]:
+    def _promising(self) -> list[str]:
         """Where the law so far is no place to begin: the effects that do best from plain starts."""
-        if not self._astray:
-            return set()
-        return set(self.order_of_plain()[:LEADERS])
+        return self.order_of_plain()[:LEADERS] if self._astray else []
 
     def order_of_plain(self) -> list[str]:
         """Effects by how well they do from plain starts, in wide valleys."""

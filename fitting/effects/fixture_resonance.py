@@ -17,7 +17,10 @@ _STEP = 0.02
 
 
 class FixtureResonance(Effect):
-    """Pitch = gain w0^2 / (w0^2 - w^2 + 2 i zeta w0 w) times the base's acceleration."""
+    """With s = 1 / (1 - r^2 + 2 i zeta r), r = w / w0: pitch = gain s a, root = (1 + heave s) a.
+
+    Where the reference sits before the yielding fixture (`before` = 1), s = r^2 / (1 - r^2 + 2 i zeta r).
+    """
 
     name = "fixture_resonance"
     enters = "load"
@@ -26,6 +29,8 @@ class FixtureResonance(Effect):
         Unknown("frequency", "Hz", 1.0, 5000.0, 100.0, logarithmic=True, neutral=None),
         Unknown("damping_ratio", "1", 1e-3, 0.3, 0.02, logarithmic=True, neutral=None),
         Unknown("gain", "rad/m", -1.0, 1.0, 0.02, spread=0.1),
+        Unknown("heave", "1", -0.3, 0.3, 0.01, spread=0.02),
+        Unknown("before", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),
     )
     spans = BaseRocking.spans
     extends = "base_rocking"
@@ -37,11 +42,19 @@ class FixtureResonance(Effect):
         grid = np.geomspace(low, high, int(np.log(high / low) / _STEP))
         # Between the segments a resonance far from any point looks the same anywhere.
         near = np.abs(np.log(grid[:, None] / f)).min(axis=1) < 0.3
-        return [np.array([f0, zeta, 0.02]) for f0 in grid[near] for zeta in (0.01, 0.05)]
+        shapes = [(zeta, before) for zeta in (0.01, 0.05) for before in (0.0, 1.0)]
+        return [np.array([f0, zeta, 0.02, 0.0, before]) for f0 in grid[near] for zeta, before in shapes]
 
     def pitch(self, omega: Array, u: Array) -> Complex:
-        w0 = 2 * np.pi * u[0]
-        return np.asarray(u[2] * w0**2 / (w0**2 - omega**2 + 2j * u[1] * w0 * omega))
+        return np.asarray(u[2] * self._swing(omega, u))
+
+    def reading(self, v: Complex, points: Points, u: Array) -> Complex:
+        # The root moves so much more than the reference says.
+        return np.asarray(v * (1 + u[3] * self._swing(points.omega, u)))
+
+    def _swing(self, omega: Array, u: Array) -> Complex:
+        r = omega / (2 * np.pi * u[0])
+        return np.asarray((r**2 if u[4] else 1.0) / (1 - r**2 + 2j * u[1] * r))
 
     def story(self, u: Mapping[str, float]) -> str:
         f, zeta = u["frequency"], u["damping_ratio"]

@@ -18,8 +18,9 @@ _GAP = 0.1
 
 
 class PhaseScale(Effect):
-    """|v| e^{i factor phi}, phi continuous along each segment.
+    """|v| e^{i factor phi}, phi as it is `counted`.
 
+    0: continuously along a segment; 1: between 0 and a turn; 2: half a turn to either side.
     A plate's velocity relative to its base passes -pi at a resonance (below it -pi/2, above it -3 pi/2), or 0
     where the pickup moves against the tip. So the phase of every segment's largest reading is taken between
     -3 pi/2 and pi/2, a quarter turn off either; the others follow from it without a jump.
@@ -28,15 +29,25 @@ class PhaseScale(Effect):
     name = "phase_scale"
     enters = "channel"
     source = "gain error of a phase detector's output, phases taken as lags behind the reference"
-    unknowns = (Unknown("factor", "1", 0.8, 1.2, 1.02, neutral=1.0, spread=0.03),)
+    unknowns = (
+        Unknown("factor", "1", 0.8, 1.2, 1.02, neutral=1.0, spread=0.03),
+        Unknown("counted", "1", 0.0, 2.0, 0.0, neutral=None, fixed=True),
+    )
     chance = 0.005
     splits = "two channels on one generator with a known phase between them"
 
     def objection(self, points: Points, plate: SpannedPlate) -> str | None:
         return None if points.has_phase else "amplitudes do not show a phase"
 
+    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+        return [np.array([1.02, counted]) for counted in (0.0, 1.0, 2.0)]
+
     def reading(self, v: Complex, points: Points, u: Array) -> Complex:
-        return np.asarray(v * np.exp(1j * (u[0] - 1) * continuous_phase(v, points.omega)))
+        if u[1] == 0:
+            phase = continuous_phase(v, points.omega)
+        else:
+            phase = np.angle(v) % (2 * np.pi) if u[1] == 1 else np.angle(v)
+        return np.asarray(v * np.exp(1j * (u[0] - 1) * phase))
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"phases are read {100 * (u['factor'] - 1):+.2g} % off"

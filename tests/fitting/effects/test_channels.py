@@ -56,11 +56,12 @@ def test_phases_do_not_ask_for_the_order_of_points():
 
 
 def test_a_wrong_scale_of_phase_leaves_amplitudes():
-    v = PHASE.reading(velocity(), points(), np.array([1.03]))
+    v = PHASE.reading(velocity(), points(), np.array([1.03, 0.0]))
     assert np.abs(v) == pytest.approx(np.abs(velocity()))
     first = np.argmin(np.abs(F - 21.0))
     assert np.angle(v[first] / velocity()[first]) == pytest.approx(-0.03 * np.pi, abs=0.02)
-    assert PHASE.reading(velocity(), points(), np.array([1.0])) == pytest.approx(velocity())
+    for counted in (0.0, 1.0, 2.0):
+        assert PHASE.reading(velocity(), points(), np.array([1.0, counted])) == pytest.approx(velocity())
 
 
 def test_a_scale_of_phase_is_not_judged_by_amplitudes():

@@ -252,7 +252,7 @@ def test_derivatives_of_the_shift_agree_with_differences(bare_test):
 
 def test_a_rolled_sheet_shifts_the_modes_as_one_solved_anew(bare_test, zn1):
     bare, _, _ = bare_test
-    plate, ratio = Plate(zn1.bare), 1.04
+    plate, ratio = Plate(zn1.bare), 1.02
     difference = plane_stress(zn1.substrate, ratio) - plane_stress(zn1.substrate, 1.0)
     K_e = substrate_stiffness(Shape(*plate.mesh.sides_m), zn1.substrate.thickness_m, difference)
     K = plate.K_0.real + plate.scatter(K_e)
@@ -261,7 +261,7 @@ def test_a_rolled_sheet_shifts_the_modes_as_one_solved_anew(bare_test, zn1):
     )
     found = CATALOGUE["orthotropic_substrate"].bare_shift(bare, np.array([ratio]))
     expected = np.log(solved / stated)
-    assert np.ptp(expected) > 5e-3
+    assert np.ptp(expected) > 4e-3
     np.testing.assert_allclose(found[: len(expected)], expected, atol=0.4 * FREQUENCY_SCATTER)
 
 
