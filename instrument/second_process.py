@@ -108,11 +108,16 @@ _owner: Any = None
 
 
 def _begin(first: int) -> None:
-    # Ctrl-C is for the first process, which ends this one; if that is killed, nobody would.
+    # Ctrl-C is for the first process, which ends this one.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     step_back()
-    Thread(target=_end_after, args=(first,), daemon=True).start()
+    end_with(first)
     import fitting.effects  # noqa: F401
+
+
+def end_with(first: int) -> None:
+    """End this process soon after its parent, whose number is given: if that is killed, nobody else would."""
+    Thread(target=_end_after, args=(first,), daemon=True).start()
 
 
 def _end_after(first: int) -> None:

@@ -24,6 +24,7 @@ from instrument.errors import BadInput, StoppedByUser
 from instrument.files.text import read_text
 from instrument.progress import Progress, quiet
 from instrument.second_process import VARIABLE as PROCESSES
+from instrument.second_process import end_with
 
 OUTCOMES, BEGUN, SUMMARY = "outcomes.jsonl", "campaign.json", "summary.md"
 ROTATION = (*KINDS, NONE, NONE, PAIR, PAIR)
@@ -176,7 +177,8 @@ def _judge_all(
                 keep(judge_one(job))
         return
     context = get_context("spawn")
-    with ProcessPoolExecutor(min(workers, len(jobs)), mp_context=context, initializer=_alone) as pool:
+    most, parent = min(workers, len(jobs)), os.getpid()
+    with ProcessPoolExecutor(most, context, initializer=_alone, initargs=(parent,)) as pool:
         waiting = {pool.submit(judge_one, job) for job in jobs}
         try:
             for future in as_completed(set(waiting)):
@@ -191,8 +193,9 @@ def _judge_all(
             raise
 
 
-def _alone() -> None:
+def _alone(parent: int) -> None:
     """A worker: one process, one BLAS thread, deaf to Ctrl-C, which the parent hears."""
+    end_with(parent)
     os.environ[PROCESSES] = "1"
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threadpool_limits(1, "blas")

@@ -64,15 +64,23 @@ def test_a_wrong_scale_of_phase_leaves_amplitudes():
         assert PHASE.reading(velocity(), points(), np.array([1.0, counted])) == pytest.approx(velocity())
 
 
+def test_phases_are_counted_as_the_meter_does():
+    turn, half = (PHASE.reading(velocity(), points(), np.array([1.03, counted])) for counted in (1.0, 2.0))
+    lag = np.angle(velocity())
+    assert np.angle(turn / velocity()) == pytest.approx(0.03 * (lag % (2 * np.pi)))
+    assert np.angle(half / velocity()) == pytest.approx(0.03 * lag)
+
+
 def test_a_scale_of_phase_is_not_judged_by_amplitudes():
     no_phase = Points(2 * np.pi * F, np.ones(len(F)), F, True, False, "relative")
     assert PHASE.objection(no_phase, None)
     assert PHASE.objection(points(), None) is None
 
 
-@pytest.mark.parametrize(("effect", "at"), [(LOWPASS, 2e3), (HIGHPASS, 0.5), (PHASE, 1.02)])
+@pytest.mark.parametrize(("effect", "at"), [(LOWPASS, [2e3]), (HIGHPASS, [0.5]), (PHASE, [1.02, 0.0])])
 def test_readings_are_smooth_in_their_unknown(effect, at):
-    h = 1e-4 * at
-    v = [effect.reading(velocity(), points(), np.array([at + k * h])) for k in (-2, -1, 0, 1, 2)]
+    h = 1e-4 * at[0]
+    first = np.eye(len(at))[0]
+    v = [effect.reading(velocity(), points(), at + k * h * first) for k in (-2, -1, 0, 1, 2)]
     wide, narrow = (v[4] - v[0]) / (4 * h), (v[3] - v[1]) / (2 * h)
     assert np.abs(wide - narrow).max() < 1e-6 * np.abs(narrow).max()

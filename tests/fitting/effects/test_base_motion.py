@@ -1,0 +1,29 @@
+import numpy as np
+import pytest
+
+from fitting.effects import CATALOGUE
+from fitting.effects.base import Points
+
+FIXTURE = CATALOGUE["fixture_resonance"]
+OMEGA = 2 * np.pi * np.array([20.0, 90.0, 100.0, 110.0, 300.0])
+F0, ZETA = 100.0, 0.02
+
+
+def swing():
+    r = OMEGA / (2 * np.pi * F0)
+    return r, 1 / (1 - r**2 + 2j * ZETA * r)
+
+
+def test_a_reference_before_the_fixture_sees_what_yields_behind_it():
+    r, s = swing()
+    after, before = (FIXTURE.pitch(OMEGA, np.array([F0, ZETA, 0.05, 0.0, flag])) for flag in (0.0, 1.0))
+    assert after == pytest.approx(0.05 * s)
+    # r^2 s: at rest nothing, at resonance the same, far above it the whole motion turned round.
+    assert before == pytest.approx(0.05 * (s * (1 + 2j * ZETA * r) - 1))
+
+
+def test_the_root_moves_by_more_than_the_reference_says():
+    _, s = swing()
+    points = Points(OMEGA, np.ones(5), np.arange(5.0), True, True, "relative")
+    read = FIXTURE.reading(np.ones(5, complex), points, np.array([F0, ZETA, 0.0, 0.03, 0.0]))
+    assert read == pytest.approx(1 + 0.03 * s)
