@@ -21,7 +21,7 @@ def verdict_line(facts: Facts) -> str:
         said = "no effect accepted"
     parts = [f"verdict: {'by your word' if facts.get('by_hand') else facts['verdict']}: {said}"]
     for name, group in groups.items():
-        others = [n for n in group if n != name]
+        others = ["no effect" if n == "none" else n for n in group if n != name]
         if others:
             parts.append(f"these data cannot tell {name} from {', '.join(others)}")
     if channels:

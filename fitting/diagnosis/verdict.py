@@ -14,8 +14,11 @@ from fitting.diagnosis.predictive import LEVEL, weakest
 from fitting.diagnosis.result import Verdict
 from fitting.diagnosis.search import Trial
 
+NONE = "none"
 CREDIBLE = 0.95
 """Probability that the group must hold, and above which one explanation stands alone."""
+LEAST_DOUBTED = 0.2
+"""Probability of none up to which an effect is named; of a clean sweep none keeps four fifths."""
 POOR, HARDLY_BETTER = 3.0, 0.5
 """Times the noise, and times the error without any effect: what predicts no better explains nothing."""
 
@@ -27,6 +30,7 @@ class Judgement:
     verdict: Verdict
     accepted: Trial | None
     equivalent: dict[str, tuple[str, ...]]
+    """With `NONE` where that nothing is there is in the group."""
     group: tuple[tuple[Trial, float], ...] = ()
     """Every explanation up to 95 %, none too where it may be; their probabilities add up to one."""
     probability: Mapping[tuple[str, ...], float] = field(default_factory=dict)
@@ -91,7 +95,7 @@ def judge(
 
     visible = [t for t, _ in group if not hidden & set(t.names)]
     named = [t for t in visible if t.names]
-    if probability[()] > 1 - CREDIBLE or not named:
+    if probability[()] > LEAST_DOUBTED or not named:
         if none.fails or not visible:
             return _unknown(judgement, none, ranked)
         return judgement("none", None)
@@ -131,7 +135,9 @@ def _equivalent(
         names = [name]
         for trial, _ in group:
             instead = set(trial.names) - rest
-            if name not in instead and rest <= set(trial.names):
+            if not trial.names:
+                names.append(NONE)
+            elif name not in instead and rest <= set(trial.names):
                 names += [n for n in trial.names if n in instead and n not in hidden]
             elif name not in trial.names and not rest & set(trial.names):
                 # Another explanation altogether stands for all of it.

@@ -7,10 +7,13 @@ from fitting.diagnosis.refit import Fitted
 from fitting.diagnosis.response import Response
 from fitting.diagnosis.result import FoundEffect, Stage
 from fitting.diagnosis.task import Task
-from fitting.diagnosis.verdict import Judgement
+from fitting.diagnosis.verdict import NONE, Judgement
 from fitting.effects.base import Effect
 
 Array = NDArray[np.float64]
+
+_WORTH_SAYING = 0.1
+"""Probability of an effect that is not named from which it is spoken of."""
 
 
 def story(effect: Effect, found: FoundEffect) -> str:
@@ -34,6 +37,7 @@ def explain(
         return tuple(said)
     if judgement.verdict == "none":
         said.append("That is what noise and a layer-wise plate's own error leave: no effect is called for.")
+        said += _beside_none(judgement)
         if judgement.refused:
             said.append(f"The nearest, {' with '.join(judgement.refused)}, {judgement.why}.")
         return tuple(said)
@@ -52,9 +56,11 @@ def explain(
     if not all(e.replaces_law for e in trial.fitted.effects):
         said.append(_moved(task, trial.fitted))
     for name, group in judgement.equivalent.items():
-        if len(group) > 1:
-            others = ", ".join(group[1:])
-            said.append(f"These data cannot tell {name} from {others}.")
+        others = [n for n in group if n not in (name, NONE)]
+        if others:
+            said.append(f"These data cannot tell {name} from {', '.join(others)}.")
+    if any(NONE in group for group in judgement.equivalent.values()):
+        said.append(f"That there is no effect at all keeps {_percent(judgement.probability[()])}.")
     said.append(
         f"With it the fit leaves {after.rms_percent:.2g} % rms instead of {before.rms_percent:.2g} %"
         + _chi2(before, after)
@@ -62,6 +68,20 @@ def explain(
     )
     said.append(_law(before, after))
     return tuple(said)
+
+
+def _beside_none(judgement: Judgement) -> list[str]:
+    """What is not excluded though nothing is named."""
+    others = {names: p for names, p in judgement.probability.items() if names and p > _WORTH_SAYING}
+    if not others:
+        return []
+    best = max(others, key=lambda names: others[names])
+    none, share = _percent(judgement.probability[()]), _percent(others[best])
+    return [f"Probable at {none}; {' with '.join(best)} has {share}, too little to be named."]
+
+
+def _percent(probability: float) -> str:
+    return f"{100 * probability:.2g} %"
 
 
 def next_measurement(judgement: Judgement, catalogue: dict[str, Effect], *, with_hammer: bool) -> str:

@@ -9,7 +9,15 @@ from hypothesis import strategies as st
 
 from fitting.diagnosis.predictive import LEVEL
 from fitting.diagnosis.search import Trial
-from fitting.diagnosis.verdict import CREDIBLE, HARDLY_BETTER, POOR, judge, told
+from fitting.diagnosis.verdict import (
+    CREDIBLE,
+    HARDLY_BETTER,
+    LEAST_DOUBTED,
+    NONE,
+    POOR,
+    judge,
+    told,
+)
 from fitting.effects import CATALOGUE
 
 EVEN = 2 * np.log(CREDIBLE / (1 - CREDIBLE))
@@ -34,12 +42,27 @@ def judged(none, *trials, temper=1.0, hidden=(), off=None):
 POOR_NONE = trial(cost=1000.0, fails=True)
 
 
-@pytest.mark.parametrize(("gain", "verdict"), [(0.9 * EVEN, "none"), (1.1 * EVEN, "effect")])
+NAMED = 2 * np.log((1 - LEAST_DOUBTED) / LEAST_DOUBTED)
+"""In cost: so far below none, an effect may be named."""
+
+
+@pytest.mark.parametrize(
+    ("gain", "verdict"), [(0.9 * NAMED, "none"), (1.1 * NAMED, "ambiguous"), (1.1 * EVEN, "effect")]
+)
 def test_an_effect_is_named_where_none_is_improbable(gain, verdict):
     said = judged(trial(cost=100.0), trial("spot_offset", cost=100.0 - gain))
     assert said.verdict == verdict
-    assert (said.probability[()] > 0.05) == (verdict == "none")
-    assert (said.accepted is not None) == (verdict == "effect")
+    assert (said.probability[()] > LEAST_DOUBTED) == (verdict == "none")
+    assert (said.accepted is not None) == (verdict != "none")
+    # That nothing is there stays in the group while it has more than 5 %.
+    assert (
+        said.equivalent
+        == {
+            "none": {},
+            "ambiguous": {"spot_offset": ("spot_offset", NONE)},
+            "effect": {"spot_offset": ("spot_offset",)},
+        }[verdict]
+    )
 
 
 def test_where_nothing_is_needed_nothing_is_named():
