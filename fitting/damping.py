@@ -5,14 +5,18 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
+from scipy.optimize import linear_sum_assignment
 
+from fitting.element import W
 from fitting.plate import Plate
-from fitting.real_modes import real_modes
+from fitting.real_modes import RealModes, real_modes
 
 Array = NDArray[np.float64]
 
 REFERENCE_MODULUS_PA = 0.5e6
 """The core modulus whose real modes carry the ratios. 0.3 to 1 MPa moves peak 1 by 0.5 %."""
+_SPARE = 3
+"""Modes beyond the stated ratios' among which their shapes are looked for."""
 
 
 @dataclass(frozen=True)
@@ -24,7 +28,7 @@ class ViscousDamping:
     d: Array
     """2 zeta_r omega_r in rad/s. Shape (modes,)."""
     mode: NDArray[np.intp]
-    """Which of the plate's modes each is, in frequency order from 0. Shape (modes,)."""
+    """Which of the stated ratios each has, from 0. Shape (modes,)."""
 
     def projected(self, P: sp.csc_array) -> "ViscousDamping":
         """The same damping in the subspace of P, modes outside it dropped."""
@@ -34,11 +38,29 @@ class ViscousDamping:
 
 
 def viscous_damping(plate: Plate) -> ViscousDamping:
-    """C_1 = M Phi diag(2 zeta_r omega_r) Phi^T M with the ratios paired in frequency order."""
+    """C_1 = M Phi diag(2 zeta_r omega_r) Phi^T M, each ratio with the mode that has its bare mode's shape."""
     ratios = np.array(plate.specimen.modal_ratios)
     if not ratios.any():
         return ViscousDamping(np.empty((plate.size, 0)), np.empty(0), np.empty(0, dtype=np.intp))
-    modes = real_modes(plate, REFERENCE_MODULUS_PA, len(ratios))
-    damped = ratios > 0
-    d = (2 * ratios * modes.omega)[damped]
-    return ViscousDamping(plate.M @ modes.shapes[:, damped], d, np.flatnonzero(damped))
+    modes = real_modes(plate, REFERENCE_MODULUS_PA, len(ratios) + _SPARE)
+    damped = np.flatnonzero(ratios)
+    its = paired_modes(plate, modes, len(ratios))[damped]
+    return ViscousDamping(plate.M @ modes.shapes[:, its], 2 * ratios[damped] * modes.omega[its], damped)
+
+
+def paired_modes(plate: Plate, modes: RealModes, count: int) -> NDArray[np.intp]:
+    """Which of the plate's modes is shaped as each of the bare plate's first `count`. Shape (count,).
+
+    By the modal assurance criterion of deflections: a treatment may change the order of modes.
+    """
+    if plate.specimen.core is None:
+        return np.arange(count)
+    bare = Plate(plate.specimen.bare)
+    treated, stated = (
+        w / np.linalg.norm(w, axis=0)
+        for w in (
+            plate.on_nodes(modes.shapes)[:, W],
+            bare.on_nodes(real_modes(bare, 0.0, count).shapes)[:, W],
+        )
+    )
+    return np.asarray(linear_sum_assignment(-((stated.T @ treated) ** 2))[1])
