@@ -15,6 +15,7 @@ from fitting.diagnosis.prediction import over_noise
 from fitting.diagnosis.resampling import Again, Resampled, gain, resampled_of
 from fitting.diagnosis.result import Candidate, Diagnosis, Estimate, FoundEffect
 from fitting.diagnosis.search import Search, Trial
+from fitting.diagnosis.singles import Singles
 from fitting.diagnosis.stage import few_of_law, found_effects, mixed_band, stage_of
 from fitting.diagnosis.structure import roughness
 from fitting.diagnosis.task import Task
@@ -131,12 +132,12 @@ def diagnose_task(
 
 def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, list[Trial], Judgement]:
     """The whole catalogue, and the verdict; the search as it ended."""
-    singles = search.singles(lambda x: report(0.5 * x))
+    singles = Singles(search, lambda x: report(0.5 * x)).best()
     share = _noise_left(search, singles) if noise.source == "local scatter" else 1.0
     if share < OVERSTATED:
         # What scatters from point to point need not be noise: a drift does, in a sweep that jumps about.
         search = search.with_evidence(search.evidence.scaled(float(np.sqrt(share))))
-        singles = search.singles(lambda x: report(0.5))
+        singles = Singles(search, lambda x: report(0.5)).best()
     pairs = _pairs(search, singles, lambda x: report(0.5 + 0.3 * x))
     for trial in [one for pair in pairs[:1] for one in search.alone(pair)]:
         # A pair may have found a better place for one effect than it found alone.

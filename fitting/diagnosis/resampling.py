@@ -15,6 +15,7 @@ from fitting.diagnosis.hands import Hands
 from fitting.diagnosis.refit import Fitted
 from fitting.diagnosis.response import Response
 from fitting.diagnosis.search import Search, Trial
+from fitting.diagnosis.singles import Singles
 from fitting.diagnosis.task import Task
 from fitting.diagnosis.verdict import judge
 from fitting.effects.base import Effect
@@ -54,7 +55,7 @@ class Again:
         """Every effect alone, as the search of the data themselves begins."""
         begun = begin(task, self.reduced, noise_of(task.sweep), self.bare, self.start)
         search = Search(begun.task, begun.evidence, begun.none, self.effects, Hands())
-        return search, search.singles(lambda fraction: None)
+        return search, Singles(search, lambda fraction: None).best()
 
     def gain_without_effect(self, seed: int) -> float:
         """What the best explanation gains on a sweep drawn from the fit without effects."""

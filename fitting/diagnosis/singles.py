@@ -1,0 +1,168 @@
+"""Every effect beside the law, one at a time: what promises most first, what leads gone into twice."""
+
+from collections.abc import Callable, Iterable, Sequence
+
+from fitting.diagnosis.candidates import WRONG, has_place
+from fitting.diagnosis.refit import Fitted
+from fitting.diagnosis.search import LEADERS, Search, Trial
+from fitting.diagnosis.work import Begun
+
+Report = Callable[[float], None]
+
+NEAR = 40.0
+"""In cost above the best: effects so near are gone into twice, where the law so far is no place to begin."""
+NEARER = 12.0
+"""The same, where it is."""
+UNCLEAR = 1.1
+"""Chi-square per degree of freedom above which the first pass may have missed the cause."""
+PROMISING = 5.0
+"""In cost below none's: below it nothing is gone into twice."""
+LEFT_BEHIND = 4.0
+"""Times the least chi-square: rough fits beyond are not followed to the end."""
+FIRST = 4
+"""Effects that are fitted before all others, where they promise most."""
+AT_A_TIME = 2
+"""Effects that are gone into twice together, until one explains everything."""
+
+
+class Singles:
+    """Of one search."""
+
+    def __init__(self, search: Search, report: Report) -> None:
+        self._search, self._work, self._report = search, search.work, report
+        self._each = search.hands.each
+        self._found: dict[str, Trial] = {}
+        self._effects = {e.name: e for e in search.beside_the_law}
+        self._laws = [e.name for e in search.effects if e.name not in self._effects]
+        self._settled = False
+
+    def best(self) -> list[Trial]:
+        """One trial of each effect, best first."""
+        self._first_pass()
+        ahead = [best for name in self._ahead() for best in self._work.best_near(name)]
+        self._keep(self._each(self._work.finished, ahead, self._part(0.4, 0.2)))
+        self._second_pass()
+        places = [(name, self._work.state(name)) for name in self._misplaced()]
+        for fits in self._each(self._work.everywhere, places, self._part(0.9, 0.1)):
+            self._keep(fits)
+        return self._order()
+
+    def _first_pass(self) -> None:
+        """Everything roughly; from the law of what explains everything, if one that promises much does."""
+        work = self._work
+        first = self._leading()
+        if first:
+            begun = self._each(work.begun, [(n, work.state(n)) for n in first], self._part(0.1, 0.1))
+            self._begin(begun)
+            self._keep(self._each(work.finished, [f for t in self._order()[:1] for f in self._near(t)]))
+        if not self._settle(self._part(0.2, 0.2)):
+            left = [n for n in (*self._laws, *self._effects) if n not in first]
+            self._begin(self._each(work.begun, [(n, work.state(n)) for n in left], self._part(0.2, 0.2)))
+
+    def _second_pass(self) -> None:
+        """Further starts of what leads, and of more where the law is no place to begin."""
+        work, left, astray = self._work, self._worth_more(), self._astray
+        while left:
+            some, left = (left[:AT_A_TIME], left[AT_A_TIME:]) if astray else (left, [])
+            tasks = [(name, work.state(name), astray) for name in some]
+            for fits in self._each(work.thorough, tasks, self._part(0.6, 0.2)):
+                self._keep(fits)
+            if astray and self._settle(self._part(0.8, 0.1)):
+                break
+
+    def _settle(self, report: Report) -> bool:
+        """Whether an effect explains all there is: then all others begin again from its law."""
+        work, best = self._work, next(iter(self._order()), None)
+        if best is None or not self._explains_all(best):
+            return False
+        self._settled = True
+        others = [n for n in (*self._laws, *self._effects) if n not in best.names]
+        tasks = [(n, work.state(n), best.fitted) for n in others]
+        self._begin(self._each(work.beside_the_best, tasks, report))
+        return True
+
+    def _explains_all(self, trial: Trial) -> bool:
+        best = trial.fitted
+        enough = self._search.none.cost - trial.cost > PROMISING and best.chi2_per_dof < UNCLEAR
+        return enough and not trial.fails and not any(e.replaces_law for e in best.effects)
+
+    # What has been found.
+
+    def _keep(self, fits: Iterable[Fitted]) -> None:
+        for trial in (self._search.judged(f) for f in fits if self._search.determined(f)):
+            name = trial.names[0]
+            if name not in self._found or trial.cost < self._found[name].cost:
+                self._found[name] = trial
+
+    def _begin(self, tasks: Iterable[Begun]) -> None:
+        for begun in tasks:
+            if begun.state:
+                self._work.learn(begun.name, begun.state)
+            self._keep(begun.fits)
+
+    def _order(self) -> list[Trial]:
+        return sorted(self._found.values(), key=lambda t: t.cost)
+
+    def _near(self, trial: Trial) -> list[tuple[tuple[str, int], Fitted]]:
+        return self._work.best_near(trial.names[0])
+
+    def _part(self, start: float, size: float) -> Report:
+        return lambda fraction: self._report(start + size * fraction)
+
+    # What is to be done next.
+
+    @property
+    def _astray(self) -> bool:
+        """Whether the law so far is no place to begin."""
+        return self._search.none.fitted.chi2_per_dof > WRONG and not self._settled
+
+    def _leading(self) -> list[str]:
+        """Where something is left to be explained, the effects that promise most of it."""
+        work, names = self._work, list(self._effects)
+        for name, state in zip(names, self._each(work.starts, names, self._part(0.0, 0.1)), strict=True):
+            work.learn(name, state)
+        order = sorted(names, key=work.promise, reverse=True)[:FIRST]
+        clean = self._search.none.fitted.chi2_per_dof < UNCLEAR
+        return [] if not order or (clean and work.promise(order[0]) < NEAR) else order
+
+    def _ahead(self) -> list[str]:
+        """Effects whose rough fit is among the best or not far behind."""
+        order = self._order()
+        if self._astray:
+            order.sort(key=lambda t: t.fitted.chi2)
+            near = [t for t in order if t.fitted.chi2 < LEFT_BEHIND * order[0].fitted.chi2]
+        else:
+            # What was still on its way may have far to go.
+            near = [t for t in order if t.cost < order[0].cost + (NEARER if t.fitted.converged else NEAR)]
+        names = {t.names[0] for t in near[: 2 * LEADERS]}
+        return [name for name in self._effects if name in names]
+
+    def _gains(self, order: Sequence[Trial]) -> bool:
+        return bool(order) and self._search.none.cost - order[0].cost >= PROMISING
+
+    def _worth_more(self) -> list[str]:
+        """Effects that better starts might bring to the top, after a first pass."""
+        order = self._order()
+        if not self._gains(order):
+            return []
+        sized = [name for name, e in self._effects.items() if e.unknowns]
+        if not self._astray and not order[0].fails:
+            # What has no place to be found is where it belongs by now.
+            near = {t.names[0] for t in order if t.cost < min(order[0].cost + NEARER, self._search.none.cost)}
+            return [name for name in sized if name in near and has_place(self._effects[name])]
+        names = [t.names[0] for t in order if t.cost < order[0].cost + NEAR]
+        best = order[0].fitted
+        if not best.chi2_per_dof < UNCLEAR or any(e.replaces_law for e in best.effects):
+            plain = self._search.order_of_plain()[:LEADERS] if self._astray else []
+            names = [*plain, *names, *(t.names[0] for t in order[:LEADERS])]
+        return [name for name in dict.fromkeys(names) if name in sized]
+
+    def _misplaced(self) -> list[str]:
+        """Where all that lead fail, those of them whose right place may not have been among the first."""
+        order = self._order()
+        if not self._gains(order):
+            return []
+        leading = [t for t in order if t.cost < order[0].cost + NEAR and t.names[0] in self._effects]
+        if not all(t.fails for t in leading):
+            return []
+        return [t.names[0] for t in leading if has_place(self._effects[t.names[0]])]
