@@ -48,7 +48,7 @@ class ReducedPlate:
     U: Array
     d: Array
     mode: NDArray[np.intp]
-    """Which of the plate's modes each column of U damps, in frequency order from 0."""
+    """Which of the stated ratios each column of U has, from 0."""
     load: Array
     observe: Array
     domain: Domain
