@@ -12,6 +12,8 @@ from fitting.laws.ghm import GollaHughesMcTavish
 from fitting.laws.smooth import Smooth
 
 Array = NDArray[np.float64]
+_STORAGE_PA, _LOSS = (1e3, 1e10), (1e-3, 5.0)
+"""Where another law may begin."""
 
 
 class OtherCoreLaw(Effect):
@@ -28,7 +30,7 @@ class OtherCoreLaw(Effect):
         """Near the stated one; smooth ones with as many knots as the clusters of points can fix."""
         f = np.unique(points.omega) / (2 * np.pi)
         low, high = float(f[0]), float(f[-1])
-        G, _ = stated.storage_and_loss(2 * np.pi * np.array([low, high]))
+        G = np.clip(stated.storage_and_loss(2 * np.pi * np.array([low, high]))[0], *_STORAGE_PA)
         rest, rise = float(0.8 * G[0]), float(max(G[1] - G[0], 0.1 * G[0]))
         tau = [1 / (2 * np.pi * x) for x in (high, np.sqrt(low * high), low)]
         series: list[CoreLaw] = [
@@ -41,10 +43,20 @@ class OtherCoreLaw(Effect):
         return [
             *series,
             *(
-                Smooth.through(stated, sorted({knots[k] for k in some}))
+                _smooth(stated, sorted({knots[k] for k in some}))
                 for some in ((0, 3, 5), (0, 1, 3, 5), (0, 1, 2, 3, 4, 5))
             ),
         ]
 
     def story(self, u: Mapping[str, float]) -> str:
         return "the core follows another law than the stated one"
+
+
+def _smooth(law: CoreLaw, knots_hz: list[float]) -> Smooth:
+    """Through a law at the knots, where that is a material: a fit that went astray may have made it none."""
+    G, eta = law.storage_and_loss(2 * np.pi * np.array(knots_hz))
+    return Smooth(
+        tuple(knots_hz),
+        tuple(float(g) for g in np.clip(G, *_STORAGE_PA)),
+        tuple(float(e) for e in np.clip(eta, *_LOSS)),
+    )
