@@ -144,8 +144,9 @@ class Contender:
 
     @property
     def is_open(self) -> bool:
-        """Whether a linear step cannot tell what some start may gain."""
-        return any(promise == 0 for promise, _ in self.starts)
+        """Whether a linear step cannot tell what an effect may gain; of many places the best one counts."""
+        starts = self.starts[:1] if has_place(self.effect) else self.starts
+        return any(promise == 0 for promise, _ in starts)
 
     def briefly(self) -> list[Fitted]:
         """A few steps from the best start: where the effect cannot be what is looked for."""
@@ -161,6 +162,9 @@ class Contender:
         """The same from those that are left."""
         followed = self._first + self._more
         return self._from(self.starts[followed : followed + MOST_PLACES])
+
+    def _is_told_nothing(self, start: Start) -> bool:
+        return start[0] == 0 and not has_place(self.effect)
 
     @property
     def _least_promise(self) -> float:
