@@ -134,7 +134,11 @@ class Contender:
         """Rough fits from the law so far and the starts that promise most; best first."""
         starts = self.starts[: self._first]
         return self._from(
-            [s for k, s in enumerate(starts) if not k or s[0] == 0 or s[0] > self._least_promise]
+            [
+                s
+                for k, s in enumerate(starts)
+                if not k or self._is_told_nothing(s) or s[0] > self._least_promise
+            ]
         )
 
     @property

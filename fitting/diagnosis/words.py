@@ -77,7 +77,7 @@ def _beside_none(judgement: Judgement) -> list[str]:
         return []
     best = max(others, key=lambda names: others[names])
     none, share = _percent(judgement.probability[()]), _percent(others[best])
-    return [f"Probable at {none}; {' with '.join(best)} has {share}, too little to be named."]
+    return [f"Of what was tried, no effect has {none}, {' with '.join(best)} {share}: too little to name it."]
 
 
 def _percent(probability: float) -> str:

@@ -10,9 +10,9 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fitting.effects.base import Change, Effect, Points, Span, Unknown
-from fitting.effects.full_plate import FullPlate, Snapshot
-from fitting.effects.released_root import released, root_forces
+from fitting.effects.base import Change, Effect, Points, Unknown
+from fitting.effects.full_plate import FullPlate
+from fitting.effects.released_root import RootSpan
 from fitting.effects.spanned import SpannedPlate
 from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
 
@@ -21,29 +21,21 @@ Complex = NDArray[np.complex128]
 
 RIGID_N_M3 = 1e17
 """Springs beyond which the root is at rest for every purpose here."""
-_RELEASED = (U_C, U_B, W, THETA_Y)
 _SPANNED = (4e12, 1e13, 3e13, 1e14, 1e15)
 
 
-class Root(Span):
+class Root(RootSpan):
     """Motions with a yielding root. Along y it is held, as between jaws."""
 
     name = "root"
+    released = (U_C, U_B, W, THETA_Y)
 
     def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
         return {"x": root_springs(full, "x"), "z": root_springs(full, "z")}
 
-    def forces(self, full: FullPlate, at: Snapshot) -> Array | Complex:
-        if full.specimen.boundary != "cantilever":
-            return super().forces(full, at)
-        return root_forces(full, at, _RELEASED)
-
-    def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
-        if full.specimen.boundary != "cantilever":
-            return answers
-        root = released(full, at, _RELEASED, answers, odd=False)
+    def springs(self, full: FullPlate) -> list[sp.csc_array]:
         S = full.once("root springs", lambda: root_springs(full, "x") + root_springs(full, "z"))
-        return root.answers(full, [k * S for k in _SPANNED])
+        return [k * S for k in _SPANNED]
 
 
 def root_springs(full: FullPlate, axis: str) -> sp.csc_array:

@@ -15,6 +15,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
+from fitting.effects.base import Span
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.element import DOFS
 from fitting.linear import times
@@ -139,3 +140,23 @@ def on_root(full: FullPlate, along: sp.sparray, local: Array) -> sp.csc_array:
     block = sp.kron(along, local).tocoo()
     whole = sp.coo_array((block.data, (block.row, block.col)), (n, n)).tocsr()
     return sp.csc_array(whole[full.loose.free][:, full.loose.free])
+
+
+class RootSpan(Span):
+    """Motions with some of the root's degrees of freedom on springs; a plate without a clamp has none."""
+
+    released: Sequence[int]
+
+    def springs(self, full: FullPlate) -> Sequence[sp.sparray]:
+        """At the root of the full plate, as stiff as is typical. Shape (n, n) each."""
+        raise NotImplementedError
+
+    def forces(self, full: FullPlate, at: Snapshot) -> Array | Complex:
+        if full.specimen.boundary != "cantilever":
+            return super().forces(full, at)
+        return root_forces(full, at, self.released)
+
+    def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
+        if full.specimen.boundary != "cantilever":
+            return answers
+        return released(full, at, self.released, answers, odd=self.odd).answers(full, self.springs(full))

@@ -10,39 +10,31 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fitting.effects.base import Change, Effect, Points, Span, Unknown
-from fitting.effects.full_plate import FullPlate, Snapshot
-from fitting.effects.released_root import along_root, on_root, released, root_forces
+from fitting.effects.base import Change, Effect, Points, Unknown
+from fitting.effects.full_plate import FullPlate
+from fitting.effects.released_root import RootSpan, along_root, on_root
 from fitting.effects.spanned import SpannedPlate
 from fitting.element import DOFS, U_C, V_C
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-_RELEASED = (U_C, V_C)
 _SPANNED = (1e6, 1e8, 4e8, 3e9)
 
 
-class FreeTreatment(Span):
+class FreeTreatment(RootSpan):
     """Motions with the constraining layer let go at the root, w and the substrate held."""
 
     name = "treatment"
+    released = (U_C, V_C)
     columns = 12
 
     def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
         return {"hold": hold(full)}
 
-    def forces(self, full: FullPlate, at: Snapshot) -> Array | Complex:
-        if full.specimen.boundary != "cantilever":
-            return super().forces(full, at)
-        return root_forces(full, at, _RELEASED)
-
-    def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
-        if full.specimen.boundary != "cantilever":
-            return answers
-        root = released(full, at, _RELEASED, answers, odd=False)
+    def springs(self, full: FullPlate) -> list[sp.csc_array]:
         S = full.once("hold of the treatment", lambda: hold(full))
-        return root.answers(full, [k * S for k in _SPANNED])
+        return [k * S for k in _SPANNED]
 
 
 def hold(full: FullPlate) -> sp.csc_array:

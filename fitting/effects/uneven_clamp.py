@@ -6,10 +6,10 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fitting.effects.base import Change, Effect, Points, Span, Unknown
+from fitting.effects.base import Change, Effect, Points, Unknown
 from fitting.effects.clamp_compliance import ClampCompliance, root_springs
-from fitting.effects.full_plate import FullPlate, Snapshot
-from fitting.effects.released_root import along_root, released, root_forces
+from fitting.effects.full_plate import FullPlate
+from fitting.effects.released_root import RootSpan, along_root
 from fitting.effects.spanned import SpannedPlate
 from fitting.element import DOFS, THETA_Y, U_B, U_C, W
 
@@ -17,31 +17,23 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 _MOST = 0.95
-_RELEASED = (U_C, U_B, W, THETA_Y)
 _SPANNED = ((6e12, 0.7), (2e13, 0.9), (6e13, 0.9), (4e14, 0.9))
 
 
-class UnevenRoot(Span):
+class UnevenRoot(RootSpan):
     """Motions with a root that yields more on one side. Along y it is held, as between jaws."""
 
     name = "uneven"
+    released = (U_C, U_B, W, THETA_Y)
     odd = True
     columns = 14
 
     def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
         return dict(zip(("mean", "slope"), uneven_springs(full), strict=True))
 
-    def forces(self, full: FullPlate, at: Snapshot) -> Array | Complex:
-        if full.specimen.boundary != "cantilever":
-            return super().forces(full, at)
-        return root_forces(full, at, _RELEASED)
-
-    def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
-        if full.specimen.boundary != "cantilever":
-            return answers
-        root = released(full, at, _RELEASED, answers, odd=True)
+    def springs(self, full: FullPlate) -> list[sp.csc_array]:
         mean, slope = uneven_springs(full)
-        return root.answers(full, [k * (mean + s * slope) for k, s in _SPANNED])
+        return [k * (mean + s * slope) for k, s in _SPANNED]
 
 
 def uneven_springs(full: FullPlate) -> tuple[sp.csc_array, sp.csc_array]:

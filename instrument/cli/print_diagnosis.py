@@ -27,9 +27,6 @@ def print_diagnosis(out: Output, facts: Facts) -> None:
     _print_candidates(out, facts)
     out.say()
     print_before_after(out, facts)
-    resampled = resampling_words(facts)
-    if resampled:
-        out.say(f"by resampling: {resampled}")
     out.say()
     _print_law(out, facts)
     for text in facts["warnings"]:
@@ -74,6 +71,9 @@ def print_before_after(out: Output, facts: Facts) -> None:
     if one_by_one[0] is not None:
         rows.append(["each point from the others, rms/%", *(_two(v) for v in one_by_one), ""])
     out.table("what the fit leaves", ["", "before", "after", "noise alone"], rows)
+    resampled = resampling_words(facts)
+    if resampled:
+        out.say(f"by resampling: {resampled}")
 
 
 def _print_candidates(out: Output, facts: Facts) -> None:

@@ -128,6 +128,20 @@ def test_a_pitching_base(full):
     assert error(found, full.direct(pitch=True)) < 1e-5
 
 
+def test_between_what_it_was_condensed_on_a_reading_is_off_by_a_hundred_thousandth(full):
+    plate = full.spanned.take([])
+    factors = [size * np.exp(1j * angle) for size in (0.25, 0.5, 1, 2, 4) for angle in (0.2, 0.6, 1.0)]
+    fewer = plate.condensed(np.tile(OMEGA, len(factors)), np.concatenate([abs(G) * f for f in factors]))
+    random = np.random.default_rng(4)
+    for _ in range(5):
+        here = abs(G) * random.uniform(0.3, 3) * np.exp(1j * random.uniform(0.2, 1))
+        found, expected = (
+            answer(p, OMEGA, here, Change(), [], np.array([], int), with_pitch=False).heave
+            for p in (fewer, plate)
+        )
+        assert error(found, expected) < 1e-5
+
+
 def test_condensing_keeps_the_answers_it_was_condensed_on(full):
     plate = full.spanned.take([])
     fewer = plate.condensed(OMEGA, G)
