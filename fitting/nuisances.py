@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Change
+from fitting.effects.change import Change
 from fitting.effects.spanned import SpannedPlate
 from fitting.parts import CORE, MASS, STIFFNESS, coefficients
 from fitting.specimen import Specimen

@@ -1,10 +1,7 @@
 """The menus. Every entry has a key or a place that is easy to guess."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
@@ -12,10 +9,8 @@ from PySide6.QtWidgets import QFileDialog, QMenu, QMessageBox
 
 from gui.desk import EXPERIMENT_ENDING, FOREIGN_ENDINGS, SESSION_ENDINGS
 from gui.export import Export
+from gui.shell import Shell
 from gui.theme import SCALES, Mode
-
-if TYPE_CHECKING:
-    from gui.window import Window
 
 _KEYS = """
 Ctrl+1 ... Ctrl+5\tthe pages
@@ -36,7 +31,7 @@ right mouse button\ta plot's menu: ranges, export
 class Menus(QObject):
     """Of one window."""
 
-    def __init__(self, window: Window) -> None:
+    def __init__(self, window: Shell) -> None:
         super().__init__(window)
         self._window = window
         self._export = Export(window.desk, window)

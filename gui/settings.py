@@ -1,20 +1,23 @@
 """What the window remembers from one time to the next."""
 
-from __future__ import annotations
-
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, get_args
+from typing import get_args
 
 from PySide6.QtCore import QByteArray, QSettings
 
-from gui.theme import Mode
-
-if TYPE_CHECKING:
-    from gui.window import Window
+from gui.theme import Appearance, Mode
 
 _MOST_RECENT = 10
-_LAYOUT = 1
-"""Raised when docks change: an older arrangement is not restored then."""
+
+
+@dataclass(frozen=True)
+class Arrangement:
+    """Where a window was and what it showed; None where nothing is known."""
+
+    geometry: QByteArray | None
+    docks: QByteArray | None
+    page: int
 
 
 class Settings:
@@ -50,21 +53,22 @@ class Settings:
         newest = [path, *(p for p in self.recent if p != path)][:_MOST_RECENT]
         self._kept.setValue("recent", [str(p) for p in newest])
 
-    def keep(self, window: Window) -> None:
+    def keep(self, arrangement: Arrangement, appearance: Appearance) -> None:
         """Of a window that closes."""
-        self._kept.setValue("geometry", window.saveGeometry())
-        self._kept.setValue("docks", window.saveState(_LAYOUT))
-        self._kept.setValue("page", window.tabs.currentIndex())
-        self._kept.setValue("mode", window.appearance.mode)
-        self._kept.setValue("scale", window.appearance.scale)
+        self._kept.setValue("geometry", arrangement.geometry)
+        self._kept.setValue("docks", arrangement.docks)
+        self._kept.setValue("page", arrangement.page)
+        self._kept.setValue("mode", appearance.mode)
+        self._kept.setValue("scale", appearance.scale)
         self._kept.sync()
 
-    def restore(self, window: Window) -> None:
-        """To a new window."""
+    @property
+    def arrangement(self) -> Arrangement:
+        """For a new window."""
         geometry, docks = self._kept.value("geometry"), self._kept.value("docks")
-        if isinstance(geometry, QByteArray):
-            window.restoreGeometry(geometry)
-        if isinstance(docks, QByteArray):
-            window.restoreState(docks, _LAYOUT)
         page = str(self._kept.value("page", "0"))
-        window.show_page(int(page) if page.isdecimal() else 0)
+        return Arrangement(
+            geometry if isinstance(geometry, QByteArray) else None,
+            docks if isinstance(docks, QByteArray) else None,
+            int(page) if page.isdecimal() else 0,
+        )

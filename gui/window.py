@@ -5,7 +5,7 @@ from time import monotonic
 
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence, QShortcut, QShowEvent
-from PySide6.QtWidgets import QMainWindow, QMessageBox, QTabWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QMessageBox, QTabWidget, QVBoxLayout, QWidget
 
 from gui.desk import Desk
 from gui.log_pane import LogPane
@@ -14,7 +14,8 @@ from gui.notice import Notice
 from gui.page import Page
 from gui.pages import PAGES
 from gui.replay_bar import ReplayBar
-from gui.settings import Settings
+from gui.settings import Arrangement, Settings
+from gui.shell import Shell
 from gui.theme import Appearance
 from gui.top_bar import TopBar
 from gui.work import Command, Work
@@ -23,11 +24,13 @@ TURN_MS = 33
 """Between two looks at what has come: 30 a second."""
 _REST, _MOST_REST_MS = 3.0, 300.0
 """Times as long as a look came late, until the next one; at most."""
+_LAYOUT = 1
+"""Raised when docks change: an older arrangement is not restored then."""
 _TWICE_S = 1.0
 """Two presses of Esc within this time are meant."""
 
 
-class Window(QMainWindow):
+class Window(Shell):
     """One window, one session."""
 
     def __init__(self, appearance: Appearance, settings: Settings) -> None:
@@ -60,7 +63,7 @@ class Window(QMainWindow):
         self._timer.start()
         self._first_drawing = QTimer(self)
         self._first_drawing.timeout.connect(self._draw_next)
-        settings.restore(self)
+        self._restore(settings.arrangement)
 
     def turn(self) -> None:
         """Take what has come and show it."""
@@ -113,7 +116,10 @@ class Window(QMainWindow):
             return
         self._timer.stop()
         self._first_drawing.stop()
-        self.settings.keep(self)
+        self.settings.keep(
+            Arrangement(self.saveGeometry(), self.saveState(_LAYOUT), self.tabs.currentIndex()),
+            self.appearance,
+        )
         for work in self.findChildren(Work):
             work.close()
         for command in self.findChildren(Command):
@@ -158,6 +164,13 @@ class Window(QMainWindow):
         self.addDockWidget(Qt.DockWidgetArea.BottomDockWidgetArea, self.log)
         self.resize(1280, 700)
         self.resizeDocks([self.log], [110], Qt.Orientation.Vertical)
+
+    def _restore(self, before: Arrangement) -> None:
+        if before.geometry is not None:
+            self.restoreGeometry(before.geometry)
+        if before.docks is not None:
+            self.restoreState(before.docks, _LAYOUT)
+        self.show_page(before.page)
 
     def _shortcuts(self) -> None:
         for keys, slot in (

@@ -17,8 +17,8 @@ from PySide6.QtCore import QObject, QProcess, QProcessEnvironment, Qt, Signal
 
 from drivers.errors import DriverError
 from fitting.errors import FittingError
-from instrument.background import VARIABLE as BACKGROUND
 from instrument.errors import BadInput
+from instrument.models.background import VARIABLE as BACKGROUND
 from instrument.progress import LINES
 
 T = TypeVar("T")

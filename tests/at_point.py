@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from instrument.companion import Companion
+from instrument.run.companion import Companion
 from instrument.stream.derived import PointMeasured
 from instrument.stream.event import Event
 

@@ -15,9 +15,9 @@ from fitting.plate import Plate
 from fitting.specimen import Core, Face, Specimen
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
-from instrument.models import Models
+from instrument.models.second_process import VARIABLE as PROCESSES
+from instrument.models.specimen_models import Models
 from instrument.paper_case import case_file
-from instrument.second_process import VARIABLE as PROCESSES
 
 settings.register_profile("ci", deadline=None, max_examples=40, derandomize=True)
 settings.load_profile("ci")

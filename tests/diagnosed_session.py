@@ -3,7 +3,7 @@
 from diagnosis_cases import facts
 from session_cases import Tape, configuration
 
-from instrument.live_fit import fit_points
+from instrument.run.live_fit import fit_points
 from instrument.stream.derived import DiagnosisFound
 from instrument.stream.raw import DiagnosisStarted, FitStarted
 

@@ -8,9 +8,9 @@ from fitting.identification.result import law_band
 from fitting.identification.uncertainty import Uncertainty
 from fitting.identification.validation import HeldOutSegment, Validation
 from fitting.sweep import Sweep
-from instrument.diagnosis import Diagnosed
-from instrument.diagnosis_facts import diagnosis_facts
-from instrument.plain import plain
+from instrument.models.diagnosis import Diagnosed
+from instrument.results.diagnosis_facts import diagnosis_facts
+from instrument.stream.jsonable import plain
 
 MASS = FoundEffect("added_mass", {"mass": Estimate(0.008, 1e-4, "kg"), "x": Estimate(0.25, np.nan, "m")})
 SPOT = FoundEffect("spot_offset", {"dx": Estimate(0.004, 2e-5, "m")})

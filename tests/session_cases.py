@@ -14,12 +14,13 @@ from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.rig_file import RigDocument
 from instrument.files.specimen_file import SpecimenDocument, specimen_of
 from instrument.files.toml import read_document
-from instrument.live_fit import fit_points
-from instrument.models import Models
+from instrument.models.specimen_models import Models
 from instrument.paper_case import case_file
-from instrument.session.configuration import Configuration, setup_of
+from instrument.run.analysis import Analysis
+from instrument.run.live_fit import fit_points
+from instrument.session.configuration import Configuration
+from instrument.session.setup import setup_of
 from instrument.session.storage import write_part, write_session
-from instrument.stream.analysis import Analysis
 from instrument.stream.derived import PointMeasured
 from instrument.stream.raw import (
     AcquisitionBegan,

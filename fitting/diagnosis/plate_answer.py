@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Change
+from fitting.effects.change import Change
 from fitting.effects.spanned import SpannedPlate
 from fitting.nuisances import Nuisances
 

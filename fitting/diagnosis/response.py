@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 
 from fitting.diagnosis.plate_answer import answer, core_strain
 from fitting.diagnosis.task import Grid, Task
-from fitting.effects.base import Change, Effect, ModulusAt, Unknown
+from fitting.effects.base import Effect, ModulusAt, Unknown
+from fitting.effects.change import Change
 from fitting.effects.spanned import SpannedPlate
 from fitting.laws import CoreLaw
 

@@ -3,7 +3,9 @@
 from importlib import import_module
 from pkgutil import iter_modules
 
-from fitting.effects.base import Change, Effect, Points, Span, Unknown
+from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.change import Change
+from fitting.effects.span import Span
 
 for _module in iter_modules(__path__):
     import_module(f"{__name__}.{_module.name}")

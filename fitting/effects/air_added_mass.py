@@ -7,8 +7,10 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from fitting.air import StillAir, still_air
-from fitting.effects.base import BarePlate, Change, Effect, Points, Span, Unknown
+from fitting.effects.base import BarePlate, Effect, Points, Unknown
+from fitting.effects.change import Change
 from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.span import Span
 from fitting.effects.spanned import SpannedPlate
 
 Array = NDArray[np.float64]

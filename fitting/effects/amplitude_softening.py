@@ -6,8 +6,9 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, ModulusAt, Points, Span, Unknown
+from fitting.effects.base import Effect, ModulusAt, Points, Unknown
 from fitting.effects.full_plate import FullPlate
+from fitting.effects.span import Span
 from fitting.element import Shape, core_shear_stiffness
 
 Array = NDArray[np.float64]

@@ -11,20 +11,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Literal, Protocol
+from typing import ClassVar, Literal, Protocol
 
 import numpy as np
-import scipy.sparse as sp
 from numpy.typing import NDArray
 
+from fitting.effects.change import Change
+from fitting.effects.span import Span
+from fitting.effects.spanned import SpannedPlate
 from fitting.laws import CoreLaw
 from fitting.noise import Noise
 from fitting.specimen import Face
 from fitting.sweep import Sweep
-
-if TYPE_CHECKING:
-    from fitting.effects.full_plate import FullPlate, Snapshot
-    from fitting.effects.spanned import SpannedPlate
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -75,36 +73,6 @@ class Unknown:
 
 
 @dataclass(frozen=True)
-class Change:
-    """What an effect changes of the reduced plate; shapes (k, k) and (k,), 0 for nothing."""
-
-    K: Any = 0.0
-    K_1: Any = 0.0
-    M: Any = 0.0
-    load: Any = 0.0
-    observe: Any = 0.0
-    damping: Any = 1.0
-    """Factor on C_1, or one on each of its modes. Shape () or (modes,)."""
-    travel_load: Any = 0.0
-    """Load per displacement of the base, -1 / omega^2 of its acceleration; N/m. Shape (k,)."""
-    travel: Any = 0.0
-    """Displacement read per displacement of the base, beside that of the plate."""
-
-    def and_then(self, other: Change) -> Change:
-        """Both changes."""
-        return Change(
-            self.K + other.K,
-            self.K_1 + other.K_1,
-            self.M + other.M,
-            self.load + other.load,
-            self.observe + other.observe,
-            self.damping * other.damping,
-            self.travel_load + other.travel_load,
-            self.travel + other.travel,
-        )
-
-
-@dataclass(frozen=True)
 class Points:
     """What is known of each point of a sweep apart from its reading. Shape (points,) each."""
 
@@ -131,32 +99,6 @@ class Seen:
     """Key to value, standard error and unit."""
     aside: NDArray[np.bool_]
     """Points it spoils. Shape (points,)."""
-
-
-class Span:
-    """Motions a family of effects needs beside those of the unchanged plate, and matrices it works with."""
-
-    name: str
-    odd: bool = False
-    """Whether it couples to motions odd in y."""
-    columns: int = 40
-    """At most as many of either parity."""
-
-    def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
-        """Symmetric matrices over the full plate, by name; an (n, r) array stands for L L^T."""
-        return {}
-
-    def vectors(self, full: FullPlate) -> Mapping[str, Array]:
-        """Loads over the full plate, by name."""
-        return {}
-
-    def forces(self, full: FullPlate, at: Snapshot) -> Array | Complex:
-        """Of typical changes, as large as the effect makes them; their responses are spanned. (n, any)."""
-        return np.empty((len(at.x), 0))
-
-    def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
-        """What is to be spanned: the held plate's `answers` to `forces`, or what follows from them."""
-        return answers
 
 
 class Effect:

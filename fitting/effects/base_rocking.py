@@ -5,8 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Span, Unknown
+from fitting.effects.base import Effect, Unknown
 from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.span import Span
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -5,8 +5,10 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Change, Effect, Points, Span, Unknown
+from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.change import Change
 from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.span import Span
 from fitting.effects.spanned import SpannedPlate
 from fitting.element import DOFS, THETA_X, V_C, W
 

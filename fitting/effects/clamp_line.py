@@ -6,9 +6,11 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Change, Effect, Points, Span, Unknown
+from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.change import Change
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.other_plates import changed_to, forces
+from fitting.effects.span import Span
 from fitting.effects.spanned import SpannedPlate
 from fitting.specimen import Specimen
 

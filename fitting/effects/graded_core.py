@@ -6,9 +6,11 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fitting.effects.base import Change, Effect, Span, Unknown
+from fitting.effects.base import Effect, Unknown
+from fitting.effects.change import Change
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.partial_debond import strips
+from fitting.effects.span import Span
 from fitting.effects.spanned import SpannedPlate
 from fitting.element import DOFS, Shape, core_shear
 from fitting.linear import times

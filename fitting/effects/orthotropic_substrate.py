@@ -5,9 +5,11 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import BarePlate, Change, Effect, Span, Unknown
+from fitting.effects.base import BarePlate, Effect, Unknown
+from fitting.effects.change import Change
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.other_plates import mixed
+from fitting.effects.span import Span
 from fitting.effects.spanned import SpannedPlate
 from fitting.element import DOFS, U_B, V_B, Shape
 from fitting.parts import STIFFNESS

@@ -5,7 +5,7 @@ from collections.abc import Iterable
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Change
+from fitting.effects.change import Change
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.spanned import SpannedPlate
 from fitting.element import CORNERS

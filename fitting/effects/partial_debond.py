@@ -6,8 +6,10 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fitting.effects.base import Change, Effect, Points, Span, Unknown
+from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.change import Change
 from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.span import Span
 from fitting.effects.spanned import SpannedPlate
 from fitting.element import Shape, core_shear_stiffness
 from fitting.linear import times

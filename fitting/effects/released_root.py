@@ -15,8 +15,8 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fitting.effects.base import Span
 from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.span import Span
 from fitting.element import DOFS
 from fitting.linear import times
 

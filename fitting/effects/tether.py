@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.effects.added_mass import PointMass
-from fitting.effects.base import Change, Effect, Points, Unknown
+from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.change import Change
 from fitting.effects.spanned import SpannedPlate
 
 Array = NDArray[np.float64]

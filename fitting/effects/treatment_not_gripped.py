@@ -10,7 +10,8 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fitting.effects.base import Change, Effect, Points, Unknown
+from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.change import Change
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.released_root import RootSpan, along_root, on_root
 from fitting.effects.spanned import SpannedPlate

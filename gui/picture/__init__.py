@@ -17,8 +17,9 @@ from gui.picture.step import Step
 from instrument.cli.watching import said_of
 from instrument.errors import BadInput
 from instrument.impact.record import Channel, Hit
-from instrument.interchange.contents import Contents, Gather, RecordedHit
-from instrument.session.configuration import Configuration, sweep_settings
+from instrument.session.configuration import Configuration
+from instrument.session.contents import Contents, Gather, RecordedHit
+from instrument.session.setup import sweep_settings
 from instrument.stepped_sine.settings import SweepSettings
 from instrument.stream.clock import SessionClock
 from instrument.stream.derived import (

@@ -12,7 +12,7 @@ from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from fitting.laws import CoreLaw
 from instrument.campaign.cases import Case
 from instrument.campaign.materials import TrueLaw
-from instrument.plain import plain
+from instrument.stream.jsonable import plain
 
 
 @dataclass(frozen=True)

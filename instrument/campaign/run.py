@@ -22,9 +22,9 @@ from instrument.campaign.tables import summary
 from instrument.campaign.visibility import visible_chi2
 from instrument.errors import BadInput, StoppedByUser
 from instrument.files.text import read_text
+from instrument.models.second_process import VARIABLE as PROCESSES
+from instrument.models.second_process import end_with
 from instrument.progress import Progress, quiet
-from instrument.second_process import VARIABLE as PROCESSES
-from instrument.second_process import end_with
 
 OUTCOMES, BEGUN, SUMMARY = "outcomes.jsonl", "campaign.json", "summary.md"
 ROTATION = (*KINDS, NONE, NONE, PAIR, PAIR)
@@ -56,7 +56,7 @@ def judge(job: Job, taken_out: bool) -> dict[str, Any]:
     A diagnosis that raises is an outcome without an answer; the next run tries it again.
     """
     # Loaded here: cases and scores are of use without it.
-    diagnose = import_module("instrument.diagnosis").diagnose
+    diagnose = import_module("instrument.models.diagnosis").diagnose
     case = draw(job.kind, job.seed)
     said: Said | None = None
     without: Said | None = None

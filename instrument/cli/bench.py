@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from instrument.bench import run_bench
+from instrument.campaign.bench import run_bench
 from instrument.campaign.cases import KINDS
 from instrument.campaign.plates.cases import KINDS as PLATE_KINDS
 from instrument.campaign.plates.judged import diagnosed, diagnosed_without_the_truth

@@ -4,12 +4,12 @@ from pathlib import Path
 
 import click
 
-from instrument.check import all_faults, dry_run
+from instrument.check.dry_run import all_faults, dry_run
 from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
+from instrument.models.tolerance_words import tolerance_rows
 from instrument.progress import bar
-from instrument.tolerance_words import tolerance_rows
 
 
 @click.command()

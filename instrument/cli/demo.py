@@ -13,15 +13,15 @@ from instrument.cli.output import Output
 from instrument.cli.print_run import print_finished, run_facts
 from instrument.cli.stopping import safe_stop
 from instrument.cli.watching import Watcher
-from instrument.control import Control
-from instrument.diagnosis_figures import save_diagnosis_figures
-from instrument.diagnosis_words import law_at, with_verdict
 from instrument.errors import BadInput
-from instrument.experiment_run import Finished, run_experiment
-from instrument.interchange.contents import contents_of
 from instrument.progress import bar
 from instrument.report.page import report_page
+from instrument.results.diagnosis_figures import save_diagnosis_figures
+from instrument.results.diagnosis_words import law_at, with_verdict
+from instrument.run.control import Control
+from instrument.run.experiment import Finished, run_experiment
 from instrument.session.configuration import read_whole_experiment
+from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 from instrument.simulated_case import DEFAULT_EFFECT, chosen_effect, write_case
 

@@ -5,13 +5,13 @@ from pathlib import Path
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_before_after, print_story
 from instrument.cli.print_identification import print_identification
-from instrument.demo import PaperRun, run_paper_case
-from instrument.diagnosis_facts import diagnosis_facts
-from instrument.figures import save_figures
-from instrument.identification_facts import identification_facts
 from instrument.paper_case import TABLE_5_THEORY_M_S
-from instrument.plain import plain
+from instrument.paper_case.demo import PaperRun, run_paper_case
+from instrument.paper_case.figures import save_figures
 from instrument.progress import bar
+from instrument.results.diagnosis_facts import diagnosis_facts
+from instrument.results.identification_facts import identification_facts
+from instrument.stream.jsonable import plain
 
 
 def show_paper_case(out: Output, folder: Path) -> None:

@@ -8,11 +8,11 @@ from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
 from instrument.cli.reading import read_data, reading_options
-from instrument.diagnosis import diagnose as diagnose_sweep
-from instrument.diagnosis_facts import diagnosis_facts
-from instrument.diagnosis_figures import save_diagnosis_figures
-from instrument.plain import plain
+from instrument.models.diagnosis import diagnose as diagnose_sweep
 from instrument.progress import bar
+from instrument.results.diagnosis_facts import diagnosis_facts
+from instrument.results.diagnosis_figures import save_diagnosis_figures
+from instrument.stream.jsonable import plain
 
 
 @click.command()

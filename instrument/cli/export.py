@@ -6,8 +6,8 @@ import click
 
 from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
-from instrument.interchange.contents import contents_of
 from instrument.interchange.exporting import FORMATS, Format, export_session
+from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 
 

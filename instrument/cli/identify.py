@@ -11,11 +11,13 @@ from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_identification import print_bare_plate, print_identification
 from instrument.cli.reading import read_data, reading_options
-from instrument.identification import Identified, Method
-from instrument.identification import identify as identify_sweep
-from instrument.identification_facts import bare_plate_facts, identification_facts
-from instrument.pointwise import pointwise_of, save_pointwise_figure
+from instrument.models.identification import Identified, Method
+from instrument.models.identification import identify as identify_sweep
+from instrument.models.pointwise import pointwise_of
 from instrument.progress import bar
+from instrument.results.identification_facts import bare_plate_facts, identification_facts
+from instrument.results.pointwise_facts import second_look_facts
+from instrument.results.pointwise_figures import save_pointwise_figure
 
 
 @click.command()
@@ -83,7 +85,7 @@ def identify(
     if pointwise:
         bands = pointwise_of(found, given.sweep)
         out.say(bands.words)
-        facts |= bands.facts()
+        facts |= second_look_facts(bands)
         if figures is not None:
             out.say(f"saved {save_pointwise_figure(bands, found.result.band, figures)}")
     out.result({**facts, **given.facts})

@@ -11,9 +11,9 @@ import click
 
 from drivers.errors import DriverError
 from fitting.errors import FittingError
-from instrument.background import VARIABLE as BACKGROUND
-from instrument.background import step_back
 from instrument.errors import BadInput, RigStopped, StoppedByUser
+from instrument.models.background import VARIABLE as BACKGROUND
+from instrument.models.background import step_back
 
 BAD_INPUT = 2
 RIG_STOPPED = 3

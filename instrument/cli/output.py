@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.table import Table
 
 from instrument.errors import BadInput
-from instrument.plain import plain
+from instrument.stream.jsonable import plain
 
 
 class Output:

@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
 from instrument.cli.options import Frequencies, file_argument, json_option
 from instrument.cli.output import Output
-from instrument.files.fit_file import read_fit
 from instrument.files.hammer_file import read_hammer
 from instrument.files.specimen_file import read_specimen
-from instrument.fitted_response import fitted_response
-from instrument.models import Models
+from instrument.models.specimen_models import Models
+from instrument.models.theory import theory_remark
 from instrument.progress import bar
-from instrument.theory import theory_remark
+from instrument.results.fit_file import read_fit
+from instrument.results.fitted_response import fitted_response
 
 
 @click.command()

@@ -5,7 +5,7 @@ from typing import Any
 
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from instrument.cli.output import Output
-from instrument.diagnosis_words import (
+from instrument.results.diagnosis_words import (
     law_at,
     probability_words,
     resampling_words,

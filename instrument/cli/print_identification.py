@@ -6,9 +6,9 @@ from fitting.identification.bare_plate import BarePlateFit
 from fitting.identification.result import Identification
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
-from instrument.adjusted_words import COLUMNS, adjusted_rows, more_adjusted
 from instrument.cli.output import Output
-from instrument.identification import Identified
+from instrument.models.identification import Identified
+from instrument.results.adjusted_words import COLUMNS, adjusted_rows, more_adjusted
 
 _MOST_ROWS = 30
 

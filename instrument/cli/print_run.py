@@ -6,7 +6,7 @@ import numpy as np
 
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_before_after, print_story
-from instrument.experiment_run import Finished
+from instrument.run.experiment import Finished
 from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated, PointMeasured
 
 

@@ -14,8 +14,8 @@ from instrument.files.hammer_file import HammerModes, read_hammer
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.interchange.base_frf import FOREIGN_ENDINGS, is_frf_csv, sweep_of_foreign, sweep_of_frf_csv
-from instrument.interchange.contents import contents_of
 from instrument.interchange.identified import session_modes, session_sweep
+from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 
 _SESSION_ENDINGS = (".h5", ".hdf5")

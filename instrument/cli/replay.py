@@ -9,7 +9,7 @@ from instrument.cli.output import Output
 from instrument.cli.print_run import print_fit, print_found_diagnosis, print_quality
 from instrument.cli.watching import Watcher
 from instrument.progress import bar
-from instrument.replay import replay as replay_session
+from instrument.run.replay import replay as replay_session
 from instrument.session.storage import SessionFile
 from instrument.stream.event import Event
 

@@ -7,9 +7,9 @@ import click
 from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
-from instrument.interchange.contents import contents_of
 from instrument.progress import bar
 from instrument.report.page import report_page
+from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 
 

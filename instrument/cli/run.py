@@ -9,9 +9,9 @@ from instrument.cli.output import Output
 from instrument.cli.print_run import print_finished, run_facts
 from instrument.cli.stopping import safe_stop
 from instrument.cli.watching import Watcher
-from instrument.control import Control
-from instrument.experiment_run import Part, run_experiment
 from instrument.progress import bar
+from instrument.run.control import Control
+from instrument.run.experiment import Part, run_experiment
 from instrument.session.configuration import read_whole_experiment
 
 out_option = click.option(

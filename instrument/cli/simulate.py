@@ -9,7 +9,7 @@ import click
 
 from instrument.files.rig_file import RigDocument
 from instrument.files.toml import read_document
-from instrument.simulation import simulated_rig
+from instrument.simulated_case.simulation import simulated_rig
 
 
 @click.command()

@@ -10,8 +10,8 @@ from types import FrameType
 
 import click
 
-from instrument.control import Control
 from instrument.errors import RigStopped
+from instrument.run.control import Control
 
 _SIGNALS = ("SIGTERM", "SIGHUP")
 _HOLD = getattr(signal, "SIGTSTP", None)

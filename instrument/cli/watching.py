@@ -5,7 +5,7 @@ from collections.abc import Callable
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from instrument.diagnosis_words import verdict_line
+from instrument.results.diagnosis_words import verdict_line
 from instrument.stream.derived import (
     CalibrationFound,
     DampingFound,

@@ -4,7 +4,7 @@ import threading
 from collections.abc import Callable
 
 from instrument.engine.messages import Answered, Asked, Decided, Message
-from instrument.operator import Operator
+from instrument.run.operator import Operator
 from instrument.stream.raw import OperatorDid
 
 

@@ -16,8 +16,6 @@ from time import monotonic, sleep
 from typing import BinaryIO
 
 from drivers.errors import DriverError
-from instrument.companion import Companion
-from instrument.control import Control
 from instrument.engine.asking import HelpedOperator, RemoteOperator
 from instrument.engine.interruption import Interruption
 from instrument.engine.mailbox import Mailbox
@@ -40,9 +38,11 @@ from instrument.engine.messages import (
 from instrument.engine.stoppable import StoppableShaker
 from instrument.engine.wire import read
 from instrument.errors import RigStopped
-from instrument.operator import Operator, SimulatedOperator
 from instrument.progress import Report
-from instrument.rig import Rig
+from instrument.run.companion import Companion
+from instrument.run.control import Control
+from instrument.run.operator import Operator, SimulatedOperator
+from instrument.run.rig import Rig
 from instrument.stream.event import Event
 
 log = logging.getLogger(__name__)

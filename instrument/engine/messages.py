@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar, Literal
 
-from instrument.experiment_run import Part
 from instrument.files.rig_file import Shaker
+from instrument.run.experiment import Part
 from instrument.stream.event import Event
 
 Why = Literal["done", "bad input", "stopped safely", "stopped by the user", "died"]

@@ -13,9 +13,9 @@ from instrument.engine.mailbox import Mailbox
 from instrument.engine.messages import Ended, Logged, Order, Why, ended
 from instrument.engine.wire import encode, read
 from instrument.errors import BadInput, RigStopped, StoppedByUser
-from instrument.experiment_run import run_experiment
-from instrument.live_diagnosis import Diagnoser, diagnose_points
-from instrument.live_fit import Fitter, fit_points
+from instrument.run.experiment import run_experiment
+from instrument.run.live_diagnosis import Diagnoser, diagnose_points
+from instrument.run.live_fit import Fitter, fit_points
 from instrument.session.configuration import read_whole_experiment
 
 _OURS = ("instrument", "drivers", "fitting")

@@ -11,7 +11,7 @@ from drivers.errors import DriverError
 from instrument.engine.messages import StopPathChanged
 from instrument.engine.stoppable import came_to_rest
 from instrument.files.rig_file import Shaker
-from instrument.rig import open_shaker
+from instrument.run.rig import open_shaker
 
 _TRIED_EVERY_S = 1.0
 """Devices close connections that are idle."""

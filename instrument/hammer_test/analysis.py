@@ -11,9 +11,9 @@ from instrument.impact.damping import damping_of_hits
 from instrument.impact.facts import damping_facts
 from instrument.impact.judge import Judged, judge
 from instrument.impact.record import Channel, Hit
-from instrument.plain import plain
 from instrument.stream.derived import DampingFound, HitJudged, HitRevised
 from instrument.stream.event import Derived
+from instrument.stream.jsonable import plain
 from instrument.stream.raw import BlockAcquired, HammerTestEnded, OperatorDid
 
 WEAK = 0.3

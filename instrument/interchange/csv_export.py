@@ -7,10 +7,10 @@ from pathlib import Path
 
 import numpy as np
 
-from instrument.interchange.contents import Contents, RecordedHit
 from instrument.interchange.point_table import Column, columns
 from instrument.interchange.provenance import one_line, provenance, reading
 from instrument.interchange.specimen_toml import specimen_toml
+from instrument.session.contents import Contents, RecordedHit
 
 
 def export_csv(contents: Contents, folder: Path) -> list[Path]:

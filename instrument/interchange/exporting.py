@@ -5,10 +5,10 @@ from pathlib import Path
 from typing import Literal, get_args
 
 from instrument.errors import BadInput
-from instrument.interchange.contents import Contents
 from instrument.interchange.csv_export import export_csv
 from instrument.interchange.mat_export import export_mat
 from instrument.interchange.uff_export import export_uff
+from instrument.session.contents import Contents
 
 Format = Literal["uff", "csv", "mat"]
 FORMATS: tuple[str, ...] = get_args(Format)

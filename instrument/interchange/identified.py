@@ -10,10 +10,10 @@ from fitting.sweep import Sweep
 from instrument.errors import BadInput
 from instrument.files.hammer_file import HammerModes, hammer_modes
 from instrument.files.toml import one_line
-from instrument.identification import Identified, identify
-from instrument.interchange.contents import Contents
-from instrument.points import sweep_of
+from instrument.models.identification import Identified, identify
 from instrument.progress import Progress, quiet
+from instrument.session.contents import Contents
+from instrument.session.points import sweep_of
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,9 @@ import numpy as np
 from scipy.io import savemat
 
 from instrument.impact.spectra import spectra
-from instrument.interchange.contents import Contents
 from instrument.interchange.point_table import Column, columns
 from instrument.interchange.provenance import provenance, reading
+from instrument.session.contents import Contents
 
 
 def export_mat(contents: Contents, folder: Path) -> list[Path]:

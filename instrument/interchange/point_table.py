@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from instrument.interchange.contents import Contents, TimedPoint
-from instrument.points import sweep_of
+from instrument.session.contents import Contents, TimedPoint
+from instrument.session.points import sweep_of
 
 Array = NDArray[Any]
 

@@ -1,6 +1,6 @@
 """Where an exported file comes from: lines that its comments or headers say."""
 
-from instrument.interchange.contents import Contents
+from instrument.session.contents import Contents
 
 
 def provenance(contents: Contents) -> list[str]:

@@ -3,8 +3,8 @@
 import json
 from typing import Any
 
-from instrument.interchange.contents import Contents
 from instrument.interchange.provenance import provenance
+from instrument.session.contents import Contents
 
 
 def specimen_toml(contents: Contents) -> str:

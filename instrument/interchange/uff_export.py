@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from fitting.modal.frf import Frf
 from instrument.impact.spectra import spectra
-from instrument.interchange.contents import Contents, RecordedHit, TimedPoint
+from instrument.session.contents import Contents, RecordedHit, TimedPoint
 
 _TIME, _FRF, _COHERENCE = 1, 4, 6
 _VELOCITY, _ACCELERATION, _FORCE, _SECONDS, _HERTZ = 11, 12, 13, 17, 18

@@ -3,10 +3,11 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from instrument.interchange.contents import Contents
 from instrument.report.blocks import Block, Section, Sentence, Table
-from instrument.report.drawing import DATA, MODEL, SECOND, label, legend, panels, picture
 from instrument.report.numbers import with_error
+from instrument.report.picture import picture
+from instrument.results.drawing import DATA, MODEL, SECOND, label, legend, panels
+from instrument.session.contents import Contents
 from instrument.stream.derived import PointMeasured
 
 _COLOURS = (DATA, MODEL, SECOND, "#5b8c2a", "#222222")

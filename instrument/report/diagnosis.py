@@ -3,8 +3,11 @@
 from typing import Any
 
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
-from instrument.diagnosis_figures import evidence_figure, law_figure, residual_figure
-from instrument.diagnosis_words import (
+from instrument.report.blocks import Block, Section, Sentence, Table
+from instrument.report.numbers import plain, with_error
+from instrument.report.picture import picture
+from instrument.results.diagnosis_figures import evidence_figure, law_figure, residual_figure
+from instrument.results.diagnosis_words import (
     law_at,
     probability_words,
     resampling_words,
@@ -12,10 +15,7 @@ from instrument.diagnosis_words import (
     verdict_line,
     with_verdict,
 )
-from instrument.interchange.contents import Contents
-from instrument.report.blocks import Block, Section, Sentence, Table
-from instrument.report.drawing import picture
-from instrument.report.numbers import plain, with_error
+from instrument.session.contents import Contents
 
 Facts = dict[str, Any]
 

@@ -1,7 +1,7 @@
 """How a session ended, and what of its plan is missing."""
 
-from instrument.interchange.contents import Contents
 from instrument.report.blocks import Block, Section, Sentence
+from instrument.session.contents import Contents
 from instrument.stream.derived import LimitExceeded, LimitWarned
 
 

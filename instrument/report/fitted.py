@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 
 from fitting.errors import FittingError
 from instrument.errors import BadInput
-from instrument.files.fit_file import found_law
-from instrument.fitted_response import FittedModel
-from instrument.identification_facts import identification_facts
-from instrument.interchange.contents import Contents
 from instrument.interchange.identified import SessionFit, identify_session
-from instrument.plain import plain
 from instrument.progress import Progress, quiet
+from instrument.results.fit_file import found_law
+from instrument.results.fitted_response import FittedModel
+from instrument.results.identification_facts import identification_facts
+from instrument.session.contents import Contents
+from instrument.stream.jsonable import plain
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -8,10 +8,11 @@ from matplotlib.figure import Figure
 from instrument.errors import BadInput
 from instrument.impact.damping import Damping, damping_of_hits
 from instrument.impact.facts import damping_facts
-from instrument.interchange.contents import Contents
 from instrument.report.blocks import Block, Section, Sentence, Table
-from instrument.report.drawing import DATA, MARK, label, panels, picture
 from instrument.report.numbers import plain
+from instrument.report.picture import picture
+from instrument.results.drawing import DATA, MARK, label, panels
+from instrument.session.contents import Contents
 
 _METHODS = ("rational_fit", "half_power", "lscf")
 

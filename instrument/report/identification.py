@@ -3,16 +3,16 @@
 import numpy as np
 
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ, Identification
-from instrument.adjusted_words import COLUMNS, adjusted_rows
-from instrument.diagnosis_words import UNKNOWN
-from instrument.interchange.contents import Contents
 from instrument.interchange.identified import SessionFit
 from instrument.report.blocks import Block, Facts, Section, Sentence, Table
-from instrument.report.drawing import picture
 from instrument.report.fitted import Fitted
 from instrument.report.law_figures import law_figure, residual_figures
 from instrument.report.measured import segments_of
 from instrument.report.numbers import plain, with_error
+from instrument.report.picture import picture
+from instrument.results.adjusted_words import COLUMNS, adjusted_rows
+from instrument.results.diagnosis_words import UNKNOWN
+from instrument.session.contents import Contents
 
 _SAME = 1e-6
 """Relative difference to the run's own fit that is rounding."""

@@ -6,7 +6,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from instrument.interchange.identified import SessionFit
-from instrument.report.drawing import (
+from instrument.report.fitted import Fitted
+from instrument.report.measured import Measured
+from instrument.results.drawing import (
     DATA,
     MODEL,
     from_zero,
@@ -16,8 +18,6 @@ from instrument.report.drawing import (
     legend_above,
     panels,
 )
-from instrument.report.fitted import Fitted
-from instrument.report.measured import Measured
 
 _BAND_95 = 1.96
 _TWO_STD = 2.0

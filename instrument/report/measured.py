@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from instrument.interchange.contents import Contents
+from instrument.session.contents import Contents
 from instrument.stream.derived import PointMeasured
 
 Array = NDArray[np.float64]

@@ -5,7 +5,6 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from instrument.interchange.contents import Contents
 from instrument.progress import Progress, quiet
 from instrument.report.blocks import Section
 from instrument.report.calibration import calibration_section
@@ -20,6 +19,7 @@ from instrument.report.identification import (
 )
 from instrument.report.setting import rig_section, specimen_section, versions_section
 from instrument.report.sweep import sweep_section
+from instrument.session.contents import Contents
 
 _TEMPLATE = "page.html"
 _PACKAGES = ("viscorig", "numpy", "scipy", "h5py", "matplotlib")

@@ -2,10 +2,10 @@
 
 from instrument.files.rig_file import Response, Sensor
 from instrument.files.specimen_file import SpecimenDocument
-from instrument.interchange.contents import Contents
+from instrument.models.tolerance_words import tolerance_rows
 from instrument.report.blocks import Block, Facts, Section, Sentence, Table
 from instrument.report.numbers import plain
-from instrument.tolerance_words import tolerance_rows
+from instrument.session.contents import Contents
 
 _SENSITIVITY_UNITS = {
     "base": "mV/(m/s²)",

@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from instrument.interchange.contents import Contents
 from instrument.report.blocks import Block, Section, Sentence, Table
-from instrument.report.drawing import picture
 from instrument.report.fitted import Fitted
 from instrument.report.measured import noise_of, segments_of
 from instrument.report.numbers import plain, signed
+from instrument.report.picture import picture
 from instrument.report.sweep_figures import quality_figure, response_figures
+from instrument.session.contents import Contents
 from instrument.stream.derived import PointMeasured
 
 

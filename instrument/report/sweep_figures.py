@@ -9,8 +9,9 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from instrument.interchange.contents import Contents
-from instrument.report.drawing import (
+from instrument.report.fitted import Fitted
+from instrument.report.measured import Measured, noise_of
+from instrument.results.drawing import (
     DATA,
     MARK,
     MODEL,
@@ -22,8 +23,7 @@ from instrument.report.drawing import (
     legend_above,
     panels,
 )
-from instrument.report.fitted import Fitted
-from instrument.report.measured import Measured, noise_of
+from instrument.session.contents import Contents
 from instrument.stream.derived import PointMeasured
 
 Array = NDArray[np.float64]

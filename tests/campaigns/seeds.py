@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivers.simulated.plant.law import ZN1
-from instrument.experiment_run import Finished, run_experiment
+from instrument.run.experiment import Finished, run_experiment
 from instrument.session.configuration import read_whole_experiment
 from instrument.simulated_case import FILES, case_file
 

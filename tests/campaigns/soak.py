@@ -21,7 +21,7 @@ from instrument.files.toml import read_document
 from instrument.session.journal import Journal
 from instrument.session.recorder import Recorder
 from instrument.simulated_case import write_case
-from instrument.simulation import simulated_rig
+from instrument.simulated_case.simulation import simulated_rig
 from instrument.stepped_sine.sine_fit import sine_fit
 from instrument.stream.raw import AcquisitionBegan, BlockAcquired
 

@@ -11,14 +11,14 @@ from fitting.diagnosis.response import Response
 from fitting.diagnosis.task import Task
 from fitting.direct import displacement_direct
 from fitting.domain import domain_of
-from fitting.effects.base import Change
+from fitting.effects.change import Change
 from fitting.effects.spanned import SpannedPlate
 from fitting.nuisances import nuisances_of
 from fitting.plate import Mesh, Plate
 from fitting.rational import rational_sweep
 from fitting.reduced import reduce_plate
 from fitting.tolerances import PLATE, STATED, tolerance
-from instrument.bench import GRID_HZ, synthetic_sweep
+from instrument.campaign.bench import GRID_HZ, synthetic_sweep
 
 OMEGA = 2 * np.pi * np.array([19.5, 62.0, 100.0, 281.0])
 G = np.array([0.3e6 * (1 + 0.3j), 0.45e6 * (1 + 0.6j), 0.55e6 * (1 + 0.9j), 1.2e6 * (1 + 1.1j)])

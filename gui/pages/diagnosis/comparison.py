@@ -9,8 +9,8 @@ from gui.pages.law.plots import LawLine, LawPlots
 from gui.rediagnosis import Facts
 from gui.tables import Cell, Table
 from gui.theme import Role
-from instrument.diagnosis_words import UNKNOWN, with_verdict
 from instrument.report.numbers import plain, with_error
+from instrument.results.diagnosis_words import UNKNOWN, with_verdict
 
 _ERRORS = {
     "what the fit leaves": "Held-out data: a segment predicted by law and effects fitted to the others",

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 from gui.mark import Mark
 from gui.rediagnosis import Shown
 from gui.theme import Role, current_theme
-from instrument.diagnosis_words import verdict_line
+from instrument.results.diagnosis_words import verdict_line
 
 _EDGE_PX = 5
 _GAP_PX = 12

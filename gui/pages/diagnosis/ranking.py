@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 from fitting.effects import CATALOGUE
 from gui.rediagnosis import effects_of
-from instrument.diagnosis_words import log_odds, parameter_words, probability_words
+from instrument.results.diagnosis_words import log_odds, parameter_words, probability_words
 
 Facts = dict[str, Any]
 Standing = Literal["found", "equal", "none", "other", "not fitted"]

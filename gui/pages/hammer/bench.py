@@ -8,7 +8,8 @@ from PySide6.QtCore import QObject, Signal
 from gui.pages.hammer.findings import Averaged, Hits, Sight, modes_of
 from gui.work import Progress, Work
 from instrument.hammer_test.expected import expected_modes_hz
-from instrument.session.configuration import Configuration, hammer_settings
+from instrument.session.configuration import Configuration
+from instrument.session.setup import hammer_settings
 
 Function = Callable[[Progress], Any]
 

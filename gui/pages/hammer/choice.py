@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import replace
 
-from instrument.interchange.contents import RecordedHit
+from instrument.session.contents import RecordedHit
 
 Blow = tuple[int, float]
 """A hit's number and peak: another test numbers its hits from 1 again."""

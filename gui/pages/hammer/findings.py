@@ -12,8 +12,8 @@ from instrument.impact.facts import damping_facts
 from instrument.impact.judge import Judged
 from instrument.impact.scatter import Scatter, scatter_over_hits
 from instrument.impact.spectra import Spectra, rolloff_hz, spectra
-from instrument.interchange.contents import RecordedHit
-from instrument.plain import plain
+from instrument.session.contents import RecordedHit
+from instrument.stream.jsonable import plain
 
 Hits = tuple[RecordedHit, ...]
 Look = Callable[[], None]

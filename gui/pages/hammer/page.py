@@ -19,7 +19,7 @@ from gui.pages.hammer.words import hit_rows, prompt_of, source_of
 from gui.picture import Picture
 from gui.widgets import hint
 from instrument.engine import Engine
-from instrument.interchange.contents import RecordedHit
+from instrument.session.contents import RecordedHit
 
 Array = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ from gui.pages.hammer.findings import Averaged
 from gui.picture.run import Run
 from gui.tables import Cell, Row
 from gui.theme import Role
-from instrument.interchange.contents import RecordedHit
+from instrument.session.contents import RecordedHit
 
 HIT_COLUMNS = {
     "Hit": "Number of the hit in this test",

@@ -6,11 +6,11 @@ from pathlib import Path
 import numpy as np
 
 from gui.pages.law.curve import LawCurve
-from instrument.diagnosis_words import UNKNOWN
 from instrument.errors import BadInput
 from instrument.files.sweep_file import read_sweep
-from instrument.interchange.contents import contents_of
 from instrument.paper_case import TABLE_4, case_file
+from instrument.results.diagnosis_words import UNKNOWN
+from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 
 PAPER = "ZN_1, the paper's Table 4"

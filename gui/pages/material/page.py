@@ -14,7 +14,7 @@ from gui.pages.material.numbers import headline, parameters, places
 from gui.pages.material.tables import Correlations, Parameters, Places
 from gui.picture import Picture
 from gui.rediagnosis import Facts, Shown
-from instrument.diagnosis_words import UNKNOWN
+from instrument.results.diagnosis_words import UNKNOWN
 from instrument.stream.derived import FitUpdated
 
 _NOTHING = (

@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 from gui.form.draft import Drafts
 from gui.widgets import button
 from instrument.engine import Order
-from instrument.experiment_run import Part
+from instrument.run.experiment import Part
 
 _WORDS: dict[Part, str] = {"hammer": "hammer test", "sweep": "sweep"}
 _ANEW = "a new session"

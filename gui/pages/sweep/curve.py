@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gui.pages.sweep.points import Index, Points
-from instrument.interchange.contents import SegmentRun
+from instrument.session.contents import SegmentRun
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -9,8 +9,8 @@ from PySide6.QtCore import QObject, QTemporaryDir, QTimer, Signal
 from gui.pages.sweep.curve import Curve, Region, grid, regions_of
 from gui.picture import Picture
 from gui.work import Command
-from instrument.interchange.contents import Contents
 from instrument.interchange.specimen_toml import specimen_toml
+from instrument.session.contents import Contents
 from instrument.stream.derived import FitUpdated
 
 _PAUSE_MS = 250

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Literal, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from instrument.interchange.contents import TimedPoint
-from instrument.quality import QUALITIES, quality_of
+from instrument.results.quality import QUALITIES, quality_of
+from instrument.session.contents import TimedPoint
 from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2, SweepSettings
 
 if TYPE_CHECKING:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from gui.pages.sweep.seen import Seen
-from instrument.quality import QUALITIES
+from instrument.results.quality import QUALITIES
 from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2, SweepSettings
 from instrument.stream.derived import PointMeasured
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from instrument.campaign.plates.cases import PlateCase
-from instrument.plain import plain
+from instrument.stream.jsonable import plain
 
 Array = NDArray[np.float64]
 Facts = Mapping[str, Any]

@@ -11,8 +11,8 @@ from instrument.campaign.plates.answers import Answer, answer_from
 from instrument.campaign.plates.cases import PlateCase
 from instrument.campaign.plates.geometry import plate_named
 from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
-from instrument.diagnosis import diagnose
-from instrument.diagnosis_facts import diagnosis_facts
+from instrument.models.diagnosis import diagnose
+from instrument.results.diagnosis_facts import diagnosis_facts
 
 _SEED, _MIDDLE_HZ, _RATIO = 7, 100.0, 2e-3
 

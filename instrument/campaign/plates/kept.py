@@ -1,6 +1,6 @@
 """Reduced plates kept on disk, named by a digest of all that they depend on, their own code included.
 
-`instrument.cache` also counts the sources of `fitting`, which have no part in these.
+`instrument.models.cache` also counts the sources of `fitting`, which have no part in these.
 """
 
 import ast
@@ -18,13 +18,13 @@ import numpy as np
 import scipy
 
 from drivers.simulated.plant import air
-from instrument.arrays import pack, unpack
-from instrument.cache import cache_folder
 from instrument.campaign.plates import brick, grid, reduced, solid
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.grid import Fineness
 from instrument.campaign.plates.reduced import MODULI_PA, ReducedPlate
 from instrument.campaign.plates.solid import Build, RootSprings, Solid
+from instrument.models.arrays import pack, unpack
+from instrument.models.cache import cache_folder
 
 BARE_SPRINGS_N_M3 = 1e14
 """Of the softer of two clamps that a bare plate is kept with."""

@@ -12,7 +12,7 @@ from fitting.diagnosis.plate_answer import answer
 from fitting.domain import domain_of
 from fitting.effects import CATALOGUE
 from fitting.effects.full_plate import FullPlate
-from fitting.effects.spanned import span_plate
+from fitting.effects.spanning import span_plate
 from fitting.plate import Plate
 from fitting.reduced import reduce_plate
 from instrument.files.specimen_file import read_specimen

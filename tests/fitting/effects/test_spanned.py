@@ -14,7 +14,7 @@ from fitting.effects import CATALOGUE, SPANS, Change
 from fitting.effects.clamp_compliance import RIGID_N_M3, root_springs
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.partial_debond import LEFT, PartialDebond, strips
-from fitting.effects.spanned import span_plate
+from fitting.effects.spanning import span_plate
 from fitting.plate import Plate
 from fitting.reduced import reduce_plate
 from instrument.files.specimen_file import read_specimen

@@ -23,11 +23,11 @@ from fitting.nuisances import Nuisance, Nuisances
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
 from fitting.tolerances import STATED, moved
-from instrument.bench import synthetic_sweep
+from instrument.campaign.bench import synthetic_sweep
 from instrument.cli.main import run
-from instrument.identification import identify
+from instrument.models.identification import identify
+from instrument.models.set_up import _bare
 from instrument.paper_case import case_file
-from instrument.set_up import _bare
 
 OMEGA = 2 * np.pi * np.array([20.0, 100.0, 280.0])
 

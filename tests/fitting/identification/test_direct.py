@@ -18,7 +18,7 @@ from fitting.laws.fractional_zener import FractionalZener
 from fitting.laws.generalised_maxwell import GeneralisedMaxwell
 from fitting.laws.isd112 import Isd112
 from fitting.noise import Noise, noise_of
-from instrument.bench import GRID_HZ, synthetic_sweep
+from instrument.campaign.bench import GRID_HZ, synthetic_sweep
 
 
 def residuals_of(sweep, models, reads="relative", noise=None):

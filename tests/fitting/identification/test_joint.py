@@ -10,16 +10,16 @@ from threadpoolctl import threadpool_limits
 
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.begin import begin, within_search
+from fitting.diagnosis.joint import fit_of
 from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.refit import posterior
 from fitting.diagnosis.response import Response
 from fitting.diagnosis.whitening import SHARE
-from fitting.identification.joint import fit_of
 from fitting.identification.uncertainty import uncertainty_of
 from fitting.laws.fractional_zener import FractionalZener
 from fitting.noise import noise_of
-from instrument.bench import GRID_HZ, synthetic_sweep
-from instrument.set_up import set_up
+from instrument.campaign.bench import GRID_HZ, synthetic_sweep
+from instrument.models.set_up import set_up
 
 OMEGA = 2 * np.pi * np.array([20.0, 100.0, 280.0])
 SEEDS = 60

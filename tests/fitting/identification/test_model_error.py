@@ -15,8 +15,8 @@ from fitting.model_error import FREQUENCY, LOSS, model_error_at
 from fitting.noise import noise_of
 from fitting.tolerances import STATED, moved
 from instrument.files.sweep_file import read_sweep
-from instrument.identification import identify
-from instrument.set_up import set_up
+from instrument.models.identification import identify
+from instrument.models.set_up import set_up
 
 # The core behind practice-002.csv, a 3D solid model's clean sweep.
 TRUTH = FractionalZener(200279.795979838, 5134151.076189923, 8.9994e-05, 0.73160059)

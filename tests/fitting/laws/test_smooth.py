@@ -11,7 +11,7 @@ from fitting.identification.residuals import Residuals
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.smooth import Smooth
 from fitting.noise import noise_of
-from instrument.bench import synthetic_sweep
+from instrument.campaign.bench import synthetic_sweep
 
 LAW = Smooth((14.0, 50.0, 120.0, 300.0), (0.3e6, 0.4e6, 0.6e6, 1e6), (0.25, 0.5, 0.8, 0.9))
 BAND = 2 * np.pi * np.geomspace(14, 300, 500)

@@ -20,12 +20,12 @@ from instrument.engine import Engine, Order
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.impact.damping import damping_of_hits
 from instrument.impact.facts import damping_facts
-from instrument.interchange.contents import contents_of
 from instrument.interchange.found import Found
-from instrument.plain import plain
 from instrument.session.configuration import read_whole_experiment
+from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import DampingFound, HitRevised
+from instrument.stream.jsonable import plain
 
 LEFT = Qt.MouseButton.LeftButton
 BAND_HZ = (10.0, 550.0)

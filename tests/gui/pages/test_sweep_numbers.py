@@ -17,8 +17,8 @@ from gui.pages.sweep.record_lines import record_lines
 from gui.pages.sweep.seen import Seen, Way
 from gui.pages.sweep.segments import standings
 from gui.picture import Picture
-from instrument.interchange.contents import SegmentRun, TimedPoint
 from instrument.interchange.found import Found
+from instrument.session.contents import SegmentRun, TimedPoint
 from instrument.stepped_sine.settings import SweepSettings
 from instrument.stream.derived import SentinelCompared, StepSettled
 from instrument.stream.raw import SegmentBegan, SegmentEnded, SessionBegan, SessionEnded

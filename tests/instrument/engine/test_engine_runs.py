@@ -33,7 +33,7 @@ from instrument.engine.messages import (
     StopPathChanged,
 )
 from instrument.engine.wire import encode, read
-from instrument.experiment_run import run_experiment
+from instrument.run.experiment import run_experiment
 from instrument.session.configuration import read_whole_experiment
 from instrument.session.storage import SessionFile
 from instrument.simulated_case import write_case

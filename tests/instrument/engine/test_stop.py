@@ -211,6 +211,6 @@ def test_where_the_shaker_takes_no_second_connection_the_client_says_so_and_the_
 
 
 def _nobody_there(table, **options):
-    from instrument.rig import open_shaker
+    from instrument.run.rig import open_shaker
 
     return open_shaker(table.model_copy(update={"address": "127.0.0.1:1"}), **options)

@@ -5,7 +5,7 @@ import pytest
 from session_cases import RATE, SECONDS, Tape, configuration, whole_session
 
 from instrument.errors import BadInput
-from instrument.interchange.contents import contents_of
+from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import HitJudged
 from instrument.stream.raw import OperatorDid

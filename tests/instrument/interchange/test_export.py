@@ -13,9 +13,9 @@ from instrument.cli.main import run
 from instrument.files.impact_csv import read_impact_csv
 from instrument.files.specimen_file import SpecimenDocument
 from instrument.files.sweep_file import read_sweep
-from instrument.interchange.contents import contents_of
 from instrument.interchange.exporting import export_session
 from instrument.interchange.specimen_toml import specimen_toml
+from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 
 NAME = "zn1-20260401T080000Z"

@@ -7,8 +7,8 @@ from conftest import DATA, TABLE_4
 from session_cases import Tape, configuration
 
 from instrument.cli.main import run
-from instrument.interchange.contents import contents_of
 from instrument.paper_case import case_file
+from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import DampingFound
 

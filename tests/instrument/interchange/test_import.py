@@ -12,9 +12,9 @@ from scipy.io import savemat
 from instrument.cli.main import run
 from instrument.files.impact_csv import read_impact_csv
 from instrument.files.sweep_file import read_sweep
-from instrument.interchange.contents import contents_of
 from instrument.interchange.exporting import export_session
 from instrument.interchange.importing import import_file
+from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 
 NAME = "zn1-20260401T080000Z"

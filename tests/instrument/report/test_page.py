@@ -10,8 +10,8 @@ import pytest
 from session_cases import GAIN, Tape, configuration, whole_session
 
 from instrument.cli.main import run
-from instrument.interchange.contents import contents_of
 from instrument.report.page import report_page
+from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import LimitWarned
 

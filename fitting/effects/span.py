@@ -1,0 +1,38 @@
+"""What the reduced plate must span so that it can carry an effect."""
+
+from collections.abc import Mapping
+
+import numpy as np
+import scipy.sparse as sp
+from numpy.typing import NDArray
+
+from fitting.effects.full_plate import FullPlate, Snapshot
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+class Span:
+    """Motions a family of effects needs beside those of the unchanged plate, and matrices it works with."""
+
+    name: str
+    odd: bool = False
+    """Whether it couples to motions odd in y."""
+    columns: int = 40
+    """At most as many of either parity."""
+
+    def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
+        """Symmetric matrices over the full plate, by name; an (n, r) array stands for L L^T."""
+        return {}
+
+    def vectors(self, full: FullPlate) -> Mapping[str, Array]:
+        """Loads over the full plate, by name."""
+        return {}
+
+    def forces(self, full: FullPlate, at: Snapshot) -> Array | Complex:
+        """Of typical changes, as large as the effect makes them; their responses are spanned. (n, any)."""
+        return np.empty((len(at.x), 0))
+
+    def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
+        """What is to be spanned: the held plate's `answers` to `forces`, or what follows from them."""
+        return answers

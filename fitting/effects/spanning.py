@@ -1,0 +1,170 @@
+"""The reduced plate widened: full responses to what each effect stirs, condensed and projected once."""
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+
+import numpy as np
+import scipy.linalg as la
+import scipy.sparse as sp
+from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
+
+from fitting.effects.full_plate import FullPlate
+from fitting.effects.leading import Motions, Stirred
+from fitting.effects.span import Span
+from fitting.effects.spanned import SpannedPlate
+from fitting.element import THETA_X, THETA_Y, W
+from fitting.linear import times
+from fitting.parts import (
+    CORE,
+    STIFFNESS,
+    coefficients,
+    layers_of,
+    load_part,
+    projected_parts,
+)
+
+Array = NDArray[np.float64]
+
+SNAPSHOTS = 12
+TOLERANCE = 3e-3
+"""Of a typical change, what may be missed; the reading's error goes with its square."""
+
+
+def span_plate(
+    full: FullPlate,
+    basis: Array,
+    spans: Sequence[Span],
+    progress: Callable[[float], None] = lambda fraction: None,
+) -> SpannedPlate:
+    """Build it. `basis`: the unchanged plate's columns over the held degrees of freedom. Shape (held, k)."""
+    halves = Motions(full, odd=False), Motions(full, odd=True)
+    even, odd = halves
+    with threadpool_limits(1, "blas"), ThreadPoolExecutor(2) as pool:
+        found: list[tuple[dict[str, Stirred], dict[str, Stirred]]] = []
+        for answers in pool.map(lambda at: _responses(full, halves, spans, at), _points()):
+            found.append(answers)
+            progress(0.8 * len(found) / SNAPSHOTS)
+        own = even.orthonormal(even.of(full.lift @ basis))
+        odd_own = odd.leading([by_name["plate"] for _, by_name in found], None, 1e-4, 40)
+        even.groups["plate"], odd.groups["plate/odd"] = own, odd_own
+
+        def motions(span: Span) -> list[Array]:
+            beside = ((even, own), (odd, odd_own)) if span.odd else ((even, own),)
+            return [
+                half.leading([both[n][span.name] for both in found], known, TOLERANCE, span.columns)
+                for n, (half, known) in enumerate(beside)
+            ]
+
+        for span, V in zip(spans, pool.map(motions, spans), strict=True):
+            even.groups[span.name] = V[0]
+            if span.odd:
+                odd.groups[f"{span.name}/odd"] = V[1]
+            progress(0.8 + 0.1 * len(even.groups) / len(spans))
+        return _project(full, even, odd, spans, pool)
+
+
+def _points() -> list[tuple[float, complex]]:
+    """Frequencies from 12 to 420 Hz, moduli from 0.1 to 10 MPa, lossy; a low-discrepancy set."""
+    s = (0.5 + np.arange(SNAPSHOTS) * 0.7549) % 1
+    t = (0.5 + np.arange(SNAPSHOTS) * 0.5698) % 1
+    omega = 2 * np.pi * 12 * 35.0**s
+    return [(float(w), complex(1e5 * 100.0**m * (1 + 0.6j))) for w, m in zip(omega, t, strict=True)]
+
+
+def _responses(
+    full: FullPlate, halves: tuple[Motions, Motions], spans: Sequence[Span], point: tuple[float, complex]
+) -> tuple[dict[str, Stirred], dict[str, Stirred]]:
+    """To the pickup and of each span, by its name: even motions, and odd ones where it has any."""
+    even, odd = halves
+    at = full.snapshot(*point)
+    size = np.sqrt(np.real(np.vdot(at.x, times(full.scale, at.x))))
+    at = replace(at, x=at.x / size, z=at.both[:, 1] / size)
+    forces = [span.forces(full, at) for span in spans]
+    answers = at.answers(forces, [span.odd for span in spans])
+    found = {span.name: span.responses(full, at, X) for span, X in zip(spans, answers, strict=True)}
+    twisting = {span.name: found[span.name] for span in spans if span.odd} | {"plate": at.both[:, 1:]}
+    return (
+        dict(zip(found, even.stirred(list(found.values())), strict=True)),
+        dict(zip(twisting, odd.stirred(list(twisting.values())), strict=True)),
+    )
+
+
+def _project(
+    full: FullPlate, even: Motions, odd: Motions, spans: Sequence[Span], pool: ThreadPoolExecutor
+) -> SpannedPlate:
+    loose, s = full.loose, full.specimen
+    V = np.hstack([half.half.P @ half.columns for half in (even, odd)])
+    matrices: dict[str, Array] = {}
+    vectors: dict[str, Array] = {}
+    of_spans = [(f"{span.name}.{name}", A) for span in spans for name, A in span.matrices(full).items()]
+    projected = pool.map(lambda named: _between(V, named[1]), of_spans)
+    parts = [
+        pool.submit(projected_parts, loose, half.half.P @ half.columns, one_parity=True)
+        for half in (even, odd)
+    ]
+    for span in spans:
+        vectors |= {f"{span.name}.{name}": V.T @ v for name, v in span.vectors(full).items()}
+    for (name, _), A in zip(of_spans, projected, strict=True):
+        matrices[name] = A
+    k = V.shape[1]
+    both = _in_blocks([found.result() for found in parts])
+    stated = coefficients(s, s)
+    # The inertia of held nodes loads their neighbours.
+    of_load = V.T @ load_part(s)[loose.free]
+    K_0, K_1, M = np.split(both, np.cumsum([len(STIFFNESS), len(CORE)]))
+    return SpannedPlate(
+        group=np.array(even.names + odd.names),
+        M=np.tensordot(stated.M, M, axes=1),
+        K_0=np.tensordot(stated.K_0, K_0, axes=1),
+        K_1=np.tensordot(stated.K_1, K_1, axes=1),
+        U=V.T @ (loose.M @ _over_mass(full)),
+        d=full.damping.d,
+        load=-stated.load * of_load,
+        pitch=-V.T @ (loose.M @ full.pitching),
+        observe=V.T @ loose.observe(*full.pickup_m),
+        gram=la.block_diag(even.gram, odd.gram),
+        names=np.array(list(matrices), dtype=str),
+        matrices=np.array(list(matrices.values())).reshape(-1, k, k),
+        vector_names=np.array(list(vectors), dtype=str),
+        vectors=np.array(list(vectors.values())).reshape(-1, k),
+        deflection=loose.on_nodes(V)[:, [W, THETA_X, THETA_Y]],
+        size=np.array([s.length_m, s.width_m, loose.mesh.n_x, loose.mesh.n_y], dtype=float),
+        pickup=np.array(full.pickup_m),
+        parts=both,
+        load_part=of_load,
+        layers=layers_of(s),
+    )
+
+
+def _in_blocks(parts: Sequence[Array]) -> Array:
+    """Stacks of matrices along the diagonal. Shape (count, k, k)."""
+    k = sum(p.shape[1] for p in parts)
+    found, at = np.zeros((len(parts[0]), k, k)), 0
+    for p in parts:
+        there = slice(at, at + p.shape[1])
+        found[:, there, there] = p
+        at = there.stop
+    return found
+
+
+def _between(V: Array, A: sp.sparray | Array) -> Array:
+    """V^T A V; an array stands for L of A = L L^T."""
+    if isinstance(A, np.ndarray):
+        L = V.T @ A
+        return L @ L.T
+    # A strip touches few degrees of freedom.
+    A = A.tocsr()
+    touched = np.flatnonzero(np.diff(A.indptr))
+    few = V[touched]
+    return np.asarray(few.T @ (A[touched][:, touched] @ few))
+
+
+def _over_mass(full: FullPlate) -> Array:
+    """Phi of C_1 = M Phi diag(d) Phi^T M, on the loose plate. Shape (n, modes)."""
+    found = np.zeros((full.loose.size, len(full.damping.d)))
+    for held in full.halves:
+        half = held.half
+        found += held.up @ half.chain.factorise(half.M)(half.down @ full.damping.U)
+    return found

@@ -1,0 +1,31 @@
+"""What the menus know of the window they belong to."""
+
+from pathlib import Path
+
+from PySide6.QtWidgets import QMainWindow
+
+from gui.desk import Desk
+from gui.log_pane import LogPane
+from gui.notice import Notice
+from gui.page import Page
+from gui.settings import Settings
+from gui.theme import Appearance
+
+
+class Shell(QMainWindow):
+    """Its parts, and what can be done with it as a whole."""
+
+    desk: Desk
+    notice: Notice
+    settings: Settings
+    appearance: Appearance
+    log: LogPane
+    pages: tuple[Page, ...]
+
+    def open(self, path: Path) -> None:
+        """A session, an experiment, or other data; returns at once."""
+        raise NotImplementedError
+
+    def show_page(self, number: int) -> None:
+        """Counted from 0."""
+        raise NotImplementedError

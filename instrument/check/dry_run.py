@@ -1,0 +1,206 @@
+"""An experiment before it is run: everything wrong with its files at once, then a dry run on the forecast."""
+
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from drivers.vibrometer.models import MODELS
+from fitting.errors import FittingError
+from fitting.specimen import Specimen
+from instrument.check.faults import experiment_objections
+from instrument.check.forecast import (
+    Forecast,
+    calibration_segments,
+    distinct,
+    least_seconds,
+    planned_segments,
+    with_next_coarser,
+)
+from instrument.errors import BadInput
+from instrument.files.experiment_file import experiment_faults, read_experiment
+from instrument.files.rig_file import RigDocument
+from instrument.files.specimen_file import read_specimen
+from instrument.files.toml import document_faults
+from instrument.models.theory import theory_remark
+from instrument.models.tolerance_words import tolerance_facts
+from instrument.session.configuration import Experiment, read_whole_experiment
+from instrument.session.setup import hammer_settings, setup_of
+from instrument.stepped_sine.plan import PlannedSegment
+from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2, SweepSettings
+
+_HIT_AND_RING_S = 3.0
+"""A person's time for a hit, beside its record."""
+
+
+@dataclass(frozen=True)
+class SegmentForecast:
+    """What a segment will look like."""
+
+    segment: int
+    low_hz: float
+    high_hz: float
+    steps: int
+    range_name: str
+    velocity_m_s: float
+    """Largest at the pickup, as the laser sees it."""
+    travel_m: float
+    """Largest of the base."""
+    seconds: float
+
+
+@dataclass(frozen=True)
+class DryRun:
+    """A run that was not made."""
+
+    segments: tuple[SegmentForecast, ...]
+    mode_hz: tuple[float, ...]
+    hammer_record_s: float | None
+    seconds: float
+    specimen: Specimen
+    warnings: tuple[str, ...]
+
+    def facts(self) -> dict[str, Any]:
+        """As JSON."""
+        return {
+            "segments": [vars(s) for s in self.segments],
+            "modes_hz": self.mode_hz,
+            "hammer_record_s": self.hammer_record_s,
+            "seconds": self.seconds,
+            "exact": self.specimen.exact,
+            "tolerances": tolerance_facts(self.specimen),
+            "warnings": self.warnings,
+        }
+
+
+def all_faults(path: Path) -> list[str]:
+    """Everything wrong with an experiment file and the files it names; empty for none."""
+    found = experiment_faults(path)
+    if found:
+        return found + _faults_of_named(path)
+    experiment = read_experiment(path)
+    found = document_faults(path.parent / experiment.rig, RigDocument)
+    try:
+        read_specimen(path.parent / experiment.specimen)
+    except BadInput as error:
+        found.append(str(error))
+    if found:
+        return found
+    whole = read_whole_experiment(path)
+    try:
+        return experiment_objections(whole, Forecast.of(whole.the_specimen()), ("hammer", "sweep"))
+    except FittingError as error:
+        return [f"{path}: {error}"]
+
+
+def dry_run(path: Path) -> DryRun:
+    """Predicted levels, ranges, travel and times. Raises `BadInput`."""
+    experiment = read_whole_experiment(path)
+    specimen = experiment.the_specimen()
+    configuration = experiment.configuration("check", "")
+    settings = setup_of(configuration).sweep
+    hammer = hammer_settings(configuration)
+    try:
+        forecast = Forecast.of(specimen)
+        segments, seconds, warnings = _sweep(experiment, forecast, settings)
+    except FittingError as error:
+        raise BadInput(f"{path}: {error}") from None
+    band = np.array([f for s in segments for f in (s.low_hz, s.high_hz)])
+    if len(band) and specimen.core is not None:
+        remark = theory_remark(specimen, specimen.core.law, band)
+        warnings += [f"with the law to start from, {remark}"] if remark else []
+    if hammer is not None:
+        seconds += hammer.hits * (hammer.record_s + _HIT_AND_RING_S)
+    return DryRun(
+        segments,
+        tuple(float(f) for f in forecast.mode_hz),
+        hammer.record_s if hammer is not None else None,
+        seconds,
+        specimen,
+        tuple(warnings),
+    )
+
+
+def _sweep(
+    experiment: Experiment, forecast: Forecast, settings: SweepSettings
+) -> tuple[tuple[SegmentForecast, ...], float, list[str]]:
+    table = experiment.document.sweep
+    if table is None:
+        return (), 0.0, []
+    model = MODELS[experiment.rig.vibrometer.model]
+    ranges = distinct(model.ranges)
+    planned, sentinel = planned_segments(forecast, table, ranges)
+    names = with_next_coarser([s.range_name for s in planned], ranges)
+    calibration = calibration_segments(table, names, ranges)
+    level = table.level_g * STANDARD_GRAVITY_M_S2
+    segments = tuple(_segment(experiment, forecast, s, settings) for s in planned)
+    warnings = [w for s in segments for w in _warnings(s, settings)]
+    if level > settings.limits.base_m_s2:
+        warnings.append(
+            f"level {level:.3g} m/s^2 is over the base limit {settings.limits.base_m_s2:.3g} m/s^2"
+        )
+    unverified = [r.name for r in ranges if r.name in names and not r.verified]
+    if unverified:
+        warnings.append(
+            f"vibrometer range {', '.join(unverified)}: from memory, not from a manual; calibrate in place"
+        )
+    highest = max(s.high_hz for s in segments)
+    if experiment.rig.front_end.sample_rate_hz < 10 * highest:
+        rate = experiment.rig.front_end.sample_rate_hz
+        warnings.append(
+            f"{rate:g} samples/s for {highest:g} Hz: take {10 * highest:g} or more to see harmonics"
+        )
+    repeats = (len(planned) + 1) * (sentinel is not None)
+    seconds = least_seconds(forecast, [*planned, *calibration], settings)
+    if repeats:
+        watch = PlannedSegment(0, 0, (sentinel[0],), (level,), "") if sentinel else planned[0]
+        seconds += repeats * least_seconds(forecast, [watch], settings)
+    return segments, seconds, warnings
+
+
+def _segment(
+    experiment: Experiment, forecast: Forecast, planned: PlannedSegment, settings: SweepSettings
+) -> SegmentForecast:
+    f, level = np.array(planned.frequencies_hz), np.array(planned.level_m_s2)
+    return SegmentForecast(
+        segment=planned.segment,
+        low_hz=float(f.min()),
+        high_hz=float(f.max()),
+        steps=len(f),
+        range_name=planned.range_name,
+        velocity_m_s=float(forecast.velocity_m_s(f, float(level[0])).max()),
+        travel_m=float((level / (2 * np.pi * f) ** 2).max()),
+        seconds=least_seconds(forecast, [planned], settings),
+    )
+
+
+def _warnings(s: SegmentForecast, settings: SweepSettings) -> list[str]:
+    limits, said = settings.limits, []
+    if s.velocity_m_s > limits.velocity_m_s:
+        said.append(
+            f"segment {s.segment}: {s.velocity_m_s:.3g} m/s predicted, limit {limits.velocity_m_s:.3g} m/s"
+        )
+    if s.travel_m > limits.travel_m:
+        said.append(
+            f"segment {s.segment}: travel {1e3 * s.travel_m:.3g} mm, limit {1e3 * limits.travel_m:.3g} mm"
+        )
+    return said
+
+
+def _faults_of_named(path: Path) -> list[str]:
+    """Of the rig and the specimen, where the experiment is well enough to name them."""
+    try:
+        named = tomllib.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return []
+    found = []
+    if isinstance(named.get("rig"), str):
+        found += document_faults(path.parent / named["rig"], RigDocument)
+    if isinstance(named.get("specimen"), str):
+        try:
+            read_specimen(path.parent / named["specimen"])
+        except BadInput as error:
+            found.append(str(error))
+    return found

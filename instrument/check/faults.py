@@ -1,0 +1,82 @@
+"""What is wrong between an experiment's files, each of them well in itself: all of it, a line each."""
+
+from collections.abc import Iterator
+
+from drivers.vibrometer.models import MODELS
+from instrument.check.forecast import Forecast, distinct, planned_segment
+from instrument.errors import BadInput
+from instrument.session.configuration import Experiment
+from instrument.session.setup import sweep_settings
+from instrument.simulated_case.simulation import refuse_simulation
+from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2
+
+_SAMPLES_A_CYCLE = 4.0
+"""Below, a front-end's own filter is near."""
+
+
+def experiment_objections(experiment: Experiment, forecast: Forecast, parts: tuple[str, ...]) -> list[str]:
+    """Empty for an experiment whose `parts` (hammer, sweep) can be run."""
+    found = [*_parts(experiment, parts)]
+    try:
+        refuse_simulation(experiment.rig, experiment.rig_path)
+    except BadInput as error:
+        found.append(str(error))
+    if "hammer" in parts:
+        found += _hammer(experiment)
+    if "sweep" in parts:
+        found += _sweep(experiment, forecast)
+    return found
+
+
+def _parts(experiment: Experiment, parts: tuple[str, ...]) -> Iterator[str]:
+    there = [p for p in parts if getattr(experiment.document, p) is not None]
+    if not there:
+        yield f"{experiment.path}: has no [{'] and no ['.join(parts)}], nothing would be measured"
+
+
+def _hammer(experiment: Experiment) -> Iterator[str]:
+    hammer, plate = experiment.document.hammer, experiment.specimen.plate
+    if hammer is None:
+        return
+    for name in ("force", "response"):
+        if getattr(experiment.rig.channels, name) is None:
+            yield f"{experiment.rig_path}: channels.{name}: missing, the hammer test needs it"
+    for key, at, side in (
+        ("hit_x_mm", hammer.hit_x_mm, plate.length_mm),
+        ("hit_y_mm", hammer.hit_y_mm, plate.width_mm),
+        ("response_x_mm", hammer.response_x_mm, plate.length_mm),
+        ("response_y_mm", hammer.response_y_mm, plate.width_mm),
+    ):
+        if at > side:
+            yield f"{experiment.path}: hammer.{key} = {at:g} is off the plate, expected 0 to {side:g}"
+
+
+def _sweep(experiment: Experiment, forecast: Forecast) -> Iterator[str]:
+    table, path = experiment.document.sweep, experiment.path
+    if table is None:
+        return
+    ranges = distinct(MODELS[experiment.rig.vibrometer.model].ranges)
+    highest = experiment.rig.front_end.sample_rate_hz / _SAMPLES_A_CYCLE
+    frequencies: list[tuple[str, float]] = []
+    for number, segment in enumerate(table.segments, start=1):
+        place = f"sweep.segments, number {number}"
+        try:
+            planned = planned_segment(forecast, segment, number, table, ranges)
+            frequencies.append((place, max(planned.frequencies_hz)))
+        except BadInput as error:
+            yield f"{path}: {place}: {error}"
+    if table.sentinel is not None and table.sentinel.frequency_hz is not None:
+        frequencies.append(("sweep.sentinel", table.sentinel.frequency_hz))
+    if table.calibration is not None:
+        frequencies.append(("sweep.calibration", max(table.calibration.frequencies_hz)))
+    for place, f in frequencies:
+        if f > highest:
+            yield (
+                f"{path}: {place}: {f:g} Hz at {experiment.rig.front_end.sample_rate_hz:g} samples/s, "
+                f"expected at most {highest:g} Hz"
+            )
+    limits = sweep_settings(experiment.document, experiment.rig).limits
+    level = table.level_g * STANDARD_GRAVITY_M_S2
+    if level > limits.base_m_s2:
+        limit = f"{limits.base_m_s2:.3g} m/s^2"
+        yield f"{path}: sweep.level_g = {table.level_g:g} is {level:.3g} m/s^2, limit {limit}"

@@ -1,0 +1,1 @@
+"""Models of a specimen, kept on disk, and what is identified and diagnosed with them."""

@@ -1,0 +1,91 @@
+"""Diagnose a sweep: models made or loaded, then everything in `fitting.diagnosis`, timed."""
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
+from time import perf_counter
+
+from threadpoolctl import threadpool_limits
+
+from fitting.diagnosis.diagnose import diagnose_task, seen_in_channels
+from fitting.diagnosis.result import Diagnosis
+from fitting.effects import CATALOGUE
+from fitting.errors import OutsideModel
+from fitting.specimen import Specimen
+from fitting.sweep import Sweep
+from instrument.errors import BadInput
+from instrument.models.remarks import remarks_on_noise, remarks_on_tolerances
+from instrument.models.second_process import hands
+from instrument.models.set_up import Hammer, set_up
+from instrument.models.theory import theory_over, theory_remark
+from instrument.progress import Progress, quiet
+
+
+@dataclass(frozen=True)
+class Diagnosed:
+    """A diagnosis and how long its parts took."""
+
+    result: Diagnosis
+    setup_seconds: float
+    """Models made or loaded."""
+    seconds: float
+    """Everything else."""
+
+
+def diagnose(
+    sweep: Sweep,
+    specimen: Specimen,
+    hammer: Hammer | None = None,
+    without: Collection[str] = frozenset(),
+    progress: Progress = quiet,
+    accept: Sequence[str] | None = None,
+    like: Specimen | None = None,
+    resamples: int | None = None,
+) -> Diagnosed:
+    """What the specimen's law cannot explain, traced to an effect. Raises `BadInput`, `FittingError`.
+
+    `OutsideModel` also where the layer-wise theory does not hold for the law it ends with.
+
+    `hammer` is the bare plate's test as `fit_bare_plate` takes it; names in `without` are not considered.
+    Where `accept` is given its effects are fitted on the user's word, and nothing is searched for; empty
+    declines them all. `like` as `set_up` takes it. The search is repeated on
+    `resamples` sweeps without effects, by default where points are few.
+    """
+    unknown = sorted({*without, *(accept or ())} - set(CATALOGUE))
+    if unknown:
+        raise BadInput(f"effect {unknown[0]!r}, expected one of {', '.join(sorted(CATALOGUE))}")
+    both = sorted(set(without) & set(accept or ()))
+    if both:
+        raise BadInput(f"effect {both[0]!r} both accepted and left out, expected one of them")
+    if specimen.core is None:
+        raise OutsideModel("a bare plate has no core to diagnose, expected [core] and [constraining]")
+    start = specimen.core.law
+    began = perf_counter()
+    with threadpool_limits(1, "blas"), hands() as workers:
+        effects = [e for name, e in CATALOGUE.items() if name not in without]
+        used, channels, noise = seen_in_channels(sweep, effects)
+        ready_made = set_up(sweep.take(used), specimen, hammer, progress, like=like)
+        ready = perf_counter()
+        with progress("tracing the residual") as report:
+            result = diagnose_task(
+                ready_made.task,
+                ready_made.reduced,
+                effects,
+                noise,
+                ready_made.bare,
+                start,
+                channels,
+                used,
+                report,
+                accept,
+                workers,
+                ready_made.remade,
+                resamples,
+            )
+    seconds = perf_counter() - ready
+    theory_over(specimen, result.after.law, sweep.frequency_hz)
+    further = (*remarks_on_noise(sweep), *remarks_on_tolerances(specimen))
+    before = theory_remark(specimen, result.before.law, sweep.frequency_hz)
+    if before:
+        further += (f"before, without any effect, the law is outside the theory: {before}",)
+    result = replace(result, warnings=(*result.warnings, *further))
+    return Diagnosed(result, ready - began, seconds)

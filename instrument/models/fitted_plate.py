@@ -1,0 +1,92 @@
+"""The plate that a joint fit has found: the stated one with every number moved to where the fit has it.
+
+It is moved on its reduced model, by the parts of its matrices, exactly as the fit moves it: the models of
+the stated plate serve, and nothing is made anew.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.effects.spanned import SpannedPlate
+from fitting.nuisances import Nuisances
+from fitting.plate import Mesh
+from fitting.reduced import ReducedPlate
+from fitting.specimen import Specimen
+from instrument.models.specimen_models import Models
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+@dataclass(frozen=True)
+class FittedPlate:
+    """One specimen with its stated numbers moved by `z`, in standard deviations of their tolerances."""
+
+    specimen: Specimen
+    """As stated."""
+    nuisances: Nuisances
+    z: Array
+
+    def moved_specimen(self) -> Specimen:
+        """What the fit says the plate is: layers, lengths and modal ratios."""
+        found = self.nuisances.moved_specimen(self.z)
+        by = {n.name: n.sigma * float(z) for n, z in zip(self.nuisances.each, self.z, strict=True)}
+        ratios = [
+            r * float(np.exp(by.get(f"damping_{k + 1}", 0.0))) for k, r in enumerate(found.modal_ratios)
+        ]
+        pickup = self.specimen.pickup_m
+        if pickup is not None:
+            pickup = (pickup[0] + by.get("pickup_x", 0.0), pickup[1] + by.get("pickup_y", 0.0))
+        return replace(found, modal_ratios=tuple(ratios), pickup_m=pickup)
+
+    def reduced(self, models: Models) -> ReducedPlate:
+        """The reduced plate moved; `models` are those of the stated one."""
+        return moved_plate(models.reduced, self.nuisances, self._plain(models), self.z)
+
+    def _plain(self, models: Models) -> SpannedPlate:
+        s, reduced = self.specimen, models.reduced
+        assert s.pickup_m is not None
+        plate = SpannedPlate.plain(reduced, Mesh(s.length_m, s.width_m, *s.mesh), s.pickup_m)
+        count = len(s.modal_ratios)
+        # A ratio for every mode, those that these motions do not hear among them.
+        U, d = np.zeros((len(reduced.load), count)), np.zeros(count)
+        U[:, reduced.mode], d[reduced.mode] = reduced.U, reduced.d
+        return replace(plate, U=U, d=d)
+
+    def by_moved(self, models: Models, omega: Array, G: Complex) -> Complex:
+        """Derivatives of the displacement to what is moved. Shape (count, points)."""
+        if not len(self.z):
+            return np.zeros((0, len(omega)), complex)
+        moved = self.reduced(models)
+        sides = np.stack([moved.load, moved.observe], axis=1).astype(complex)
+        both = np.broadcast_to(sides, (len(omega), *sides.shape))
+        q, adjoint = np.moveaxis(np.linalg.solve(moved.matrices(omega, G), both), 2, 0)
+        return self.nuisances.by_response(self._plain(models), omega, G, q, adjoint, self.z)
+
+    def read(self, velocity: Complex, frequency_hz: Array) -> Complex:
+        """What the velocity channel, its gain and delay as found, makes of a velocity."""
+        return self.nuisances.reading(velocity, 2 * np.pi * frequency_hz, self.z)
+
+    def by_reading(self, velocity: Complex, frequency_hz: Array) -> Complex:
+        """Derivatives of what has been read to what the channel does. Shape (count, points)."""
+        found = np.zeros((len(self.z), len(frequency_hz)), complex)
+        for k, d in self.nuisances.by_reading(velocity, 2 * np.pi * frequency_hz, self.z).items():
+            found[k] = d
+        return found
+
+
+def moved_plate(reduced: ReducedPlate, nuisances: Nuisances, plate: SpannedPlate, z: Array) -> ReducedPlate:
+    """A reduced plate with its stated numbers moved; `plate` has the same columns."""
+    change = nuisances.change(plate, z)
+    damping = change.damping[reduced.mode] if np.ndim(change.damping) else change.damping
+    return replace(
+        reduced,
+        M=reduced.M + change.M,
+        K_0=reduced.K_0 + change.K,
+        K_1=reduced.K_1 + change.K_1,
+        load=reduced.load + change.load,
+        observe=reduced.observe + change.observe,
+        d=reduced.d * damping,
+    )

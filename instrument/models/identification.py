@@ -1,0 +1,171 @@
+"""Identify a core from a sweep: models, fit, validation and result in one go, each timed."""
+
+from dataclasses import dataclass, replace
+from time import perf_counter
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
+
+from fitting.diagnosis.begin import Begun, begin
+from fitting.diagnosis.joint import fit_of
+from fitting.diagnosis.prediction import held_out
+from fitting.errors import OutsideModel
+from fitting.identification import paper
+from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
+from fitting.identification.fit import Fit
+from fitting.identification.result import LOST_PERCENT, Identification, differences_percent, summarise
+from fitting.identification.validation import Mask, Validation, rms, validate
+from fitting.laws import CoreLaw
+from fitting.noise import Noise, noise_of
+from fitting.reduced import ReducedPlate
+from fitting.specimen import Specimen
+from fitting.sweep import Sweep
+from fitting.theory_error import TheoryError
+from instrument.models.remarks import remarks_on_noise, remarks_on_tolerances
+from instrument.models.set_up import Hammer, SetUp, set_up
+from instrument.models.specimen_models import Models
+from instrument.models.theory import theory_over
+from instrument.progress import Progress, Report, quiet
+
+Array = NDArray[np.float64]
+Method = Literal["direct", "paper"]
+
+_MOST_WIDENINGS = 2
+
+
+@dataclass(frozen=True)
+class Joint:
+    """The joint fit itself and the plate it was made with."""
+
+    begun: Begun
+    reduced: ReducedPlate
+    """As stated."""
+
+
+@dataclass(frozen=True)
+class Identified:
+    """An identification and how long its parts took."""
+
+    result: Identification
+    setup_seconds: float
+    """Models made or loaded."""
+    seconds: float
+    """The fit."""
+    validation_seconds: float
+    theory: TheoryError | None = None
+    """The layer-wise theory's error under the law found; None for the paper's method."""
+    joint: Joint | None = None
+    """What a second look at the same fit needs; None for the paper's method."""
+
+
+def identify(
+    sweep: Sweep,
+    specimen: Specimen,
+    method: Method = "direct",
+    progress: Progress = quiet,
+    hammer: Hammer | None = None,
+) -> Identified:
+    """The core's law from a sweep, the specimen's own law as the start.
+
+    Directly: law, stated numbers within their tolerances, model error and the bare plate's `hammer` test in
+    one posterior. The reduced model is certified where the fit ends; beyond that it is widened and the fit
+    repeated. Raises `OutsideModel` where the layer-wise theory does not hold for the law found.
+    """
+    if specimen.core is None:
+        raise OutsideModel("a bare plate has no core to identify, expected [core] and [constraining]")
+    start, noise = specimen.core.law, noise_of(sweep)
+    if method == "paper" and hammer is not None:
+        specimen = with_bare_plate(specimen, fit_bare_plate(specimen, *hammer))
+    models: Models | None = Models.of(specimen, sweep.frequency_hz, progress) if method == "paper" else None
+    setup = seconds = 0.0
+    further = remarks_on_noise(sweep)
+    if method == "direct":
+        further += remarks_on_tolerances(specimen)
+    elif not specimen.exact:
+        further += ("the paper's method takes what is stated for exact: tolerances are not in its band",)
+    for widened in range(_MOST_WIDENINGS + 1):
+        began = perf_counter()
+        if method == "paper":
+            assert models is not None
+            task: _Direct | _Paper = _Paper(sweep, models)
+        else:
+            ready_made = set_up(sweep, specimen, hammer, progress, with_effects=False, models=models)
+            models, task = ready_made.models, _Direct(ready_made, noise)
+        ready = perf_counter()
+        with threadpool_limits(1, "blas"), progress(f"fitting ({method})") as report:
+            fit = task.fit(start, report)
+        setup, seconds = setup + ready - began, seconds + perf_counter() - ready
+        if not models.uncertified(fit.law, sweep.frequency_hz):
+            break
+        if widened == _MOST_WIDENINGS:
+            further += (
+                "the law found lies where the reduced model is not certified: take it as provisional",
+            )
+        models = replace(models, domain=models.domain.widened(fit.law, sweep.frequency_hz))
+    theory = _checked(specimen, sweep, fit) if method == "direct" else None
+    began = perf_counter()
+    with threadpool_limits(1, "blas"), progress("validating") as report:
+        validation = task.validated(sweep, noise, fit, report)
+    result = summarise(method, sweep, noise, fit, validation, further)
+    return Identified(result, setup, seconds, perf_counter() - began, theory, task.joint)
+
+
+def _checked(specimen: Specimen, sweep: Sweep, fit: Fit) -> TheoryError:
+    """Raises `OutsideModel`; where the fit is lost besides, the line says so."""
+    try:
+        return theory_over(specimen, fit.law, sweep.frequency_hz)
+    except OutsideModel as error:
+        off = rms(differences_percent(sweep, fit.velocity_m_s))
+        if off < LOST_PERCENT:
+            raise
+        raise OutsideModel(
+            f"{error}; nor does the fit follow the data (rms {off:.3g} %): check units, level and pickup"
+        ) from None
+
+
+class _Direct:
+    def __init__(self, ready: SetUp, noise: Noise) -> None:
+        self._ready, self._noise = ready, noise
+        self._begun: Begun | None = None
+
+    @property
+    def joint(self) -> Joint | None:
+        return Joint(self._begun, self._ready.reduced) if self._begun is not None else None
+
+    def fit(self, start: CoreLaw, report: Report) -> Fit:
+        self._begun = begin(self._ready.task, self._ready.reduced, self._noise, self._ready.bare, start)
+        return fit_of(self._begun)
+
+    def validated(self, sweep: Sweep, noise: Noise, fit: Fit, report: Report) -> Validation:
+        assert self._begun is not None
+        return held_out(self._begun.task, self._begun.evidence, self._begun.none)
+
+
+class _Paper:
+    joint: Joint | None = None
+
+    def __init__(self, sweep: Sweep, models: Models) -> None:
+        self.problem = paper.PaperProblem.of(sweep, models.real_modes, models.specimen.reads)
+
+    def fit(self, start: CoreLaw, report: Report) -> Fit:
+        return paper.fit_paper(self.problem, start, lambda step: report(step / paper.MOST_STEPS))
+
+    def learnt(self, law: CoreLaw, points: Mask) -> CoreLaw:
+        return paper.refit(self.problem.take(points), law)
+
+    def velocity(self, law: CoreLaw) -> NDArray[np.complex128]:
+        return self.problem.velocity([law])[0]
+
+    def validated(self, sweep: Sweep, noise: Noise, fit: Fit, report: Report) -> Validation:
+        size = np.abs(sweep.response_m_s)
+        return validate(
+            segment=sweep.segment,
+            points_needed=len(fit.law.names),
+            differences_percent=lambda points: differences_percent(
+                sweep, self.velocity(self.learnt(fit.law, points))
+            ),
+            progress=report,
+            noise_percent=100 * noise.std_m_s / size if noise.is_known else np.full(len(sweep), np.nan),
+        )

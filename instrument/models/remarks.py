@@ -1,0 +1,31 @@
+"""What is to be said of data and specimen as they were given, whatever is found in them."""
+
+from fitting.noise import scatter_over_stated
+from fitting.specimen import Specimen
+from fitting.sweep import Sweep
+from instrument.models.tolerance_words import asked, not_named
+
+_DIFFERS = 1.5
+"""Times, median over the points: a stated noise so far off the scatter is not this sweep's."""
+
+
+def remarks_on_tolerances(specimen: Specimen) -> tuple[str, ...]:
+    """Where typical tolerances stand in for ones that were not named."""
+    missing, every = not_named(specimen), asked(specimen)
+    if not missing:
+        return ()
+    count = "" if len(missing) == len(every) else f"{len(missing)} of {len(every)} "
+    return (f"{count}tolerances not named: typical values of a careful laboratory (docs/specimen.md)",)
+
+
+def remarks_on_noise(sweep: Sweep) -> tuple[str, ...]:
+    """Where a sweep scatters otherwise than its file says."""
+    ratio = scatter_over_stated(sweep)
+    if ratio is None or 1 / _DIFFERS < ratio < _DIFFERS:
+        return ()
+    off = "too small" if ratio > 1 else "too large"
+    return (
+        f"neighbouring points scatter by {ratio:.2g} times the noise that velocity_std_m_s states (median, "
+        f"limit {_DIFFERS:g} either way): errors follow what is stated and may be {off}; correct it or leave "
+        "the column out",
+    )

@@ -1,0 +1,139 @@
+"""A second process that takes half of a diagnosis.
+
+The fits are many small steps that hold Python's lock, so threads gain nothing.
+"""
+
+import os
+import signal
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import AbstractContextManager, nullcontext
+from threading import Thread
+from time import sleep
+from types import TracebackType
+from typing import Any, TypeVar
+
+from loky import ProcessPoolExecutor
+
+from fitting.diagnosis.hands import ALONE, Hands, Report
+from instrument.models.background import step_back
+
+A = TypeVar("A")
+B = TypeVar("B")
+
+VARIABLE = "VISCORIG_PROCESSES"
+_LOOKS_ROUND_S = 1.0
+"""How often the second process asks whether the first one is still there."""
+
+
+def processors() -> int:
+    """Those that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def hands() -> AbstractContextManager[Hands]:
+    """Two where the machine has two processors, unless `VISCORIG_PROCESSES` is 1."""
+    if processors() < 2 or os.environ.get(VARIABLE) == "1":
+        return nullcontext(ALONE)
+    return TwoHands()
+
+
+class TwoHands(Hands):
+    """A second process beside this one; a context manager. It begins to load at once."""
+
+    def __init__(self) -> None:
+        self._other = ProcessPoolExecutor(
+            1, initializer=_begin, initargs=(os.getpid(),), env={"OPENBLAS_NUM_THREADS": "1"}
+        )
+        self._other.submit(_nothing)
+        self._known: object = None
+
+    def __enter__(self) -> "TwoHands":
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._other.shutdown(wait=True, kill_workers=True)
+
+    def each(
+        self, do: Callable[[A], B], wanted: Sequence[A], report: Report = lambda fraction: None
+    ) -> Iterator[B]:
+        """The same, the method's own object sent over once."""
+        left = deque(enumerate(wanted))
+        found: dict[int, B] = {}
+        failed: list[Exception] = []
+
+        def beside() -> None:
+            while left and not failed:
+                try:
+                    k, one = left.popleft()
+                except IndexError:
+                    return
+                try:
+                    found[k] = self._elsewhere(do, one)
+                except BrokenProcessPool:
+                    left.append((k, one))
+                    return
+                except Exception as error:  # raised where it is waited for
+                    failed.append(error)
+
+        thread = Thread(target=beside, name="second hand", daemon=True)
+        thread.start()
+        while left or thread.is_alive():
+            try:
+                k, one = left.popleft()
+            except IndexError:
+                thread.join()
+                continue
+            found[k] = do(one)
+            report(len(found) / len(wanted))
+        if failed:
+            raise failed[0]
+        report(1.0)
+        yield from (found[k] for k in range(len(wanted)))
+
+    def _elsewhere(self, do: Callable[[A], B], one: A) -> B:
+        owner: object = do.__self__  # type: ignore[attr-defined]
+        if owner is not self._known:
+            self._known = owner
+            self._other.submit(_learn, owner)
+        return self._other.submit(_do, do.__name__, one).result()
+
+
+# In the second process.
+
+_owner: Any = None
+
+
+def _begin(first: int) -> None:
+    # Ctrl-C is for the first process, which ends this one.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    step_back()
+    end_with(first)
+    import fitting.effects  # noqa: F401
+
+
+def end_with(first: int) -> None:
+    """End this process soon after its parent, whose number is given: if that is killed, nobody else would."""
+    Thread(target=_end_after, args=(first,), daemon=True).start()
+
+
+def _end_after(first: int) -> None:
+    while os.getppid() == first:
+        sleep(_LOOKS_ROUND_S)
+    os._exit(0)
+
+
+def _nothing() -> None:
+    pass
+
+
+def _learn(owner: object) -> None:
+    global _owner
+    _owner = owner
+
+
+def _do(name: str, one: object) -> object:
+    return getattr(_owner, name)(one)

@@ -1,0 +1,116 @@
+"""The models of a specimen, ready to use: from the cache, or built with progress shown."""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.damping import ViscousDamping, viscous_damping
+from fitting.direct import displacement_direct
+from fitting.domain import Domain, domain_of
+from fitting.errors import OutsideModel
+from fitting.identification.model import velocity
+from fitting.laws import CoreLaw
+from fitting.plate import Plate
+from fitting.rational import RationalSweep, rational_sweep
+from fitting.real_mode_response import RealModePlate, real_mode_plate
+from fitting.reduced import ReducedPlate, reduce_plate
+from fitting.specimen import Specimen
+from instrument.models.cache import cached
+from instrument.progress import Progress, quiet
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+CERTIFIED = 1e-4
+"""Estimated relative error above which the reduced model is not believed."""
+
+
+@dataclass(frozen=True)
+class Models:
+    """A specimen's plate and reduced models over a domain; heavy ones are made when first asked for."""
+
+    specimen: Specimen
+    domain: Domain
+    progress: Progress = quiet
+
+    @classmethod
+    def of(cls, specimen: Specimen, frequency_hz: Array, progress: Progress = quiet) -> "Models":
+        """Models that hold over `frequency_hz` for any sensible core."""
+        if specimen.pickup_m is None:
+            raise OutsideModel("[pickup] is missing, expected x_mm and y_mm of the measured spot")
+        if specimen.boundary == "free":
+            raise OutsideModel(
+                "a free plate has no base to be excited by, "
+                'expected boundary "cantilever" or "simply-supported"'
+            )
+        return cls(specimen, domain_of(specimen, frequency_hz), progress)
+
+    @cached_property
+    def plate(self) -> Plate:
+        """The assembled plate."""
+        return Plate(self.specimen)
+
+    @cached_property
+    def damping(self) -> ViscousDamping:
+        """The remaining viscous damping."""
+        return viscous_damping(self.plate)
+
+    @cached_property
+    def reduced(self) -> ReducedPlate:
+        """The reduced plate."""
+
+        def build() -> ReducedPlate:
+            with self.progress("reducing the plate model") as report:
+                return reduce_plate(self.plate, self.damping, self.domain, report)
+
+        return cached("reduced", [self.without_law, self.domain], ReducedPlate, build)
+
+    @cached_property
+    def real_modes(self) -> RealModePlate:
+        """The plate as the paper's response sees it."""
+
+        def build() -> RealModePlate:
+            with self.progress("spanning the real modes") as report:
+                return real_mode_plate(self.plate, self.domain.modulus, report)
+
+        return cached("real-modes", [self.without_law, self.domain], RealModePlate, build)
+
+    def rational(self, omega: Array) -> RationalSweep:
+        """The sweep on a frequency grid as a rational sum."""
+        reduced = self.reduced
+
+        def build() -> RationalSweep:
+            with self.progress("preparing the frequency grid") as report:
+                return rational_sweep(reduced, omega, report)
+
+        return cached("rational", [self.without_law, self.domain, omega], RationalSweep, build)
+
+    @property
+    def without_law(self) -> Specimen:
+        """The specimen as far as these models depend on it: neither law nor level nor reading."""
+        core = replace(self.specimen.core, law=None) if self.specimen.core else None  # type: ignore[arg-type]
+        return replace(
+            self.specimen, core=core, base_acceleration_m_s2=1.0, reads="relative", tolerances={}, exact=True
+        )
+
+    def predict(self, law: CoreLaw | None, frequency_hz: Array, *, real_modes: bool = False) -> Complex:
+        """Velocity phasors at the pickup in m/s; a point that is not certified is solved in full."""
+        omega = 2 * np.pi * frequency_hz
+        G = law.modulus(omega) if law is not None else np.zeros(len(omega), dtype=complex)
+        if real_modes:
+            x = self.real_modes.displacement(omega, G)
+        else:
+            x = self.reduced.displacement(omega, G)
+            doubtful = np.flatnonzero(self.reduced.estimated_error(omega, G) > CERTIFIED)
+            with self.progress("solving uncertified points in full") as report:
+                for done, k in enumerate(doubtful):
+                    x[k] = displacement_direct(self.plate, self.damping, omega[k : k + 1], G[k : k + 1])[0]
+                    report((done + 1) / len(doubtful))
+        return velocity(omega, x, self.specimen.reads) * self.specimen.base_acceleration_m_s2
+
+    def uncertified(self, law: CoreLaw, frequency_hz: Array) -> bool:
+        """Whether some point of a law is beyond what the reduced model is certified for."""
+        omega = 2 * np.pi * frequency_hz
+        return bool(np.any(self.reduced.estimated_error(omega, law.modulus(omega)) > CERTIFIED))

@@ -1,0 +1,1 @@
+"""What commands, files and figures say of a result."""

@@ -1,0 +1,60 @@
+"""Figures all drawn alike: panels, labels with units, legends."""
+
+from collections.abc import Sequence
+from typing import Any, TypeVar
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+T = TypeVar("T")
+
+DATA, MODEL, MARK, SECOND = "#0b63a5", "#c2571a", "#5b8c2a", "#7a4fa3"
+WIDTH_IN = 11.0
+_COLUMNS_AT_MOST = 4
+
+
+def in_rows(items: Sequence[T]) -> list[Sequence[T]]:
+    """Shared out evenly over figures of few enough panels to be read."""
+    figures = -(-len(items) // _COLUMNS_AT_MOST)
+    width = -(-len(items) // max(1, figures))
+    return [items[k : k + width] for k in range(0, len(items), width)] if items else []
+
+
+def panels(rows: int, columns: int, height_in: float) -> tuple[Figure, list[list[Axes]]]:
+    """A figure of panels, rows of axes that share the x axis by column."""
+    figure = Figure(figsize=(WIDTH_IN, height_in), layout="constrained")
+    return figure, figure.subplots(rows, columns, squeeze=False, sharex="col").tolist()
+
+
+def label(ax: Axes, *, x: str = "", y: str = "", title: str = "") -> None:
+    """Names and units on the axes, and a grid that stays behind."""
+    if title:
+        ax.set_title(title, fontsize=10)
+    if x:
+        ax.set_xlabel(x, fontsize=9)
+    if y:
+        ax.set_ylabel(y, fontsize=9)
+    ax.tick_params(labelsize=8, which="both")
+    ax.grid(visible=True, alpha=0.3)
+    ax.set_axisbelow(True)
+
+
+def from_zero(ax: Axes, values: NDArray[Any]) -> None:
+    """The y axis from zero, with room above the highest value."""
+    highest = float(np.nanmax(values, initial=0.0))
+    if highest > 0:
+        ax.set_ylim(0, 1.08 * highest)
+
+
+def legend(ax: Axes) -> None:
+    """Where there is something to tell apart."""
+    if ax.get_legend_handles_labels()[0]:
+        ax.legend(fontsize=8, frameon=False)
+
+
+def legend_above(figure: Figure, ax: Axes) -> None:
+    """One for all panels, off the data."""
+    handles, names = ax.get_legend_handles_labels()
+    figure.legend(handles, names, loc="outside upper center", ncols=len(names), fontsize=8, frameon=False)

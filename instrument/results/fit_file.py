@@ -1,0 +1,160 @@
+"""The JSON of `viscorig identify`, read back: law and plate as it found them, and how well it knows them."""
+
+import json
+from dataclasses import replace
+from math import log
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
+
+from fitting.bent_law import BentLaw
+from fitting.errors import OutsideModel
+from fitting.identification.adjusted import is_relative, stated_number
+from fitting.laws import CoreLaw
+from fitting.nuisances import Nuisance, Nuisances
+from fitting.specimen import Specimen
+from fitting.tolerances import kind_of
+from instrument.errors import BadInput
+from instrument.files.text import read_text
+from instrument.models.fitted_plate import FittedPlate
+
+Array = NDArray[np.float64]
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+
+
+class _Adjusted(BaseModel):
+    """A stated number as the fit has it, in the units of the file."""
+
+    name: str
+    stated: Finite
+    tolerance: Annotated[float, Field(gt=0, allow_inf_nan=False)]
+    found: Finite
+
+    @field_validator("name")
+    @classmethod
+    def _known(cls, name: str) -> str:
+        kind_of(name)
+        return name
+
+    def moved(self, specimen: Specimen) -> tuple[Nuisance, float]:
+        """The number as an unknown of a fit, and where it is; the specimen's own may be another one."""
+        nuisance = Nuisance(self.name, kind_of(self.name), 1.0)
+        stated, factor, _ = stated_number(specimen, nuisance)
+        if not is_relative(nuisance):
+            sigma, by = self.tolerance / factor, self.found / factor - stated
+        elif self.found > 0 and self.stated > 0 and stated > 0:
+            sigma, by = self.tolerance / self.stated, log(self.found / factor / stated)
+        else:
+            raise BadInput(f"adjusted: {self.name} is {self.found:g}, expected more than 0")
+        return replace(nuisance, sigma=sigma), by / sigma
+
+
+class _Bend(BaseModel):
+    """Of the law, by its whitened values at knots: storage, then loss."""
+
+    knots_hz: list[Annotated[float, Field(gt=0, allow_inf_nan=False)]] = Field(min_length=2)
+    whitened: list[Finite]
+
+
+class _Posterior(BaseModel):
+    """Covariance of all that was fitted: logarithms of the law's parameters, the rest in its own sizes."""
+
+    names: list[str]
+    rows: list[list[Finite]]
+    """Of the lower triangle, the diagonal last in each."""
+
+    @model_validator(mode="after")
+    def _whole(self) -> "_Posterior":
+        if [len(row) for row in self.rows] != list(range(1, len(self.names) + 1)):
+            raise ValueError("expected the rows of a lower triangle")
+        return self
+
+    def covariance(self, names: list[str]) -> Array:
+        """Of some of them; zero for one that was not fitted. Shape (names, names)."""
+        C = np.zeros((len(names), len(names)))
+        place = {name: k for k, name in enumerate(self.names)}
+        for i, a in enumerate(names):
+            for j, b in enumerate(names):
+                if a in place and b in place:
+                    low, high = sorted((place[a], place[b]))
+                    C[i, j] = self.rows[high][low]
+        return C
+
+
+class _Hammer(BaseModel):
+    modal_ratios: list[float]
+
+
+class FoundLaw(BaseModel):
+    """Parameters in SI units; null where the data do not fix one."""
+
+    law_kind: str
+    parameters: dict[str, float]
+    standard_errors: dict[str, float | None]
+    correlations: dict[str, dict[str, float | None]]
+    bend: _Bend | None = None
+    adjusted: list[_Adjusted] = []
+    hammer: _Hammer | None = None
+    posterior: _Posterior | None = None
+
+    def law(self, start: CoreLaw) -> CoreLaw:
+        """The law found, of the kind the specimen has, bent as it was. Raises `BadInput`, `OutsideModel`."""
+        if self.law_kind != start.kind or set(self.parameters) != set(start.names):
+            raise BadInput(f"the law found is {self.law_kind}, expected the specimen's own, {start.kind}")
+        law = start.with_values(np.array([self.parameters[name] for name in start.names]))
+        if self.bend is None:
+            return law
+        knots, whitened = self.bend.knots_hz, self.bend.whitened
+        if len(whitened) != 2 * len(knots):
+            raise BadInput(f"bend: {len(whitened)} values at {len(knots)} knots, expected two at each")
+        return BentLaw(law, tuple(knots), tuple(float(b) for b in np.exp(whitened)))
+
+    def plate(self, specimen: Specimen) -> FittedPlate:
+        """The specimen's plate as it was found. Raises `BadInput` where that cannot be."""
+        ratios = list(self.hammer.modal_ratios if self.hammer is not None else specimen.modal_ratios)
+        for one in self.adjusted:
+            if one.name.startswith("damping_"):
+                mode = int(one.name.removeprefix("damping_"))
+                ratios += [0.0] * (mode - len(ratios))
+                ratios[mode - 1] = one.stated / 100
+        specimen = replace(specimen, modal_ratios=tuple(ratios))
+        both = [one.moved(specimen) for one in self.adjusted]
+        return FittedPlate(
+            specimen,
+            Nuisances(specimen, tuple(n for n, _ in both)),
+            np.array([z for _, z in both], dtype=float),
+        )
+
+    def covariance(self, names: list[str]) -> Array:
+        """Of the log parameters; a parameter without error, at its limit, does not move.
+
+        NaN where none has an error. Shape (parameters, parameters).
+        """
+        errors = np.array([_number(self.standard_errors.get(name)) for name in names])
+        if np.isnan(errors).all():
+            return np.full((len(names), len(names)), np.nan)
+        size = errors / np.array([self.parameters[name] for name in names])
+        like = np.array([[_number(self.correlations.get(a, {}).get(b)) for b in names] for a in names])
+        return np.asarray(np.nan_to_num(like * np.outer(size, size)))
+
+
+def read_fit(path: Path) -> FoundLaw:
+    """The JSON of `viscorig identify`. Raises `BadInput`."""
+    try:
+        return found_law(json.loads(read_text(path)))
+    except json.JSONDecodeError as error:
+        raise BadInput(f"{path}: line {error.lineno}: not JSON: {error.msg}") from None
+    except (ValidationError, RecursionError, OutsideModel):
+        raise BadInput(f"{path}: expected the JSON of 'viscorig identify'") from None
+
+
+def found_law(facts: Any) -> FoundLaw:
+    """The same from the facts themselves. Raises `ValidationError`."""
+    return FoundLaw.model_validate(facts)
+
+
+def _number(value: float | None) -> float:
+    return np.nan if value is None else value

@@ -1,0 +1,235 @@
+"""From raw events to derived ones. Live runs and replays go through this and nothing else."""
+
+import cmath
+from contextlib import suppress
+
+from fitting.errors import TooFewPoints
+from instrument.hammer_test.analysis import HammerAnalysis, HammerChannels
+from instrument.session.setup import Setup
+from instrument.stepped_sine.calibration import Calibration, calibrate
+from instrument.stepped_sine.step import Channels, StepAnalysis
+from instrument.stream.clock import SessionClock
+from instrument.stream.derived import (
+    CalibrationFound,
+    DampingFound,
+    LimitExceeded,
+    PointMeasured,
+    SentinelCompared,
+)
+from instrument.stream.event import Derived, Event
+from instrument.stream.raw import (
+    AcquisitionBegan,
+    BlockAcquired,
+    HammerTestEnded,
+    Held,
+    OperatorDid,
+    RangeSet,
+    SegmentEnded,
+    SessionBegan,
+    ShakerCommanded,
+    SignalLevelRead,
+    StepBegan,
+)
+
+_MOST_GAIN, _MOST_GAIN_STD = 0.3, 0.05
+"""Off one, and uncertain, relative: beyond these a calibration is none."""
+
+
+class Analysis:
+    """Follows a whole session."""
+
+    def __init__(self, setup: Setup) -> None:
+        self._setup = setup
+        self._acquisition: AcquisitionBegan | None = None
+        self._range: RangeSet | None = None
+        self._range_names: tuple[str, ...] = ()
+        self._utc = ""
+        self._signal_level: float | None = None
+        self._latest = 0
+        self._calibration_points: list[PointMeasured] = []
+        self.step: StepAnalysis | None = None
+        self.hammer: HammerAnalysis | None = None
+        self.points: list[PointMeasured] = []
+        """Of the sweep, sentinels included."""
+        self.times_s: list[float] = []
+        """When each of `points` was read, since the session's first sample."""
+        self._clock = SessionClock()
+        self.calibrations: dict[str, CalibrationFound] = {}
+        self.damping: DampingFound | None = None
+
+    def feed(self, event: Event) -> list[Derived]:
+        """Take a raw event; what follows from it."""
+        self._clock.take(event)
+        derived = self._follow(event)
+        for one in list(derived):
+            derived += self._keep(one)
+        return derived
+
+    def restore(self, event: Event) -> None:
+        """Take an event of an earlier run of this session, so that this one can carry on."""
+        self._clock.take(event)
+        if isinstance(event, Derived):
+            self._keep(event)
+
+    @property
+    def wanted(self) -> int:
+        """Samples worth waiting for before the next look."""
+        if self._acquisition is not None and self._acquisition.part == "hammer" and self.hammer is not None:
+            return self.hammer.wanted()
+        return self.step.wanted() if self.step is not None else 1
+
+    def _follow(self, event: Event) -> list[Derived]:
+        match event:
+            case BlockAcquired():
+                return self._block(event)
+            case ShakerCommanded():
+                return self.step.commanded(event) if self.step is not None else []
+            case StepBegan():
+                self.step = self._begin(event)
+            case SessionBegan():
+                self._range_names, self._utc = event.ranges, event.utc
+            case AcquisitionBegan():
+                self._acquire(event)
+            case RangeSet():
+                self._range = event
+                return self.step.range_set(event, self._wider()) if self.step is not None else []
+            case SignalLevelRead():
+                self._signal_level = event.value
+            case Held():
+                self.step = None
+            case SegmentEnded():
+                self.step = None
+                return self._calibrated()
+            case OperatorDid() if self.hammer is not None:
+                return self.hammer.operator(event)
+            case HammerTestEnded() if self.hammer is not None:
+                return self.hammer.ended(event)
+        return []
+
+    def _keep(self, event: Derived) -> list[Derived]:
+        """What is remembered of derived events, and what follows from them in turn."""
+        match event:
+            case PointMeasured() if event.purpose == "calibration":
+                self._calibration_points.append(event)
+            case PointMeasured():
+                self.points.append(event)
+                self.times_s.append(self._clock.at(event.sample))
+                return self._compared(event)
+            case CalibrationFound():
+                self.calibrations[event.range_name] = event
+                # A run that is carried on must not take these points for another range's.
+                self._calibration_points = [
+                    p for p in self._calibration_points if p.range_name != event.range_name
+                ]
+                return _refused(event)
+            case DampingFound():
+                self.damping = event
+        return []
+
+    def _block(self, block: BlockAcquired) -> list[Derived]:
+        if self._acquisition is None:
+            return []
+        self._latest = block.first_sample + block.samples
+        if self._acquisition.part == "hammer":
+            return self.hammer.block(block) if self.hammer is not None else []
+        if self.step is None:
+            return []
+        return self.step.block(block.first_sample, block.volts, block.overload)
+
+    def _acquire(self, event: AcquisitionBegan) -> None:
+        self._acquisition, self.step, self._latest = event, None, 0
+        if event.part == "hammer" and self._setup.hammer is not None:
+            self.hammer = HammerAnalysis(self._setup.hammer, self._hammer_channels(), event.sample_rate_hz)
+
+    def _begin(self, began: StepBegan) -> StepAnalysis:
+        assert self._acquisition is not None
+        assert self._range is not None
+        return StepAnalysis(
+            began,
+            self._setup.sweep,
+            self._step_channels(),
+            self._acquisition.sample_rate_hz,
+            self._range,
+            self._wider(),
+            None if began.purpose == "calibration" else self._calibration,
+            self._signal_level,
+            self._latest,
+        )
+
+    def _calibration(self, range_name: str) -> Calibration | None:
+        found = self.calibrations.get(range_name)
+        return Calibration(found.gain, found.delay_s) if found is not None else None
+
+    def _calibrated(self) -> list[Derived]:
+        """Every range that has points enough."""
+        found: list[Derived] = []
+        for name in dict.fromkeys(p.range_name for p in self._calibration_points):
+            with suppress(TooFewPoints):
+                found.append(
+                    calibrate([p for p in self._calibration_points if p.range_name == name], self._utc)
+                )
+        return found
+
+    def _compared(self, point: PointMeasured) -> list[Derived]:
+        """A sentinel against the first time it was measured."""
+        if point.purpose != "sentinel":
+            return []
+        first = next(
+            p for p in self.points if p.purpose == "sentinel" and p.frequency_hz == point.frequency_hz
+        )
+        if first is point:
+            return []
+        return [sentinel_compared(first, point)]
+
+    def _wider(self) -> tuple[str, ...]:
+        """Ranges coarser than the one in use, next first."""
+        names = self._range_names
+        if self._range is None or self._range.name not in names:
+            return ()
+        return names[names.index(self._range.name) + 1 :]
+
+    def _step_channels(self) -> Channels:
+        assert self._acquisition is not None
+        row = self._acquisition.channels.index
+        sensors = self._setup.sensors
+        temperature = sensors.temperature
+        return Channels(
+            base=row("base"),
+            velocity=row("velocity"),
+            base_m_s2_v=sensors.base.units_per_volt,
+            velocity_sign=-1.0 if sensors.velocity.invert else 1.0,
+            temperature=row("temperature") if temperature is not None else None,
+            temperature_c_v=temperature.units_per_volt if temperature is not None else 0.0,
+        )
+
+    def _hammer_channels(self) -> HammerChannels:
+        assert self._acquisition is not None
+        row = self._acquisition.channels.index
+        sensors = self._setup.sensors
+        assert sensors.force is not None
+        assert sensors.response is not None
+        return HammerChannels(
+            force=row("force"),
+            response=row("response"),
+            force_n_v=sensors.force.units_per_volt,
+            response_m_s2_v=sensors.response.units_per_volt,
+        )
+
+
+def _refused(found: CalibrationFound) -> list[Derived]:
+    """What no laser on the base gives."""
+    remedy = "is the laser on the base beside the accelerometer? are both sensitivities right?"
+    off = max(abs(found.gain - 1) / _MOST_GAIN, found.gain_std / found.gain / _MOST_GAIN_STD)
+    if off <= 1:
+        return []
+    what = (
+        f"calibration in {found.range_name}: gain {found.gain:.3g} +- {found.gain_std:.2g}, times the likely"
+    )
+    return [LimitExceeded(0, what, off, 1.0, "", remedy)]
+
+
+def sentinel_compared(first: PointMeasured, again: PointMeasured) -> SentinelCompared:
+    """How far the response over the base moved."""
+    ratio = (again.velocity_m_s / again.base_m_s2) / (first.velocity_m_s / first.base_m_s2)
+    change = 100 * (abs(ratio) - 1), 180 / cmath.pi * cmath.phase(ratio)
+    return SentinelCompared(again.step, again.frequency_hz, *change)

@@ -1,0 +1,80 @@
+"""The diagnosis of a sweep that is whole: apart from the run's own thread, its result an event."""
+
+import threading
+from collections.abc import Callable
+
+from pydantic import ValidationError
+from threadpoolctl import threadpool_limits
+
+from fitting.errors import FittingError
+from fitting.specimen import Specimen
+from instrument.errors import BadInput
+from instrument.files.hammer_file import hammer_modes
+from instrument.models.diagnosis import diagnose
+from instrument.progress import Progress, quiet
+from instrument.results.diagnosis_facts import diagnosis_facts
+from instrument.session.points import sweep_of, uncalibrated
+from instrument.stream.derived import DampingFound, DiagnosisFound, PointMeasured
+from instrument.stream.jsonable import plain
+
+Diagnoser = Callable[
+    [int, int, list[PointMeasured], list[float], DampingFound | None, Specimen], DiagnosisFound
+]
+"""Number, last step, points, when each was read, hammer test, specimen."""
+_SECONDS = ("seconds", "setup_seconds")
+
+
+def diagnose_points(
+    number: int,
+    last_step: int,
+    points: list[PointMeasured],
+    times_s: list[float],
+    damping: DampingFound | None,
+    specimen: Specimen,
+    progress: Progress = quiet,
+) -> DiagnosisFound:
+    """Diagnose all points up to a step, jointly with the hammer test. Pure: the same in a replay."""
+    used = [(p, t) for p, t in zip(points, times_s, strict=True) if p.step <= last_step]
+    try:
+        # One thread: sums in another order would differ in the last bit.
+        with threadpool_limits(1):
+            facts = _facts([p for p, _ in used], [t for _, t in used], damping, specimen, progress)
+            return DiagnosisFound(number, last_step, facts)
+    except (FittingError, BadInput, ValidationError, ValueError, ArithmeticError) as error:
+        # Data may be such that nothing can be said of them: that is said, and the session is kept.
+        return DiagnosisFound(number, last_step, {}, " ".join(str(error).split()))
+
+
+def _facts(
+    points: list[PointMeasured],
+    times_s: list[float],
+    damping: DampingFound | None,
+    specimen: Specimen,
+    progress: Progress,
+) -> dict[str, object]:
+    hammer = None
+    if damping is not None and any(m["accepted"] for m in damping.facts_json["modes"]):
+        hammer = hammer_modes(damping.facts_json)
+    sweep = sweep_of(points, times_s)
+    facts = diagnosis_facts(diagnose(sweep, specimen, hammer, progress=progress), sweep)
+    facts["warnings"] += uncalibrated(points)
+    return dict(plain({key: value for key, value in facts.items() if key not in _SECONDS}))
+
+
+def apart(work: Callable[[], DiagnosisFound]) -> DiagnosisFound:
+    """Do the work on a thread of its own and wait: a signal reaches the waiting thread at once."""
+    found: list[DiagnosisFound] = []
+    failure: list[BaseException] = []
+
+    def do() -> None:
+        try:
+            found.append(work())
+        except BaseException as error:  # raised where it is waited for
+            failure.append(error)
+
+    thread = threading.Thread(target=do, name="diagnosis", daemon=True)
+    thread.start()
+    thread.join()
+    if failure:
+        raise failure[0]
+    return found[0]

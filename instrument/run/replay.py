@@ -1,0 +1,137 @@
+"""A recorded session through the same analysis again: derived events computed anew and compared."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from time import monotonic, sleep
+
+from threadpoolctl import threadpool_limits
+
+from instrument.run.analysis import Analysis
+from instrument.run.live_diagnosis import Diagnoser, diagnose_points
+from instrument.run.live_fit import Fitter, fit_points
+from instrument.session.setup import setup_of
+from instrument.session.storage import SessionFile
+from instrument.stream.derived import DiagnosisFound, FitUpdated, PointMeasured
+from instrument.stream.event import Derived, Event, to_line
+from instrument.stream.raw import (
+    AcquisitionBegan,
+    BlockAcquired,
+    DiagnosisStarted,
+    FitStarted,
+    SessionBegan,
+    SessionEnded,
+)
+
+Watch = Callable[[Event], None]
+_MOST_DIFFERENCES = 20
+
+
+@dataclass
+class Replayed:
+    """What the recording gave this time."""
+
+    points: list[PointMeasured] = field(default_factory=list)
+    fit: FitUpdated | None = None
+    diagnosis: DiagnosisFound | None = None
+    derived: int = 0
+    """Events computed again."""
+    differences: list[str] = field(default_factory=list)
+    """Where they differ from the recorded ones; the first few."""
+
+    @property
+    def equal(self) -> bool:
+        """Every derived event as it was recorded, to the bit."""
+        return not self.differences
+
+
+def replay(
+    session: SessionFile,
+    *,
+    speed: float | None = None,
+    watch: Watch = lambda event: None,
+    fit: Fitter = fit_points,
+    diagnose: Diagnoser = diagnose_points,
+) -> Replayed:
+    """Run a session again. `speed` 1 is as it was; None as fast as it goes."""
+    with threadpool_limits(1, "blas"):
+        return _replay(session, _Pace(speed), watch, fit, diagnose)
+
+
+def _replay(session: SessionFile, pace: "_Pace", watch: Watch, fit: Fitter, diagnose: Diagnoser) -> Replayed:
+    configuration = session.configuration
+    analysis = Analysis(setup_of(configuration))
+    specimen = configuration.the_specimen()
+    again = Replayed()
+    expected: list[Derived] = []
+    apart: dict[tuple[type[Derived], int], Derived] = {}
+    ended = False
+    for event in session.events():
+        pace.wait(event)
+        if isinstance(event, FitUpdated | DiagnosisFound):
+            # Recorded whenever its thread was done: paired with its computation by number.
+            _compare(again, apart.pop((type(event), event.number), None), event)
+            continue
+        if isinstance(event, Derived):
+            _compare(again, expected.pop(0) if expected else None, event)
+            continue
+        if isinstance(event, SessionBegan):
+            # A broken-off step ends here; what it began is not carried on.
+            expected = []
+        watch(event)
+        derived = analysis.feed(event)
+        expected += derived
+        if isinstance(event, FitStarted):
+            again.fit = fit(event.number, event.last_step, analysis.points, analysis.damping, specimen)
+            apart[FitUpdated, event.number] = again.fit
+            derived = [*derived, again.fit]
+        elif isinstance(event, DiagnosisStarted):
+            a = analysis
+            again.diagnosis = diagnose(
+                event.number, event.last_step, a.points, a.times_s, a.damping, specimen
+            )
+            apart[DiagnosisFound, event.number] = again.diagnosis
+            derived = [*derived, again.diagnosis]
+        for one in derived:
+            watch(one)
+        ended = isinstance(event, SessionEnded) and event.why == "done"
+    if ended and expected:
+        again.differences.append(f"computed but not recorded: {to_line(expected[0])[:200]}")
+    again.points = list(analysis.points)
+    return again
+
+
+def _compare(again: Replayed, computed: Derived | None, recorded: Derived) -> None:
+    again.derived += 1
+    if len(again.differences) >= _MOST_DIFFERENCES:
+        return
+    if computed is None:
+        again.differences.append(f"recorded but not computed again: {to_line(recorded)[:200]}")
+    elif to_line(computed) != to_line(recorded):
+        again.differences.append(_first_difference(computed, recorded))
+
+
+def _first_difference(computed: Derived, recorded: Derived) -> str:
+    name = type(recorded).__name__
+    if type(computed) is not type(recorded):
+        return f"{name} recorded, {type(computed).__name__} computed"
+    a, b = computed.facts(), recorded.facts()
+    key = next((k for k in b if a.get(k) != b[k]), "?")
+    return f"{name}.{key}: {str(b.get(key))[:80]} recorded, {str(a.get(key))[:80]} computed"
+
+
+class _Pace:
+    """Holds a replay back to a speed, by the sample counter."""
+
+    def __init__(self, speed: float | None) -> None:
+        self._speed = speed
+        self._rate = 1.0
+        self._began = monotonic()
+
+    def wait(self, event: Event) -> None:
+        if self._speed is None:
+            return
+        if isinstance(event, AcquisitionBegan):
+            self._rate, self._began = event.sample_rate_hz, monotonic()
+        elif isinstance(event, BlockAcquired):
+            due = self._began + (event.first_sample + event.samples) / self._rate / self._speed
+            sleep(max(0.0, due - monotonic()))

@@ -1,0 +1,160 @@
+"""The rig: devices opened as RIG.toml names them; or simulated ones, stood up for the run and taken down."""
+
+import json
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from threading import Timer
+from typing import Any
+
+from drivers.errors import Unreachable
+from drivers.front_end import FrontEnd
+from drivers.front_end.lan_xi import LanXiFrontEnd
+from drivers.front_end.ni_daqmx import NiDaqmxFrontEnd
+from drivers.shaker import Shaker
+from drivers.shaker.modbus import ModbusShaker
+from drivers.shaker.register_map import DEFAULT
+from drivers.vibrometer import Vibrometer
+from drivers.vibrometer.serial_port import PolytecVibrometer
+from instrument.files.experiment_file import Hammer
+from instrument.files.rig_file import RigDocument, Sensor
+from instrument.files.rig_file import Shaker as ShakerTable
+from instrument.run.operator import Operator, Person, SimulatedOperator
+
+_SIMULATOR_STARTS_S = 30.0
+_SIMULATOR_ENDS_S = 6.0
+
+
+@dataclass(frozen=True)
+class Rig:
+    """Everything at hand, connected."""
+
+    shaker: Shaker
+    vibrometer: Vibrometer
+    front_end: FrontEnd
+    operator: Operator
+    sensors: dict[str, Sensor]
+    sample_rate_hz: float
+    document: RigDocument
+    """As opened: with the addresses of a rig that was simulated for the run."""
+
+    @property
+    def in_virtual_time(self) -> bool:
+        """Whether samples are made only as they are asked for."""
+        return self.document.front_end.paced_by_reader
+
+    def identities(self) -> dict[str, str]:
+        """What each device says it is."""
+        return {
+            "shaker": self.shaker.identity(),
+            "vibrometer": self.vibrometer.identity(),
+            "front_end": self.front_end.identity(),
+        }
+
+
+@dataclass(frozen=True)
+class Addresses:
+    """Where the simulated devices answer: the first line of `viscorig simulate`."""
+
+    modbus_tcp: str
+    modbus_rtu: str
+    vibrometer_tty: str
+    frontend_url: str
+
+
+@contextmanager
+def open_rig(document: RigDocument, path: Path, hammer: Hammer | None) -> Iterator[Rig]:
+    """Connect everything; let go of it again at the end. Raises `DriverError`."""
+    with ExitStack() as stack:
+        if document.is_simulated:
+            addresses = stack.enter_context(simulator(path))
+            document = _at(document, addresses)
+        shaker = open_shaker(document.shaker)
+        stack.callback(shaker.close)
+        shaker.set_heartbeat_timeout_s(document.shaker.heartbeat_timeout_s)
+        vibrometer = PolytecVibrometer(
+            document.vibrometer.address, model=document.vibrometer.model, baud=document.vibrometer.baud
+        )
+        stack.callback(vibrometer.close)
+        front_end = _front_end(document)
+        stack.callback(front_end.close)
+        yield Rig(
+            shaker,
+            vibrometer,
+            front_end,
+            _operator(document, hammer),
+            document.channels.named(),
+            document.front_end.sample_rate_hz,
+            document,
+        )
+
+
+def open_shaker(table: ShakerTable, *, timeout_s: float = 1.0, retries: int = 2) -> ModbusShaker:
+    """The shaker a rig file names; it is connected to when first used."""
+    registers = DEFAULT.with_addresses(table.registers)
+    options: dict[str, Any] = {"registers": registers, "timeout_s": timeout_s, "retries": retries}
+    if table.kind == "modbus-rtu":
+        return ModbusShaker.rtu(table.address, baud=table.baud, unit=table.unit, **options)
+    host, _, port = table.address.rpartition(":")
+    return ModbusShaker.tcp(host, int(port), unit=table.unit, **options)
+
+
+@contextmanager
+def simulator(path: Path, *options: str) -> Iterator[Addresses]:
+    """The simulated instruments in their own process, in virtual time; it ends with its standard input."""
+    command = [sys.executable, "-m", "instrument.cli", "simulate", str(path), "--virtual-time", *options]
+    # In a session of its own: a Ctrl-C for the run must not take the rig away before the shaker is silent.
+    process = subprocess.Popen(
+        command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, start_new_session=True
+    )
+    assert process.stdin is not None
+    assert process.stdout is not None
+    watchdog = Timer(_SIMULATOR_STARTS_S, process.kill)
+    watchdog.start()
+    try:
+        line = process.stdout.readline()
+        watchdog.cancel()
+        if not line.startswith("{"):
+            raise Unreachable(f"simulated rig: {path} did not come up (exit {process.wait()})")
+        facts = json.loads(line)
+        yield Addresses(**{name: facts[name] for name in Addresses.__dataclass_fields__})
+    finally:
+        watchdog.cancel()
+        process.stdin.close()
+        try:
+            process.wait(_SIMULATOR_ENDS_S)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+        process.stdout.close()
+
+
+def _at(document: RigDocument, addresses: Addresses) -> RigDocument:
+    shaker = addresses.modbus_tcp if document.shaker.kind == "modbus-tcp" else addresses.modbus_rtu
+    return document.model_copy(
+        update={
+            "shaker": document.shaker.model_copy(update={"address": shaker}),
+            "vibrometer": document.vibrometer.model_copy(update={"address": addresses.vibrometer_tty}),
+            "front_end": document.front_end.model_copy(
+                update={"address": addresses.frontend_url, "paced_by_reader": True}
+            ),
+        }
+    )
+
+
+def _front_end(document: RigDocument) -> FrontEnd:
+    table = document.front_end
+    if table.kind == "ni-daqmx":
+        return NiDaqmxFrontEnd(table.address)
+    return LanXiFrontEnd(table.address, paced_by_reader=table.paced_by_reader)
+
+
+def _operator(document: RigDocument, hammer: Hammer | None) -> Operator:
+    if document.operator.kind == "person":
+        return Person()
+    hit = (hammer.hit_x_mm * 1e-3, hammer.hit_y_mm * 1e-3) if hammer else (0.0, 0.0)
+    response = (hammer.response_x_mm * 1e-3, hammer.response_y_mm * 1e-3) if hammer else (0.0, 0.0)
+    return SimulatedOperator(document.front_end.address, hit, response)

@@ -1,0 +1,228 @@
+"""The runner: does what the plan says on a rig, one loop on one thread; only it has devices and a clock.
+
+Whatever ends a part, the shaker is silenced first. Only this loop beats the heartbeat: a hung
+acquisition lets it go stale, and the device goes silent by itself.
+"""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+from time import monotonic, sleep
+
+from drivers.errors import DriverError
+from drivers.front_end import Block, InputChannel
+from drivers.shaker import Alarm
+from drivers.vibrometer import Range
+from instrument.errors import RigStopped
+from instrument.run.analysis import Analysis
+from instrument.run.control import Control
+from instrument.run.rig import Rig
+from instrument.stepped_sine.plan import Plan, RangeWanted, Result
+from instrument.stream.derived import (
+    DriveRequested,
+    HitJudged,
+    LimitExceeded,
+    LoopChecked,
+    PointMeasured,
+    RangeRequested,
+)
+from instrument.stream.event import Derived, Event
+from instrument.stream.raw import (
+    AcquisitionBegan,
+    BlockAcquired,
+    HammerTestEnded,
+    Held,
+    Part,
+    RangeSet,
+    SegmentBegan,
+    SegmentEnded,
+    ShakerCommanded,
+    SignalLevelRead,
+    StepBegan,
+)
+
+_BEAT_S = 0.2
+_LONGEST_READ_S = 0.5
+_REST_S, _LOOK_S = 5.0, 0.01
+
+
+class Runner:
+    """One rig, one session."""
+
+    def __init__(
+        self,
+        rig: Rig,
+        analysis: Analysis,
+        emit: Callable[[Event], list[Derived]],
+        control: Control,
+        ramp_s: float,
+    ) -> None:
+        self._rig, self._analysis, self._emit, self._control = rig, analysis, emit, control
+        self._ramp_s = ramp_s
+        self._range: Range | None = None
+        self._beaten = -1e9
+        self._drive_v = 0.0
+        self._acquisitions = self._samples = 0
+
+    def sweep(self, part: Part, plan: Plan) -> None:
+        """Walk a plan. Raises `RigStopped`, `DriverError`."""
+        channels = tuple(n for n in ("base", "velocity", "temperature") if n in self._rig.sensors)
+        self._wait_for_rest()
+        with self._acquisition(part, channels):
+            self._rig.shaker.start()
+            result: Result = None
+            while True:
+                try:
+                    action = plan.send(result)
+                except StopIteration:
+                    return
+                result = self._do(action)
+
+    def hammer(self, wanted: int, patience_s: float) -> None:
+        """Catch blows until enough are good. Raises `RigStopped`, `DriverError`."""
+        with self._acquisition("hammer", ("force", "response")):
+            analysis = self._analysis.hammer
+            assert analysis is not None
+            asked, waited = (-1, -1), 0.0
+            operator = self._rig.operator
+            while not (analysis.complete and operator.content(analysis.accepted)):
+                if analysis.ready and not analysis.complete and analysis.accepted_of_caught != asked:
+                    asked, waited = analysis.accepted_of_caught, 0.0
+                    operator.hit(analysis.accepted, wanted)
+                for did in operator.decided():
+                    self._emit(did)
+                before = self._samples
+                caught = any(isinstance(e, HitJudged) for e in self._read(analysis.wanted()))
+                waited += 0.0 if caught else (self._samples - before) / self._rig.front_end.sample_rate_hz
+                if waited > patience_s + analysis.record_s:
+                    break
+        self._emit(HammerTestEnded())
+
+    def silence(self) -> None:
+        """The shaker to zero, whatever state it is in. Raises `DriverError` where nobody answers."""
+        self._drive_v = 0.0
+        self._rig.shaker.stop()
+
+    def _wait_for_rest(self) -> None:
+        """Until the drive of what was before is zero: a ramp counts from there. Raises `RigStopped`."""
+        for _ in range(round(_REST_S / _LOOK_S)):
+            if self._rig.shaker.status().drive_v == 0:
+                return
+            sleep(_LOOK_S)
+        raise RigStopped(
+            f"the shaker is not at rest {_REST_S:g} s after it was stopped: switch the amplifier off"
+        )
+
+    # One action
+
+    def _do(self, action: RangeWanted | SegmentBegan | StepBegan | SegmentEnded) -> Result:
+        if isinstance(action, RangeWanted):
+            self._set_range(action.name)
+        elif isinstance(action, StepBegan):
+            return self._measure(action)
+        else:
+            _stop_at_a_limit(self._emit(action))
+        return None
+
+    def _measure(self, began: StepBegan) -> Result:
+        """One step, again from its beginning after a hold."""
+        while True:
+            self._emit(SignalLevelRead(self._rig.vibrometer.signal_level()))
+            self._emit(began)
+            self._command(began.frequency_hz, began.drive_v)
+            while not self._control.held:
+                for event in self._read(self._analysis.wanted):
+                    if isinstance(event, DriveRequested):
+                        self._command(began.frequency_hz, event.drive_v)
+                    elif isinstance(event, RangeRequested):
+                        self._set_range(event.name)
+                    elif isinstance(event, PointMeasured | LoopChecked):
+                        return event
+            self._hold()
+
+    def _hold(self) -> None:
+        """Silent until resumed. Samples go on, so that nothing times out."""
+        self._emit(Held())
+        self.silence()
+        while self._control.held:
+            self._read(round(_BEAT_S * self._rig.front_end.sample_rate_hz))
+        self._wait_for_rest()
+        self._rig.shaker.start()
+
+    def _read(self, samples: int) -> list[Derived]:
+        """The next samples into the stream; what follows from them."""
+        self._watch()
+        most = max(1, int(_LONGEST_READ_S * self._rig.front_end.sample_rate_hz))
+        block = self._rig.front_end.read(min(samples, most))
+        self._samples = block.first_sample + block.samples
+        derived = self._emit(_acquired(block))
+        if block.cable_fault.any():
+            names = [n for n, bad in zip(self._names, block.cable_fault, strict=True) if bad]
+            raise RigStopped(f"cable fault on {', '.join(names)}: check the sensor and its cable")
+        _stop_at_a_limit(derived)
+        return derived
+
+    def _watch(self) -> None:
+        """Between blocks: is the run to end, is the shaker well, and the heartbeat."""
+        if self._control.aborted is not None:
+            raise RigStopped(self._control.aborted)
+        if monotonic() - self._beaten < _BEAT_S:
+            return
+        self._rig.shaker.beat()
+        self._beaten = monotonic()
+        status = self._rig.shaker.status()
+        if status.alarm != Alarm.NONE:
+            raise RigStopped(
+                f"shaker alarm: {status.alarm.name.lower()}: remove its cause, then reset the alarm"
+            )
+        if status.interlock_open:
+            raise RigStopped("shaker interlock open: close it, then begin again")
+
+    def _command(self, frequency_hz: float, drive_v: float) -> None:
+        change = max(abs(drive_v - self._drive_v), 1e-6)
+        echo = self._rig.shaker.command(frequency_hz, drive_v, change / self._ramp_s)
+        self._drive_v = echo.drive_v
+        self._emit(ShakerCommanded(echo.sequence, frequency_hz, echo.drive_v, self._ramp_s, echo.sample))
+
+    def _set_range(self, name: str) -> None:
+        if self._range is None or self._range.name != name:
+            self._range = self._rig.vibrometer.set_range(name)
+            r = self._range
+            self._emit(RangeSet(r.name, r.scale_m_s_v, r.full_scale_v, r.highest_hz, r.delay_s))
+
+    @contextmanager
+    def _acquisition(self, part: Part, names: tuple[str, ...]) -> Iterator[None]:
+        sensors = self._rig.sensors
+        inputs = tuple(InputChannel(sensors[n].input, n, sensors[n].iepe, sensors[n].range_v) for n in names)
+        front_end = self._rig.front_end
+        front_end.start(inputs, self._rig.sample_rate_hz)
+        self._names = names
+        try:
+            self._acquisitions, self._samples = self._acquisitions + 1, 0
+            self._emit(AcquisitionBegan(self._acquisitions, part, front_end.sample_rate_hz, names))
+            yield
+        finally:
+            # Silence first: what follows may take as long as a time-out. Where nobody answers, the heartbeat,
+            # no longer beaten, does it, and the first error is the one to tell.
+            if part != "hammer":
+                with suppress(DriverError):
+                    self.silence()
+            with suppress(DriverError):
+                front_end.stop()
+
+
+def _stop_at_a_limit(derived: list[Derived]) -> None:
+    for event in derived:
+        if isinstance(event, LimitExceeded):
+            raise RigStopped(event.message)
+
+
+def _acquired(block: Block) -> BlockAcquired:
+    return BlockAcquired(
+        first_sample=block.first_sample,
+        samples=block.samples,
+        volts_per_count=tuple(float(v) for v in block.volts_per_count),
+        full_scale_v=tuple(float(v) for v in block.full_scale_v),
+        overload=tuple(bool(v) for v in block.overload),
+        cable_fault=tuple(bool(v) for v in block.cable_fault),
+        counts=block.counts,
+    )

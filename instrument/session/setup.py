@@ -1,0 +1,83 @@
+"""What the analysis is told of a session beside its events."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fitting.bare_modes import Sensor
+from fitting.plate import Plate
+from fitting.real_modes import real_modes
+from fitting.specimen import Specimen
+from instrument.errors import BadInput
+from instrument.files.experiment_file import ExperimentDocument
+from instrument.files.rig_file import Channels, RigDocument
+from instrument.files.specimen_file import specimen_of
+from instrument.hammer_test.analysis import HammerSettings
+from instrument.session.configuration import Configuration
+from instrument.stepped_sine.settings import Control, Dwell, Limits, Settle, SweepSettings
+
+_DECAYED = 0.01
+_LONGEST_RECORD_S = 60.0
+_RECORD_WITHOUT_RATIOS_S = 8.0
+
+
+@dataclass(frozen=True)
+class Setup:
+    """What the analysis has to know beside the events; all of it is kept with a session."""
+
+    sensors: Channels
+    sweep: SweepSettings
+    hammer: HammerSettings | None
+
+
+def setup_of(configuration: Configuration) -> Setup:
+    """What the analysis is told."""
+    experiment, rig = configuration.experiment, configuration.rig
+    return Setup(rig.channels, sweep_settings(experiment, rig), hammer_settings(configuration))
+
+
+def sweep_settings(experiment: ExperimentDocument, rig: RigDocument) -> SweepSettings:
+    """Of the experiment, within the rig's limits."""
+    s, r = experiment.sweep, rig.limits
+    if s is None:
+        return SweepSettings()
+    limits = Limits(
+        base_m_s2=_lower(s.limits.base_m_s2, r.base_m_s2),
+        velocity_m_s=_lower(s.limits.velocity_m_s, r.velocity_m_s),
+        travel_m=1e-3 * _lower(s.limits.travel_mm, r.travel_mm),
+        drive_v=_lower(s.limits.drive_v, r.drive_v),
+    )
+    control = Control(
+        s.control.tolerance_percent / 100, s.control.abort_percent / 100, ramp_s=s.control.ramp_s
+    )
+    settle = Settle(s.settle.tolerance_percent / 100, most_s=s.settle.most_s)
+    return SweepSettings(control, settle, Dwell(s.dwell.cycles, s.dwell.least_s, s.dwell.most_s), limits)
+
+
+def hammer_settings(configuration: Configuration) -> HammerSettings | None:
+    """Of the experiment; the record long enough for the slowest mode where it is left to us."""
+    h = configuration.experiment.hammer
+    if h is None:
+        return None
+    for name in ("force", "response"):
+        if getattr(configuration.rig.channels, name) is None:
+            raise BadInput(f"rig: channels.{name}: missing, the hammer test needs it")
+    record_s = record_length_s(specimen_of(configuration.specimen)) if h.record_s == "auto" else h.record_s
+    response = configuration.rig.channels.response
+    mass_kg = 1e-3 * response.mass_g if response else 0.0
+    sensor = Sensor(mass_kg, 1e-3 * h.response_x_mm, 1e-3 * h.response_y_mm) if mass_kg else None
+    return HammerSettings(h.hits, record_s, h.pre_trigger_s, (h.band_hz[0], h.band_hz[1]), sensor)
+
+
+def record_length_s(specimen: Specimen) -> float:
+    """Until the slowest mode has decayed to 1 %, from the ratios the specimen states."""
+    ratios = np.array(specimen.modal_ratios)
+    if not np.any(ratios > 0):
+        return _RECORD_WITHOUT_RATIOS_S
+    decay = ratios * real_modes(Plate(specimen.bare), 0.0, len(ratios)).omega
+    slowest = float(decay[decay > 0].min())
+    return min(round(-np.log(_DECAYED) / slowest + 0.5), _LONGEST_RECORD_S)
+
+
+def _lower(a: float | None, b: float) -> float:
+    return b if a is None else min(a, b)

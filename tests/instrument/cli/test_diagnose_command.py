@@ -1,0 +1,228 @@
+"""`viscorig diagnose` as a user calls it: what it reads, refuses, prints, saves."""
+
+import json
+import warnings
+
+import numpy as np
+import pytest
+import pyuff
+from conftest import DATA
+from diagnosis_cases import facts
+from session_cases import RATE, whole_session
+
+import instrument.cli.diagnose as command
+from instrument.cli.main import run
+from instrument.paper_case import case_file
+from instrument.report.diagnosis import diagnosis_sections
+from instrument.session.contents import contents_of
+from instrument.session.storage import SessionFile
+from instrument.stream.derived import DiagnosisFound
+
+ZN1, TABLE5 = str(case_file("zn1.toml")), str(case_file("table5.csv"))
+
+
+def call(capsys, *arguments):
+    """Exit status, standard output, standard error."""
+    status = run([str(a) for a in arguments])
+    captured = capsys.readouterr()
+    return status, captured.out, captured.err
+
+
+@pytest.fixture
+def given(monkeypatch):
+    """What the command hands on, in place of a diagnosis that takes its time."""
+    seen = {}
+
+    def stub(sweep, specimen, hammer, without, progress, accept, **how):
+        seen.update(sweep=sweep, specimen=specimen, hammer=hammer, without=without, accept=accept, **how)
+
+    monkeypatch.setattr(command, "diagnose_sweep", stub)
+    monkeypatch.setattr(command, "diagnosis_facts", lambda found, sweep: facts())
+    return seen
+
+
+@pytest.fixture(scope="module")
+def session_path(tmp_path_factory):
+    return whole_session(tmp_path_factory.mktemp("session"))
+
+
+@pytest.fixture(scope="module")
+def coarse(tmp_path_factory):
+    """The paper's specimen on its own mesh: quick."""
+    path = tmp_path_factory.mktemp("coarse") / "coarse.toml"
+    path.write_text(case_file("zn1.toml").read_text() + "\n[mesh]\nelements_x = 10\nelements_y = 10\n")
+    return path
+
+
+def test_nine_amplitudes_end_to_end(capsys, coarse, tmp_path):
+    status, out, err = call(
+        capsys,
+        *("diagnose", TABLE5, "--specimen", coarse, "--without", "core_law", "--resamples", "1"),
+        *("--figures", tmp_path / "figures", "--json", tmp_path / "found.json"),
+    )
+    assert status == 0, err
+    assert err == ""
+    found = json.loads((tmp_path / "found.json").read_text())
+    assert found["verdict"] in ("none", "effect", "ambiguous", "unknown")
+    assert out.startswith(f"verdict: {found['verdict']}")
+    assert len(found["points"]) == 9
+    assert found["before"]["rms_percent"] == pytest.approx(5.2, abs=0.4)
+    assert found["p_value"] in (0.5, 1.0)
+    assert found["nested_held_out_rms_percent"] > 5
+    assert found["before"]["held_out_rms_percent"] == found["before"]["leave_one_out_rms_percent"] > 5
+    assert "core_law" not in {c["name"] for c in found["candidates"]}
+    assert found["seconds"] > 0
+    assert found["setup_seconds"] > 0
+    assert len(list((tmp_path / "figures").glob("*.png"))) == 3
+
+
+@pytest.mark.usefixtures("given")
+def test_standard_output_can_be_the_json_alone(capsys):
+    status, out, err = call(capsys, "diagnose", TABLE5, "--specimen", ZN1, "--json", "-")
+    assert (status, err) == (0, "")
+    assert json.loads(out)["verdict"] == "effect"
+
+
+def test_effects_can_be_left_out(capsys, given):
+    names = ("--without", "added_mass", "--without", "spot_offset")
+    assert call(capsys, "diagnose", TABLE5, "--specimen", ZN1, *names)[0] == 0
+    assert given["without"] == {"added_mass", "spot_offset"}
+
+
+@pytest.mark.parametrize(
+    ("names", "accepted"),
+    [((), None), (("added_mass", "spot_offset"), ("added_mass", "spot_offset")), (("none",), ())],
+)
+def test_effects_can_be_accepted_or_all_of_them_declined(capsys, given, names, accepted):
+    words = [f"--accept={name}" for name in names]
+    assert call(capsys, "diagnose", TABLE5, "--specimen", ZN1, *words)[0] == 0
+    assert given["accept"] == accepted
+
+
+@pytest.mark.parametrize(
+    ("arguments", "word"),
+    [
+        ((TABLE5, "--specimen", ZN1, "--without", "ghosts"), "ghosts"),
+        ((TABLE5, "--specimen", ZN1, "--accept", "none", "--accept", "spot_offset"), "excludes"),
+        ((TABLE5,), "--specimen"),
+        (("none.csv", "--specimen", ZN1), "none.csv"),
+        ((TABLE5, "--specimen", ZN1, "--hammer", "x.json", "--no-hammer"), "exclude"),
+        ((TABLE5, "--specimen", ZN1, "--hammer", "none.json"), "none.json"),
+        ((case_file("zn1.toml"), "--specimen", ZN1), "zn1.toml"),
+    ],
+)
+def test_bad_input_is_one_line(capsys, arguments, word):
+    status, out, err = call(capsys, "diagnose", *arguments)
+    assert (status, err.count("\n"), out) == (2, 1, "")
+    assert word in err
+
+
+def test_a_sweep_keeps_its_times_and_a_hammer_test_takes_part(capsys, given, tmp_path):
+    path = tmp_path / "hammer.json"
+    path.write_text(json.dumps({"modes": [{"frequency_hz": 17.7, "damping_ratio": 0.003}]}))
+    status, _, err = call(capsys, "diagnose", DATA / "practice-002.csv", "--specimen", ZN1, "--hammer", path)
+    assert status == 0, err
+    assert given["hammer"].frequency_hz.tolist() == [17.7]
+    assert given["sweep"].has_phase
+
+
+def test_a_session_brings_its_specimen_its_hammer_test_and_its_times(capsys, given, session_path):
+    status, out, err = call(capsys, "diagnose", session_path)
+    assert status == 0, err
+    assert "31 points, velocity absolute, its hammer test with 8 modes" in out
+    assert given["specimen"].reads == "absolute"
+    assert len(given["hammer"].frequency_hz) == 8
+    with SessionFile(session_path) as file:
+        samples = np.array([p.sample for p in contents_of(file, with_hits=False).measured])
+    np.testing.assert_allclose(given["sweep"].time_s, (samples - samples[0]) / RATE, atol=1e-9)
+    assert call(capsys, "diagnose", session_path, "--no-hammer")[0] == 0
+    assert given["hammer"] is None
+
+
+# FRFs of the pickup over the base's acceleration
+
+F = np.array([18.0, 19.0, 20.0, 21.0, 22.0, 23.0])
+V_OVER_A = (3.0 - 2.0j) * 1e-3 / F
+
+
+def frf_csv(path, stem, H):
+    rows = "\n".join(f"{f},{h.real!r},{h.imag!r}" for f, h in zip(F.tolist(), H.tolist(), strict=True))
+    path.write_text(f"frequency_hz,{stem}_re,{stem}_im\n{rows}\n")
+    return path
+
+
+@pytest.mark.parametrize(("stem", "power"), [("receptance", -1), ("mobility", 0), ("accelerance", 1)])
+def test_an_frf_is_the_pickup_over_the_bases_acceleration(capsys, given, tmp_path, stem, power):
+    path = frf_csv(tmp_path / "frf.csv", stem, V_OVER_A * (2j * np.pi * F) ** power)
+    status, out, err = call(capsys, "diagnose", path, "--specimen", ZN1)
+    assert status == 0, err
+    assert "over the base's acceleration" in out
+    np.testing.assert_allclose(given["sweep"].response_m_s, V_OVER_A * 9.81, rtol=1e-12)
+
+
+def write_uff(path, under):
+    """Velocity over what the code says: 12 an acceleration, 13 a force."""
+    one = {
+        "type": 58,
+        "binary": 1,
+        "func_type": 4,
+        "rsp_node": 1,
+        "rsp_dir": 3,
+        "ref_node": 1,
+        "ref_dir": 3,
+        "abscissa_spacing": 0,
+        "abscissa_min": 0.0,
+        "abscissa_inc": 0.0,
+        "abscissa_spec_data_type": 18,
+        "ordinate_spec_data_type": 11,
+        "orddenom_spec_data_type": under,
+        "z_axis_value": 0.0,
+        "data": V_OVER_A,
+        "x": F,
+    }
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ResourceWarning)
+        pyuff.UFF(str(path)).write_sets([one], mode="add")
+    return path
+
+
+def test_a_universal_file_says_itself_what_it_is_over(capsys, given, tmp_path):
+    status, _, err = call(capsys, "diagnose", write_uff(tmp_path / "a.uff", 12), "--specimen", ZN1)
+    assert status == 0, err
+    np.testing.assert_allclose(given["sweep"].response_m_s, V_OVER_A * 9.81, rtol=1e-12)
+
+
+def test_a_universal_file_over_a_force_is_refused(capsys, tmp_path):
+    status, _, err = call(capsys, "diagnose", write_uff(tmp_path / "a.uff", 13), "--specimen", ZN1)
+    assert (status, err.count("\n")) == (2, 1)
+    assert "velocity over force" in err
+    assert "expected" in err
+
+
+# The report
+
+
+@pytest.fixture
+def contents(session_path):
+    with SessionFile(session_path) as file:
+        return contents_of(file, with_hits=False)
+
+
+def test_a_session_without_a_diagnosis_has_no_section_of_it(contents):
+    assert diagnosis_sections(contents) == []
+
+
+def test_the_report_tells_the_recorded_diagnosis(contents):
+    contents.diagnosis = DiagnosisFound(1, 9, facts())
+    (section,) = diagnosis_sections(contents)
+    kinds = [b.kind for b in section.blocks]
+    assert kinds.count("picture") == kinds.count("table") == 3
+    said = " ".join(b.text for b in section.blocks if b.kind == "sentence")
+    assert "added_mass (mass 0.008 +- 0.0001 kg" in said
+    assert "Next measurement" in said
+
+
+def test_the_report_says_why_there_is_none(contents):
+    contents.diagnosis = DiagnosisFound(1, 9, {}, "too few points")
+    (section,) = diagnosis_sections(contents)
+    assert "too few points" in section.blocks[0].text

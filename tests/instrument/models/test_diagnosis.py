@@ -1,0 +1,179 @@
+"""Sweeps of a 3D solid plate with an effect that the plate model is not told of: is it found and named?"""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fitting.diagnosis.diagnose import seen_in_channels
+from fitting.effects import CATALOGUE
+from fitting.errors import OutsideModel
+from fitting.laws.fractional_zener import FractionalZener
+from instrument.campaign.cases import draw
+from instrument.errors import BadInput
+from instrument.files.specimen_file import read_specimen
+from instrument.files.sweep_file import read_sweep
+from instrument.models.diagnosis import diagnose
+from instrument.models.second_process import VARIABLE
+from instrument.paper_case import case_file
+from instrument.simulated_case import case_file as simulated_file
+from tests.conftest import DATA
+
+OMEGA = 2 * np.pi * np.array([20.0, 100.0, 280.0])
+PRACTICE = {
+    "005": ({"spot_offset"}, (301911.854, 2462406.867, 1.05021e-4, 0.835801188)),
+}
+"""What is in the files, and the core's law: never seen by what is tested."""
+
+
+def specimen():
+    return replace(read_specimen(simulated_file("specimen.toml")), tolerances={})
+
+
+def as_a_laboratory_states_it():
+    """The same plate, each number within its typical tolerance."""
+    return replace(specimen(), exact=False)
+
+
+def practice(name):
+    return read_sweep(DATA / f"practice-{name}.csv").sweep(9.81)
+
+
+@pytest.mark.parametrize("name", PRACTICE)
+def test_a_hidden_effect_is_named_and_the_law_put_right(name):
+    effects, law = PRACTICE[name]
+    found = diagnose(practice(name), specimen()).result
+    assert {e.name for e in found.effects} == effects
+    assert all(e.probability > 0.95 for e in found.effects)
+    true, before, after = (
+        one.modulus(OMEGA) for one in (FractionalZener(*law), found.before.law, found.after.law)
+    )
+    assert np.abs(after.real / true.real - 1).max() < 0.025
+    assert np.abs(after.real / true.real - 1).max() < 0.5 * np.abs(before.real / true.real - 1).max()
+    assert found.after.chi2_per_dof < 1.2 < found.before.chi2_per_dof
+    assert "instead of" in " ".join(found.explanation)
+
+
+def test_numbers_that_may_be_otherwise_do_not_hide_it():
+    effects, law = PRACTICE["005"]
+    found = diagnose(practice("005"), as_a_laboratory_states_it()).result
+    assert {e.name for e in found.effects} == effects
+    band, true = found.after.band, FractionalZener(*law)
+    off = np.abs(band.storage_modulus_pa - true.modulus(2 * np.pi * band.frequency_hz).real)
+    assert np.mean(off < 1.96 * band.storage_modulus_standard_error_pa) > 0.9
+    assert {a.name for a in found.after.adjusted} > {"substrate_young", "core_thickness", "pickup_x"}
+    assert max(abs(a.pull) for a in found.after.adjusted) < 2
+    # Without the effect the stated numbers are pulled far to make up for it.
+    assert max(abs(a.pull) for a in found.before.adjusted) > 3
+
+
+def all_but(*names):
+    return set(CATALOGUE) - set(names)
+
+
+def test_what_only_fits_is_refused_and_said_to_be_nearest():
+    """A shifted spot is well imitated by a gain beside a mass: their chi-square per degree is 1.2."""
+    without = all_but("gain_error", "added_mass")
+    found = diagnose(practice("005"), specimen(), without=without).result
+    assert found.verdict == "unknown"
+    assert min(c.chi2_per_dof for c in found.candidates) < 1.25
+    assert "gain_error with added_mass, would leave such data once in" in " ".join(found.explanation)
+
+
+def test_where_all_that_lead_fail_every_place_is_tried():
+    """The mass's own place promises least of seven by a linear step."""
+    case = draw("added_mass", 96002)
+    found = diagnose(case.sweep, case.specimen, without=all_but("added_mass")).result
+    (mass,) = found.effects
+    place = mass.parameters["x"].value, mass.parameters["y"].value
+    truth = case.truth.effects["added_mass"]
+    assert np.hypot(place[0] - truth["x_m"], place[1] - truth["y_m"]) < 5e-3
+
+
+def test_a_second_process_changes_nothing(monkeypatch):
+    alone = diagnose(practice("005"), specimen()).result
+    monkeypatch.delenv(VARIABLE)
+    monkeypatch.setattr("instrument.models.second_process.processors", lambda: 2)
+    shared = diagnose(practice("005"), specimen()).result
+    assert repr(shared.candidates) == repr(alone.candidates)
+    assert shared.explanation == alone.explanation
+    assert np.array_equal(shared.after.law.values, alone.after.law.values)
+
+
+@pytest.mark.parametrize(("stated", "sure"), [(specimen, 0.8), (as_a_laboratory_states_it, 0.5)])
+def test_a_clean_sweep_is_said_to_be_clean(stated, sure):
+    found = diagnose(practice("002"), stated()).result
+    assert found.verdict == "none"
+    assert found.effects == ()
+    assert found.after.law == found.before.law
+    none = next(c for c in found.candidates if c.name == "none")
+    assert none.probability > sure
+    assert sum(c.probability for c in found.candidates) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("kind", ["mains_hum", "level_error"])
+def test_hum_and_a_wrong_level_are_seen_in_the_channels(kind):
+    case = draw(kind, 1)
+    used, channels, _ = seen_in_channels(case.sweep, list(CATALOGUE.values()))
+    assert [e.name for e in channels] == [kind]
+    assert used.all() == (kind == "level_error")
+
+
+def test_nine_amplitudes_cannot_name_one_effect():
+    plate = read_specimen(case_file("zn1.toml"))
+    sweep = read_sweep(case_file("table5.csv")).sweep(plate.base_acceleration_m_s2)
+    found = diagnose(sweep, plate).result
+    assert found.verdict == "none"
+    assert found.before.rms_percent == pytest.approx(5.19, abs=0.02)
+    assert found.before.validation.leave_one_out_rms_percent == pytest.approx(8.82, abs=0.05)
+    probable = {c.name: c.probability for c in found.candidates}
+    assert probable["none"] < 0.7
+    assert probable["substrate_stiffness"] > 0.03
+    # Without any effect a search finds as much; with the selection repeated it predicts no better.
+    assert found.p_value > 0.05
+    assert found.nested_held_out_rms_percent > 8.0
+    # What nine amplitudes leave open is in the band.
+    wider = (
+        found.after.band.storage_modulus_standard_error_pa
+        / found.before.band.storage_modulus_standard_error_pa
+    )
+    assert wider.max() > 1.2
+
+
+def test_nine_amplitudes_do_not_make_a_misfit_likely_where_much_is_uncertain():
+    """More stated numbers than amplitudes, and noise of unknown size: what fits three times worse is none."""
+    plate = replace(read_specimen(case_file("zn1.toml")), exact=False)
+    sweep = read_sweep(case_file("table5.csv")).sweep(plate.base_acceleration_m_s2)
+    without = all_but("absolute_velocity", "gain_error")
+    found = diagnose(sweep, plate, without=without, resamples=0).result
+    assert found.verdict == "none"
+    assert next(c.probability for c in found.candidates if c.name == "absolute_velocity") < 0.01
+
+
+def test_effects_are_accepted_and_declined_by_hand():
+    told = diagnose(practice("005"), specimen(), accept=("gain_error", "channel_delay")).result
+    assert told.verdict == "effect"
+    assert [e.name for e in told.effects] == ["gain_error", "channel_delay"]
+    assert "By your word" in " ".join(told.explanation)
+    assert told.after.chi2_per_dof < told.before.chi2_per_dof
+    declined = diagnose(practice("005"), specimen(), accept=()).result
+    assert (declined.verdict, declined.effects) == ("none", ())
+    assert declined.before.chi2_per_dof == pytest.approx(told.before.chi2_per_dof)
+
+
+def test_another_law_and_an_effect_beside_it_are_accepted_by_hand():
+    told = diagnose(practice("005"), specimen(), accept=("spot_offset", "core_law")).result
+    assert {e.name for e in told.effects} == {"core_law", "spot_offset"}
+    assert told.after.chi2_per_dof < 1.1
+
+
+def test_unknown_names_and_bare_plates_are_refused():
+    sweep = practice("002").take(np.arange(20))
+    with pytest.raises(BadInput, match="effect 'gremlins', expected one of"):
+        diagnose(sweep, specimen(), without={"gremlins"})
+    with pytest.raises(BadInput, match="effect 'gremlins', expected one of"):
+        diagnose(sweep, specimen(), accept=["gremlins"])
+    with pytest.raises(BadInput, match="both accepted and left out"):
+        diagnose(sweep, specimen(), accept=["core_law"], without=["core_law"])
+    with pytest.raises(OutsideModel, match="no core to diagnose"):
+        diagnose(sweep, specimen().bare)

@@ -1,0 +1,71 @@
+"""What a fit takes for a sweep's response, from a few frequencies, beside a solve at every point."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from threadpoolctl import threadpool_limits
+
+from fitting.diagnosis.plate_answer import answer
+from fitting.diagnosis.response import Response
+from fitting.effects import CATALOGUE
+from fitting.effects.temperature_drift import C_1, C_2_K
+from instrument.files.specimen_file import read_specimen
+from instrument.files.sweep_file import read_sweep
+from instrument.models.set_up import set_up
+from instrument.simulated_case import case_file
+from tests.conftest import DATA
+
+ROOT_N_M3 = 1.5e13
+WARMING_K, TIME_CONSTANT_S = 6.0, 500.0
+
+
+@pytest.fixture(scope="module")
+def once_up():
+    return read_sweep(DATA / "practice-005.csv").sweep(9.81)
+
+
+def again(sweep):
+    """The same sweep, every segment once more later."""
+    later = sweep.time_s.max() + 10.0
+    parts = (
+        {"segment": sweep.segment, "sweep": sweep.sweep, "time_s": sweep.time_s},
+        {"segment": sweep.segment, "sweep": sweep.sweep + 10, "time_s": sweep.time_s + later},
+    )
+    both = {key: np.concatenate([p[key] for p in parts]) for key in parts[0]}
+    twice = {
+        key: np.tile(getattr(sweep, key), 2)
+        for key in ("frequency_hz", "velocity_m_s", "commanded_m_s2", "base_m_s2")
+    }
+    return replace(sweep, **both, **twice, **{k: None for k in ("weight", "std_m_s") if hasattr(sweep, k)})
+
+
+def at_every_point(task, law, effect, u, G):
+    plate = task.plate.take(effect.spans)
+    change = effect.change(plate, np.array(u))
+    omega = task.points.omega
+    x = answer(plate, omega, G, change, [], np.array([], int), with_pitch=False).heave
+    return 1j * omega * task.points.acceleration_m_s2 * x
+
+
+@pytest.mark.parametrize("make", [lambda s: s, again], ids=["one pass", "two passes"])
+def test_a_core_that_warms_on_a_root_that_yields(once_up, make):
+    with threadpool_limits(1, "blas"):
+        task = set_up(make(once_up), read_specimen(case_file("specimen.toml"))).task
+        law = task.stated_law
+        task = task.condensed(law).around(law)
+        clamp, drift = CATALOGUE["clamp_compliance"], CATALOGUE["temperature_drift"]
+        response = Response(task, [clamp, drift])
+        u = np.array([ROOT_N_M3, WARMING_K, TIME_CONSTANT_S])
+        v, by = response.with_derivatives(law, u)
+        kelvin = -WARMING_K * np.expm1(-task.points.time_s / TIME_CONSTANT_S)
+        G = law.modulus(task.points.omega * 10 ** (-C_1 * kelvin / (C_2_K + kelvin)))
+        assert np.abs(G / law.modulus(task.points.omega) - 1).max() > 0.1
+        expected = at_every_point(task, law, clamp, [ROOT_N_M3], G)
+        if task.specimen.reads == "absolute":
+            expected = expected + task.points.acceleration_m_s2 / (1j * task.points.omega)
+        assert np.abs(v / expected - 1).max() < 3e-4
+        h = 1e-3 * WARMING_K
+        up, down = (response.velocity(law, u + np.array([0, s * h, 0])) for s in (1, -1))
+        slope = (up - down) / (2 * h)
+        assert np.abs(by[len(law.names) + 1] - slope).max() < 0.02 * np.abs(slope).max()

@@ -1,0 +1,62 @@
+"""What is said of data and specimen as they were given."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from conftest import DATA
+
+from fitting.noise import noise_of, scatter_over_stated
+from fitting.tolerances import STATED
+from instrument.files.sweep_file import read_sweep
+from instrument.models.remarks import remarks_on_noise, remarks_on_tolerances
+from instrument.models.tolerance_words import asked, tolerance_facts, tolerance_rows
+
+
+def practice(times=None):
+    """With a stated noise of so many times its local scatter."""
+    sweep = read_sweep(DATA / "practice-002.csv").sweep(9.81)
+    if times is None:
+        return sweep
+    over = np.abs(sweep.base_m_s2) / sweep.commanded_m_s2
+    return replace(sweep, std_m_s=times * noise_of(sweep).std_m_s * over)
+
+
+def test_without_a_stated_noise_there_is_nothing_to_compare():
+    assert scatter_over_stated(practice()) is None
+    assert remarks_on_noise(practice()) == ()
+
+
+def test_few_points_do_not_scatter():
+    sweep = practice(1.0)
+    assert scatter_over_stated(sweep.take(np.arange(0, len(sweep), 30))) is None
+
+
+@pytest.mark.parametrize(("times", "said"), [(1.0, ""), (1.3, ""), (0.5, "too small"), (2.0, "too large")])
+def test_a_stated_noise_beside_the_scatter(times, said):
+    found = remarks_on_noise(practice(times))
+    assert scatter_over_stated(practice(times)) == pytest.approx(1 / times)
+    assert (said in found[0]) if said else not found
+
+
+def test_tolerances_not_named_are_typical(zn1):
+    plain = replace(zn1, exact=False, tolerances={})
+    (said,) = remarks_on_tolerances(plain)
+    assert said == "tolerances not named: typical values of a careful laboratory (docs/specimen.md)"
+    some = replace(plain, tolerances={"core_thickness": 0.01})
+    assert remarks_on_tolerances(some)[0].startswith("16 of 17 tolerances not named")
+    assert remarks_on_tolerances(replace(plain, tolerances=dict.fromkeys(STATED, 0.01))) == ()
+    assert remarks_on_tolerances(zn1) == ()
+
+
+def test_they_are_listed(zn1):
+    specimen = replace(zn1, exact=False, tolerances={"core_thickness": 0.01, "pickup": 1e-3})
+    rows = dict(tolerance_rows(specimen))
+    assert rows["core thickness"] == "1 %"
+    assert rows["pickup"] == "1 mm"
+    assert rows["delay"] == "2 µs (typical)"
+    facts = {one["name"]: (one["value"], one["source"]) for one in tolerance_facts(specimen)}
+    assert facts["core_thickness_percent"] == (pytest.approx(1.0), "named")
+    assert facts["delay_us"] == (pytest.approx(2.0), "typical")
+    assert tolerance_rows(zn1) == [("all stated numbers", "exact")]
+    assert not any(name.startswith(("core", "constraining")) for name in asked(specimen.bare))

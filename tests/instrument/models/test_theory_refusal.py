@@ -1,0 +1,123 @@
+"""Cores that a layer-wise plate does not describe are refused in one line, whatever the fit looks like."""
+
+import json
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from conftest import TABLE_4
+
+from fitting.errors import OutsideModel
+from fitting.laws.constant import ConstantModulus
+from fitting.sweep import Sweep
+from instrument.cli.main import run
+from instrument.models.diagnosis import diagnose
+from instrument.models.identification import _checked, identify
+from instrument.models.specimen_models import Models
+from instrument.models.theory import theory_remark
+from instrument.paper_case import case_file
+from instrument.results.identification_facts import identification_facts
+
+F = np.concatenate([np.linspace(a, b, 12) for a, b in ((14, 24), (80, 110), (230, 290))])
+SEGMENT = np.repeat([1, 2, 3], 12)
+
+
+def sweep_of(specimen):
+    """What the plate model itself gives: it fits perfectly."""
+    v = Models.of(specimen, F).predict(specimen.core.law, F)
+    return Sweep(
+        frequency_hz=F,
+        velocity_m_s=v,
+        commanded_m_s2=np.full(len(F), specimen.base_acceleration_m_s2),
+        segment=SEGMENT,
+        sweep=np.ones(len(F), dtype=np.intp),
+        std_m_s=2e-3 * np.abs(v),
+        time_s=np.arange(float(len(F))),
+    )
+
+
+def soft(specimen):
+    return specimen.with_law(ConstantModulus(g_pa=0.01e6, loss_factor=0.5))
+
+
+def thick_and_soft(specimen):
+    law = ConstantModulus(g_pa=0.05e6, loss_factor=0.5)
+    return replace(specimen, core=replace(specimen.core, thickness_m=5e-3, law=law))
+
+
+@pytest.mark.parametrize("make", [soft, thick_and_soft])
+def test_identify_refuses_in_one_line(coarse, make):
+    specimen = make(coarse)
+    with pytest.raises(OutsideModel, match=r"plate theory at .* Hz: .* exact elasticity \(limit") as refused:
+        identify(sweep_of(specimen), specimen)
+    assert "\n" not in str(refused.value)
+    assert "nor does the fit follow" not in str(refused.value)
+
+
+def test_a_fit_that_is_lost_besides_says_so(coarse):
+    specimen = soft(coarse)
+    sweep = sweep_of(specimen)
+    lost = SimpleNamespace(law=specimen.core.law, velocity_m_s=2 * sweep.velocity_m_s)
+    with pytest.raises(OutsideModel, match=r"plate theory at .* check units, level and pickup"):
+        _checked(specimen, sweep, lost)
+
+
+def test_diagnose_refuses_the_law_it_ends_with(coarse):
+    specimen = soft(coarse)
+    with pytest.raises(OutsideModel, match="plate theory"):
+        diagnose(sweep_of(specimen), specimen, accept=())
+
+
+def test_a_usual_core_is_identified_and_its_error_stated(coarse):
+    sweep = sweep_of(coarse.with_law(TABLE_4))
+    found = identify(sweep, coarse)
+    rows = identification_facts(found, sweep)["theory_error"]
+    assert len(rows) == 10
+    assert set(rows[0]) == {"frequency_hz", "frequency_error", "loss_factor_error"}
+    assert (rows[0]["frequency_hz"], rows[-1]["frequency_hz"]) == (pytest.approx(14), pytest.approx(290))
+    assert all(0 < r["frequency_error"] < 1e-3 for r in rows)
+
+
+def test_predict_notes_it(capsys, tmp_path):
+    path = tmp_path / "soft.toml"
+    text = case_file("zn1.toml").read_text()
+    path.write_text(
+        text.replace("g0_mpa = 0.40268", "g0_mpa = 0.01").replace("ginf_mpa = 4.1946", "ginf_mpa = 0.01")
+    )
+    notes = []
+    for specimen in (path, case_file("zn1.toml")):
+        assert run(["predict", str(specimen), "--frequencies", "20,300", "--json", "-"]) == 0
+        notes.append(json.loads(capsys.readouterr().out)["notes"])
+    assert [len(n) for n in notes] == [1, 0]
+    assert "plate theory at 300 Hz" in notes[0][0]
+
+
+def test_a_bare_plate_has_nothing_to_refuse(coarse):
+    assert not theory_remark(coarse.bare, None, F)
+
+
+def test_the_command_ends_with_2(capsys, tmp_path, coarse):
+    specimen = tmp_path / "thick.toml"
+    text = (
+        case_file("zn1.toml")
+        .read_text()
+        .split("[core.law]")[0]
+        .replace("thickness_mm = 0.5", "thickness_mm = 5.0")
+    )
+    text += (
+        '[core.law]\nkind = "constant"\ng_mpa = 0.05\nloss_factor = 0.5\n[pickup]\nx_mm = 60.0\ny_mm = 60.0\n'
+    )
+    specimen.write_text(text + "[mesh]\nelements_x = 10\nelements_y = 10\n[tolerances]\nexact = true\n")
+    sweep, data = sweep_of(thick_and_soft(coarse)), tmp_path / "sweep.csv"
+    rows = [
+        f"{f},{v.real},{v.imag},{abs(v) * 2e-3},{s}"
+        for f, v, s in zip(F, sweep.velocity_m_s, SEGMENT, strict=True)
+    ]
+    head = "frequency_hz,velocity_re_m_s,velocity_im_m_s,velocity_std_m_s,segment"
+    data.write_text("\n".join([head, *rows]) + "\n")
+    status = run(["identify", str(data), "--specimen", str(specimen), "--json", "-"])
+    captured = capsys.readouterr()
+    assert (status, captured.out) == (2, "")
+    assert captured.err.count("\n") == 1
+    assert "plate theory" in captured.err

@@ -1,0 +1,167 @@
+"""The JSON of a diagnosis, and what is printed and drawn from it."""
+
+import json
+
+import numpy as np
+import pytest
+from diagnosis_cases import AFTER, BEFORE, facts
+
+from instrument.cli.output import Output
+from instrument.cli.print_diagnosis import print_diagnosis
+from instrument.errors import BadInput
+from instrument.results.diagnosis_figures import evidence_figure, residual_figure, save_diagnosis_figures
+from instrument.results.diagnosis_words import verdict_line
+
+
+@pytest.fixture(scope="module")
+def found():
+    return facts()
+
+
+def test_every_key_that_others_rely_on_is_there(found):
+    assert set(found) >= {
+        *("verdict", "effects", "equivalent", "candidates", "before", "after", "next_measurement"),
+        *("seconds", "setup_seconds"),
+    }
+    for candidate in found["candidates"]:
+        assert set(candidate) == {
+            *("name", "delta_bic", "probability", "chi2_per_dof", "parameters", "law", "checks")
+        }
+    for stage in (found["before"], found["after"]):
+        assert set(stage) >= {
+            *("rms_percent", "max_percent", "chi2_per_dof", "held_out", "held_out_rms_percent"),
+            *("parameters", "standard_errors", "law"),
+        }
+        assert set(stage["held_out"][0]) == {"segment", "rms_percent", "noise_percent"}
+        assert set(stage["parameters"]) == set(stage["standard_errors"])
+        frequencies = [row["frequency_hz"] for row in stage["law"]]
+        assert {20.0, 100.0, 280.0} <= set(frequencies)
+
+
+def test_effects_are_the_accepted_ones_and_what_channels_show(found):
+    assert [e["name"] for e in found["effects"]] == ["added_mass", "mains_hum"]
+    assert found["effects"][0]["parameters"]["mass"] == {"value": 0.008, "standard_error": 1e-4, "unit": "kg"}
+    assert found["equivalent"] == {"added_mass": ["added_mass"]}
+
+
+def test_what_the_data_do_not_fix_is_null_and_the_whole_is_json(found):
+    assert found["effects"][0]["parameters"]["x"]["standard_error"] is None
+    assert json.loads(json.dumps(found, allow_nan=False)) == found
+
+
+def test_parameters_of_two_effects_together_cannot_be_mistaken(found):
+    names = [c["name"] for c in found["candidates"]]
+    assert names == ["added_mass", "spot_offset", "added_mass + spot_offset", "none"]
+    assert set(found["candidates"][2]["parameters"]) == {"added_mass.mass", "added_mass.x", "spot_offset.dx"}
+    assert found["candidates"][3]["parameters"] == {}
+
+
+def test_the_held_out_error_is_that_of_single_points_where_there_are_few():
+    before = facts(one_by_one=7.5)["before"]
+    assert before["held_out"] == []
+    assert before["held_out_rms_percent"] == before["leave_one_out_rms_percent"] == 7.5
+
+
+def test_points_carry_what_either_fit_leaves(found):
+    points = found["points"]
+    assert len(points) == 28
+    np.testing.assert_allclose(
+        [[p["before"]["re_percent"], p["before"]["im_percent"]] for p in points],
+        np.tile([100 * BEFORE.real, 100 * BEFORE.imag], (28, 1)),
+    )
+    np.testing.assert_allclose([p["after"]["im_percent"] for p in points], 100 * AFTER.imag)
+    # Real parts one after the other, then imaginary ones.
+    assert points[3]["before"]["whitened"] == [3.0, 31.0]
+    assert points[0]["noise_percent"] == pytest.approx(0.1)
+
+
+def test_points_with_hum_are_named_and_not_among_the_others(found):
+    assert len(found["set_aside_hz"]) == 2
+    assert not set(found["set_aside_hz"]) & {p["frequency_hz"] for p in found["points"]}
+
+
+def test_amplitudes_leave_a_difference_in_amplitude_alone():
+    point = facts(phase=False)["points"][0]
+    assert set(point["before"]) == {"amplitude_percent", "whitened"}
+    assert len(point["before"]["whitened"]) == 1
+
+
+@pytest.mark.parametrize("how", [{}, {"phase": False}, {"verdict": "ambiguous"}, {"one_by_one": 7.5}])
+def test_a_person_reads_verdict_reasons_and_numbers(capsys, how):
+    print_diagnosis(Output(None), facts(**how))
+    said = capsys.readouterr().out
+    assert said.startswith(f"verdict: {how.get('verdict', 'effect')}")
+    for words in (
+        "added_mass (mass 0.008 +- 0.0001 kg",
+        "a mass of 8 g",
+        "Next measurement",
+        "spot_offset",
+        "chi-square per degree",
+        "note: the points carry no time",
+        "set-up 1.50 s, diagnosis 0.25 s",
+    ):
+        assert words in said
+    assert ("cannot tell added_mass from spot_offset" in said) == (how.get("verdict") == "ambiguous")
+    assert ("each point from the others" in said) == ("one_by_one" in how)
+
+
+def test_what_channels_show_is_not_said_to_be_the_verdict(found):
+    channel = [e for e in found["effects"] if e["name"] == "mains_hum"]
+    line = verdict_line({**found, "verdict": "none", "effects": channel, "equivalent": {}})
+    assert line.startswith("verdict: none: nothing beyond noise; the channels by themselves show mains_hum (")
+
+
+def test_what_someone_decided_is_not_said_to_be_the_data_s_word(found):
+    declined = {**found, "verdict": "none", "effects": [], "equivalent": {}, "by_hand": True}
+    assert verdict_line(declined) == "verdict: by your word: no effect accepted"
+    accepted = verdict_line({**found, "by_hand": True})
+    assert accepted.startswith("verdict: by your word: ")
+
+
+@pytest.mark.parametrize("phase", [True, False])
+def test_figures_are_saved(tmp_path, phase):
+    paths = save_diagnosis_figures(facts(phase=phase), tmp_path / "new")
+    assert [p.name for p in paths] == [
+        "diagnosis-residual.png",
+        "diagnosis-evidence.png",
+        "diagnosis-law.png",
+    ]
+    assert all(p.stat().st_size > 5000 for p in paths)
+
+
+def test_figures_into_a_file_are_refused_in_a_line(tmp_path, found):
+    (tmp_path / "taken").write_text("")
+    with pytest.raises(BadInput, match="taken"):
+        save_diagnosis_figures(found, tmp_path / "taken")
+
+
+def test_the_residual_is_drawn_before_and_after_on_one_scale(found):
+    axes = residual_figure(found).axes
+    assert len(axes) == 6
+    for left, right in zip(axes[::2], axes[1::2], strict=True):
+        assert left.get_ylim() == right.get_ylim()
+        assert left.get_xlim() == right.get_xlim()
+    assert "10" in axes[0].get_title()
+
+
+def test_a_sentinel_far_off_does_not_stretch_its_segment(found):
+    away = {**found["points"][-1], "frequency_hz": 20.0}
+    axes = residual_figure({**found, "points": [*found["points"], away]}).axes
+    assert axes[4].get_xlim()[0] > 200
+
+
+def test_evidence_stands_above_no_effect(found):
+    (ax,) = evidence_figure(found).axes
+    assert [bar.get_width() for bar in ax.patches] == [200.0, 198.25, 197.0, 0.0]
+    assert [text.get_text().split(",")[0] for text in ax.texts] == ["82.0 %", "14.0 %", "4.0 %", "< 0.1 %"]
+
+
+def test_of_two_effects_together_one_alone_is_neither_accepted_nor_its_equal(found):
+    """Green, orange and blue: a pair, the pair with one exchanged for its equal, anything else."""
+    pair = {"added_mass": ["added_mass", "gain_error"], "spot_offset": ["spot_offset"]}
+    names = ("added_mass + spot_offset", "gain_error + spot_offset", "added_mass", "spot_offset", "none")
+    candidates = [{"name": n, "delta_bic": float(k), "chi2_per_dof": None} for k, n in enumerate(names)]
+    (ax,) = evidence_figure({**found, "equivalent": pair, "candidates": candidates}).axes
+    first, second, third, fourth, _ = (bar.get_facecolor() for bar in ax.patches)
+    assert len({first, second, third}) == 3
+    assert third == fourth

@@ -1,0 +1,209 @@
+"""The diagnosis of a run: when it is made, what is recorded of it, what a replay compares."""
+
+import json
+import os
+import signal
+import threading
+
+import pytest
+from at_point import AtPoint
+from diagnosis_cases import facts
+from formula_rig import formula_rig
+
+from fitting.effects import CATALOGUE
+from instrument.cli.output import Output
+from instrument.cli.print_run import print_finished, run_facts
+from instrument.cli.watching import said_of
+from instrument.errors import BadInput, RigStopped, StoppedByUser
+from instrument.run.control import Control
+from instrument.run.experiment import run_experiment
+from instrument.run.live_diagnosis import apart, diagnose_points
+from instrument.run.replay import replay
+from instrument.session.contents import contents_of
+from instrument.session.storage import SessionFile
+from instrument.simulated_case import EFFECTS, chosen_effect
+from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated
+from instrument.stream.raw import DiagnosisStarted, SessionEnded
+
+
+def no_law(number, last_step, points, damping, specimen):
+    return FitUpdated(number, last_step, {}, "no law")
+
+
+def a_law(number, last_step, points, damping, specimen):
+    return FitUpdated(number, last_step, {"points": []})
+
+
+def times(number, last_step, points, times_s, damping, specimen):
+    """Says what it was given."""
+    given = {"times_s": list(times_s), "points": sum(p.step <= last_step for p in points)}
+    return DiagnosisFound(number, last_step, given)
+
+
+def whole(number, last_step, points, times_s, damping, specimen):
+    return DiagnosisFound(number, last_step, facts())
+
+
+def refused(*_):
+    raise AssertionError("called without a law")
+
+
+def events_of(path):
+    with SessionFile(path) as file:
+        return list(file.events(with_samples=False))
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("run")
+    with formula_rig(folder) as (_, experiment):
+        return run_experiment(experiment, folder, ("sweep",), fit=a_law, diagnose=times)
+
+
+def test_it_is_made_once_of_the_whole_sweep_and_recorded_before_the_end(finished):
+    events = [e for e in events_of(finished.session) if isinstance(e, DiagnosisStarted | DiagnosisFound)]
+    assert [type(e) for e in events] == [DiagnosisStarted, DiagnosisFound]
+    assert events[1] == finished.diagnosis
+    assert events[1].last_step == events[0].last_step == max(p.step for p in finished.points)
+    assert events[1].facts_json["points"] == len(finished.points)
+    assert isinstance(events_of(finished.session)[-1], SessionEnded)
+
+
+def test_points_come_with_times_of_the_sample_counter(finished):
+    t = finished.diagnosis.facts_json["times_s"]
+    samples = [p.sample for p in finished.points]
+    assert [b - t[0] for b in t] == pytest.approx([(n - samples[0]) / 8192.0 for n in samples], abs=1e-9)
+
+
+def test_a_replay_computes_it_again_and_compares(finished):
+    with SessionFile(finished.session) as file:
+        again = replay(file, fit=a_law, diagnose=times)
+    assert again.differences == []
+    assert again.diagnosis == finished.diagnosis
+
+
+def test_a_replay_notices_another_diagnosis(finished):
+    def another(*given):
+        found = times(*given)
+        return DiagnosisFound(found.number, found.last_step, {**found.facts_json, "points": -1})
+
+    with SessionFile(finished.session) as file:
+        again = replay(file, fit=a_law, diagnose=another)
+    assert len(again.differences) == 1
+    assert "DiagnosisFound" in again.differences[0]
+
+
+def test_without_a_law_nothing_is_asked(tmp_path):
+    with formula_rig(tmp_path) as (_, experiment):
+        finished = run_experiment(experiment, tmp_path, ("sweep",), fit=no_law, diagnose=refused)
+    assert finished.diagnosis is None
+    assert not any(isinstance(e, DiagnosisStarted) for e in events_of(finished.session))
+
+
+def test_a_sweep_that_is_stopped_is_not_diagnosed_and_its_resumed_whole_is(tmp_path):
+    control = Control()
+    enough = AtPoint(6, lambda: control.abort("enough"))
+    with formula_rig(tmp_path) as (_, experiment):
+        with pytest.raises(RigStopped, match="enough"):
+            run_experiment(
+                experiment,
+                tmp_path,
+                ("sweep",),
+                control=control,
+                companion=enough,
+                fit=a_law,
+                diagnose=refused,
+            )
+        (folder,) = tmp_path.glob("*.running")
+        finished = run_experiment(experiment, tmp_path, ("sweep",), resume=folder, fit=a_law, diagnose=times)
+    t = finished.diagnosis.facts_json["times_s"]
+    assert len(t) == len(finished.points) == 15
+    assert t == sorted(t)
+    with SessionFile(finished.session) as file:
+        contents = contents_of(file, with_hits=False)
+    # The same clock, whether it followed the run or its recording.
+    assert t == [p.time_s for p in contents.points]
+    with SessionFile(finished.session) as file:
+        assert replay(file, fit=a_law, diagnose=times).differences == []
+
+
+def test_why_none_was_possible_is_the_result(finished):
+    """A third of critical damping on a bare plate: something else was hit."""
+    with SessionFile(finished.session) as file:
+        specimen = file.configuration.the_specimen()
+    damping = DampingFound({"modes": [{"frequency_hz": 17.7, "damping_ratio": 0.33, "accepted": True}]})
+    points = list(finished.points)
+    found = diagnose_points(1, points[-1].step, points, [0.0] * len(points), damping, specimen)
+    assert found.facts_json == {}
+    assert "damping_ratio" in found.message
+    assert "\n" not in found.message
+
+
+def test_a_failure_of_the_thread_is_raised_where_it_is_waited_for():
+    def fail():
+        raise RuntimeError("a fault")
+
+    with pytest.raises(RuntimeError, match="a fault"):
+        apart(fail)
+
+
+def test_ctrl_c_does_not_wait_for_it_and_keeps_the_session(tmp_path):
+    over = threading.Event()
+
+    def endless(*given):
+        os.kill(os.getpid(), signal.SIGINT)
+        over.wait(60)
+        return times(*given)
+
+    with formula_rig(tmp_path) as (_, experiment):
+        try:
+            with pytest.raises(StoppedByUser, match="15 steps kept"):
+                run_experiment(experiment, tmp_path, ("sweep",), fit=a_law, diagnose=endless)
+            assert not over.is_set()
+        finally:
+            over.set()
+    (session,) = tmp_path.glob("*.h5")
+    assert isinstance(events_of(session)[-1], SessionEnded)
+    assert not any(isinstance(e, DiagnosisFound) for e in events_of(session))
+
+
+def test_a_person_sees_the_verdict_as_it_comes_and_the_reasons_at_the_end(tmp_path, capsys):
+    with formula_rig(tmp_path) as (_, experiment):
+        finished = run_experiment(experiment, tmp_path, ("sweep",), fit=a_law_to_print, diagnose=whole)
+    assert said_of(DiagnosisStarted(1, 9)) == "tracing what the fit cannot explain"
+    assert said_of(finished.diagnosis).startswith("verdict: effect")
+    assert said_of(DiagnosisFound(1, 9, {}, "too few")) == "no diagnosis: too few"
+    json.dumps(run_facts(finished), allow_nan=False)
+    assert run_facts(finished)["diagnose"]["verdict"] == "effect"
+    print_finished(Output(None), finished)
+    said = capsys.readouterr().out
+    assert "a mass of 8 g" in said
+    assert "what the fit leaves" in said
+
+
+def a_law_to_print(number, last_step, points, damping, specimen):
+    law = [
+        {
+            "frequency_hz": 100.0,
+            "storage_modulus_pa": 4e5,
+            "storage_modulus_standard_error_pa": 1e3,
+            "loss_factor": 0.9,
+            "loss_factor_standard_error": 0.01,
+        }
+    ]
+    one = {"law": law, "chi2_per_dof": None, "held_out_rms_percent": None, "rms_percent": 1.0, "warnings": []}
+    return FitUpdated(number, last_step, {**one, "points": []})
+
+
+def test_a_demonstration_hides_what_is_asked_for():
+    assert chosen_effect("none", 1) is None
+    assert chosen_effect("spot_offset", 1) == "spot_offset"
+    assert {chosen_effect("random", seed) for seed in range(300)} == set(EFFECTS)
+    assert chosen_effect("random", 7) == chosen_effect("random", 7)
+    with pytest.raises(BadInput, match="'ghosts', expected none, random or one of added_mass"):
+        chosen_effect("ghosts", 1)
+
+
+@pytest.mark.parametrize("name", EFFECTS)
+def test_what_a_demonstration_hides_can_be_found_by_name(name):
+    assert name in CATALOGUE

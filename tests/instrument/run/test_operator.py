@@ -1,0 +1,32 @@
+"""What is typed during a hammer test."""
+
+import pytest
+
+from instrument.errors import RigStopped
+from instrument.run.operator import Person, decision
+from instrument.stream.raw import OperatorDid
+
+
+@pytest.mark.parametrize(
+    ("typed", "meant"),
+    [
+        ("r\n", OperatorDid("rejected", "", 0)),
+        ("a 3\n", OperatorDid("accepted", "", 3)),
+        ("u 12\n", OperatorDid("undone", "", 12)),
+    ],
+)
+def test_a_letter_and_a_number_decide_about_a_hit(typed, meant):
+    assert decision(typed) == meant
+
+
+@pytest.mark.parametrize("typed", ["", "\n", "x", "r r", "r 1 2", "r -1", "r 1.5", "reject"])
+def test_anything_else_means_nothing(typed):
+    assert decision(typed) is None
+
+
+def test_nobody_at_the_terminal_ends_the_run_with_what_was_asked(monkeypatch):
+    monkeypatch.setattr("sys.stdin", None)
+    with pytest.raises(RigStopped, match="nobody answered: Mount the bare plate"):
+        Person().mount("bare")
+    assert Person().decided() == []
+    assert Person().content(3)

@@ -1,0 +1,118 @@
+"""A damaged session is one line and exit 2 for every command that reads one."""
+
+import shutil
+
+import h5py
+import numpy as np
+import pytest
+from formula_rig import formula_rig
+
+from instrument.cli.main import run
+from instrument.run.experiment import run_experiment
+from instrument.stream.derived import FitUpdated
+
+
+def no_fit(number, last_step, points, damping, specimen):
+    return FitUpdated(number, last_step, {"points": sum(p.step <= last_step for p in points)}, "not fitted")
+
+
+@pytest.fixture(scope="module")
+def session(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("session")
+    sweep = "[[sweep.segments]]\nlow_hz = 95.0\nhigh_hz = 107.0\npoints = 3\n"
+    with formula_rig(folder, sweep=sweep) as (_, experiment):
+        return run_experiment(experiment, folder, ("sweep",), fit=no_fit).session
+
+
+def lines_changed(file, change):
+    """Every part's events with some of their lines changed; None drops a line."""
+    for part in file["parts"].values():
+        lines = [line.decode() for line in part["events"][()]]
+        kept = [new for line in lines if (new := change(line)) is not None]
+        del part["events"]
+        part.create_dataset("events", data=kept, dtype=h5py.string_dtype())
+
+
+def truncated(path):
+    path.write_bytes(path.read_bytes()[:3000])
+
+
+def inside(change):
+    def damage(path):
+        with h5py.File(path, "r+") as file:
+            change(file)
+
+    return damage
+
+
+def replaced(file, name, value):
+    del file[name]
+    file[name] = value
+
+
+def grouped(file):
+    del file["configuration"]
+    file.create_group("configuration")
+
+
+def rate_zero(line):
+    return line.replace('"sample_rate_hz": 8192.0', '"sample_rate_hz": 0.0')
+
+
+def samples_flat(file):
+    for part in file["parts"].values():
+        if "samples" in part:
+            flat = part["samples"][()].ravel()
+            del part["samples"]
+            part["samples"] = flat
+
+
+DAMAGE = {
+    "truncated": truncated,
+    "no layout version": inside(lambda f: f.attrs.__delitem__("layout_version")),
+    "another layout version": inside(lambda f: f.attrs.__setitem__("layout_version", 99)),
+    "layout version a word": inside(lambda f: f.attrs.__setitem__("layout_version", "abc")),
+    "format an array": inside(lambda f: f.attrs.__setitem__("format", np.zeros(3))),
+    "configuration a group": inside(
+        lambda f: (f.__delitem__("configuration"), f.create_group("configuration"))
+    ),
+    "configuration no JSON": inside(lambda f: replaced(f, "configuration", "no")),
+    "parts a data set": inside(lambda f: replaced(f, "parts", 1.0)),
+    "events numbers": inside(lambda f: lines_changed(f, lambda line: "5")),
+    "events nested": inside(lambda f: lines_changed(f, lambda line: "[" * 100_000)),
+    "unknown events": inside(lambda f: lines_changed(f, lambda line: '{"event": "Invented"}')),
+    "frequency zero": inside(
+        lambda f: lines_changed(f, lambda line: line.replace('"frequency_hz": 101.0', '"frequency_hz": 0.0'))
+    ),
+    "samples flat": inside(samples_flat),
+    "rate zero": inside(lambda f: lines_changed(f, rate_zero)),
+}
+UNTOUCHED = {("samples flat", "identify")}
+"""The points are whole: nothing is wrong with what these read."""
+COMMANDS = (["replay"], ["report"], ["export", "--to", "csv"], ["identify"])
+
+
+@pytest.mark.parametrize("damage", DAMAGE)
+def test_a_damaged_session_is_refused_in_one_line(session, tmp_path, capsys, damage):
+    path = tmp_path / "session.h5"
+    shutil.copy(session, path)
+    DAMAGE[damage](path)
+    for command in COMMANDS:
+        if (damage, command[0]) in UNTOUCHED:
+            continue
+        status = run([command[0], str(path), *command[1:]])
+        error = capsys.readouterr().err
+        assert status == 2, (command, error)
+        assert error.startswith("viscorig: "), command
+        assert error.count("\n") == 1, (command, error)
+
+
+@pytest.mark.parametrize("dropped", ["AcquisitionBegan", "RangeSet", "StepBegan"])
+def test_events_that_do_not_follow_are_refused_or_told_as_differences(session, tmp_path, capsys, dropped):
+    path = tmp_path / "session.h5"
+    shutil.copy(session, path)
+    with h5py.File(path, "r+") as file:
+        lines_changed(file, lambda line: None if f'"{dropped}"' in line else line)
+    status = run(["replay", str(path)])
+    out = capsys.readouterr()
+    assert (status == 2 and out.err.count("\n") == 1) or "NOT all equal" in out.out
