@@ -6,7 +6,7 @@ READY   := $(VENV)/.ready
 OUT     := out
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test checks unit coverage lint types contracts format bench clean
+.PHONY: help setup demo test checks unit coverage lint types contracts format bench docs clean
 
 help:          ## list the targets
 	@awk -F':.*## ' '/^[a-z]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -46,6 +46,14 @@ format: $(READY) ## rewrite the sources in the project's style
 
 bench: $(READY) ## the performance table
 	@$(BIN)/viscorig bench
+
+docs: $(VENV)/.docs ## the documentation site, in out/site; broken links are errors
+	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict --site-dir $(OUT)/site
+
+$(VENV)/.docs: $(READY)
+	@echo "adding what builds the site to $(VENV)"
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[docs]'
+	@touch $@
 
 clean:         ## remove what make has made
 	rm -rf $(VENV) $(OUT) .coverage .mypy_cache .pytest_cache .ruff_cache .import_linter_cache .hypothesis

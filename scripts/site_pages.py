@@ -1,0 +1,103 @@
+"""Pages of the site that are not in docs/: those at the repository's root, and the list of decisions.
+
+Links are written as the repository has them. Here they are turned to where the site has the same thing: a
+page, a picture, or the file itself, which then goes into the site. What is nowhere makes a strict build fail.
+"""
+
+import posixpath
+import re
+from pathlib import Path
+
+from mkdocs.config.defaults import MkDocsConfig
+from mkdocs.plugins import get_plugin_logger
+from mkdocs.structure.files import File, Files
+from mkdocs.structure.pages import Page
+
+log = get_plugin_logger("site_pages")
+
+ROOT = Path(__file__).parents[1]
+DOCS = ROOT / "docs"
+ROOT_PAGES = {
+    "README.md": "index.md",
+    "ARCHITECTURE.md": "architecture.md",
+    "CHANGELOG.md": "changelog.md",
+    "CONTRIBUTING.md": "contributing.md",
+    "VISION.md": "vision.md",
+}
+"""Page of the repository's root -> page of the site."""
+DECISIONS = "decisions"
+
+_SOURCES = {site: root for root, site in ROOT_PAGES.items()}
+_LINK = re.compile(r"(?<=\]\()[^)\s]+(?=[)\s])")
+_ELSEWHERE = re.compile(r"[a-z]+:|#")
+
+
+def on_config(config: MkDocsConfig) -> MkDocsConfig:
+    """Put every decision into the navigation, in its order, where mkdocs.yml names their folder."""
+    for section in config.nav or []:
+        for title, item in section.items():
+            if item == f"{DECISIONS}/":
+                section[title] = [f"{DECISIONS}/index.md", *(f"{DECISIONS}/{p.name}" for p in _decisions())]
+    return config
+
+
+def on_files(files: Files, config: MkDocsConfig) -> Files:
+    """Add the pages that are not in docs/."""
+    for source, page in ROOT_PAGES.items():
+        files.append(File.generated(config, page, abs_src_path=str(ROOT / source)))
+    files.append(File.generated(config, f"{DECISIONS}/index.md", content=_list_of_decisions()))
+    return files
+
+
+def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Files) -> str:
+    """Turn links of the repository into links of the site."""
+    here = page.file.src_uri
+    source = _SOURCES.get(here, f"docs/{here}")
+
+    def turned(link: re.Match[str]) -> str:
+        if _ELSEWHERE.match(link[0]):
+            return link[0]
+        target, mark, anchor = link[0].partition("#")
+        meant = posixpath.normpath(posixpath.join(posixpath.dirname(source), target))
+        there = _on_site(meant, config, files)
+        if there is None:
+            log.warning("%s links to %s, which is not in the repository", source, target)
+            return link[0]
+        return posixpath.relpath(there, posixpath.dirname(here) or ".") + mark + anchor
+
+    return _LINK.sub(turned, markdown)
+
+
+def _on_site(meant: str, config: MkDocsConfig, files: Files) -> str | None:
+    """Where the site has what the repository has at `meant`; a file it lacks is added."""
+    if meant in ROOT_PAGES:
+        return ROOT_PAGES[meant]
+    if meant == f"docs/{DECISIONS}":
+        return f"{DECISIONS}/index.md"
+    if meant.startswith("docs/"):
+        return meant.removeprefix("docs/")
+    if not (ROOT / meant).is_file():
+        return None
+    if files.get_file_from_path(meant) is None:
+        files.append(File.generated(config, meant, abs_src_path=str(ROOT / meant)))
+    return meant
+
+
+def _decisions() -> list[Path]:
+    return sorted((DOCS / DECISIONS).glob("[0-9]*.md"))
+
+
+def _list_of_decisions() -> str:
+    titles = [
+        (p.name, p.read_text(encoding="utf-8").partition("\n")[0].removeprefix("# ")) for p in _decisions()
+    ]
+    lines = [f"* [{title}]({name})" for name, title in titles]
+    return "\n".join(
+        [
+            "# Decisions",
+            "",
+            "Why things are as they are, and what else was tried, in the order of deciding.",
+            "",
+            *lines,
+        ]
+    )
