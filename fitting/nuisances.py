@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.effects.change import Change
-from fitting.effects.spanned import SpannedPlate
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.parts import CORE, MASS, STIFFNESS, coefficients
 from fitting.specimen import Specimen
 from fitting.tolerances import PLATE, STATED, Unit, moved, tolerance
@@ -49,7 +49,7 @@ class Nuisance:
 
 
 def nuisances_of(
-    specimen: Specimen, plate: SpannedPlate, *, has_phase: bool, reference: Specimen | None = None
+    specimen: Specimen, plate: EnrichedReducedPlate, *, has_phase: bool, reference: Specimen | None = None
 ) -> "Nuisances":
     """All stated numbers of a specimen that its sweep can feel.
 
@@ -183,7 +183,7 @@ class Nuisances:
 
         return self._kept_differences.get("dc", z, differences)
 
-    def change(self, plate: SpannedPlate, z: Array) -> Change:
+    def change(self, plate: EnrichedReducedPlate, z: Array) -> Change:
         """What they change of a plate that has the parts of `specimen`."""
         c = self.coefficients(z)
         n_0, n_1, n_M = len(STIFFNESS), len(CORE), len(MASS)
@@ -200,12 +200,12 @@ class Nuisances:
             damping=self._damping(len(plate.d), z),
         )
 
-    def row(self, plate: SpannedPlate, z: Array) -> Array:
+    def row(self, plate: EnrichedReducedPlate, z: Array) -> Array:
         """Reads w at the pickup, where it is on the plate as long and as wide as it is. Shape (k,)."""
         (x, _), (y, _) = self._read_at(z)
         return plate.row(x, y)
 
-    def rows_by(self, plate: SpannedPlate, z: Array) -> dict[int, Array]:
+    def rows_by(self, plate: EnrichedReducedPlate, z: Array) -> dict[int, Array]:
         """Derivatives of `row` to those that move it."""
         (x, by_x), (y, by_y) = self._read_at(z)
         found: dict[int, Array] = {}
@@ -244,7 +244,7 @@ class Nuisances:
         return found
 
     def by_response(
-        self, plate: SpannedPlate, omega: Array, G: Complex, q: Complex, adjoint: Complex, z: Array
+        self, plate: EnrichedReducedPlate, omega: Array, G: Complex, q: Complex, adjoint: Complex, z: Array
     ) -> Complex:
         """Derivatives of adjoint . (load - A q) + observe . q. Shapes (points, k) of both; (count, points).
 
@@ -255,13 +255,13 @@ class Nuisances:
         return found
 
     def by_pitch(
-        self, plate: SpannedPlate, omega: Array, G: Complex, p: Complex, adjoint: Complex, z: Array
+        self, plate: EnrichedReducedPlate, omega: Array, G: Complex, p: Complex, adjoint: Complex, z: Array
     ) -> Complex:
         """The same for the answer `p` to a turning base."""
         return self._by_matrices(plate, omega, G, p, adjoint, z)
 
     def _by_matrices(
-        self, plate: SpannedPlate, omega: Array, G: Complex, q: Complex, adjoint: Complex, z: Array
+        self, plate: EnrichedReducedPlate, omega: Array, G: Complex, q: Complex, adjoint: Complex, z: Array
     ) -> Complex:
         between = _between(plate.parts, q, adjoint)
         n_0, n_1 = len(STIFFNESS), len(CORE)

@@ -123,10 +123,10 @@ def _newton(problem: BandProblem, u: Complex) -> Root:
             if np.all(done | lost):
                 break
             cut = np.minimum(damping, 0.5 / np.abs(step))
-            trial = np.where(done | lost, u, u + cut * step)
-            looked = problem.look(trial)
+            scored = np.where(done | lost, u, u + cut * step)
+            looked = problem.look(scored)
             better = ~(done | lost) & (looked[0] <= chi2)
-            u = np.where(better, trial, u)
+            u = np.where(better, scored, u)
             chi2, step, error = (
                 np.where(better, new, old) for new, old in zip(looked, (chi2, step, error), strict=True)
             )

@@ -13,9 +13,9 @@ from fitting.bent_law import BentLaw
 from fitting.diagnosis.candidates import polished
 from fitting.diagnosis.evidence import BareModes, Evidence
 from fitting.diagnosis.model_error import model_error
+from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import ROUGH, Fitted, refit
 from fitting.diagnosis.response import Response
-from fitting.diagnosis.task import Task
 from fitting.identification.direct import fit_direct
 from fitting.identification.fit import Fit
 from fitting.identification.model import SweepModel
@@ -37,7 +37,7 @@ _OPEN = 1e-9
 class Begun:
     """Where everything starts."""
 
-    task: Task
+    problem: DiagnosisProblem
     """Its grids made for the law found."""
     evidence: Evidence
     none: Fitted
@@ -45,23 +45,25 @@ class Begun:
     """By the law alone, the plate as stated: how the start was found."""
 
 
-def begin(task: Task, reduced: ReducedPlate, noise: Noise, bare: BareModes | None, start: CoreLaw) -> Begun:
+def begin(
+    problem: DiagnosisProblem, reduced: ReducedPlate, noise: Noise, bare: BareModes | None, start: CoreLaw
+) -> Begun:
     """The fit without any effect, and the evidence all candidates are judged by."""
-    sweep = task.sweep
-    model = SweepModel(task.rational, np.arange(len(sweep)), sweep.commanded_m_s2, task.specimen.reads)
+    sweep = problem.sweep
+    model = SweepModel(problem.rational, np.arange(len(sweep)), sweep.commanded_m_s2, problem.specimen.reads)
     first = fit_direct(Residuals.of(sweep, noise, model), start)
     laws: list[CoreLaw] = [first.law]
     inside = within_search(first.law, sweep.omega)
     if inside is not first.law:
         # A law alone may end at its limits, where numbers that are not quite as stated keep it.
         laws.append(inside)
-    if not task.specimen.exact:
+    if not problem.specimen.exact:
         laws = [BentLaw.over(one, sweep.frequency_hz) for one in laws]
-    law, u = laws[0], task.as_stated
+    law, u = laws[0], problem.as_stated
     for _ in range(_ROUNDS):
-        here = task.condensed(law).around(law)
+        here = problem.condensed(law).around(law)
         v = model.velocity(law)
-        evidence = Evidence.of(sweep, noise, model_error(task, reduced, law, v), v, bare)
+        evidence = Evidence.of(sweep, noise, model_error(problem, reduced, law, v), v, bare)
         if not noise.is_known and len(u):
             # Tolerances weigh against readings: those need a size, and their misfit is all there is.
             dof = max(1, evidence.count - len(law.names))
@@ -72,7 +74,7 @@ def begin(task: Task, reduced: ReducedPlate, noise: Noise, bare: BareModes | Non
             best = min(fits, key=lambda f: f.chi2)
             law, u, laws = best.law, best.u, [best.law]
         none = polished(here, (), evidence, law, u)
-        omega = task.coarse.nodes.omega
+        omega = problem.coarse.nodes.omega
         moved = np.max(np.abs(none.law.modulus(omega) / law.modulus(omega) - 1))
         law, u = none.law, none.u
         if moved < _FAR:

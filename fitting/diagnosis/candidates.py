@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import ROUGH, Fitted, refit
 from fitting.diagnosis.response import Response
-from fitting.diagnosis.task import Task
 from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
 
@@ -43,17 +43,17 @@ _ROUNDS = 3
 _FAR = 0.02
 
 
-def look(task: Task, evidence: Evidence, before: Fitted, effect: Effect) -> list[Start]:
+def look(problem: DiagnosisProblem, evidence: Evidence, before: Fitted, effect: Effect) -> list[Start]:
     """Starts of an effect, scaled by a linear step, with the chi-square each may gain; best first."""
-    response = Response(task, [*before.effects, effect], task.coarse)
-    plain = Response(task, before.effects, task.coarse)
+    response = Response(problem, [*before.effects, effect], problem.coarse)
+    plain = Response(problem, before.effects, problem.coarse)
     law, known = before.law, before.u
     v = plain.velocity(law, known)
     r = before.residuals
     Q, _ = np.linalg.qr(before.jacobian)
     priors = np.zeros(before.stated + before.law.bends)
     lower, upper = effect.limits(response.plate)
-    starts, found = effect.starts(response.plate, task.points), []
+    starts, found = effect.starts(response.plate, problem.points), []
     for u, moved in zip(starts, _moves(response, law, known, starts, v), strict=True):
         s = np.concatenate([evidence.jacobian(v, moved[None])[:, 0], evidence.bare_moves(effect, u), priors])
         s = s - Q @ (Q.T @ s)
@@ -83,19 +83,19 @@ def _moves(response: Response, law: CoreLaw, known: Array, starts: Sequence[Arra
         return np.array([response.velocity(law, np.concatenate([known, u])) - v for u in starts])
 
 
-class Contender:
+class CandidateFit:
     """Fits of the data with one more effect, as far as anyone asked for them."""
 
     def __init__(
         self,
-        task: Task,
+        problem: DiagnosisProblem,
         evidence: Evidence,
         before: Fitted,
         effect: Effect,
         starts: Sequence[Start] | None = None,
     ) -> None:
         """`starts` as `look` gives them, where they are known."""
-        self.task, self.evidence, self.before = task, evidence, before
+        self.problem, self.evidence, self.before = problem, evidence, before
         self.effect = effect
         self._looked = starts
 
@@ -113,11 +113,11 @@ class Contender:
         """As `look` gives them."""
         if self._looked is not None:
             return self._looked
-        return look(self.task, self.evidence, self.before, self.effect)
+        return look(self.problem, self.evidence, self.before, self.effect)
 
     @cached_property
     def _response(self) -> Response:
-        return Response(self.task, [*self.before.effects, self.effect], self.task.coarse)
+        return Response(self.problem, [*self.before.effects, self.effect], self.problem.coarse)
 
     def _rough(
         self, law: CoreLaw, u: Array, evidence: Evidence, *, as_stated: bool = False, brief: bool = False
@@ -197,13 +197,13 @@ class Contender:
     @cached_property
     def plain(self) -> list[Fitted]:
         """Rough fits in wide valleys from the first start, from the law so far and the stated one."""
-        u = self.effect.starts(self.task.plate, self.task.points)[0]
+        u = self.effect.starts(self.problem.plate, self.problem.points)[0]
         return self._wide(u)
 
     @cached_property
     def quick(self) -> list[Fitted]:
         """One rough fit, begun in a wide valley from the better of the first and the most promising start."""
-        first = self.effect.starts(self.task.plate, self.task.points)[:1]
+        first = self.effect.starts(self.problem.plate, self.problem.points)[:1]
         blunt, starts = self.evidence.blunt(), [*first, *(u for _, u in self.starts[:1])]
         rough = (self._rough(self.before.law, u, blunt, as_stated=True) for u in starts)
         wide = min(rough, key=_chi2)
@@ -220,13 +220,13 @@ class Contender:
 
     def _wide(self, u: Array) -> list[Fitted]:
         blunt = self.evidence.blunt()
-        laws = (self.before.law, bent_as(self.before.law, self.task.stated_law))
+        laws = (self.before.law, bent_as(self.before.law, self.problem.stated_law))
         fits = [self._rough(law, u, blunt, as_stated=True) for law in laws]
         return sorted(fits, key=_chi2)
 
     def finished(self, rough: Fitted) -> Fitted:
         """A rough fit followed to the end."""
-        return polished(self.task, rough.effects, self.evidence, rough.law, rough.u)
+        return polished(self.problem, rough.effects, self.evidence, rough.law, rough.u)
 
 
 def bent_as(law: CoreLaw, other: CoreLaw) -> CoreLaw:
@@ -243,13 +243,15 @@ def has_place(effect: Effect) -> bool:
     return any(q.neutral is None and not q.fixed for q in effect.unknowns)
 
 
-def polished(task: Task, effects: Sequence[Effect], evidence: Evidence, law: CoreLaw, u: Array) -> Fitted:
+def polished(
+    problem: DiagnosisProblem, effects: Sequence[Effect], evidence: Evidence, law: CoreLaw, u: Array
+) -> Fitted:
     """A fit to the end, its grid made for the law it starts from, and again where the law has moved far."""
     for _ in range(_ROUNDS):
-        fitted = refit(Response(task.around(law), effects), evidence, law, u)
+        fitted = refit(Response(problem.around(law), effects), evidence, law, u)
         if fitted.chi2_per_dof > HOPELESS:
             break
-        omega = task.fine.nodes.omega
+        omega = problem.fine.nodes.omega
         moved = np.max(np.abs(fitted.law.modulus(omega) / law.modulus(omega) - 1))
         law, u = fitted.law, fitted.u
         if moved < _FAR:

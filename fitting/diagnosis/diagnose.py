@@ -6,19 +6,19 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.diagnosis import words
+from fitting.diagnosis import text
 from fitting.diagnosis.begin import begin
 from fitting.diagnosis.evidence import BareModes
-from fitting.diagnosis.hands import ALONE, Hands
+from fitting.diagnosis.executor import ALONE, Executor
 from fitting.diagnosis.pairs import Pairs
 from fitting.diagnosis.prediction import over_noise
+from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.resampling import Again, Resampled, gain, resampled_of
 from fitting.diagnosis.result import Candidate, Diagnosis, Estimate, FoundEffect
-from fitting.diagnosis.search import Search, Trial
+from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.singles import Singles
 from fitting.diagnosis.stage import few_of_law, found_effects, mixed_band, stage_of
 from fitting.diagnosis.structure import roughness
-from fitting.diagnosis.task import Task
 from fitting.diagnosis.verdict import Judgement, in_light_of, judge, told
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
@@ -54,7 +54,7 @@ def seen_in_channels(sweep: Sweep, effects: Sequence[Effect]) -> tuple[Mask, tup
 
 
 def diagnose_task(
-    task: Task,
+    problem: DiagnosisProblem,
     reduced: ReducedPlate,
     effects: Sequence[Effect],
     noise: Noise,
@@ -64,8 +64,8 @@ def diagnose_task(
     used: Mask | None = None,
     report: Report = lambda fraction: None,
     accepted_by_hand: Sequence[str] | None = None,
-    hands: Hands = ALONE,
-    remade: Callable[[Sweep], Task] | None = None,
+    executor: Executor = ALONE,
+    remade: Callable[[Sweep], DiagnosisProblem] | None = None,
     resamples: int | None = None,
 ) -> Diagnosis:
     """Everything that can be said of a sweep's residual; `task` holds the points in use.
@@ -74,63 +74,64 @@ def diagnose_task(
     some of the points; with it the search is repeated on `resamples` sweeps without effects (None: where
     points are few) and with points held out.
     """
-    given = task
-    begun = begin(task, reduced, noise, bare, start)
-    task, evidence, none = begun.task, begun.evidence, begun.none
+    given = problem
+    begun = begin(problem, reduced, noise, bare, start)
+    problem, evidence, none = begun.problem, begun.evidence, begun.none
     known_names = {e.name for e in effects}
     bases = [CATALOGUE[e.extends] for e in effects if e.extends and e.extends not in known_names]
-    search = Search(task, evidence, none, effects, hands, bases)
+    search = Search(problem, evidence, none, effects, executor, bases)
     catalogue = {e.name: e for e in effects}
     if accepted_by_hand is None:
-        search, trials, judgement = _searched(search, noise, report)
+        search, scored_fits, judgement = _searched(search, noise, report)
         evidence = search.evidence
     else:
         judgement = told(search.told([catalogue[name] for name in accepted_by_hand]))
-        trials = [judgement.accepted] if judgement.accepted is not None else []
+        scored_fits = [judgement.accepted] if judgement.accepted is not None else []
     resampled = Resampled()
     if accepted_by_hand is None and remade is not None:
         again = Again(given, remade, reduced, effects, bare, start, search.none.fitted, noise)
-        resampled = resampled_of(again, gain(search.none, trials), resamples, hands, report)
+        resampled = resampled_of(again, gain(search.none, scored_fits), resamples, executor, report)
         judgement = in_light_of(judgement, resampled.p_value)
     known = evidence.scale_known
     report(0.8)
     none = search.none.fitted
-    before = stage_of(task, evidence, none, search.validation(search.none), 1.0)
+    before = stage_of(problem, evidence, none, search.validation(search.none), 1.0)
     report(0.9)
     accepted = judgement.accepted
     after, found = before, tuple[FoundEffect, ...]()
     if accepted is not None:
         scale = search.temper(accepted)
-        after = stage_of(task, evidence, accepted.fitted, search.validation(accepted), scale)
-        found = found_effects(accepted.fitted, task.plate, scale)
+        after = stage_of(problem, evidence, accepted.fitted, search.validation(accepted), scale)
+        found = found_effects(accepted.fitted, problem.plate, scale)
     if judgement.verdict != "unknown":
-        after = replace(after, band=mixed_band(task, search, judgement.group))
-    trials = sorted([search.none, *trials], key=_cost)
-    seen = tuple(words.story(catalogue[c.name], c) for c in channels)
+        after = replace(after, band=mixed_band(problem, search, judgement.group))
+    scored_fits = sorted([search.none, *scored_fits], key=_cost)
+    seen = tuple(text.story(catalogue[c.name], c) for c in channels)
     return Diagnosis(
         verdict=judgement.verdict,
         effects=tuple(replace(e, probability=judgement.of_effect(e.name)) for e in found),
         channels=channels,
         equivalent=judgement.equivalent,
         candidates=tuple(
-            _candidate(task, t, search, judgement, trials[0].cost, noise_known=known) for t in trials
+            _candidate(problem, t, search, judgement, scored_fits[0].cost, noise_known=known)
+            for t in scored_fits
         ),
         before=before,
         after=after,
-        next_measurement=words.next_measurement(judgement, catalogue, with_hammer=bare is not None),
+        next_measurement=text.next_measurement(judgement, catalogue, with_hammer=bare is not None),
         explanation=(
             *(f"{s[0].upper()}{s[1:]}." for s in seen),
-            *words.explain(task, judgement, before, after, found, catalogue),
+            *text.explain(problem, judgement, before, after, found, catalogue),
         ),
-        used=np.ones(len(task.sweep), bool) if used is None else used,
-        warnings=_warnings(task, judgement),
+        used=np.ones(len(problem.sweep), bool) if used is None else used,
+        warnings=_warnings(problem, judgement),
         by_hand=judgement.by_hand,
         p_value=resampled.p_value,
         nested_held_out_rms_percent=resampled.nested_rms_percent,
     )
 
 
-def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, list[Trial], Judgement]:
+def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, list[ScoredFit], Judgement]:
     """The whole catalogue, and the verdict; the search as it ended."""
     singles = Singles(search, lambda x: report(0.5 * x)).best()
     share = _noise_left(search, singles) if noise.source == "local scatter" else 1.0
@@ -139,37 +140,37 @@ def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, lis
         search = search.with_evidence(search.evidence.scaled(float(np.sqrt(share))))
         singles = Singles(search, lambda x: report(0.5)).best()
     pairs = _pairs(search, singles, lambda x: report(0.5 + 0.3 * x))
-    for trial in [one for pair in pairs[:1] for one in search.alone(pair)]:
+    for scored in [one for pair in pairs[:1] for one in search.alone(pair)]:
         # A pair may have found a better place for one effect than it found alone.
         singles = sorted(
-            [*(t for t in singles if t.names != trial.names or t.cost < trial.cost), trial], key=_cost
+            [*(t for t in singles if t.names != scored.names or t.cost < scored.cost), scored], key=_cost
         )
-    trials = sorted([*singles, *pairs], key=_cost)
+    scored_fits = sorted([*singles, *pairs], key=_cost)
     judgement = judge(
         search.none,
-        trials,
-        temper=search.temper(min([search.none, *trials], key=_cost)),
+        scored_fits,
+        temper=search.temper(min([search.none, *scored_fits], key=_cost)),
         hidden=frozenset(e.name for e in search.unnamed),
-        held_out=lambda trial: over_noise(search.validation(trial)),
+        held_out=lambda scored: over_noise(search.validation(scored)),
     )
-    return search, [t for t in trials if t.names in judgement.probability], judgement
+    return search, [t for t in scored_fits if t.names in judgement.probability], judgement
 
 
-def _noise_left(search: Search, trials: Sequence[Trial]) -> float:
+def _noise_left(search: Search, scored_fits: Sequence[ScoredFit]) -> float:
     """Variance of what the best fit leaves, or of what of it jumps from point to point, over the noise's."""
-    if not trials:
+    if not scored_fits:
         return 1.0
-    best = trials[0].fitted
+    best = scored_fits[0].fitted
     parts = 2 if search.evidence.has_phase else 1
-    rough = roughness(search.task.sweep, best.residuals[: best.data], parts)
+    rough = roughness(search.problem.sweep, best.residuals[: best.data], parts)
     return float(np.nanmin([best.chi2_per_dof, rough]))
 
 
-def _cost(trial: Trial) -> float:
-    return trial.cost
+def _cost(scored: ScoredFit) -> float:
+    return scored.cost
 
 
-def _pairs(search: Search, singles: Sequence[Trial], report: Report) -> list[Trial]:
+def _pairs(search: Search, singles: Sequence[ScoredFit], report: Report) -> list[ScoredFit]:
     """Two effects, where one leaves something or only another law explains it all."""
     if not singles or not search.evidence.scale_known:
         return []
@@ -187,23 +188,29 @@ def _pairs(search: Search, singles: Sequence[Trial], report: Report) -> list[Tri
 
 
 def _candidate(
-    task: Task, trial: Trial, search: Search, judgement: Judgement, best: float, *, noise_known: bool
+    problem: DiagnosisProblem,
+    scored: ScoredFit,
+    search: Search,
+    judgement: Judgement,
+    best: float,
+    *,
+    noise_known: bool,
 ) -> Candidate:
-    chi2 = trial.fitted.chi2_per_dof if noise_known else float("nan")
-    scale = search.temper(trial)
+    chi2 = scored.fitted.chi2_per_dof if noise_known else float("nan")
+    scale = search.temper(scored)
     return Candidate(
-        found_effects(trial.fitted, task.plate, scale),
-        trial.cost - best,
+        found_effects(scored.fitted, problem.plate, scale),
+        scored.cost - best,
         chi2,
-        judgement.probability.get(trial.names, 0.0),
-        few_of_law(task, trial.fitted, scale),
-        dict(trial.checks),
+        judgement.probability.get(scored.names, 0.0),
+        few_of_law(problem, scored.fitted, scale),
+        dict(scored.checks),
     )
 
 
-def _warnings(task: Task, judgement: Judgement) -> tuple[str, ...]:
+def _warnings(problem: DiagnosisProblem, judgement: Judgement) -> tuple[str, ...]:
     said = []
     names = {n for group in judgement.equivalent.values() for n in group}
-    if "temperature_drift" in names and not task.points.timed:
+    if "temperature_drift" in names and not problem.points.timed:
         said.append("the points carry no time: the drift assumes an even sweep upwards in frequency")
     return tuple(said)

@@ -10,7 +10,7 @@ from fitting.identification.fit import Fit
 def fit_of(begun: Begun) -> Fit:
     """The fit without effects as `fitting.identification.result.summarise` takes it."""
     none, first = begun.none, begun.first
-    C = posterior(Response(begun.task, ()), begun.evidence, none)
+    C = posterior(Response(begun.problem, ()), begun.evidence, none)
     n = len(none.law.names)
     return Fit(
         law=none.law,
@@ -23,5 +23,5 @@ def fit_of(begun: Begun) -> Fit:
         readings=none.data,
         covariance=C[:n, :n],
         posterior=C,
-        adjusted=adjusted_of(begun.task, none, C),
+        adjusted=adjusted_of(begun.problem, none, C),
     )

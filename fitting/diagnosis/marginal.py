@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.diagnosis.refit import Fitted
-from fitting.effects.base import Effect, Unknown
-from fitting.effects.spanned import SpannedPlate
+from fitting.effects.base import Effect, EffectParameter
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 Array = NDArray[np.float64]
 
@@ -23,7 +23,7 @@ _UNIFORM = 12.0
 """Variance of a uniform density is its width squared over this."""
 
 
-def cost(fitted: Fitted, plate: SpannedPlate) -> float:
+def cost(fitted: Fitted, plate: EnrichedReducedPlate) -> float:
     """-2 ln of prior times marginal likelihood. Where the noise is unknown its size is integrated too."""
     law_widths = fitted.law.search_widths
     priors = [_prior(q, lower, upper, u) for q, lower, upper, u in _free(fitted, plate)]
@@ -63,7 +63,7 @@ def _odds(effect: Effect) -> float:
     return -2 * float(np.log(effect.chance / (1 - effect.chance)))
 
 
-def _free(fitted: Fitted, plate: SpannedPlate) -> list[tuple[Unknown, float, float, float]]:
+def _free(fitted: Fitted, plate: EnrichedReducedPlate) -> list[tuple[EffectParameter, float, float, float]]:
     """Every fitted unknown of the effects with its limits and where it is."""
     found, start = [], fitted.stated
     for effect in fitted.effects:
@@ -75,7 +75,7 @@ def _free(fitted: Fitted, plate: SpannedPlate) -> list[tuple[Unknown, float, flo
     return found
 
 
-def _prior(q: Unknown, lower: float, upper: float, u: float) -> tuple[float, float]:
+def _prior(q: EffectParameter, lower: float, upper: float, u: float) -> tuple[float, float]:
     """Ln density where the fit is, and the prior's width, both as the unknown is fitted."""
     if q.logarithmic:
         width = np.log(upper / lower)

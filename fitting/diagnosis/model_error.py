@@ -7,7 +7,7 @@ gain and phase along it, as instruments drift. Sizes are the specimen's own (`fi
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.diagnosis.task import Task
+from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.laws import CoreLaw
 from fitting.model_error import DRIFT, GAIN, model_error_at
 from fitting.reduced import ReducedPlate
@@ -16,23 +16,23 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 
-def model_error(task: Task, reduced: ReducedPlate, law: CoreLaw, v: Complex) -> Complex:
+def model_error(problem: DiagnosisProblem, reduced: ReducedPlate, law: CoreLaw, v: Complex) -> Complex:
     """Changes of the velocity `v`, one standard deviation each. Shape (nuisances, points)."""
-    omega, index = np.unique(task.points.omega, return_inverse=True)
+    omega, index = np.unique(problem.points.omega, return_inverse=True)
     dx = reduced.by_frequency(omega, law.modulus(omega))
-    dv = (1j * omega * dx)[index.ravel()] * task.points.acceleration_m_s2
+    dv = (1j * omega * dx)[index.ravel()] * problem.points.acceleration_m_s2
     rows = []
-    for number in np.unique(task.sweep.segment):
-        inside = task.sweep.segment == number
-        f = task.sweep.frequency_hz[inside]
+    for number in np.unique(problem.sweep.segment):
+        inside = problem.sweep.segment == number
+        f = problem.sweep.frequency_hz[inside]
         middle = np.array([np.sqrt(f.min() * f.max())])
-        size = model_error_at(task.specimen, middle, law.modulus(2 * np.pi * middle))
+        size = model_error_at(problem.specimen, middle, law.modulus(2 * np.pi * middle))
         # d ln f = 1/2 d ln K, and a loss is the imaginary part of ln K.
         by_loss = 0.5j * float(size.modal_loss[0]) * dv
         rows += [size.frequency[0] * dv * inside, size.loss[0] * by_loss * inside, GAIN * v * inside]
         along = np.zeros(len(v))
         along[inside] = 2 * (f - f.min()) / max(float(np.ptp(f)), 1e-9) - 1
         rows.append(DRIFT * along * v)
-        if task.points.has_phase:
+        if problem.points.has_phase:
             rows += [1j * GAIN * v * inside, 1j * DRIFT * along * v]
     return np.array(rows)

@@ -4,9 +4,9 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from fitting.diagnosis.candidate_fits import Form
 from fitting.diagnosis.candidates import has_place
-from fitting.diagnosis.search import LEADERS, Search, Trial
-from fitting.diagnosis.work import Form
+from fitting.diagnosis.search import LEADERS, ScoredFit, Search
 
 Report = Callable[[float], None]
 
@@ -29,9 +29,9 @@ class Pairs:
     def __init__(self, search: Search) -> None:
         self._search = search
 
-    def best(self, singles: Sequence[Trial], report: Report, *, wide: bool) -> list[Trial]:
+    def best(self, singles: Sequence[ScoredFit], report: Report, *, wide: bool) -> list[ScoredFit]:
         """Second effects beside the leading single ones, or the first alone; best first."""
-        search, work, each = self._search, self._search.work, self._search.hands.each
+        search, work, each = self._search, self._search.work, self._search.executor.each
         leaders = list(singles[: LEADERS if wide else 1])
         tasks = [(t, form) for t in leaders for form in self._others(t.names)]
         asked = [(t.fitted, form) for t, form in tasks]
@@ -41,15 +41,15 @@ class Pairs:
             for (t, _), starts in zip(tasks, looks, strict=True)
         ]
         chosen: dict[frozenset[str], int] = {}
-        beside: dict[Trial, int] = {}
+        beside: dict[ScoredFit, int] = {}
         enough = singles[0].fitted.chi2 - LEAST_EXPECTED * search.temper(singles[0])
         for k in np.argsort(expected):
-            trial, (name, _) = tasks[k]
+            scored, (name, _) = tasks[k]
             # Each leader has its say: a linear step from a poor one promises too much.
-            many = len(chosen) == PAIRS or beside.get(trial, 0) == PAIRS_A_LEADER
+            many = len(chosen) == PAIRS or beside.get(scored, 0) == PAIRS_A_LEADER
             if not many and (wide or expected[k] < enough):
-                beside[trial] = beside.get(trial, 0) + 1
-                chosen.setdefault(frozenset((*trial.names, name)), int(k))
+                beside[scored] = beside.get(scored, 0) + 1
+                chosen.setdefault(frozenset((*scored.names, name)), int(k))
         full = [(tasks[k][0].fitted, tasks[k][1], looks[k]) for k in chosen.values()]
         fits = each(work.second, full, lambda x: report(0.4 + 0.4 * x))
         found = sorted((search.judged(f) for f in fits if f is not None), key=lambda t: t.cost)
@@ -63,9 +63,9 @@ class Pairs:
         report(1.0)
         return _best_of_each(found)
 
-    def _will_do(self, trials: Sequence[Trial]) -> bool:
+    def _will_do(self, scored_fits: Sequence[ScoredFit]) -> bool:
         """Whether any, the law being of the stated kind, leaves little and fails no check."""
-        plain = (t for t in trials if len(_plainly(t)) == len(t.names))
+        plain = (t for t in scored_fits if len(_plainly(t)) == len(t.names))
         return any(t.fitted.chi2_per_dof < WILL_DO * self._search.allowed(t) and not t.fails for t in plain)
 
     def _others(self, names: Sequence[str]) -> list[Form]:
@@ -77,9 +77,9 @@ class Pairs:
             for number in range(len(e.variants()))
         ]
 
-    def _every_second(self, leaders: Sequence[Trial], pairs: Sequence[Trial]) -> list[Trial]:
+    def _every_second(self, leaders: Sequence[ScoredFit], pairs: Sequence[ScoredFit]) -> list[ScoredFit]:
         """Every effect beside the leading ones roughly; the best pairs that are new to the end."""
-        search, work, each = self._search, self._search.work, self._search.hands.each
+        search, work, each = self._search, self._search.work, self._search.executor.each
         known = {frozenset(t.names) for t in pairs}
         order = [*(t.names[0] for t in leaders[:EVERY_SECOND]), *search.order_of_plain()[:EVERY_SECOND]]
         first = set(order) & {e.name for e in search.effects}
@@ -93,9 +93,9 @@ class Pairs:
         best = sorted(rough, key=lambda f: f.chi2)[:PAIRS_A_LEADER]
         return [search.judged(f) for f in each(work.ended, best)]
 
-    def _swapped(self, pairs: Sequence[Trial]) -> list[Trial]:
+    def _swapped(self, pairs: Sequence[ScoredFit]) -> list[ScoredFit]:
         """Other effects beside those of the best pair that have a place: a wrong second may have found it."""
-        search, work, each = self._search, self._search.work, self._search.hands.each
+        search, work, each = self._search, self._search.work, self._search.executor.each
         plain = [t for t in sorted(pairs, key=lambda t: t.cost) if len(_plainly(t)) == 2]
         best = next((t for t in plain if not t.fails), plain[0] if plain else None)
         if best is None:
@@ -112,14 +112,14 @@ class Pairs:
         return [search.judged(f) for f in fits if f is not None]
 
 
-def _plainly(trial: Trial) -> list[str]:
+def _plainly(scored: ScoredFit) -> list[str]:
     """Its effects beside the law."""
-    return [e.name for e in trial.fitted.effects if not e.replaces_law]
+    return [e.name for e in scored.fitted.effects if not e.replaces_law]
 
 
-def _best_of_each(trials: Sequence[Trial]) -> list[Trial]:
+def _best_of_each(scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
     """One trial of each set of effects, best first."""
-    best: dict[frozenset[str], Trial] = {}
-    for trial in sorted(trials, key=lambda t: t.cost):
-        best.setdefault(frozenset(trial.names), trial)
+    best: dict[frozenset[str], ScoredFit] = {}
+    for scored in sorted(scored_fits, key=lambda t: t.cost):
+        best.setdefault(frozenset(scored.names), scored)
     return list(best.values())

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.effects.change import Change
-from fitting.effects.spanned import SpannedPlate
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisances import Nuisances
 
 Array = NDArray[np.float64]
@@ -52,7 +52,7 @@ class Answer:
 
 
 def answer(
-    plate: SpannedPlate,
+    plate: EnrichedReducedPlate,
     omega: Array,
     G: Complex,
     change: Change,
@@ -166,7 +166,7 @@ def _between(up: Change, down: Change, per_step: float) -> Change:
 
 @dataclass(frozen=True)
 class _Step:
-    plate: SpannedPlate
+    plate: EnrichedReducedPlate
     omega: Array
     G: Complex
     z: Complex
@@ -196,14 +196,16 @@ class _Step:
         return found
 
 
-def core_strain(plate: SpannedPlate, omega: Array, G: Complex, mean_square: Array, change: Change) -> Array:
+def core_strain(
+    plate: EnrichedReducedPlate, omega: Array, G: Complex, mean_square: Array, change: Change
+) -> Array:
     """Rms over the core of its shear strain for a base acceleration of 1 m/s^2. Shape (nodes,)."""
     found = answer_motion(plate, omega, G, change)
     square = np.real(np.einsum("pi,pi->p", found.conj(), found @ mean_square))
     return np.sqrt(np.maximum(square, 1e-300))
 
 
-def answer_motion(plate: SpannedPlate, omega: Array, G: Complex, change: Change) -> Complex:
+def answer_motion(plate: EnrichedReducedPlate, omega: Array, G: Complex, change: Change) -> Complex:
     """Motion q of A q = load. Shape (nodes, k)."""
     C_1 = (plate.U * (plate.d * change.damping)) @ plate.U.T
     A = _dynamic(plate.K_0 + change.K, plate.K_1 + change.K_1, plate.M + change.M, C_1, omega, G)

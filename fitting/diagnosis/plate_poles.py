@@ -5,7 +5,7 @@ from numpy.typing import NDArray
 
 from fitting.diagnosis.nodes import MOST_POLES
 from fitting.diagnosis.plate_answer import ModulusNear, poles_near
-from fitting.effects.spanned import SpannedPlate
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 
 Array = NDArray[np.float64]
@@ -17,7 +17,7 @@ _STEPS = 3
 class PlatePoles:
     """p of (K_0 + G K_1 + i p C_1 - p^2 M) y = 0 with y the motion."""
 
-    def __init__(self, plate: SpannedPlate, law: CoreLaw) -> None:
+    def __init__(self, plate: EnrichedReducedPlate, law: CoreLaw) -> None:
         self.law = law
         own = np.flatnonzero(plate.group == "plate")
         square = np.ix_(own, own)

@@ -4,26 +4,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import Fitted, refit
 from fitting.diagnosis.response import Response
-from fitting.diagnosis.task import Task
 from fitting.identification.result import differences_percent
 from fitting.identification.validation import Mask, Validation, validate
 
 Array = NDArray[np.float64]
 
 
-def held_out(task: Task, evidence: Evidence, fitted: Fitted) -> Validation:
+def held_out(problem: DiagnosisProblem, evidence: Evidence, fitted: Fitted) -> Validation:
     """Every segment predicted by a law and effects fitted to the others; few points one by one."""
-    size = np.abs(task.sweep.response_m_s)
-    response = Response(task.around(fitted.law), fitted.effects)
+    size = np.abs(problem.sweep.response_m_s)
+    response = Response(problem.around(fitted.law), fitted.effects)
 
     def differences(points: Mask) -> Array:
         learnt = refit(response, evidence, fitted.law, fitted.u, points=points)
-        return differences_percent(task.sweep, learnt.velocity_m_s)
+        return differences_percent(problem.sweep, learnt.velocity_m_s)
 
     return validate(
-        segment=task.sweep.segment,
+        segment=problem.sweep.segment,
         points_needed=-(-fitted.parameters // (2 if evidence.has_phase else 1)),
         differences_percent=differences,
         noise_percent=100 * evidence.noise_m_s / size if evidence.scale_known else np.full(len(size), np.nan),

@@ -29,7 +29,7 @@ SHAPES = 10.0
 
 def form_error(none: Fitted, fitted: Fitted) -> float:
     """Chi-square that the formulas of a fit's effects may leave."""
-    share = max((max(FORM, e.misses) for e in fitted.effects), default=0.0)
+    share = max((max(FORM, e.unexplained_share) for e in fitted.effects), default=0.0)
     return share * max(0.0, none.chi2 - fitted.chi2)
 
 
@@ -38,7 +38,7 @@ def _allowed(none: Fitted, fitted: Fitted) -> float:
 
     What two loose formulas together come near to is no evidence for either.
     """
-    share = min((max(FORM, e.misses) for e in fitted.effects), default=0.0)
+    share = min((max(FORM, e.unexplained_share) for e in fitted.effects), default=0.0)
     return share * max(0.0, none.chi2 - fitted.chi2)
 
 

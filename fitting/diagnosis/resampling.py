@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from fitting.diagnosis.begin import begin
 from fitting.diagnosis.evidence import BareModes
-from fitting.diagnosis.hands import Hands
+from fitting.diagnosis.executor import Executor
+from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import Fitted
 from fitting.diagnosis.response import Response
-from fitting.diagnosis.search import Search, Trial
+from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.singles import Singles
-from fitting.diagnosis.task import Task
 from fitting.diagnosis.verdict import judge
 from fitting.effects.base import Effect
 from fitting.identification.result import differences_percent
@@ -40,8 +40,8 @@ REPEATS = 19
 class Again:
     """A search that can be done once more with other data of the same plate."""
 
-    task: Task
-    remade: Callable[[Sweep], Task]
+    problem: DiagnosisProblem
+    remade: Callable[[Sweep], DiagnosisProblem]
     """The task of some of the points."""
     reduced: ReducedPlate
     effects: Sequence[Effect]
@@ -51,20 +51,20 @@ class Again:
     """The fit without effects: what sweeps without any are drawn from."""
     noise: Noise
 
-    def searched(self, task: Task) -> tuple[Search, list[Trial]]:
+    def searched(self, problem: DiagnosisProblem) -> tuple[Search, list[ScoredFit]]:
         """Every effect alone, as the search of the data themselves begins."""
-        begun = begin(task, self.reduced, noise_of(task.sweep), self.bare, self.start)
-        search = Search(begun.task, begun.evidence, begun.none, self.effects, Hands())
+        begun = begin(problem, self.reduced, noise_of(problem.sweep), self.bare, self.start)
+        search = Search(begun.problem, begun.evidence, begun.none, self.effects, Executor())
         return search, Singles(search, lambda fraction: None).best()
 
     def gain_without_effect(self, seed: int) -> float:
         """What the best explanation gains on a sweep drawn from the fit without effects."""
         rng = np.random.default_rng([_SEED, seed])
-        search, trials = self.searched(replace(self.task, sweep=self._drawn(rng)))
-        return gain(search.none, trials)
+        search, scored_fits = self.searched(replace(self.problem, sweep=self._drawn(rng)))
+        return gain(search.none, scored_fits)
 
     def _drawn(self, rng: np.random.Generator) -> Sweep:
-        sweep, v = self.task.sweep, self.none.velocity_m_s
+        sweep, v = self.problem.sweep, self.none.velocity_m_s
         if self.noise.is_known:
             sigma = self.noise.std_m_s
         else:
@@ -79,24 +79,24 @@ class Again:
 
     def left_out(self, held: Mask) -> Array:
         """100 (|predicted| - |measured|)/|measured| of points held out, the search repeated without them."""
-        task = self.remade(self.task.sweep.take(~held))
-        search, trials = self.searched(task)
+        problem = self.remade(self.problem.sweep.take(~held))
+        search, scored_fits = self.searched(problem)
         judged = judge(
             search.none,
-            trials,
-            temper=search.temper(min([search.none, *trials], key=lambda t: t.cost)),
+            scored_fits,
+            temper=search.temper(min([search.none, *scored_fits], key=lambda t: t.cost)),
             hidden=frozenset(),
-            held_out=lambda trial: float("nan"),
+            held_out=lambda scored: float("nan"),
         )
         best = (judged.accepted or search.none).fitted
-        whole = self.task.condensed(best.law).around(best.law)
+        whole = self.problem.condensed(best.law).around(best.law)
         v = Response(whole, best.effects).velocity(best.law, best.u)
-        return differences_percent(self.task.sweep, v)[held]
+        return differences_percent(self.problem.sweep, v)[held]
 
 
-def gain(none: Trial, trials: Sequence[Trial]) -> float:
+def gain(none: ScoredFit, scored_fits: Sequence[ScoredFit]) -> float:
     """How much better the best explanation is than none, in -2 ln of prior times marginal likelihood."""
-    return max((none.cost - t.cost for t in trials), default=-np.inf)
+    return max((none.cost - t.cost for t in scored_fits), default=-np.inf)
 
 
 @dataclass(frozen=True)
@@ -109,20 +109,22 @@ class Resampled:
     """Error on points left out one by one, or segments, the selection repeated each time."""
 
 
-def resampled_of(again: Again, found: float, repeats: int | None, hands: Hands, report: Report) -> Resampled:
+def resampled_of(
+    again: Again, found: float, repeats: int | None, executor: Executor, report: Report
+) -> Resampled:
     """Both; `found` is the gain of the data. Nothing where points are many and nobody asks."""
     if repeats is None:
-        repeats = REPEATS if len(again.task.sweep) <= SMALL else 0
+        repeats = REPEATS if len(again.problem.sweep) <= SMALL else 0
     if not repeats:
         return Resampled()
-    gains = list(hands.each(again.gain_without_effect, list(range(repeats)), report))
+    gains = list(executor.each(again.gain_without_effect, list(range(repeats)), report))
     p = (1 + sum(g >= found for g in gains)) / (1 + repeats)
-    return Resampled(p, nested_rms_percent(again, hands, report))
+    return Resampled(p, nested_rms_percent(again, executor, report))
 
 
-def nested_rms_percent(again: Again, hands: Hands, report: Report) -> float | None:
+def nested_rms_percent(again: Again, executor: Executor, report: Report) -> float | None:
     """Error on points left out one by one, or segments; None where nothing can be learnt without them."""
-    sweep = again.task.sweep
+    sweep = again.problem.sweep
     if len(sweep) <= SMALL:
         folds = [np.arange(len(sweep)) == k for k in range(len(sweep))]
     else:
@@ -130,7 +132,7 @@ def nested_rms_percent(again: Again, hands: Hands, report: Report) -> float | No
     numbers = (len(sweep) - 1) * (2 if sweep.has_phase else 1)
     if len(folds) < 2 or numbers <= len(again.start.names):
         return None
-    return rms(np.concatenate(list(hands.each(again.left_out, folds, report))))
+    return rms(np.concatenate(list(executor.each(again.left_out, folds, report))))
 
 
 _SEED = 20

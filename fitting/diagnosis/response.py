@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.diagnosis.plate_answer import answer, core_strain
-from fitting.diagnosis.task import Grid, Task
-from fitting.effects.base import Effect, ModulusAt, Unknown
+from fitting.diagnosis.problem import DiagnosisProblem, Grid
+from fitting.effects.base import Effect, EffectParameter, ModulusAt
 from fitting.effects.change import Change
-from fitting.effects.spanned import SpannedPlate
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 
 Array = NDArray[np.float64]
@@ -39,15 +39,17 @@ class Response:
     `u` holds the stated numbers in standard deviations, then the effects' unknowns, one after the other.
     """
 
-    def __init__(self, task: Task, effects: Sequence[Effect], grid: Grid | None = None) -> None:
-        self.task, self.effects, self.nuisances = task, tuple(effects), task.nuisances
+    def __init__(
+        self, problem: DiagnosisProblem, effects: Sequence[Effect], grid: Grid | None = None
+    ) -> None:
+        self.problem, self.effects, self.nuisances = problem, tuple(effects), problem.nuisances
         count = len(self.nuisances)
-        self.unknowns: tuple[Unknown, ...] = (
+        self.unknowns: tuple[EffectParameter, ...] = (
             *(_STATED,) * count,
             *(u for e in effects for u in e.unknowns),
         )
         spans = {s.name: s for e in effects for s in e.spans}
-        self.plate: SpannedPlate = task.plate.take(spans.values())
+        self.plate: EnrichedReducedPlate = problem.plate.take(spans.values())
         self._stated = slice(0, count)
         self._slices, start = [], count
         for effect in self.effects:
@@ -57,10 +59,10 @@ class Response:
         self._pitching = [k for k, e in enumerate(self.effects) if type(e).pitch is not Effect.pitch]
         self._channelled = any(type(e).reading is not Effect.reading for e in self.effects)
         self._shifting = [k for k, e in enumerate(self.effects) if type(e).modulus is not Effect.modulus]
-        grid = grid or task.fine
+        grid = grid or problem.fine
         if self._shifting and (self._changing or self._pitching or not self.nuisances.change_nothing):
             # The modulus is another one in every pass.
-            grid = task.passes
+            grid = problem.passes
         self.grid = grid
         self._last: tuple[bytes, _ByChange, Complex] | None = None
         self._strains: dict[bytes, Array] = {}
@@ -83,7 +85,7 @@ class Response:
         for k in range(count, len(self.unknowns)):
             moved[len(by_law) + k] += self._read_by(k, at.raw, u)
         if count:
-            by_reading = self.nuisances.by_reading(at.v, self.task.points.omega, u[self._stated])
+            by_reading = self.nuisances.by_reading(at.v, self.problem.points.omega, u[self._stated])
             for k, d in by_reading.items():
                 moved[len(by_law) + k] += d
         return at.v, moved
@@ -93,13 +95,13 @@ class Response:
 
         It changes the plate alone; `known` are the unknowns of the others.
         """
-        others = Response(self.task, self.effects[:-1], self.grid)
+        others = Response(self.problem, self.effects[:-1], self.grid)
         at = others._at(law, known)
         nodes, last = self.grid.nodes, self.effects[-1]
         found = [others.effects[k].change(self.plate, others._of(k, known)) for k in others._changing]
         if not self.nuisances.change_nothing:
             found.append(self.nuisances.change(self.plate, known[self._stated]))
-        G, _ = others._bearing(law, law.modulus(self.task.points.omega), at.G)
+        G, _ = others._bearing(law, law.modulus(self.problem.points.omega), at.G)
         solved = answer(
             self.plate,
             nodes.omega,
@@ -116,7 +118,7 @@ class Response:
 
     def beside(self, effect: Effect) -> "Response":
         """The same with one more effect."""
-        return Response(self.task, [*self.effects, effect], self.grid)
+        return Response(self.problem, [*self.effects, effect], self.grid)
 
     # The parts of the response.
 
@@ -124,11 +126,11 @@ class Response:
         return u[self._slices[k]]
 
     def _at(self, law: CoreLaw, u: Array, *, derivatives: bool = True) -> "_At":
-        points = self.task.points
+        points = self.problem.points
         omega, a = points.omega, points.acceleration_m_s2
         G_law = law.modulus(omega)
         G = self._modulus(law, u, G_law)
-        x, slope = self.task.rational.with_derivative(G)
+        x, slope = self.problem.rational.with_derivative(G)
         pitch = np.zeros(len(omega), complex)
         turned = np.zeros(len(omega), complex)
         found = None
@@ -137,7 +139,7 @@ class Response:
             found, (moved, turned, changed_slope) = self._answer(u, G_nodes, derivatives)
             x = x + moved
             if self._shifting:
-                _, plain_slope = self.task.rational.with_derivative(smooth)
+                _, plain_slope = self.problem.rational.with_derivative(smooth)
                 x = x + (changed_slope - plain_slope) * (G - smooth)
             slope = changed_slope
             for k in self._pitching:
@@ -210,14 +212,14 @@ class Response:
         """G* at every point; strains are those of the law `strained` where it is a step away."""
         G = G_law
         for k in self._shifting:
-            at = ModulusAt(law, self.task.points, lambda s: self._strain(strained or law, u, s))
-            shifted = self.effects[k].modulus(at, self.task.points, self._of(k, u))
+            at = ModulusAt(law, self.problem.points, lambda s: self._strain(strained or law, u, s))
+            shifted = self.effects[k].modulus(at, self.problem.points, self._of(k, u))
             if shifted is not None:
                 G = G * (shifted / G_law)
         return G
 
     def _modulus_by_law(self, law: CoreLaw, u: Array, at: "_At") -> Complex:
-        omega = self.task.points.omega
+        omega = self.problem.points.omega
         if not self._shifting:
             return np.asarray(law.jacobian(omega) * law.values[:, None])
         G = self._modulus(law, u, law.modulus(omega))
@@ -235,14 +237,14 @@ class Response:
         table = self._strain_table(law, u)
         logs_here = ((table[0] * softened + table[1]) * softened + table[2]) * softened + table[3]
         assert self._largest is not None
-        return np.asarray(np.exp(logs_here) * self.task.points.acceleration_m_s2 / self._largest)
+        return np.asarray(np.exp(logs_here) * self.problem.points.acceleration_m_s2 / self._largest)
 
     def _strain_table(self, law: CoreLaw, u: Array) -> Array:
         """Ln strain at every point as a cubic of the softening. Shape (4, points)."""
         key = law.values.tobytes() + b"".join(self._of(k, u).tobytes() for k in self._changing)
         key += u[self._stated].tobytes()
         if key not in self._strains:
-            nodes = self.task.dense
+            nodes = self.problem.dense
             G, changes = law.modulus(nodes.omega), self._changes(u)
             square = self.plate.matrix("strain.mean_square")
             logs = [
@@ -258,13 +260,13 @@ class Response:
 
     def _read(self, v: Complex, u: Array) -> Complex:
         for k, effect in enumerate(self.effects):
-            read = effect.reading(v, self.task.points, self._of(k, u))
+            read = effect.reading(v, self.problem.points, self._of(k, u))
             v = v if read is None else read
         return self._as_stated(v, u)
 
     def _as_stated(self, v: Complex, u: Array) -> Complex:
         """What the stated gain and delay make of it."""
-        return self.nuisances.reading(v, self.task.points.omega, u[self._stated]) if self.nuisances else v
+        return self.nuisances.reading(v, self.problem.points.omega, u[self._stated]) if self.nuisances else v
 
     def _read_along(self, at: "_At", by: Complex, u: Array) -> Complex:
         """What is read of derivatives of the velocity before the channels. Shape (any, points) of both."""
@@ -290,7 +292,7 @@ class Response:
 
     def _by(self, n: int, law: CoreLaw, u: Array, at: "_At") -> Complex:
         """Of the velocity before the channels."""
-        k, omega = self._owner(n), self.task.points.omega
+        k, omega = self._owner(n), self.problem.points.omega
         found = np.zeros(len(omega), complex)
         h = self._step(n, u)
         up, down = _moved(u, n, h), _moved(u, n, -h)
@@ -330,7 +332,7 @@ class Response:
         return (self._read(raw, _moved(u, n, h)) - self._read(raw, _moved(u, n, -h))) / (2 * h)
 
 
-_STATED = Unknown("stated", "1", -12.0, 12.0, 1.0)
+_STATED = EffectParameter("stated", "1", -12.0, 12.0, 1.0)
 """A stated number, in standard deviations of its tolerance."""
 
 

@@ -6,15 +6,15 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.diagnosis.candidates import Contender, has_place, polished
+from fitting.diagnosis.candidate_fits import CandidateFits
+from fitting.diagnosis.candidates import CandidateFit, has_place, polished
 from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.hands import Hands
+from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.predictive import checks, form_error, passes, temper
+from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import Fitted, refit
 from fitting.diagnosis.response import Response
-from fitting.diagnosis.task import Task
-from fitting.diagnosis.work import Work
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.identification.validation import Validation
@@ -28,7 +28,7 @@ _SPARE = 2
 
 
 @dataclass(frozen=True, eq=False)
-class Trial:
+class ScoredFit:
     """A fitted explanation, what it is worth, and what speaks against it."""
 
     fitted: Fitted
@@ -53,62 +53,63 @@ class Search:
 
     def __init__(
         self,
-        task: Task,
+        problem: DiagnosisProblem,
         evidence: Evidence,
         none: Fitted,
         effects: Sequence[Effect],
-        hands: Hands,
+        executor: Executor,
         unnamed: Sequence[Effect] = (),
     ) -> None:
         """`unnamed` are fitted alone, for comparison, and never named."""
-        self.task, self.evidence, self.hands = task, evidence, hands
+        self.problem, self.evidence, self.executor = problem, evidence, executor
         self.stated = stated = none.law
-        self._validations: dict[int, tuple[Trial, Validation]] = {}
+        self._validations: dict[int, tuple[ScoredFit, Validation]] = {}
         self.effects, self.unnamed = (
-            [e for e in some if e.objection(task.points, task.plate) is None] for some in (effects, unnamed)
+            [e for e in some if e.objection(problem.points, problem.plate) is None]
+            for some in (effects, unnamed)
         )
-        fitted = [e for e in (*self.effects, *self.unnamed) if not e.laws(stated, task.points)]
+        fitted = [e for e in (*self.effects, *self.unnamed) if not e.laws(stated, problem.points)]
         # Those that take longest come first: hands then end at the same time.
         self.beside_the_law = sorted(fitted, key=has_place, reverse=True)
-        self.work = Work(task, evidence, none, [*self.effects, *self.unnamed])
+        self.work = CandidateFits(problem, evidence, none, [*self.effects, *self.unnamed])
         self._none = none
         self.none = self.judged(none)
 
     def with_evidence(self, evidence: Evidence) -> "Search":
         """The same search of data that are worth something else."""
         none = self.none.fitted
-        again = refit(Response(self.task, ()), evidence, none.law, none.u)
-        return Search(self.task, evidence, again, self.effects, self.hands, self.unnamed)
+        again = refit(Response(self.problem, ()), evidence, none.law, none.u)
+        return Search(self.problem, evidence, again, self.effects, self.executor, self.unnamed)
 
-    def judged(self, fitted: Fitted) -> Trial:
+    def judged(self, fitted: Fitted) -> ScoredFit:
         """A fit with what it is worth."""
-        found = checks(self.task.sweep, self.evidence, self._none, fitted)
-        return Trial(fitted, cost(fitted, self.task.plate), found)
+        found = checks(self.problem.sweep, self.evidence, self._none, fitted)
+        return ScoredFit(fitted, cost(fitted, self.problem.plate), found)
 
-    def temper(self, best: Trial) -> float:
+    def temper(self, best: ScoredFit) -> float:
         """How much less a difference of costs says, where the best explains far more than noise."""
         return temper(self._none, best.fitted) if self.evidence.scale_known else 1.0
 
-    def allowed(self, trial: Trial) -> float:
+    def allowed(self, scored: ScoredFit) -> float:
         """Chi-square per degree of freedom that the formulas of a trial's effects may leave."""
-        dof = max(1, trial.fitted.data - trial.fitted.parameters)
-        return 1 + form_error(self._none, trial.fitted) / dof
+        dof = max(1, scored.fitted.data - scored.fitted.parameters)
+        return 1 + form_error(self._none, scored.fitted) / dof
 
-    def validation(self, trial: Trial) -> Validation:
+    def validation(self, scored: ScoredFit) -> Validation:
         """What a trial says of data it has not seen."""
-        key = id(trial)
+        key = id(scored)
         if key not in self._validations:
-            self._validations[key] = trial, self.work.held_out(trial.fitted)
+            self._validations[key] = scored, self.work.held_out(scored.fitted)
         return self._validations[key][1]
 
-    def alone(self, trial: Trial) -> list[Trial]:
+    def alone(self, scored: ScoredFit) -> list[ScoredFit]:
         """Each effect of a pair fitted alone from where the pair left it."""
-        pair = trial.fitted
+        pair = scored.fitted
         if any(e.replaces_law for e in pair.effects):
             return []
         return [
             self.judged(
-                polished(self.task, [e], self.evidence, pair.law, np.concatenate([pair.z, pair.of(e)]))
+                polished(self.problem, [e], self.evidence, pair.law, np.concatenate([pair.z, pair.of(e)]))
             )
             for e in pair.effects
         ]
@@ -123,25 +124,27 @@ class Search:
         names = [e.name for e in self.beside_the_law if e.unknowns]
         chi2 = []
         for name, state in zip(
-            names, self.hands.each(work.plain, [(n, work.state(n)) for n in names]), strict=True
+            names, self.executor.each(work.plain, [(n, work.state(n)) for n in names]), strict=True
         ):
             work.learn(name, state)
             chi2.append(min(f.chi2 for f in state[0]["plain"]))
         return [names[k] for k in np.argsort(chi2)]
 
-    def told(self, effects: Sequence[Effect]) -> Trial:
+    def told(self, effects: Sequence[Effect]) -> ScoredFit:
         """These effects together, none of them weighed; `FittingError` where the data cannot carry one."""
         fitted = self.none.fitted
         # Another law comes first: the others are then fitted beside it.
         for effect in sorted(effects, key=lambda e: not e.replaces_law):
-            objection = effect.objection(self.task.points, self.task.plate)
+            objection = effect.objection(self.problem.points, self.problem.plate)
             if objection is not None:
                 raise OutsideModel(f"{effect.name}: {objection}")
             if effect.replaces_law:
                 fits = self.work.other_laws(effect)
                 fitted = min(fits, key=lambda f: self.judged(f).cost)
                 continue
-            contenders = [Contender(self.task, self.evidence, fitted, form) for form in effect.variants()]
-            fits = [c.finished(f) for c in contenders for f in [*c.near[:1], *c.far[:1]]]
+            candidates = [
+                CandidateFit(self.problem, self.evidence, fitted, form) for form in effect.variants()
+            ]
+            fits = [c.finished(f) for c in candidates for f in [*c.near[:1], *c.far[:1]]]
             fitted = min(fits, key=lambda f: f.chi2)
         return self.judged(fitted)

@@ -2,10 +2,10 @@
 
 from collections.abc import Callable, Iterable, Sequence
 
+from fitting.diagnosis.candidate_fits import Begun
 from fitting.diagnosis.candidates import WRONG, has_place
 from fitting.diagnosis.refit import Fitted
-from fitting.diagnosis.search import LEADERS, Search, Trial
-from fitting.diagnosis.work import Begun
+from fitting.diagnosis.search import LEADERS, ScoredFit, Search
 
 Report = Callable[[float], None]
 
@@ -30,13 +30,13 @@ class Singles:
 
     def __init__(self, search: Search, report: Report) -> None:
         self._search, self._work, self._report = search, search.work, report
-        self._each = search.hands.each
-        self._found: dict[str, Trial] = {}
+        self._each = search.executor.each
+        self._found: dict[str, ScoredFit] = {}
         self._effects = {e.name: e for e in search.beside_the_law}
         self._laws = [e.name for e in search.effects if e.name not in self._effects]
         self._settled = False
 
-    def best(self) -> list[Trial]:
+    def best(self) -> list[ScoredFit]:
         """One trial of each effect, best first."""
         self._first_pass()
         ahead = [best for name in self._ahead() for best in self._work.best_near(name)]
@@ -81,18 +81,18 @@ class Singles:
         self._begin(self._each(work.beside_the_best, tasks, report))
         return True
 
-    def _explains_all(self, trial: Trial) -> bool:
-        best = trial.fitted
-        enough = self._search.none.cost - trial.cost > PROMISING and best.chi2_per_dof < UNCLEAR
-        return enough and not trial.fails and not any(e.replaces_law for e in best.effects)
+    def _explains_all(self, scored: ScoredFit) -> bool:
+        best = scored.fitted
+        enough = self._search.none.cost - scored.cost > PROMISING and best.chi2_per_dof < UNCLEAR
+        return enough and not scored.fails and not any(e.replaces_law for e in best.effects)
 
     # What has been found.
 
     def _keep(self, fits: Iterable[Fitted]) -> None:
-        for trial in (self._search.judged(f) for f in fits if self._search.determined(f)):
-            name = trial.names[0]
-            if name not in self._found or trial.cost < self._found[name].cost:
-                self._found[name] = trial
+        for scored in (self._search.judged(f) for f in fits if self._search.determined(f)):
+            name = scored.names[0]
+            if name not in self._found or scored.cost < self._found[name].cost:
+                self._found[name] = scored
 
     def _begin(self, tasks: Iterable[Begun]) -> None:
         for begun in tasks:
@@ -100,11 +100,11 @@ class Singles:
                 self._work.learn(begun.name, begun.state)
             self._keep(begun.fits)
 
-    def _order(self) -> list[Trial]:
+    def _order(self) -> list[ScoredFit]:
         return sorted(self._found.values(), key=lambda t: t.cost)
 
-    def _near(self, trial: Trial) -> list[tuple[tuple[str, int], Fitted]]:
-        return self._work.best_near(trial.names[0])
+    def _near(self, scored: ScoredFit) -> list[tuple[tuple[str, int], Fitted]]:
+        return self._work.best_near(scored.names[0])
 
     def _part(self, start: float, size: float) -> Report:
         return lambda fraction: self._report(start + size * fraction)
@@ -137,7 +137,7 @@ class Singles:
         names = {t.names[0] for t in near[: 2 * LEADERS]}
         return [name for name in self._effects if name in names]
 
-    def _gains(self, order: Sequence[Trial]) -> bool:
+    def _gains(self, order: Sequence[ScoredFit]) -> bool:
         return bool(order) and self._search.none.cost - order[0].cost >= PROMISING
 
     def _worth_more(self) -> list[str]:

@@ -6,13 +6,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import Fitted, posterior
 from fitting.diagnosis.response import Response
 from fitting.diagnosis.result import Estimate, FoundEffect, Stage
-from fitting.diagnosis.search import Search, Trial
+from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.structure import structure
-from fitting.diagnosis.task import Task
-from fitting.effects.spanned import SpannedPlate
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.identification.adjusted import Adjusted, adjusted
 from fitting.identification.result import LawBand, differences_percent, law_band
 from fitting.identification.uncertainty import Uncertainty, limits_reached
@@ -24,10 +24,12 @@ _FEW = 9
 """Frequencies at which a candidate's law is listed, and the reference ones."""
 
 
-def stage_of(task: Task, evidence: Evidence, fitted: Fitted, validation: Validation, scale: float) -> Stage:
+def stage_of(
+    problem: DiagnosisProblem, evidence: Evidence, fitted: Fitted, validation: Validation, scale: float
+) -> Stage:
     """`validation` is what the fit says of data it has not seen; `scale` multiplies its covariance."""
     law = fitted.law
-    C = scale * posterior(Response(task, fitted.effects), evidence, fitted)
+    C = scale * posterior(Response(problem, fitted.effects), evidence, fitted)
     uncertainty = _of_law(fitted, C)
     reached = uncertainty.at_bound
     plain = law.plain
@@ -40,14 +42,14 @@ def stage_of(task: Task, evidence: Evidence, fitted: Fitted, validation: Validat
             name: float("nan") if name in reached else float(e)
             for name, e in zip(plain.names, errors, strict=True)
         },
-        band=law_band(task.sweep, law, uncertainty),
+        band=law_band(problem.sweep, law, uncertainty),
         predicted_m_s=fitted.velocity_m_s,
-        difference_percent=differences_percent(task.sweep, fitted.velocity_m_s),
+        difference_percent=differences_percent(problem.sweep, fitted.velocity_m_s),
         whitened=whitened,
         chi2_per_dof=chi2,
         validation=validation,
-        structure=structure(task.sweep, evidence, whitened, chi2),
-        adjusted=adjusted_of(task, fitted, C),
+        structure=structure(problem.sweep, evidence, whitened, chi2),
+        adjusted=adjusted_of(problem, fitted, C),
     )
 
 
@@ -61,29 +63,31 @@ def _of_law(fitted: Fitted, covariance: Array) -> Uncertainty:
     return Uncertainty(by_law, reached, fitted.chi2_per_dof)
 
 
-def adjusted_of(task: Task, fitted: Fitted, covariance: Array) -> tuple[Adjusted, ...]:
+def adjusted_of(problem: DiagnosisProblem, fitted: Fitted, covariance: Array) -> tuple[Adjusted, ...]:
     """The stated numbers as a fit has them."""
     n = len(fitted.law.names)
     errors = np.sqrt(np.maximum(np.diag(covariance)[n : n + fitted.stated], 0))
-    return adjusted(task.specimen, task.nuisances.each, fitted.z, errors)
+    return adjusted(problem.specimen, problem.nuisances.each, fitted.z, errors)
 
 
-def few_of_law(task: Task, fitted: Fitted, scale: float) -> LawBand:
+def few_of_law(problem: DiagnosisProblem, fitted: Fitted, scale: float) -> LawBand:
     """The law of a fit at a few frequencies."""
     uncertainty = _of_law(fitted, scale * fitted.covariance)
-    return law_band(task.sweep, fitted.law, uncertainty, points=_FEW)
+    return law_band(problem.sweep, fitted.law, uncertainty, points=_FEW)
 
 
-def mixed_band(task: Task, search: Search, group: Sequence[tuple[Trial, float]]) -> LawBand:
+def mixed_band(
+    problem: DiagnosisProblem, search: Search, group: Sequence[tuple[ScoredFit, float]]
+) -> LawBand:
     """The law over all explanations of a group: mean and standard deviation of their mixture.
 
     Each brings its own posterior; where they disagree, so does the band.
     """
     bands, shares = [], np.array([p for _, p in group])
-    for trial, _ in group:
-        fitted = trial.fitted
-        C = posterior(Response(task, fitted.effects), search.evidence, fitted)
-        bands.append(law_band(task.sweep, fitted.law, _of_law(fitted, search.temper(trial) * C)))
+    for scored, _ in group:
+        fitted = scored.fitted
+        C = posterior(Response(problem, fitted.effects), search.evidence, fitted)
+        bands.append(law_band(problem.sweep, fitted.law, _of_law(fitted, search.temper(scored) * C)))
 
     def mixture(value: str, error: str) -> tuple[Array, Array]:
         means = np.array([getattr(b, value) for b in bands])
@@ -96,7 +100,7 @@ def mixed_band(task: Task, search: Search, group: Sequence[tuple[Trial, float]])
     return LawBand(bands[0].frequency_hz, G, eta, G_error, eta_error)
 
 
-def found_effects(fitted: Fitted, plate: SpannedPlate, scale: float = 1.0) -> tuple[FoundEffect, ...]:
+def found_effects(fitted: Fitted, plate: EnrichedReducedPlate, scale: float = 1.0) -> tuple[FoundEffect, ...]:
     """The effects of a fit with their sizes and standard errors; `scale` multiplies the covariance."""
     covariance = scale * fitted.covariance
     n = len(fitted.law.names)

@@ -12,7 +12,7 @@ import numpy as np
 from fitting.diagnosis.marginal import probabilities
 from fitting.diagnosis.predictive import LEVEL, weakest
 from fitting.diagnosis.result import Verdict
-from fitting.diagnosis.search import Trial
+from fitting.diagnosis.search import ScoredFit
 
 NONE = "none"
 CREDIBLE = 0.95
@@ -28,10 +28,10 @@ class Judgement:
     """The accepted explanation (None for none) and each of its effects' equals."""
 
     verdict: Verdict
-    accepted: Trial | None
+    accepted: ScoredFit | None
     equivalent: dict[str, tuple[str, ...]]
     """With `NONE` where that nothing is there is in the group."""
-    group: tuple[tuple[Trial, float], ...] = ()
+    group: tuple[tuple[ScoredFit, float], ...] = ()
     """Every explanation up to 95 %, none too where it may be; their probabilities add up to one."""
     probability: Mapping[tuple[str, ...], float] = field(default_factory=dict)
     """Of every explanation, by its effects' names."""
@@ -47,15 +47,15 @@ class Judgement:
         return float(sum(p for names, p in self.probability.items() if name in names))
 
 
-def told(trial: Trial) -> Judgement:
+def told(scored: ScoredFit) -> Judgement:
     """What someone has decided: each effect stands for itself."""
-    names: dict[str, tuple[str, ...]] = {name: (name,) for name in trial.names}
+    names: dict[str, tuple[str, ...]] = {name: (name,) for name in scored.names}
     return Judgement(
         "effect" if names else "none",
-        trial if names else None,
+        scored if names else None,
         names,
-        group=((trial, 1.0),),
-        probability={trial.names: 1.0},
+        group=((scored, 1.0),),
+        probability={scored.names: 1.0},
         by_hand=True,
     )
 
@@ -70,26 +70,26 @@ def in_light_of(judgement: Judgement, p_value: float | None) -> Judgement:
 
 
 def judge(
-    none: Trial,
-    trials: Sequence[Trial],
+    none: ScoredFit,
+    scored_fits: Sequence[ScoredFit],
     *,
     temper: float,
     hidden: frozenset[str],
-    held_out: Callable[[Trial], float],
+    held_out: Callable[[ScoredFit], float],
 ) -> Judgement:
     """Weigh explanations.
 
     `temper`: how much less a difference of costs says. `hidden`: effects that may not be named, fitted for
     comparison. `held_out`: error of a trial over noise on data it has not seen, NaN where there are none.
     """
-    every = _best_of_each([none, *trials])
+    every = _best_of_each([none, *scored_fits])
     p = probabilities(np.array([t.cost for t in every]), temper)
     order = np.argsort(-p, kind="stable")
     ranked = [(every[k], float(p[k])) for k in order]
     probability = {t.names: share for t, share in ranked}
     group = _group(ranked)
 
-    def judgement(verdict: Verdict, accepted: Trial | None, **more: object) -> Judgement:
+    def judgement(verdict: Verdict, accepted: ScoredFit | None, **more: object) -> Judgement:
         equivalent = _equivalent(accepted, group, hidden) if accepted is not None else {}
         return Judgement(verdict, accepted, equivalent, group, probability, **more)  # type: ignore[arg-type]
 
@@ -108,45 +108,48 @@ def judge(
 
 
 def _unknown(
-    judgement: Callable[..., Judgement], nearest: Trial, ranked: Sequence[tuple[Trial, float]], why: str = ""
+    judgement: Callable[..., Judgement],
+    nearest: ScoredFit,
+    ranked: Sequence[tuple[ScoredFit, float]],
+    why: str = "",
 ) -> Judgement:
     best = nearest if nearest.names else next((t for t, _ in ranked if t.names), nearest)
     return judgement("unknown", None, refused=best.names if why else (), why=why)
 
 
-def _group(ranked: Sequence[tuple[Trial, float]]) -> tuple[tuple[Trial, float], ...]:
+def _group(ranked: Sequence[tuple[ScoredFit, float]]) -> tuple[tuple[ScoredFit, float], ...]:
     """The first of them that hold 95 %, their shares scaled to one."""
     found, total = [], 0.0
-    for trial, share in ranked:
+    for scored, share in ranked:
         if total >= CREDIBLE:
             break
-        found.append((trial, share))
+        found.append((scored, share))
         total += share
     return tuple((t, share / total) for t, share in found)
 
 
 def _equivalent(
-    best: Trial, group: Sequence[tuple[Trial, float]], hidden: frozenset[str]
+    best: ScoredFit, group: Sequence[tuple[ScoredFit, float]], hidden: frozenset[str]
 ) -> dict[str, tuple[str, ...]]:
     """For each effect of the best what stands in its place in others of the group."""
     found = {}
     for name in best.names:
         rest = set(best.names) - {name}
         names = [name]
-        for trial, _ in group:
-            instead = set(trial.names) - rest
-            if not trial.names:
+        for scored, _ in group:
+            instead = set(scored.names) - rest
+            if not scored.names:
                 names.append(NONE)
-            elif name not in instead and rest <= set(trial.names):
-                names += [n for n in trial.names if n in instead and n not in hidden]
-            elif name not in trial.names and not rest & set(trial.names):
+            elif name not in instead and rest <= set(scored.names):
+                names += [n for n in scored.names if n in instead and n not in hidden]
+            elif name not in scored.names and not rest & set(scored.names):
                 # Another explanation altogether stands for all of it.
-                names += [n for n in trial.names if n not in hidden and n not in best.names]
+                names += [n for n in scored.names if n not in hidden and n not in best.names]
         found[name] = tuple(dict.fromkeys(names))
     return found
 
 
-def _against(none: Trial, best: Trial, held_out: Callable[[Trial], float]) -> str:
+def _against(none: ScoredFit, best: ScoredFit, held_out: Callable[[ScoredFit], float]) -> str:
     """Why an explanation is none; empty where nothing speaks against it."""
     worst = weakest(best.checks)
     if worst is not None and worst[1] < LEVEL:
@@ -156,7 +159,7 @@ def _against(none: Trial, best: Trial, held_out: Callable[[Trial], float]) -> st
     return ""
 
 
-def _predicts_nothing(none: Trial, best: Trial, held_out: Callable[[Trial], float]) -> bool:
+def _predicts_nothing(none: ScoredFit, best: ScoredFit, held_out: Callable[[ScoredFit], float]) -> bool:
     """Whether data that were held out speak against an explanation that fits by another law's freedom."""
     if not none.fails or not any(e.replaces_law for e in best.fitted.effects):
         return False
@@ -164,8 +167,8 @@ def _predicts_nothing(none: Trial, best: Trial, held_out: Callable[[Trial], floa
     return off > POOR and off > HARDLY_BETTER * held_out(none)
 
 
-def _best_of_each(trials: Sequence[Trial]) -> list[Trial]:
-    best: dict[frozenset[str], Trial] = {}
-    for trial in sorted(trials, key=lambda t: t.cost):
-        best.setdefault(frozenset(trial.names), trial)
+def _best_of_each(scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
+    best: dict[frozenset[str], ScoredFit] = {}
+    for scored in sorted(scored_fits, key=lambda t: t.cost):
+        best.setdefault(frozenset(scored.names), scored)
     return list(best.values())

@@ -3,7 +3,7 @@
 from importlib import import_module
 from pkgutil import iter_modules
 
-from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.span import Span
 
@@ -18,4 +18,4 @@ SPANS: list[Span] = list(
 )
 """Every span once."""
 
-__all__ = ["CATALOGUE", "SPANS", "Change", "Effect", "Points", "Span", "Unknown"]
+__all__ = ["CATALOGUE", "SPANS", "Change", "Effect", "EffectParameter", "Points", "Span"]

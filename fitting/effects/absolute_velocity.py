@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.effects.base import Effect, Points
-from fitting.effects.spanned import SpannedPlate
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -18,9 +18,9 @@ class AbsoluteVelocity(Effect):
     name = "absolute_velocity"
     enters = "observation"
     source = "kinematics of a moving base"
-    splits = "where the laser's head stands, and whether a reference beam goes to the clamp"
+    discriminating_test = "where the laser's head stands, and whether a reference beam goes to the clamp"
 
-    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return "the data are stated to be absolute" if points.reads == "absolute" else None
 
     def reading(self, v: Complex, points: Points, u: Array) -> Complex:

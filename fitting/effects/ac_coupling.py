@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.base import Effect, EffectParameter, Points
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -17,9 +17,9 @@ class AcCoupling(Effect):
     name = "ac_coupling"
     enters = "channel"
     source = "first-order filter: the input's series capacitor"
-    unknowns = (Unknown("corner", "Hz", 0.0, 5.0, 0.5, spread=1.0),)
+    unknowns = (EffectParameter("corner", "Hz", 0.0, 5.0, 0.5, spread=1.0),)
     chance = 0.015
-    splits = "the channel's input set to DC; the laser on the base beside the accelerometer"
+    discriminating_test = "the channel's input set to DC; the laser on the base beside the accelerometer"
 
     def reading(self, v: Complex, points: Points, u: Array) -> Complex:
         f = points.omega / (2 * np.pi)

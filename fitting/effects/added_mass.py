@@ -5,11 +5,11 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.span import Span
-from fitting.effects.spanned import SpannedPlate
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -39,24 +39,24 @@ class AddedMass(Effect):
     enters = "mass"
     source = "mass loading, Ewins, Modal Testing (2000), section 3.5"
     unknowns = (
-        Unknown("mass", "kg", 0.0, 0.05, 3e-3, spread=5e-3),
-        Unknown("x", "m", 0.0, np.inf, 0.05, neutral=None),
-        Unknown("y", "m", 0.0, np.inf, 0.05, neutral=None),
+        EffectParameter("mass", "kg", 0.0, 0.05, 3e-3, spread=5e-3),
+        EffectParameter("x", "m", 0.0, np.inf, 0.05, neutral=None),
+        EffectParameter("y", "m", 0.0, np.inf, 0.05, neutral=None),
     )
     spans = (PointMass(),)
-    misses = 0.003
+    unexplained_share = 0.003
     chance = 0.03
-    splits = "a look at the plate and a balance; a second spot off the axis"
+    discriminating_test = "a look at the plate and a balance; a second spot off the axis"
 
-    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         along, across = (np.arange(8) + 1) / 8.2, (np.arange(5) + 0.5) / 5
         return [np.array([3e-3, x * plate.length_m, y * plate.width_m]) for x in along for y in across]
 
-    def limits(self, plate: SpannedPlate) -> tuple[Array, Array]:
+    def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
         lower, upper = super().limits(plate)
         return lower, np.minimum(upper, [np.inf, plate.length_m, plate.width_m])
 
-    def change(self, plate: SpannedPlate, u: Array) -> Change:
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         w = plate.row(u[1], u[2])
         return Change(M=u[0] * np.outer(w, w), load=-u[0] * w)
 

@@ -7,9 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.effects.added_mass import AddedMass
-from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
-from fitting.effects.spanned import SpannedPlate
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 Array = NDArray[np.float64]
 
@@ -25,7 +25,7 @@ class AddedMasses(Effect):
     enters = "mass"
     source = AddedMass.source
     unknowns = tuple(
-        Unknown(f"{key}_{number}", unit, lower, upper, typical, neutral=neutral, spread=spread)
+        EffectParameter(f"{key}_{number}", unit, lower, upper, typical, neutral=neutral, spread=spread)
         for number in (1, 2)
         for key, unit, lower, upper, typical, neutral, spread in (
             ("mass", "kg", 0.0, 0.05, 3e-3, 0.0, 5e-3),
@@ -34,20 +34,20 @@ class AddedMasses(Effect):
         )
     )
     spans = AddedMass.spans
-    misses = AddedMass.misses
+    unexplained_share = AddedMass.unexplained_share
     extends = "added_mass"
     chance = 0.005
-    splits = AddedMass.splits
+    discriminating_test = AddedMass.discriminating_test
 
-    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         places = [(x * plate.length_m, y * plate.width_m) for x, y in _PLACES]
         return [np.array([_START_KG, *a, _START_KG, *b]) for a, b in combinations(places, 2)]
 
-    def limits(self, plate: SpannedPlate) -> tuple[Array, Array]:
+    def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
         lower, upper = super().limits(plate)
         return lower, np.minimum(upper, [np.inf, plate.length_m, plate.width_m] * 2)
 
-    def change(self, plate: SpannedPlate, u: Array) -> Change:
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         one, other = (AddedMass().change(plate, u[k : k + 3]) for k in (0, 3))
         return one.and_then(other)
 

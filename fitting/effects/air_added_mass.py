@@ -7,11 +7,11 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from fitting.air import StillAir, still_air
-from fitting.effects.base import BarePlate, Effect, Points, Unknown
+from fitting.effects.base import BarePlate, Effect, EffectParameter, Points
 from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.span import Span
-from fitting.effects.spanned import SpannedPlate
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -45,22 +45,22 @@ class AirAddedMass(Effect):
     enters = "mass"
     source = "potential flow about an unbaffled plate, `fitting.air`"
     unknowns = (
-        Unknown("density", "kg/m^3", 0.0, 3.0, 1.2, spread=1.2),
-        Unknown("bare_plate_too", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),
+        EffectParameter("density", "kg/m^3", 0.0, 3.0, 1.2, spread=1.2),
+        EffectParameter("bare_plate_too", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),
     )
     spans = (Air(),)
-    misses = 0.003
+    unexplained_share = 0.003
     chance = 0.05
-    splits = "the bare plate's natural frequencies (hammer test); a run in vacuum"
+    discriminating_test = "the bare plate's natural frequencies (hammer test); a run in vacuum"
 
-    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         # The bare plate feels the air too, unless its stated modulus was itself found by vibration in air.
         return [np.array([1.2, felt]) for felt in (0.0, 1.0)]
 
     def bare_shift(self, bare: BarePlate, u: Array) -> Array:
         return np.asarray(-0.5 * np.log1p(2 * u[0] * u[1] * bare.lowering_per_density))
 
-    def change(self, plate: SpannedPlate, u: Array) -> Change:
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         return Change(M=u[0] * plate.matrix("air.M"), load=u[0] * plate.vector("air.load"))
 
     def story(self, u: Mapping[str, float]) -> str:

@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, ModulusAt, Points, Unknown
+from fitting.effects.base import Effect, EffectParameter, ModulusAt, Points
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.span import Span
 from fitting.element import Shape, core_shear_stiffness
@@ -38,11 +38,11 @@ class AmplitudeSoftening(Effect):
     name = "amplitude_softening"
     enters = "level"
     source = "Payne, J. Appl. Polym. Sci. 6 (1962), first order in the strain amplitude"
-    unknowns = (Unknown("k", "1", -0.5, 0.8, 0.1, spread=0.15),)
+    unknowns = (EffectParameter("k", "1", -0.5, 0.8, 0.1, spread=0.15),)
     spans = (Strain(),)
-    misses = 0.004
+    unexplained_share = 0.004
     chance = 0.03
-    splits = "a second level"
+    discriminating_test = "a second level"
 
     def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex:
         softened = np.zeros(len(points.omega))

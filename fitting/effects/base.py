@@ -17,8 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.span import Span
-from fitting.effects.spanned import SpannedPlate
 from fitting.laws import CoreLaw
 from fitting.noise import Noise
 from fitting.specimen import Face
@@ -48,7 +48,7 @@ Entry = Literal["stiffness", "mass", "load", "observation", "channel", "time", "
 
 
 @dataclass(frozen=True)
-class Unknown:
+class EffectParameter:
     """One number of an effect. A fit moves it within its plausible range."""
 
     key: str
@@ -107,12 +107,12 @@ class Effect:
     name: ClassVar[str]
     enters: ClassVar[Entry]
     source: ClassVar[str]
-    unknowns: tuple[Unknown, ...] = ()
+    unknowns: tuple[EffectParameter, ...] = ()
     spans: tuple[Span, ...] = ()
-    splits: ClassVar[str] = ""
+    discriminating_test: ClassVar[str] = ""
     """The measurement that shows this effect apart from others."""
     replaces_law: ClassVar[bool] = False
-    misses: ClassVar[float] = 0.0
+    unexplained_share: ClassVar[float] = 0.0
     """Share of the chi-square it explains that its own formula may leave (`fitting.diagnosis.predictive`)."""
 
     chance: ClassVar[float] = 0.02
@@ -125,11 +125,11 @@ class Effect:
         """Its trace in the channels themselves."""
         return None
 
-    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         """Why this effect cannot be judged by these data, or None."""
         return None
 
-    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         """Values to look at first; the best of them by a linear step is followed."""
         return [np.array([u.typical for u in self.unknowns])]
 
@@ -150,11 +150,11 @@ class Effect:
             found[k] = u[k] / a if np.isinf(q.neutral) else q.neutral + a * (u[k] - q.neutral)
         return found
 
-    def limits(self, plate: SpannedPlate) -> tuple[Array, Array]:
+    def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
         """Least and largest values of the unknowns."""
         return np.array([u.lower for u in self.unknowns]), np.array([u.upper for u in self.unknowns])
 
-    def change(self, plate: SpannedPlate, u: Array) -> Change | None:
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change | None:
         """What it changes of the reduced plate."""
         return None
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Unknown
+from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.span import Span
 
@@ -31,10 +31,10 @@ class BaseRocking(Effect):
     name = "base_rocking"
     enters = "load"
     source = "rigid turn of the base about the root, inertia load -M r_p"
-    unknowns = (Unknown("pitch", "rad/m", -2.0, 2.0, 0.05, spread=0.1),)
+    unknowns = (EffectParameter("pitch", "rad/m", -2.0, 2.0, 0.05, spread=0.1),)
     spans = (Pitch(),)
     chance = 0.03
-    splits = "two accelerometers on the base, one behind the other"
+    discriminating_test = "two accelerometers on the base, one behind the other"
 
     def pitch(self, omega: Array, u: Array) -> Complex:
         return np.full(len(omega), u[0] + 0j)

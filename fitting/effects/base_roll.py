@@ -5,11 +5,11 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.span import Span
-from fitting.effects.spanned import SpannedPlate
 from fitting.element import DOFS, THETA_X, V_C, W
 
 Array = NDArray[np.float64]
@@ -53,19 +53,19 @@ class BaseRoll(Effect):
     name = "base_roll"
     enters = "load"
     source = "rigid turn of the base about x, inertia load -M r_r"
-    unknowns = (Unknown("roll", "rad/m", -2.0, 2.0, 0.05, spread=0.1),)
+    unknowns = (EffectParameter("roll", "rad/m", -2.0, 2.0, 0.05, spread=0.1),)
     spans = (Roll(),)
     chance = 0.015
-    splits = (
+    discriminating_test = (
         "two accelerometers on the base, side by side; two spots at the same x on either side of the axis"
     )
 
-    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         if abs(plate.pickup[1] - plate.width_m / 2) < _ON_AXIS_M:
             return "a pickup on the axis does not see the base roll"
         return None
 
-    def change(self, plate: SpannedPlate, u: Array) -> Change:
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         # The pickup is turned along with the base.
         lever = plate.pickup[1] - plate.width_m / 2
         return Change(load=u[0] * plate.vector("roll.load"), travel=u[0] * lever)

@@ -5,8 +5,8 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Points, Unknown
-from fitting.effects.spanned import SpannedPlate
+from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -18,11 +18,13 @@ class ChannelDelay(Effect):
     name = "channel_delay"
     enters = "channel"
     source = "a decoder's or filter's constant group delay"
-    unknowns = (Unknown("delay", "s", -3e-3, 3e-3, 5e-5, spread=1e-4),)
+    unknowns = (EffectParameter("delay", "s", -3e-3, 3e-3, 5e-5, spread=1e-4),)
     chance = 0.04
-    splits = "the laser on the base beside the accelerometer: its phase over frequency is the delay"
+    discriminating_test = (
+        "the laser on the base beside the accelerometer: its phase over frequency is the delay"
+    )
 
-    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return None if points.has_phase else "amplitudes do not show a delay"
 
     def reading(self, v: Complex, points: Points, u: Array) -> Complex:

@@ -10,11 +10,11 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.released_root import RootSpan
-from fitting.effects.spanned import SpannedPlate
 from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
 
 Array = NDArray[np.float64]
@@ -73,25 +73,25 @@ class ClampCompliance(Effect):
     name = "clamp_compliance"
     enters = "stiffness"
     source = "elastic foundation of the root face, e.g. MacBain and Genin, J. Sound Vib. 27 (1973)"
-    unknowns = (Unknown("k", "N/m^3", 1e12, 1e16, 5e13, logarithmic=True, neutral=float("inf")),)
+    unknowns = (EffectParameter("k", "N/m^3", 1e12, 1e16, 5e13, logarithmic=True, neutral=float("inf")),)
     spans = (Root(),)
-    misses = 0.003
+    unexplained_share = 0.003
     chance = 0.05
-    splits = "the same plate clamped anew, or its root watched by the laser"
+    discriminating_test = "the same plate clamped anew, or its root watched by the laser"
 
-    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return None if "root" in plate.group else "the plate has no clamp"
 
-    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [np.array([k]) for k in (5e13, 1.5e13)]
 
-    def change(self, plate: SpannedPlate, u: Array) -> Change:
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         return Change(K=springs(plate, u))
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"the plate's root is elastic ({u['k']:.2g} N/m^3 of root face)"
 
 
-def springs(plate: SpannedPlate, u: Array) -> Array:
+def springs(plate: EnrichedReducedPlate, u: Array) -> Array:
     """The root's stiffness with springs of `u[0]`."""
     return np.asarray(u[0] * (plate.matrix("root.x") + plate.matrix("root.z")))

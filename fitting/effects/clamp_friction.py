@@ -5,10 +5,10 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.clamp_compliance import ClampCompliance, springs
-from fitting.effects.spanned import SpannedPlate
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 Array = NDArray[np.float64]
 
@@ -19,23 +19,25 @@ class ClampFriction(Effect):
     name = "clamp_friction"
     enters = "stiffness"
     source = "hysteretic joint damping, Beards, Structural Vibration (1996), ch. 4"
-    unknowns = (*ClampCompliance.unknowns, Unknown("loss_factor", "1", 0.0, 1.0, 0.1, spread=0.3))
+    unknowns = (*ClampCompliance.unknowns, EffectParameter("loss_factor", "1", 0.0, 1.0, 0.1, spread=0.3))
     spans = ClampCompliance.spans
     extends = "clamp_compliance"
-    misses = 0.003
+    unexplained_share = 0.003
     chance = 0.03
-    splits = "the hammer test repeated with the clamp tightened: its losses change, the core's do not"
+    discriminating_test = (
+        "the hammer test repeated with the clamp tightened: its losses change, the core's do not"
+    )
 
-    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return ClampCompliance().objection(points, plate)
 
-    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [np.array([k, 0.1]) for k in (5e13, 1.5e13)]
 
     def scaled(self, u: Array, a: float) -> Array:
         return np.array([u[0] / a, u[1]])
 
-    def change(self, plate: SpannedPlate, u: Array) -> Change:
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         return Change(K=(1 + 1j * u[1]) * springs(plate, u))
 
     def story(self, u: Mapping[str, float]) -> str:

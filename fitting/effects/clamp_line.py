@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.other_plates import changed_to, forces
 from fitting.effects.span import Span
-from fitting.effects.spanned import SpannedPlate
 from fitting.specimen import Specimen
 
 Array = NDArray[np.float64]
@@ -59,22 +59,22 @@ class ClampLine(Effect):
     enters = "stiffness"
     source = "the paper's Eq. (15) to (18) on a mesh stretched along x; the viscous damping kept"
     unknowns = (
-        Unknown("dlength", "m", -8e-3, 8e-3, 1e-3, spread=2e-3),
-        Unknown("pickup_too", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),
+        EffectParameter("dlength", "m", -8e-3, 8e-3, 1e-3, spread=2e-3),
+        EffectParameter("pickup_too", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),
     )
     spans = (Length(),)
     chance = 0.03
-    splits = (
+    discriminating_test = (
         "a feeler gauge or blueing paper in the clamp; the plate clamped anew, further in by a known step"
     )
 
-    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return None if "length" in plate.group else "the plate has no clamp"
 
-    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [np.array([1e-3, too]) for too in (1.0, 0.0)]
 
-    def change(self, plate: SpannedPlate, u: Array) -> Change:
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         length = plate.length_m + float(u[0])
         x, y = plate.pickup
         found = changed_to(plate, with_length(plate.specimen, length))

@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Unknown
+from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.other_plates import changed_to
 from fitting.effects.span import Span
-from fitting.effects.spanned import SpannedPlate
 from fitting.linear import times
 
 Array = NDArray[np.float64]
@@ -36,12 +36,14 @@ class ConstrainingStiffness(Effect):
     name = "constraining_stiffness"
     enters = "stiffness"
     source = "the paper's Eq. (15c)"
-    unknowns = (Unknown("scale", "1", 0.7, 1.4, 1.03, neutral=1.0, spread=0.05),)
+    unknowns = (EffectParameter("scale", "1", 0.7, 1.4, 1.03, neutral=1.0, spread=0.05),)
     spans = (Constraining(),)
     chance = 0.015
-    splits = "a strip of the constraining layer in a tensile test, or its own bending frequencies"
+    discriminating_test = (
+        "a strip of the constraining layer in a tensile test, or its own bending frequencies"
+    )
 
-    def change(self, plate: SpannedPlate, u: Array) -> Change:
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         s = plate.specimen
         assert s.constraining is not None
         young = u[0] * s.constraining.young_pa

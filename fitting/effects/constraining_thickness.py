@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Unknown
+from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.other_plates import changed_to, forces
 from fitting.effects.span import Span
-from fitting.effects.spanned import SpannedPlate
 from fitting.specimen import Specimen
 
 Array = NDArray[np.float64]
@@ -43,12 +43,12 @@ class ConstrainingThickness(Effect):
     name = "constraining_thickness"
     enters = "stiffness"
     source = "the paper's Eq. (15) to (18) with another H_c"
-    unknowns = (Unknown("scale", "1", 0.7, 1.3, 1.03, neutral=1.0, spread=0.05),)
+    unknowns = (EffectParameter("scale", "1", 0.7, 1.3, 1.03, neutral=1.0, spread=0.05),)
     spans = (ConstrainingLayer(),)
     chance = 0.015
-    splits = "a micrometer at the layer's edge; the plate weighed before and after treatment"
+    discriminating_test = "a micrometer at the layer's edge; the plate weighed before and after treatment"
 
-    def change(self, plate: SpannedPlate, u: Array) -> Change:
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         return changed_to(plate, with_layer(plate.specimen, float(u[0])))
 
     def story(self, u: Mapping[str, float]) -> str:

@@ -24,7 +24,9 @@ class OtherCoreLaw(Effect):
     source = "Ferry (generalised Maxwell); Golla, Hughes and McTavish; natural splines of ln G' and ln eta"
     replaces_law = True
     chance = 0.03
-    splits = "a second specimen of another thickness: the law is the same, errors of the plate are not"
+    discriminating_test = (
+        "a second specimen of another thickness: the law is the same, errors of the plate are not"
+    )
 
     def laws(self, stated: CoreLaw, points: Points) -> list[CoreLaw]:
         """Near the stated one; smooth ones with as many knots as the clusters of points can fix."""

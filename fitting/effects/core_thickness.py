@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Unknown
+from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.other_plates import changed_to, forces
 from fitting.effects.span import Span
-from fitting.effects.spanned import SpannedPlate
 from fitting.specimen import Specimen
 
 Array = NDArray[np.float64]
@@ -41,12 +41,12 @@ class CoreThickness(Effect):
     name = "core_thickness"
     enters = "stiffness"
     source = "the paper's Eq. (15) to (18) with another H_v"
-    unknowns = (Unknown("scale", "1", 0.7, 1.3, 1.05, neutral=1.0, spread=0.08),)
+    unknowns = (EffectParameter("scale", "1", 0.7, 1.3, 1.05, neutral=1.0, spread=0.08),)
     spans = (Thickness(),)
     chance = 0.04
-    splits = "a gauge; a second specimen of another thickness"
+    discriminating_test = "a gauge; a second specimen of another thickness"
 
-    def change(self, plate: SpannedPlate, u: Array) -> Change:
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         return changed_to(plate, with_core(plate.specimen, float(u[0])))
 
     def story(self, u: Mapping[str, float]) -> str:

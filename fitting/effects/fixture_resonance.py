@@ -5,9 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.base_rocking import BaseRocking
-from fitting.effects.spanned import SpannedPlate
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -26,17 +26,17 @@ class FixtureResonance(Effect):
     enters = "load"
     source = "one mode of the fixture between shaker and clamp"
     unknowns = (
-        Unknown("frequency", "Hz", 1.0, 5000.0, 100.0, logarithmic=True, neutral=None),
-        Unknown("damping_ratio", "1", 1e-3, 0.3, 0.02, logarithmic=True, neutral=None),
-        Unknown("gain", "rad/m", -1.0, 1.0, 0.02, spread=0.1),
-        Unknown("heave", "1", -0.3, 0.3, 0.01, spread=0.02),
-        Unknown("before", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),
+        EffectParameter("frequency", "Hz", 1.0, 5000.0, 100.0, logarithmic=True, neutral=None),
+        EffectParameter("damping_ratio", "1", 1e-3, 0.3, 0.02, logarithmic=True, neutral=None),
+        EffectParameter("gain", "rad/m", -1.0, 1.0, 0.02, spread=0.1),
+        EffectParameter("heave", "1", -0.3, 0.3, 0.01, spread=0.02),
+        EffectParameter("before", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),
     )
     spans = BaseRocking.spans
     extends = "base_rocking"
-    splits = "two accelerometers on the base; the sweep repeated with a mass on the fixture"
+    discriminating_test = "two accelerometers on the base; the sweep repeated with a mass on the fixture"
 
-    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         f = points.omega / (2 * np.pi)
         low, high = _OUTSIDE[0] * f.min(), _OUTSIDE[1] * f.max()
         grid = np.geomspace(low, high, int(np.log(high / low) / _STEP))

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.base import Effect, EffectParameter, Points
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -17,9 +17,9 @@ class GainError(Effect):
     name = "gain_error"
     enters = "channel"
     source = "calibration of the measuring chain"
-    unknowns = (Unknown("factor", "1", 0.5, 2.0, 1.02, neutral=1.0, spread=0.02),)
+    unknowns = (EffectParameter("factor", "1", 0.5, 2.0, 1.02, neutral=1.0, spread=0.02),)
     chance = 0.04
-    splits = "the laser on the base beside the accelerometer; a second spot"
+    discriminating_test = "the laser on the base beside the accelerometer; a second spot"
 
     def reading(self, v: Complex, points: Points, u: Array) -> Complex:
         return np.asarray(v * u[0])

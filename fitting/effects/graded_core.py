@@ -6,12 +6,12 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Unknown
+from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.partial_debond import strips
 from fitting.effects.span import Span
-from fitting.effects.spanned import SpannedPlate
 from fitting.element import DOFS, Shape, core_shear
 from fitting.linear import times
 
@@ -82,19 +82,21 @@ class GradedCore(Effect):
     name = "graded_core"
     enters = "stiffness"
     source = "first order in the place; the core's shear alone"
-    misses = 0.004
+    unexplained_share = 0.004
     chance = 0.015
-    splits = "strips of the core tested one by one; the sweep repeated after hours at one temperature"
+    discriminating_test = (
+        "strips of the core tested one by one; the sweep repeated after hours at one temperature"
+    )
 
     def __init__(self, along: str = "x") -> None:
         self.along = along
         self.spans = (Grading(along),)
-        self.unknowns = (Unknown(f"grade_{along}", "1", -1.5, 1.5, 0.2, spread=0.3),)
+        self.unknowns = (EffectParameter(f"grade_{along}", "1", -1.5, 1.5, 0.2, spread=0.3),)
 
     def variants(self) -> tuple[Effect, ...]:
         return (self, GradedCore("y"))
 
-    def change(self, plate: SpannedPlate, u: Array) -> Change:
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         return Change(K_1=u[0] * plate.matrix(f"grading_{self.along}.K_1"))
 
     def story(self, u: Mapping[str, float]) -> str:

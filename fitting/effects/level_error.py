@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.effects.base import Effect, Points, Seen
-from fitting.effects.spanned import SpannedPlate
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.level import level_error
 from fitting.noise import Noise
 from fitting.sweep import Sweep
@@ -17,7 +17,7 @@ class LevelError(Effect):
     name = "level_error"
     enters = "level"
     source = "reference channel over command"
-    splits = "a second accelerometer on the base"
+    discriminating_test = "a second accelerometer on the base"
 
     def seen(self, sweep: Sweep, noise: Noise) -> Seen | None:
         found = level_error(sweep)
@@ -25,7 +25,7 @@ class LevelError(Effect):
             return None
         return Seen({"factor": (found.factor, found.standard_error, "1")}, np.zeros(len(sweep), bool))
 
-    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return "it shows in the channels themselves"
 
     def story(self, u: Mapping[str, float]) -> str:

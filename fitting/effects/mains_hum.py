@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from fitting.effects.base import Effect, Points, Seen
-from fitting.effects.spanned import SpannedPlate
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.hum import mains_hum
 from fitting.noise import Noise
 from fitting.sweep import Sweep
@@ -15,7 +15,7 @@ class MainsHum(Effect):
     name = "mains_hum"
     enters = "channel"
     source = "outliers of the local scatter at multiples of 50 or 60 Hz"
-    splits = "a record with the shaker silent"
+    discriminating_test = "a record with the shaker silent"
 
     def seen(self, sweep: Sweep, noise: Noise) -> Seen | None:
         hum = mains_hum(sweep, noise)
@@ -24,7 +24,7 @@ class MainsHum(Effect):
         nan = float("nan")
         return Seen({"mains": (hum.mains_hz, nan, "Hz"), "size": (hum.size_m_s, nan, "m/s")}, hum.points)
 
-    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return "it shows in the channels themselves"
 
     def story(self, u: Mapping[str, float]) -> str:

@@ -5,12 +5,12 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import BarePlate, Effect, Unknown
+from fitting.effects.base import BarePlate, Effect, EffectParameter
 from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.other_plates import mixed
 from fitting.effects.span import Span
-from fitting.effects.spanned import SpannedPlate
 from fitting.element import DOFS, U_B, V_B, Shape
 from fitting.parts import STIFFNESS
 from fitting.specimen import Face
@@ -85,9 +85,9 @@ class OrthotropicSubstrate(Effect):
     name = "orthotropic_substrate"
     enters = "stiffness"
     source = "orthotropic plane stress with Huber's shear modulus, e.g. Szilard, Plates (2004), ch. 4"
-    unknowns = (Unknown("ratio", "1", 0.7, 1.4, 1.03, neutral=1.0, spread=0.03),)
+    unknowns = (EffectParameter("ratio", "1", 0.7, 1.4, 1.03, neutral=1.0, spread=0.03),)
     spans = (Orthotropy(),)
-    splits = (
+    discriminating_test = (
         "torsional beside bending frequencies of the bare plate (hammer test); a strip cut across the sheet"
     )
 
@@ -99,7 +99,7 @@ class OrthotropicSubstrate(Effect):
         )
         return np.asarray(0.5 * np.log(now / stated))
 
-    def change(self, plate: SpannedPlate, u: Array) -> Change:
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         face = plate.specimen.substrate
         change = plane_stress(face, float(u[0])) - plane_stress(face, 1.0)
         return Change(K=mixed(substrate_coefficients(face, change), plate.parts[: len(STIFFNESS)]))

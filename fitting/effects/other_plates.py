@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
-from fitting.effects.spanned import SpannedPlate
 from fitting.element import CORNERS
 from fitting.parts import CORE, STIFFNESS, coefficients, stretched
 from fitting.plate import Mesh, element_matrices
@@ -45,8 +45,8 @@ def forces(full: FullPlate, at: Snapshot, others: Iterable[Specimen]) -> Complex
     return np.hstack(found)
 
 
-def changed_to(plate: SpannedPlate, other: Specimen) -> Change:
-    """What another plate on the same mesh changes; `other` is `SpannedPlate.specimen` with something else."""
+def changed_to(plate: EnrichedReducedPlate, other: Specimen) -> Change:
+    """What another plate on the same mesh changes; `other` is `plate.specimen` with something else."""
     c, stated = coefficients(other, plate.specimen), plate.coefficients
     n_0, n_1 = len(STIFFNESS), len(STIFFNESS) + len(CORE)
     return Change(

@@ -6,11 +6,11 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.span import Span
-from fitting.effects.spanned import SpannedPlate
 from fitting.element import Shape, core_shear_stiffness
 from fitting.linear import times
 
@@ -68,34 +68,34 @@ class PartialDebond(Effect):
     name = "partial_debond"
     enters = "stiffness"
     source = "shear coupling lost in a strip, e.g. Wang and Wereley, AIAA J. 40 (2002)"
-    misses = 0.02
+    unexplained_share = 0.02
     chance = 0.03
-    splits = "a tap test or ultrasound over the plate; a second spot off the axis"
+    discriminating_test = "a tap test or ultrasound over the plate; a second spot off the axis"
 
     def __init__(self, along: str = "x") -> None:
         self.along = along
         self.spans = (Strips(along),)
         self.unknowns = (
-            Unknown(f"{along}_from", "m", 0.0, np.inf, 0.02, neutral=None),
-            Unknown("width", "m", 0.0, 0.15, _WIDTH_M, spread=0.03),
+            EffectParameter(f"{along}_from", "m", 0.0, np.inf, 0.02, neutral=None),
+            EffectParameter("width", "m", 0.0, 0.15, _WIDTH_M, spread=0.03),
         )
 
     def variants(self) -> tuple[Effect, ...]:
         return (self, PartialDebond("y"))
 
-    def _side(self, plate: SpannedPlate) -> float:
+    def _side(self, plate: EnrichedReducedPlate) -> float:
         return plate.length_m if self.along == "x" else plate.width_m
 
-    def limits(self, plate: SpannedPlate) -> tuple[Array, Array]:
+    def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
         lower, upper = super().limits(plate)
         return lower, np.minimum(upper, [self._side(plate), np.inf])
 
-    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         side = self._side(plate)
         count = int(side / _WIDTH_M)
         return [np.array([k / count * side, _WIDTH_M]) for k in range(count)]
 
-    def change(self, plate: SpannedPlate, u: Array) -> Change:
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         stack = plate.stack(f"strips_{self.along}.")
         edges = np.linspace(0, self._side(plate), len(stack) + 1)
         low, high = (np.clip(x, edges[:-1], edges[1:]) for x in (u[0], u[0] + u[1]))

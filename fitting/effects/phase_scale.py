@@ -5,8 +5,8 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Points, Unknown
-from fitting.effects.spanned import SpannedPlate
+from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -30,16 +30,16 @@ class PhaseScale(Effect):
     enters = "channel"
     source = "gain error of a phase detector's output, phases taken as lags behind the reference"
     unknowns = (
-        Unknown("factor", "1", 0.8, 1.2, 1.02, neutral=1.0, spread=0.03),
-        Unknown("counted", "1", 0.0, 2.0, 0.0, neutral=None, fixed=True),
+        EffectParameter("factor", "1", 0.8, 1.2, 1.02, neutral=1.0, spread=0.03),
+        EffectParameter("counted", "1", 0.0, 2.0, 0.0, neutral=None, fixed=True),
     )
     chance = 0.005
-    splits = "two channels on one generator with a known phase between them"
+    discriminating_test = "two channels on one generator with a known phase between them"
 
-    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return None if points.has_phase else "amplitudes do not show a phase"
 
-    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [np.array([1.02, counted]) for counted in (0.0, 1.0, 2.0)]
 
     def reading(self, v: Complex, points: Points, u: Array) -> Complex:

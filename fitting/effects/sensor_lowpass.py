@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.base import Effect, EffectParameter, Points
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -17,8 +17,10 @@ class SensorLowpass(Effect):
     name = "sensor_lowpass"
     enters = "channel"
     source = "first-order filter, e.g. a decoder's output filter or a long cable on a high source impedance"
-    unknowns = (Unknown("corner", "Hz", 200.0, 1e5, 3000.0, logarithmic=True, neutral=float("inf")),)
-    splits = "another low-pass setting of the decoder; the laser on the base beside the accelerometer"
+    unknowns = (EffectParameter("corner", "Hz", 200.0, 1e5, 3000.0, logarithmic=True, neutral=float("inf")),)
+    discriminating_test = (
+        "another low-pass setting of the decoder; the laser on the base beside the accelerometer"
+    )
 
     def reading(self, v: Complex, points: Points, u: Array) -> Complex:
         f = points.omega / (2 * np.pi)

@@ -5,11 +5,11 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.span import Span
-from fitting.effects.spanned import SpannedPlate
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -44,17 +44,17 @@ class SpotOffset(Effect):
     enters = "observation"
     source = "shape functions at the shifted point"
     unknowns = (
-        Unknown("dx", "m", -0.02, 0.02, 3e-3, spread=5e-3),
-        Unknown("dy", "m", -0.02, 0.02, 3e-3, spread=5e-3),
+        EffectParameter("dx", "m", -0.02, 0.02, 3e-3, spread=5e-3),
+        EffectParameter("dy", "m", -0.02, 0.02, 3e-3, spread=5e-3),
     )
     spans = (Spot(),)
     chance = 0.04
-    splits = "a second spot, its distance to the first measured; an accelerometer under the spot"
+    discriminating_test = "a second spot, its distance to the first measured; an accelerometer under the spot"
 
-    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [3e-3 * np.array([np.cos(a), np.sin(a)]) for a in np.arange(0, np.pi, np.pi / 6)]
 
-    def change(self, plate: SpannedPlate, u: Array) -> Change:
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         x, y = plate.pickup
         return Change(observe=plate.row(x + u[0], y + u[1]) - plate.row(x, y))
 

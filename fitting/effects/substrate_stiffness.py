@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import BarePlate, Effect, Unknown
+from fitting.effects.base import BarePlate, Effect, EffectParameter
 from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.other_plates import changed_to
 from fitting.effects.span import Span
-from fitting.effects.spanned import SpannedPlate
 from fitting.linear import times
 
 Array = NDArray[np.float64]
@@ -35,15 +35,15 @@ class SubstrateStiffness(Effect):
     name = "substrate_stiffness"
     enters = "stiffness"
     source = "the paper's Eq. (15a)"
-    unknowns = (Unknown("scale", "1", 0.7, 1.4, 1.03, neutral=1.0, spread=0.05),)
+    unknowns = (EffectParameter("scale", "1", 0.7, 1.4, 1.03, neutral=1.0, spread=0.05),)
     spans = (Substrate(),)
     chance = 0.03
-    splits = "the bare plate's natural frequencies (hammer test)"
+    discriminating_test = "the bare plate's natural frequencies (hammer test)"
 
     def bare_shift(self, bare: BarePlate, u: Array) -> Array:
         return np.full(len(bare.lowering_per_density), 0.5 * np.log(u[0]))
 
-    def change(self, plate: SpannedPlate, u: Array) -> Change:
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         s = plate.specimen
         young = u[0] * s.substrate.young_pa
         return changed_to(plate, replace(s, substrate=replace(s.substrate, young_pa=young)))

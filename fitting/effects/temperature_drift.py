@@ -5,8 +5,8 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, ModulusAt, Points, Unknown
-from fitting.effects.spanned import SpannedPlate
+from fitting.effects.base import Effect, EffectParameter, ModulusAt, Points
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -22,18 +22,18 @@ class TemperatureDrift(Effect):
     enters = "time"
     source = "Williams, Landel and Ferry, J. Am. Chem. Soc. 77 (1955)"
     unknowns = (
-        Unknown("warming", "K", -25.0, 25.0, 2.0, spread=5.0),
-        Unknown("time_constant", "s", 20.0, 1e5, 600.0, logarithmic=True, neutral=None),
+        EffectParameter("warming", "K", -25.0, 25.0, 2.0, spread=5.0),
+        EffectParameter("time_constant", "s", 20.0, 1e5, 600.0, logarithmic=True, neutral=None),
     )
     chance = 0.04
-    splits = "the first segment repeated at the end, or the order of the segments reversed"
+    discriminating_test = "the first segment repeated at the end, or the order of the segments reversed"
 
-    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         if not points.timed and len(points.omega) > 30:
             return "the points carry no time"
         return None
 
-    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         duration = max(float(np.ptp(points.time_s)), 40.0)
         return [np.array([2.0, share * duration]) for share in (0.2, 0.6, 3.0)]
 

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.effects.added_mass import PointMass
-from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
-from fitting.effects.spanned import SpannedPlate
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 Array = NDArray[np.float64]
 
@@ -28,17 +28,17 @@ class Tether(Effect):
     enters = "stiffness"
     source = "cable stiffness and damping, Ewins, Modal Testing (2000), section 3.5"
     unknowns = (
-        Unknown("k", "N/m", 0.0, 2e3, _START_N_M, spread=100.0),
-        Unknown("loss_factor", "1", 0.0, 2.0, _LOSS, neutral=None),
-        Unknown("x", "m", 0.0, np.inf, 0.05, neutral=None),
-        Unknown("y", "m", 0.0, np.inf, 0.05, neutral=None),
+        EffectParameter("k", "N/m", 0.0, 2e3, _START_N_M, spread=100.0),
+        EffectParameter("loss_factor", "1", 0.0, 2.0, _LOSS, neutral=None),
+        EffectParameter("x", "m", 0.0, np.inf, 0.05, neutral=None),
+        EffectParameter("y", "m", 0.0, np.inf, 0.05, neutral=None),
     )
     spans = (PointMass(),)
-    misses = 0.003
+    unexplained_share = 0.003
     chance = 0.015
-    splits = "a look at the plate; the cable taped down elsewhere, or taken off"
+    discriminating_test = "a look at the plate; the cable taped down elsewhere, or taken off"
 
-    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         along, across = (0.3, 0.5, 0.7, 0.85, 0.98), (0.1, 0.5, 0.9)
         return [
             np.array([_START_N_M, _LOSS, x * plate.length_m, y * plate.width_m])
@@ -46,11 +46,11 @@ class Tether(Effect):
             for y in across
         ]
 
-    def limits(self, plate: SpannedPlate) -> tuple[Array, Array]:
+    def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
         lower, upper = super().limits(plate)
         return lower, np.minimum(upper, [np.inf, np.inf, plate.length_m, plate.width_m])
 
-    def change(self, plate: SpannedPlate, u: Array) -> Change:
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         w, k = plate.row(u[2], u[3]), u[0] * (1 + 1j * u[1])
         return Change(K=k * np.outer(w, w), travel_load=-k * w)
 

@@ -10,11 +10,11 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.released_root import RootSpan, along_root, on_root
-from fitting.effects.spanned import SpannedPlate
 from fitting.element import DOFS, U_C, V_C
 
 Array = NDArray[np.float64]
@@ -51,17 +51,19 @@ class TreatmentNotGripped(Effect):
     name = "treatment_not_gripped"
     enters = "stiffness"
     source = "free end of a constrained layer, e.g. Plunkett and Lee, J. Acoust. Soc. Am. 48 (1970)"
-    unknowns = (Unknown("k", "N/m^2", 1e6, 1e12, 1e8, logarithmic=True, neutral=float("inf")),)
+    unknowns = (EffectParameter("k", "N/m^2", 1e6, 1e12, 1e8, logarithmic=True, neutral=float("inf")),)
     spans = (FreeTreatment(),)
-    splits = "a look at the clamp: whether the treatment reaches between the jaws; a strip of it glued down"
+    discriminating_test = (
+        "a look at the clamp: whether the treatment reaches between the jaws; a strip of it glued down"
+    )
 
-    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return None if "treatment" in plate.group else "the plate has no clamp"
 
-    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [np.array([k]) for k in (1e7, 3e8)]
 
-    def change(self, plate: SpannedPlate, u: Array) -> Change:
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         return Change(K=u[0] * plate.matrix("treatment.hold"))
 
     def story(self, u: Mapping[str, float]) -> str:

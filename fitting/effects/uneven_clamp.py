@@ -6,12 +6,12 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.clamp_compliance import ClampCompliance, root_springs
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.released_root import RootSpan, along_root
-from fitting.effects.spanned import SpannedPlate
 from fitting.element import DOFS, THETA_Y, U_B, U_C, W
 
 Array = NDArray[np.float64]
@@ -57,23 +57,25 @@ class UnevenClamp(Effect):
     name = "uneven_clamp"
     enters = "stiffness"
     source = "elastic foundation of the root face, stiffness linear along the width"
-    unknowns = (*ClampCompliance.unknowns, Unknown("slope", "1", -_MOST, _MOST, 0.3, spread=0.4))
+    unknowns = (*ClampCompliance.unknowns, EffectParameter("slope", "1", -_MOST, _MOST, 0.3, spread=0.4))
     spans = (UnevenRoot(),)
     extends = "clamp_compliance"
-    misses = 0.003
+    unexplained_share = 0.003
     chance = 0.015
-    splits = "two spots at the same x, one on either side of the axis; the screws tightened by torque"
+    discriminating_test = (
+        "two spots at the same x, one on either side of the axis; the screws tightened by torque"
+    )
 
-    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return None if "uneven" in plate.group else "the plate has no clamp"
 
-    def starts(self, plate: SpannedPlate, points: Points) -> list[Array]:
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [np.array([k, slope]) for k in (5e13, 1.5e13) for slope in (0.6, -0.6)]
 
     def scaled(self, u: Array, a: float) -> Array:
         return np.array([u[0] / a, u[1]])
 
-    def change(self, plate: SpannedPlate, u: Array) -> Change:
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         return Change(K=u[0] * (plate.matrix("uneven.mean") + u[1] * plate.matrix("uneven.slope")))
 
     def story(self, u: Mapping[str, float]) -> str:

@@ -5,9 +5,9 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.base import Effect, Points, Unknown
+from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
-from fitting.effects.spanned import SpannedPlate
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 Array = NDArray[np.float64]
 
@@ -18,14 +18,14 @@ class ViscousDamping(Effect):
     name = "viscous_damping"
     enters = "damping"
     source = "the paper's section 4: C_1 is taken over from the bare plate"
-    unknowns = (Unknown("scale", "1", 0.0, 8.0, 2.0, neutral=1.0, spread=1.0),)
+    unknowns = (EffectParameter("scale", "1", 0.0, 8.0, 2.0, neutral=1.0, spread=1.0),)
     chance = 0.05
-    splits = "the hammer test of the treated plate at two core temperatures"
+    discriminating_test = "the hammer test of the treated plate at two core temperatures"
 
-    def objection(self, points: Points, plate: SpannedPlate) -> str | None:
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return None if len(plate.d) else "the specimen states no viscous damping"
 
-    def change(self, plate: SpannedPlate, u: Array) -> Change:
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         return Change(damping=float(u[0]))
 
     def story(self, u: Mapping[str, float]) -> str:

@@ -173,9 +173,9 @@ def _matched(measured: Array, model: Array) -> list[tuple[int, int]]:
 
 def _common_shift(measured: Array, model: Array) -> float:
     """The shift of ln f within the tolerance of a match that brings most modes onto the model's."""
-    trials = np.linspace(-_MATCH, _MATCH, 121)
-    distance = np.abs(np.log(measured[:, None, None] / model[None, :, None]) - trials).min(axis=1)
-    return float(trials[np.argmin(np.minimum(distance, _MATCH / 2).sum(axis=0))])
+    scored_fits = np.linspace(-_MATCH, _MATCH, 121)
+    distance = np.abs(np.log(measured[:, None, None] / model[None, :, None]) - scored_fits).min(axis=1)
+    return float(scored_fits[np.argmin(np.minimum(distance, _MATCH / 2).sum(axis=0))])
 
 
 def _solve(shift: Array, softness: Array, scatter: Array, tolerance: float) -> tuple[float, float, float]:

@@ -14,7 +14,7 @@ from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.errors import BadInput
 from instrument.models.remarks import remarks_on_noise, remarks_on_tolerances
-from instrument.models.second_process import hands
+from instrument.models.second_process import executor
 from instrument.models.set_up import Hammer, set_up
 from instrument.models.theory import theory_over, theory_remark
 from instrument.progress import Progress, quiet
@@ -60,14 +60,14 @@ def diagnose(
         raise OutsideModel("a bare plate has no core to diagnose, expected [core] and [constraining]")
     start = specimen.core.law
     began = perf_counter()
-    with threadpool_limits(1, "blas"), hands() as workers:
+    with threadpool_limits(1, "blas"), executor() as workers:
         effects = [e for name, e in CATALOGUE.items() if name not in without]
         used, channels, noise = seen_in_channels(sweep, effects)
         ready_made = set_up(sweep.take(used), specimen, hammer, progress, like=like)
         ready = perf_counter()
         with progress("tracing the residual") as report:
             result = diagnose_task(
-                ready_made.task,
+                ready_made.problem,
                 ready_made.reduced,
                 effects,
                 noise,

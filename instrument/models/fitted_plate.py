@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.effects.spanned import SpannedPlate
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisances import Nuisances
 from fitting.plate import Mesh
 from fitting.reduced import ReducedPlate
@@ -45,10 +45,10 @@ class FittedPlate:
         """The reduced plate moved; `models` are those of the stated one."""
         return moved_plate(models.reduced, self.nuisances, self._plain(models), self.z)
 
-    def _plain(self, models: Models) -> SpannedPlate:
+    def _plain(self, models: Models) -> EnrichedReducedPlate:
         s, reduced = self.specimen, models.reduced
         assert s.pickup_m is not None
-        plate = SpannedPlate.plain(reduced, Mesh(s.length_m, s.width_m, *s.mesh), s.pickup_m)
+        plate = EnrichedReducedPlate.plain(reduced, Mesh(s.length_m, s.width_m, *s.mesh), s.pickup_m)
         count = len(s.modal_ratios)
         # A ratio for every mode, those that these motions do not hear among them.
         U, d = np.zeros((len(reduced.load), count)), np.zeros(count)
@@ -77,7 +77,9 @@ class FittedPlate:
         return found
 
 
-def moved_plate(reduced: ReducedPlate, nuisances: Nuisances, plate: SpannedPlate, z: Array) -> ReducedPlate:
+def moved_plate(
+    reduced: ReducedPlate, nuisances: Nuisances, plate: EnrichedReducedPlate, z: Array
+) -> ReducedPlate:
     """A reduced plate with its stated numbers moved; `plate` has the same columns."""
     change = nuisances.change(plate, z)
     damping = change.damping[reduced.mode] if np.ndim(change.damping) else change.damping

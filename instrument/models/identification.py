@@ -89,13 +89,13 @@ def identify(
         began = perf_counter()
         if method == "paper":
             assert models is not None
-            task: _Direct | _Paper = _Paper(sweep, models)
+            problem: _Direct | _Paper = _Paper(sweep, models)
         else:
             ready_made = set_up(sweep, specimen, hammer, progress, with_effects=False, models=models)
-            models, task = ready_made.models, _Direct(ready_made, noise)
+            models, problem = ready_made.models, _Direct(ready_made, noise)
         ready = perf_counter()
         with threadpool_limits(1, "blas"), progress(f"fitting ({method})") as report:
-            fit = task.fit(start, report)
+            fit = problem.fit(start, report)
         setup, seconds = setup + ready - began, seconds + perf_counter() - ready
         if not models.uncertified(fit.law, sweep.frequency_hz):
             break
@@ -107,9 +107,9 @@ def identify(
     theory = _checked(specimen, sweep, fit) if method == "direct" else None
     began = perf_counter()
     with threadpool_limits(1, "blas"), progress("validating") as report:
-        validation = task.validated(sweep, noise, fit, report)
+        validation = problem.validated(sweep, noise, fit, report)
     result = summarise(method, sweep, noise, fit, validation, further)
-    return Identified(result, setup, seconds, perf_counter() - began, theory, task.joint)
+    return Identified(result, setup, seconds, perf_counter() - began, theory, problem.joint)
 
 
 def _checked(specimen: Specimen, sweep: Sweep, fit: Fit) -> TheoryError:
@@ -135,12 +135,12 @@ class _Direct:
         return Joint(self._begun, self._ready.reduced) if self._begun is not None else None
 
     def fit(self, start: CoreLaw, report: Report) -> Fit:
-        self._begun = begin(self._ready.task, self._ready.reduced, self._noise, self._ready.bare, start)
+        self._begun = begin(self._ready.problem, self._ready.reduced, self._noise, self._ready.bare, start)
         return fit_of(self._begun)
 
     def validated(self, sweep: Sweep, noise: Noise, fit: Fit, report: Report) -> Validation:
         assert self._begun is not None
-        return held_out(self._begun.task, self._begun.evidence, self._begun.none)
+        return held_out(self._begun.problem, self._begun.evidence, self._begun.none)
 
 
 class _Paper:

@@ -59,10 +59,10 @@ def pointwise_of(found: Identified, sweep: Sweep) -> Pointwise:
 
 
 def _law(found: Identified, joint: Joint, sweep: Sweep) -> PointwiseLaw:
-    none, task = joint.begun.none, joint.begun.task
-    v, dv = Response(task, ()).with_derivatives(none.law, none.u)
+    none, problem = joint.begun.none, joint.begun.problem
+    v, dv = Response(problem, ()).with_derivatives(none.law, none.u)
     n = len(none.law.names)
-    rows = model_error(task, joint.reduced, none.law, v)
+    rows = model_error(problem, joint.reduced, none.law, v)
     if none.stated:
         assert found.result.fit.posterior is not None
         known = found.result.fit.posterior[n : n + none.stated, n : n + none.stated]
@@ -72,21 +72,21 @@ def _law(found: Identified, joint: Joint, sweep: Sweep) -> PointwiseLaw:
 
 def _velocity_of(joint: Joint, sweep: Sweep) -> VelocityOf:
     """What is read of the fitted plate at every point, under any modulus."""
-    task, z = joint.begun.task, joint.begun.none.z
-    plain = velocity_of_sweep(sweep, _rational(joint), task.specimen.reads)
+    problem, z = joint.begun.problem, joint.begun.none.z
+    plain = velocity_of_sweep(sweep, _rational(joint), problem.specimen.reads)
 
     def velocity_of(G: Complex) -> tuple[Complex, Complex]:
         v, dv = plain(G)
         # The channel is linear: what it makes of a derivative is the derivative of what it makes.
-        return task.nuisances.reading(v, sweep.omega, z), task.nuisances.reading(dv, sweep.omega, z)
+        return problem.nuisances.reading(v, sweep.omega, z), problem.nuisances.reading(dv, sweep.omega, z)
 
     return velocity_of
 
 
 def _rational(joint: Joint) -> RationalSweep:
-    task = joint.begun.task
-    plate = moved_plate(joint.reduced, task.nuisances, task.plate, joint.begun.none.z)
-    return rational_sweep(plate, np.unique(task.sweep.omega))
+    problem = joint.begun.problem
+    plate = moved_plate(joint.reduced, problem.nuisances, problem.plate, joint.begun.none.z)
+    return rational_sweep(plate, np.unique(problem.sweep.omega))
 
 
 def _root(C: Array) -> Array:

@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 
 from loky import ProcessPoolExecutor
 
-from fitting.diagnosis.hands import ALONE, Hands, Report
+from fitting.diagnosis.executor import ALONE, Executor, Report
 from instrument.models.background import step_back
 
 A = TypeVar("A")
@@ -32,14 +32,14 @@ def processors() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def hands() -> AbstractContextManager[Hands]:
+def executor() -> AbstractContextManager[Executor]:
     """Two where the machine has two processors, unless `VISCORIG_PROCESSES` is 1."""
     if processors() < 2 or os.environ.get(VARIABLE) == "1":
         return nullcontext(ALONE)
     return TwoHands()
 
 
-class TwoHands(Hands):
+class TwoHands(Executor):
     """A second process beside this one; a context manager. It begins to load at once."""
 
     def __init__(self) -> None:

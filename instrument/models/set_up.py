@@ -8,11 +8,11 @@ from numpy.typing import NDArray
 
 from fitting.bare_modes import Sensor
 from fitting.diagnosis.evidence import BareModes
-from fitting.diagnosis.task import Task
+from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.effects import SPANS
+from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.enriching import enriched
 from fitting.effects.full_plate import FullPlate
-from fitting.effects.spanned import SpannedPlate
-from fitting.effects.spanning import span_plate
 from fitting.errors import OutsideModel
 from fitting.identification.bare_plate import CLAMP, MatchedModes, match_modes
 from fitting.plate import Mesh
@@ -39,18 +39,18 @@ _LIKE = 0.15
 class SetUp:
     """Models for one sweep."""
 
-    task: Task
+    problem: DiagnosisProblem
     reduced: ReducedPlate
     models: Models
     """Of the specimen with usual damping ratios: those are put in afterwards."""
     bare: BareModes | None
-    remade: Callable[[Sweep], Task]
+    remade: Callable[[Sweep], DiagnosisProblem]
     """The task of some of its points."""
 
     @property
     def specimen(self) -> Specimen:
         """As stated, the damping ratios as the hammer test has them."""
-        return self.task.specimen
+        return self.problem.specimen
 
 
 def set_up(
@@ -97,11 +97,11 @@ def set_up(
         depends_on = [models.without_law, models.domain, list(specimen.modal_ratios), omega]
         return cached("rational", depends_on, RationalSweep, build)
 
-    def remade(some: Sweep) -> Task:
-        return Task.of(some, specimen, plate, lambda omega: rational_sweep(reduced, omega), like)
+    def remade(some: Sweep) -> DiagnosisProblem:
+        return DiagnosisProblem.of(some, specimen, plate, lambda omega: rational_sweep(reduced, omega), like)
 
-    task = Task.of(sweep, specimen, plate, rational, like)
-    return SetUp(task, reduced, models, bare, remade)
+    problem = DiagnosisProblem.of(sweep, specimen, plate, rational, like)
+    return SetUp(problem, reduced, models, bare, remade)
 
 
 def _check_like(specimen: Specimen, like: Specimen) -> None:
@@ -128,27 +128,27 @@ def _numbers(specimen: Specimen, like: Specimen) -> list[tuple[str, float, float
     return found
 
 
-def _plain(reduced: ReducedPlate, specimen: Specimen) -> SpannedPlate:
+def _plain(reduced: ReducedPlate, specimen: Specimen) -> EnrichedReducedPlate:
     """The reduced plate as one that carries no effects; a mode it does not have is not damped."""
     assert specimen.pickup_m is not None
     mesh = Mesh(specimen.length_m, specimen.width_m, *specimen.mesh)
-    plain = SpannedPlate.plain(reduced, mesh, specimen.pickup_m)
+    plain = EnrichedReducedPlate.plain(reduced, mesh, specimen.pickup_m)
     count = len(specimen.modal_ratios)
     U, d = np.zeros((len(reduced.load), count)), np.zeros(count)
     U[:, reduced.mode], d[reduced.mode] = reduced.U, reduced.d
     return replace(plain, U=U, d=d)
 
 
-def _spanned(models: Models) -> SpannedPlate:
+def _spanned(models: Models) -> EnrichedReducedPlate:
     reduced = models.reduced
 
-    def build() -> SpannedPlate:
+    def build() -> EnrichedReducedPlate:
         full = FullPlate(models.plate, models.damping)
         with models.progress("spanning what effects change") as report:
-            return span_plate(full, models.plate.even @ reduced.V, SPANS, report)
+            return enriched(full, models.plate.even @ reduced.V, SPANS, report)
 
     spans = sorted({type(span).__module__ for span in SPANS})
-    return cached("spanned", [models.without_law, models.domain], SpannedPlate, build, spans)
+    return cached("spanned", [models.without_law, models.domain], EnrichedReducedPlate, build, spans)
 
 
 def _bare(modes: MatchedModes, specimen: Specimen) -> BareModes:

@@ -7,12 +7,12 @@ import pytest
 
 from fitting.damping import viscous_damping
 from fitting.diagnosis.plate_answer import answer
+from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.response import Response
-from fitting.diagnosis.task import Task
 from fitting.direct import displacement_direct
 from fitting.domain import domain_of
 from fitting.effects.change import Change
-from fitting.effects.spanned import SpannedPlate
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisances import nuisances_of
 from fitting.plate import Mesh, Plate
 from fitting.rational import rational_sweep
@@ -35,7 +35,7 @@ class Moved:
         reduced = reduce_plate(self.plate, self.damping, domain_of(specimen, np.array([14.0, 300.0])))
         self.reduced = reduced
         mesh = Mesh(specimen.length_m, specimen.width_m, *specimen.mesh)
-        plain = SpannedPlate.plain(reduced, mesh, specimen.pickup_m)
+        plain = EnrichedReducedPlate.plain(reduced, mesh, specimen.pickup_m)
         U, d = np.zeros((len(reduced.load), len(specimen.modal_ratios))), np.zeros(len(specimen.modal_ratios))
         U[:, reduced.mode], d[reduced.mode] = reduced.U, reduced.d
         self.spanned = replace(plain, U=U, d=d)
@@ -161,15 +161,15 @@ def response(zn1, zn1_models):
     sweep, specimen = synthetic_sweep(zn1).take(np.arange(0, len(GRID_HZ), 6)), replace(zn1, exact=False)
     mesh = Mesh(specimen.length_m, specimen.width_m, *specimen.mesh)
     reduced = zn1_models.reduced
-    plain = SpannedPlate.plain(reduced, mesh, specimen.pickup_m)
-    task = Task.of(
+    plain = EnrichedReducedPlate.plain(reduced, mesh, specimen.pickup_m)
+    problem = DiagnosisProblem.of(
         sweep,
         specimen,
         replace(plain, U=_every(reduced), d=_damped(reduced)),
         lambda omega: rational_sweep(reduced, omega),
     )
-    law = task.stated_law
-    return Response(task.around(law), ()), law, reduced
+    law = problem.stated_law
+    return Response(problem.around(law), ()), law, reduced
 
 
 def _every(reduced):
@@ -205,12 +205,12 @@ def test_a_sweeps_derivatives_agree_with_differences(response):
 def test_a_sweep_of_the_moved_plate_is_that_of_the_reduced_one_at_every_point(response):
     """Nodes and poles between them carry the answer to all points."""
     response, law, _ = response
-    task, nuisances = response.task, response.nuisances
+    problem, nuisances = response.problem, response.nuisances
     for seed in range(3):
         z = np.random.default_rng(seed).normal(size=len(nuisances))
-        omega = task.points.omega
-        change = nuisances.change(task.plate, z)
-        x = answer(task.plate, omega, law.modulus(omega), change, [], np.array([], int), with_pitch=False)
-        expected = 1j * omega * task.points.acceleration_m_s2 * x.heave
+        omega = problem.points.omega
+        change = nuisances.change(problem.plate, z)
+        x = answer(problem.plate, omega, law.modulus(omega), change, [], np.array([], int), with_pitch=False)
+        expected = 1j * omega * problem.points.acceleration_m_s2 * x.heave
         expected = nuisances.reading(expected, omega, z)
         assert np.abs(response.velocity(law, z) / expected - 1).max() < 3e-4

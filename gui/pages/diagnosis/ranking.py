@@ -85,7 +85,7 @@ def _about_one(name: str) -> str:
     effect = CATALOGUE[name]
     module = getmodule(type(effect))
     what = (getdoc(module) or "").splitlines()[0] if module is not None else ""
-    shown = f"\nShown apart by: {effect.splits}." if effect.splits else ""
+    shown = f"\nShown apart by: {effect.discriminating_test}." if effect.discriminating_test else ""
     return f"{name}: {what}\nEnters: {effect.enters}. After {effect.source}.{shown}"
 
 

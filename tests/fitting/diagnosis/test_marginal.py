@@ -8,7 +8,7 @@ import pytest
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.marginal import cost, probabilities
 from fitting.diagnosis.refit import Fitted
-from fitting.effects.base import Effect, Unknown
+from fitting.effects.base import Effect, EffectParameter
 from fitting.laws.constant import ConstantModulus
 
 N = 60
@@ -19,14 +19,14 @@ class Placed(Effect):
     """An effect with one unknown that is as likely anywhere between its limits."""
 
     name, chance = "placed", 0.05
-    unknowns = (Unknown("x", "m", -0.5, 0.5, 0.1, neutral=None),)
+    unknowns = (EffectParameter("x", "m", -0.5, 0.5, 0.1, neutral=None),)
 
 
 class Small(Effect):
     """One with an unknown that is likely small."""
 
     name, chance = "small", 0.05
-    unknowns = (Unknown("size", "1", -10.0, 10.0, 0.1, spread=0.1),)
+    unknowns = (EffectParameter("size", "1", -10.0, 10.0, 0.1, spread=0.1),)
 
 
 def linear(columns, data, stated=0, effects=(), law=LAW, noise_known=True):
@@ -176,7 +176,7 @@ def test_a_small_value_is_likelier_than_a_large_one():
 def test_at_a_physical_limit_there_is_one_side_only():
     class OneSided(Effect):
         name, chance = "one_sided", 0.05
-        unknowns = (Unknown("size", "1", 0.0, 10.0, 0.1, spread=0.1),)
+        unknowns = (EffectParameter("size", "1", 0.0, 10.0, 0.1, spread=0.1),)
 
     columns, data = design(15, 3), np.random.default_rng(16).normal(size=N)
     one, both = (cost(linear(columns, data, effects=[e()]), None) for e in (OneSided, Small))

@@ -34,7 +34,7 @@ EVIDENCE = Evidence(SWEEP.velocity_m_s, ONES, ONES, SEGMENTS, True)
 class Rough(Effect):
     """Its formula may leave a hundredth of what it explains."""
 
-    name, misses = "rough", 0.01
+    name, unexplained_share = "rough", 0.01
 
 
 def fitted(r, z=(), effects=()):

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fitting.diagnosis.predictive import LEVEL
-from fitting.diagnosis.search import Trial
+from fitting.diagnosis.search import ScoredFit
 from fitting.diagnosis.verdict import (
     CREDIBLE,
     HARDLY_BETTER,
@@ -24,22 +24,22 @@ EVEN = 2 * np.log(CREDIBLE / (1 - CREDIBLE))
 """In cost: so far below another, an explanation has just the probability that is asked for."""
 
 
-def trial(*names, cost, fails=False):
+def scored(*names, cost, fails=False):
     fitted = SimpleNamespace(effects=tuple(CATALOGUE[name] for name in names))
-    return Trial(fitted, cost, {"size": 0.5, "signs": 0.1 * LEVEL if fails else 0.5})
+    return ScoredFit(fitted, cost, {"size": 0.5, "signs": 0.1 * LEVEL if fails else 0.5})
 
 
-def judged(none, *trials, temper=1.0, hidden=(), off=None):
+def judged(none, *scored_fits, temper=1.0, hidden=(), off=None):
     return judge(
         none,
-        trials,
+        scored_fits,
         temper=temper,
         hidden=frozenset(hidden),
         held_out=lambda one: (off or {}).get(one.names, 1.0),
     )
 
 
-POOR_NONE = trial(cost=1000.0, fails=True)
+POOR_NONE = scored(cost=1000.0, fails=True)
 
 
 NAMED = 2 * np.log((1 - LEAST_DOUBTED) / LEAST_DOUBTED)
@@ -50,7 +50,7 @@ NAMED = 2 * np.log((1 - LEAST_DOUBTED) / LEAST_DOUBTED)
     ("gain", "verdict"), [(0.9 * NAMED, "none"), (1.1 * NAMED, "ambiguous"), (1.1 * EVEN, "effect")]
 )
 def test_an_effect_is_named_where_none_is_improbable(gain, verdict):
-    said = judged(trial(cost=100.0), trial("spot_offset", cost=100.0 - gain))
+    said = judged(scored(cost=100.0), scored("spot_offset", cost=100.0 - gain))
     assert said.verdict == verdict
     assert (said.probability[()] > LEAST_DOUBTED) == (verdict == "none")
     assert (said.accepted is not None) == (verdict != "none")
@@ -66,14 +66,14 @@ def test_an_effect_is_named_where_none_is_improbable(gain, verdict):
 
 
 def test_where_nothing_is_needed_nothing_is_named():
-    said = judged(trial(cost=0.0), trial("spot_offset", cost=9.0), trial("gain_error", cost=11.0))
+    said = judged(scored(cost=0.0), scored("spot_offset", cost=9.0), scored("gain_error", cost=11.0))
     assert (said.verdict, said.accepted, said.equivalent) == ("none", None, {})
     assert said.probability[()] > 0.95
 
 
 @pytest.mark.parametrize(("behind", "verdict"), [(0.9 * EVEN, "ambiguous"), (1.1 * EVEN, "effect")])
 def test_the_group_holds_every_explanation_up_to_95_percent(behind, verdict):
-    said = judged(POOR_NONE, trial("gain_error", cost=0.0), trial("spot_offset", cost=behind))
+    said = judged(POOR_NONE, scored("gain_error", cost=0.0), scored("spot_offset", cost=behind))
     assert said.verdict == verdict
     assert said.accepted.names == ("gain_error",)
     assert ("spot_offset" in said.equivalent["gain_error"]) == (verdict == "ambiguous")
@@ -83,7 +83,7 @@ def test_the_group_holds_every_explanation_up_to_95_percent(behind, verdict):
 def test_many_that_are_each_improbable_may_hold_the_last_five_percent_together():
     others = ("spot_offset", "core_thickness", "channel_delay", "added_mass")
     costs = dict.fromkeys(others, EVEN + 1.0)
-    said = judged(POOR_NONE, trial("gain_error", cost=0.0), *(trial(n, cost=c) for n, c in costs.items()))
+    said = judged(POOR_NONE, scored("gain_error", cost=0.0), *(scored(n, cost=c) for n, c in costs.items()))
     assert said.verdict == "ambiguous"
     assert said.probability[("gain_error",)] < 0.95 < sum(p for p in said.probability.values())
 
@@ -95,7 +95,7 @@ COSTS = st.lists(st.floats(0, 30), min_size=1, max_size=8)
 def test_probabilities_add_up_to_one_and_the_group_is_the_smallest_of_95_percent(costs, none, temper):
     names = sorted(CATALOGUE)[: len(costs)]
     said = judged(
-        trial(cost=none), *(trial(n, cost=c) for n, c in zip(names, costs, strict=True)), temper=temper
+        scored(cost=none), *(scored(n, cost=c) for n, c in zip(names, costs, strict=True)), temper=temper
     )
     assert sum(said.probability.values()) == pytest.approx(1)
     assert sum(share for _, share in said.group) == pytest.approx(1)
@@ -107,58 +107,58 @@ def test_probabilities_add_up_to_one_and_the_group_is_the_smallest_of_95_percent
 
 
 def test_costs_say_less_where_formulas_leave_something():
-    every = trial("gain_error", cost=0.0), trial("spot_offset", cost=1.5 * EVEN)
+    every = scored("gain_error", cost=0.0), scored("spot_offset", cost=1.5 * EVEN)
     assert judged(POOR_NONE, *every).verdict == "effect"
     assert judged(POOR_NONE, *every, temper=2.0).verdict == "ambiguous"
 
 
 def test_of_several_fits_of_one_explanation_the_best_counts():
-    said = judged(POOR_NONE, *(trial("gain_error", cost=c) for c in (3.0, 0.0, 1.0)))
+    said = judged(POOR_NONE, *(scored("gain_error", cost=c) for c in (3.0, 0.0, 1.0)))
     assert set(said.probability) == {(), ("gain_error",)}
     assert said.accepted.cost == 0.0
-    pair = [trial("gain_error", "added_mass", cost=2.0), trial("added_mass", "gain_error", cost=0.0)]
+    pair = [scored("gain_error", "added_mass", cost=2.0), scored("added_mass", "gain_error", cost=0.0)]
     assert judged(POOR_NONE, *pair).accepted is pair[1]
 
 
 def test_where_all_that_may_be_named_fail_nothing_is_accepted_and_the_nearest_is_said():
-    said = judged(POOR_NONE, trial("gain_error", cost=0.0, fails=True))
+    said = judged(POOR_NONE, scored("gain_error", cost=0.0, fails=True))
     assert (said.verdict, said.accepted, said.refused) == ("unknown", None, ("gain_error",))
     assert "signs" in said.why
-    both = trial("gain_error", cost=0.0, fails=True), trial("spot_offset", cost=1.0, fails=True)
+    both = scored("gain_error", cost=0.0, fails=True), scored("spot_offset", cost=1.0, fails=True)
     assert judged(POOR_NONE, *both).verdict == "unknown"
 
 
 def test_one_of_the_group_that_passes_is_enough():
-    every = trial("gain_error", cost=0.0, fails=True), trial("spot_offset", cost=1.0)
+    every = scored("gain_error", cost=0.0, fails=True), scored("spot_offset", cost=1.0)
     said = judged(POOR_NONE, *every)
     assert said.verdict == "ambiguous"
     assert said.accepted is every[1]
     assert set(said.equivalent["spot_offset"]) == {"gain_error", "spot_offset"}
-    far = trial("gain_error", cost=0.0, fails=True), trial("spot_offset", cost=2 * EVEN)
+    far = scored("gain_error", cost=0.0, fails=True), scored("spot_offset", cost=2 * EVEN)
     assert judged(POOR_NONE, *far).verdict == "unknown"
 
 
 def test_what_is_unlikely_without_any_effect_but_no_effect_explains_is_unknown():
-    fails = trial(cost=0.0, fails=True)
-    assert judged(fails, trial("gain_error", cost=5.0)).verdict == "unknown"
-    assert judged(trial(cost=0.0), trial("gain_error", cost=5.0)).verdict == "none"
+    fails = scored(cost=0.0, fails=True)
+    assert judged(fails, scored("gain_error", cost=5.0)).verdict == "unknown"
+    assert judged(scored(cost=0.0), scored("gain_error", cost=5.0)).verdict == "none"
 
 
 def test_hidden_effects_are_weighed_and_not_named():
-    hidden = trial("base_rocking", cost=0.0)
-    said = judged(POOR_NONE, hidden, trial("fixture_resonance", cost=1.0), hidden=("base_rocking",))
+    hidden = scored("base_rocking", cost=0.0)
+    said = judged(POOR_NONE, hidden, scored("fixture_resonance", cost=1.0), hidden=("base_rocking",))
     assert said.verdict == "ambiguous"
     assert said.accepted.names == ("fixture_resonance",)
     assert said.equivalent == {"fixture_resonance": ("fixture_resonance",)}
     assert said.probability[("base_rocking",)] > said.probability[("fixture_resonance",)]
-    alone = judged(POOR_NONE, hidden, trial("fixture_resonance", cost=2 * EVEN), hidden=("base_rocking",))
+    alone = judged(POOR_NONE, hidden, scored("fixture_resonance", cost=2 * EVEN), hidden=("base_rocking",))
     assert (alone.verdict, alone.accepted) == ("unknown", None)
 
 
 def test_a_second_effect_that_is_not_needed_leaves_the_first_alone():
     """Every explanation of the group has the delay: it is there, whatever stands beside it."""
     said = judged(
-        POOR_NONE, trial("channel_delay", cost=0.0), trial("channel_delay", "spot_offset", cost=1.0)
+        POOR_NONE, scored("channel_delay", cost=0.0), scored("channel_delay", "spot_offset", cost=1.0)
     )
     assert (said.verdict, said.accepted.names) == ("effect", ("channel_delay",))
     assert said.of_effect("channel_delay") == pytest.approx(1)
@@ -166,8 +166,8 @@ def test_a_second_effect_that_is_not_needed_leaves_the_first_alone():
 
 
 def test_each_effect_of_a_pair_has_its_own_equals():
-    pair = trial("channel_delay", "spot_offset", cost=0.0)
-    said = judged(POOR_NONE, pair, trial("channel_delay", "gain_error", cost=1.0))
+    pair = scored("channel_delay", "spot_offset", cost=0.0)
+    said = judged(POOR_NONE, pair, scored("channel_delay", "gain_error", cost=1.0))
     assert said.verdict == "ambiguous"
     assert said.accepted is pair
     assert said.equivalent["channel_delay"] == ("channel_delay",)
@@ -175,7 +175,7 @@ def test_each_effect_of_a_pair_has_its_own_equals():
 
 
 def test_another_explanation_altogether_stands_for_all_of_a_pair():
-    said = judged(POOR_NONE, trial("channel_delay", "spot_offset", cost=0.0), trial("added_mass", cost=1.0))
+    said = judged(POOR_NONE, scored("channel_delay", "spot_offset", cost=0.0), scored("added_mass", cost=1.0))
     assert said.verdict == "ambiguous"
     for name in ("channel_delay", "spot_offset"):
         assert set(said.equivalent[name]) == {name, "added_mass"}
@@ -183,7 +183,7 @@ def test_another_explanation_altogether_stands_for_all_of_a_pair():
 
 @pytest.mark.parametrize(("off", "none_off"), [(1.1 * POOR, 1.0), (10.0, 15.0)])
 def test_another_law_that_does_not_predict_is_refused(off, none_off):
-    law = trial("core_law", cost=0.0)
+    law = scored("core_law", cost=0.0)
     said = judged(POOR_NONE, law, off={("core_law",): off, (): none_off})
     assert (said.verdict, said.refused) == ("unknown", ("core_law",))
     assert "not seen" in said.why
@@ -192,12 +192,12 @@ def test_another_law_that_does_not_predict_is_refused(off, none_off):
 
 
 def test_what_two_segments_cannot_place_is_believed_all_the_same():
-    said = judged(POOR_NONE, trial("added_mass", cost=0.0), off={("added_mass",): 30.0})
+    said = judged(POOR_NONE, scored("added_mass", cost=0.0), off={("added_mass",): 30.0})
     assert said.verdict == "effect"
 
 
 def test_what_someone_has_decided_stands_for_itself():
-    said = told(trial("gain_error", "channel_delay", cost=5.0))
+    said = told(scored("gain_error", "channel_delay", cost=5.0))
     assert (said.verdict, said.by_hand) == ("effect", True)
     assert said.equivalent == {"gain_error": ("gain_error",), "channel_delay": ("channel_delay",)}
-    assert (told(trial(cost=5.0)).verdict, told(trial(cost=5.0)).accepted) == ("none", None)
+    assert (told(scored(cost=5.0)).verdict, told(scored(cost=5.0)).accepted) == ("none", None)

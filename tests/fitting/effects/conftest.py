@@ -11,8 +11,8 @@ from fitting.damping import viscous_damping
 from fitting.diagnosis.plate_answer import answer
 from fitting.domain import domain_of
 from fitting.effects import CATALOGUE
+from fitting.effects.enriching import enriched
 from fitting.effects.full_plate import FullPlate
-from fitting.effects.spanning import span_plate
 from fitting.plate import Plate
 from fitting.reduced import reduce_plate
 from instrument.files.specimen_file import read_specimen
@@ -43,7 +43,7 @@ class Full:
         self.full = FullPlate(self.plate, self.damping)
         reduced = reduce_plate(self.plate, self.damping, domain_of(self.specimen, np.array([14.0, 300.0])))
         spans = {s.name: s for n in SPANNED for e in CATALOGUE[n].variants() for s in e.spans}
-        self.spanned = span_plate(self.full, self.plate.even @ reduced.V, list(spans.values()))
+        self.spanned = enriched(self.full, self.plate.even @ reduced.V, list(spans.values()))
 
     omega, modulus = OMEGA, G
 

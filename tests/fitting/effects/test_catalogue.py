@@ -19,7 +19,7 @@ def ids(form):
 def test_it_says_what_it_is_and_what_shows_it_apart(form):
     assert getdoc(getmodule(type(form)))
     assert form.source
-    assert form.splits
+    assert form.discriminating_test
     assert 0 < form.chance <= 0.05
     values = {q.key: q.typical for q in form.unknowns}
     if form.name not in ("level_error", "mains_hum"):

@@ -12,9 +12,9 @@ from fitting.diagnosis.plate_answer import answer
 from fitting.domain import domain_of
 from fitting.effects import CATALOGUE, SPANS, Change
 from fitting.effects.clamp_compliance import RIGID_N_M3, root_springs
+from fitting.effects.enriching import enriched
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.partial_debond import LEFT, PartialDebond, strips
-from fitting.effects.spanning import span_plate
 from fitting.plate import Plate
 from fitting.reduced import reduce_plate
 from instrument.files.specimen_file import read_specimen
@@ -35,7 +35,7 @@ class Full:
         self.full = FullPlate(self.plate, self.damping)
         domain = domain_of(self.specimen, np.array([14.0, 300.0]))
         reduced = reduce_plate(self.plate, self.damping, domain)
-        self.spanned = span_plate(self.full, self.plate.even @ reduced.V, SPANS)
+        self.spanned = enriched(self.full, self.plate.even @ reduced.V, SPANS)
 
     def direct(self, *, K=0.0, K_1=0.0, M=0.0, load=0.0, row=None, root=None, damping=1.0, pitch=False):
         loose, found = self.full.loose, []

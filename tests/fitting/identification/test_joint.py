@@ -37,20 +37,20 @@ class Drawn:
     """Law, bend, stated numbers, model error and noise, each from its prior; and the fit of that sweep."""
 
     def __init__(self, ready, seed):
-        rng, task = np.random.default_rng(seed), ready.task
+        rng, problem = np.random.default_rng(seed), ready.problem
         plain = TABLE_4.with_logs(
             np.log(TABLE_4.values) + np.array([0.1, 0.1, 0.1, 0.03]) * rng.normal(size=4)
         )
-        straight = BentLaw.over(plain, task.sweep.frequency_hz)
+        straight = BentLaw.over(plain, problem.sweep.frequency_hz)
         bend = np.exp(rng.normal(size=straight.bends))
         self.law = straight.with_values(np.concatenate([plain.values, bend]))
-        self.z = rng.normal(size=len(task.nuisances))
-        v = Response(task.around(self.law), ()).velocity(self.law, self.z)
-        off = model_error(task, ready.reduced, self.law, v)
+        self.z = rng.normal(size=len(problem.nuisances))
+        v = Response(problem.around(self.law), ()).velocity(self.law, self.z)
+        off = model_error(problem, ready.reduced, self.law, v)
         white = rng.normal(size=(2, len(v))) + 1j * rng.normal(size=(2, len(v)))
         read = v + rng.normal(size=len(off)) @ off + np.array([SHARE, NOISE]) @ white * np.abs(v)
-        sweep = replace(task.sweep, velocity_m_s=read, std_m_s=NOISE * np.abs(v))
-        self.begun = begin(replace(task, sweep=sweep), ready.reduced, noise_of(sweep), None, TABLE_4)
+        sweep = replace(problem.sweep, velocity_m_s=read, std_m_s=NOISE * np.abs(v))
+        self.begun = begin(replace(problem, sweep=sweep), ready.reduced, noise_of(sweep), None, TABLE_4)
         self.fit = fit_of(self.begun)
 
     @property
@@ -65,7 +65,7 @@ class Drawn:
     def stated_pulls(self):
         """Of every stated number, in standard errors: both in tolerances, as they were drawn."""
         found = self.begun.none
-        C = posterior(Response(self.begun.task, ()), self.begun.evidence, found)
+        C = posterior(Response(self.begun.problem, ()), self.begun.evidence, found)
         n = len(found.law.names)
         return (found.z - self.z) / np.sqrt(np.diag(C)[n : n + found.stated])
 
@@ -118,7 +118,7 @@ def test_what_the_sweep_does_not_feel_keeps_its_tolerance(drawn):
 def test_an_exact_specimen_moves_nothing_and_does_not_bend(zn1):
     sweep = synthetic_sweep(zn1).take(np.arange(0, len(GRID_HZ), 5))
     ready = set_up(sweep, zn1, with_effects=False)
-    begun = begin(ready.task, ready.reduced, noise_of(sweep), None, zn1.core.law)
+    begun = begin(ready.problem, ready.reduced, noise_of(sweep), None, zn1.core.law)
     fit = fit_of(begun)
     assert fit.law.kind == "fractional-zener"
     assert (fit.law.bends, fit.adjusted, len(begun.none.u)) == (0, (), 0)

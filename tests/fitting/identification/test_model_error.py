@@ -77,7 +77,7 @@ def test_held_out_segments_are_predicted_to_their_noise(found):
 
 def test_each_segment_has_errors_of_its_own(practice, zn1, found):
     ready = set_up(practice, zn1, with_effects=False)
-    rows = model_error(ready.task, ready.reduced, found.result.law, found.result.fit.velocity_m_s)
+    rows = model_error(ready.problem, ready.reduced, found.result.law, found.result.fit.velocity_m_s)
     # Of each of three a shift, a loss, a gain, a phase, and how the last two drift.
     assert rows.shape == (18, len(practice))
     for row in rows:
@@ -86,7 +86,7 @@ def test_each_segment_has_errors_of_its_own(practice, zn1, found):
 
 def test_noise_alone_makes_a_narrower_band(practice, zn1, found):
     ready = set_up(practice, zn1, with_effects=False)
-    begun = begin(ready.task, ready.reduced, noise_of(practice), None, zn1.core.law)
+    begun = begin(ready.problem, ready.reduced, noise_of(practice), None, zn1.core.law)
     noise = law_band(practice, begun.first.law, uncertainty_of(begun.first, noise_is_known=True))
     whole = found.result.band
     assert np.all(noise.storage_modulus_standard_error_pa < whole.storage_modulus_standard_error_pa)

@@ -40,30 +40,30 @@ def again(sweep):
     return replace(sweep, **both, **twice, **{k: None for k in ("weight", "std_m_s") if hasattr(sweep, k)})
 
 
-def at_every_point(task, law, effect, u, G):
-    plate = task.plate.take(effect.spans)
+def at_every_point(problem, law, effect, u, G):
+    plate = problem.plate.take(effect.spans)
     change = effect.change(plate, np.array(u))
-    omega = task.points.omega
+    omega = problem.points.omega
     x = answer(plate, omega, G, change, [], np.array([], int), with_pitch=False).heave
-    return 1j * omega * task.points.acceleration_m_s2 * x
+    return 1j * omega * problem.points.acceleration_m_s2 * x
 
 
 @pytest.mark.parametrize("make", [lambda s: s, again], ids=["one pass", "two passes"])
 def test_a_core_that_warms_on_a_root_that_yields(once_up, make):
     with threadpool_limits(1, "blas"):
-        task = set_up(make(once_up), read_specimen(case_file("specimen.toml"))).task
-        law = task.stated_law
-        task = task.condensed(law).around(law)
+        problem = set_up(make(once_up), read_specimen(case_file("specimen.toml"))).problem
+        law = problem.stated_law
+        problem = problem.condensed(law).around(law)
         clamp, drift = CATALOGUE["clamp_compliance"], CATALOGUE["temperature_drift"]
-        response = Response(task, [clamp, drift])
+        response = Response(problem, [clamp, drift])
         u = np.array([ROOT_N_M3, WARMING_K, TIME_CONSTANT_S])
         v, by = response.with_derivatives(law, u)
-        kelvin = -WARMING_K * np.expm1(-task.points.time_s / TIME_CONSTANT_S)
-        G = law.modulus(task.points.omega * 10 ** (-C_1 * kelvin / (C_2_K + kelvin)))
-        assert np.abs(G / law.modulus(task.points.omega) - 1).max() > 0.1
-        expected = at_every_point(task, law, clamp, [ROOT_N_M3], G)
-        if task.specimen.reads == "absolute":
-            expected = expected + task.points.acceleration_m_s2 / (1j * task.points.omega)
+        kelvin = -WARMING_K * np.expm1(-problem.points.time_s / TIME_CONSTANT_S)
+        G = law.modulus(problem.points.omega * 10 ** (-C_1 * kelvin / (C_2_K + kelvin)))
+        assert np.abs(G / law.modulus(problem.points.omega) - 1).max() > 0.1
+        expected = at_every_point(problem, law, clamp, [ROOT_N_M3], G)
+        if problem.specimen.reads == "absolute":
+            expected = expected + problem.points.acceleration_m_s2 / (1j * problem.points.omega)
         assert np.abs(v / expected - 1).max() < 3e-4
         h = 1e-3 * WARMING_K
         up, down = (response.velocity(law, u + np.array([0, s * h, 0])) for s in (1, -1))

@@ -5,20 +5,20 @@ import os
 import pytest
 from squares import Squares
 
-from fitting.diagnosis.hands import ALONE
+from fitting.diagnosis.executor import ALONE
 from fitting.errors import OutsideModel
 from instrument.models.second_process import TwoHands
 
 
 @pytest.fixture(scope="module")
 def two():
-    with TwoHands() as hands:
-        yield hands
+    with TwoHands() as executor:
+        yield executor
 
 
 def test_answers_come_in_order_whoever_gives_them(two):
     numbers = list(range(200))
-    alone, shared = (list(hands.each(Squares().square, numbers)) for hands in (ALONE, two))
+    alone, shared = (list(executor.each(Squares().square, numbers)) for executor in (ALONE, two))
     assert [a for a, _ in shared] == [a for a, _ in alone] == [n**2 for n in numbers]
     assert {pid for _, pid in alone} == {os.getpid()}
 
@@ -56,7 +56,7 @@ def test_a_refusal_reaches_the_caller(two):
 
 
 def test_a_second_process_that_is_killed_leaves_its_work_to_the_first():
-    with TwoHands() as hands:
+    with TwoHands() as executor:
         for _ in range(3):
-            found = list(hands.each(Squares().end_the_other, [os.getpid()] * 50))
+            found = list(executor.each(Squares().end_the_other, [os.getpid()] * 50))
             assert found == [os.getpid()] * 50

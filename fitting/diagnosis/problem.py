@@ -10,7 +10,7 @@ from fitting.diagnosis.nodes import Nodes
 from fitting.diagnosis.plate_answer import ModulusNear
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.effects.base import Points
-from fitting.effects.spanned import SpannedPlate
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 from fitting.nuisances import Nuisances, nuisances_of
 from fitting.rational import RationalSweep
@@ -56,12 +56,12 @@ class Grid:
 
 
 @dataclass(frozen=True)
-class Task:
+class DiagnosisProblem:
     """A sweep with the plate it was measured on."""
 
     sweep: Sweep
     specimen: Specimen
-    plate: SpannedPlate
+    plate: EnrichedReducedPlate
     points: Points
     rational: RationalSweep
     """The unchanged plate's exact answer at every point."""
@@ -79,10 +79,10 @@ class Task:
         cls,
         sweep: Sweep,
         specimen: Specimen,
-        plate: SpannedPlate,
+        plate: EnrichedReducedPlate,
         rational: Callable[[Array], RationalSweep],
         reference: Specimen | None = None,
-    ) -> "Task":
+    ) -> "DiagnosisProblem":
         """`rational` gives the unchanged plate's sum on an ascending grid in rad/s.
 
         `plate` and `rational` are of `reference`, a specimen like this one, where that is given.
@@ -108,7 +108,7 @@ class Task:
         assert self.specimen.core is not None
         return self.specimen.core.law.lifted()
 
-    def condensed(self, law: CoreLaw) -> "Task":
+    def condensed(self, law: CoreLaw) -> "DiagnosisProblem":
         """The same, its plate condensed to moduli within a decade or so of a law, and to the tolerances."""
         if not len(self.plate.names):
             # Nothing but what is stated changes this plate: it is small as it is.
@@ -128,7 +128,7 @@ class Task:
         """Where every stated number is what it is stated to be."""
         return np.zeros(len(self.nuisances))
 
-    def around(self, law: CoreLaw) -> "Task":
+    def around(self, law: CoreLaw) -> "DiagnosisProblem":
         """The same, its grids made for the poles that the plate has under a law."""
         found = PlatePoles(self.plate, law)
 

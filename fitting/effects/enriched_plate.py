@@ -36,7 +36,7 @@ _OVERLAP = 1e-6
 
 
 @dataclass(frozen=True)
-class SpannedPlate:
+class EnrichedReducedPlate:
     """Matrices on k columns. Inputs: unit heave and pitch of the base; output: w at the pickup."""
 
     group: Names
@@ -71,7 +71,7 @@ class SpannedPlate:
     layers: Array
     """What is stated of them (`fitting.parts.layers_of`), zero for a plate that carries no effects."""
 
-    def take(self, spans: Iterable[Span], *, wanted: Sequence[str] | None = None) -> "SpannedPlate":
+    def take(self, spans: Iterable[Span], *, wanted: Sequence[str] | None = None) -> "EnrichedReducedPlate":
         """The plate on its own columns and those of `spans`, matrices of other spans left out."""
         spans = list(spans)
         groups = {"plate", *(s.name for s in spans)}
@@ -97,7 +97,9 @@ class SpannedPlate:
         return taken._independent() if len(spans) > 1 else taken
 
     @classmethod
-    def plain(cls, reduced: ReducedPlate, mesh: Mesh, pickup_m: tuple[float, float]) -> "SpannedPlate":
+    def plain(
+        cls, reduced: ReducedPlate, mesh: Mesh, pickup_m: tuple[float, float]
+    ) -> "EnrichedReducedPlate":
         """The reduced plate as one that carries no effects but what is stated."""
         k = len(reduced.load)
         none = np.zeros(0, dtype=str)
@@ -131,7 +133,7 @@ class SpannedPlate:
         changes: Sequence[Change] = (),
         changed_omega: Array | None = None,
         changed_G: Complex | None = None,
-    ) -> "SpannedPlate":
+    ) -> "EnrichedReducedPlate":
         """Its own even columns as far as they answer at some frequencies and moduli; others as they are.
 
         `changes` are of the plate, on its columns: answers with each of them at `changed_omega` and
@@ -165,7 +167,7 @@ class SpannedPlate:
         X = np.linalg.solve(A, np.broadcast_to(sides, (len(omega), *sides.shape)))
         return np.concatenate(X / np.linalg.norm(X, axis=1, keepdims=True), axis=1)
 
-    def _independent(self) -> "SpannedPlate":
+    def _independent(self) -> "EnrichedReducedPlate":
         """On an orthonormal basis of the same motions: two spans may share some."""
         values, vectors = la.eigh(self.gram)
         kept = values > _OVERLAP
@@ -174,7 +176,7 @@ class SpannedPlate:
         T = vectors[:, kept] / np.sqrt(values[kept])
         return self._on(T, np.full(T.shape[1], "mixed"))
 
-    def _on(self, T: Array, group: Names) -> "SpannedPlate":
+    def _on(self, T: Array, group: Names) -> "EnrichedReducedPlate":
         """On the combinations T of its columns. Shape (k, fewer)."""
 
         def square(A: Any) -> Any:

@@ -8,7 +8,7 @@ B = TypeVar("B")
 Report = Callable[[float], None]
 
 
-class Hands:
+class Executor:
     """One process."""
 
     def each(
@@ -20,4 +20,4 @@ class Hands:
             report((done + 1) / len(wanted))
 
 
-ALONE = Hands()
+ALONE = Executor()

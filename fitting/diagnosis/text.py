@@ -3,10 +3,10 @@
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import Fitted
 from fitting.diagnosis.response import Response
 from fitting.diagnosis.result import FoundEffect, Stage
-from fitting.diagnosis.task import Task
 from fitting.diagnosis.verdict import NONE, Judgement
 from fitting.effects.base import Effect
 
@@ -22,7 +22,7 @@ def story(effect: Effect, found: FoundEffect) -> str:
 
 
 def explain(
-    task: Task,
+    problem: DiagnosisProblem,
     judgement: Judgement,
     before: Stage,
     after: Stage,
@@ -31,7 +31,7 @@ def explain(
 ) -> tuple[str, ...]:
     """What was left, what explains it, how sure that is, what it did to the material."""
     said = [_left(before)]
-    trial = judgement.accepted
+    scored = judgement.accepted
     if judgement.verdict == "none" and judgement.by_hand:
         said.append("No effect is accepted, by your word.")
         return tuple(said)
@@ -41,8 +41,8 @@ def explain(
         if judgement.refused:
             said.append(f"The nearest, {' with '.join(judgement.refused)}, {judgement.why}.")
         return tuple(said)
-    if trial is None:
-        worst = _worst_segment(task, before)
+    if scored is None:
+        worst = _worst_segment(problem, before)
         said.append(
             "There is structure, but nothing in the catalogue explains it. What remains is largest in "
             f"segment {worst}: {'; '.join(before.structure) or 'see the residual over frequency'}."
@@ -50,11 +50,11 @@ def explain(
         if judgement.refused:
             said.append(f"What comes nearest, {' with '.join(judgement.refused)}, {judgement.why}.")
         return tuple(said)
-    stories = [story(e, f) for e, f in zip(trial.fitted.effects, found, strict=True)]
+    stories = [story(e, f) for e, f in zip(scored.fitted.effects, found, strict=True)]
     likely = "By your word" if judgement.by_hand else "Most likely"
     said.append(f"{likely} {' and '.join(stories)}.")
-    if not all(e.replaces_law for e in trial.fitted.effects):
-        said.append(_moved(task, trial.fitted))
+    if not all(e.replaces_law for e in scored.fitted.effects):
+        said.append(_moved(problem, scored.fitted))
     for name, group in judgement.equivalent.items():
         others = [n for n in group if n not in (name, NONE)]
         if others:
@@ -94,7 +94,11 @@ def next_measurement(judgement: Judgement, catalogue: dict[str, Effect], *, with
         )
     names = [n for group in judgement.equivalent.values() if len(group) > 1 for n in group]
     names = names or list(judgement.equivalent)
-    ways = {catalogue[n].splits: n for n in names if n in catalogue and catalogue[n].splits}
+    ways = {
+        catalogue[n].discriminating_test: n
+        for n in names
+        if n in catalogue and catalogue[n].discriminating_test
+    }
     if with_hammer:
         ways = {w: n for w, n in ways.items() if "hammer" not in w} or ways
     if all(len(group) == 1 for group in judgement.equivalent.values()):
@@ -111,21 +115,21 @@ def _left(before: Stage) -> str:
     return text + "."
 
 
-def _worst_segment(task: Task, before: Stage) -> int:
-    numbers = np.unique(task.sweep.segment)
-    size = [np.mean(np.abs(before.difference_percent[task.sweep.segment == n])) for n in numbers]
+def _worst_segment(problem: DiagnosisProblem, before: Stage) -> int:
+    numbers = np.unique(problem.sweep.segment)
+    size = [np.mean(np.abs(before.difference_percent[problem.sweep.segment == n])) for n in numbers]
     return int(numbers[int(np.argmax(size))])
 
 
-def _moved(task: Task, fitted: Fitted) -> str:
+def _moved(problem: DiagnosisProblem, fitted: Fitted) -> str:
     """How much the effect changes the response, segment by segment, the law kept."""
-    plain = Response(task, ()).velocity(fitted.law, fitted.z)
+    plain = Response(problem, ()).velocity(fitted.law, fitted.z)
     changed = 100 * np.abs(fitted.velocity_m_s / plain - 1)
     parts = []
-    for number in np.unique(task.sweep.segment):
-        inside = task.sweep.segment == number
+    for number in np.unique(problem.sweep.segment):
+        inside = problem.sweep.segment == number
         peak = np.flatnonzero(inside)[np.argmax(np.abs(plain[inside]))]
-        parts.append(f"{changed[inside].max():.2g} % near {task.sweep.frequency_hz[peak]:.0f} Hz")
+        parts.append(f"{changed[inside].max():.2g} % near {problem.sweep.frequency_hz[peak]:.0f} Hz")
     return f"It changes the response by up to {', '.join(parts)}."
 
 

@@ -7,13 +7,13 @@ from itertools import permutations
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.diagnosis.candidates import FINISHED, Contender, Known, Start, look, polished
+from fitting.diagnosis.candidates import FINISHED, CandidateFit, Known, Start, look, polished
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.prediction import held_out
+from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import ROUGH, Fitted, kept, refit
 from fitting.diagnosis.response import Response
-from fitting.diagnosis.task import Task
 from fitting.effects.base import Effect
 from fitting.identification.validation import Validation
 
@@ -37,14 +37,16 @@ class Begun:
     state: State
 
 
-class Work:
+class CandidateFits:
     """Fits of one set of data with one or two effects more than `none`."""
 
-    def __init__(self, task: Task, evidence: Evidence, none: Fitted, effects: Sequence[Effect]) -> None:
-        self.task, self.evidence, self.none = task, evidence, none
+    def __init__(
+        self, problem: DiagnosisProblem, evidence: Evidence, none: Fitted, effects: Sequence[Effect]
+    ) -> None:
+        self.problem, self.evidence, self.none = problem, evidence, none
         self.effects = {e.name: e for e in effects}
-        self.contenders = {
-            e.name: [Contender(task, evidence, none, form) for form in e.variants()] for e in effects
+        self.candidates = {
+            e.name: [CandidateFit(problem, evidence, none, form) for form in e.variants()] for e in effects
         }
 
     def form(self, form: Form) -> Effect:
@@ -54,76 +56,76 @@ class Work:
 
     def state(self, name: str) -> State:
         """What is known of an effect so far."""
-        return [c.known for c in self.contenders[name]]
+        return [c.known for c in self.candidates[name]]
 
     def learn(self, name: str, state: State) -> None:
         """What another process has found."""
-        for contender, known in zip(self.contenders[name], state, strict=True):
-            contender.learn(known)
+        for candidate, known in zip(self.candidates[name], state, strict=True):
+            candidate.learn(known)
 
     def held_out(self, fitted: Fitted) -> Validation:
         """What a fit says of data it has not seen."""
-        return held_out(self.task, self.evidence, fitted)
+        return held_out(self.problem, self.evidence, fitted)
 
     def other_laws(self, effect: Effect) -> list[Fitted]:
         """Fits with each of the laws that an effect has in the place of the stated one."""
-        response = Response(self.task, [*self.none.effects, effect])
-        coarse = Response(self.task, [*self.none.effects, effect], self.task.coarse)
-        laws = effect.laws(self.none.law, self.task.points)
+        response = Response(self.problem, [*self.none.effects, effect])
+        coarse = Response(self.problem, [*self.none.effects, effect], self.problem.coarse)
+        laws = effect.laws(self.none.law, self.problem.points)
         rough = [refit(coarse, self.evidence, law, self.none.u, tolerance=ROUGH) for law in laws]
-        order = sorted(rough, key=lambda f: cost(f, self.task.plate))
+        order = sorted(rough, key=lambda f: cost(f, self.problem.plate))
         worth = [f for f in order if f.chi2 < self.none.chi2]
         best = worth[:LAWS_FINISHED] or order[:1]
         return [refit(response, self.evidence, f.law, f.u) for f in best]
 
     def starts(self, name: str) -> State:
         """What a first look at an effect promises."""
-        for contender in self.contenders[name]:
-            _ = contender.starts
+        for candidate in self.candidates[name]:
+            _ = candidate.starts
         return self.state(name)
 
     def promise(self, name: str) -> float:
         """Chi-square that an effect may gain by one linear step."""
-        return max((c.promise for c in self.contenders[name]), default=0.0)
+        return max((c.promise for c in self.candidates[name]), default=0.0)
 
     def begun(self, one: tuple[str, State]) -> "Begun":
         """An effect's rough fits near by, or its other laws in the place of the stated one."""
         name, state = one
-        if self.effects[name].laws(self.none.law, self.task.points):
+        if self.effects[name].laws(self.none.law, self.problem.points):
             return Begun(name, self.other_laws(self.effects[name]), [])
         self.learn(name, state)
-        fits = [f for contender in self.contenders[name] for f in contender.near]
+        fits = [f for candidate in self.candidates[name] for f in candidate.near]
         return Begun(name, fits, self.state(name))
 
     def beside_the_best(self, one: tuple[str, State, Fitted]) -> "Begun":
         """The same, where another effect explains everything: from its law, if it can do the same there."""
         name, state, best = one
-        if self.effects[name].laws(self.none.law, self.task.points):
+        if self.effects[name].laws(self.none.law, self.problem.points):
             return Begun(name, self.other_laws(self.effects[name]), [])
         self.learn(name, state)
-        bare = kept(Response(self.task, ()), self.evidence, best.law, best.z)
-        there = [self._beside(bare, c.effect) for c in self.contenders[name]]
-        for contender, from_there in zip(self.contenders[name], there, strict=True):
+        bare = kept(Response(self.problem, ()), self.evidence, best.law, best.z)
+        there = [self._beside(bare, c.effect) for c in self.candidates[name]]
+        for candidate, from_there in zip(self.candidates[name], there, strict=True):
             able = from_there.is_open or from_there.promise > ABLE * (bare.chi2 - best.chi2)
-            contender.learn({"near": from_there.near if able else contender.briefly()})
-        return Begun(name, [f for c in self.contenders[name] for f in c.near], self.state(name))
+            candidate.learn({"near": from_there.near if able else candidate.briefly()})
+        return Begun(name, [f for c in self.candidates[name] for f in c.near], self.state(name))
 
     def plain(self, one: tuple[str, State]) -> State:
         """Fits of the first variant from plain starts."""
         name, state = one
         self.learn(name, state)
-        _ = self.contenders[name][0].plain
+        _ = self.candidates[name][0].plain
         return self.state(name)
 
     def best_near(self, name: str) -> list[tuple[Form, Fitted]]:
         """The best of an effect's rough fits, or none."""
-        fits = [((name, k), f) for k, c in enumerate(self.contenders[name]) for f in c.near]
+        fits = [((name, k), f) for k, c in enumerate(self.candidates[name]) for f in c.near]
         return sorted(fits, key=lambda one: one[1].chi2)[:1]
 
     def finished(self, one: tuple[Form, Fitted]) -> Fitted:
         """A rough fit followed to the end."""
         (name, number), rough = one
-        return self.contenders[name][number].finished(rough)
+        return self.candidates[name][number].finished(rough)
 
     def thorough(self, one: tuple[str, State, bool]) -> list[Fitted]:
         """Further starts, the best of them followed to the end, but for the one that has been.
@@ -132,35 +134,35 @@ class Work:
         """
         name, state, astray = one
         self.learn(name, state)
-        contenders = self.contenders[name]
-        followed = _best_first([(c, f) for c in contenders for f in c.near])[:1]
-        near = _best_first([(c, f) for c in contenders for f in [*c.near, *c.elsewhere]])[:FINISHED]
+        candidates = self.candidates[name]
+        followed = _best_first([(c, f) for c in candidates for f in c.near])[:1]
+        near = _best_first([(c, f) for c in candidates for f in [*c.near, *c.elsewhere]])[:FINISHED]
         near = [one for one in near if one not in followed]
-        far = _best_first([(c, f) for c in contenders for f in c.far])[:FINISHED] if astray else []
+        far = _best_first([(c, f) for c in candidates for f in c.far])[:FINISHED] if astray else []
         return [c.finished(f) for c, f in [*near, *far]]
 
     def everywhere(self, one: tuple[str, State]) -> list[Fitted]:
         """From starts not followed so far; the best to the end."""
         name, state = one
         self.learn(name, state)
-        fits = [(c, f) for c in self.contenders[name] for f in [*c.elsewhere, *c.everywhere]]
+        fits = [(c, f) for c in self.candidates[name] for f in [*c.elsewhere, *c.everywhere]]
         return [c.finished(f) for c, f in _best_first(fits)[:FINISHED]]
 
     def look(self, one: tuple[Fitted, Form]) -> list[Start]:
         """Starts of a second effect beside a fit."""
         before, form = one
-        return look(self.task, self.evidence, before, self.form(form))
+        return look(self.problem, self.evidence, before, self.form(form))
 
     def second(self, one: tuple[Fitted, Form, list[Start]]) -> Fitted | None:
         """A second effect beside a fit, from the starts that a look has found."""
         before, form, starts = one
-        contender = self._beside(before, self.form(form), starts)
-        return contender.finished(contender.near[0]) if contender.near else None
+        candidate = self._beside(before, self.form(form), starts)
+        return candidate.finished(candidate.near[0]) if candidate.near else None
 
     def alone(self, one: tuple[Fitted, Effect]) -> Fitted:
         """One effect of a pair as the pair has it, law and all, the other one taken away."""
         pair, effect = one
-        response = Response(self.task, [effect])
+        response = Response(self.problem, [effect])
         u = np.concatenate([pair.z, pair.of(effect)])
         return kept(response, self.evidence, pair.law, u)
 
@@ -168,12 +170,12 @@ class Work:
         """A second effect beside another in wide valleys, then roughly."""
         name, state, form = one
         self.learn(name, state)
-        before = self.contenders[name][0].plain[0]
+        before = self.candidates[name][0].plain[0]
         return self._beside(before, self.form(form)).quick
 
     def ended(self, rough: Fitted) -> Fitted:
         """A rough fit followed to the end."""
-        return polished(self.task, rough.effects, self.evidence, rough.law, rough.u)
+        return polished(self.problem, rough.effects, self.evidence, rough.law, rough.u)
 
     def together(self, one: tuple[Fitted, dict[str, State]]) -> list[Fitted]:
         """A pair again, each of its effects beside the other fitted alone, in wide valleys."""
@@ -184,13 +186,13 @@ class Work:
         for first, second in permutations(pair.effects):
             if first.replaces_law or second.replaces_law:
                 continue
-            for rough in self.contenders[first.name][0].plain:
+            for rough in self.candidates[first.name][0].plain:
                 found += [c.finished(f) for c in [self._beside(rough, second)] for f in c.far[:1]]
         return found
 
-    def _beside(self, before: Fitted, effect: Effect, starts: list[Start] | None = None) -> Contender:
-        return Contender(self.task, self.evidence, before, effect, starts)
+    def _beside(self, before: Fitted, effect: Effect, starts: list[Start] | None = None) -> CandidateFit:
+        return CandidateFit(self.problem, self.evidence, before, effect, starts)
 
 
-def _best_first(fits: list[tuple[Contender, Fitted]]) -> list[tuple[Contender, Fitted]]:
+def _best_first(fits: list[tuple[CandidateFit, Fitted]]) -> list[tuple[CandidateFit, Fitted]]:
     return sorted(fits, key=lambda one: one[1].chi2)

@@ -10,10 +10,10 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.leading import Motions, Stirred
 from fitting.effects.span import Span
-from fitting.effects.spanned import SpannedPlate
 from fitting.element import THETA_X, THETA_Y, W
 from fitting.linear import times
 from fitting.parts import (
@@ -32,12 +32,12 @@ TOLERANCE = 3e-3
 """Of a typical change, what may be missed; the reading's error goes with its square."""
 
 
-def span_plate(
+def enriched(
     full: FullPlate,
     basis: Array,
     spans: Sequence[Span],
     progress: Callable[[float], None] = lambda fraction: None,
-) -> SpannedPlate:
+) -> EnrichedReducedPlate:
     """Build it. `basis`: the unchanged plate's columns over the held degrees of freedom. Shape (held, k)."""
     halves = Motions(full, odd=False), Motions(full, odd=True)
     even, odd = halves
@@ -93,7 +93,7 @@ def _responses(
 
 def _project(
     full: FullPlate, even: Motions, odd: Motions, spans: Sequence[Span], pool: ThreadPoolExecutor
-) -> SpannedPlate:
+) -> EnrichedReducedPlate:
     loose, s = full.loose, full.specimen
     V = np.hstack([half.half.P @ half.columns for half in (even, odd)])
     matrices: dict[str, Array] = {}
@@ -114,7 +114,7 @@ def _project(
     # The inertia of held nodes loads their neighbours.
     of_load = V.T @ load_part(s)[loose.free]
     K_0, K_1, M = np.split(both, np.cumsum([len(STIFFNESS), len(CORE)]))
-    return SpannedPlate(
+    return EnrichedReducedPlate(
         group=np.array(even.names + odd.names),
         M=np.tensordot(stated.M, M, axes=1),
         K_0=np.tensordot(stated.K_0, K_0, axes=1),
