@@ -1,0 +1,188 @@
+"""Natural frequencies and damping ratios of the bare plate, from hits or FRFs."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from pydantic import ValidationError
+
+from fitting.errors import TooFewPoints
+from instrument.errors import BadInput
+from instrument.files.hammer_file import HammerModes, hammer_modes, read_hammer
+from instrument.files.impact_csv import MOTIONS
+from instrument.files.records import Named, read_records
+from instrument.files.toml import one_line
+from instrument.impact import damping as impact
+from instrument.impact.facts import damping_facts
+from instrument.impact.judge import judge
+from instrument.impact.record import Channel
+from instrument.impact.record import Hit as Record
+from instrument.impact.spectra import Estimator
+from instrument.stream.jsonable import to_jsonable
+from viscorig.facts import Facts
+from viscorig.shown import Columns
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Array = NDArray[np.float64]
+
+_SAME_RATE = 1e-4
+METHODS = ("rational_fit", "half_power", "lscf")
+
+
+class Hit(Record):
+    """One blow: force in N and the motion it caused, of one length and on one clock. Shape (samples,).
+
+    Raises `BadInput` without a motion, or where lengths differ.
+    """
+
+    def __init__(
+        self,
+        force_n: ArrayLike,
+        sample_rate_hz: float,
+        *,
+        acceleration_m_s2: ArrayLike | None = None,
+        velocity_m_s: ArrayLike | None = None,
+        displacement_m: ArrayLike | None = None,
+        name: str = "hit",
+    ) -> None:
+        force = np.asarray(force_n, dtype=float)
+        given = zip(MOTIONS.items(), (acceleration_m_s2, velocity_m_s, displacement_m), strict=True)
+        channels = tuple(
+            Channel(column, motion, np.asarray(samples, dtype=float))
+            for (column, motion), samples in given
+            if samples is not None
+        )
+        if not channels:
+            raise BadInput(f"{name}: force alone, expected one of {', '.join(MOTIONS)} beside it")
+        for channel in channels:
+            if force.ndim != 1 or channel.samples.shape != force.shape:
+                raise BadInput(
+                    f"{name}: {channel.name} of shape {channel.samples.shape}, force of {force.shape}, "
+                    "expected one length"
+                )
+        super().__init__(name, float(sample_rate_hz), force, channels)
+
+
+@dataclass(frozen=True, repr=False)
+class Damping(Facts):
+    """Modes of a hammer test by three methods, one adopted: the JSON of `viscorig damping`."""
+
+    @property
+    def frequency_hz(self) -> Array:
+        """Natural frequencies of the accepted modes. Shape (modes,)."""
+        return np.array([m["frequency_hz"] for m in self._accepted], dtype=float)
+
+    @property
+    def damping_ratio(self) -> Array:
+        """Adopted ratios of the accepted modes, fractions of critical. Shape (modes,)."""
+        return np.array([m["damping_ratio"] for m in self._accepted], dtype=float)
+
+    @property
+    def _accepted(self) -> list[dict[str, Any]]:
+        return [m for m in self.facts["modes"] if m["accepted"]]
+
+    def to_numpy(self) -> Columns:
+        """A row a mode, accepted or not; what a method does not give is NaN."""
+        modes = self.facts["modes"]
+        found: Columns = {
+            key: np.array([m[key] for m in modes], dtype=float) for key in ("frequency_hz", "damping_ratio")
+        }
+        for method in METHODS:
+            values = [m[method] or {"ratio": None, "standard_error": None} for m in modes]
+            for key in ("ratio", "standard_error"):
+                found[f"{method}_{key}"] = np.array([v[key] for v in values], dtype=float)
+        return {
+            **found,
+            "accepted": np.array([m["accepted"] for m in modes], dtype=bool),
+            "why": np.array([m["why"] for m in modes], dtype=str),
+        }
+
+    def lines(self) -> list[str]:
+        """How many modes, and the warnings."""
+        return [f"{len(self._accepted)} modes of {len(self.facts['modes'])} accepted", *self.warnings]
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Ratios by the three methods over frequency, with one standard error; the axes."""
+        from viscorig.plots import plot_ratios
+
+        return plot_ratios(ax, self.to_numpy(), METHODS)
+
+
+def damping(
+    records: str | Path | Record | Sequence[str | Path | Record],
+    *,
+    band_hz: tuple[float, float] | None = None,
+    at_hz: Sequence[float] = (),
+    estimator: Estimator = "h1",
+    exponential_percent: float | None = None,
+) -> Damping:
+    """Natural frequencies and damping ratios of hits, averaged, or of the FRFs of one file.
+
+    `records` are files (.csv, .lvm, .uff, .unv, .mat) or `Hit`s. `at_hz` names modes instead of looking for
+    them in `band_hz`; `exponential_percent` is where an exponential window ends, its damping taken off
+    again. The same numbers as `viscorig damping`. Raises `BadInput`.
+    """
+    given = [records] if isinstance(records, str | Path | Record) else list(records)
+    read = [r if isinstance(r, Record) else read_records(Path(r), Named()) for r in given]
+    band, at = band_hz, tuple(at_hz)
+    frfs = [r for r in read if isinstance(r, dict)]
+    if frfs:
+        if len(read) > 1:
+            raise BadInput("FRFs are read one file at a time, and not beside records")
+        return Damping(to_jsonable(damping_facts(impact.damping_of_frfs(frfs[0], band_hz=band, at_hz=at))))
+    hits = [h for r in read for h in ([r] if isinstance(r, Record) else cast(list[Record], r))]
+    _refuse_unlike(hits)
+    found = impact.damping_of_hits(
+        [judge(hit) for hit in hits],
+        band_hz=band,
+        at_hz=at,
+        estimator=estimator,
+        end_value=exponential_percent / 100 if exponential_percent else None,
+    )
+    return Damping(to_jsonable(damping_facts(found)))
+
+
+HammerTest = Damping | str | Path | tuple[ArrayLike, ArrayLike]
+"""A result of `damping`, the JSON of `viscorig damping`, or natural frequencies in Hz and ratios."""
+
+
+def hammer_modes_of(hammer: HammerTest | None) -> HammerModes | None:
+    """What a fit takes of a hammer test. Raises `BadInput`."""
+    if hammer is None:
+        return None
+    if isinstance(hammer, str | Path):
+        return read_hammer(Path(hammer))
+    facts = hammer.facts if isinstance(hammer, Damping) else {"modes": _given_modes(*hammer)}
+    try:
+        return hammer_modes(facts)
+    except ValidationError as error:
+        raise BadInput(one_line(error, prefix="hammer test: ")) from None
+    except TooFewPoints as error:
+        raise BadInput(f"hammer test: {error}") from None
+
+
+def _given_modes(frequency_hz: ArrayLike, damping_ratio: ArrayLike) -> list[dict[str, Any]]:
+    f, ratio = np.atleast_1d(frequency_hz), np.atleast_1d(damping_ratio)
+    if f.shape != ratio.shape:
+        raise BadInput(f"hammer test: {f.size} frequencies and {ratio.size} ratios, expected as many")
+    return [dict(to_jsonable({"frequency_hz": a, "damping_ratio": b})) for a, b in zip(f, ratio, strict=True)]
+
+
+def _refuse_unlike(hits: list[Record]) -> None:
+    """Only hits of one length, rate and set of channels can be averaged."""
+    for hit in hits[1:]:
+        first, now = _kind(hits[0]), _kind(hit)
+        if now[1:] != first[1:] or abs(now[0] / first[0] - 1) > _SAME_RATE:
+            raise BadInput(
+                f"{hit.source}: {now[1]} samples of {now[2]} at {now[0]:g}/s, expected {first[1]} of "
+                f"{first[2]} at {first[0]:g}/s as in {hits[0].source}"
+            )
+
+
+def _kind(hit: Record) -> tuple[float, int, str]:
+    return hit.sample_rate_hz, len(hit.force_n), ", ".join(c.name for c in hit.responses)

@@ -1,0 +1,96 @@
+"""A core's law as it was identified, just now or in a session."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from instrument.results.fit_file import found_law
+from viscorig.facts import Facts
+from viscorig.shown import Columns, columns
+from viscorig.specimen import Specimen
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+@dataclass(frozen=True, repr=False)
+class Identification(Facts):
+    """A core's law with its uncertainty, and what is left of the data: the JSON of `viscorig identify`."""
+
+    specimen: Specimen
+    """Whose law was the start."""
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """Of the law, in SI units, which the names end with."""
+        return dict(self.facts["parameters"])
+
+    @property
+    def standard_errors(self) -> dict[str, float | None]:
+        """Of the parameters; None for one at its limit."""
+        return dict(self.facts["standard_errors"])
+
+    @property
+    def frequency_hz(self) -> Array:
+        """Where the law is stated, over the measured band. Shape (frequencies,)."""
+        return np.asarray(self.to_numpy()["frequency_hz"])
+
+    @property
+    def storage_modulus_pa(self) -> Array:
+        """G' at `frequency_hz`."""
+        return np.asarray(self.to_numpy()["storage_modulus_pa"])
+
+    @property
+    def loss_factor(self) -> Array:
+        """Loss modulus over storage modulus, G''/G' at `frequency_hz`."""
+        return np.asarray(self.to_numpy()["loss_factor"])
+
+    @property
+    def points(self) -> Columns:
+        """Measured and predicted amplitude of every point, and their difference. Shape (points,) each."""
+        return columns(self.facts["points"])
+
+    @property
+    def rms_percent(self) -> float:
+        """Of the differences in amplitude."""
+        return float(self.facts["rms_percent"])
+
+    def modulus_pa(self, frequency_hz: ArrayLike) -> Complex:
+        """G* of the law found, in Pa; an extrapolation beyond the measured band. Shape of `frequency_hz`."""
+        core = self.specimen.model.core
+        assert core is not None
+        return found_law(self.facts).law(core.law).modulus(2 * np.pi * np.asarray(frequency_hz, dtype=float))
+
+    def to_numpy(self) -> Columns:
+        """The law over the measured band with its standard errors, a row a frequency."""
+        return columns(self.facts["law"])
+
+    def lines(self) -> list[str]:
+        """Law, parameters, what is left, warnings."""
+        errors = self.standard_errors
+        found = ", ".join(f"{k} = {v:.4g}{_error(errors[k])}" for k, v in self.parameters.items())
+        left = f"rms {self.rms_percent:.3g} %, largest {self.facts['max_percent']:.3g} %"
+        return [f"{self.facts['law_kind']}: {found}", left, *self.warnings]
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """G' and, on an axis of its own, the loss factor over frequency, with 95 % bands; the axes."""
+        from viscorig.plots import plot_laws
+
+        return plot_laws(ax, {"": self.to_numpy()})
+
+    def plot_fit(self, ax: "Axes | None" = None) -> "Axes":
+        """Measured and predicted amplitudes over frequency; the axes."""
+        from viscorig.plots import plot_amplitude
+
+        f = self.points["frequency_hz"]
+        ax = plot_amplitude(ax, f, self.points["measured_m_s"], "o", "measured")
+        return plot_amplitude(ax, f, self.points["predicted_m_s"], "x", "fitted")
+
+
+def _error(error: float | None) -> str:
+    return f" ± {error:.2g}" if error is not None else ""

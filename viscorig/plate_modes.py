@@ -1,0 +1,61 @@
+"""Complex modes of a specimen."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.complex_modes import complex_modes
+from fitting.plate import Plate
+from instrument.progress import bar
+from viscorig.facts import Facts
+from viscorig.shown import Columns, columns
+from viscorig.specimen import Specimen
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, repr=False)
+class Modes(Facts):
+    """Natural frequencies and modal loss factors: the JSON of `viscorig modes`."""
+
+    @property
+    def frequency_hz(self) -> Array:
+        """Shape (modes,)."""
+        return np.array([m["frequency_hz"] for m in self.facts["modes"]], dtype=float)
+
+    @property
+    def loss_factor(self) -> Array:
+        """Shape (modes,)."""
+        return np.array([m["loss_factor"] for m in self.facts["modes"]], dtype=float)
+
+    def to_numpy(self) -> Columns:
+        """A row a mode."""
+        return columns(self.facts["modes"])
+
+    def lines(self) -> list[str]:
+        """How many, and where."""
+        f = self.frequency_hz
+        return [f"{len(f)} modes, {f.min():.4g} to {f.max():.4g} Hz" if len(f) else "no modes"]
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Loss factors over frequency; the axes."""
+        from viscorig.plots import plot_modes
+
+        return plot_modes(ax, self.to_numpy())
+
+
+def modes(specimen: Specimen, count: int = 8) -> Modes:
+    """The first modes, the core's law taken at each mode's own frequency; rigid ones are left out.
+
+    The same numbers as `viscorig modes`. Raises `OutsideModel`.
+    """
+    model = specimen.model
+    law = model.core.law if model.core is not None else None
+    with bar("modes") as report:
+        found = complex_modes(Plate(model), law, count, report)
+    return Modes({"modes": [{"frequency_hz": m.frequency_hz, "loss_factor": m.loss_factor} for m in found]})

@@ -1,0 +1,104 @@
+"""The response at the pickup."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
+from instrument.errors import BadInput
+from instrument.models.specimen_models import Models
+from instrument.models.theory import theory_remark
+from instrument.progress import bar
+from instrument.results.fit_file import found_law
+from instrument.results.fitted_response import fitted_response
+from instrument.stream.jsonable import to_jsonable
+from viscorig.checked import numbers
+from viscorig.facts import Facts
+from viscorig.hammer import HammerTest, hammer_modes_of
+from viscorig.identification import Identification
+from viscorig.shown import Columns, columns
+from viscorig.specimen import Specimen
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+@dataclass(frozen=True, repr=False)
+class Response(Facts):
+    """Velocity at the pickup under the specimen's base acceleration: the JSON of `viscorig predict`."""
+
+    @property
+    def frequency_hz(self) -> Array:
+        """Shape (points,)."""
+        return np.asarray(self.to_numpy()["frequency_hz"])
+
+    @property
+    def velocity_m_s(self) -> Complex:
+        """Phasors of e^{+i omega t}, zero to peak. Shape (points,)."""
+        table = self.to_numpy()
+        return np.asarray(table["velocity_re_m_s"] + 1j * table["velocity_im_m_s"])
+
+    def to_numpy(self) -> Columns:
+        """A row a frequency."""
+        return columns(self.facts["points"])
+
+    def lines(self) -> list[str]:
+        """How many points, and what is noted."""
+        f = self.frequency_hz
+        return [f"response at {len(f)} frequencies, {f.min():g} to {f.max():g} Hz", *self.facts["notes"]]
+
+    def plot(self, ax: "Axes | None" = None) -> "Axes":
+        """Amplitude over frequency; the axes."""
+        from viscorig.plots import plot_amplitude
+
+        return plot_amplitude(ax, self.frequency_hz, np.abs(self.velocity_m_s), "-", "predicted")
+
+
+def predict(
+    specimen: Specimen,
+    frequency_hz: ArrayLike,
+    *,
+    fit: Identification | None = None,
+    hammer: HammerTest | None = None,
+    real_modes: bool = False,
+) -> Response:
+    """Velocity at the pickup under the specimen's law, at frequencies of shape (points,).
+
+    `fit` puts the law and the plate that it found in their place and brings standard errors; `hammer` the
+    bare plate's stiffness and ratios; `real_modes` takes the paper's uncoupled modes. The same numbers as
+    `viscorig predict`. Raises `BadInput`, `OutsideModel`.
+    """
+    f = numbers("frequency_hz", frequency_hz, float, above_zero=True)
+    if real_modes and fit is not None:
+        raise BadInput("real_modes and fit: expected one of them")
+    model, tested = specimen.model, hammer_modes_of(hammer)
+    if tested is not None:
+        model = with_bare_plate(model, fit_bare_plate(model, *tested))
+    law = model.core.law if model.core is not None else None
+    further: dict[str, Array] = {}
+    if fit is None:
+        v = Models.of(model, f, bar).predict(law, f, real_modes=real_modes)
+    else:
+        known = found_law(fit.facts)
+        found = fitted_response(model, known, f, bar)
+        v, law = found.velocity_m_s, known.law(law) if law is not None else None
+        further = {
+            "velocity_standard_error_m_s": found.amplitude_standard_error_m_s,
+            "phase_standard_error_rad": found.phase_standard_error_rad,
+        }
+    remark = theory_remark(model, law, f)
+    rows = {
+        "frequency_hz": f,
+        "velocity_re_m_s": v.real,
+        "velocity_im_m_s": v.imag,
+        "velocity_m_s": np.array([abs(z) for z in v]),
+        **further,
+    }
+    points = [dict(zip(rows, row, strict=True)) for row in zip(*rows.values(), strict=True)]
+    facts: dict[str, Any] = {"points": points, "notes": [remark] if remark else []}
+    return Response(to_jsonable(facts))

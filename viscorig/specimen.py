@@ -1,0 +1,86 @@
+"""The specimen: from its file, or from the same keys given in Python."""
+
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, Self
+
+import numpy as np
+from pydantic import ValidationError
+
+from fitting.errors import OutsideModel
+from fitting.specimen import Specimen as Model
+from instrument.errors import BadInput
+from instrument.files.specimen_file import SpecimenDocument, read_specimen, specimen_of
+from instrument.files.text import read_text
+from instrument.files.toml import one_line
+from instrument.stream.jsonable import to_jsonable
+from viscorig.shown import Columns, Shown
+
+
+class Specimen(Shown):
+    """A plate as the model is told: the tables of a SPECIMEN.toml, units in their keys.
+
+        Specimen(
+            plate={"length_mm": 300.2, "width_mm": 199.9, "boundary": "cantilever"},
+            substrate={"thickness_mm": 1.9, "young_gpa": 68.9, "poisson": 0.3, "density_kg_m3": 2700.0},
+            pickup={"x_mm": 60.0, "y_mm": 60.0},
+        )
+
+    Keys and units: docs/specimen.md. Raises `BadInput` naming the key that is wrong.
+    """
+
+    model: Model
+    """What is computed with: frozen, in SI units."""
+
+    def __init__(self, **tables: Mapping[str, Any]) -> None:
+        self._tables: dict[str, Any] = to_jsonable(tables)
+        try:
+            self.model = specimen_of(SpecimenDocument.model_validate(self._tables))
+        except ValidationError as error:
+            raise BadInput(f"specimen: {one_line(error)}") from None
+        except OutsideModel as error:
+            raise BadInput(f"specimen: {error}") from None
+
+    @classmethod
+    def from_file(cls, path: str | Path) -> Self:
+        """Read a SPECIMEN.toml. Raises `BadInput`."""
+        made = cls.__new__(cls)
+        made.model = read_specimen(Path(path))
+        made._tables = tomllib.loads(read_text(Path(path)))
+        return made
+
+    def but(self, **tables: Mapping[str, Any]) -> "Specimen":
+        """The same with other values: `specimen.but(core={"thickness_mm": 0.4})`. Raises `BadInput`."""
+        return Specimen(
+            **{**self._tables, **{k: {**self._tables.get(k, {}), **t} for k, t in tables.items()}}
+        )
+
+    def as_dict(self) -> dict[str, Any]:
+        """The tables: `Specimen(**specimen.as_dict())` is the same one."""
+        return dict(to_jsonable(self._tables))
+
+    def to_numpy(self) -> Columns:
+        """Every number and word of the tables, a row each."""
+        rows = list(_flat(self._tables))
+        return {"key": np.array([k for k, _ in rows]), "value": np.array([v for _, v in rows], dtype=object)}
+
+    def lines(self) -> list[str]:
+        """Size and layers."""
+        m = self.model
+        law = (
+            f", core {1e3 * m.core.thickness_m:g} mm ({m.core.law.kind})" if m.core is not None else ", bare"
+        )
+        return [f"{m.boundary} plate {1e3 * m.length_m:g} x {1e3 * m.width_m:g} mm{law}"]
+
+
+def load_specimen(path: str | Path) -> Specimen:
+    """Read a SPECIMEN.toml. Raises `BadInput` naming file, key and what is expected."""
+    return Specimen.from_file(path)
+
+
+def _flat(table: Mapping[str, Any], prefix: str = "") -> list[tuple[str, Any]]:
+    found: list[tuple[str, Any]] = []
+    for key, value in table.items():
+        found += _flat(value, f"{prefix}{key}.") if isinstance(value, Mapping) else [(prefix + key, value)]
+    return found
