@@ -48,7 +48,7 @@ bench: $(READY) ## the performance table
 	@$(BIN)/viscorig bench
 
 docs: $(VENV)/.docs ## the documentation site, in out/site; broken links are errors
-	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --strict --site-dir $(OUT)/site
+	@NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict --site-dir $(OUT)/site
 
 $(VENV)/.docs: $(READY)
 	@echo "adding what builds the site to $(VENV)"
