@@ -10,8 +10,8 @@ Store anew, after a change that is meant to change numbers:
 
     VISCORIG_KEEP_NUMBERS=1 .venv/bin/pytest tests/test_numbers_stay.py
 
-`small.h5.xz` beside them is a session, recorded from the files in `tests/data/numbers/run`. It needs recording
-anew only where sessions of then may no longer be read; the numbers then too:
+`small.h5.xz` beside them is a session, recorded from the files in `tests/data/numbers/run`. It needs
+recording anew only where sessions of then may no longer be read; the numbers then too:
 
     export VISCORIG_PROCESSES=1 OPENBLAS_NUM_THREADS=1
     .venv/bin/viscorig run tests/data/numbers/run/small.toml --out out

@@ -16,18 +16,19 @@ from threadpoolctl import threadpool_limits
 
 from instrument.cli.main import run
 
-LINEAR, OPTIMISED, SEARCHED = 1e-9, 1e-6, 1e-3
-"""Relative, on machines that round otherwise: sums and solves; where an optimiser ends; a search of many fits,
-some along directions so flat that an optimiser ends anywhere on them."""
+SUMS, FITTED, SEARCHED, VAGUE = 1e-9, 1e-5, 1e-4, 5e-3
+"""Relative, on machines that round otherwise: sums and products; where an optimiser ends; a search of fits,
+some along flat directions; an iteration that is stopped before it ends, and standard errors read off a rest
+that is next to nothing."""
 
 CASES = {
-    "identify-direct": ("identify table5.csv --specimen coarse.toml", OPTIMISED),
-    "identify-paper": ("identify table5.csv --specimen coarse.toml --method paper", OPTIMISED),
-    "identify-pointwise": ("identify thin.csv --specimen coarse.toml --pointwise", OPTIMISED),
-    "identify-session": ("identify small.h5", OPTIMISED),
+    "identify-direct": ("identify table5.csv --specimen coarse.toml", FITTED),
+    "identify-paper": ("identify table5.csv --specimen coarse.toml --method paper", VAGUE),
+    "identify-pointwise": ("identify thin.csv --specimen coarse.toml --pointwise", FITTED),
+    "identify-session": ("identify small.h5", FITTED),
     "diagnose-nine-points": ("diagnose table5.csv --specimen coarse.toml --resamples 0", SEARCHED),
     "diagnose-sweep": ("diagnose thin.csv --specimen coarse.toml", SEARCHED),
-    "damping": ("damping hits.csv", OPTIMISED),
+    "damping": ("damping hits.csv", VAGUE),
 }
 RATE, SECONDS = 2048.0, 4.0
 MODES = ((17.7, 0.0029, 1.0), (59.8, 0.0013, -0.9), (110.1, 0.0018, 0.8))
@@ -82,7 +83,8 @@ def assert_kept(name, found, tolerance):
     if storing():
         store(name, found)
         pytest.skip("stored anew")
-    assert differences(name, found, tolerance) == []
+    apart = differences(name, found, tolerance)
+    assert not apart, "\n".join(apart)
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -107,7 +109,7 @@ def test_a_recorded_session_is_exported_as_the_same_text(capsys, monkeypatch, fi
     facts(capsys, "export", "small.h5", "--to", "csv", "--out", str(tmp_path))
     found = {path.name: said_in(path.read_text()) for path in sorted(tmp_path.iterdir())}
     assert len(found) == 5
-    assert_kept("export", found, LINEAR)
+    assert_kept("export", found, SUMS)
 
 
 def said_in(text):
