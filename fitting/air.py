@@ -15,14 +15,12 @@ from math import factorial
 
 import numpy as np
 import scipy.linalg as la
-from numpy.typing import NDArray
 from scipy.special import jv
 
+from fitting.arrays import Array
 from fitting.element import DOFS, THETA_Y, Shape, W
 from fitting.plate import Plate
 from fitting.real_modes import RealModes
-
-Array = NDArray[np.float64]
 
 LONG_SIDE, SHORT_SIDE = 8, 6
 """Functions along the plate's sides: on aspect 1.5 the air's mass in each of ten modes to 0.2 %."""

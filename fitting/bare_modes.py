@@ -4,14 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg as la
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.element import DOFS, THETA_X, THETA_Y
 from fitting.linear import factorise
 from fitting.plate import Plate, element_matrices
 from fitting.real_modes import RealModes, real_modes
-
-Array = NDArray[np.float64]
 
 _EDGE_WIDTH = 0.63 / 2
 """Of the thickness, at each free edge."""

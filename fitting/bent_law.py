@@ -11,12 +11,9 @@ from functools import lru_cache
 from typing import Self
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.laws.base import CoreLaw, Quantity
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 STORAGE, LOSS = 0.025, 0.045
 """Standard deviations of b_G and b_eta: how far Maxwell, Havriliak-Negami and tabulated materials lie from
@@ -56,7 +53,7 @@ class BentLaw(CoreLaw):
         return self.law.kind
 
     @property
-    def bends(self) -> int:
+    def bend_count(self) -> int:
         """How many of the parameters, the last ones, have priors of unit width in their logarithms."""
         return len(self.bend)
 

@@ -10,16 +10,13 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg as la
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 from fitting.linear import factorise
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _SPARE = 4
 """Real modes kept beyond those asked for, so that the last ones are spanned too."""

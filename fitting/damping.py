@@ -7,11 +7,10 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
+from fitting.arrays import Array
 from fitting.element import W
 from fitting.plate import Plate
 from fitting.real_modes import RealModes, real_modes
-
-Array = NDArray[np.float64]
 
 REFERENCE_MODULUS_PA = 0.5e6
 """The core modulus whose real modes carry the ratios. 0.3 to 1 MPa moves peak 1 by 0.5 %."""

@@ -4,14 +4,11 @@ from collections.abc import Callable
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.damping import ViscousDamping
 from fitting.linear import factorise
 from fitting.plate import Plate
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 def direct_solver(

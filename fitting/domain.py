@@ -3,14 +3,11 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 from fitting.specimen import Specimen
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 FREQUENCIES_HZ = (5.0, 600.0)
 MODULI_PA = (1e4, 2e7)

@@ -13,11 +13,9 @@ from dataclasses import dataclass
 from math import perm
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.specimen import Core, Face
-
-Array = NDArray[np.float64]
 
 U_C, V_C, U_B, V_B, W, THETA_X, THETA_Y = range(7)
 DOFS = 7

@@ -20,10 +20,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from fitting.arrays import Array, Complex
 
 ORDER = 7
 """Order of the polynomials in each layer: omega^2 to rounding in thin ones, to 1e-6 where a layer holds half

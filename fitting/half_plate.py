@@ -7,13 +7,12 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.damping import ViscousDamping
 from fitting.element import DOFS
 from fitting.linear import Chain, with_damping
 from fitting.plate import Plate
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Indices = NDArray[np.intp]
 
 

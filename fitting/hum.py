@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import stats
 
+from fitting.arrays import Array
 from fitting.noise import FEWEST, Noise, groups_of, local_model
 from fitting.sweep import Sweep
 
-Array = NDArray[np.float64]
 Points = NDArray[np.bool_]
 
 MAINS_HZ = (50.0, 60.0)

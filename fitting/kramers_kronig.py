@@ -17,16 +17,13 @@ with noise and nuisances as one matrix.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import solve_triangular
 from scipy.optimize import nnls
 from scipy.stats import chi2 as chi2_distribution
 
+from fitting.arrays import Array, Complex
 from fitting.errors import TooFewPoints
 from fitting.pointwise import PointwiseLaw
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 LEVEL = 0.01
 """Probability by chance below which the core is said not to be causal."""

@@ -10,11 +10,9 @@ order one. Source: the paper's Eq. (15) to (18).
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.exact_layers import lowest
 from fitting.specimen import Core, Face, Specimen
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _STEPS = 30
 _TOLERANCE = 1e-6

@@ -4,11 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fitting.sweep import Sweep
-
-Array = NDArray[np.float64]
 
 LEAST_PERCENT = 1.0
 _STANDARD_ERRORS = 3.0

@@ -7,13 +7,10 @@ gives way a little more. What is left is the mesh, and what solids and plates of
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.specimen import Specimen
 from fitting.theory_error import EDGE_FREQUENCY, EDGE_LOSS, theory_error
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 FREQUENCY = 3.5e-4
 """Of a resonance, relative: the mesh, and the scatter between plates."""

@@ -12,9 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import nnls
 
+from fitting.arrays import Array
 from fitting.sweep import Sweep
-
-Array = NDArray[np.float64]
 
 WINDOW = 7
 FEWEST = 15

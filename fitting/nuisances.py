@@ -10,16 +10,13 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.parts import CORE, MASS, STIFFNESS, coefficients
 from fitting.specimen import Specimen
 from fitting.tolerances import PLATE, STATED, Unit, moved, tolerance
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _H = 1e-2
 """Step of differences, in standard deviations."""

@@ -15,6 +15,7 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, Shape, W, core_stiffness
 from fitting.element import _points as gauss_points
 from fitting.laws.constant import ConstantModulus
@@ -22,8 +23,6 @@ from fitting.plate import Mesh, Plate
 from fitting.specimen import Core, Face, Specimen
 from fitting.tolerances import STATED, moved
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Rows = dict[str, Array]
 
 _LAYER = ("thickness_m", "young_pa", "poisson", "density_kg_m3", "loss_factor")

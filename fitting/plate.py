@@ -13,11 +13,11 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from fitting import element
+from fitting.arrays import Array
 from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
 from fitting.errors import OutsideModel
 from fitting.specimen import Specimen
 
-Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 _STILL = 1e-9

@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import chi2 as chi2_distribution
 
+from fitting.arrays import Array, Complex
 from fitting.errors import TooFewPoints
 from fitting.identification.model import velocity
 from fitting.laws import CoreLaw
@@ -25,9 +26,6 @@ from fitting.pointwise_roots import APART, BandProblem, Root, VelocityOf, neares
 from fitting.rational import RationalSweep
 from fitting.specimen import Reading
 from fitting.sweep import Sweep
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 BANDS_AN_OCTAVE = 24.0
 LARGEST_ERROR = 0.25

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from fitting.arrays import Array, Complex
+
 VelocityOf = Callable[[Complex], tuple[Complex, Complex]]
 """G* at every point in Pa to v in m/s and dv/dG in m/(s Pa). Shape (points,) each."""
 

@@ -17,10 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
+from fitting.arrays import Array, Complex
 from fitting.reduced import ReducedPlate
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 NODES_A_DECADE = 4
 """Moduli a decade at which the sum is spanned; it then agrees with the reduced plate to 1e-8 or better."""

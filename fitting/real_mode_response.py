@@ -10,13 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 MODES = 8
 """The paper superposes the first eight, odd ones counted though a base does not excite them."""

@@ -3,14 +3,12 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse.linalg import LinearOperator, eigsh
 
+from fitting.arrays import Array
 from fitting.errors import OutsideModel
 from fitting.linear import factorise
 from fitting.plate import Plate
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

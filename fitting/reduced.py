@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
+from fitting.arrays import Array, Complex
 from fitting.assembly import Assembly
 from fitting.damping import ViscousDamping
 from fitting.domain import Domain
@@ -22,8 +23,6 @@ from fitting.linear import times
 from fitting.parts import load_part, projected_parts, stated_steps
 from fitting.plate import Plate
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Point = tuple[float, complex]
 
 TOLERANCE = 1e-6

@@ -12,16 +12,14 @@ supported edges this is all there is; clamped and free edges add what `remaining
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from fitting.arrays import Array, Complex
 from fitting.errors import OutsideModel
 from fitting.exact_layers import Layer, exact_lambda
 from fitting.laws import CoreLaw
 from fitting.layer_theory import layerwise_lambda, wavenumber
 from fitting.specimen import Face, Specimen
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 FREQUENCY_LIMIT = 5e-3
 """Largest error of a resonance. A tenth to a third of the stiffness is the core's: G' is then 3 to 10 % off,

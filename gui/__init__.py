@@ -14,5 +14,5 @@ its name in `pages.PAGES`. The window gives it the shortcut Ctrl+(its place) and
 times a second, only while the page is seen and something has changed. In `refresh` ask `self.news("points")`
 before drawing: true where one of these topics changed since the page last asked. Draw with `plot.line`,
 `points`, `band`: the same name again replaces a curve. What a person does goes to `self.desk`. Long work goes
-to `Work` (files) or `Command` (computing); connect bound methods of widgets only.
+to `BackgroundTask` (files) or `Command` (computing); connect bound methods of widgets only.
 """

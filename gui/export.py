@@ -7,8 +7,8 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QFileDialog, QWidget
 
-from gui.desk import Desk
-from gui.work import Command
+from gui.background_task import Command
+from gui.controller import AppController
 
 
 class Export(QObject):
@@ -18,9 +18,9 @@ class Export(QObject):
     done = Signal(str)
     failed = Signal(str)
 
-    def __init__(self, desk: Desk, window: QWidget) -> None:
+    def __init__(self, controller: AppController, window: QWidget) -> None:
         super().__init__(window)
-        self._desk, self._window = desk, window
+        self._desk, self._window = controller, window
 
     def report(self) -> None:
         """One self-contained page."""

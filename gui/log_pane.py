@@ -2,8 +2,8 @@
 
 from PySide6.QtWidgets import QDockWidget, QPlainTextEdit, QWidget
 
-from gui.picture import Picture
-from gui.picture.log import Line
+from gui.state import SessionState
+from gui.state.log import Line
 
 _MOST_LINES = 5000
 _SIGNS = {"said": " ", "warning": "!", "fault": "\u2716"}
@@ -20,7 +20,7 @@ class LogPane(QDockWidget):
         self._text.setMaximumBlockCount(_MOST_LINES)
         self._text.setPlaceholderText("What happens is written here.")
         self.setWidget(self._text)
-        self._shown_of: Picture | None = None
+        self._shown_of: SessionState | None = None
         self._shown = 0
 
     @property
@@ -28,14 +28,14 @@ class LogPane(QDockWidget):
         """All of it."""
         return self._text.toPlainText()
 
-    def show_picture(self, picture: Picture | None) -> None:
+    def show_state(self, state: SessionState | None) -> None:
         """Write the lines that are new."""
-        if picture is not self._shown_of:
+        if state is not self._shown_of:
             self._text.clear()
-            self._shown_of, self._shown = picture, 0
-        if picture is None:
+            self._shown_of, self._shown = state, 0
+        if state is None:
             return
-        log = picture.log
+        log = state.log
         new = log.lines[max(0, self._shown - log.dropped) :]
         if new:
             self._text.appendPlainText("\n".join(_written(line) for line in new))

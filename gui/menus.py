@@ -7,7 +7,7 @@ from PySide6.QtCore import QObject
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QFileDialog, QMenu, QMessageBox
 
-from gui.desk import EXPERIMENT_ENDING, FOREIGN_ENDINGS, SESSION_ENDINGS
+from gui.controller import EXPERIMENT_ENDING, FOREIGN_ENDINGS, SESSION_ENDINGS
 from gui.export import Export
 from gui.shell import Shell
 from gui.theme import SCALES, Mode
@@ -34,7 +34,7 @@ class Menus(QObject):
     def __init__(self, window: Shell) -> None:
         super().__init__(window)
         self._window = window
-        self._export = Export(window.desk, window)
+        self._export = Export(window.controller, window)
         self._export.done.connect(window.notice.say)
         self._export.failed.connect(window.notice.refuse)
         self._file()
@@ -45,7 +45,7 @@ class Menus(QObject):
 
     def refresh(self) -> None:
         """What can be done now."""
-        recorded = self._window.desk.recorded is not None
+        recorded = self._window.controller.recorded is not None
         for action in self._of_session:
             action.setEnabled(recorded)
         self._recent.clear()
@@ -59,7 +59,7 @@ class Menus(QObject):
         menu = self._window.menuBar().addMenu("&File")
         self._add(menu, "&Open...", self._open, "Ctrl+O")
         self._recent = menu.addMenu("Open &recent")
-        close = self._add(menu, "&Close session", self._window.desk.leave, "Ctrl+W")
+        close = self._add(menu, "&Close session", self._window.controller.leave, "Ctrl+W")
         menu.addSeparator()
         self._of_session = [close, self._add(menu, "Save &report...", self._export.report, "Ctrl+R")]
         data = menu.addMenu("&Export data")

@@ -5,8 +5,8 @@ from typing import ClassVar
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QWidget
 
-from gui.desk import Desk
-from gui.picture import Picture, Topic
+from gui.controller import AppController
+from gui.state import SessionState, Topic
 
 
 class Page(QWidget):
@@ -14,7 +14,7 @@ class Page(QWidget):
 
     Parameters
     ----------
-    desk : Desk
+    desk : AppController
         What a person can do here.
     """
 
@@ -22,15 +22,15 @@ class Page(QWidget):
     hint: ClassVar[str] = ""
     """What it shows, for the tool tip."""
 
-    def __init__(self, desk: Desk) -> None:
+    def __init__(self, controller: AppController) -> None:
         super().__init__()
-        self.desk = desk
-        self._picture: Picture | None = None
-        self._drawn: Picture | None = None
+        self.controller = controller
+        self._picture: SessionState | None = None
+        self._drawn: SessionState | None = None
         self._version = -1
         self._seen: dict[Topic, int] = {}
 
-    def refresh(self, picture: Picture) -> None:
+    def refresh(self, state: SessionState) -> None:
         """Draw what has changed. Called while the page is seen, at most 30 times a second."""
         raise NotImplementedError
 
@@ -47,9 +47,9 @@ class Page(QWidget):
             self._seen[topic] = now
         return fresh
 
-    def show_picture(self, picture: Picture | None) -> None:
+    def show_state(self, state: SessionState | None) -> None:
         """From the window, at every turn: the picture there is now."""
-        self._picture = picture
+        self._picture = state
         if self.isVisible():
             self._draw()
 

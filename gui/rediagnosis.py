@@ -10,8 +10,8 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
-from gui.picture import Picture
-from gui.work import Command
+from gui.background_task import Command
+from gui.state import SessionState
 
 Facts = dict[str, Any]
 
@@ -85,21 +85,21 @@ class Rediagnosis(QObject):
         """Whether one is being made."""
         return self._command is not None
 
-    def shown(self, picture: Picture | None) -> Shown | None:
+    def shown(self, state: SessionState | None) -> Shown | None:
         """What pages show: the one made here, else the session's own; None where there is neither."""
         if self.found is not None:
             return self.found
-        own = picture.contents.diagnosis if picture is not None else None
+        own = state.contents.diagnosis if state is not None else None
         return (
             Shown(own.facts_json, "recorded with the session") if own is not None and own.facts_json else None
         )
 
-    def ranking(self, picture: Picture | None) -> Facts | None:
+    def ranking(self, state: SessionState | None) -> Facts | None:
         """The last whole search of what is shown: an effect fitted by hand has no others beside it."""
-        shown = self.shown(picture)
+        shown = self.shown(state)
         if shown is None or shown.asked is None:
             return shown.facts if shown is not None else None
-        own = picture.contents.diagnosis if picture is not None and shown.asked.specimen is None else None
+        own = state.contents.diagnosis if state is not None and shown.asked.specimen is None else None
         recorded = own.facts_json if own is not None else {}
         return self._searched.get(shown.asked.data) or recorded or shown.facts
 

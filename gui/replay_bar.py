@@ -91,15 +91,15 @@ class ReplayBar(QFrame):
 
     def to_mark_before(self) -> None:
         """Where the part began that is shown; again: the one before it."""
-        if self._feed is not None and self._feed.tape is not None:
+        if self._feed is not None and self._feed.index is not None:
             now = self._feed.position_s
-            self._feed.jump(max((m.time_s for m in self._feed.tape.marks if m.time_s < now), default=0.0))
+            self._feed.jump(max((m.time_s for m in self._feed.index.marks if m.time_s < now), default=0.0))
 
     def to_next_mark(self) -> None:
         """Where the next part begins."""
-        if self._feed is not None and self._feed.tape is not None:
+        if self._feed is not None and self._feed.index is not None:
             now, end = self._feed.position_s, self._feed.length_s
-            self._feed.jump(min((m.time_s for m in self._feed.tape.marks if m.time_s > now), default=end))
+            self._feed.jump(min((m.time_s for m in self._feed.index.marks if m.time_s > now), default=end))
 
     def _slid(self, value: int) -> None:
         if self._feed is not None:
@@ -111,12 +111,12 @@ class ReplayBar(QFrame):
 
     def _moved(self) -> None:
         feed = self._feed
-        if feed is None or feed.tape is None:
+        if feed is None or feed.index is None:
             return
         with QSignalBlocker(self.slider):
             self.slider.setValue(round(_STEPS * feed.position_s / feed.length_s) if feed.length_s else 0)
         self.time.setText(f"{duration(feed.position_s)} of {duration(feed.length_s)}")
-        passed = [m.what for m in feed.tape.marks if m.time_s <= feed.position_s]
+        passed = [m.what for m in feed.index.marks if m.time_s <= feed.position_s]
         self.mark.setText(passed[-1] if passed else "")
         self.play.setText("Pause" if feed.playing else "Play")
 

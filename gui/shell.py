@@ -4,7 +4,7 @@ from pathlib import Path
 
 from PySide6.QtWidgets import QMainWindow
 
-from gui.desk import Desk
+from gui.controller import AppController
 from gui.log_pane import LogPane
 from gui.notice import Notice
 from gui.page import Page
@@ -15,7 +15,7 @@ from gui.theme import Appearance
 class Shell(QMainWindow):
     """Its parts, and what can be done with it as a whole."""
 
-    desk: Desk
+    controller: AppController
     notice: Notice
     settings: Settings
     appearance: Appearance

@@ -14,10 +14,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from gui.desk import Desk
+from gui.controller import AppController
 from gui.gauge import Gauge
-from gui.picture import Picture
-from gui.picture.run import WORDS
+from gui.state import SessionState
+from gui.state.run import WORDS
 from gui.stop_button import StopButton
 from gui.theme import Role, current_theme
 from gui.widgets import button
@@ -30,9 +30,9 @@ _COLORS: dict[str, Role] = {"held": "fair", "stopped": "bad", "done": "good", "i
 class TopBar(QFrame):
     """Reads the picture, acts on the desk."""
 
-    def __init__(self, desk: Desk, parent: QWidget | None = None) -> None:
+    def __init__(self, controller: AppController, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._desk = desk
+        self._desk = controller
         self.state, self.next, self.left = QLabel(), QLabel(), QLabel()
         self.next.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.next.setTextFormat(Qt.TextFormat.PlainText)
@@ -44,12 +44,12 @@ class TopBar(QFrame):
         self.hold = button("Hold", "Silence the shaker and wait (F9)")
         self.abort = button("Abort", "End the run in order; what is complete is kept")
         self.stop = StopButton()
-        self.hold.clicked.connect(desk.hold)
-        self.abort.clicked.connect(desk.abort)
-        self.stop.clicked.connect(desk.stop)
+        self.hold.clicked.connect(controller.hold)
+        self.abort.clicked.connect(controller.abort)
+        self.stop.clicked.connect(controller.stop)
         self._arrange()
         self._size()
-        self.show_picture(None)
+        self.show_state(None)
 
     def changeEvent(self, event: QEvent) -> None:
         """Room for words follows the size of type."""
@@ -57,12 +57,12 @@ class TopBar(QFrame):
         if event.type() == QEvent.Type.FontChange and hasattr(self, "gauges"):
             self._size()
 
-    def show_picture(self, picture: Picture | None) -> None:
+    def show_state(self, state: SessionState | None) -> None:
         """How things stand now."""
         running = self._desk.running
         for one in (self.hold, self.abort, self.stop):
             one.setEnabled(running)
-        if picture is None:
+        if state is None:
             self._say("idle", "no session")
             self.left.clear()
             self.level.clear()
@@ -70,11 +70,11 @@ class TopBar(QFrame):
             for gauge in self.gauges.values():
                 gauge.show_value(None)
             return
-        run = picture.run
+        run = state.run
         self.hold.setText("Resume" if run.state == "held" else "Hold")
         self._say(run.state, run.next_words)
-        self._show_progress(picture)
-        self._show_gauges(picture)
+        self._show_progress(state)
+        self._show_gauges(state)
 
     def _size(self) -> None:
         """Words that change must not move what stands beside them."""
@@ -91,18 +91,18 @@ class TopBar(QFrame):
         self.next.setText(words)
         self.next.setToolTip(words)
 
-    def _show_progress(self, picture: Picture) -> None:
-        work = picture.run.work
-        fraction = work[1] if work is not None else picture.plan.progress
-        self.progress.setVisible(not picture.run.over)
+    def _show_progress(self, state: SessionState) -> None:
+        work = state.run.work
+        fraction = work[1] if work is not None else state.plan.progress
+        self.progress.setVisible(not state.run.over)
         self.progress.setMaximum(_PERMILLE if fraction is not None else 0)
         self.progress.setValue(round(_PERMILLE * (fraction or 0.0)))
         left = self._desk.feed.left_s if self._desk.feed is not None else None
-        self.left.setText("" if left is None or picture.run.over else f"{duration(left)} left")
+        self.left.setText("" if left is None or state.run.over else f"{duration(left)} left")
 
-    def _show_gauges(self, picture: Picture) -> None:
-        step, limits = picture.step, picture.limits.limits
-        if step is None or picture.run.over:
+    def _show_gauges(self, state: SessionState) -> None:
+        step, limits = state.step, state.limits.limits
+        if step is None or state.run.over:
             self.level.clear()
             for gauge in self.gauges.values():
                 gauge.show_value(None)

@@ -7,7 +7,8 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence, QShortcut, QShowEvent
 from PySide6.QtWidgets import QMessageBox, QTabWidget, QVBoxLayout, QWidget
 
-from gui.desk import Desk
+from gui.background_task import BackgroundTask, Command
+from gui.controller import AppController
 from gui.log_pane import LogPane
 from gui.menus import Menus
 from gui.notice import Notice
@@ -18,7 +19,6 @@ from gui.settings import Arrangement, Settings
 from gui.shell import Shell
 from gui.theme import Appearance
 from gui.top_bar import TopBar
-from gui.work import Command, Work
 
 TURN_MS = 33
 """Between two looks at what has come: 30 a second."""
@@ -38,11 +38,11 @@ class Window(Shell):
         self.appearance, self.settings = appearance, settings
         self.setWindowTitle("viscorig")
         self.setAcceptDrops(True)
-        self.desk = Desk(self)
-        self.bar, self.notice = TopBar(self.desk), Notice()
+        self.controller = AppController(self)
+        self.bar, self.notice = TopBar(self.controller), Notice()
         self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
-        self.pages: tuple[Page, ...] = tuple(kind(self.desk) for kind in PAGES)
+        self.pages: tuple[Page, ...] = tuple(kind(self.controller) for kind in PAGES)
         self.replay = ReplayBar()
         self.log = LogPane()
         self._escaped_s = -_TWICE_S
@@ -51,11 +51,11 @@ class Window(Shell):
         self._arrange()
         self.menus = Menus(self)
         self._shortcuts()
-        self.desk.changed.connect(self._changed)
-        self.desk.refused.connect(self.notice.refuse)
-        self.desk.said.connect(self.notice.say)
-        self.desk.busy.connect(self._busy)
-        self.desk.experiment_chosen.connect(self._chosen)
+        self.controller.changed.connect(self._changed)
+        self.controller.refused.connect(self.notice.refuse)
+        self.controller.said.connect(self.notice.say)
+        self.controller.busy.connect(self._busy)
+        self.controller.experiment_chosen.connect(self._chosen)
         self._timer = QTimer(self)
         self._timer.setInterval(TURN_MS)
         self._timer.timeout.connect(self._tick)
@@ -67,18 +67,18 @@ class Window(Shell):
 
     def turn(self) -> None:
         """Take what has come and show it."""
-        self.desk.advance()
-        picture = self.desk.picture
-        self.bar.show_picture(picture)
-        self.log.show_picture(picture)
+        self.controller.advance()
+        state = self.controller.state
+        self.bar.show_state(state)
+        self.log.show_state(state)
         for page in self.pages:
-            page.show_picture(picture)
-        if self._closing and not self.desk.running:
+            page.show_state(state)
+        if self._closing and not self.controller.running:
             self.close()
 
     def open(self, path: Path) -> None:
         """A session, an experiment, or other data; returns at once."""
-        self.desk.open(path)
+        self.controller.open(path)
 
     def show_page(self, number: int) -> None:
         """Counted from 0."""
@@ -107,12 +107,12 @@ class Window(Shell):
 
     def closeEvent(self, event: QCloseEvent) -> None:
         """A run is not ended without asking."""
-        if self.desk.running:
+        if self.controller.running:
             # It closes by itself once the run has ended.
             event.ignore()
             if not self._closing and self._really():
                 self._closing = True
-                self.desk.stop()
+                self.controller.stop()
             return
         self._timer.stop()
         self._first_drawing.stop()
@@ -120,11 +120,11 @@ class Window(Shell):
             Arrangement(self.saveGeometry(), self.saveState(_LAYOUT), self.tabs.currentIndex()),
             self.appearance,
         )
-        for work in self.findChildren(Work):
+        for work in self.findChildren(BackgroundTask):
             work.close()
         for command in self.findChildren(Command):
             command.close()
-        self.desk.close()
+        self.controller.close()
         super().closeEvent(event)
 
     # Inside
@@ -135,7 +135,7 @@ class Window(Shell):
         late_ms = 1e3 * (now - self._ticked_s) - self._timer.interval()
         self._ticked_s = now
         self.turn()
-        rest_ms = min(_MOST_REST_MS, max(0.0, _REST * late_ms)) if self.desk.running else 0.0
+        rest_ms = min(_MOST_REST_MS, max(0.0, _REST * late_ms)) if self.controller.running else 0.0
         self._timer.setInterval(TURN_MS + round(rest_ms))
 
     def _draw_next(self) -> None:
@@ -174,11 +174,11 @@ class Window(Shell):
 
     def _shortcuts(self) -> None:
         for keys, slot in (
-            ("F12", self.desk.stop),
+            ("F12", self.controller.stop),
             ("Esc", self._escape),
-            ("F9", self.desk.hold),
-            ("Ctrl+F9", self.desk.abort),
-            ("Ctrl+Return", self.desk.answer),
+            ("F9", self.controller.hold),
+            ("Ctrl+F9", self.controller.abort),
+            ("Ctrl+Return", self.controller.answer),
             ("Ctrl+Space", self.replay.toggle),
             ("Ctrl+Left", self.replay.to_mark_before),
             ("Ctrl+Right", self.replay.to_next_mark),
@@ -191,9 +191,9 @@ class Window(Shell):
         """Once closes the message, twice stops the shaker."""
         now = monotonic()
         twice, self._escaped_s = now - self._escaped_s < _TWICE_S, now
-        if twice and self.desk.running:
-            self.desk.stop()
-        elif self.desk.running:
+        if twice and self.controller.running:
+            self.controller.stop()
+        elif self.controller.running:
             self.notice.say("Esc once more stops the shaker")
         else:
             self.notice.hide()
@@ -205,11 +205,11 @@ class Window(Shell):
         self.show_page(0)
 
     def _changed(self) -> None:
-        recorded = self.desk.recorded
+        recorded = self.controller.recorded
         self.replay.show_feed(recorded)
         if recorded is not None:
             self.settings.remember(recorded.path)
-            if self.desk.ending is None or recorded.path != self.desk.ending.session:
+            if self.controller.ending is None or recorded.path != self.controller.ending.session:
                 # What was said of a run's end stays where its recording comes by itself.
                 self.notice.hide()
         self.setWindowTitle(f"{recorded.path.name} - viscorig" if recorded is not None else "viscorig")

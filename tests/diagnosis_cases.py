@@ -10,7 +10,7 @@ from fitting.identification.validation import HeldOutSegment, Validation
 from fitting.sweep import Sweep
 from instrument.models.diagnosis import Diagnosed
 from instrument.results.diagnosis_facts import diagnosis_facts
-from instrument.stream.jsonable import plain
+from instrument.stream.jsonable import to_jsonable
 
 MASS = FoundEffect("added_mass", {"mass": Estimate(0.008, 1e-4, "kg"), "x": Estimate(0.25, np.nan, "m")})
 SPOT = FoundEffect("spot_offset", {"dx": Estimate(0.004, 2e-5, "m")})
@@ -93,4 +93,4 @@ def diagnosed(s, *, verdict="effect", one_by_one=None):
 def facts(**how):
     """As JSON has them."""
     s = sweep(phase=how.pop("phase", True))
-    return plain(diagnosis_facts(diagnosed(s, **how), s))
+    return to_jsonable(diagnosis_facts(diagnosed(s, **how), s))

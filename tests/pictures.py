@@ -24,6 +24,6 @@ SEEN = (
 )
 
 
-def shown(picture):
+def shown(state):
     """What pages can see of a picture."""
-    return {name: facts(getattr(picture, name)) for name in SEEN}
+    return {name: facts(getattr(state, name)) for name in SEEN}

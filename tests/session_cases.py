@@ -107,7 +107,7 @@ def bare_modes_hz(specimen, hammer):
     return (modes.omega * (1 - edge))[:8] / (2 * np.pi)
 
 
-class Tape:
+class SyntheticSession:
     """Emits events, raw ones through the analysis; what is kept becomes a session."""
 
     def __init__(self, config):
@@ -251,11 +251,11 @@ class Tape:
 
 def whole_session(folder) -> Path:
     """Hammer test, calibration, three segments, a fit, done."""
-    tape = Tape(configuration())
-    tape.begin()
-    tape.hammer()
-    tape.calibrate()
-    tape.sweep()
-    tape.fit()
-    tape.end()
-    return tape.save(folder)
+    synthetic = SyntheticSession(configuration())
+    synthetic.begin()
+    synthetic.hammer()
+    synthetic.calibrate()
+    synthetic.sweep()
+    synthetic.fit()
+    synthetic.end()
+    return synthetic.save(folder)

@@ -93,7 +93,7 @@ def _do(*arguments: str) -> Steps:
 def visit(window: Window, experiment: Path, seen: dict[str, object]) -> Steps:
     """All of it; what is seen is noted."""
     yield from until(window.isActiveWindow, "the window has the keyboard")
-    desk, run, hammer = window.desk, window.pages[0], window.pages[2]
+    controller, run, hammer = window.controller, window.pages[0], window.pages[2]
     yield from press("ctrl+1")
 
     yield from press("ctrl+o")
@@ -106,19 +106,19 @@ def visit(window: Window, experiment: Path, seen: dict[str, object]) -> Steps:
     yield from press("ctrl+a")
     yield from write("at a real screen")
     yield from click(run.starting.start)
-    yield from until(lambda: desk.running, "the run begins")
+    yield from until(lambda: controller.running, "the run begins")
 
-    yield from until(lambda: desk.live.question is not None, "the hits are there")
+    yield from until(lambda: controller.live.question is not None, "the hits are there")
     seen["asked"] = run.banner.words.text()
     yield from press("ctrl+3")
     table = hammer.hits.table
     yield from until(lambda: table.row_count >= 2, "the hits are listed")
     yield from click(table.viewport(), table.visualRect(table.model().index(0, 0)).center())
     yield from until(lambda: hammer.hits.number == 1, "the first hit is selected")
-    live, good = desk.live, {}
+    live, good = controller.live, {}
 
     def accepted() -> dict[int, bool]:
-        good.update({hit.number: hit.accepted for hit in live.picture.contents.hits})
+        good.update({hit.number: hit.accepted for hit in live.state.contents.hits})
         return good
 
     yield from press("r")
@@ -131,18 +131,18 @@ def visit(window: Window, experiment: Path, seen: dict[str, object]) -> Steps:
     yield from click(run.banner.button)
 
     yield from press("ctrl+2")
-    yield from until(lambda: len(live.picture.contents.points) >= 2, "points are measured")
-    yield from until(lambda: desk.recorded is not None, "the run has ended")
-    seen["ended"] = desk.ending.why
-    seen["title"] = desk.picture.configuration.experiment.title
-    seen["points"] = len(desk.picture.contents.points)
-    diagnosis = desk.picture.contents.diagnosis
+    yield from until(lambda: len(live.state.contents.points) >= 2, "points are measured")
+    yield from until(lambda: controller.recorded is not None, "the run has ended")
+    seen["ended"] = controller.ending.why
+    seen["title"] = controller.state.configuration.experiment.title
+    seen["points"] = len(controller.state.contents.points)
+    diagnosis = controller.state.contents.diagnosis
     seen["verdict"] = diagnosis.facts_json.get("verdict") if diagnosis else None
     for number, page in enumerate(window.pages, start=1):
         yield from press(f"ctrl+{number}")
         yield from until(page.isVisible, f"page {number} is shown")
 
-    feed = desk.recorded
+    feed = controller.recorded
     yield from press("ctrl+Left")
     yield from until(lambda: feed.position_s < feed.length_s, "the replay has jumped back")
     at = feed.position_s
@@ -155,11 +155,11 @@ def visit(window: Window, experiment: Path, seen: dict[str, object]) -> Steps:
     yield from press("ctrl+1")
     yield from click(run.starting.parts["hammer"])
     yield from click(run.starting.start)
-    yield from until(lambda: desk.running, "the second run begins")
-    second = desk.live
-    yield from until(lambda: len(second.picture.contents.points) >= 1, "it measures")
+    yield from until(lambda: controller.running, "the second run begins")
+    second = controller.live
+    yield from until(lambda: len(second.state.contents.points) >= 1, "it measures")
     yield from click(window.bar.stop)
-    yield from until(lambda: not desk.running, "it has ended")
+    yield from until(lambda: not controller.running, "it has ended")
     seen["stopped"] = second.ending.why
     seen["said"] = window.notice.text
     yield from press("ctrl+q")

@@ -1,14 +1,12 @@
 """The plant's plates as the world mounts them: outputs by the names of what hangs on them."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from drivers.arrays import Array
 from drivers.simulated.drive import DrivePiece
 from drivers.simulated.plant.bare import Pulse, StruckPlate
 from drivers.simulated.plant.effects import Effects
 from drivers.simulated.plant.shaken import ShakenPlate
-
-Array = NDArray[np.float64]
 
 _OUTPUTS = {"velocity": "spot_velocity", "response_acceleration": "acceleration"}
 _LIFTS_S = 0.1

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from drivers.arrays import Array
 
 COUNTS = 2**23
 """A 24-bit converter's full scale."""

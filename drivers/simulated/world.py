@@ -11,15 +11,13 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from drivers.arrays import Array
 from drivers.errors import Refused
 from drivers.front_end.lan_xi_documents import HEADROOM
 from drivers.simulated.drive import DrivePiece
 from drivers.simulated.lan_xi_measurement import Acquired
 from drivers.simulated.sensors import Converted, Input, Sensor, hum
-
-Array = NDArray[np.float64]
 
 _UNATTENDED_S = 0.1
 """Nobody asking for samples for so long, a shaker on its way to rest goes there by itself."""

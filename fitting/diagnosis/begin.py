@@ -6,9 +6,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from fitting.arrays import Array
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.candidates import polished
 from fitting.diagnosis.evidence import BareModes, Evidence
@@ -23,8 +23,6 @@ from fitting.identification.residuals import Residuals
 from fitting.laws import CoreLaw
 from fitting.noise import Noise
 from fitting.reduced import ReducedPlate
-
-Array = NDArray[np.float64]
 
 _FAR = 0.1
 """Relative change of the modulus from which the grids and the model's error are made anew."""

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from itertools import permutations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fitting.diagnosis.candidates import FINISHED, CandidateFit, Known, Start, look, polished
 from fitting.diagnosis.evidence import Evidence
@@ -17,7 +16,6 @@ from fitting.diagnosis.response import Response
 from fitting.effects.base import Effect
 from fitting.identification.validation import Validation
 
-Array = NDArray[np.float64]
 Form = tuple[str, int]
 """An effect by its name, and the number of its variant."""
 LAWS_FINISHED = 2

@@ -5,8 +5,8 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.problem import DiagnosisProblem
@@ -15,8 +15,6 @@ from fitting.diagnosis.response import Response
 from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Start = tuple[float, Array]
 """The chi-square that a start may gain, and its unknowns; zero where a linear step cannot tell."""
 Known = dict[str, Any]
@@ -51,7 +49,7 @@ def look(problem: DiagnosisProblem, evidence: Evidence, before: Fitted, effect: 
     v = plain.velocity(law, known)
     r = before.residuals
     Q, _ = np.linalg.qr(before.jacobian)
-    priors = np.zeros(before.stated + before.law.bends)
+    priors = np.zeros(before.stated + before.law.bend_count)
     lower, upper = effect.limits(response.plate)
     starts, found = effect.starts(response.plate, problem.points), []
     for u, moved in zip(starts, _moves(response, law, known, starts, v), strict=True):
@@ -61,10 +59,12 @@ def look(problem: DiagnosisProblem, evidence: Evidence, before: Fitted, effect: 
         if not np.isfinite(size) or size <= 0:
             continue
         a = -float(r @ s) / size
-        if not effect.unknowns:
+        if not effect.parameters:
             found.append((float(r @ r - (r + s) @ (r + s)), u))
             continue
-        one_sided = any(q.neutral is not None and not q.lower < q.neutral < q.upper for q in effect.unknowns)
+        one_sided = any(
+            q.neutral is not None and not q.lower < q.neutral < q.upper for q in effect.parameters
+        )
         if a <= 0 and one_sided:
             found.append((0.0, u))
             continue
@@ -240,7 +240,7 @@ def _chi2(fitted: Fitted) -> float:
 
 def has_place(effect: Effect) -> bool:
     """Whether an unknown has no neutral value: where it sits, or at which frequency, is to be found."""
-    return any(q.neutral is None and not q.fixed for q in effect.unknowns)
+    return any(q.neutral is None and not q.fixed for q in effect.parameters)
 
 
 def polished(

@@ -4,8 +4,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Mask
 from fitting.diagnosis import text
 from fitting.diagnosis.begin import begin
 from fitting.diagnosis.evidence import BareModes
@@ -27,8 +27,6 @@ from fitting.noise import Noise, noise_of
 from fitting.reduced import ReducedPlate
 from fitting.sweep import Sweep
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 Report = Callable[[float], None]
 
 NOTHING_LEFT = 0.5
@@ -175,7 +173,7 @@ def _pairs(search: Search, singles: Sequence[ScoredFit], report: Report) -> list
     if not singles or not search.evidence.scale_known:
         return []
     best = singles[0]
-    if search.evidence.count < _NUMBERS_A_PARAMETER * (best.fitted.parameters + 2):
+    if search.evidence.count < _NUMBERS_A_PARAMETER * (best.fitted.parameter_count + 2):
         return []
     flexible = any(e.replaces_law for e in best.fitted.effects)
     if search.none.cost < best.cost:

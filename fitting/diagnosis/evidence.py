@@ -4,19 +4,14 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex, Mask
 from fitting.diagnosis.whitening import SHARE, Whitening
 from fitting.effects.base import Effect
 from fitting.noise import Noise
 from fitting.nuisances import Nuisances
 from fitting.specimen import Face
 from fitting.sweep import Sweep
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
-Mask = NDArray[np.bool_]
-
 
 _BLUNT = 0.03
 

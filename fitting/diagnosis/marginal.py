@@ -9,13 +9,11 @@ explanations share; the prior probability of the effects themselves is in it.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.diagnosis.refit import Fitted
 from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.enriched_plate import EnrichedReducedPlate
-
-Array = NDArray[np.float64]
 
 _TYPICALS = 3.0
 """An unknown whose `spread` is not stated is expected to be of a few typical sizes."""
@@ -29,7 +27,7 @@ def cost(fitted: Fitted, plate: EnrichedReducedPlate) -> float:
     priors = [_prior(q, lower, upper, u) for q, lower, upper, u in _free(fitted, plate)]
     widths = np.array([*law_widths, *(width for _, width in priors)])
     densities = np.array([*np.log(1 / (law_widths * np.sqrt(_UNIFORM))), *(density for density, _ in priors)])
-    n, bends = len(law_widths), fitted.law.bends
+    n, bend_count = len(law_widths), fitted.law.bend_count
     J = fitted.jacobian
     if not fitted.noise_known:
         # Of the readings: what is stated is as well known as it is said.
@@ -37,7 +35,7 @@ def cost(fitted: Fitted, plate: EnrichedReducedPlate) -> float:
         J[: fitted.data] /= np.sqrt(_mean_square(fitted))
     H = J.T @ J
     # What the data leave open, the prior still bounds.
-    bounded = np.concatenate([np.arange(n), np.arange(n + bends + fitted.stated, len(H))])
+    bounded = np.concatenate([np.arange(n), np.arange(n + bend_count + fitted.stated, len(H))])
     H[bounded, bounded] += 1 / widths**2
     _, logdet = np.linalg.slogdet(H)
     k = len(widths)
@@ -68,10 +66,10 @@ def _free(fitted: Fitted, plate: EnrichedReducedPlate) -> list[tuple[EffectParam
     found, start = [], fitted.stated
     for effect in fitted.effects:
         lower, upper = effect.limits(plate)
-        for k, q in enumerate(effect.unknowns):
+        for k, q in enumerate(effect.parameters):
             if fitted.free[start + k]:
                 found.append((q, float(lower[k]), float(upper[k]), float(fitted.u[start + k])))
-        start += len(effect.unknowns)
+        start += len(effect.parameters)
     return found
 
 

@@ -5,15 +5,12 @@ gain and phase along it, as instruments drift. Sizes are the specimen's own (`fi
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Complex
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.laws import CoreLaw
 from fitting.model_error import DRIFT, GAIN, model_error_at
 from fitting.reduced import ReducedPlate
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 def model_error(problem: DiagnosisProblem, reduced: ReducedPlate, law: CoreLaw, v: Complex) -> Complex:

@@ -10,10 +10,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.sweep import segments_by_gap
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _HZ_A_NODE = 4.0
 MOST_POLES = 4

@@ -8,12 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisances import Nuisances
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _POLE_STEPS = 2
 _OFF = 1e-9

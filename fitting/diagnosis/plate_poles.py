@@ -1,15 +1,12 @@
 """Poles of the unchanged plate near a range of frequencies."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Complex
 from fitting.diagnosis.nodes import MOST_POLES
 from fitting.diagnosis.plate_answer import ModulusNear, poles_near
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _STEPS = 3
 

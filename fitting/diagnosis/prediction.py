@@ -1,16 +1,14 @@
 """What a fit says of data it has not seen."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Mask
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import Fitted, refit
 from fitting.diagnosis.response import Response
 from fitting.identification.result import differences_percent
-from fitting.identification.validation import Mask, Validation, validate
-
-Array = NDArray[np.float64]
+from fitting.identification.validation import Validation, validate
 
 
 def held_out(problem: DiagnosisProblem, evidence: Evidence, fitted: Fitted) -> Validation:
@@ -24,7 +22,7 @@ def held_out(problem: DiagnosisProblem, evidence: Evidence, fitted: Fitted) -> V
 
     return validate(
         segment=problem.sweep.segment,
-        points_needed=-(-fitted.parameters // (2 if evidence.has_phase else 1)),
+        points_needed=-(-fitted.parameter_count // (2 if evidence.has_phase else 1)),
         differences_percent=differences,
         noise_percent=100 * evidence.noise_m_s / size if evidence.scale_known else np.full(len(size), np.nan),
     )

@@ -6,7 +6,6 @@ Each check is a tail probability; an explanation fails where one of them is belo
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import chi2 as chi2_of
 from scipy.stats import norm
 
@@ -14,8 +13,6 @@ from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.refit import Fitted
 from fitting.diagnosis.structure import along_frequency
 from fitting.sweep import Sweep
-
-Array = NDArray[np.float64]
 
 LEVEL = 1e-4
 """Tail probability below which an explanation fails."""
@@ -51,7 +48,7 @@ def checks(sweep: Sweep, evidence: Evidence, none: Fitted, fitted: Fitted) -> Ma
     """Tail probabilities by what was looked at. Empty where the noise is unknown."""
     if not evidence.scale_known:
         return {}
-    dof = max(1, fitted.data - fitted.parameters)
+    dof = max(1, fitted.data - fitted.parameter_count)
     may_leave = _allowed(none, fitted)
     allowed = 1 + may_leave / dof
     left = fitted.chi2_per_dof / allowed

@@ -4,8 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.diagnosis.nodes import Nodes
 from fitting.diagnosis.plate_answer import ModulusNear
 from fitting.diagnosis.plate_poles import PlatePoles
@@ -16,10 +16,6 @@ from fitting.nuisances import Nuisances, nuisances_of
 from fitting.rational import RationalSweep
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
-
 
 DENSE, FINE, COARSE = 16, 10, 6
 """Nodes a cluster of frequencies: of strains, for fits, and for a first look."""

@@ -3,18 +3,14 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from fitting.arrays import Array, Complex, Mask
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.response import Response
 from fitting.effects.base import Effect
 from fitting.identification.uncertainty import limits_reached
 from fitting.laws import CoreLaw
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
-Mask = NDArray[np.bool_]
 
 _MOST_EVALUATIONS = 25
 _ROUGH_EVALUATIONS = 10
@@ -50,9 +46,9 @@ class Fitted:
     converged: bool = True
 
     @property
-    def parameters(self) -> int:
+    def parameter_count(self) -> int:
         """How many numbers were fitted that nothing was known of: neither stated ones nor the law's bend."""
-        return self.jacobian.shape[1] - self.stated - self.law.bends
+        return self.jacobian.shape[1] - self.stated - self.law.bend_count
 
     @property
     def chi2(self) -> float:
@@ -62,13 +58,13 @@ class Fitted:
     @property
     def chi2_per_dof(self) -> float:
         """Of the sweep alone."""
-        dof = self.data - self.parameters
+        dof = self.data - self.parameter_count
         return float(np.sum(self.residuals[: self.data] ** 2) / dof) if dof > 0 else float("nan")
 
     def of(self, effect: Effect) -> Array:
         """The unknowns of one of its effects."""
-        start = self.stated + sum(len(e.unknowns) for e in self.effects[: self.effects.index(effect)])
-        return self.u[start : start + len(effect.unknowns)]
+        start = self.stated + sum(len(e.parameters) for e in self.effects[: self.effects.index(effect)])
+        return self.u[start : start + len(effect.parameters)]
 
     @property
     def z(self) -> Array:
@@ -197,7 +193,7 @@ class _Problem:
         self.response, self.law, self.u = response, law, np.asarray(u, float)
         self.points = points
         self.evidence = evidence if points is None else evidence.take(points)
-        q = response.unknowns
+        q = response.parameters
         self._z = len(response.nuisances)
         self.free = np.array([not x.fixed for x in q], dtype=bool)
         self.logarithmic = np.array([x.logarithmic for x in q], dtype=bool)
@@ -220,7 +216,7 @@ class _Problem:
     @property
     def limits(self) -> tuple[Array, Array]:
         low, high = self.law.log_limits
-        stated = self.response.unknowns[: self._z]
+        stated = self.response.parameters[: self._z]
         found = [
             (np.array([q.lower for q in stated]), np.array([q.upper for q in stated])),
             *(e.limits(self.response.plate) for e in self.response.effects),
@@ -264,7 +260,7 @@ class _Problem:
         def rows(u: Array) -> Array:
             start, expected = self._z, bare.stated_shift(self.response.nuisances, u[: self._z])
             for e in self.response.effects:
-                stop = start + len(e.unknowns)
+                stop = start + len(e.parameters)
                 expected = expected + e.bare_shift(bare, u[start:stop])
                 start = stop
             return -bare.whitened(expected)
@@ -277,7 +273,7 @@ class _Problem:
         for column, k in enumerate(np.flatnonzero(self.free)):
             if k < self._z:
                 continue
-            h = 1e-5 * (abs(u[k]) if self.logarithmic[k] else self.response.unknowns[k].typical or 1.0)
+            h = 1e-5 * (abs(u[k]) if self.logarithmic[k] else self.response.parameters[k].typical or 1.0)
             moved = u.copy()
             moved[k] += h
             slope = (rows(moved) - r) / h
@@ -292,9 +288,9 @@ class _Problem:
 
     def _bend(self, law: CoreLaw) -> tuple[Array, Array]:
         """Of the law's bend, whitened."""
-        J = np.zeros((law.bends, self._n + int(self.free.sum())))
-        J[:, self._n - law.bends : self._n] = np.eye(law.bends)
-        return np.log(law.values[self._n - law.bends :]), J
+        J = np.zeros((law.bend_count, self._n + int(self.free.sum())))
+        J[:, self._n - law.bend_count : self._n] = np.eye(law.bend_count)
+        return np.log(law.values[self._n - law.bend_count :]), J
 
     def fitted(self, x: Array) -> Fitted:
         r, J, v = self._both(x)

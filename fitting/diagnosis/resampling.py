@@ -7,8 +7,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Mask
 from fitting.diagnosis.begin import begin
 from fitting.diagnosis.evidence import BareModes
 from fitting.diagnosis.executor import Executor
@@ -26,8 +26,6 @@ from fitting.noise import Noise, noise_of
 from fitting.reduced import ReducedPlate
 from fitting.sweep import Sweep
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 Report = Callable[[float], None]
 
 SMALL = MOST_POINTS_ONE_BY_ONE
@@ -68,7 +66,7 @@ class Again:
         if self.noise.is_known:
             sigma = self.noise.std_m_s
         else:
-            dof = max(1, self.none.data - self.none.parameters)
+            dof = max(1, self.none.data - self.none.parameter_count)
             sigma = np.abs(v) * rms(differences_percent(sweep, v) / 100) * np.sqrt(len(sweep) / dof)
         n = len(v)
         if sweep.has_phase:

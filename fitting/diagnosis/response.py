@@ -12,17 +12,14 @@ from dataclasses import dataclass
 from functools import reduce
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.diagnosis.plate_answer import answer, core_strain
 from fitting.diagnosis.problem import DiagnosisProblem, Grid
 from fitting.effects.base import Effect, EffectParameter, ModulusAt
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _H = 1e-4
 """Step of differences, of an unknown's typical size."""
@@ -44,17 +41,17 @@ class Response:
     ) -> None:
         self.problem, self.effects, self.nuisances = problem, tuple(effects), problem.nuisances
         count = len(self.nuisances)
-        self.unknowns: tuple[EffectParameter, ...] = (
+        self.parameters: tuple[EffectParameter, ...] = (
             *(_STATED,) * count,
-            *(u for e in effects for u in e.unknowns),
+            *(u for e in effects for u in e.parameters),
         )
         spans = {s.name: s for e in effects for s in e.spans}
         self.plate: EnrichedReducedPlate = problem.plate.take(spans.values())
         self._stated = slice(0, count)
         self._slices, start = [], count
         for effect in self.effects:
-            self._slices.append(slice(start, start + len(effect.unknowns)))
-            start += len(effect.unknowns)
+            self._slices.append(slice(start, start + len(effect.parameters)))
+            start += len(effect.parameters)
         self._changing = [k for k, e in enumerate(self.effects) if type(e).change is not Effect.change]
         self._pitching = [k for k, e in enumerate(self.effects) if type(e).pitch is not Effect.pitch]
         self._channelled = any(type(e).reading is not Effect.reading for e in self.effects)
@@ -79,10 +76,10 @@ class Response:
         by_law = self._modulus_by_law(law, u, at) * (at.slope * at.per_x)
         count = len(self.nuisances)
         by_z = self._by_stated(at) if count else []
-        by_u = [self._by(k, law, u, at) for k in range(count, len(self.unknowns))]
+        by_u = [self._by(k, law, u, at) for k in range(count, len(self.parameters))]
         raw = np.array([*by_law, *by_z, *by_u]).reshape(-1, len(at.raw))
         moved = self._read_along(at, raw, u)
-        for k in range(count, len(self.unknowns)):
+        for k in range(count, len(self.parameters)):
             moved[len(by_law) + k] += self._read_by(k, at.raw, u)
         if count:
             by_reading = self.nuisances.by_reading(at.v, self.problem.points.omega, u[self._stated])
@@ -284,7 +281,7 @@ class Response:
     # Derivatives to unknown n.
 
     def _step(self, n: int, u: Array) -> float:
-        q = self.unknowns[n]
+        q = self.parameters[n]
         return _H * (abs(u[n]) if q.logarithmic else q.typical or 1.0)
 
     def _owner(self, n: int) -> int:

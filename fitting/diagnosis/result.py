@@ -7,12 +7,12 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.result import LawBand
 from fitting.identification.validation import Validation, rms
 from fitting.laws import CoreLaw
 
-Array = NDArray[np.float64]
 Verdict = Literal["none", "effect", "ambiguous", "unknown"]
 
 

@@ -4,7 +4,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fitting.diagnosis.candidate_fits import CandidateFits
 from fitting.diagnosis.candidates import CandidateFit, has_place, polished
@@ -19,7 +18,6 @@ from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.identification.validation import Validation
 
-Array = NDArray[np.float64]
 Report = Callable[[float], None]
 LEADERS = 5
 """Effects that are gone into twice, and that a second one is looked for beside."""
@@ -92,7 +90,7 @@ class Search:
 
     def allowed(self, scored: ScoredFit) -> float:
         """Chi-square per degree of freedom that the formulas of a trial's effects may leave."""
-        dof = max(1, scored.fitted.data - scored.fitted.parameters)
+        dof = max(1, scored.fitted.data - scored.fitted.parameter_count)
         return 1 + form_error(self._none, scored.fitted) / dof
 
     def validation(self, scored: ScoredFit) -> Validation:
@@ -116,12 +114,12 @@ class Search:
 
     def determined(self, fitted: Fitted) -> bool:
         """Whether the data leave over what a fit needs."""
-        return fitted.parameters <= self.evidence.count - _SPARE
+        return fitted.parameter_count <= self.evidence.count - _SPARE
 
     def order_of_plain(self) -> list[str]:
         """Effects by how well they do from plain starts, in wide valleys."""
         work = self.work
-        names = [e.name for e in self.beside_the_law if e.unknowns]
+        names = [e.name for e in self.beside_the_law if e.parameters]
         chi2 = []
         for name, state in zip(
             names, self.executor.each(work.plain, [(n, work.state(n)) for n in names]), strict=True

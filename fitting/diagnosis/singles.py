@@ -145,7 +145,7 @@ class Singles:
         order = self._order()
         if not self._gains(order):
             return []
-        sized = [name for name, e in self._effects.items() if e.unknowns]
+        sized = [name for name, e in self._effects.items() if e.parameters]
         if not self._astray and not order[0].fails:
             # What has no place to be found is where it belongs by now.
             near = {t.names[0] for t in order if t.cost < min(order[0].cost + NEARER, self._search.none.cost)}

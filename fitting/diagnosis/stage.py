@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import Fitted, posterior
@@ -17,8 +17,6 @@ from fitting.identification.adjusted import Adjusted, adjusted
 from fitting.identification.result import LawBand, differences_percent, law_band
 from fitting.identification.uncertainty import Uncertainty, limits_reached
 from fitting.identification.validation import Validation
-
-Array = NDArray[np.float64]
 
 _FEW = 9
 """Frequencies at which a candidate's law is listed, and the reference ones."""
@@ -110,7 +108,7 @@ def found_effects(fitted: Fitted, plate: EnrichedReducedPlate, scale: float = 1.
     for effect in fitted.effects:
         lower, upper = effect.limits(plate)
         parameters = {}
-        for k, q in enumerate(effect.unknowns):
+        for k, q in enumerate(effect.parameters):
             value, error = float(fitted.u[start + k]), float(inner[start + k])
             if q.logarithmic:
                 error *= value
@@ -123,7 +121,7 @@ def found_effects(fitted: Fitted, plate: EnrichedReducedPlate, scale: float = 1.
             for name, value, error in zip(fitted.law.names, fitted.law.values, errors, strict=True):
                 parameters[name] = Estimate(float(value), float(error), _unit(name))
         found.append(FoundEffect(effect.name, parameters))
-        start += len(effect.unknowns)
+        start += len(effect.parameters)
     return tuple(found)
 
 

@@ -6,13 +6,11 @@ Thresholds are those that clean sweeps of a solid plate pass (docs/diagnosis.md 
 from collections.abc import Iterator
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import chi2
 
+from fitting.arrays import Array
 from fitting.diagnosis.evidence import Evidence
 from fitting.sweep import Sweep
-
-Array = NDArray[np.float64]
 
 CHI2_PER_DOF = 1.35
 RUNS_SIGMA = 5.0

@@ -1,7 +1,6 @@
 """The diagnosis as one would tell it to a colleague."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import Fitted
@@ -9,8 +8,6 @@ from fitting.diagnosis.response import Response
 from fitting.diagnosis.result import FoundEffect, Stage
 from fitting.diagnosis.verdict import NONE, Judgement
 from fitting.effects.base import Effect
-
-Array = NDArray[np.float64]
 
 _WORTH_SAYING = 0.1
 """Probability of an effect that is not named from which it is spoken of."""

@@ -8,9 +8,8 @@ against a 3D solid is of that kind; taken as white it would hide effects, left o
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from fitting.arrays import Array
 
 SHARE = 1e-3
 """White part of the model's error, of the reading."""

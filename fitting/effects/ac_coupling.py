@@ -3,12 +3,9 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter, Points
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 class AcCoupling(Effect):
@@ -17,7 +14,7 @@ class AcCoupling(Effect):
     name = "ac_coupling"
     enters = "channel"
     source = "first-order filter: the input's series capacitor"
-    unknowns = (EffectParameter("corner", "Hz", 0.0, 5.0, 0.5, spread=1.0),)
+    parameters = (EffectParameter("corner", "Hz", 0.0, 5.0, 0.5, spread=1.0),)
     chance = 0.015
     discriminating_test = "the channel's input set to DC; the laser on the base beside the accelerometer"
 

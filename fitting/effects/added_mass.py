@@ -3,16 +3,13 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.span import Span
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _TYPICAL_KG = 5e-3
 _GRID = [(x, y) for x in (0.25, 0.5, 0.75, 0.97) for y in (0.03, 0.3, 0.7, 0.97)]
@@ -38,7 +35,7 @@ class AddedMass(Effect):
     name = "added_mass"
     enters = "mass"
     source = "mass loading, Ewins, Modal Testing (2000), section 3.5"
-    unknowns = (
+    parameters = (
         EffectParameter("mass", "kg", 0.0, 0.05, 3e-3, spread=5e-3),
         EffectParameter("x", "m", 0.0, np.inf, 0.05, neutral=None),
         EffectParameter("y", "m", 0.0, np.inf, 0.05, neutral=None),

@@ -4,14 +4,12 @@ from collections.abc import Mapping
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.effects.added_mass import AddedMass
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
-
-Array = NDArray[np.float64]
 
 _PLACES = [(x, y) for x in (0.4, 0.7, 0.97) for y in (0.2, 0.8)]
 """Shares of length and width. Fifteen pairs: most do little that the others do not."""
@@ -24,7 +22,7 @@ class AddedMasses(Effect):
     name = "added_masses"
     enters = "mass"
     source = AddedMass.source
-    unknowns = tuple(
+    parameters = tuple(
         EffectParameter(f"{key}_{number}", unit, lower, upper, typical, neutral=neutral, spread=spread)
         for number in (1, 2)
         for key, unit, lower, upper, typical, neutral, spread in (

@@ -4,17 +4,14 @@ from collections.abc import Mapping
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
 from fitting.air import StillAir, still_air
+from fitting.arrays import Array, Complex
 from fitting.effects.base import BarePlate, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.span import Span
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 class Air(Span):
@@ -44,7 +41,7 @@ class AirAddedMass(Effect):
     name = "air_added_mass"
     enters = "mass"
     source = "potential flow about an unbaffled plate, `fitting.air`"
-    unknowns = (
+    parameters = (
         EffectParameter("density", "kg/m^3", 0.0, 3.0, 1.2, spread=1.2),
         EffectParameter("bare_plate_too", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),
     )

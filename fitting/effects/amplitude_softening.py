@@ -4,15 +4,12 @@ from collections.abc import Mapping
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter, ModulusAt, Points
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.span import Span
 from fitting.element import Shape, core_shear_stiffness
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 LEAST = 0.3
 """Of the modulus; softening goes no further."""
@@ -38,7 +35,7 @@ class AmplitudeSoftening(Effect):
     name = "amplitude_softening"
     enters = "level"
     source = "Payne, J. Appl. Polym. Sci. 6 (1962), first order in the strain amplitude"
-    unknowns = (EffectParameter("k", "1", -0.5, 0.8, 0.1, spread=0.15),)
+    parameters = (EffectParameter("k", "1", -0.5, 0.8, 0.1, spread=0.15),)
     spans = (Strain(),)
     unexplained_share = 0.004
     chance = 0.03

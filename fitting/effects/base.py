@@ -16,6 +16,7 @@ from typing import ClassVar, Literal, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.span import Span
@@ -23,9 +24,6 @@ from fitting.laws import CoreLaw
 from fitting.noise import Noise
 from fitting.specimen import Face
 from fitting.sweep import Sweep
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 class BarePlate(Protocol):
@@ -107,7 +105,7 @@ class Effect:
     name: ClassVar[str]
     enters: ClassVar[Entry]
     source: ClassVar[str]
-    unknowns: tuple[EffectParameter, ...] = ()
+    parameters: tuple[EffectParameter, ...] = ()
     spans: tuple[Span, ...] = ()
     discriminating_test: ClassVar[str] = ""
     """The measurement that shows this effect apart from others."""
@@ -131,7 +129,7 @@ class Effect:
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         """Values to look at first; the best of them by a linear step is followed."""
-        return [np.array([u.typical for u in self.unknowns])]
+        return [np.array([u.typical for u in self.parameters])]
 
     def variants(self) -> tuple[Effect, ...]:
         """Forms of it that are tried apart, the best one kept."""
@@ -144,7 +142,7 @@ class Effect:
     def scaled(self, u: Array, a: float) -> Array:
         """`u` with the effect `a` times as strong, by a linear guess."""
         found = u.copy()
-        for k, q in enumerate(self.unknowns):
+        for k, q in enumerate(self.parameters):
             if q.fixed or q.neutral is None:
                 continue
             found[k] = u[k] / a if np.isinf(q.neutral) else q.neutral + a * (u[k] - q.neutral)
@@ -152,7 +150,7 @@ class Effect:
 
     def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
         """Least and largest values of the unknowns."""
-        return np.array([u.lower for u in self.unknowns]), np.array([u.upper for u in self.unknowns])
+        return np.array([u.lower for u in self.parameters]), np.array([u.upper for u in self.parameters])
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change | None:
         """What it changes of the reduced plate."""

@@ -3,14 +3,11 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.span import Span
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 class Pitch(Span):
@@ -31,7 +28,7 @@ class BaseRocking(Effect):
     name = "base_rocking"
     enters = "load"
     source = "rigid turn of the base about the root, inertia load -M r_p"
-    unknowns = (EffectParameter("pitch", "rad/m", -2.0, 2.0, 0.05, spread=0.1),)
+    parameters = (EffectParameter("pitch", "rad/m", -2.0, 2.0, 0.05, spread=0.1),)
     spans = (Pitch(),)
     chance = 0.03
     discriminating_test = "two accelerometers on the base, one behind the other"

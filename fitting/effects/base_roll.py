@@ -3,17 +3,14 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.span import Span
 from fitting.element import DOFS, THETA_X, V_C, W
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _ON_AXIS_M = 1e-4
 """A pickup so near to the axis hardly sees a roll."""
@@ -53,7 +50,7 @@ class BaseRoll(Effect):
     name = "base_roll"
     enters = "load"
     source = "rigid turn of the base about x, inertia load -M r_r"
-    unknowns = (EffectParameter("roll", "rad/m", -2.0, 2.0, 0.05, spread=0.1),)
+    parameters = (EffectParameter("roll", "rad/m", -2.0, 2.0, 0.05, spread=0.1),)
     spans = (Roll(),)
     chance = 0.015
     discriminating_test = (

@@ -3,13 +3,10 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 class ChannelDelay(Effect):
@@ -18,7 +15,7 @@ class ChannelDelay(Effect):
     name = "channel_delay"
     enters = "channel"
     source = "a decoder's or filter's constant group delay"
-    unknowns = (EffectParameter("delay", "s", -3e-3, 3e-3, 5e-5, spread=1e-4),)
+    parameters = (EffectParameter("delay", "s", -3e-3, 3e-3, 5e-5, spread=1e-4),)
     chance = 0.04
     discriminating_test = (
         "the laser on the base beside the accelerometer: its phase over frequency is the delay"

@@ -8,17 +8,14 @@ from collections.abc import Mapping
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.released_root import RootSpan
 from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 RIGID_N_M3 = 1e17
 """Springs beyond which the root is at rest for every purpose here."""
@@ -73,7 +70,7 @@ class ClampCompliance(Effect):
     name = "clamp_compliance"
     enters = "stiffness"
     source = "elastic foundation of the root face, e.g. MacBain and Genin, J. Sound Vib. 27 (1973)"
-    unknowns = (EffectParameter("k", "N/m^3", 1e12, 1e16, 5e13, logarithmic=True, neutral=float("inf")),)
+    parameters = (EffectParameter("k", "N/m^3", 1e12, 1e16, 5e13, logarithmic=True, neutral=float("inf")),)
     spans = (Root(),)
     unexplained_share = 0.003
     chance = 0.05

@@ -3,14 +3,12 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.clamp_compliance import ClampCompliance, springs
 from fitting.effects.enriched_plate import EnrichedReducedPlate
-
-Array = NDArray[np.float64]
 
 
 class ClampFriction(Effect):
@@ -19,7 +17,7 @@ class ClampFriction(Effect):
     name = "clamp_friction"
     enters = "stiffness"
     source = "hysteretic joint damping, Beards, Structural Vibration (1996), ch. 4"
-    unknowns = (*ClampCompliance.unknowns, EffectParameter("loss_factor", "1", 0.0, 1.0, 0.1, spread=0.3))
+    parameters = (*ClampCompliance.parameters, EffectParameter("loss_factor", "1", 0.0, 1.0, 0.1, spread=0.3))
     spans = ClampCompliance.spans
     extends = "clamp_compliance"
     unexplained_share = 0.003

@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -13,9 +13,6 @@ from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.other_plates import changed_to, forces
 from fitting.effects.span import Span
 from fitting.specimen import Specimen
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _SCALES = (0.98, 1.02)
 """Over the stated length."""
@@ -58,7 +55,7 @@ class ClampLine(Effect):
     name = "clamp_line"
     enters = "stiffness"
     source = "the paper's Eq. (15) to (18) on a mesh stretched along x; the viscous damping kept"
-    unknowns = (
+    parameters = (
         EffectParameter("dlength", "m", -8e-3, 8e-3, 1e-3, spread=2e-3),
         EffectParameter("pickup_too", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),
     )

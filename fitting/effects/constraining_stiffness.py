@@ -3,9 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
-import numpy as np
-from numpy.typing import NDArray
-
+from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -13,9 +11,6 @@ from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.other_plates import changed_to
 from fitting.effects.span import Span
 from fitting.linear import times
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _TYPICAL = 0.1
 
@@ -36,7 +31,7 @@ class ConstrainingStiffness(Effect):
     name = "constraining_stiffness"
     enters = "stiffness"
     source = "the paper's Eq. (15c)"
-    unknowns = (EffectParameter("scale", "1", 0.7, 1.4, 1.03, neutral=1.0, spread=0.05),)
+    parameters = (EffectParameter("scale", "1", 0.7, 1.4, 1.03, neutral=1.0, spread=0.05),)
     spans = (Constraining(),)
     chance = 0.015
     discriminating_test = (

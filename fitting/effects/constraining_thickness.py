@@ -3,9 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
-import numpy as np
-from numpy.typing import NDArray
-
+from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -13,9 +11,6 @@ from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.other_plates import changed_to, forces
 from fitting.effects.span import Span
 from fitting.specimen import Specimen
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _SCALES = (0.85, 1.15)
 
@@ -43,7 +38,7 @@ class ConstrainingThickness(Effect):
     name = "constraining_thickness"
     enters = "stiffness"
     source = "the paper's Eq. (15) to (18) with another H_c"
-    unknowns = (EffectParameter("scale", "1", 0.7, 1.3, 1.03, neutral=1.0, spread=0.05),)
+    parameters = (EffectParameter("scale", "1", 0.7, 1.3, 1.03, neutral=1.0, spread=0.05),)
     spans = (ConstrainingLayer(),)
     chance = 0.015
     discriminating_test = "a micrometer at the layer's edge; the plate weighed before and after treatment"

@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fitting.effects.base import Effect, Points
 from fitting.laws import CoreLaw
@@ -11,7 +10,6 @@ from fitting.laws.generalised_maxwell import GeneralisedMaxwell
 from fitting.laws.ghm import GollaHughesMcTavish
 from fitting.laws.smooth import Smooth
 
-Array = NDArray[np.float64]
 _STORAGE_PA, _LOSS = (1e3, 1e10), (1e-3, 5.0)
 """Where another law may begin."""
 

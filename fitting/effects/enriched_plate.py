@@ -13,6 +13,7 @@ import numpy as np
 import scipy.linalg as la
 from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.change import Change
 from fitting.effects.span import Span
 from fitting.element import DOFS, THETA_X, THETA_Y, Shape, W
@@ -25,8 +26,6 @@ from fitting.plate import Mesh
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Names = NDArray[np.str_]
 
 CONDENSED = 1e-4

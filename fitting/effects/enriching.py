@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import scipy.linalg as la
 import scipy.sparse as sp
-from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
+from fitting.arrays import Array
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.leading import Motions, Stirred
@@ -24,8 +24,6 @@ from fitting.parts import (
     load_part,
     projected_parts,
 )
-
-Array = NDArray[np.float64]
 
 SNAPSHOTS = 12
 TOLERANCE = 3e-3

@@ -3,14 +3,11 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.base_rocking import BaseRocking
 from fitting.effects.enriched_plate import EnrichedReducedPlate
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _OUTSIDE = (0.6, 1.6)
 _STEP = 0.02
@@ -25,7 +22,7 @@ class FixtureResonance(Effect):
     name = "fixture_resonance"
     enters = "load"
     source = "one mode of the fixture between shaker and clamp"
-    unknowns = (
+    parameters = (
         EffectParameter("frequency", "Hz", 1.0, 5000.0, 100.0, logarithmic=True, neutral=None),
         EffectParameter("damping_ratio", "1", 1e-3, 0.3, 0.02, logarithmic=True, neutral=None),
         EffectParameter("gain", "rad/m", -1.0, 1.0, 0.02, spread=0.1),

@@ -8,8 +8,8 @@ from typing import Any, TypeVar, cast
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.assembly import Assembly
 from fitting.damping import ViscousDamping
 from fitting.element import DOFS, THETA_Y, U_C, W
@@ -18,8 +18,6 @@ from fitting.linear import times
 from fitting.plate import Plate
 from fitting.specimen import Specimen
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 T = TypeVar("T")
 Solver = Callable[[Array | Complex], Complex]
 

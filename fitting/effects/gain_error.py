@@ -3,12 +3,9 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter, Points
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 class GainError(Effect):
@@ -17,7 +14,7 @@ class GainError(Effect):
     name = "gain_error"
     enters = "channel"
     source = "calibration of the measuring chain"
-    unknowns = (EffectParameter("factor", "1", 0.5, 2.0, 1.02, neutral=1.0, spread=0.02),)
+    parameters = (EffectParameter("factor", "1", 0.5, 2.0, 1.02, neutral=1.0, spread=0.02),)
     chance = 0.04
     discriminating_test = "the laser on the base beside the accelerometer; a second spot"
 

@@ -4,8 +4,8 @@ from collections.abc import Mapping
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -14,10 +14,6 @@ from fitting.effects.partial_debond import strips
 from fitting.effects.span import Span
 from fitting.element import DOFS, Shape, core_shear
 from fitting.linear import times
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
-
 
 _GRADE = 2.0
 """Of the motions spanned."""
@@ -91,7 +87,7 @@ class GradedCore(Effect):
     def __init__(self, along: str = "x") -> None:
         self.along = along
         self.spans = (Grading(along),)
-        self.unknowns = (EffectParameter(f"grade_{along}", "1", -1.5, 1.5, 0.2, spread=0.3),)
+        self.parameters = (EffectParameter(f"grade_{along}", "1", -1.5, 1.5, 0.2, spread=0.3),)
 
     def variants(self) -> tuple[Effect, ...]:
         return (self, GradedCore("y"))

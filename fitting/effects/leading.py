@@ -4,15 +4,11 @@ from collections.abc import Sequence
 
 import numpy as np
 import scipy.linalg as la
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.full_plate import FullPlate
 from fitting.half_plate import HalfPlate
 from fitting.linear import times
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
-
 
 _ALIKE = 1e-14
 """Of the largest product, what is nothing but rounding."""

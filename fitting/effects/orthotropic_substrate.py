@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.base import BarePlate, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -14,9 +14,6 @@ from fitting.effects.span import Span
 from fitting.element import DOFS, U_B, V_B, Shape
 from fitting.parts import STIFFNESS
 from fitting.specimen import Face
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _RATIOS = (0.85, 1.15)
 
@@ -85,7 +82,7 @@ class OrthotropicSubstrate(Effect):
     name = "orthotropic_substrate"
     enters = "stiffness"
     source = "orthotropic plane stress with Huber's shear modulus, e.g. Szilard, Plates (2004), ch. 4"
-    unknowns = (EffectParameter("ratio", "1", 0.7, 1.4, 1.03, neutral=1.0, spread=0.03),)
+    parameters = (EffectParameter("ratio", "1", 0.7, 1.4, 1.03, neutral=1.0, spread=0.03),)
     spans = (Orthotropy(),)
     discriminating_test = (
         "torsional beside bending frequencies of the bare plate (hammer test); a strip cut across the sheet"

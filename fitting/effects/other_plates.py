@@ -3,8 +3,8 @@
 from collections.abc import Iterable
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
@@ -12,9 +12,6 @@ from fitting.element import CORNERS
 from fitting.parts import CORE, STIFFNESS, coefficients, stretched
 from fitting.plate import Mesh, element_matrices
 from fitting.specimen import Specimen
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 def differences(full: FullPlate, other: Specimen) -> tuple[Array, Array, Array]:

@@ -4,8 +4,8 @@ from collections.abc import Mapping
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -13,9 +13,6 @@ from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.span import Span
 from fitting.element import Shape, core_shear_stiffness
 from fitting.linear import times
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 LEFT = 0.01
 """Share of the shear stiffness that a loose strip keeps."""
@@ -75,7 +72,7 @@ class PartialDebond(Effect):
     def __init__(self, along: str = "x") -> None:
         self.along = along
         self.spans = (Strips(along),)
-        self.unknowns = (
+        self.parameters = (
             EffectParameter(f"{along}_from", "m", 0.0, np.inf, 0.02, neutral=None),
             EffectParameter("width", "m", 0.0, 0.15, _WIDTH_M, spread=0.03),
         )

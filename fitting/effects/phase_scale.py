@@ -3,13 +3,10 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _HIGHEST = np.pi / 2
 """Of a peak's phase, rad; the lowest lies a turn below."""
@@ -29,7 +26,7 @@ class PhaseScale(Effect):
     name = "phase_scale"
     enters = "channel"
     source = "gain error of a phase detector's output, phases taken as lags behind the reference"
-    unknowns = (
+    parameters = (
         EffectParameter("factor", "1", 0.8, 1.2, 1.02, neutral=1.0, spread=0.03),
         EffectParameter("counted", "1", 0.0, 2.0, 0.0, neutral=None, fixed=True),
     )

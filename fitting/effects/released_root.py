@@ -15,13 +15,12 @@ import numpy as np
 import scipy.sparse as sp
 from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.span import Span
 from fitting.element import DOFS
 from fitting.linear import times
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Indices = NDArray[np.intp]
 
 _PAIRS = 5

@@ -3,12 +3,9 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter, Points
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 class SensorLowpass(Effect):
@@ -17,7 +14,9 @@ class SensorLowpass(Effect):
     name = "sensor_lowpass"
     enters = "channel"
     source = "first-order filter, e.g. a decoder's output filter or a long cable on a high source impedance"
-    unknowns = (EffectParameter("corner", "Hz", 200.0, 1e5, 3000.0, logarithmic=True, neutral=float("inf")),)
+    parameters = (
+        EffectParameter("corner", "Hz", 200.0, 1e5, 3000.0, logarithmic=True, neutral=float("inf")),
+    )
     discriminating_test = (
         "another low-pass setting of the decoder; the laser on the base beside the accelerometer"
     )

@@ -4,12 +4,9 @@ from collections.abc import Mapping
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.full_plate import FullPlate, Snapshot
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 class Span:

@@ -3,16 +3,13 @@
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.span import Span
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _AROUND_M = ((8e-3, 0.0), (-8e-3, 0.0), (0.0, 8e-3), (0.0, -8e-3))
 
@@ -43,7 +40,7 @@ class SpotOffset(Effect):
     name = "spot_offset"
     enters = "observation"
     source = "shape functions at the shifted point"
-    unknowns = (
+    parameters = (
         EffectParameter("dx", "m", -0.02, 0.02, 3e-3, spread=5e-3),
         EffectParameter("dy", "m", -0.02, 0.02, 3e-3, spread=5e-3),
     )

@@ -8,14 +8,12 @@ The floor stands still: the spring feels the plate's motion relative to the base
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.effects.added_mass import PointMass
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
-
-Array = NDArray[np.float64]
 
 _LOSS = 0.2
 _START_N_M = 50.0
@@ -27,7 +25,7 @@ class Tether(Effect):
     name = "tether"
     enters = "stiffness"
     source = "cable stiffness and damping, Ewins, Modal Testing (2000), section 3.5"
-    unknowns = (
+    parameters = (
         EffectParameter("k", "N/m", 0.0, 2e3, _START_N_M, spread=100.0),
         EffectParameter("loss_factor", "1", 0.0, 2.0, _LOSS, neutral=None),
         EffectParameter("x", "m", 0.0, np.inf, 0.05, neutral=None),

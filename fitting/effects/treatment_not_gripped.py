@@ -8,17 +8,14 @@ from collections.abc import Mapping
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.released_root import RootSpan, along_root, on_root
 from fitting.element import DOFS, U_C, V_C
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _SPANNED = (1e6, 1e8, 4e8, 3e9)
 
@@ -51,7 +48,7 @@ class TreatmentNotGripped(Effect):
     name = "treatment_not_gripped"
     enters = "stiffness"
     source = "free end of a constrained layer, e.g. Plunkett and Lee, J. Acoust. Soc. Am. 48 (1970)"
-    unknowns = (EffectParameter("k", "N/m^2", 1e6, 1e12, 1e8, logarithmic=True, neutral=float("inf")),)
+    parameters = (EffectParameter("k", "N/m^2", 1e6, 1e12, 1e8, logarithmic=True, neutral=float("inf")),)
     spans = (FreeTreatment(),)
     discriminating_test = (
         "a look at the clamp: whether the treatment reaches between the jaws; a strip of it glued down"

@@ -4,8 +4,8 @@ from collections.abc import Mapping
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.clamp_compliance import ClampCompliance, root_springs
@@ -13,9 +13,6 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.released_root import RootSpan, along_root
 from fitting.element import DOFS, THETA_Y, U_B, U_C, W
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _MOST = 0.95
 _SPANNED = ((6e12, 0.7), (2e13, 0.9), (6e13, 0.9), (4e14, 0.9))
@@ -57,7 +54,7 @@ class UnevenClamp(Effect):
     name = "uneven_clamp"
     enters = "stiffness"
     source = "elastic foundation of the root face, stiffness linear along the width"
-    unknowns = (*ClampCompliance.unknowns, EffectParameter("slope", "1", -_MOST, _MOST, 0.3, spread=0.4))
+    parameters = (*ClampCompliance.parameters, EffectParameter("slope", "1", -_MOST, _MOST, 0.3, spread=0.4))
     spans = (UnevenRoot(),)
     extends = "clamp_compliance"
     unexplained_share = 0.003

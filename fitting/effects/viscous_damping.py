@@ -2,14 +2,10 @@
 
 from collections.abc import Mapping
 
-import numpy as np
-from numpy.typing import NDArray
-
+from fitting.arrays import Array
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
-
-Array = NDArray[np.float64]
 
 
 class ViscousDamping(Effect):
@@ -18,7 +14,7 @@ class ViscousDamping(Effect):
     name = "viscous_damping"
     enters = "damping"
     source = "the paper's section 4: C_1 is taken over from the bare plate"
-    unknowns = (EffectParameter("scale", "1", 0.0, 8.0, 2.0, neutral=1.0, spread=1.0),)
+    parameters = (EffectParameter("scale", "1", 0.0, 8.0, 2.0, neutral=1.0, spread=1.0),)
     chance = 0.05
     discriminating_test = "the hammer test of the treated plate at two core temperatures"
 

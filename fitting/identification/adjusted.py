@@ -4,13 +4,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import exp
 
-import numpy as np
-from numpy.typing import NDArray
-
+from fitting.arrays import Array
 from fitting.nuisances import Nuisance
 from fitting.specimen import Specimen
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -14,15 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.air import air_lowering
+from fitting.arrays import Array, Complex
 from fitting.bare_modes import Sensor, bare_modes, clamp_softness
 from fitting.errors import TooFewPoints
 from fitting.parts import MASS, STIFFNESS, coefficients, projected_parts
 from fitting.plate import Plate
 from fitting.specimen import Specimen
 from fitting.tolerances import moved, tolerance
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 FREQUENCY_SCATTER = 5e-4
 """Standard deviation of ln f: remounting and reading 0.03 %, the plate model 0.04 %."""

@@ -1,15 +1,13 @@
 """Identification by bounded least squares in the log parameters, from a global start."""
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import OptimizeResult, least_squares
 
+from fitting.arrays import Array
 from fitting.errors import TooFewPoints
 from fitting.identification.fit import Fit
 from fitting.identification.residuals import Residuals
 from fitting.laws import CoreLaw
-
-Array = NDArray[np.float64]
 
 CANDIDATES = 64
 """Laws looked at before the first step."""

@@ -5,10 +5,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.identification.adjusted import Adjusted
 from fitting.laws import CoreLaw
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

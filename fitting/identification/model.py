@@ -5,13 +5,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.laws import CoreLaw
 from fitting.rational import RationalSweep
 from fitting.specimen import Reading
 from fitting.sweep import Sweep
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 def velocity(omega: Array, displacement: Complex, reads: Reading) -> Complex:

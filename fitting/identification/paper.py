@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from fitting.arrays import Array, Complex
 from fitting.errors import TooFewPoints
 from fitting.identification.fit import Fit
 from fitting.identification.model import velocity
@@ -19,9 +20,6 @@ from fitting.laws import CoreLaw
 from fitting.real_mode_response import RealModePlate
 from fitting.specimen import Reading
 from fitting.sweep import Sweep, resonance_points
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 STEP = 1e-4
 """Delta b over b in Eq. (20)."""

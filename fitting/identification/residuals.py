@@ -5,12 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.identification.model import SweepModel
 from fitting.laws import CoreLaw
 from fitting.noise import Noise
 from fitting.sweep import Sweep
 
-Array = NDArray[np.float64]
 Points = NDArray[np.intp] | NDArray[np.bool_]
 
 

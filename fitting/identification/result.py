@@ -5,14 +5,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.identification.fit import Fit
 from fitting.identification.uncertainty import Uncertainty, uncertainty_of
 from fitting.identification.validation import Validation, rms
 from fitting.laws import CoreLaw
 from fitting.noise import Noise
 from fitting.sweep import Sweep
-
-Array = NDArray[np.float64]
 
 REFERENCE_FREQUENCIES_HZ = (20.0, 100.0, 280.0)
 """Where the band is always stated, as far as they lie inside the measured range."""

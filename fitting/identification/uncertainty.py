@@ -3,12 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.identification.fit import Fit
 from fitting.laws import CoreLaw
-
-Array = NDArray[np.float64]
 
 _AT_BOUND = 1e-5
 """Distance to a limit, in the log parameter, that counts as sitting on it."""

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
+from fitting.arrays import Array, Mask
+
 Learnt = Callable[[Mask], Array]
 """Points to learn from, to 100 (|predicted| - |measured|)/|measured| at every point."""
 

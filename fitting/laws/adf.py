@@ -5,8 +5,9 @@ from typing import ClassVar
 
 import numpy as np
 
+from fitting.arrays import Array, Complex
 from fitting.errors import OutsideModel
-from fitting.laws.base import Array, Complex, CoreLaw, quantity
+from fitting.laws.base import CoreLaw, quantity
 
 
 @dataclass(frozen=True)

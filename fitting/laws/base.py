@@ -10,12 +10,9 @@ from functools import cache
 from typing import Any, ClassVar, Self, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.errors import OutsideModel
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _UNITS = ("_pa", "_rad_s", "_s")
 """How a name may end; a list's number goes before it."""
@@ -85,7 +82,7 @@ class CoreLaw:
         return self
 
     @property
-    def bends(self) -> int:
+    def bend_count(self) -> int:
         """How many of the last parameters only bend the law: they have priors (`fitting.bent_law`)."""
         return 0
 

@@ -5,7 +5,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from fitting.laws.base import Array, Complex, CoreLaw, quantity
+from fitting.arrays import Array, Complex
+from fitting.laws.base import CoreLaw, quantity
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,9 @@ from typing import ClassVar
 
 import numpy as np
 
+from fitting.arrays import Array, Complex
 from fitting.errors import OutsideModel
-from fitting.laws.base import Array, Complex, CoreLaw
+from fitting.laws.base import CoreLaw
 
 LOWEST_HZ = 1.0
 """Eq. (19b) turns negative below 0.27 Hz and is a fit to data from hertz upwards."""

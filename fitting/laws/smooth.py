@@ -9,8 +9,9 @@ from typing import ClassVar, Self
 import numpy as np
 from scipy.interpolate import CubicSpline
 
+from fitting.arrays import Array, Complex
 from fitting.errors import OutsideModel
-from fitting.laws.base import Array, Complex, CoreLaw, fixed, quantity
+from fitting.laws.base import CoreLaw, fixed, quantity
 
 
 @dataclass(frozen=True)

@@ -4,10 +4,8 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from fitting.arrays import Array, Complex
 
 Motion = Literal["displacement", "velocity", "acceleration"]
 

@@ -11,11 +11,9 @@ zero padding makes n large. A neighbour 5 bandwidths away still adds some 5 %.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.modal.frf import Estimate, Frf, Motion, Refusal, corrected, is_near
-
-Array = NDArray[np.float64]
 
 _FEWEST_POINTS = 5
 """Lines between the crossings below which interpolation cannot be trusted."""

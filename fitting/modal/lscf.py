@@ -8,12 +8,9 @@ Source: Peeters, Van der Auweraer, Guillaume, Leuridan, Shock and Vibration 11 (
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Complex
 from fitting.modal.frf import Estimate, Frf, Refusal, corrected
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 ORDERS = tuple(range(2, 25))
 FREQUENCY_STABLE = 0.005

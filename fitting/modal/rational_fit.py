@@ -10,13 +10,10 @@ The residues are linear: variable projection leaves the poles to a small least s
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from fitting.arrays import Array, Complex
 from fitting.modal.frf import Estimate, Frf, Refusal, corrected, is_near
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _HALF_WIDTH_LINES = 8
 _HALF_WIDTH_BANDWIDTHS = 6.0

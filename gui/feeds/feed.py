@@ -4,7 +4,7 @@ from time import perf_counter
 
 from PySide6.QtCore import QObject, Signal
 
-from gui.picture import Picture
+from gui.state import SessionState
 
 MOST_S = 0.012
 """Time a feed may take of the main thread at a turn: the window stays quick however much is waiting."""
@@ -26,7 +26,7 @@ class Feed(QObject):
     renewed = Signal()
     failed = Signal(str)
     ended = Signal()
-    picture: Picture | None = None
+    state: SessionState | None = None
 
     @property
     def left_s(self) -> float | None:

@@ -6,9 +6,9 @@ from time import monotonic
 
 from PySide6.QtCore import QObject, Signal
 
+from gui.background_task import BackgroundTask, Progress
 from gui.feeds.feed import Feed, Turn
-from gui.picture import Picture
-from gui.work import Progress, Work
+from gui.state import SessionState
 from instrument.engine import Engine, Order, Stopped
 from instrument.engine.messages import (
     Asked,
@@ -64,8 +64,8 @@ class LiveFeed(Feed):
     ) -> None:
         super().__init__(parent)
         self.engine = engine if engine is not None else Engine.start(order)
-        self.picture = Picture(configuration)
-        self.picture.work("starting", None)
+        self.state = SessionState(configuration)
+        self.state.work("starting", None)
         self.question: Asked | None = None
         self.ending: Ended | None = None
         self.recording: RecordingBegan | None = None
@@ -73,18 +73,18 @@ class LiveFeed(Feed):
         self.rig_open = False
         self.blocks_dropped = 0
         self._pace = _Pace()
-        self._stopping: Work[Stopped] | None = None
+        self._stopping: BackgroundTask[Stopped] | None = None
 
     @property
     def left_s(self) -> float | None:
         """At the pace so far; a rig in virtual time is faster than its clock."""
-        left = self.picture.plan.left_s if self.picture is not None else None
+        left = self.state.plan.left_s if self.state is not None else None
         return None if left is None else left * self._pace.wall_s_per_s
 
     def expect(self, seconds: dict[int, float]) -> None:
         """Seconds forecast for each segment."""
-        if self.picture is not None:
-            self.picture.expect(seconds)
+        if self.state is not None:
+            self.state.expect(seconds)
 
     def advance(self) -> None:
         """Take what has come."""
@@ -113,7 +113,7 @@ class LiveFeed(Feed):
         """Silence the shaker past whatever hangs, and end the run; again where it was tried before."""
         if self._stopping is not None and not self._stopping.over:
             return
-        self._stopping = Work(_stop(self.engine), self)
+        self._stopping = BackgroundTask(_stop(self.engine), self)
         self._stopping.done.connect(self._stopped)
         self._stopping.failed.connect(self._stop_failed)
         self._stopping.start()
@@ -129,20 +129,20 @@ class LiveFeed(Feed):
         self.stopped.emit(Stopped(silent=False, seconds=0.0, message=f"the shaker did not answer: {said}"))
 
     def _take(self, message: Message) -> None:
-        assert self.picture is not None
+        assert self.state is not None
         match message:
             case Happened():
-                self.picture.take(message.event)
+                self.state.take(message.event)
                 self._follow(message.event)
             case Asked():
                 self._ask(message)
             case Progressed():
-                self.picture.work("" if message.ended else message.what, message.fraction)
+                self.state.work("" if message.ended else message.what, message.fraction)
             case BlocksDropped():
                 self.blocks_dropped += message.count
-                self.picture.say(f"{message.count} blocks not shown; the session has them", "warning")
+                self.state.say(f"{message.count} blocks not shown; the session has them", "warning")
             case Logged():
-                self.picture.say(message.text, "warning" if message.level != "INFO" else "said")
+                self.state.say(message.text, "warning" if message.level != "INFO" else "said")
             case RecordingBegan():
                 self.recording = message
             case RigOpened() | RigClosed():
@@ -150,29 +150,29 @@ class LiveFeed(Feed):
             case StopPathChanged():
                 self.stop_path = message
                 if not message.ready:
-                    self.picture.say(f"no stop path of the window's own: {message.message}", "warning")
+                    self.state.say(f"no stop path of the window's own: {message.message}", "warning")
             case Ended():
                 self._end(message)
 
     def _follow(self, event: Event) -> None:
-        assert self.picture is not None
+        assert self.state is not None
         if isinstance(event, BlockAcquired):
-            self._pace.take(self.picture.time_s)
+            self._pace.take(self.state.time_s)
         elif isinstance(event, HitRevised) and self.question is not None and self.question.what == "content":
-            hammer = self.picture.configuration.experiment.hammer
-            if hammer is not None and self.picture.run.good_hits < hammer.hits:
+            hammer = self.state.configuration.experiment.hammer
+            if hammer is not None and self.state.run.good_hits < hammer.hits:
                 self._ask(None)
 
     def _ask(self, question: Asked | None) -> None:
-        assert self.picture is not None
+        assert self.state is not None
         self.question = question if question is not None and question.what != "hit" else None
-        self.picture.ask(_QUESTIONS[question.what](question) if question is not None else "")
+        self.state.ask(_QUESTIONS[question.what](question) if question is not None else "")
         self.asked.emit(question)
 
     def _end(self, message: Ended) -> None:
-        assert self.picture is not None
+        assert self.state is not None
         self.ending = message
-        self.picture.end(message.why, message.message)
+        self.state.end(message.why, message.message)
         self._ask(None)
         self.ended.emit()
 

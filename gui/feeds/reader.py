@@ -5,9 +5,9 @@ from collections import deque
 from dataclasses import dataclass
 from pathlib import Path
 
-from gui.feeds.tape import Tape
-from gui.picture import Picture
-from gui.work import said_of_fault
+from gui.background_task import said_of_fault
+from gui.feeds.session_index import SessionIndex
+from gui.state import SessionState
 from instrument.session.storage import SessionFile
 from instrument.stream.event import Event
 from instrument.stream.raw import BlockAcquired
@@ -21,14 +21,14 @@ _MOST_SAMPLES = 4_000_000
 class Loaded:
     """The session is open."""
 
-    tape: Tape
+    index: SessionIndex
 
 
 @dataclass(frozen=True)
 class Jumped:
     """The picture at a place; what is read from now on follows it."""
 
-    picture: Picture
+    state: SessionState
     time_s: float
 
 
@@ -113,27 +113,27 @@ class Reader:
     def _work(self) -> None:
         try:
             with SessionFile(self._path) as file:
-                tape = Tape.of(file, self._look)
-                self._put(Loaded(tape))
+                index = SessionIndex.of(file, self._look)
+                self._put(Loaded(index))
                 while True:
-                    self._follow(file, tape)
+                    self._follow(file, index)
         except _Turned:
             return
         except Exception as error:  # told to the window, whatever it is
             with self._changed:
                 self._waiting.append(Failed(said_of_fault(error)))
 
-    def _follow(self, file: SessionFile, tape: Tape) -> None:
+    def _follow(self, file: SessionFile, index: SessionIndex) -> None:
         """From a jump on until the next one."""
         with self._changed:
             self._changed.wait_for(lambda: self._closed or self._jump_s is not None)
             to_s, self._jump_s = self._jump_s, None
         try:
             self._look()
-            count = tape.count_at(to_s if to_s is not None else 0.0)
-            self._put(Jumped(tape.picture(file, count, self._look), to_s or 0.0))
-            for number, event in tape.events(file, count):
-                self._put(Read(tape.time_s[number], event))
+            count = index.count_at(to_s if to_s is not None else 0.0)
+            self._put(Jumped(index.state(file, count, self._look), to_s or 0.0))
+            for number, event in index.events(file, count):
+                self._put(Read(index.time_s[number], event))
             with self._changed:
                 self._at_end = self._jump_s is None
         except _Turned:

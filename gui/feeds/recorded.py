@@ -6,10 +6,10 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
+from gui.background_task import Command
 from gui.feeds.feed import Feed, Turn
 from gui.feeds.reader import Failed, Item, Jumped, Loaded, Read, Reader
-from gui.feeds.tape import Tape
-from gui.work import Command
+from gui.feeds.session_index import SessionIndex
 
 
 class RecordedFeed(Feed):
@@ -35,7 +35,7 @@ class RecordedFeed(Feed):
     def __init__(self, path: Path, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.path = path
-        self.tape: Tape | None = None
+        self.index: SessionIndex | None = None
         self.position_s = 0.0
         self.playing = False
         self.speed: float | None = 1.0
@@ -49,7 +49,7 @@ class RecordedFeed(Feed):
     @property
     def length_s(self) -> float:
         """Of the timeline; 0 until it is loaded."""
-        return self.tape.length_s if self.tape is not None else 0.0
+        return self.index.length_s if self.index is not None else 0.0
 
     @property
     def left_s(self) -> float | None:
@@ -58,7 +58,7 @@ class RecordedFeed(Feed):
 
     def play(self, speed: float | None = 1.0) -> None:
         """Go on from here; from the beginning where this is the end."""
-        if self.tape is None:
+        if self.index is None:
             return
         self.speed, self.playing, self._looked = speed, True, monotonic()
         if self.position_s >= self.length_s:
@@ -72,7 +72,7 @@ class RecordedFeed(Feed):
 
     def jump(self, to_s: float) -> None:
         """Show the session as it was at this time."""
-        if self.tape is None:
+        if self.index is None:
             return
         self._jumping_to = min(max(0.0, to_s), self.length_s)
         self.position_s = self._jumping_to
@@ -128,17 +128,17 @@ class RecordedFeed(Feed):
     def _take(self, item: Item) -> None:
         match item:
             case Loaded():
-                self.tape = item.tape
+                self.index = item.index
                 self.loaded.emit()
-                self.jump(item.tape.length_s)
+                self.jump(item.index.length_s)
             case Jumped():
                 self._jumping_to = None
-                self.picture = item.picture
+                self.state = item.state
                 self.position_s, self._looked = item.time_s, monotonic()
                 self.renewed.emit()
             case Read():
-                assert self.picture is not None
-                self.picture.take(item.event)
+                assert self.state is not None
+                self.state.take(item.event)
                 self._go(item.time_s)
             case Failed():
                 self.playing = False
@@ -146,7 +146,7 @@ class RecordedFeed(Feed):
 
     def _arrive(self, due_s: float) -> None:
         """Everything due is shown: time goes on, unless the disk is behind."""
-        if not self.playing or self._jumping_to is not None or self.picture is None:
+        if not self.playing or self._jumping_to is not None or self.state is None:
             return
         if self._reader.next_s is not None:
             self._go(due_s)

@@ -15,7 +15,7 @@ from PySide6.QtWidgets import QFileDialog, QMessageBox
 
 _PNG_SCALE = 2.0
 """Pixels a point: sharp on paper and on a 4K screen."""
-_KINDS = {"PNG": "Picture (*.png)", "SVG": "Drawing (*.svg)", "data CSV": "Data (*.csv)"}
+_KINDS = {"PNG": "SessionState (*.png)", "SVG": "Drawing (*.svg)", "data CSV": "Data (*.csv)"}
 
 
 def save_png(plot: Any, path: Path) -> None:

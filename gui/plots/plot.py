@@ -11,16 +11,15 @@ from typing import Any, Literal
 
 import numpy as np
 import pyqtgraph as pg
-from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtWidgets import QWidget
 
+from fitting.arrays import Array
 from gui.plots.export import add_export_menu
 from gui.plots.log_axis import LogAxis
 from gui.plots.readout import Readout
 from gui.theme import Role, current_theme
 
-Array = NDArray[np.float64]
 Symbol = Literal["o", "s", "t", "t1", "d", "+", "x", "star"]
 
 _SMOOTH = 5000

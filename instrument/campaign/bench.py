@@ -14,7 +14,6 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from fitting.direct import displacement_direct
@@ -36,8 +35,6 @@ from instrument.models.diagnosis import Diagnosed, diagnose
 from instrument.models.specimen_models import Models
 from instrument.paper_case import TABLE_4, case_file
 from instrument.progress import Progress, quiet
-
-Array = NDArray[np.float64]
 
 GRID_HZ = np.concatenate([np.linspace(14, 26, 121), np.linspace(80, 125, 116), np.linspace(245, 315, 116)])
 """353 frequencies in three resonance regions."""

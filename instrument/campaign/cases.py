@@ -5,7 +5,6 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from drivers.simulated.plant.effects import (
     AddedMass,
@@ -23,6 +22,7 @@ from drivers.simulated.plant.effects import (
     TemperatureDrift,
     ViscousDamping,
 )
+from fitting.arrays import Array, Complex
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.campaign.channels import Channels
@@ -34,9 +34,6 @@ from instrument.campaign.schedule import Schedule, draw_schedule
 from instrument.campaign.severities import OF_THE_CHANNELS_ALONE, PLACES, Severity, draw_severity
 from instrument.files.specimen_file import read_specimen
 from instrument.simulated_case import case_file
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 NONE, PAIR = "none", "pair"
 KINDS = (NONE, *PLACES, PAIR)

@@ -3,10 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from fitting.arrays import Array, Complex
 
 MAINS_HZ = 50.0
 _AVERAGED_S = 1.0

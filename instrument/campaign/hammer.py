@@ -1,12 +1,10 @@
 """What a hammer test of the plant's bare plate gives."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from drivers.simulated.plant.bare import StruckPlate
 from drivers.simulated.plant.effects import Effects
-
-Array = NDArray[np.float64]
+from fitting.arrays import Array
 
 FREQUENCY_SCATTER = 3e-4
 RATIO_SCATTER = 5e-3

@@ -3,13 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.optimize import least_squares
 
 from drivers.simulated.plant.law import MaxwellLaw, fractional_zener
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from fitting.arrays import Array, Complex
 
 _LEAST_RMS = 0.015
 """Relative deviation of a strange law from the nearest fractional Zener over the measured frequencies."""

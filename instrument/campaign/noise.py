@@ -18,8 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from fitting.arrays import Array, Complex
 
 DRIVE_PHASE_RAD = np.deg2rad(0.3)
 

@@ -12,7 +12,7 @@ from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from fitting.laws import CoreLaw
 from instrument.campaign.cases import Case
 from instrument.campaign.materials import TrueLaw
-from instrument.stream.jsonable import plain
+from instrument.stream.jsonable import to_jsonable
 
 
 @dataclass(frozen=True)
@@ -115,7 +115,7 @@ def _off(ratio: NDArray[np.float64]) -> tuple[float, ...]:
 
 def line_of(outcome: Outcome) -> dict[str, Any]:
     """As JSON knows it."""
-    facts: dict[str, Any] = plain(asdict(outcome))
+    facts: dict[str, Any] = to_jsonable(asdict(outcome))
     return facts
 
 

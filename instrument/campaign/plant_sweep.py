@@ -17,9 +17,8 @@ from drivers.simulated.plant.one_thread import one_thread
 from drivers.simulated.plant.sandwich import Sandwich, sandwich
 from drivers.simulated.plant.slow_change import LEAST_FACTOR
 from drivers.simulated.plant.structure import Structure, condensed
+from fitting.arrays import Array, Complex
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Modulus = Callable[[Array], Complex]
 """G*(omega) in Pa of the core at the reference temperature and small strain, omega in rad/s."""
 

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from fitting.arrays import Array
+
 Integers = NDArray[np.intp]
 
 _BOUNDS_HZ = (((14.0, 14.0), (25.0, 26.0)), ((85.0, 90.0), (112.0, 115.0)), ((250.0, 258.0), (300.0, 310.0)))

@@ -5,14 +5,12 @@ hammer test adds is left out.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from fitting.arrays import Array
 from instrument.campaign.cases import Case, Truth, clean
 from instrument.campaign.materials import TrueLaw, nearest_zener
 from instrument.campaign.schedule import Schedule
-
-Array = NDArray[np.float64]
 
 _MOST_EVALUATIONS = 8
 _CLOSE = 1e-3

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from drivers.vibrometer import Range
+from fitting.arrays import Array
 from fitting.complex_modes import complex_modes
 from fitting.damping import viscous_damping
 from fitting.direct import displacement_direct
@@ -20,8 +20,6 @@ from instrument.errors import BadInput
 from instrument.files.experiment_file import Segment, SweepTable
 from instrument.stepped_sine.plan import PlannedSegment
 from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2, SweepSettings
-
-Array = NDArray[np.float64]
 
 _COARSE = (20, 14)
 _MODES = 12

@@ -11,7 +11,7 @@ from instrument.paper_case.figures import save_figures
 from instrument.progress import bar
 from instrument.results.diagnosis_facts import diagnosis_facts
 from instrument.results.identification_facts import identification_facts
-from instrument.stream.jsonable import plain
+from instrument.stream.jsonable import to_jsonable
 
 
 def show_paper_case(out: Output, folder: Path) -> None:
@@ -33,7 +33,7 @@ def show_paper_case(out: Output, folder: Path) -> None:
 
 def _print_diagnosis(out: Output, run: PaperRun) -> None:
     """What the nine amplitudes say of the difference that four parameters leave."""
-    facts = plain(diagnosis_facts(run.diagnosis, run.sweep))
+    facts = to_jsonable(diagnosis_facts(run.diagnosis, run.sweep))
     out.say("What the nine points say of that:")
     print_story(out, facts)
     out.say()

@@ -12,7 +12,7 @@ from instrument.models.diagnosis import diagnose as diagnose_sweep
 from instrument.progress import bar
 from instrument.results.diagnosis_facts import diagnosis_facts
 from instrument.results.diagnosis_figures import save_diagnosis_figures
-from instrument.stream.jsonable import plain
+from instrument.stream.jsonable import to_jsonable
 
 
 @click.command()
@@ -65,7 +65,7 @@ def diagnose(
     found = diagnose_sweep(
         given.sweep, given.specimen, given.modes, declined, bar, accepted, resamples=resamples
     )
-    facts = plain(diagnosis_facts(found, given.sweep))
+    facts = to_jsonable(diagnosis_facts(found, given.sweep))
     print_diagnosis(out, facts)
     if figures is not None:
         for path in save_diagnosis_figures(facts, figures):

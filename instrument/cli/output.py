@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.table import Table
 
 from instrument.errors import BadInput
-from instrument.stream.jsonable import plain
+from instrument.stream.jsonable import to_jsonable
 
 
 class Output:
@@ -45,7 +45,7 @@ class Output:
         """The facts as JSON, where they were asked for."""
         if self._json_path is None:
             return
-        text = json.dumps(plain(facts), indent=1, allow_nan=False)
+        text = json.dumps(to_jsonable(facts), indent=1, allow_nan=False)
         if self._json_path == "-":
             click.echo(text)
             return

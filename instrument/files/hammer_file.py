@@ -5,15 +5,13 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import BaseModel, Field, ValidationError
 
+from fitting.arrays import Array
 from fitting.bare_modes import Sensor
 from fitting.errors import TooFewPoints
 from instrument.errors import BadInput
 from instrument.files.text import read_text
-
-Array = NDArray[np.float64]
 
 
 class _Mode(BaseModel):

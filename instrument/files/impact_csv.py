@@ -4,15 +4,13 @@ import re
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.modal.frf import Frf, Motion
 from instrument.errors import BadInput
 from instrument.files.table import number, read_rows
 from instrument.files.text import read_text
 from instrument.impact.record import Channel, Hit
-
-Array = NDArray[np.float64]
 
 MOTIONS: dict[str, Motion] = {
     "acceleration_m_s2": "acceleration",

@@ -4,12 +4,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from instrument.errors import BadInput
 from instrument.files.text import read_text
-
-Array = NDArray[np.float64]
 
 _END = "***End_of_Header***"
 _SEPARATORS = {"Tab": "\t", "Comma": ",", "Semicolon": ";"}

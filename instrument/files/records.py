@@ -5,17 +5,15 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.io import loadmat
 
+from fitting.arrays import Array
 from fitting.modal.frf import Frf, Motion
 from instrument.errors import BadInput
 from instrument.files.impact_csv import MOTIONS, read_impact_csv
 from instrument.files.lvm import read_lvm
 from instrument.files.uff58 import read_uff58
 from instrument.impact.record import Channel, Hit
-
-Array = NDArray[np.float64]
 
 _STANDARD_GRAVITY = 9.80665
 _UNITS: dict[str, tuple[Motion, float]] = {

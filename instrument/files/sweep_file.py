@@ -4,13 +4,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.sweep import Sweep, segments_by_gap
 from instrument.errors import BadInput
 from instrument.files.table import number, read_rows
-
-Array = NDArray[np.float64]
 
 _NUMBERS = (
     "frequency_hz",

@@ -13,7 +13,7 @@ from instrument.impact.judge import Judged, judge
 from instrument.impact.record import Channel, Hit
 from instrument.stream.derived import DampingFound, HitJudged, HitRevised
 from instrument.stream.event import Derived
-from instrument.stream.jsonable import plain
+from instrument.stream.jsonable import to_jsonable
 from instrument.stream.raw import BlockAcquired, HammerTestEnded, OperatorDid
 
 WEAK = 0.3
@@ -117,7 +117,7 @@ class HammerAnalysis:
         except BadInput:
             return []
         sensor = {"sensor": asdict(self._settings.sensor)} if self._settings.sensor else {}
-        return [DampingFound(plain({**damping_facts(found), **sensor}))]
+        return [DampingFound(to_jsonable({**damping_facts(found), **sensor}))]
 
     def _judged(self, first: int, record: np.ndarray, overload: np.ndarray) -> HitJudged:
         number = len(self._hits) + 1

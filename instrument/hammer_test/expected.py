@@ -1,13 +1,11 @@
 """Where the specimen file puts the bare plate's modes, before anything is measured."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.bare_modes import Sensor, bare_modes
 from fitting.plate import Plate
 from fitting.specimen import Specimen
-
-Array = NDArray[np.float64]
 
 _COUNT = 12
 

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from fitting.arrays import Array
 
 LEARN_S = 0.25
 """Of quiet, before the first blow: it gives the force channel's offset and noise."""

@@ -3,11 +3,11 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 from scipy.signal import find_peaks
 from threadpoolctl import threadpool_limits
 
+from fitting.arrays import Array
 from fitting.modal.frf import Estimate, Frf, Refusal
 from fitting.modal.half_power import half_power, half_power_marks
 from fitting.modal.lscf import lscf, lscf_poles
@@ -15,8 +15,6 @@ from fitting.modal.rational_fit import RationalFit, rational_fit
 from instrument.errors import BadInput
 from instrument.impact.judge import Judged
 from instrument.impact.spectra import Estimator, Spectra, rolloff_hz, spectra
-
-Array = NDArray[np.float64]
 
 PADDING = 8
 """Half power is read on lines so many times finer."""

@@ -6,11 +6,9 @@ What is set right is noted (an offset, an inverted force); what cannot be is a r
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from instrument.impact.record import Hit
-
-Array = NDArray[np.float64]
 
 PULSE_LEVEL = 0.1
 """Share of the peak above which samples belong to a blow."""

@@ -2,12 +2,8 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
+from fitting.arrays import Array
 from fitting.modal.frf import Motion
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -4,13 +4,11 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.modal.frf import Frf
 from instrument.impact.judge import Judged
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Estimator = Literal["h1", "h2", "hv"]
 
 _TAPER = 0.5

@@ -5,13 +5,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.modal.frf import Frf, Motion
 from instrument.errors import BadInput
 from instrument.impact.record import Channel, Hit
 from instrument.interchange.units import DERIVATIVE, Quantity
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Columns = dict[str, Array]
 """Of the sweep CSV, by their names."""
 

@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fitting.sweep import segments_by_gap
 from instrument.errors import BadInput
@@ -17,8 +16,6 @@ from instrument.interchange.provenance import one_line
 from instrument.interchange.read_csv import read_csv
 from instrument.interchange.read_mat import read_mat
 from instrument.interchange.read_uff import read_uff
-
-Array = NDArray[np.float64]
 
 _READERS = {".uff": read_uff, ".unv": read_uff, ".mat": read_mat, ".csv": read_csv, ".txt": read_csv}
 _UNSAID: dict[str, float] = {"sweep": 1.0, "level_g": 1.0}

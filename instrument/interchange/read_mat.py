@@ -5,16 +5,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.io import loadmat
 
+from fitting.arrays import Array
 from fitting.modal.frf import Motion
 from instrument.errors import BadInput
 from instrument.interchange.found import Found, Ratio, motion_of
 from instrument.interchange.read_table import Named, read_table
 from instrument.interchange.units import DERIVATIVE, KNOWN, Unit, unit_of
-
-Array = NDArray[np.float64]
 
 _DEPTH = 4
 _OUR_OWN = ("units", "about")

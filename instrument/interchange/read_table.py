@@ -10,12 +10,12 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.modal.frf import Motion
 from instrument.errors import BadInput
 from instrument.interchange.found import Columns, Found, Ratio
 from instrument.interchange.units import DERIVATIVE, KNOWN, Quantity, Unit, unit_of
 
-Array = NDArray[np.float64]
 Named = dict[str, NDArray[Any]]
 """Arrays of one length; matrices (samples, hits) for hits side by side; single numbers as arrays of one."""
 Part = Literal["whole", "re", "im", "magnitude", "phase"]

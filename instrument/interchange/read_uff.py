@@ -7,14 +7,12 @@ from typing import Any
 
 import numpy as np
 import pyuff
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.modal.frf import Motion
 from instrument.errors import BadInput
 from instrument.interchange.found import Found, Ratio, motion_of
 from instrument.interchange.units import DERIVATIVE, KNOWN, Quantity, Unit, unit_of
-
-Array = NDArray[np.float64]
 
 _TIME, _FRF, _TRANSMISSIBILITY, _COHERENCE = 1, 4, 5, 6
 _QUANTITIES: dict[int, Quantity] = {8: "displacement", 11: "velocity", 12: "acceleration", 13: "force"}

@@ -7,17 +7,14 @@ the stated plate serve, and nothing is made anew.
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisances import Nuisances
 from fitting.plate import Mesh
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
 from instrument.models.specimen_models import Models
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)

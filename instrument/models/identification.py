@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
+from fitting.arrays import Mask
 from fitting.diagnosis.begin import Begun, begin
 from fitting.diagnosis.joint import fit_of
 from fitting.diagnosis.prediction import held_out
@@ -16,7 +17,7 @@ from fitting.identification import paper
 from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
 from fitting.identification.fit import Fit
 from fitting.identification.result import LOST_PERCENT, Identification, differences_percent, summarise
-from fitting.identification.validation import Mask, Validation, rms, validate
+from fitting.identification.validation import Validation, rms, validate
 from fitting.laws import CoreLaw
 from fitting.noise import Noise, noise_of
 from fitting.reduced import ReducedPlate
@@ -29,7 +30,6 @@ from instrument.models.specimen_models import Models
 from instrument.models.theory import theory_over
 from instrument.progress import Progress, Report, quiet
 
-Array = NDArray[np.float64]
 Method = Literal["direct", "paper"]
 
 _MOST_WIDENINGS = 2

@@ -7,9 +7,9 @@ is what the fit still does not know of them, and the plate model's own error.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
+from fitting.arrays import Array, Complex
 from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.response import Response
 from fitting.errors import OutsideModel, TooFewPoints
@@ -20,9 +20,6 @@ from fitting.rational import RationalSweep, rational_sweep
 from fitting.sweep import Sweep
 from instrument.models.fitted_plate import moved_plate
 from instrument.models.identification import Identified, Joint
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)

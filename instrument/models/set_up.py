@@ -4,8 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.bare_modes import Sensor
 from fitting.diagnosis.evidence import BareModes
 from fitting.diagnosis.problem import DiagnosisProblem
@@ -25,7 +25,6 @@ from instrument.models.cache import cached
 from instrument.models.specimen_models import Models
 from instrument.progress import Progress, quiet
 
-Array = NDArray[np.float64]
 Hammer = tuple[Array, Array] | tuple[Array, Array, Sensor | None]
 """The bare plate's frequencies in Hz and ratios, and the sensor that sat on it."""
 

@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.damping import ViscousDamping, viscous_damping
 from fitting.direct import displacement_direct
 from fitting.domain import Domain, domain_of
@@ -19,9 +19,6 @@ from fitting.reduced import ReducedPlate, reduce_plate
 from fitting.specimen import Specimen
 from instrument.models.cache import cached
 from instrument.progress import Progress, quiet
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 CERTIFIED = 1e-4
 """Estimated relative error above which the reduced model is not believed."""

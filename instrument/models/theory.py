@@ -1,14 +1,12 @@
 """Whether the layer-wise theory holds for a law over a band: refused or remarked on where it does not."""
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 from fitting.specimen import Specimen
 from fitting.theory_error import TheoryError, check_theory
-
-Array = NDArray[np.float64]
 
 _PLACES = 10
 """Frequencies of a band that are looked at: the error is smooth in frequency."""

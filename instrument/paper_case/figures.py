@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.identification.result import LawBand
 from fitting.specimen import Specimen
 from instrument.files.specimen_file import read_specimen
@@ -16,8 +16,6 @@ from instrument.models.specimen_models import Models
 from instrument.paper_case import TABLE_4, case_file
 from instrument.paper_case.demo import PaperRun
 from instrument.progress import Progress, quiet
-
-Array = NDArray[np.float64]
 
 _DIRECT, _SECOND, _PRINTED, _MEASURED = "#0b63a5", "#c2571a", "#5b8c2a", "#222222"
 _TITLES = ("First resonance region", "Third resonance region", "Fifth resonance region")

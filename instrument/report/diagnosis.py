@@ -4,7 +4,7 @@ from typing import Any
 
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from instrument.report.blocks import Block, Section, Sentence, Table
-from instrument.report.numbers import plain, with_error
+from instrument.report.numbers import format_number, with_error
 from instrument.report.picture import picture
 from instrument.results.diagnosis_figures import evidence_figure, law_figure, residual_figure
 from instrument.results.diagnosis_words import (
@@ -62,13 +62,13 @@ def _before_after(facts: Facts) -> Table:
         ("predicted from the others, rms / %", "held_out_rms_percent"),
     )
     rows: list[tuple[str, ...]] = [
-        (name, plain(before[key], 3), plain(after[key], 3), "") for name, key in said
+        (name, format_number(before[key], 3), format_number(after[key], 3), "") for name, key in said
     ]
     rows += [
         (
             f"segment {b['segment']} from the others, rms / %",
-            *(plain(h["rms_percent"], 3) for h in (b, a)),
-            plain(b["noise_percent"], 3),
+            *(format_number(h["rms_percent"], 3) for h in (b, a)),
+            format_number(b["noise_percent"], 3),
         )
         for b, a in zip(before["held_out"], after["held_out"], strict=False)
     ]
@@ -80,7 +80,7 @@ def _candidates(facts: Facts) -> Table:
         (
             c["name"],
             probability_words(c, facts),
-            plain(c["chi2_per_dof"], 3),
+            format_number(c["chi2_per_dof"], 3),
             some_parameters(c["parameters"]) or "-",
         )
         for k, c in enumerate(facts["candidates"])

@@ -4,8 +4,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.errors import FittingError
 from instrument.errors import BadInput
 from instrument.interchange.identified import SessionFit, identify_session
@@ -14,10 +14,7 @@ from instrument.results.fit_file import found_law
 from instrument.results.fitted_response import FittedModel
 from instrument.results.identification_facts import identification_facts
 from instrument.session.contents import Contents
-from instrument.stream.jsonable import plain
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
+from instrument.stream.jsonable import to_jsonable
 
 
 @dataclass(frozen=True)
@@ -45,7 +42,7 @@ class Fitted:
         """The plate that was fitted, not the one that was stated."""
         if self.fit is None:
             return None
-        facts = plain(self.facts)
+        facts = to_jsonable(self.facts)
         if self.fit.bare is not None:
             facts["hammer"] = {"modal_ratios": list(self.fit.bare.ratios)}
         return FittedModel.of(self.fit.specimen, found_law(facts), self.fit.sweep.frequency_hz)

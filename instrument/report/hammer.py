@@ -9,7 +9,7 @@ from instrument.errors import BadInput
 from instrument.impact.damping import Damping, damping_of_hits
 from instrument.impact.facts import damping_facts
 from instrument.report.blocks import Block, Section, Sentence, Table
-from instrument.report.numbers import plain
+from instrument.report.numbers import format_number
 from instrument.report.picture import picture
 from instrument.results.drawing import DATA, MARK, label, panels
 from instrument.session.contents import Contents
@@ -42,7 +42,7 @@ def _hits(contents: Contents) -> Table:
     rows = tuple(
         (
             str(h.number),
-            plain(h.peak_n),
+            format_number(h.peak_n),
             f"{h.record.seconds:.3g}",
             "accepted" if h.accepted else "left out",
             h.why or ("" if h.accepted else "by the operator"),
@@ -57,7 +57,7 @@ def _modes(facts: dict[str, Any]) -> Table:
         (
             f"{m['frequency_hz']:.3f}",
             *(_percent(m[method]) for method in _METHODS),
-            plain(m["lines_in_bandwidth"], 2),
+            format_number(m["lines_in_bandwidth"], 2),
             m["why"] or "",
         )
         for m in facts["modes"]

@@ -8,7 +8,7 @@ from instrument.report.blocks import Block, Facts, Section, Sentence, Table
 from instrument.report.fitted import Fitted
 from instrument.report.law_figures import law_figure, residual_figures
 from instrument.report.measured import segments_of
-from instrument.report.numbers import plain, with_error
+from instrument.report.numbers import format_number, with_error
 from instrument.report.picture import picture
 from instrument.results.adjusted_words import COLUMNS, adjusted_rows
 from instrument.results.diagnosis_words import UNKNOWN
@@ -69,7 +69,11 @@ def unexplained_section(fitted: Fitted) -> Section:
         return Section(title, (Sentence("There is no fit to say it of.", "note"),))
     r = fitted.fit.identified.result
     v = r.validation
-    chi2 = plain(r.uncertainty.chi2_per_dof, 3) if r.chi2_means_something else "not known: the noise is not"
+    chi2 = (
+        format_number(r.uncertainty.chi2_per_dof, 3)
+        if r.chi2_means_something
+        else "not known: the noise is not"
+    )
     rows = [
         ("rms difference in amplitude", f"{r.rms_percent:.3g} %"),
         ("largest difference in amplitude", f"{r.max_percent:.3g} %"),
@@ -87,7 +91,8 @@ def unexplained_section(fitted: Fitted) -> Section:
     ]
     if v.held_out:
         table = tuple(
-            (str(h.segment), plain(h.rms_percent, 3), plain(h.noise_percent, 3)) for h in v.held_out
+            (str(h.segment), format_number(h.rms_percent, 3), format_number(h.noise_percent, 3))
+            for h in v.held_out
         )
         blocks.append(Table("Held out: each segment predicted from the others", _HELD_OUT, table))
     return Section(title, tuple(blocks))

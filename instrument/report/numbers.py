@@ -8,7 +8,7 @@ def with_error(value: float | None, error: float | None, scale: float = 1.0) -> 
     if value is None or not math.isfinite(value):
         return "-"
     if error is None or not math.isfinite(error) or error <= 0:
-        return plain(value * scale)
+        return format_number(value * scale)
     v, e = value * scale, error * scale
     digits = 1 - math.floor(math.log10(e))
     exponent = math.floor(math.log10(abs(v))) if v else 0
@@ -19,7 +19,7 @@ def with_error(value: float | None, error: float | None, scale: float = 1.0) -> 
     return f"{v:.{places}f} ± {e:.{places}f}"
 
 
-def plain(value: float | None, digits: int = 4) -> str:
+def format_number(value: float | None, digits: int = 4) -> str:
     """Some significant digits; a dash for nothing."""
     if value is None or not math.isfinite(value):
         return "-"

@@ -4,7 +4,7 @@ from instrument.files.rig_file import Response, Sensor
 from instrument.files.specimen_file import SpecimenDocument
 from instrument.models.tolerance_words import tolerance_rows
 from instrument.report.blocks import Block, Facts, Section, Sentence, Table
-from instrument.report.numbers import plain
+from instrument.report.numbers import format_number
 from instrument.session.contents import Contents
 
 _SENSITIVITY_UNITS = {
@@ -35,7 +35,7 @@ def _layers(s: SpecimenDocument) -> Table:
             young = getattr(layer, "young_gpa", None)
             loss = getattr(layer, "loss_factor", None)
             numbers = (layer.thickness_mm, young, layer.poisson, layer.density_kg_m3, loss)
-            rows.append((name, *(plain(v, 6) for v in numbers)))
+            rows.append((name, *(format_number(v, 6) for v in numbers)))
     columns = ("layer", "thickness / mm", "E / GPa", "Poisson's ratio", "density / (kg/m³)", "loss factor")
     return Table("Layers", columns, tuple(rows))
 

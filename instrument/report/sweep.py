@@ -5,7 +5,7 @@ import numpy as np
 from instrument.report.blocks import Block, Section, Sentence, Table
 from instrument.report.fitted import Fitted
 from instrument.report.measured import noise_of, segments_of
-from instrument.report.numbers import plain, signed
+from instrument.report.numbers import format_number, signed
 from instrument.report.picture import picture
 from instrument.report.sweep_figures import quality_figure, response_figures
 from instrument.session.contents import Contents
@@ -61,7 +61,7 @@ def _sentinels(contents: Contents) -> list[Block]:
     for s in contents.sentinels:
         timed = at.get(s.step)
         when = f"{(timed.time_s - contents.points[0].time_s) / 60:.1f}" if timed else "-"
-        temperature = plain(timed.point.temperature_c, 4) if timed else "-"
+        temperature = format_number(timed.point.temperature_c, 4) if timed else "-"
         change = (signed(s.change_percent, 3), signed(s.change_degree, 3))
         rows.append((str(s.step), f"{s.frequency_hz:g}", when, *change, temperature))
     columns = ("step", "f / Hz", "after / min", "amplitude / %", "phase / degree", "plate / °C")
@@ -82,11 +82,11 @@ def _points(contents: Contents) -> Table:
             str(p.step),
             "sentinel" if p.purpose == "sentinel" else f"{p.sweep}.{p.segment}",
             f"{p.frequency_hz:g}",
-            plain(p.level_m_s2),
+            format_number(p.level_m_s2),
             f"{abs(p.velocity_m_s):.5g}",
-            plain(100 * p.velocity_std_m_s / abs(p.velocity_m_s), 2),
+            format_number(100 * p.velocity_std_m_s / abs(p.velocity_m_s), 2),
             signed(p.control_error_percent),
-            plain(p.velocity_distortion_percent, 2),
+            format_number(p.velocity_distortion_percent, 2),
             f"{p.settle_s:.2f}",
             f"{p.dwell_s:.2f}",
             p.range_name,

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from instrument.report.fitted import Fitted
 from instrument.report.measured import Measured, noise_of
 from instrument.results.drawing import (
@@ -25,8 +25,6 @@ from instrument.results.drawing import (
 )
 from instrument.session.contents import Contents
 from instrument.stream.derived import PointMeasured
-
-Array = NDArray[np.float64]
 
 _MS = 1e3
 """(m/s)/(m/s²) is a second; a millisecond reads better."""

@@ -3,15 +3,12 @@
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fitting.diagnosis.result import Candidate, FoundEffect, Stage
 from fitting.noise import noise_of
 from fitting.sweep import Sweep
 from instrument.models.diagnosis import Diagnosed
 from instrument.results.identification_facts import adjusted_facts, held_out_facts, law_facts
-
-Array = NDArray[np.float64]
 
 
 def diagnosis_facts(found: Diagnosed, sweep: Sweep) -> dict[str, Any]:

@@ -8,14 +8,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.sweep import segments_by_gap
 from instrument.errors import BadInput
 from instrument.results.diagnosis_words import log_odds, probability_words, with_verdict
 from instrument.results.drawing import DATA, MARK, MODEL, SECOND, WIDTH_IN, label, legend_above
 
-Array = NDArray[np.float64]
 Facts = dict[str, Any]
 
 _MOST_BARS = 12

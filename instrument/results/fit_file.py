@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
 
+from fitting.arrays import Array
 from fitting.bent_law import BentLaw
 from fitting.errors import OutsideModel
 from fitting.identification.adjusted import is_relative, stated_number
@@ -21,7 +21,6 @@ from instrument.errors import BadInput
 from instrument.files.text import read_text
 from instrument.models.fitted_plate import FittedPlate
 
-Array = NDArray[np.float64]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 
 

@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.direct import displacement_direct
 from fitting.errors import OutsideModel
 from fitting.identification.model import velocity
@@ -16,9 +16,6 @@ from instrument.models.fitted_plate import FittedPlate
 from instrument.models.specimen_models import CERTIFIED, Models
 from instrument.progress import Progress, quiet
 from instrument.results.fit_file import FoundLaw
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _STEP = 1e-4
 """Relative step in G* by which the response's derivative is taken; it is analytic in G*."""

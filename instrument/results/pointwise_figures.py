@@ -6,16 +6,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.identification.result import LawBand
 from fitting.kramers_kronig import FIRST_ORDER, KramersKronig
 from fitting.pointwise import PointwiseLaw
 from instrument.errors import BadInput
 from instrument.models.pointwise import Pointwise
 from instrument.results.drawing import DATA, MARK, MODEL, label, legend_above, panels
-
-Array = NDArray[np.float64]
 
 _BAND_95 = 1.96
 _FAINT = 0.3

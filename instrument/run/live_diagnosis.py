@@ -15,7 +15,7 @@ from instrument.progress import Progress, quiet
 from instrument.results.diagnosis_facts import diagnosis_facts
 from instrument.session.points import sweep_of, uncalibrated
 from instrument.stream.derived import DampingFound, DiagnosisFound, PointMeasured
-from instrument.stream.jsonable import plain
+from instrument.stream.jsonable import to_jsonable
 
 Diagnoser = Callable[
     [int, int, list[PointMeasured], list[float], DampingFound | None, Specimen], DiagnosisFound
@@ -58,7 +58,7 @@ def _facts(
     sweep = sweep_of(points, times_s)
     facts = diagnosis_facts(diagnose(sweep, specimen, hammer, progress=progress), sweep)
     facts["warnings"] += uncalibrated(points)
-    return dict(plain({key: value for key, value in facts.items() if key not in _SECONDS}))
+    return dict(to_jsonable({key: value for key, value in facts.items() if key not in _SECONDS}))
 
 
 def apart(work: Callable[[], DiagnosisFound]) -> DiagnosisFound:

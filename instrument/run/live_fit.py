@@ -16,7 +16,7 @@ from instrument.results.identification_facts import bare_plate_facts, identifica
 from instrument.session.points import sweep_of, uncalibrated
 from instrument.stream.derived import DampingFound, FitUpdated, PointMeasured
 from instrument.stream.event import Event
-from instrument.stream.jsonable import plain
+from instrument.stream.jsonable import to_jsonable
 from instrument.stream.raw import FitStarted
 
 Fitter = Callable[[int, int, list[PointMeasured], DampingFound | None, Specimen], FitUpdated]
@@ -56,7 +56,7 @@ def _facts(
     facts = identification_facts(found, sweep)
     facts["warnings"] += uncalibrated(used)
     kept = {key: value for key, value in facts.items() if key not in _SECONDS}
-    return dict(plain({**kept, **hammer, **_temperature(used)}))
+    return dict(to_jsonable({**kept, **hammer, **_temperature(used)}))
 
 
 def _temperature(used: list[PointMeasured]) -> dict[str, object]:

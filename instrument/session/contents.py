@@ -4,7 +4,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fitting.specimen import Specimen
 from instrument.errors import BadInput
@@ -36,8 +35,6 @@ from instrument.stream.raw import (
     SessionBegan,
     SessionEnded,
 )
-
-Array = NDArray[np.float64]
 
 _LONGEST_RECORD_S = 400.0
 """No record of a hit is longer; older samples are let go of however long nobody strikes."""

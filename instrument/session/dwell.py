@@ -5,16 +5,14 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from instrument.errors import BadInput
 from instrument.files.rig_file import Channels
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import PointMeasured
 from instrument.stream.event import Event
 from instrument.stream.raw import AcquisitionBegan, BlockAcquired, RangeSet, StepBegan
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

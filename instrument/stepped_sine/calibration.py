@@ -8,12 +8,11 @@ With the laser on the base beside the accelerometer, reading over truth is
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.errors import TooFewPoints
 from instrument.stream.derived import CalibrationFound, PointMeasured
 
-Array = NDArray[np.float64]
 _LEAST_POINTS = 3
 
 

@@ -1,9 +1,8 @@
 """Samples of one step, in a row from the moment its last command took effect."""
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from fitting.arrays import Array
 
 
 class Samples:

@@ -12,14 +12,14 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from instrument.stepped_sine.calibration import Calibration
-from instrument.stepped_sine.course import begins_at
 from instrument.stepped_sine.guard import Guard
 from instrument.stepped_sine.samples import Samples
 from instrument.stepped_sine.settings import SweepSettings
 from instrument.stepped_sine.settling import Settling
+from instrument.stepped_sine.settling_trace import begins_at
 from instrument.stepped_sine.sine_fit import SineFit, sine_fit
 from instrument.stream.derived import (
     DriveRequested,
@@ -32,8 +32,6 @@ from instrument.stream.derived import (
 )
 from instrument.stream.event import Derived
 from instrument.stream.raw import RangeSet, ShakerCommanded, StepBegan
-
-Array = NDArray[np.float64]
 
 _TRIM = 0.5
 """Share of the control tolerance at which the drive is corrected: drift has room until the point is read."""

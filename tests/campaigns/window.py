@@ -154,13 +154,13 @@ def _connect(rig: Path, facts: dict[str, str]) -> None:
 
 def stalls_of_a_run(window: Window, experiment: Path, out: Path) -> Lateness:
     """Of the main thread from the run's first sample to its last point, every page shown in turn."""
-    window.desk.start(Order(experiment, out, ("sweep",)))
-    assert turn(PATIENCE_S, lambda: window.desk.live is not None)
-    live = window.desk.live
+    window.controller.start(Order(experiment, out, ("sweep",)))
+    assert turn(PATIENCE_S, lambda: window.controller.live is not None)
+    live = window.controller.live
     assert live is not None
-    assert live.picture is not None
-    picture = live.picture
-    assert turn(PATIENCE_S, lambda: picture.time_s > 0 or live.ending is not None), "no sample came"
+    assert live.state is not None
+    state = live.state
+    assert turn(PATIENCE_S, lambda: state.time_s > 0 or live.ending is not None), "no sample came"
     page_at = [time.monotonic()]
 
     def over() -> bool:
@@ -216,9 +216,9 @@ def repaint(window: Window, count: int) -> float:
             QCoreApplication.processEvents()
         page = window.pages[window.tabs.currentIndex()]
         plots = [plot for plot in page.findChildren(Plot) if plot.isVisible()]
-        if number % 10 == 0 and window.desk.picture is not None:
+        if number % 10 == 0 and window.controller.state is not None:
             # As if all of it were new.
-            window.desk.picture.changed.update(tuple(window.desk.picture.changed))
+            window.controller.state.changed.update(tuple(window.controller.state.changed))
             window.turn()
         page.repaint()
         for plot in plots:
@@ -235,7 +235,7 @@ def open_and_close(make: Callable[[], Window], session: Path, count: int) -> flo
         window.show()
         window.show_page(number % len(window.pages))
         window.open(session)
-        assert turn(PATIENCE_S, lambda: window.desk.recorded is not None)
+        assert turn(PATIENCE_S, lambda: window.controller.recorded is not None)
         window.turn()
         window.close()
         window.deleteLater()
@@ -246,7 +246,7 @@ def open_and_close(make: Callable[[], Window], session: Path, count: int) -> flo
 
 def replay(window: Window, seconds: float) -> float:
     """So many recorded seconds as fast as it goes, again and again from the beginning; MB grown."""
-    feed = window.desk.recorded
+    feed = window.controller.recorded
     assert feed is not None
 
     def one(number: int) -> None:
@@ -292,7 +292,7 @@ def _endure(make: Callable[[], Window], given: argparse.Namespace) -> None:
     window.resize(1366, 768)
     window.show()
     window.open(given.session)
-    assert turn(PATIENCE_S, lambda: window.desk.recorded is not None)
+    assert turn(PATIENCE_S, lambda: window.controller.recorded is not None)
     print(f"{given.repaints} repaints: {repaint(window, given.repaints):+.1f} MB", flush=True)
     print(f"{given.hours:g} h of replay: {replay(window, 3600 * given.hours):+.1f} MB", flush=True)
     window.close()

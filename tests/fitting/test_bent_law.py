@@ -17,7 +17,7 @@ LAWS = [TABLE_4, ConstantModulus(0.5e6, 0.7), GeneralisedMaxwell(0.2e6, (0.3e6, 
 def bent(law, seed):
     straight = BentLaw.over(law, BAND_HZ)
     own = law.values
-    whitened = np.random.default_rng(seed).normal(size=straight.bends)
+    whitened = np.random.default_rng(seed).normal(size=straight.bend_count)
     return straight.with_values(np.concatenate([own, np.exp(whitened)]))
 
 
@@ -26,14 +26,14 @@ def test_unbent_it_is_the_law_itself():
     own = len(TABLE_4.names)
     np.testing.assert_allclose(STRAIGHT.jacobian(OMEGA)[:own], TABLE_4.jacobian(OMEGA), rtol=1e-13)
     assert (STRAIGHT.plain, STRAIGHT.kind) == (TABLE_4, TABLE_4.kind)
-    assert (TABLE_4.plain, TABLE_4.bends) == (TABLE_4, 0)
+    assert (TABLE_4.plain, TABLE_4.bend_count) == (TABLE_4, 0)
     np.testing.assert_array_equal(STRAIGHT.search_widths, TABLE_4.search_widths)
 
 
 def test_its_parameters_are_the_laws_then_the_bends():
     own = len(TABLE_4.names)
     assert STRAIGHT.names[:own] == TABLE_4.names
-    assert len(STRAIGHT.names) == len(STRAIGHT.values) == len(STRAIGHT.limits) == own + STRAIGHT.bends
+    assert len(STRAIGHT.names) == len(STRAIGHT.values) == len(STRAIGHT.limits) == own + STRAIGHT.bend_count
     other = bent(TABLE_4, 1)
     np.testing.assert_allclose(other.with_logs(np.log(other.values)).values, other.values, rtol=1e-12)
     assert other.plain == TABLE_4

@@ -50,15 +50,15 @@ def window(qtbot, appearance, settings):
 
 def end_run(window):
     """Of a test that failed in the middle of one: nobody is there to be asked."""
-    if window.desk.live is not None:
-        window.desk.live.engine.close()
-        while window.desk.running:
-            window.desk.live.advance()
+    if window.controller.live is not None:
+        window.controller.live.engine.close()
+        while window.controller.running:
+            window.controller.live.advance()
 
 
 @pytest.fixture
 def opened(qtbot, window, session_path):
     """The window with the session in it, at its end."""
     window.open(session_path)
-    qtbot.waitUntil(lambda: window.desk.recorded is not None, timeout=10_000)
+    qtbot.waitUntil(lambda: window.controller.recorded is not None, timeout=10_000)
     return window

@@ -23,28 +23,30 @@ def rig(tmp_path):
 
 
 def start(window, experiment, out, parts=("sweep",)):
-    """As `Desk.start`, with an engine that fits nothing."""
+    """As `AppController.start`, with an engine that fits nothing."""
     order = Order(experiment, out, parts)
     configuration = read_whole_experiment(experiment).configuration("run", "")
-    window.desk._show(LiveFeed(order, configuration, window.desk, Engine.start(order, QUICK_ENGINE)))
-    return window.desk.live
+    window.controller._show(
+        LiveFeed(order, configuration, window.controller, Engine.start(order, QUICK_ENGINE))
+    )
+    return window.controller.live
 
 
 def over(window):
     """Answers whatever is asked; whether the run is over."""
-    if window.desk.live.question is not None:
-        window.desk.live.answer()
-    return not window.desk.running
+    if window.controller.live.question is not None:
+        window.controller.live.answer()
+    return not window.controller.running
 
 
 def test_a_run_is_shown_to_its_end(qtbot, window, rig, tmp_path):
     live = start(window, rig, tmp_path / "out")
-    assert window.desk.running
+    assert window.controller.running
     qtbot.waitUntil(lambda: over(window), timeout=60_000)
     window.turn()
     assert live.ending.why == "done", live.ending
-    assert len(live.picture.contents.points) == 5
-    assert live.picture.run.state == "done"
+    assert len(live.state.contents.points) == 5
+    assert live.state.run.state == "done"
     assert live.ending.session.is_file()
     assert not window.bar.stop.isEnabled()
 
@@ -52,7 +54,7 @@ def test_a_run_is_shown_to_its_end(qtbot, window, rig, tmp_path):
 def test_a_bad_experiment_is_refused_in_one_line(qtbot, window, tmp_path):
     bad = tmp_path / "bad.toml"
     bad.write_text("nonsense = 1")
-    window.desk.start(Order(bad, tmp_path))
-    qtbot.waitUntil(lambda: not window.desk.starting)
+    window.controller.start(Order(bad, tmp_path))
+    qtbot.waitUntil(lambda: not window.controller.starting)
     assert "bad.toml" in window.notice.text
-    assert window.desk.feed is None
+    assert window.controller.feed is None

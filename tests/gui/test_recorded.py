@@ -3,53 +3,53 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pictures import shown
 from PySide6.QtCore import Qt
-from session_cases import Tape, configuration
+from session_cases import SyntheticSession, configuration
 
 from gui.feeds.reader import Failed, Jumped, Loaded, Read, Reader
 from gui.feeds.recorded import RecordedFeed
-from gui.feeds.tape import Tape as Recording
-from gui.picture import Picture
+from gui.feeds.session_index import SessionIndex
+from gui.state import SessionState
 from instrument.session.storage import SessionFile
 
 
 @pytest.fixture(scope="module")
 def recording(session_path):
     with SessionFile(session_path) as file:
-        yield file, Recording.of(file, lambda: None)
+        yield file, SessionIndex.of(file, lambda: None)
 
 
 def played(recording, count):
-    file, tape = recording
-    picture = Picture(tape.configuration, tape.path)
-    for number, event in tape.events(file, 0):
+    file, index = recording
+    state = SessionState(index.configuration, index.path)
+    for number, event in index.events(file, 0):
         if number >= count:
             break
-        picture.take(event)
-    return picture
+        state.take(event)
+    return state
 
 
 @given(st.floats(0, 1))
 def test_a_jump_gives_what_playing_to_that_place_gives(recording, share):
-    file, tape = recording
-    count = tape.count_at(share * tape.length_s)
-    assert shown(tape.picture(file, count, lambda: None)) == shown(played(recording, count))
+    file, index = recording
+    count = index.count_at(share * index.length_s)
+    assert shown(index.state(file, count, lambda: None)) == shown(played(recording, count))
 
 
 def test_playing_shows_everything_to_the_end(qtbot, opened):
-    feed = opened.desk.recorded
-    at_end = shown(feed.picture)
+    feed = opened.controller.recorded
+    at_end = shown(feed.state)
     feed.play(None)
     with qtbot.waitSignal(feed.ended, timeout=10_000):
         pass
-    assert shown(feed.picture) == at_end
+    assert shown(feed.state) == at_end
     assert not feed.playing
     assert feed.position_s == feed.length_s
 
 
 def test_speed_is_kept(qtbot, opened):
-    feed = opened.desk.recorded
+    feed = opened.controller.recorded
     feed.jump(0.0)
-    qtbot.waitUntil(lambda: feed.picture is not None and feed.picture.run.state != "done")
+    qtbot.waitUntil(lambda: feed.state is not None and feed.state.run.state != "done")
     feed.play(20.0)
     with qtbot.waitSignal(feed.ended, timeout=20_000), qtbot.assertNotEmitted(feed.renewed):
         qtbot.waitUntil(lambda: feed.position_s > 10.0)
@@ -57,42 +57,42 @@ def test_speed_is_kept(qtbot, opened):
         qtbot.wait(200)
         assert feed.position_s - begun == pytest.approx(4.0, rel=0.5)
         feed.speed = None
-    assert feed.picture.run.state == "done"
+    assert feed.state.run.state == "done"
 
 
 def test_the_slider_and_the_keys_jump(qtbot, opened):
-    feed, bar = opened.desk.recorded, opened.replay
-    whole = len(feed.picture.contents.points)
+    feed, bar = opened.controller.recorded, opened.replay
+    whole = len(feed.state.contents.points)
     bar.slider.setValue(bar.slider.maximum() // 2)
-    qtbot.waitUntil(lambda: 0 < len(feed.picture.contents.points) < whole)
-    marks = [m.time_s for m in feed.tape.marks]
+    qtbot.waitUntil(lambda: 0 < len(feed.state.contents.points) < whole)
+    marks = [m.time_s for m in feed.index.marks]
     qtbot.keyClick(opened, Qt.Key.Key_Left, Qt.KeyboardModifier.ControlModifier)
-    qtbot.waitUntil(lambda: feed.picture.time_s <= feed.position_s and feed.position_s in marks)
+    qtbot.waitUntil(lambda: feed.state.time_s <= feed.position_s and feed.position_s in marks)
 
 
 def test_a_pause_between_two_runs_is_not_waited_for(tmp_path):
-    tape = Tape(configuration())
-    tape.begin("2026-04-01T08:00:00+00:00")
-    tape.sweep((1,), steps=2)
-    tape.begin("2026-04-03T08:00:00+00:00")
-    tape.sweep((1,), steps=2)
-    tape.end()
-    with SessionFile(tape.save(tmp_path)) as file:
-        recording = Recording.of(file, lambda: None)
+    index = SyntheticSession(configuration())
+    index.begin("2026-04-01T08:00:00+00:00")
+    index.sweep((1,), steps=2)
+    index.begin("2026-04-03T08:00:00+00:00")
+    index.sweep((1,), steps=2)
+    index.end()
+    with SessionFile(index.save(tmp_path)) as file:
+        recording = SessionIndex.of(file, lambda: None)
     assert recording.length_s < 60
 
 
 def test_the_last_of_many_jumps_counts(session_path):
     reader = Reader(session_path)
     try:
-        tape = next_item(reader, Loaded).tape
+        index = next_item(reader, Loaded).index
         for k in range(50):
-            reader.jump(tape.length_s * (k % 7) / 7)
-        reader.jump(tape.length_s / 2)
+            reader.jump(index.length_s * (k % 7) / 7)
+        reader.jump(index.length_s / 2)
         jumped = [next_item(reader, Jumped)]
-        assert jumped[-1].time_s == tape.length_s / 2
-        first = next_item(reader, Read, until_s=tape.length_s)
-        assert first.time_s > tape.length_s / 2
+        assert jumped[-1].time_s == index.length_s / 2
+        first = next_item(reader, Read, until_s=index.length_s)
+        assert first.time_s > index.length_s / 2
     finally:
         reader.close()
 
@@ -107,7 +107,7 @@ def test_a_file_that_is_none_is_said_once(tmp_path):
 
 
 def test_comparison_says_equal(qtbot, opened):
-    feed = opened.desk.recorded
+    feed = opened.controller.recorded
     with qtbot.waitSignal(feed.compared, timeout=60_000):
         opened.replay.compare.click()
         assert feed.comparing
@@ -118,8 +118,8 @@ def test_comparison_says_equal(qtbot, opened):
 def test_comparison_can_be_cancelled(qtbot, opened):
     opened.replay.compare.click()
     opened.replay.compare.click()
-    qtbot.waitUntil(lambda: not opened.desk.recorded.comparing)
-    assert opened.desk.recorded.comparison is None
+    qtbot.waitUntil(lambda: not opened.controller.recorded.comparing)
+    assert opened.controller.recorded.comparison is None
 
 
 def test_a_feed_can_be_closed_at_once(qtbot, session_path):

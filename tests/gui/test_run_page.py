@@ -22,7 +22,7 @@ SWEEP = "[[sweep.segments]]\nlow_hz = 95.0\nhigh_hz = 107.0\npoints = 5\n"
 
 @pytest.fixture
 def page(window):
-    window.desk.engine = QUICK_ENGINE
+    window.controller.engine = QUICK_ENGINE
     window.show_page(0)
     return window.pages[0]
 
@@ -47,19 +47,19 @@ def typed(qtbot, editor, text):
 
 def started(qtbot, window, page):
     qtbot.mouseClick(page.starting.start, LEFT)
-    qtbot.waitUntil(lambda: window.desk.running, timeout=PATIENCE_MS)
-    return window.desk.live
+    qtbot.waitUntil(lambda: window.controller.running, timeout=PATIENCE_MS)
+    return window.controller.live
 
 
 def wait_for_points(qtbot, window, count=1):
-    qtbot.waitUntil(lambda: len(window.desk.picture.contents.points) >= count, timeout=PATIENCE_MS)
+    qtbot.waitUntil(lambda: len(window.controller.state.contents.points) >= count, timeout=PATIENCE_MS)
 
 
 def wait_for_end(qtbot, window):
     """Of the run, until its recording is shown."""
-    qtbot.waitUntil(lambda: not window.desk.running, timeout=PATIENCE_MS)
-    qtbot.waitUntil(lambda: window.desk.recorded is not None, timeout=PATIENCE_MS)
-    return window.desk.ending
+    qtbot.waitUntil(lambda: not window.controller.running, timeout=PATIENCE_MS)
+    qtbot.waitUntil(lambda: window.controller.recorded is not None, timeout=PATIENCE_MS)
+    return window.controller.ending
 
 
 def test_from_the_form_to_the_recording(qtbot, window, page, tmp_path):
@@ -70,8 +70,8 @@ def test_from_the_form_to_the_recording(qtbot, window, page, tmp_path):
         started(qtbot, window, page)
         assert not page.files.tabs.isEnabled()
         ending = wait_for_end(qtbot, window)
-    assert (ending.why, ending.session) == ("done", window.desk.recorded.path)
-    assert len(window.desk.picture.contents.points) == 4
+    assert (ending.why, ending.session) == ("done", window.controller.recorded.path)
+    assert len(window.controller.state.contents.points) == 4
     assert "points = 4" in experiment.read_text()
     assert page.report_button.isEnabled()
     assert page.files.tabs.isEnabled()
@@ -90,10 +90,10 @@ def test_hold_resume_and_abort(qtbot, window, page, rig, tmp_path, by):
     started(qtbot, window, page)
     wait_for_points(qtbot, window)
     do(window.bar.hold, Qt.Key.Key_F9)
-    qtbot.waitUntil(lambda: window.desk.picture.run.state == "held", timeout=PATIENCE_MS)
+    qtbot.waitUntil(lambda: window.controller.state.run.state == "held", timeout=PATIENCE_MS)
     qtbot.waitUntil(lambda: window.bar.hold.text() == "Resume")
     qtbot.waitUntil(lambda: is_silent(rig), timeout=PATIENCE_MS)
-    done = len(window.desk.picture.contents.points)
+    done = len(window.controller.state.contents.points)
     do(window.bar.hold, Qt.Key.Key_F9)
     wait_for_points(qtbot, window, done + 1)
     do(window.bar.abort, Qt.Key.Key_F9, Qt.KeyboardModifier.ControlModifier)
@@ -107,16 +107,16 @@ def test_a_run_that_was_broken_off_is_carried_on(qtbot, window, page, tmp_path):
         opened(qtbot, window, page, experiment)
         started(qtbot, window, page)
         wait_for_points(qtbot, window)
-        window.desk.abort()
+        window.controller.abort()
         folder = wait_for_end(qtbot, window).folder
         qtbot.waitUntil(lambda: page.starting.resume.count() == 2, timeout=PATIENCE_MS)
         page.starting.resume.setCurrentIndex(1)
         assert folder.name in page.now.path.text()
-        kept = len(window.desk.picture.contents.points)
+        kept = len(window.controller.state.contents.points)
         started(qtbot, window, page)
         ending = wait_for_end(qtbot, window)
     assert ending.why == "done"
-    assert len(window.desk.picture.contents.points) == 60 > kept
+    assert len(window.controller.state.contents.points) == 60 > kept
     qtbot.waitUntil(lambda: page.starting.resume.count() == 1, timeout=PATIENCE_MS)
 
 
@@ -127,7 +127,7 @@ def test_a_hit_is_rejected_and_taken_back_while_the_run_waits(qtbot, window, pag
         live = started(qtbot, window, page)
 
         def accepted(hit):
-            return {h.number: h.accepted for h in live.picture.contents.hits}[hit]
+            return {h.number: h.accepted for h in live.state.contents.hits}[hit]
 
         qtbot.waitUntil(lambda: live.question is not None, timeout=PATIENCE_MS)
         qtbot.waitUntil(lambda: page.banner.isVisible())
@@ -160,11 +160,11 @@ def test_stop_silences_a_shaker_whose_acquisition_hangs(qtbot, window, page, tmp
         qtbot.waitUntil(lambda: live.stop_path is not None and live.stop_path.ready, timeout=PATIENCE_MS)
         qtbot.waitUntil(lambda: drive_v(rig) > 0.05, timeout=PATIENCE_MS)
         httpx.put(f"{rig.front_end.url}/simulated/hang", trust_env=False).raise_for_status()
-        at = [window.desk.picture.time_s, time.monotonic()]
+        at = [window.controller.state.time_s, time.monotonic()]
 
         def quiet():
-            if window.desk.picture.time_s != at[0]:
-                at[:] = [window.desk.picture.time_s, time.monotonic()]
+            if window.controller.state.time_s != at[0]:
+                at[:] = [window.controller.state.time_s, time.monotonic()]
             return time.monotonic() - at[1] > 0.3
 
         qtbot.waitUntil(quiet, timeout=PATIENCE_MS)
@@ -222,7 +222,7 @@ def test_a_bad_experiment_file_gives_one_message_and_leaves_what_was_there(qtbot
     with engine_rig(tmp_path, sweep=SWEEP) as (_, experiment):
         opened(qtbot, window, page, experiment)
     said = []
-    window.desk.refused.connect(said.append)
+    window.controller.refused.connect(said.append)
     bad = tmp_path / "bad.toml"
     bad.write_bytes(b"\xff\xfe[[")
     window.open(bad)
@@ -243,7 +243,7 @@ def test_a_simulated_experiment_is_made_and_its_secret_not_shown(qtbot, window, 
     with pytest.raises(KeyError):
         page.files.forms["rig"].editor("simulation", "effects")
     said = []
-    window.desk.refused.connect(said.append)
+    window.controller.refused.connect(said.append)
     page.files.make(*dialog.order())
     qtbot.waitUntil(lambda: bool(said))
     assert "is there already" in said[0]
@@ -256,7 +256,7 @@ def test_the_time_left_follows_the_forecast(qtbot, window, page, rig, tmp_path):
     started(qtbot, window, page)
     wait_for_points(qtbot, window, 5)
     qtbot.waitUntil(lambda: "left" in window.bar.left.text())
-    window.desk.abort()
+    window.controller.abort()
     wait_for_end(qtbot, window)
 
 

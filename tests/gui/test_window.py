@@ -1,7 +1,7 @@
 import pytest
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent, QPalette
-from session_cases import Tape, configuration
+from session_cases import SyntheticSession, configuration
 
 from gui.window import TURN_MS, Window
 
@@ -31,7 +31,7 @@ def test_a_window_that_is_late_looks_less_often_in_a_run_only(window, monkeypatc
     window._tick()
     assert timer.interval() == TURN_MS
     with monkeypatch.context() as patched:
-        patched.setattr(type(window.desk), "running", property(lambda desk: True))
+        patched.setattr(type(window.controller), "running", property(lambda controller: True))
         window._tick()
     assert timer.interval() > 5 * TURN_MS
 
@@ -82,8 +82,8 @@ def test_nonsense_in_the_settings_counts_as_nothing(settings):
 
 def test_a_dropped_session_opens_at_its_end(qtbot, window, session_path):
     drop(window, session_path)
-    qtbot.waitUntil(lambda: window.desk.recorded is not None, timeout=10_000)
-    assert window.desk.picture.run.state == "done"
+    qtbot.waitUntil(lambda: window.controller.recorded is not None, timeout=10_000)
+    assert window.controller.state.run.state == "done"
     assert window.replay.isVisible()
     assert window.settings.recent == [session_path]
     assert "bare plate" in window.log.text
@@ -95,8 +95,8 @@ def test_a_dropped_session_opens_at_its_end(qtbot, window, session_path):
 )
 def test_a_bad_file_gives_one_message_and_leaves_the_session(qtbot, opened, tmp_path, name, content):
     said = []
-    opened.desk.refused.connect(said.append)
-    before = opened.desk.feed
+    opened.controller.refused.connect(said.append)
+    before = opened.controller.feed
     bad = tmp_path / name
     bad.write_bytes(content)
     drop(opened, bad)
@@ -104,8 +104,8 @@ def test_a_bad_file_gives_one_message_and_leaves_the_session(qtbot, opened, tmp_
     opened.turn()
     assert len(said) == 1
     assert name in opened.notice.text
-    assert opened.desk.feed is before
-    assert opened.desk.picture is not None
+    assert opened.controller.feed is before
+    assert opened.controller.state is not None
 
 
 def test_a_session_cut_short_is_refused(qtbot, window, session_path, tmp_path):
@@ -113,7 +113,7 @@ def test_a_session_cut_short_is_refused(qtbot, window, session_path, tmp_path):
     bad.write_bytes(session_path.read_bytes()[:200_000])
     window.open(bad)
     qtbot.waitUntil(lambda: "cut.h5" in window.notice.text, timeout=5000)
-    assert window.desk.feed is None
+    assert window.controller.feed is None
 
 
 def test_other_programs_data_is_laid_beside_the_session(qtbot, opened, tmp_path):
@@ -122,8 +122,8 @@ def test_other_programs_data_is_laid_beside_the_session(qtbot, opened, tmp_path)
     sweep.write_text("frequency_hz,velocity_re_m_s,velocity_im_m_s\n" + rows)
     drop(opened, sweep)
     qtbot.waitUntil(lambda: "1 sweep" in opened.notice.text, timeout=5000)
-    assert list(opened.desk.beside) == [sweep]
-    assert opened.desk.recorded is not None
+    assert list(opened.controller.beside) == [sweep]
+    assert opened.controller.recorded is not None
 
 
 def test_closes_while_a_session_is_read(qtbot, appearance, settings, session_path):
@@ -132,7 +132,7 @@ def test_closes_while_a_session_is_read(qtbot, appearance, settings, session_pat
         qtbot.addWidget(window)
         window.open(session_path)
         window.close()
-        assert window.desk.feed is None
+        assert window.controller.feed is None
 
 
 def test_escape_takes_the_message_away(qtbot, window, tmp_path):
@@ -143,11 +143,11 @@ def test_escape_takes_the_message_away(qtbot, window, tmp_path):
 
 
 def test_a_session_that_was_broken_off_says_why(qtbot, window, tmp_path):
-    tape = Tape(configuration())
-    tape.begin()
-    tape.sweep((1,), steps=4)
-    tape.end("stopped safely", "interlock open")
-    window.open(tape.save(tmp_path))
-    qtbot.waitUntil(lambda: window.desk.recorded is not None, timeout=10_000)
+    index = SyntheticSession(configuration())
+    index.begin()
+    index.sweep((1,), steps=4)
+    index.end("stopped safely", "interlock open")
+    window.open(index.save(tmp_path))
+    qtbot.waitUntil(lambda: window.controller.recorded is not None, timeout=10_000)
     assert "stopped" in window.bar.state.text()
     assert "interlock open" in window.bar.next.text()

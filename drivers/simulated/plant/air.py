@@ -5,9 +5,8 @@ sum over the panel's corners. The pressure jump is density times the rate of the
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from drivers.arrays import Array
 
 
 def centres(length_m: float, width_m: float, shape: tuple[int, int]) -> tuple[Array, Array]:

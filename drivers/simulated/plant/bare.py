@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from drivers.arrays import Array
 from drivers.simulated.plant import grid, specimen
 from drivers.simulated.plant.diagonal import Diagonal, diagonalised
 from drivers.simulated.plant.effects import Effects
@@ -13,8 +13,6 @@ from drivers.simulated.plant.motion import Motion, Tone
 from drivers.simulated.plant.one_thread import one_thread
 from drivers.simulated.plant.sandwich import clamp
 from drivers.simulated.plant.structure import Structure, first_order, modal_damping
-
-Array = NDArray[np.float64]
 
 OUTPUTS = ("force", "acceleration")
 """N on the plate along +w; m/s^2 of the plate under the sensor."""

@@ -4,10 +4,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.optimize import nnls
 
-Complex = NDArray[np.complex128]
+from drivers.arrays import Complex
 
 
 @dataclass(frozen=True)

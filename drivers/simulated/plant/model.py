@@ -5,9 +5,9 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from drivers.arrays import Array
+
 FILE = Path(__file__).with_name("plate.npz")
 
 

@@ -8,13 +8,10 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from drivers.arrays import Array, Complex
 from drivers.simulated.drive import DrivePiece
 from drivers.simulated.plant.diagonal import Diagonal
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 NEGLIGIBLE = 1e-15
 """Of the response's scale; a decaying term below it is left out."""

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from drivers.arrays import Array
 from drivers.simulated.plant import grid, specimen
 from drivers.simulated.plant.effects import ClampCompliance, Effects
 from drivers.simulated.plant.law import ZN1, MaxwellLaw, even_loss
@@ -12,8 +12,6 @@ from drivers.simulated.plant.model import ReducedModel, shipped
 from drivers.simulated.plant.one_thread import one_thread
 from drivers.simulated.plant.strips import debonded
 from drivers.simulated.plant.structure import Branch, Structure, modal_damping
-
-Array = NDArray[np.float64]
 
 CORE_VOLUME_M3 = specimen.LENGTH_M * specimen.WIDTH_M * specimen.CORE.thickness_m
 STIFF_CLAMP = ClampCompliance(1e14, 1e14)

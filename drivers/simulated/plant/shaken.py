@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from drivers.arrays import Array
 from drivers.simulated.drive import DrivePiece
 from drivers.simulated.plant.diagonal import Diagonal, diagonalised
 from drivers.simulated.plant.effects import Effects, FixtureResonance
@@ -19,8 +20,6 @@ from drivers.simulated.plant.sandwich import Sandwich, sandwich
 from drivers.simulated.plant.shaker import Shaker
 from drivers.simulated.plant.slow_change import SlowChange
 from drivers.simulated.plant.structure import Structure, condensed, first_order
-
-Array = NDArray[np.float64]
 
 OUTPUTS = ("base_acceleration", "base_velocity", "base_displacement", "spot_velocity", "tip_displacement")
 """m/s^2, m/s, m; absolute velocity of the plate at the spot, m/s; tip relative to the base, m."""

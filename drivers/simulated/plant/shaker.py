@@ -6,9 +6,8 @@ Base displacement is a sum of second-order sections, gain_k / (s^2 + 2 zeta_k w_
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from drivers.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -3,14 +3,11 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import cholesky, eigh, solve_triangular
 
+from drivers.arrays import Array, Complex
 from drivers.simulated.plant.law import MaxwellLaw
 from drivers.simulated.plant.one_thread import one_thread
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)

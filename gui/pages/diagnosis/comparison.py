@@ -9,7 +9,7 @@ from gui.pages.law.plots import LawLine, LawPlots
 from gui.rediagnosis import Facts
 from gui.tables import Cell, Table
 from gui.theme import Role
-from instrument.report.numbers import plain, with_error
+from instrument.report.numbers import format_number, with_error
 from instrument.results.diagnosis_words import UNKNOWN, with_verdict
 
 _ERRORS = {
@@ -98,7 +98,9 @@ def _error_cells(row: Compared, scale: float) -> list[Cell]:
         Cell(row.what, bold=row.held_out, left=True),
         Cell(row.unit, left=True, faint=True),
         *(
-            Cell(plain(v, 3), fill=role if barred and v is not None else None, share=(v or 0.0) / scale)
+            Cell(
+                format_number(v, 3), fill=role if barred and v is not None else None, share=(v or 0.0) / scale
+            )
             for v, role in values
         ),
     ]

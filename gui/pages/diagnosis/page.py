@@ -17,14 +17,14 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from gui.desk import Desk
+from gui.controller import AppController
 from gui.page import Page
 from gui.pages.diagnosis.candidates import Candidates
 from gui.pages.diagnosis.comparison import HeldOut, LawChange
 from gui.pages.diagnosis.finding import Finding
 from gui.pages.diagnosis.residual_plots import ResidualPlots
-from gui.picture import Picture
 from gui.rediagnosis import Asked, Facts, Shown
+from gui.state import SessionState
 from gui.widgets import button, hint
 
 _PERCENT = 100
@@ -44,8 +44,8 @@ class DiagnosisPage(Page):
     title = "Diagnosis"
     hint = "What the model lacks: residual, candidates, before and after"
 
-    def __init__(self, desk: Desk) -> None:
-        super().__init__(desk)
+    def __init__(self, controller: AppController) -> None:
+        super().__init__(controller)
         self.finding, self.candidates = Finding(), Candidates()
         self.residual, self.held_out, self.law = ResidualPlots(), HeldOut(), LawChange()
         self.story = QTextBrowser()
@@ -60,7 +60,7 @@ class DiagnosisPage(Page):
         self._arrange()
         self._connect()
 
-    def refresh(self, picture: Picture) -> None:
+    def refresh(self, state: SessionState) -> None:
         """Draw what has changed."""
         if self.news("diagnosis", "run"):
             self._show()
@@ -79,8 +79,8 @@ class DiagnosisPage(Page):
     def _show(self) -> None:
         if not self.isVisible():
             return
-        rediagnosis = self.desk.rediagnosis
-        shown = rediagnosis.shown(self.desk.picture)
+        rediagnosis = self.controller.rediagnosis
+        shown = rediagnosis.shown(self.controller.state)
         self._show_controls(shown)
         before, self._shown = self._shown, shown
         if shown is None:
@@ -89,7 +89,7 @@ class DiagnosisPage(Page):
             self.empty.setText(text)
         elif before is None or shown.facts is not before.facts:
             self.finding.show_diagnosis(shown)
-            self.candidates.show_candidates(rediagnosis.ranking(self.desk.picture) or shown.facts)
+            self.candidates.show_candidates(rediagnosis.ranking(self.controller.state) or shown.facts)
             self.story.setPlainText("\n".join(_story(shown)))
             self._show_view()
 
@@ -104,14 +104,14 @@ class DiagnosisPage(Page):
                 view.show_diagnosis(self._shown.facts)
 
     def _show_controls(self, shown: Shown | None) -> None:
-        running, session = self.desk.rediagnosis.running, self._session
+        running, session = self.controller.rediagnosis.running, self._session
         self.body.setVisible(shown is not None)
         self.empty.setVisible(shown is None)
         self.filler.setVisible(shown is None)
         self.diagnose.setVisible(shown is None and session is not None and not running)
         self.others.setVisible(bool(self._foreign) and not running)
-        self.back.setVisible(self.desk.rediagnosis.found is not None and not running)
-        own = self.desk.picture is not None and self.desk.picture.contents.diagnosis is not None
+        self.back.setVisible(self.controller.rediagnosis.found is not None and not running)
+        own = self.controller.state is not None and self.controller.state.contents.diagnosis is not None
         self.back.setText("Back to the recorded one" if own else "Let go of this diagnosis")
         for one in (self.bar, self.cancel, self.doing):
             one.setVisible(running)
@@ -120,14 +120,14 @@ class DiagnosisPage(Page):
 
     def _why_nothing(self) -> tuple[str, str]:
         """In large, and what there will be."""
-        picture = self.desk.picture
-        if picture is None:
+        state = self.controller.state
+        if state is None:
             return "No diagnosis", f"{_HERE}\n\n{_WHAT_TO_DO}"
-        if picture.run.state == "diagnosing":
+        if state.run.state == "diagnosing":
             return "Tracing what the fit cannot explain ...", _HERE
-        if not picture.run.over:
+        if not state.run.over:
             return "No diagnosis yet: it is made when the sweep is whole", _HERE
-        found = picture.contents.diagnosis
+        found = state.contents.diagnosis
         if found is not None:
             return f"No diagnosis was possible: {found.message}", _HERE
         return "This session holds no diagnosis", _HERE
@@ -136,7 +136,7 @@ class DiagnosisPage(Page):
 
     def _diagnose_session(self) -> None:
         if self._session is not None:
-            self.desk.rediagnosis.start(Asked(self._session))
+            self.controller.rediagnosis.start(Asked(self._session))
 
     def _diagnose_other(self) -> None:
         action = self.sender()
@@ -148,7 +148,7 @@ class DiagnosisPage(Page):
         if chosen:
             self._specimen_folder = str(Path(chosen).parent)
             self.candidates.clear()
-            self.desk.rediagnosis.start(Asked(data, Path(chosen)))
+            self.controller.rediagnosis.start(Asked(data, Path(chosen)))
 
     def _recompute(self) -> None:
         decisions = self.candidates.decisions
@@ -158,11 +158,11 @@ class DiagnosisPage(Page):
             return
         specimen = asked.specimen if asked is not None else None
         declined = () if decisions.accept_argument is not None else decisions.declined
-        self.desk.rediagnosis.start(Asked(data, specimen, decisions.accept_argument, declined))
+        self.controller.rediagnosis.start(Asked(data, specimen, decisions.accept_argument, declined))
 
     def _go_back(self) -> None:
         self.candidates.clear()
-        self.desk.rediagnosis.forget()
+        self.controller.rediagnosis.forget()
 
     def _progressed(self, what: str, fraction: float) -> None:
         self.doing.setText(what)
@@ -170,7 +170,7 @@ class DiagnosisPage(Page):
         self.bar.setValue(round(_PERCENT * fraction))
 
     def _changed(self) -> None:
-        if self.desk.rediagnosis.running:
+        if self.controller.rediagnosis.running:
             self.doing.setText("starting")
             self.bar.setMaximum(0)
         self._show()
@@ -194,23 +194,23 @@ class DiagnosisPage(Page):
     @property
     def _session(self) -> Path | None:
         """The file of the session shown; None while it is being measured."""
-        if self.desk.recorded is not None:
-            return self.desk.recorded.path
-        live = self.desk.live
+        if self.controller.recorded is not None:
+            return self.controller.recorded.path
+        live = self.controller.live
         return live.ending.session if live is not None and live.ending is not None else None
 
     @property
     def _foreign(self) -> list[Path]:
-        return [path for path, found in self.desk.beside.items() if found.sweeps]
+        return [path for path, found in self.controller.beside.items() if found.sweeps]
 
     def _connect(self) -> None:
-        rediagnosis = self.desk.rediagnosis
+        rediagnosis = self.controller.rediagnosis
         self.views.currentChanged.connect(self._show_view)
         rediagnosis.changed.connect(self._changed)
         rediagnosis.progressed.connect(self._progressed)
-        rediagnosis.failed.connect(self.desk.refused)
-        self.desk.changed.connect(self._another_session)
-        self.desk.beside_changed.connect(self._offer_others)
+        rediagnosis.failed.connect(self.controller.refused)
+        self.controller.changed.connect(self._another_session)
+        self.controller.beside_changed.connect(self._offer_others)
         self.diagnose.clicked.connect(self._diagnose_session)
         self.back.clicked.connect(self._go_back)
         self.cancel.clicked.connect(rediagnosis.cancel)

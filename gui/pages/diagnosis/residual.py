@@ -4,11 +4,10 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from gui.pages.law.curve import together
 
-Array = NDArray[np.float64]
 Facts = dict[str, Any]
 Quantity = Literal["both", "real", "imaginary", "amplitude", "whitened"]
 NAMES: dict[Quantity, str] = {

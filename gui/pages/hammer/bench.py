@@ -5,8 +5,8 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
+from gui.background_task import BackgroundTask, Progress
 from gui.pages.hammer.findings import Averaged, Hits, Sight, modes_of
-from gui.work import Progress, Work
 from instrument.hammer_test.expected import expected_modes_hz
 from instrument.session.configuration import Configuration
 from instrument.session.setup import hammer_settings
@@ -29,7 +29,7 @@ class Latest(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._wanted: Function | None = None
-        self._work: Work[Any] | None = None
+        self._work: BackgroundTask[Any] | None = None
 
     @property
     def busy(self) -> bool:
@@ -74,7 +74,7 @@ class Latest(QObject):
         self._next()
 
 
-class _Wanted(Work[Any]):
+class _Wanted(BackgroundTask[Any]):
     """Knows whether its result will be told."""
 
     unwanted = False

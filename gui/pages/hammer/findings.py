@@ -13,7 +13,7 @@ from instrument.impact.judge import Judged
 from instrument.impact.scatter import Scatter, scatter_over_hits
 from instrument.impact.spectra import Spectra, rolloff_hz, spectra
 from instrument.session.contents import RecordedHit
-from instrument.stream.jsonable import plain
+from instrument.stream.jsonable import to_jsonable
 
 Hits = tuple[RecordedHit, ...]
 Look = Callable[[], None]
@@ -103,4 +103,4 @@ def modes_of(averaged: Averaged, band_hz: tuple[float, float], look: Look) -> Mo
     scatter = scatter_over_hits(found)
     look()
     around = tuple(Surroundings.of(found, mode) for mode in found.modes)
-    return Modes(averaged.hits, found, scatter, around, plain(damping_facts(found)))
+    return Modes(averaged.hits, found, scatter, around, to_jsonable(damping_facts(found)))

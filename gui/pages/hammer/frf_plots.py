@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
 
+from fitting.arrays import Array
 from fitting.modal.frf import Frf
 from gui.pages.hammer.findings import Averaged, Modes
 from gui.pages.hammer.traces import Lines, Surroundings, accelerance
@@ -15,8 +15,6 @@ from gui.plots import Axis, Plot
 from gui.theme import Role
 from instrument.impact.curves import HalfPowerMarks
 from instrument.impact.spectra import Spectra
-
-Array = NDArray[np.float64]
 
 _MOST_SINGLE = 20
 """Hits drawn one by one; the latest."""

@@ -4,15 +4,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.modal.frf import Refusal
 from gui.pages.hammer.findings import Modes
 from gui.tables import Cell, Row
 from instrument.impact.damping import Mode
 from instrument.impact.scatter import Scatter
-
-Array = NDArray[np.float64]
 
 METHODS = ("rational_fit", "half_power", "lscf")
 _ADOPTED = 0

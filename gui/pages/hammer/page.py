@@ -1,11 +1,11 @@
 """The page of the hammer test: what stands where, and what follows when something changes."""
 
 import numpy as np
-from numpy.typing import NDArray
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QSplitter, QStackedLayout, QVBoxLayout, QWidget
 
-from gui.desk import Desk
+from fitting.arrays import Array
+from gui.controller import AppController
 from gui.page import Page
 from gui.pages.hammer.bench import Bench
 from gui.pages.hammer.choice import WhatIf, overruled, standing_of
@@ -16,12 +16,10 @@ from gui.pages.hammer.hit_plots import HitPlots
 from gui.pages.hammer.mode_table import ModeTable
 from gui.pages.hammer.mode_words import advice_of, agree, mode_rows, number_of
 from gui.pages.hammer.words import hit_rows, prompt_of, source_of
-from gui.picture import Picture
+from gui.state import SessionState
 from gui.widgets import hint
 from instrument.engine import Engine
 from instrument.session.contents import RecordedHit
-
-Array = NDArray[np.float64]
 
 _NO_SESSION = (
     "Open a session with a hammer test, or start a run: its hits, the accelerance of the bare plate and the "
@@ -42,8 +40,8 @@ class HammerPage(Page):
     title = "Hammer"
     hint = "Hits, accelerance and damping of the bare plate"
 
-    def __init__(self, desk: Desk) -> None:
-        super().__init__(desk)
+    def __init__(self, controller: AppController) -> None:
+        super().__init__(controller)
         self.nothing = hint(_NO_SESSION)
         self.nothing.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.hits, self.hit_plots = HitList(), HitPlots()
@@ -64,9 +62,9 @@ class HammerPage(Page):
 
     # From the window
 
-    def refresh(self, picture: Picture) -> None:
+    def refresh(self, state: SessionState) -> None:
         """Draw what has changed."""
-        hammer = picture.configuration.experiment.hammer
+        hammer = state.configuration.experiment.hammer
         run, hits, damping = (self.news(topic) for topic in ("run", "hits", "damping"))
         self._stack.setCurrentIndex(0 if hammer is None else 1)
         self.nothing.setText(_NO_TEST)
@@ -75,7 +73,7 @@ class HammerPage(Page):
         if self._expected_hz is None:
             self._expected_hz = np.zeros(0)
             self.frf.show_band(self._band_hz)
-            self.bench.expect(picture.configuration, _BEYOND * hammer.band_hz[1])
+            self.bench.expect(state.configuration, _BEYOND * hammer.band_hz[1])
         if hits:
             self._take_hits()
         if hits or run:
@@ -98,10 +96,10 @@ class HammerPage(Page):
     @property
     def _engine(self) -> Engine | None:
         """Of the run a word about a hit goes to; None where it is a what-if."""
-        live = self.desk.live
-        if live is None or not live.engine.running or live.picture is None:
+        live = self.controller.live
+        if live is None or not live.engine.running or live.state is None:
             return None
-        return live.engine if live.picture.run.state == "hammer" else None
+        return live.engine if live.state.run.state == "hammer" else None
 
     @property
     def _is_what_if(self) -> bool:
@@ -142,7 +140,7 @@ class HammerPage(Page):
             hit_rows(self._recorded, self._hits, self.what_if, self._averaged), frozenset(undoable)
         )
         self.hits.prompt.setText(prompt_of(self._picture.run, self._hits, live=live))
-        feed = self.desk.live
+        feed = self.controller.live
         asked = feed.question.what if live and feed is not None and feed.question is not None else ""
         self.hits.use.setVisible(asked == "content")
 
@@ -185,7 +183,7 @@ class HammerPage(Page):
         """What other files hold: drawn with the session's own hits, once there are any."""
         if self._averaged is None:
             return
-        files = self.desk.beside.items()
+        files = self.controller.beside.items()
         self.frf.show_beside({f"{path.name}: {name}": frf for path, f in files for name, frf, _ in f.frfs})
 
     def _zoom(self) -> None:
@@ -256,8 +254,8 @@ class HammerPage(Page):
         self._show_modes()
 
     def _content(self) -> None:
-        if self.desk.live is not None:
-            self.desk.live.answer()
+        if self.controller.live is not None:
+            self.controller.live.answer()
 
     def _another_session(self) -> None:
         self.what_if.clear()
@@ -268,8 +266,8 @@ class HammerPage(Page):
     # What stands where
 
     def _connect(self) -> None:
-        self.desk.changed.connect(self._another_session)
-        self.desk.beside_changed.connect(self._show_beside)
+        self.controller.changed.connect(self._another_session)
+        self.controller.beside_changed.connect(self._show_beside)
         self.bench.averaged.connect(self._is_averaged)
         self.bench.modes_found.connect(self._has_modes)
         self.bench.expected.connect(self._is_expected)

@@ -3,16 +3,14 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from fitting.modal.frf import Frf
 from instrument.impact.curves import HalfPowerMarks, fit_curve, half_power_at
 from instrument.impact.damping import Damping, Mode
 from instrument.impact.judge import Judged
 from instrument.interchange.units import DERIVATIVE
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 XY = tuple[Array, Array]
 
 _BEFORE, _AFTER = 3, 12

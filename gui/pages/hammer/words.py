@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from gui.pages.hammer.choice import WhatIf
 from gui.pages.hammer.findings import Averaged
-from gui.picture.run import Run
+from gui.state.run import Run
 from gui.tables import Cell, Row
 from gui.theme import Role
 from instrument.session.contents import RecordedHit

@@ -6,14 +6,13 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from fitting.arrays import Array
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from fitting.laws import CoreLaw
 from fitting.sweep import segments_by_gap
 
-Array = NDArray[np.float64]
 Facts = dict[str, Any]
 
 _SAME = 1e-9

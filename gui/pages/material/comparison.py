@@ -6,13 +6,13 @@ from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QCheckBox, QFileDialog, QGridLayout, QVBoxLayout, QWidget
 
-from gui.desk import SESSION_ENDINGS
+from gui.background_task import BackgroundTask, Progress
+from gui.controller import SESSION_ENDINGS
 from gui.pages.law.plots import LawLine
 from gui.pages.material.compared import PAPER, Compared, paper_law, recorded_laws
 from gui.tables import Cell, Table
 from gui.theme import Role
 from gui.widgets import button, hint
-from gui.work import Progress, Work
 
 _LOOKS: tuple[tuple[Role, bool], ...] = (
     ("second", False),
@@ -159,7 +159,7 @@ class Comparison(QWidget):
         column.addWidget(hint("Drop sessions here to compare them; dropped elsewhere they are opened."))
 
 
-class _Reading(Work[list[Compared]]):
+class _Reading(BackgroundTask[list[Compared]]):
     """Of another session."""
 
     def __init__(self, path: Path, parent: QObject) -> None:

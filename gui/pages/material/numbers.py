@@ -9,7 +9,7 @@ import numpy as np
 from fitting.identification.uncertainty import limits_reached
 from fitting.laws import CoreLaw
 from gui.pages.law.curve import At, LawCurve, places_hz, resonances_hz
-from instrument.report.numbers import plain, with_error
+from instrument.report.numbers import format_number, with_error
 from instrument.stream.derived import FitUpdated
 
 Facts = dict[str, Any]
@@ -117,7 +117,7 @@ def correlation_rows(facts: Facts) -> tuple[list[str], list[list[float]]]:
 
 
 def _short(value: float) -> str:
-    return f"{value:.0f}" if value >= 100 else plain(value, 3)
+    return f"{value:.0f}" if value >= 100 else format_number(value, 3)
 
 
 def headline(fits: Sequence[FitUpdated], running: int | None) -> str:
@@ -131,12 +131,12 @@ def headline(fits: Sequence[FitUpdated], running: int | None) -> str:
         return "; ".join(filter(None, [f"fit {latest.number}: not yet: {latest.message}", goes_on]))
     said = [
         f"{f['law_kind']} law, fit {latest.number} of {len(f['points'])} points",
-        f"rms {plain(f['rms_percent'], 3)} %",
+        f"rms {format_number(f['rms_percent'], 3)} %",
     ]
     if f["chi2_per_dof"] is not None:
         said.append(f"chi² per degree {_short(f['chi2_per_dof'])}")
     if f["held_out_rms_percent"] is not None:
-        said.append(f"held out {plain(f['held_out_rms_percent'], 3)} %")
+        said.append(f"held out {format_number(f['held_out_rms_percent'], 3)} %")
     if "temperature_c" in f:
         said.append(f"at {f['temperature_c']:.1f} °C")
     return ", ".join(said) + (f"; {goes_on}" if goes_on else "")

@@ -4,7 +4,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSplitter, QTabWidget, QTextBrowser, QVBoxLayout
 
-from gui.desk import Desk
+from gui.controller import AppController
 from gui.mark import Mark
 from gui.page import Page
 from gui.pages.law.curve import LawCurve, joined, resonances_hz
@@ -12,8 +12,8 @@ from gui.pages.law.plots import LawLine, LawPlots
 from gui.pages.material.comparison import Comparison
 from gui.pages.material.numbers import headline, parameters, places
 from gui.pages.material.tables import Correlations, Parameters, Places
-from gui.picture import Picture
 from gui.rediagnosis import Facts, Shown
+from gui.state import SessionState
 from instrument.results.diagnosis_words import UNKNOWN
 from instrument.stream.derived import FitUpdated
 
@@ -31,8 +31,8 @@ class MaterialPage(Page):
     title = "Material"
     hint = "Storage modulus and loss factor with their bands, parameters, comparison"
 
-    def __init__(self, desk: Desk) -> None:
-        super().__init__(desk)
+    def __init__(self, controller: AppController) -> None:
+        super().__init__(controller)
         self.said, self.origin = QLabel(_NOTHING), Mark()
         self.plots, self.comparison = LawPlots(), Comparison()
         self.places, self.parameters, self.correlations = Places(), Parameters(), Correlations()
@@ -41,15 +41,15 @@ class MaterialPage(Page):
         self._late = True
         self._arrange()
         self.comparison.changed.connect(self._draw_lines)
-        self.comparison.failed.connect(desk.refused)
-        desk.changed.connect(self._another_session)
-        desk.rediagnosis.changed.connect(self._show)
+        self.comparison.failed.connect(controller.refused)
+        controller.changed.connect(self._another_session)
+        controller.rediagnosis.changed.connect(self._show)
 
-    def refresh(self, picture: Picture) -> None:
+    def refresh(self, state: SessionState) -> None:
         """Draw what has changed."""
         if self.news("fits", "diagnosis"):
             self._show()
-        self.said.setText(self._headline(picture))
+        self.said.setText(self._headline(state))
 
     def clear(self) -> None:
         """There is no session any more."""
@@ -69,8 +69,8 @@ class MaterialPage(Page):
         self._late = not self.isVisible()
         if self._late:
             return
-        picture = self.desk.picture
-        self.said.setText(self._headline(picture))
+        state = self.controller.state
+        self.said.setText(self._headline(state))
         self._draw_lines()
         fit, shown = self._latest, self._diagnosed
         after = shown.facts["after"] if shown is not None else None
@@ -78,7 +78,7 @@ class MaterialPage(Page):
         facts = fit.facts_json if fit is not None else None
         rows = places(facts, fitted, LawCurve.of(after["law"]) if after is not None else None)
         self.places.show_places(rows, with_effects=after is not None)
-        start = picture.contents.specimen.core if picture is not None else None
+        start = state.contents.specimen.core if state is not None else None
         law = start.law if start is not None else None
         self.parameters.show_parameters(
             parameters(facts, law, after) if facts is not None else [], with_effects=after is not None
@@ -111,17 +111,17 @@ class MaterialPage(Page):
         made_here = shown is not None and shown.asked is not None
         self.origin.say(f"● diagnosis {shown.origin}" if shown and made_here else "", "fair", bold=True)
 
-    def _headline(self, picture: Picture | None) -> str:
-        if picture is None:
+    def _headline(self, state: SessionState | None) -> str:
+        if state is None:
             return _NOTHING if self._diagnosed is None else ""
-        empty = _NEVER if picture.run.over else _NO_FIT
-        return headline(picture.fits, picture.fit_running) or empty
+        empty = _NEVER if state.run.over else _NO_FIT
+        return headline(state.fits, state.fit_running) or empty
 
     @property
     def _fits(self) -> list[FitUpdated]:
         """Those that gave a law."""
-        picture = self.desk.picture
-        return [fit for fit in picture.fits if fit.facts_json] if picture is not None else []
+        state = self.controller.state
+        return [fit for fit in state.fits if fit.facts_json] if state is not None else []
 
     @property
     def _latest(self) -> FitUpdated | None:
@@ -131,13 +131,13 @@ class MaterialPage(Page):
     @property
     def _diagnosed(self) -> Shown | None:
         """The diagnosis shown, where an effect is accepted."""
-        shown = self.desk.rediagnosis.shown(self.desk.picture)
+        shown = self.controller.rediagnosis.shown(self.controller.state)
         return shown if shown is not None and shown.facts["equivalent"] else None
 
     @property
     def _is_unknown(self) -> bool:
         """Whether the diagnosis shown found no explanation."""
-        shown = self.desk.rediagnosis.shown(self.desk.picture)
+        shown = self.controller.rediagnosis.shown(self.controller.state)
         return shown is not None and shown.facts["verdict"] == "unknown"
 
     @property

@@ -6,11 +6,11 @@ from typing import Any
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
+from gui.background_task import Command
 from gui.tables import Cell, Table
 from gui.theme import current_theme
 from gui.top_bar import duration
 from gui.widgets import hint
-from gui.work import Command
 
 _COLUMNS = {
     "segment": "Its number",

@@ -15,11 +15,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from gui.background_task import BackgroundTask, Progress
 from gui.form.draft import Drafts
 from gui.form.form import Form
 from gui.pages.run.new_case import NewCase, write
 from gui.widgets import button, hint
-from gui.work import Progress, Work
 
 _FOLDER = "viscorig-experiment"
 _KINDS = "Experiments (*.toml);;Everything (*)"
@@ -53,7 +53,7 @@ class FilesPanel(QWidget):
         super().__init__(parent)
         self.drafts: Drafts | None = None
         self.forms: dict[str, Form] = {}
-        self._work: Work[object] | None = None
+        self._work: BackgroundTask[object] | None = None
         self._named: tuple[object, object] = (None, None)
         self.name = QLabel()
         self.name.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
@@ -121,7 +121,7 @@ class FilesPanel(QWidget):
     def _begin(self, function: Callable[[Progress], object], then: Callable[[object], None]) -> None:
         if self._work is not None:
             self._work.cancel()
-        self._work = work = Work(function, self)
+        self._work = work = BackgroundTask(function, self)
         work.done.connect(then)
         work.failed.connect(self.failed)
         work.start()

@@ -7,8 +7,8 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
 from gui.feeds.live import LiveFeed
 from gui.gauge import Gauge
-from gui.picture import Picture
-from gui.picture.run import WORDS
+from gui.state import SessionState
+from gui.state.run import WORDS
 from gui.tables import Cell, Table
 from gui.theme import Role, current_theme
 from gui.widgets import hint
@@ -48,24 +48,24 @@ class NowPane(QWidget):
         self.nothing.show()
         self._whole.hide()
 
-    def show_picture(self, picture: Picture, live: LiveFeed | None, ending: Ended | None) -> None:
+    def show_state(self, state: SessionState, live: LiveFeed | None, ending: Ended | None) -> None:
         """As it stands now; `ending` of the run whose recording this is."""
         self.nothing.hide()
         self._whole.show()
-        run = picture.run
+        run = state.run
         color = current_theme().color(_COLORS.get(run.state, "data")).name()
         self.state.setText(
             f"<span style='font-size:xx-large; color:{color}'><b>{WORDS[run.state]}</b></span>"
         )
         self.next.setText(run.next_words)
-        self._show_gauges(picture)
+        self._show_gauges(state)
         words = path_words(live) if live is not None else ending_words(ending)
         self.path.setText(words)
         self.path.setVisible(bool(words))
 
-    def show_segments(self, picture: Picture) -> None:
+    def show_segments(self, state: SessionState) -> None:
         """How far each segment is."""
-        plan = picture.plan
+        plan = state.plan
         rows = []
         for key, began in plan.begun.items():
             done = plan.done.get(key, 0)
@@ -82,9 +82,9 @@ class NowPane(QWidget):
         self.segments.show_rows(rows)
         self.segments.scrollToBottom()
 
-    def _show_gauges(self, picture: Picture) -> None:
-        step, limits = picture.step, picture.limits.limits
-        if step is None or picture.run.over:
+    def _show_gauges(self, state: SessionState) -> None:
+        step, limits = state.step, state.limits.limits
+        if step is None or state.run.over:
             for gauge in (self.level, *self.gauges.values()):
                 gauge.show_value(None)
             return

@@ -7,7 +7,8 @@ from typing import Any, Literal
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QMenu, QSplitter, QTabWidget, QVBoxLayout, QWidget
 
-from gui.desk import Desk
+from gui.background_task import BackgroundTask, Progress
+from gui.controller import AppController
 from gui.export import Export
 from gui.page import Page
 from gui.pages.run.banner import Banner
@@ -15,9 +16,8 @@ from gui.pages.run.check import Check, CheckPane
 from gui.pages.run.files_panel import FilesPanel
 from gui.pages.run.now import NowPane
 from gui.pages.run.start_panel import StartPanel
-from gui.picture import Picture
+from gui.state import SessionState
 from gui.widgets import button
-from gui.work import Progress, Work
 from instrument.engine.messages import Ended
 
 _FORMATS = (("csv", "CSV..."), ("uff", "Universal file..."), ("mat", "MATLAB..."))
@@ -29,31 +29,31 @@ class RunPage(Page):
     title = "Run"
     hint = "Choose an experiment, check it, run it"
 
-    def __init__(self, desk: Desk) -> None:
-        super().__init__(desk)
+    def __init__(self, controller: AppController) -> None:
+        super().__init__(controller)
         self.files, self.starting = FilesPanel(), StartPanel()
         self.banner, self.now = Banner(), NowPane()
         self.check, self.checked = Check(self), CheckPane()
-        self.export = Export(desk, self)
+        self.export = Export(controller, self)
         self.report_button = button("Report...", "One self-contained page of the session")
         self.export_button = button("Export", "The session's data for other programs")
         self._next: Literal["", "check", "start"] = ""
         self._facts: dict[str, Any] | None = None
         """Of the experiment as it is on the disk; None where it is not known."""
-        self._looking: Work[list[Path]] | None = None
+        self._looking: BackgroundTask[list[Path]] | None = None
         self._arrange()
         self._connect()
         self._show_desk()
 
     # From the window
 
-    def refresh(self, picture: Picture) -> None:
+    def refresh(self, state: SessionState) -> None:
         """Draw what has changed."""
         if self.news("run", "step", "samples", "log"):
-            self.now.show_picture(picture, self.desk.live, self._ending)
+            self.now.show_state(state, self.controller.live, self._ending)
         if self.news("run", "points"):
-            self.now.show_segments(picture)
-        self._show_question(picture)
+            self.now.show_segments(state)
+        self._show_question(state)
 
     def clear(self) -> None:
         """There is no session any more."""
@@ -81,7 +81,7 @@ class RunPage(Page):
         if path is None or not what:
             return
         if what == "start":
-            self.desk.start(self.starting.order(path))
+            self.controller.start(self.starting.order(path))
         self._look_into(path)
 
     def _look_into(self, path: Path) -> None:
@@ -89,7 +89,7 @@ class RunPage(Page):
         if self._facts is None:
             self.checked.wait()
             self.check.start(path)
-        if not self.desk.starting:
+        if not self.controller.starting:
             self.tabs.setCurrentWidget(self.checked)
 
     # What follows
@@ -114,7 +114,7 @@ class RunPage(Page):
 
     def _failed(self, message: str) -> None:
         self._next = ""
-        self.desk.refused.emit(message)
+        self.controller.refused.emit(message)
 
     def _forget_check(self) -> None:
         self._facts = None
@@ -131,8 +131,8 @@ class RunPage(Page):
 
     def _expect(self) -> None:
         """The time left can be told from the dry run."""
-        live = self.desk.live
-        if live is not None and self._facts is not None and self.desk.running:
+        live = self.controller.live
+        if live is not None and self._facts is not None and self.controller.running:
             live.expect({s["segment"]: s["seconds"] for s in self._facts["segments"]})
 
     def _look_for_broken_off(self) -> None:
@@ -141,64 +141,64 @@ class RunPage(Page):
             return
         if self._looking is not None:
             self._looking.cancel()
-        self._looking = Work(partial(_broken_off, self.starting.folder, path.stem), self)
+        self._looking = BackgroundTask(partial(_broken_off, self.starting.folder, path.stem), self)
         self._looking.done.connect(self.starting.show_broken_off)
         self._looking.start()
 
     def _show_desk(self) -> None:
         """A run began or ended, or another session is shown."""
-        running = self.desk.running
+        running = self.controller.running
         self.starting.setVisible(not running)
         self.files.lock(running)
-        has_session = self.desk.recorded is not None
+        has_session = self.controller.recorded is not None
         self.report_button.setEnabled(has_session)
         self.export_button.setEnabled(has_session)
-        if self.desk.feed is not None:
+        if self.controller.feed is not None:
             self.tabs.setCurrentWidget(self.now)
         if running:
             self._expect()
-        elif self.desk.ending is not None:
+        elif self.controller.ending is not None:
             self._look_for_broken_off()
 
     @property
     def _ending(self) -> Ended | None:
         """Of the run whose recording is shown."""
-        ending, shown = self.desk.ending, self.desk.recorded
+        ending, shown = self.controller.ending, self.controller.recorded
         return ending if ending is not None and shown is not None and ending.session == shown.path else None
 
-    def _show_question(self, picture: Picture) -> None:
-        live = self.desk.live
-        if live is None or not self.desk.running:
+    def _show_question(self, state: SessionState) -> None:
+        live = self.controller.live
+        if live is None or not self.controller.running:
             self.banner.ask("")
             if not self.starting.isVisible():
                 self._show_desk()
             return
         if live.question is not None:
-            self.banner.ask(picture.run.question, live.question.what)
+            self.banner.ask(state.run.question, live.question.what)
         else:
-            self.banner.ask(picture.run.next_words if picture.run.state == "hammer" else "")
+            self.banner.ask(state.run.next_words if state.run.state == "hammer" else "")
 
     # Inside
 
     def _connect(self) -> None:
-        files, desk = self.files, self.desk
-        files.chose.connect(desk.open)
+        files, controller = self.files, self.controller
+        files.chose.connect(controller.open)
         files.opened.connect(self._opened)
         files.edited.connect(self._edited)
         files.saved.connect(self._saved)
         files.failed.connect(self._failed)
-        files.said.connect(desk.said)
-        desk.experiment_chosen.connect(files.open)
-        desk.changed.connect(self._show_desk)
+        files.said.connect(controller.said)
+        controller.experiment_chosen.connect(files.open)
+        controller.changed.connect(self._show_desk)
         self.starting.check_wanted.connect(self._check)
         self.starting.start_wanted.connect(self._start)
         self.starting.out_changed.connect(self._look_for_broken_off)
-        self.banner.answered.connect(desk.answer)
+        self.banner.answered.connect(controller.answer)
         self.check.passed.connect(self._passed)
         self.check.objected.connect(self._objected)
         self.report_button.clicked.connect(self.export.report)
-        self.export.done.connect(desk.said)
-        self.export.failed.connect(desk.refused)
+        self.export.done.connect(controller.said)
+        self.export.failed.connect(controller.refused)
 
     def _arrange(self) -> None:
         menu = QMenu(self.export_button)

@@ -3,7 +3,7 @@
 from PySide6.QtCore import QEvent, QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import QListWidget, QListWidgetItem, QWidget
 
-from gui.pages.sweep.segments import Standing
+from gui.pages.sweep.segments import SegmentStatus
 from gui.theme import Role, current_theme
 
 _COLORS: dict[str, Role] = {"planned": "faint", "running": "data", "broken off": "bad", "done": "text"}
@@ -23,7 +23,7 @@ class Chooser(QListWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.segment: int | None = None
-        self._standings: list[Standing] = []
+        self._standings: list[SegmentStatus] = []
         self.setAlternatingRowColors(True)
         self.setToolTip("Segments of the sweep: choose the one the plots show (up and down arrow)")
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
@@ -31,7 +31,7 @@ class Chooser(QListWidget):
         self.currentRowChanged.connect(self._row_changed)
         self.show_standings([])
 
-    def show_standings(self, standings: list[Standing]) -> None:
+    def show_standings(self, standings: list[SegmentStatus]) -> None:
         """Draw; the segment chosen stays chosen while it is there."""
         if standings == self._standings and self.count():
             return
@@ -76,6 +76,6 @@ class Chooser(QListWidget):
             self.chosen.emit()
 
 
-def _summary(standings: list[Standing]) -> str:
+def _summary(standings: list[SegmentStatus]) -> str:
     done = sum(s.state == "done" for s in standings)
     return f"All segments\n{done} of {len(standings)} done" if standings else "All segments\nnone planned"

@@ -5,13 +5,11 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from gui.pages.sweep.points import Index, Points
 from instrument.session.contents import SegmentRun
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Region = tuple[int, float, float]
 """Segment, lowest and highest frequency in Hz."""
 

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gui.pages.sweep.points import Array, Index, Points
+from fitting.arrays import Array
+from gui.pages.sweep.points import Index, Points
 from instrument.stream.derived import SentinelCompared
 
 

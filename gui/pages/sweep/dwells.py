@@ -4,7 +4,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
-from gui.work import Progress, Work
+from gui.background_task import BackgroundTask, Progress
 from instrument.session.dwell import DwellSamples, dwell_of
 from instrument.session.storage import SessionFile
 
@@ -74,7 +74,7 @@ class Dwells(QObject):
         return work.path, work.step
 
 
-class _Reading(Work[DwellSamples]):
+class _Reading(BackgroundTask[DwellSamples]):
     def __init__(self, path: Path, step: int, parent: QObject) -> None:
         super().__init__(self._read, parent)
         self.path, self.step = path, step

@@ -4,14 +4,12 @@ from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
-from numpy.typing import NDArray
 
-from gui.picture.step import Step, Trace
-from instrument.stepped_sine.course import Course, begins_at
+from fitting.arrays import Array
+from gui.state.step import Step, Trace
 from instrument.stepped_sine.settings import SweepSettings
+from instrument.stepped_sine.settling_trace import SettlingTrace, begins_at
 from instrument.stream.derived import DriveRequested, SettlingTimedOut, StepSettled
-
-Array = NDArray[np.float64]
 
 _CYCLES = 8.0
 """Of the time signal shown."""
@@ -21,12 +19,12 @@ _MOST_S = 0.006
 
 @dataclass
 class Following:
-    """Keeps a `Course` of the step shown: a new one for another step, drive or range."""
+    """Keeps a `SettlingTrace` of the step shown: a new one for another step, drive or range."""
 
     settings: SweepSettings
     _step: Step | None = None
     _change: object = None
-    _course: Course | None = None
+    _course: SettlingTrace | None = None
     _next: int = 0
 
     def take(self, step: Step) -> bool:
@@ -45,7 +43,7 @@ class Following:
         return False
 
     @property
-    def course(self) -> Course | None:
+    def course(self) -> SettlingTrace | None:
         """Since the last change; None before the first command."""
         return self._course
 
@@ -68,7 +66,7 @@ class Following:
         change, latest = step.last_change
         rate, began = step.acquisition.sample_rate_hz, step.began
         begin = begins_at(change, latest, rate, self.settings)
-        self._course = Course(began.frequency_hz, began.decay_1_s, rate, begin, self.settings)
+        self._course = SettlingTrace(began.frequency_hz, began.decay_1_s, rate, begin, self.settings)
         self._next = max(0, latest)
 
 

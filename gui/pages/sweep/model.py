@@ -6,9 +6,9 @@ from typing import Any
 
 from PySide6.QtCore import QObject, QTemporaryDir, QTimer, Signal
 
+from gui.background_task import Command
 from gui.pages.sweep.curve import Curve, Region, grid, regions_of
-from gui.picture import Picture
-from gui.work import Command
+from gui.state import SessionState
 from instrument.interchange.specimen_toml import specimen_toml
 from instrument.session.contents import Contents
 from instrument.stream.derived import FitUpdated
@@ -48,12 +48,12 @@ class ModelCurve(QObject):
         """Whether a curve is being computed."""
         return self._command is not None or self._soon.isActive()
 
-    def want(self, picture: Picture | None) -> None:
+    def want(self, state: SessionState | None) -> None:
         """The curve of this picture's latest fit, over the segments begun so far.
 
         Another fit's curve is gone at once; `changed` comes with the new one.
         """
-        contents = picture.contents if picture is not None else None
+        contents = state.contents if state is not None else None
         fit = contents.fit if contents is not None and contents.fit is not None else None
         if fit is not None and not fit.facts_json:
             fit = None

@@ -6,14 +6,15 @@ from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QHideEvent, QKeySequence, QShortcut, QShowEvent
 from PySide6.QtWidgets import QCheckBox, QSplitter, QStackedLayout, QTabWidget, QVBoxLayout, QWidget
 
-from gui.desk import Desk
+from gui.controller import AppController
 from gui.page import Page
-from gui.pages.sweep.beside import besides
 from gui.pages.sweep.chooser import Chooser
 from gui.pages.sweep.curve import Region, predictions, regions_of
 from gui.pages.sweep.drift import DriftPane
 from gui.pages.sweep.model import ModelCurve
 from gui.pages.sweep.nyquist import NyquistPane
+from gui.pages.sweep.overlay import besides
+from gui.pages.sweep.pane_scheduler import PaneScheduler
 from gui.pages.sweep.points import Points
 from gui.pages.sweep.quality import QualityPane
 from gui.pages.sweep.record import RecordPane
@@ -22,8 +23,7 @@ from gui.pages.sweep.samples import SamplesPane
 from gui.pages.sweep.seen import Predicted, Seen
 from gui.pages.sweep.segments import standings
 from gui.pages.sweep.step import StepPane
-from gui.pages.sweep.turns import Turns
-from gui.picture import Picture
+from gui.state import SessionState
 from gui.widgets import hint
 from instrument.session.configuration import Configuration
 from instrument.stepped_sine.settings import SweepSettings
@@ -47,8 +47,8 @@ class SweepPage(Page):
     title = "Sweep"
     hint = "Response, current step, quality of every point"
 
-    def __init__(self, desk: Desk) -> None:
-        super().__init__(desk)
+    def __init__(self, controller: AppController) -> None:
+        super().__init__(controller)
         self.chooser, self.record = Chooser(), RecordPane()
         self.follow = QCheckBox("follow the run")
         self.follow.setChecked(True)
@@ -62,25 +62,25 @@ class SweepPage(Page):
         self._looked_at: int | None = None
         self._configuration: Configuration | None = None
         self._running: tuple[int, int] | None = None
-        self.turns = Turns(self, self._panes, self._draw_pane)
+        self.turns = PaneScheduler(self, self._panes, self._draw_pane)
         self._arrange()
         self._connect()
 
     # From the window
 
-    def refresh(self, picture: Picture) -> None:
+    def refresh(self, state: SessionState) -> None:
         """Draw what has changed."""
         self._layers.setCurrentIndex(1)
-        if picture.configuration is not self._configuration:
-            self._configuration = picture.configuration
+        if state.configuration is not self._configuration:
+            self._configuration = state.configuration
             self._looked_at = self._running = None
-        self.model.want(picture)
-        regions = tuple(regions_of(picture.contents.segments))
+        self.model.want(state)
+        regions = tuple(regions_of(state.contents.segments))
         if self.news("points", "sentinels", "fits", "damping") or regions != self.seen.regions:
-            self._look_again(picture, regions)
+            self._look_again(state, regions)
         if self.news("run"):
-            self.chooser.show_standings(standings(picture, self.seen.points))
-            self._follow(picture)
+            self.chooser.show_standings(standings(state, self.seen.points))
+            self._follow(state)
         if self.news("step", "samples"):
             self.turns.mark(self.step)
         self.turns.go_on()
@@ -97,7 +97,7 @@ class SweepPage(Page):
     def showEvent(self, event: QShowEvent) -> None:
         """Go on where hiding broke off: in a run pane by pane, all at once it would hold up the window."""
         super().showEvent(event)
-        if not self.desk.running:
+        if not self.controller.running:
             self.model.want(self._picture)
             self._draw_all()
 
@@ -128,16 +128,16 @@ class SweepPage(Page):
 
     # Inside
 
-    def _look_again(self, picture: Picture, regions: tuple[Region, ...]) -> None:
+    def _look_again(self, state: SessionState, regions: tuple[Region, ...]) -> None:
         """Points, fits or regions are others."""
-        points = self.seen.points.up_to(picture.contents.points, picture.limits)
-        fit = picture.contents.fit
+        points = self.seen.points.up_to(state.contents.points, state.limits)
+        fit = state.contents.fit
         facts = fit.facts_json if fit is not None else {}
         predicted = Predicted(*predictions(points, facts, fit.last_step)) if fit is not None else Predicted()
         self.seen = self.seen.but(
             points=points,
             regions=regions,
-            reads=picture.configuration.rig.vibrometer.reads,
+            reads=state.configuration.rig.vibrometer.reads,
             chosen=points.of_step(self._looked_at) if self._looked_at is not None else None,
             predicted=predicted,
             fit=fit.number if fit is not None else 0,
@@ -145,17 +145,17 @@ class SweepPage(Page):
         )
         self._mark_all()
 
-    def _follow(self, picture: Picture) -> None:
-        began = picture.run.segment
+    def _follow(self, state: SessionState) -> None:
+        began = state.run.segment
         running = (began.sweep, began.segment) if began is not None and began.sweep > 0 else None
         if running == self._running:
             return
         self._running = running
-        if running is not None and self.follow.isChecked() and not picture.run.over:
+        if running is not None and self.follow.isChecked() and not state.run.over:
             self.chooser.choose(running[1])
 
     def _beside_changed(self) -> None:
-        self.seen = self.seen.but(beside=besides(self.desk.beside))
+        self.seen = self.seen.but(beside=besides(self.controller.beside))
         self._layers.setCurrentIndex(1)
         self._draw_all()
 
@@ -188,30 +188,30 @@ class SweepPage(Page):
         return [self.record, self.response, self.tabs.currentWidget()]
 
     def _draw_pane(self, pane: QWidget) -> None:
-        picture = self._picture
-        limits = picture.limits if picture is not None else SweepSettings()
+        state = self._picture
+        limits = state.limits if state is not None else SweepSettings()
         if pane is self.response:
             self.response.show_seen(self.seen)
-            said = self._said_of_model(picture) if picture is not None else ""
+            said = self._said_of_model(state) if state is not None else ""
             self.response.model.setText(said)
             self.response.model.setToolTip(f"{said}\n{_BAND}")
         elif pane is self.record:
             self.record.show_seen(self.seen, limits)
-        elif pane is self.step and picture is not None:
-            self.step.show_step(picture)
+        elif pane is self.step and state is not None:
+            self.step.show_step(state)
         elif pane is self.nyquist:
             self.nyquist.show_seen(self.seen)
         elif pane is self.quality:
             self.quality.show_seen(self.seen, limits)
         elif pane is self.drift:
-            self.drift.show_seen(self.seen, picture.contents.sentinels if picture is not None else ())
+            self.drift.show_seen(self.seen, state.contents.sentinels if state is not None else ())
         elif pane is self.samples:
             self.samples.show_seen(self.seen, self._session)
 
-    def _said_of_model(self, picture: Picture) -> str:
-        fit = picture.contents.fit
+    def _said_of_model(self, state: SessionState) -> str:
+        fit = state.contents.fit
         if fit is None:
-            return "fitting ..." if picture.fit_running is not None else "no fit yet"
+            return "fitting ..." if state.fit_running is not None else "no fit yet"
         if not fit.facts_json:
             return f"fit {fit.number}: {fit.message}"
         count, rms = len(fit.facts_json["points"]), fit.facts_json["rms_percent"]
@@ -223,9 +223,9 @@ class SweepPage(Page):
     @property
     def _session(self) -> Path | None:
         """The file that holds the samples."""
-        if self.desk.recorded is not None:
-            return self.desk.recorded.path
-        live = self.desk.live
+        if self.controller.recorded is not None:
+            return self.controller.recorded.path
+        live = self.controller.live
         return live.ending.session if live is not None and live.ending is not None else None
 
     def _back(self) -> None:
@@ -235,7 +235,7 @@ class SweepPage(Page):
         self.walk(1)
 
     def _connect(self) -> None:
-        self.desk.beside_changed.connect(self._beside_changed)
+        self.controller.beside_changed.connect(self._beside_changed)
         self.chooser.chosen.connect(self._segment_chosen)
         self.response.way_changed.connect(self._way_changed)
         self.record.stepped.connect(self.walk)

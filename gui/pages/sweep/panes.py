@@ -8,7 +8,8 @@ import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
-from gui.pages.sweep.points import Array, Group, Index
+from fitting.arrays import Array
+from gui.pages.sweep.points import Group, Index
 from gui.plots import Axis, Plot
 from gui.plots.plot import Symbol
 from gui.theme import Role, current_theme

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal, Self
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex, Mask
 from instrument.results.quality import QUALITIES, quality_of
 from instrument.session.contents import TimedPoint
 from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2, SweepSettings
@@ -16,10 +17,7 @@ if TYPE_CHECKING:
     from gui.plots.plot import Symbol
     from gui.theme import Role
 
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 Index = NDArray[np.intp]
-Mask = NDArray[np.bool_]
 
 Channel = Literal["velocity", "base"]
 

@@ -6,8 +6,9 @@ import numpy as np
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
 
+from fitting.arrays import Array
 from gui.pages.sweep.panes import CHOSEN, Key, Pointed, align, channel, hide_foot, keyed
-from gui.pages.sweep.points import Array, Channel
+from gui.pages.sweep.points import Channel
 from gui.pages.sweep.seen import Seen
 from gui.plots import Axis
 from gui.theme import Role

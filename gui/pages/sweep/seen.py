@@ -5,9 +5,10 @@ from typing import Literal, Self
 
 import numpy as np
 
-from gui.pages.sweep.beside import Beside
+from fitting.arrays import Array, Complex, Mask
 from gui.pages.sweep.curve import Curve, Region
-from gui.pages.sweep.points import Array, Complex, Index, Mask, Points
+from gui.pages.sweep.overlay import Beside
+from gui.pages.sweep.points import Index, Points
 
 Quantity = Literal["ratio", "velocity"]
 

@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 
 from gui.pages.sweep.points import Points
-from gui.picture import Picture
+from gui.state import SessionState
 from instrument.files.experiment_file import Segment
 from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2
 
@@ -14,7 +14,7 @@ State = Literal["planned", "running", "broken off", "done"]
 
 
 @dataclass(frozen=True)
-class Standing:
+class SegmentStatus:
     """Of one segment, all passes together."""
 
     number: int
@@ -32,16 +32,16 @@ class Standing:
         return f"{self.number}   {self.band}\n{self.state}, {self.points}{remarks}, {self.level}"
 
 
-def standings(picture: Picture, points: Points) -> list[Standing]:
+def standings(state: SessionState, points: Points) -> list[SegmentStatus]:
     """Every segment planned or begun, in order."""
-    sweep = picture.plan.sweep
+    sweep = state.plan.sweep
     planned = dict(enumerate(sweep.segments, start=1)) if sweep is not None else {}
-    begun = {segment for turn, segment in picture.plan.begun if turn > 0}
-    return [_standing(picture, points, n, planned.get(n)) for n in sorted(planned.keys() | begun)]
+    begun = {segment for turn, segment in state.plan.begun if turn > 0}
+    return [_standing(state, points, n, planned.get(n)) for n in sorted(planned.keys() | begun)]
 
 
-def _standing(picture: Picture, points: Points, number: int, planned: Segment | None) -> Standing:
-    plan = picture.plan
+def _standing(state: SessionState, points: Points, number: int, planned: Segment | None) -> SegmentStatus:
+    plan = state.plan
     runs = {key: run for key, run in plan.begun.items() if key[0] > 0 and key[1] == number}
     turns = plan.sweep.sweeps if plan.sweep is not None else max(1, len(runs))
     mine = (points.segment == number) & ~points.sentinel
@@ -53,22 +53,22 @@ def _standing(picture: Picture, points: Points, number: int, planned: Segment | 
     passes = f", pass {len(runs)} of {turns}" if turns > 1 and runs else ""
     levels = np.unique(np.round(points.level_m_s2[mine], 6)).tolist()
     given = [sweep.level_g * STANDARD_GRAVITY_M_S2] if (sweep := plan.sweep) is not None else []
-    return Standing(
+    return SegmentStatus(
         number,
         _band(planned, [(run.low_hz, run.high_hz) for run in runs.values()]),
-        _state(picture, list(runs), turns),
+        _state(state, list(runs), turns),
         f"{done}{most} points{passes}",
         ", ".join(f"{v / STANDARD_GRAVITY_M_S2:.3g} g" for v in levels or given),
         int((points.quality[mine] > 0).sum()),
     )
 
 
-def _state(picture: Picture, begun: list[tuple[int, int]], turns: int) -> State:
+def _state(state: SessionState, begun: list[tuple[int, int]], turns: int) -> State:
     if not begun:
         return "planned"
-    if len(begun) == turns and all(key in picture.plan.ended for key in begun):
+    if len(begun) == turns and all(key in state.plan.ended for key in begun):
         return "done"
-    return "broken off" if picture.run.over else "running"
+    return "broken off" if state.run.over else "running"
 
 
 def _band(planned: Segment | None, begun: list[tuple[float, float]]) -> str:

@@ -6,9 +6,9 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QSplitter, QVBoxLayout, QWidg
 
 from gui.pages.sweep.following import Following, latest_cycles, words
 from gui.pages.sweep.panes import Key, align, hide_foot, keyed, span
-from gui.picture import Picture
-from gui.picture.step import Step
 from gui.plots import Axis, Plot
+from gui.state import SessionState
+from gui.state.step import Step
 from gui.theme import Role
 from gui.widgets import hint
 from instrument.stepped_sine.settings import SweepSettings
@@ -59,24 +59,24 @@ class StepPane(QWidget):
         hide_foot(self.base)
         self.none = hint(_NONE)
         self._following: Following | None = None
-        self._picture: Picture | None = None
+        self._picture: SessionState | None = None
         self._later = QTimer(self)
         self._later.setSingleShot(True)
         self._later.timeout.connect(self._go_on)
         self._arrange()
         self.clear()
 
-    def show_step(self, picture: Picture) -> None:
+    def show_step(self, state: SessionState) -> None:
         """Draw the picture's step."""
-        if self._following is None or picture is not self._picture:
-            self._following = Following(picture.limits)
-        self._picture = picture
-        if picture.step is None:
+        if self._following is None or state is not self._picture:
+            self._following = Following(state.limits)
+        self._picture = state
+        if state.step is None:
             self.clear()
             return
         self._whole.show()
         self.none.hide()
-        self._draw_signal(picture.step)
+        self._draw_signal(state.step)
         self._go_on()
 
     def clear(self) -> None:
@@ -86,13 +86,13 @@ class StepPane(QWidget):
 
     def _go_on(self) -> None:
         """Follow the step; where blocks are left over, once more when there is time."""
-        picture, following = self._picture, self._following
-        if picture is None or following is None or picture.step is None or not self.isVisible():
+        state, following = self._picture, self._following
+        if state is None or following is None or state.step is None or not self.isVisible():
             return
-        if following.take(picture.step):
+        if following.take(state.step):
             self._later.start()
-        self._draw_settling(picture.step, following, picture.limits)
-        self._say(picture, picture.step, following)
+        self._draw_settling(state.step, following, state.limits)
+        self._say(state, state.step, following)
 
     def _draw_signal(self, step: Step) -> None:
         trace = latest_cycles(step)
@@ -114,8 +114,8 @@ class StepPane(QWidget):
         at = [step.rest.seconds] if step.rest is not None else []
         self.settling.mark(at, "good", name="settled", labels=["dwell"] * len(at))
 
-    def _say(self, picture: Picture, step: Step, following: Following) -> None:
-        limits, began, control = picture.limits, step.began, picture.limits.control
+    def _say(self, state: SessionState, step: Step, following: Following) -> None:
+        limits, began, control = state.limits, step.began, state.limits.control
         self.words.setText(words(step, limits))
         said = {"Drive": f"{step.drive_v:.4g} V of {limits.limits.drive_v:g} V"}
         base = abs(step.point.base_m_s2) if step.point is not None else following.base_m_s2
@@ -127,10 +127,10 @@ class StepPane(QWidget):
         if percent.size:
             limit = f"limit {100 * limits.settle.tolerance:g} %, noise {noise[-1]:.2g} %"
             said["Transient"] = f"{percent[-1]:.2g} % ({limit})"
-        if picture.range is not None:
-            said["Range"] = picture.range.name
-        if picture.signal_level is not None:
-            said["Light"] = f"{picture.signal_level:.2f} (least {limits.least_signal_level:g})"
+        if state.range is not None:
+            said["Range"] = state.range.name
+        if state.signal_level is not None:
+            said["Light"] = f"{state.signal_level:.2f} (least {limits.least_signal_level:g})"
         said["Corrections"] = str(len(step.asked))
         for name, label in self.facts.items():
             label.setText(said.get(name, "\u2013"))

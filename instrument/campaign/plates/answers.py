@@ -6,12 +6,12 @@ from itertools import product
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from fitting.arrays import Array
 from instrument.campaign.plates.cases import PlateCase
-from instrument.stream.jsonable import plain
+from instrument.stream.jsonable import to_jsonable
 
-Array = NDArray[np.float64]
 Facts = Mapping[str, Any]
 
 LAW = "core_law"
@@ -161,7 +161,7 @@ def explains(outcome: PlateOutcome, names: Sequence[str]) -> bool:
 
 def line_of(outcome: PlateOutcome) -> dict[str, Any]:
     """As JSON knows it."""
-    facts: dict[str, Any] = plain(asdict(outcome))
+    facts: dict[str, Any] = to_jsonable(asdict(outcome))
     return facts
 
 

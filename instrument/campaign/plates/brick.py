@@ -9,9 +9,8 @@ solid.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from fitting.arrays import Array
 
 _MASS = np.array([[4, 2, -1], [2, 16, 2], [-1, 2, 4]]) / 30
 _STIFFNESS = np.array([[7, -8, 1], [-8, 16, -8], [1, -8, 7]]) / 3

@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.campaign.plates.geometry import PLATES, TruePlate, plate_named
@@ -25,9 +25,6 @@ from instrument.campaign.plates.schedule import (
 from instrument.campaign.plates.simulate import Channel, built, moduli_of, peaks_hz, reading, struck
 from instrument.campaign.plates.stated import CAREFUL, G_M_S2, draw_stated, specimen_from, toml
 from instrument.campaign.schedule import Schedule
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 NONE, PAIR = "none", "pair"
 KINDS = (NONE, *HIDDEN, PAIR)

@@ -5,9 +5,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from instrument.campaign.plates.geometry import TruePlate
-
-Array = NDArray[np.float64]
 
 _NEAREST_M = 2e-4
 """Lines of the regular grid closer than this to a wanted one give way to it."""

@@ -3,11 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from instrument.campaign.plates.reduced import ReducedPlate
-
-Array = NDArray[np.float64]
 
 FREQUENCY_SCATTER = 3e-4
 MODES = 8

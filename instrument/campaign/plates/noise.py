@@ -3,13 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Complex
 from instrument.campaign.noise import NoiseFigures
 from instrument.campaign.schedule import Schedule
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _WHITE_SHARE = 0.5
 """Of cases; the others drift as well, in one of two ways."""

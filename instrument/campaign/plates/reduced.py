@@ -16,11 +16,9 @@ from scipy.sparse.linalg import LinearOperator, eigsh
 
 from drivers.simulated.plant import air
 from drivers.simulated.plant.one_thread import one_thread
+from fitting.arrays import Array
 from instrument.campaign.plates.grid import interpolation
 from instrument.campaign.plates.solid import Solid, factorised
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 MODES = 14
 """Found at the middle modulus: beyond the third resonance of any plate of the campaign."""

@@ -7,10 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivers.simulated.plant.one_thread import one_thread
+from fitting.arrays import Array, Complex
 from instrument.campaign.plates.reduced import REFERENCE_MODULUS_PA, ReducedPlate
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _CHUNK = 64
 """Points solved at once."""

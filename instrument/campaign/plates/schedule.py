@@ -5,12 +5,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.materials import TrueLaw
 from instrument.campaign.plates.reduced import ReducedPlate
 from instrument.campaign.schedule import Schedule
 
-Array = NDArray[np.float64]
 Integers = NDArray[np.intp]
 
 _POINTS = (60, 121)

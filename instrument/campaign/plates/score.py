@@ -5,12 +5,9 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from instrument.campaign.plates.answers import LAW, Band, PlateOutcome, explains
 from instrument.campaign.plates.cases import KINDS, NONE, PAIR
-
-Array = NDArray[np.float64]
 
 UNKNOWN = "unknown"
 MOST_IN_GROUP = 3

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from functools import reduce
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.grid import Fineness
 from instrument.campaign.plates.hammer import HammerTest, hammer_test
@@ -19,9 +19,6 @@ from instrument.campaign.plates.response import Motion, Shaken, remaining_dampin
 from instrument.campaign.plates.softening import softened
 from instrument.campaign.plates.solid import Build, Solid
 from instrument.campaign.schedule import Schedule
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _LOOK, _LOOKED_AT = (0.62, 1.3), 90
 """Of a clean resonance's frequency: where an effect may have moved it."""

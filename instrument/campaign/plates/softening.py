@@ -3,17 +3,14 @@
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from drivers.simulated.plant.one_thread import one_thread
+from fitting.arrays import Array, Complex
 from instrument.campaign.plates.hidden.core import AmplitudeSoftening
 from instrument.campaign.plates.reduced import ReducedPlate
 from instrument.campaign.plates.response import Shaken
 from instrument.campaign.plates.stated import G_M_S2
 from instrument.campaign.schedule import Schedule
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 _RELAXED = 0.8
 _SETTLED = 1e-6

@@ -12,11 +12,11 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 from scipy.sparse.linalg import SuperLU, splu
 
+from fitting.arrays import Array
 from instrument.campaign.plates import brick
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.grid import Fineness, dissected, grid_of, interpolation, line_mass
 
-Array = NDArray[np.float64]
 Field = Callable[[Array, Array], Array]
 """A factor over the plate, of x and y in m, broadcast."""
 

@@ -19,14 +19,14 @@ class Placed(Effect):
     """An effect with one unknown that is as likely anywhere between its limits."""
 
     name, chance = "placed", 0.05
-    unknowns = (EffectParameter("x", "m", -0.5, 0.5, 0.1, neutral=None),)
+    parameters = (EffectParameter("x", "m", -0.5, 0.5, 0.1, neutral=None),)
 
 
 class Small(Effect):
     """One with an unknown that is likely small."""
 
     name, chance = "small", 0.05
-    unknowns = (EffectParameter("size", "1", -10.0, 10.0, 0.1, spread=0.1),)
+    parameters = (EffectParameter("size", "1", -10.0, 10.0, 0.1, spread=0.1),)
 
 
 def linear(columns, data, stated=0, effects=(), law=LAW, noise_known=True):
@@ -34,10 +34,10 @@ def linear(columns, data, stated=0, effects=(), law=LAW, noise_known=True):
 
     Columns are of the law's log parameters, of as many stated numbers, and of the effects' unknowns.
     """
-    priors = law.bends + stated
+    priors = law.bend_count + stated
     own = len(law.names)
     J = np.vstack([columns, np.zeros((priors, columns.shape[1]))])
-    J[len(data) + stated :, own - law.bends : own] = np.eye(law.bends)
+    J[len(data) + stated :, own - law.bend_count : own] = np.eye(law.bend_count)
     J[len(data) : len(data) + stated, own : own + stated] = np.eye(stated)
     start = -np.concatenate([data, np.zeros(priors)])
     at = -np.linalg.lstsq(J, start, rcond=None)[0]
@@ -114,9 +114,9 @@ def test_of_a_linear_gaussian_model_it_is_the_exact_evidence(stated, effect):
 def test_a_bend_is_a_stated_number_of_the_law():
     """Columns of prior unit width weigh the same, whether the law or the plate has them."""
     law = BentLaw.over(LAW, np.array([50.0, 90.0]))
-    columns, data = design(3, 2 + law.bends), np.random.default_rng(4).normal(size=N)
+    columns, data = design(3, 2 + law.bend_count), np.random.default_rng(4).normal(size=N)
     bent = cost(linear(columns, data, law=law), None)
-    assert bent == pytest.approx(cost(linear(columns, data, stated=law.bends), None), abs=1e-6)
+    assert bent == pytest.approx(cost(linear(columns, data, stated=law.bend_count), None), abs=1e-6)
 
 
 def test_a_parameter_that_explains_nothing_costs_by_how_well_it_is_known():
@@ -176,7 +176,7 @@ def test_a_small_value_is_likelier_than_a_large_one():
 def test_at_a_physical_limit_there_is_one_side_only():
     class OneSided(Effect):
         name, chance = "one_sided", 0.05
-        unknowns = (EffectParameter("size", "1", 0.0, 10.0, 0.1, spread=0.1),)
+        parameters = (EffectParameter("size", "1", 0.0, 10.0, 0.1, spread=0.1),)
 
     columns, data = design(15, 3), np.random.default_rng(16).normal(size=N)
     one, both = (cost(linear(columns, data, effects=[e()]), None) for e in (OneSided, Small))

@@ -87,7 +87,7 @@ class Full:
     def slope(self, effect, u, n):
         """Derivative to unknown n by the adjoint, and by differences."""
         plate, u = self.spanned.take(effect.spans), np.array(u, dtype=float)
-        h = 1e-4 * (abs(u[n]) if effect.unknowns[n].logarithmic else effect.unknowns[n].typical)
+        h = 1e-4 * (abs(u[n]) if effect.parameters[n].logarithmic else effect.parameters[n].typical)
         step = h * np.eye(len(u))[n]
         up, down = (effect.change(plate, u + s * step) for s in (1, -1))
         nearby = [(up, down, 2 * h)]

@@ -12,7 +12,7 @@ SPANNED = ("mass", "treatment", "uneven", "length", "roll")
 
 
 def ids(form):
-    return f"{form.name} {' '.join(q.key for q in form.unknowns)}"
+    return f"{form.name} {' '.join(q.key for q in form.parameters)}"
 
 
 @pytest.mark.parametrize("form", FORMS, ids=ids)
@@ -21,7 +21,7 @@ def test_it_says_what_it_is_and_what_shows_it_apart(form):
     assert form.source
     assert form.discriminating_test
     assert 0 < form.chance <= 0.05
-    values = {q.key: q.typical for q in form.unknowns}
+    values = {q.key: q.typical for q in form.parameters}
     if form.name not in ("level_error", "mains_hum"):
         assert len(form.story(values)) > 20
 
@@ -29,7 +29,7 @@ def test_it_says_what_it_is_and_what_shows_it_apart(form):
 @pytest.mark.parametrize("form", FORMS, ids=ids)
 def test_every_size_has_a_prior(form):
     """What is absent at a number has a spread about it; places and logarithms are even in their limits."""
-    for q in form.unknowns:
+    for q in form.parameters:
         even = q.logarithmic or q.neutral is None
         assert (q.spread is None) == even or q.fixed, q.key
         assert q.lower < q.upper

@@ -99,14 +99,14 @@ def test_another_free_length(full, dlength, too):
 
 def _all(effect, first):
     """All unknowns of an effect, zero after the first."""
-    return [first, *(0.0 for _ in effect.unknowns[1:])]
+    return [first, *(0.0 for _ in effect.parameters[1:])]
 
 
 @pytest.mark.parametrize(
     ("effect", "neutral"), [(ORTHOTROPIC, 1), (GRADED, 0), (STIFFNESS, 1), (THICKNESS, 1), (LENGTH, 0)]
 )
 def test_without_it_nothing_changes(full, effect, neutral):
-    assert effect.unknowns[0].neutral == neutral
+    assert effect.parameters[0].neutral == neutral
     assert full.error(effect, _all(effect, neutral)) < 1e-5
 
 

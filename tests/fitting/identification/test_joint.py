@@ -42,7 +42,7 @@ class Drawn:
             np.log(TABLE_4.values) + np.array([0.1, 0.1, 0.1, 0.03]) * rng.normal(size=4)
         )
         straight = BentLaw.over(plain, problem.sweep.frequency_hz)
-        bend = np.exp(rng.normal(size=straight.bends))
+        bend = np.exp(rng.normal(size=straight.bend_count))
         self.law = straight.with_values(np.concatenate([plain.values, bend]))
         self.z = rng.normal(size=len(problem.nuisances))
         v = Response(problem.around(self.law), ()).velocity(self.law, self.z)
@@ -121,7 +121,7 @@ def test_an_exact_specimen_moves_nothing_and_does_not_bend(zn1):
     begun = begin(ready.problem, ready.reduced, noise_of(sweep), None, zn1.core.law)
     fit = fit_of(begun)
     assert fit.law.kind == "fractional-zener"
-    assert (fit.law.bends, fit.adjusted, len(begun.none.u)) == (0, (), 0)
+    assert (fit.law.bend_count, fit.adjusted, len(begun.none.u)) == (0, (), 0)
     pulls = np.log(fit.law.values / TABLE_4.values) / np.sqrt(np.diag(fit.covariance))
     assert np.abs(pulls).max() < 4
     # The model's error is in the covariance beside the noise.

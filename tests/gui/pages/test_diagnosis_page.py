@@ -27,7 +27,7 @@ def shown(qtbot, window, path):
     page = page_of(window, DiagnosisPage)
     window.tabs.setCurrentWidget(page)
     window.open(path)
-    qtbot.waitUntil(lambda: window.desk.recorded is not None, timeout=10_000)
+    qtbot.waitUntil(lambda: window.controller.recorded is not None, timeout=10_000)
     window.turn()
     return page
 
@@ -108,10 +108,10 @@ def test_an_effect_accepted_by_hand_is_fitted_and_the_material_follows(qtbot, wi
     select(qtbot, page, "spot_offset")
     qtbot.mouseClick(page.candidates.accept, LEFT)
     assert "accepted by hand" in page.candidates.table.texts(1)
-    with qtbot.waitSignal(window.desk.rediagnosis.progressed, timeout=LONG_MS):
+    with qtbot.waitSignal(window.controller.rediagnosis.progressed, timeout=LONG_MS):
         qtbot.mouseClick(page.candidates.compute, LEFT)
         assert page.cancel.isVisible()
-    qtbot.waitUntil(lambda: not window.desk.rediagnosis.running, timeout=LONG_MS)
+    qtbot.waitUntil(lambda: not window.controller.rediagnosis.running, timeout=LONG_MS)
     assert page.finding.verdict.said.startswith("By hand: spot_offset (dx ")
     assert page.finding.origin.said == "● by hand, not recorded"
     assert page.candidates.table.texts(0)[0] == "added_mass"
@@ -130,8 +130,8 @@ def test_an_effect_accepted_by_hand_is_fitted_and_the_material_follows(qtbot, wi
 
 def test_no_effect_by_hand_is_not_called_noise(window, page):
     nothing = {**facts(verdict="none"), "effects": [], "equivalent": {}}
-    rediagnosis = window.desk.rediagnosis
-    rediagnosis.found = Shown(nothing, "by hand", Asked(window.desk.recorded.path, accept=()))
+    rediagnosis = window.controller.rediagnosis
+    rediagnosis.found = Shown(nothing, "by hand", Asked(window.controller.recorded.path, accept=()))
     rediagnosis.changed.emit()
     assert page.finding.verdict.said == "By hand: no effect accepted"
     assert page.residual.segment.count() == 4
@@ -145,9 +145,9 @@ def test_what_is_computed_can_be_cancelled(qtbot, window, page):
     qtbot.mouseClick(page.candidates.decline, LEFT)
     assert page.candidates.compute.text() == "Recompute: search again without added_mass"
     qtbot.mouseClick(page.candidates.compute, LEFT)
-    assert window.desk.rediagnosis.running
+    assert window.controller.rediagnosis.running
     qtbot.mouseClick(page.cancel, LEFT)
-    assert not window.desk.rediagnosis.running
+    assert not window.controller.rediagnosis.running
     assert page.finding.origin.said == "recorded with the session"
     assert page.candidates.compute.isEnabled()
 
@@ -155,14 +155,14 @@ def test_what_is_computed_can_be_cancelled(qtbot, window, page):
 def test_an_effect_these_data_cannot_have_is_refused_in_a_line(qtbot, window, page):
     select(qtbot, page, "absolute_velocity")
     qtbot.mouseClick(page.candidates.accept, LEFT)
-    with qtbot.waitSignal(window.desk.refused, timeout=LONG_MS) as refused:
+    with qtbot.waitSignal(window.controller.refused, timeout=LONG_MS) as refused:
         qtbot.mouseClick(page.candidates.compute, LEFT)
     assert "absolute_velocity" in refused.args[0]
     assert page.finding.origin.said == "recorded with the session"
 
 
 def test_before_its_end_a_session_has_no_diagnosis(qtbot, window, page):
-    window.desk.recorded.jump(0.0)
+    window.controller.recorded.jump(0.0)
     qtbot.waitUntil(lambda: not page.body.isVisible())
     assert "No diagnosis yet" in page.finding.verdict.said
     assert page.empty.isVisible()
@@ -173,7 +173,7 @@ def test_a_session_without_a_diagnosis_offers_one(qtbot, window, session_path):
     assert page.finding.verdict.said == "This session holds no diagnosis"
     assert not page.body.isVisible()
     qtbot.mouseClick(page.diagnose, LEFT)
-    assert window.desk.rediagnosis.running
+    assert window.controller.rediagnosis.running
     qtbot.mouseClick(page.cancel, LEFT)
     assert page.diagnose.isVisible()
 
@@ -193,23 +193,23 @@ def test_other_data_can_be_diagnosed_without_a_session(qtbot, window, tmp_path):
     window.open(sweep)
     qtbot.waitUntil(page.others.isVisible, timeout=5000)
     assert [action.text() for action in page.others.menu().actions()] == ["sweep.csv ..."]
-    with qtbot.waitSignal(window.desk.refused, timeout=LONG_MS) as refused:
-        window.desk.rediagnosis.start(Asked(sweep, tmp_path / "none.toml"))
+    with qtbot.waitSignal(window.controller.refused, timeout=LONG_MS) as refused:
+        window.controller.rediagnosis.start(Asked(sweep, tmp_path / "none.toml"))
     assert "none.toml" in refused.args[0]
 
 
 def test_closing_ends_what_is_computed(qtbot, window, page):
-    window.desk.rediagnosis.start(Asked(window.desk.recorded.path))
+    window.controller.rediagnosis.start(Asked(window.controller.recorded.path))
     window.close()
-    assert not window.desk.rediagnosis.running
+    assert not window.controller.rediagnosis.running
 
 
 def test_another_session_lets_go_of_what_was_made_here(qtbot, window, page, session_path):
-    window.desk.rediagnosis.start(Asked(window.desk.recorded.path, accept=("spot_offset",)))
-    before = window.desk.feed
+    window.controller.rediagnosis.start(Asked(window.controller.recorded.path, accept=("spot_offset",)))
+    before = window.controller.feed
     window.open(session_path)
-    qtbot.waitUntil(lambda: window.desk.feed is not before, timeout=10_000)
-    assert not window.desk.rediagnosis.running
+    qtbot.waitUntil(lambda: window.controller.feed is not before, timeout=10_000)
+    assert not window.controller.rediagnosis.running
     assert page.finding.verdict.said == "This session holds no diagnosis"
 
 

@@ -7,7 +7,7 @@ import pytest
 from engine_cases import engine_rig
 from PySide6.QtCore import Qt
 from quick_engine import QUICK_ENGINE
-from session_cases import Tape, configuration
+from session_cases import SyntheticSession, configuration
 
 from fitting.modal.frf import Frf
 from gui.feeds.live import LiveFeed
@@ -25,7 +25,7 @@ from instrument.session.configuration import read_whole_experiment
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import DampingFound, HitRevised
-from instrument.stream.jsonable import plain
+from instrument.stream.jsonable import to_jsonable
 
 LEFT = Qt.MouseButton.LeftButton
 BAND_HZ = (10.0, 550.0)
@@ -76,7 +76,7 @@ def only(hits, numbers):
 def by_command(hits, numbers):
     """What `viscorig damping` would say of these hits."""
     judged = [h.judged() for h in only(hits, numbers)]
-    return plain(damping_facts(damping_of_hits(judged, band_hz=BAND_HZ)))
+    return to_jsonable(damping_facts(damping_of_hits(judged, band_hz=BAND_HZ)))
 
 
 def numbers(page, column):
@@ -99,19 +99,19 @@ def test_without_a_session_it_says_what_to_do(window):
 def test_an_experiment_without_a_hammer_test_says_so(qtbot, window, tmp_path):
     whole = configuration().experiment.model_dump(mode="json")
     del whole["hammer"]
-    tape = Tape(configuration(experiment=ExperimentDocument.model_validate(whole)))
-    tape.begin()
-    tape.sweep((1,), steps=2)
-    tape.end()
+    index = SyntheticSession(configuration(experiment=ExperimentDocument.model_validate(whole)))
+    index.begin()
+    index.sweep((1,), steps=2)
+    index.end()
     window.show_page(2)
-    window.open(tape.save(tmp_path))
+    window.open(index.save(tmp_path))
     qtbot.waitUntil(lambda: "no hammer test" in window.pages[2].nothing.text(), timeout=PATIENCE_MS)
     assert window.pages[2].nothing.isVisible()
 
 
 def test_the_table_shows_what_was_recorded(finished, opened):
     page = finished
-    recorded = opened.desk.picture.contents.damping.facts_json["modes"]
+    recorded = opened.controller.state.contents.damping.facts_json["modes"]
     assert page.modes.source.text() == "As recorded: hits 1, 3 of 3."
     assert numbers(page, 0) == [round(m["frequency_hz"], 3) for m in recorded]
     for column, method in ((2, "rational_fit"), (3, "half_power"), (4, "lscf")):
@@ -153,7 +153,7 @@ def test_a_hit_rejected_is_a_what_if_and_the_file_stays(qtbot, page, opened, ses
     assert "what if" in page.hits.table.texts(3)[0]
     assert page._modes.facts == by_command(hits, [3])
     assert session_path.read_bytes() == before
-    assert [h.accepted for h in opened.desk.picture.contents.hits] == [True, False, True]
+    assert [h.accepted for h in opened.controller.state.contents.hits] == [True, False, True]
     qtbot.mouseClick(page.modes.back, LEFT)
     computed(qtbot, page, [1, 3])
     assert page.modes.source.text() == "As recorded: hits 1, 3 of 3."
@@ -207,8 +207,8 @@ def test_the_selected_hit_is_drawn(page):
 def test_an_frf_of_another_file_is_drawn_as_accelerance(page, opened):
     f = np.linspace(1.0, 500.0, 500)
     mobility = Frf(f, np.full(500, 2.0 + 0j), "velocity")
-    opened.desk.beside[Path("other.uff")] = Found(frfs=[("3z over 1z", mobility, None)])
-    opened.desk.beside_changed.emit()
+    opened.controller.beside[Path("other.uff")] = Found(frfs=[("3z over 1z", mobility, None)])
+    opened.controller.beside_changed.emit()
     name = "other.uff: 3z over 1z"
     assert name in page.frf.magnitude.names
     assert name in page.frf.phase.names
@@ -217,7 +217,7 @@ def test_an_frf_of_another_file_is_drawn_as_accelerance(page, opened):
 
 
 def test_before_the_first_blow_nothing_is_drawn(qtbot, page, opened):
-    opened.desk.recorded.jump(0.0)
+    opened.controller.recorded.jump(0.0)
     qtbot.waitUntil(lambda: page.hits.table.row_count == 0, timeout=PATIENCE_MS)
     assert page.hit_plots.force.names == ()
     assert page.frf.magnitude.names == ()
@@ -228,7 +228,7 @@ def test_a_change_of_mind_is_forgotten_with_the_session(qtbot, page, opened, ses
     page.hits.select(1)
     page.hits.reject.click()
     opened.open(session_path)
-    with qtbot.waitSignal(opened.desk.changed, timeout=PATIENCE_MS):
+    with qtbot.waitSignal(opened.controller.changed, timeout=PATIENCE_MS):
         pass
     computed(qtbot, page, [1, 3])
     assert "As recorded" in page.modes.source.text()
@@ -241,8 +241,8 @@ def live(window, tmp_path):
         order = Order(experiment, tmp_path / "out", ("hammer",), ask_content=True)
         setup = read_whole_experiment(experiment).configuration("run", "")
         window.show_page(2)
-        window.desk._show(LiveFeed(order, setup, window.desk, Engine.start(order, QUICK_ENGINE)))
-        yield window.desk.live
+        window.controller._show(LiveFeed(order, setup, window.controller, Engine.start(order, QUICK_ENGINE)))
+        yield window.controller.live
 
 
 def test_a_word_about_a_hit_goes_to_the_run(qtbot, window, live):
@@ -259,7 +259,7 @@ def test_a_word_about_a_hit_goes_to_the_run(qtbot, window, live):
     assert page.modes.source.text().startswith("Preliminary: hits 2, 3 of 3.")
     preliminary = page._modes.facts["modes"]
     qtbot.mouseClick(page.hits.use, LEFT)
-    qtbot.waitUntil(lambda: not window.desk.running, timeout=PATIENCE_MS)
+    qtbot.waitUntil(lambda: not window.controller.running, timeout=PATIENCE_MS)
     qtbot.waitUntil(lambda: page.modes.source.text() == "As recorded: hits 2, 3 of 3.", timeout=PATIENCE_MS)
     with SessionFile(live.ending.session) as file:
         events = list(file.events(with_samples=False))

@@ -21,13 +21,13 @@ def page(qtbot, window, diagnosed_path):
     (page,) = (p for p in window.pages if isinstance(p, MaterialPage))
     window.tabs.setCurrentWidget(page)
     window.open(diagnosed_path)
-    qtbot.waitUntil(lambda: window.desk.recorded is not None, timeout=10_000)
+    qtbot.waitUntil(lambda: window.controller.recorded is not None, timeout=10_000)
     window.turn()
     return page
 
 
 def fit_of(page):
-    return page.desk.picture.contents.fit.facts_json
+    return page.controller.state.contents.fit.facts_json
 
 
 def drop(widget, path):
@@ -126,7 +126,7 @@ def test_another_session_is_dropped_drawn_and_removed(qtbot, page, session_path)
     qtbot.mouseClick(table.viewport(), LEFT, pos=table.visualRect(table.model().index(0, 0)).center())
     qtbot.mouseClick(page.comparison.remove, LEFT)
     assert session_path.stem not in page.plots.names
-    assert page.desk.recorded.path != session_path
+    assert page.controller.recorded.path != session_path
 
 
 def test_a_session_with_a_diagnosis_brings_both_laws(qtbot, page, diagnosed_path):
@@ -143,21 +143,21 @@ def test_a_session_with_a_diagnosis_brings_both_laws(qtbot, page, diagnosed_path
 def test_a_bad_file_is_refused_in_a_line(qtbot, page, tmp_path):
     bad = tmp_path / "bad.h5"
     bad.write_bytes(b"nothing")
-    with qtbot.waitSignal(page.desk.refused, timeout=10_000) as refused:
+    with qtbot.waitSignal(page.controller.refused, timeout=10_000) as refused:
         drop(page.comparison, bad)
     assert "bad.h5" in refused.args[0]
     assert page.comparison.laws == []
 
 
 def test_on_the_way_the_fit_of_the_moment_is_shown(qtbot, window, page):
-    window.desk.recorded.jump(0.0)
+    window.controller.recorded.jump(0.0)
     qtbot.waitUntil(lambda: page.plots.names == ())
     assert page.said.text() == "No fit yet: the first follows the first segment."
     assert page.places.row_count == 0
 
 
 def test_without_a_session_other_laws_can_be_looked_at(qtbot, window, page):
-    window.desk.leave()
+    window.controller.leave()
     assert page.plots.names == ()
     page.tabs.setCurrentWidget(page.comparison)
     qtbot.mouseClick(page.comparison.paper, LEFT)

@@ -5,18 +5,18 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from session_cases import Tape, configuration
+from session_cases import SyntheticSession, configuration
 from sessions import point
 
-from gui.pages.sweep.beside import besides
 from gui.pages.sweep.curve import Stretch, grid, joined, predictions, regions_of
 from gui.pages.sweep.drifted import drifted
 from gui.pages.sweep.following import Following, latest_cycles, words
+from gui.pages.sweep.overlay import besides
 from gui.pages.sweep.points import Points
 from gui.pages.sweep.record_lines import record_lines
 from gui.pages.sweep.seen import Seen, Way
 from gui.pages.sweep.segments import standings
-from gui.picture import Picture
+from gui.state import SessionState
 from instrument.interchange.found import Found
 from instrument.session.contents import SegmentRun, TimedPoint
 from instrument.stepped_sine.settings import SweepSettings
@@ -40,21 +40,21 @@ def groups(points):
 
 
 @pytest.fixture(scope="module")
-def tape():
+def index():
     """A sweep of two segments, the second broken off."""
-    tape = Tape(configuration())
-    tape.begin()
-    tape.calibrate()
-    tape.sweep((1, 2), steps=4)
-    return tape
+    index = SyntheticSession(configuration())
+    index.begin()
+    index.calibrate()
+    index.sweep((1, 2), steps=4)
+    return index
 
 
 @pytest.fixture(scope="module")
-def picture(tape):
-    picture = Picture(tape.configuration)
-    for event in tape.events:
-        picture.take(event)
-    return picture
+def state(index):
+    state = SessionState(index.configuration)
+    for event in index.events:
+        state.take(event)
+    return state
 
 
 # Points
@@ -171,16 +171,16 @@ def test_every_region_is_drawn_once_with_gaps_between():
 # Segments, drift, record
 
 
-def test_segments_are_planned_running_done_or_broken_off(picture, tape):
-    points = Points.of(picture.contents.points, picture.limits)
-    stand = standings(picture, points)
+def test_segments_are_planned_running_done_or_broken_off(state, index):
+    points = Points.of(state.contents.points, state.limits)
+    stand = standings(state, points)
     assert [s.state for s in stand] == ["done", "running", "planned"]
     assert [s.points for s in stand] == ["9 of 9 points", "4 of 9 points", "0 of 9 points"]
     assert stand[0].band == "18 to 22 Hz"
     assert stand[0].marked == 1
     assert {s.level for s in stand} == {"0.5 g"}
-    over = Picture(tape.configuration)
-    for event in (*tape.events, SessionEnded("stopped safely", "interlock open")):
+    over = SessionState(index.configuration)
+    for event in (*index.events, SessionEnded("stopped safely", "interlock open")):
         over.take(event)
     assert [s.state for s in standings(over, points)] == ["done", "broken off", "planned"]
 
@@ -188,15 +188,15 @@ def test_segments_are_planned_running_done_or_broken_off(picture, tape):
 def test_a_segment_is_done_only_after_its_last_pass():
     config = configuration()
     config.experiment.sweep.sweeps = 2
-    picture, none = Picture(config), of()
-    picture.take(SessionBegan("2026-04-01T08:00:05+00:00", "0", {}, ()))
-    picture.take(SegmentBegan(1, 1, 18.0, 22.0, 9))
-    picture.take(SegmentEnded(1, 1))
-    first = standings(picture, none)[0]
+    state, none = SessionState(config), of()
+    state.take(SessionBegan("2026-04-01T08:00:05+00:00", "0", {}, ()))
+    state.take(SegmentBegan(1, 1, 18.0, 22.0, 9))
+    state.take(SegmentEnded(1, 1))
+    first = standings(state, none)[0]
     assert (first.state, first.points) == ("running", "0 of 18 points, pass 1 of 2")
-    picture.take(SegmentBegan(1, 2, 18.0, 22.0, 9))
-    picture.take(SegmentEnded(1, 2))
-    assert standings(picture, none)[0].state == "done"
+    state.take(SegmentBegan(1, 2, 18.0, 22.0, 9))
+    state.take(SegmentEnded(1, 2))
+    assert standings(state, none)[0].state == "done"
 
 
 def test_drift_begins_with_the_first_sentinel_at_zero():
@@ -237,15 +237,15 @@ def test_the_record_tells_every_field_of_a_point():
 # The step in progress
 
 
-def test_settling_is_followed_as_the_measurement_saw_it(tape):
+def test_settling_is_followed_as_the_measurement_saw_it(index):
     """Block by block to the very number the measurement decided by."""
-    picture, compared = Picture(tape.configuration), 0
-    following = Following(picture.limits)
-    for event in tape.events:
-        picture.take(event)
-        if picture.step is None or picture.step.over:
+    state, compared = SessionState(index.configuration), 0
+    following = Following(state.limits)
+    for event in index.events:
+        state.take(event)
+        if state.step is None or state.step.over:
             continue
-        while following.take(picture.step):
+        while following.take(state.step):
             pass
         if isinstance(event, StepSettled):
             last = following.course.standings[-1]
@@ -255,14 +255,14 @@ def test_settling_is_followed_as_the_measurement_saw_it(tape):
     assert compared > 10
 
 
-def test_the_step_is_put_into_words(picture):
-    assert words(picture.step, picture.limits) == f"116.25 Hz, step {picture.step.began.step}: measured"
+def test_the_step_is_put_into_words(state):
+    assert words(state.step, state.limits) == f"116.25 Hz, step {state.step.began.step}: measured"
 
 
-def test_the_time_signal_ends_with_the_latest_sample(picture):
-    trace = latest_cycles(picture.step)
+def test_the_time_signal_ends_with_the_latest_sample(state):
+    trace = latest_cycles(state.step)
     assert trace.time_s[-1] == 0
-    assert -trace.time_s[0] == pytest.approx(8 / picture.step.began.frequency_hz, rel=0.01)
+    assert -trace.time_s[0] == pytest.approx(8 / state.step.began.frequency_hz, rel=0.01)
     assert np.abs(trace.base_m_s2).max() == pytest.approx(0.5 * 9.81, rel=0.05)
 
 

@@ -1,12 +1,12 @@
 import numpy as np
 import pytest
 from PySide6.QtCore import QPointF, Qt
-from session_cases import Tape, configuration
+from session_cases import SyntheticSession, configuration
 from sessions import point
 
-from gui.desk import Desk
+from gui.controller import AppController
 from gui.pages.sweep import SweepPage
-from gui.picture import Picture
+from gui.state import SessionState
 from instrument.stepped_sine.sine_fit import sine_fit
 from instrument.stream.derived import StepSettled
 from instrument.stream.raw import SegmentBegan, SessionBegan
@@ -27,17 +27,17 @@ def page(opened):
 @pytest.fixture
 def alone(qtbot):
     """A page and a picture to be filled by hand."""
-    desk = Desk()
-    page = SweepPage(desk)
+    controller = AppController()
+    page = SweepPage(controller)
     qtbot.addWidget(page)
     page.resize(1366, 500)
     page.show()
-    picture = Picture(configuration())
-    picture.take(BEGAN)
-    page.show_picture(picture)
-    yield page, picture
+    state = SessionState(configuration())
+    state.take(BEGAN)
+    page.show_state(state)
+    yield page, state
     page.hide()
-    desk.close()
+    controller.close()
 
 
 def click_segment(qtbot, page, row):
@@ -60,10 +60,10 @@ def shown(plot, name):
     return plot.columns()[f"{name}: {plot.x.column}"], plot.columns()[f"{name}: {plot.y.column}"]
 
 
-def fed(page, picture, events):
+def fed(page, state, events):
     for event in events:
-        picture.take(event)
-        page.show_picture(picture)
+        state.take(event)
+        page.show_state(state)
 
 
 def test_without_a_session_it_says_what_will_appear(qtbot, window):
@@ -206,7 +206,7 @@ def test_in_a_run_a_page_that_is_shown_again_is_drawn_pane_by_pane(opened, page,
     drawn, draw = [], page.turns._draw
     opened.show_page(0)
     with monkeypatch.context() as patched:
-        patched.setattr(type(opened.desk), "running", property(lambda desk: running))
+        patched.setattr(type(opened.controller), "running", property(lambda controller: running))
         patched.setattr(page.turns, "_draw", lambda pane: (drawn.append(pane), draw(pane)))
         page._mark_all()
         page._version = -1
@@ -228,31 +228,31 @@ def test_drift_of_the_sentinel(page):
 
 
 def test_it_follows_the_run_until_somebody_else_is_chosen(qtbot, alone):
-    page, picture = alone
-    fed(page, picture, [SegmentBegan(1, 1, 18.0, 22.0, 9)])
+    page, state = alone
+    fed(page, state, [SegmentBegan(1, 1, 18.0, 22.0, 9)])
     assert page.chooser.segment == 1
-    fed(page, picture, [point(1, 18.0), SegmentBegan(2, 1, 108.0, 130.0, 9)])
+    fed(page, state, [point(1, 18.0), SegmentBegan(2, 1, 108.0, 130.0, 9)])
     assert page.chooser.segment == 2
     qtbot.mouseClick(page.follow, LEFT, pos=page.follow.rect().topLeft() + page.follow.rect().center() / 8)
     assert not page.follow.isChecked()
-    fed(page, picture, [SegmentBegan(3, 1, 190.0, 230.0, 9)])
+    fed(page, state, [SegmentBegan(3, 1, 190.0, 230.0, 9)])
     assert page.chooser.segment == 2
 
 
 def test_the_whole_region_is_in_view_from_its_first_point(qtbot, alone):
-    page, picture = alone
-    fed(page, picture, [SegmentBegan(1, 1, 18.0, 22.0, 9), point(1, 18.0)])
+    page, state = alone
+    fed(page, state, [SegmentBegan(1, 1, 18.0, 22.0, 9), point(1, 18.0)])
     qtbot.waitUntil(lambda: "good" in page.response.amplitude.names)
     low, high = page.response.amplitude.viewRange()[0]
     assert low < 18 < 22 < high
-    fed(page, picture, [point(2, 18.5)])
+    fed(page, state, [point(2, 18.5)])
     qtbot.waitUntil(lambda: len(shown(page.response.amplitude, "good")[0]) == 2)
 
 
 def test_points_of_every_pass_and_quality_are_in_the_legend(qtbot, alone):
-    page, picture = alone
+    page, state = alone
     bad = {"control_error_percent": 2.0}
-    fed(page, picture, [point(1, 18.0), point(2, 19.0, sweep=2), point(3, 20.0, **bad)])
+    fed(page, state, [point(1, 18.0), point(2, 19.0, sweep=2), point(3, 20.0, **bad)])
     wanted = {"good, pass 1", "good, pass 2", "out of limits"}
     qtbot.waitUntil(lambda: wanted <= set(page.response.amplitude.names))
     page.tabs.setCurrentWidget(page.quality)
@@ -261,18 +261,18 @@ def test_points_of_every_pass_and_quality_are_in_the_legend(qtbot, alone):
 
 def test_a_step_is_followed_to_its_rest(qtbot, alone):
     page, _ = alone
-    tape = Tape(configuration())
-    tape.begin()
-    tape.sweep((1,), steps=1)
-    settled = max(k for k, e in enumerate(tape.events) if isinstance(e, StepSettled))
-    picture = Picture(tape.configuration)
-    fed(page, picture, tape.events[: settled + 1])
+    index = SyntheticSession(configuration())
+    index.begin()
+    index.sweep((1,), steps=1)
+    settled = max(k for k, e in enumerate(index.events) if isinstance(e, StepSettled))
+    state = SessionState(index.configuration)
+    fed(page, state, index.events[: settled + 1])
     page.tabs.setCurrentWidget(page.step)
     qtbot.waitUntil(lambda: "dwelling" in page.step.words.text(), timeout=5000)
     assert page.step.facts["Level"].text().startswith("4.91")
     assert page.step.facts["Drive"].text() == "0.5 V of 5 V"
     seconds, left = shown(page.step.settling, "left")
-    event = tape.events[settled]
+    event = index.events[settled]
     assert seconds[-1] == pytest.approx(event.seconds)
     assert left[-1] == pytest.approx(max(event.remaining_percent, 1e-4), rel=1e-6)
     _, velocity = shown(page.step.velocity, "velocity")
@@ -304,7 +304,7 @@ def test_a_sweep_of_another_file_is_drawn_even_without_a_session(qtbot, window, 
 
 
 def test_back_in_time_there_are_fewer_points(qtbot, opened, page):
-    feed = opened.desk.recorded
+    feed = opened.controller.recorded
     page.walk(1)
     feed.jump(0.7 * feed.length_s)
     qtbot.waitUntil(lambda: 0 < len(page.seen.points) < 30, timeout=5000)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from session_cases import RATE, SECONDS, Tape, configuration, whole_session
+from session_cases import RATE, SECONDS, SyntheticSession, configuration, whole_session
 
 from instrument.errors import BadInput
 from instrument.session.contents import contents_of
@@ -41,13 +41,13 @@ def test_an_acquisition_after_another_begins_where_that_ended(contents):
 
 
 def test_a_resumed_run_goes_on_by_the_clock(tmp_path):
-    tape = Tape(configuration())
-    tape.begin()
-    tape.sweep(segments=(1,), steps=2)
-    tape.begin("2026-04-01T09:00:05+00:00", resumed=True)
-    tape.sweep(segments=(2,))
-    tape.end()
-    contents = read(tape.save(tmp_path))
+    synthetic = SyntheticSession(configuration())
+    synthetic.begin()
+    synthetic.sweep(segments=(1,), steps=2)
+    synthetic.begin("2026-04-01T09:00:05+00:00", resumed=True)
+    synthetic.sweep(segments=(2,))
+    synthetic.end()
+    contents = read(synthetic.save(tmp_path))
     early, late = (p.time_s for p in (contents.points[0], contents.points[-1]))
     assert late - early == pytest.approx(3600, abs=30)
     assert len(contents.began) == 2
@@ -66,22 +66,22 @@ def test_hits_are_the_samples_the_trigger_saw(contents):
 
 
 def test_the_operators_word_counts(tmp_path):
-    tape = Tape(configuration())
-    tape.begin()
-    tape.hammer(rejected=(3,))
-    tape.emit(OperatorDid("undone", "", 3))
-    tape.emit(OperatorDid("rejected", "", 1))
-    contents = read(tape.save(tmp_path))
+    synthetic = SyntheticSession(configuration())
+    synthetic.begin()
+    synthetic.hammer(rejected=(3,))
+    synthetic.emit(OperatorDid("undone", "", 3))
+    synthetic.emit(OperatorDid("rejected", "", 1))
+    contents = read(synthetic.save(tmp_path))
     assert [h.accepted for h in contents.hits] == [False, False, True]
     assert contents.hits[0].judged().why == "rejected"
 
 
 def test_a_hammer_test_begun_again_replaces_the_first(tmp_path):
-    tape = Tape(configuration())
-    tape.begin()
-    tape.hammer(hits=3)
-    tape.hammer(hits=1)
-    contents = read(tape.save(tmp_path))
+    synthetic = SyntheticSession(configuration())
+    synthetic.begin()
+    synthetic.hammer(hits=3)
+    synthetic.hammer(hits=1)
+    contents = read(synthetic.save(tmp_path))
     assert [h.number for h in contents.hits] == [1]
 
 
@@ -92,17 +92,17 @@ def test_without_hits_no_samples_are_read(session_path):
 
 
 def test_a_killed_run_has_no_end(tmp_path):
-    tape = Tape(configuration())
-    tape.begin()
-    assert read(tape.save(tmp_path)).ended is None
+    synthetic = SyntheticSession(configuration())
+    synthetic.begin()
+    assert read(synthetic.save(tmp_path)).ended is None
 
 
 def test_a_hit_without_its_samples_is_damage(tmp_path):
-    tape = Tape(configuration())
-    tape.begin()
-    tape.events.append(HitJudged(1, 0, 10, 5.0, True, ""))
+    synthetic = SyntheticSession(configuration())
+    synthetic.begin()
+    synthetic.events.append(HitJudged(1, 0, 10, 5.0, True, ""))
     with pytest.raises(BadInput, match="hit 1: its samples are missing"):
-        read(tape.save(tmp_path))
+        read(synthetic.save(tmp_path))
 
 
 def test_two_sessions_made_alike_are_alike(session_path, tmp_path):

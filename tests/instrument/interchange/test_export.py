@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import pyuff
 from scipy.io import loadmat
-from session_cases import LEVEL_G, RATE, Tape, configuration
+from session_cases import LEVEL_G, RATE, SyntheticSession, configuration
 
 from instrument.cli.main import run
 from instrument.files.impact_csv import read_impact_csv
@@ -187,10 +187,10 @@ def test_the_command_prints_every_file_it_wrote(capsys, session_path, tmp_path):
 
 
 def test_a_session_stopped_early_exports_what_there_is(capsys, tmp_path):
-    tape = Tape(configuration())
-    tape.begin()
-    tape.sweep(segments=(1,), steps=1)
-    path = tape.save(tmp_path)
+    synthetic = SyntheticSession(configuration())
+    synthetic.begin()
+    synthetic.sweep(segments=(1,), steps=1)
+    path = synthetic.save(tmp_path)
     for to, files in (("csv", {".csv", ".toml"}), ("uff", set()), ("mat", {".mat"})):
         folder = tmp_path / to
         assert run(["export", str(path), "--to", to, "--out", str(folder)]) == 0
@@ -199,10 +199,10 @@ def test_a_session_stopped_early_exports_what_there_is(capsys, tmp_path):
 
 
 def test_nothing_to_export_is_refused(capsys, tmp_path):
-    tape = Tape(configuration())
-    tape.begin()
-    tape.end("stopped safely", "the door was open")
-    assert run(["export", str(tape.save(tmp_path)), "--to", "csv", "--out", str(tmp_path)]) == 2
+    synthetic = SyntheticSession(configuration())
+    synthetic.begin()
+    synthetic.end("stopped safely", "the door was open")
+    assert run(["export", str(synthetic.save(tmp_path)), "--to", "csv", "--out", str(tmp_path)]) == 2
     assert "nothing to export" in capsys.readouterr().err
 
 

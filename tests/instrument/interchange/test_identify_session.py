@@ -4,7 +4,7 @@ import json
 
 import pytest
 from conftest import DATA, TABLE_4
-from session_cases import Tape, configuration
+from session_cases import SyntheticSession, configuration
 
 from instrument.cli.main import run
 from instrument.paper_case import case_file
@@ -50,13 +50,13 @@ def test_the_hammer_test_can_be_left_out(capsys, session_path):
 
 def test_a_hammer_test_beyond_use_is_refused_and_can_be_left_out(capsys, tmp_path):
     """A quarter of critical damping on a bare plate: something else was hit."""
-    tape = Tape(configuration())
-    tape.begin()
-    tape.hammer()
-    (found,) = (e for e in tape.events if isinstance(e, DampingFound))
+    synthetic = SyntheticSession(configuration())
+    synthetic.begin()
+    synthetic.hammer()
+    (found,) = (e for e in synthetic.events if isinstance(e, DampingFound))
     found.facts_json["modes"][0]["damping_ratio"] = 0.25
-    tape.sweep(segments=(1, 2))
-    path = tape.save(tmp_path)
+    synthetic.sweep(segments=(1, 2))
+    path = synthetic.save(tmp_path)
     status, _, err = call(capsys, "identify", path)
     assert (status, err.count("\n")) == (2, 1)
     assert "hammer test: modes.0.damping_ratio: 0.25" in err
@@ -120,11 +120,11 @@ def test_a_csv_still_needs_its_specimen(capsys):
 
 
 def test_a_session_without_points_is_refused(capsys, tmp_path):
-    tape = Tape(configuration())
-    tape.begin()
-    tape.hammer()
-    tape.end("stopped by the user")
-    status, _, err = call(capsys, "identify", tape.save(tmp_path))
+    synthetic = SyntheticSession(configuration())
+    synthetic.begin()
+    synthetic.hammer()
+    synthetic.end("stopped by the user")
+    status, _, err = call(capsys, "identify", synthetic.save(tmp_path))
     assert (status, err.count("\n")) == (2, 1)
     assert "no point of a sweep" in err
 

@@ -19,7 +19,7 @@ from instrument.paper_case import case_file
 from instrument.results.fit_file import found_law
 from instrument.results.fitted_response import fitted_response
 from instrument.results.identification_facts import identification_facts
-from instrument.stream.jsonable import plain
+from instrument.stream.jsonable import to_jsonable
 
 F = np.array([17.0, 19.3, 95.0, 101.0, 280.0])
 
@@ -29,7 +29,7 @@ def identified():
     specimen = replace(read_specimen(case_file("zn1.toml")), exact=False)
     sweep = read_sweep(DATA / "practice-005.csv").sweep(9.81)
     found = identify(sweep, specimen)
-    return specimen, sweep, found, plain(identification_facts(found, sweep))
+    return specimen, sweep, found, to_jsonable(identification_facts(found, sweep))
 
 
 def test_it_predicts_what_was_fitted(identified):

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from instrument.report.numbers import plain, signed, with_error
+from instrument.report.numbers import format_number, signed, with_error
 
 
 @pytest.mark.parametrize(
@@ -27,5 +27,5 @@ def test_two_digits_of_the_error_decide(value, error, scale, text):
 
 
 def test_plain_and_signed():
-    assert (plain(0.123456), plain(None), plain(math.inf)) == ("0.1235", "-", "-")
+    assert (format_number(0.123456), format_number(None), format_number(math.inf)) == ("0.1235", "-", "-")
     assert signed(0.5) == "+0.50"

@@ -7,7 +7,7 @@ from html.parser import HTMLParser
 from xml.etree import ElementTree
 
 import pytest
-from session_cases import GAIN, Tape, configuration, whole_session
+from session_cases import GAIN, SyntheticSession, configuration, whole_session
 
 from instrument.cli.main import run
 from instrument.report.page import report_page
@@ -192,18 +192,18 @@ def test_the_head_has_the_result_in_short(page):
 
 
 def made(folder, act):
-    tape = Tape(configuration())
-    tape.begin()
-    act(tape)
-    return page_of(tape.save(folder))
+    synthetic = SyntheticSession(configuration())
+    synthetic.begin()
+    act(synthetic)
+    return page_of(synthetic.save(folder))
 
 
 def test_a_run_stopped_early_says_what_it_lacks(tmp_path):
-    def act(tape):
-        tape.calibrate()
-        tape.sweep(segments=(1, 2), steps=4)
-        tape.emit(LimitWarned(12, "base travel", 4.2e-3, 5e-3, "m"))
-        tape.end("stopped safely", "step 17: velocity 1.2 m/s, limit 1: lower the level")
+    def act(synthetic):
+        synthetic.calibrate()
+        synthetic.sweep(segments=(1, 2), steps=4)
+        synthetic.emit(LimitWarned(12, "base travel", 4.2e-3, 5e-3, "m"))
+        synthetic.end("stopped safely", "step 17: velocity 1.2 m/s, limit 1: lower the level")
 
     page = made(tmp_path, act)
     words = section(page, "How it ended")
@@ -219,9 +219,9 @@ def test_a_run_stopped_early_says_what_it_lacks(tmp_path):
 
 
 def test_a_hammer_test_alone(tmp_path):
-    def act(tape):
-        tape.hammer(hits=1)
-        tape.end("stopped by the user")
+    def act(synthetic):
+        synthetic.hammer(hits=1)
+        synthetic.end("stopped by the user")
 
     page = made(tmp_path, act)
     assert "The user stopped the run." in section(page, "How it ended")
@@ -232,7 +232,7 @@ def test_a_hammer_test_alone(tmp_path):
 
 
 def test_hits_that_are_all_bad(tmp_path):
-    page = made(tmp_path, lambda tape: tape.hammer(hits=2, rejected=(1,)))
+    page = made(tmp_path, lambda synthetic: synthetic.hammer(hits=2, rejected=(1,)))
     words = section(page, "Hammer test of the bare plate")
     assert "by the operator" in words
     assert "No damping: no good hit" in words
@@ -240,7 +240,7 @@ def test_hits_that_are_all_bad(tmp_path):
 
 
 def test_too_few_points_for_a_law(tmp_path):
-    page = made(tmp_path, lambda tape: tape.sweep(segments=(1,), steps=1))
+    page = made(tmp_path, lambda synthetic: synthetic.sweep(segments=(1,), steps=1))
     words = section(page, "Identification of the core")
     assert "too few points: 2 (4 numbers) for 4 parameters" in words
     assert "without bands: these points carry no standard error" in words
@@ -248,13 +248,13 @@ def test_too_few_points_for_a_law(tmp_path):
 
 
 def test_points_without_a_calibration_are_remarked(tmp_path):
-    page = made(tmp_path, lambda tape: tape.sweep(segments=(1,), steps=3))
+    page = made(tmp_path, lambda synthetic: synthetic.sweep(segments=(1,), steps=3))
     assert "was not calibrated in place" in section(page, "Calibration in place")
     assert "range 5mm/s/V is not calibrated" in section(page, "Sweep of the damped plate")
 
 
 def test_a_session_with_nothing_in_it(tmp_path):
-    page = made(tmp_path, lambda tape: tape.end("stopped safely", "no light"))
+    page = made(tmp_path, lambda synthetic: synthetic.end("stopped safely", "no light"))
     assert "The rig stopped itself: no light" in section(page, "How it ended")
     assert "No sweep was made." in section(page, "How it ended")
     assert "<img" not in page

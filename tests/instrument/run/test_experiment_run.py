@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import h5py
 import pytest
-from at_point import AtPoint
 from formula_rig import formula_rig, gain
+from run_at_point import RunAtPoint
 
 from drivers.simulated.rig import SimulatedRig
 from instrument.errors import RigStopped
@@ -101,7 +101,7 @@ def test_a_fault_stops_the_run_silently_with_everything_complete_kept(tmp_path, 
             fault(rig)
 
         with pytest.raises(RigStopped, match=said) as stopped:
-            run(experiment, tmp_path, ("sweep",), companion=AtPoint(3, strike))
+            run(experiment, tmp_path, ("sweep",), companion=RunAtPoint(3, strike))
         _wait_until_silent(rig)
     assert "\n" not in str(stopped.value)
     silent = [e for e in rig.device.log if e.what == "silent"][-1]
@@ -131,7 +131,7 @@ def test_serial_garbage_is_got_over(tmp_path):
         def strike():
             rig.vibrometer.faults.garbled_replies = 1
 
-        finished = run(experiment, tmp_path, ("sweep",), companion=AtPoint(3, strike))
+        finished = run(experiment, tmp_path, ("sweep",), companion=RunAtPoint(3, strike))
     assert len(finished.points) == 15
 
 
@@ -155,7 +155,7 @@ def test_an_abort_ends_the_run_and_a_resume_measures_only_what_is_missing(tmp_pa
                 tmp_path,
                 ("sweep",),
                 control=control,
-                companion=AtPoint(6, lambda: control.abort("enough for today")),
+                companion=RunAtPoint(6, lambda: control.abort("enough for today")),
             )
         (folder,) = tmp_path.glob("*.running")
         (session,) = tmp_path.glob("*.h5")
@@ -184,7 +184,9 @@ def test_a_hold_silences_and_resuming_goes_on(tmp_path):
 
             threading.Thread(target=look).start()
 
-        finished = run(experiment, tmp_path, ("sweep",), control=control, companion=AtPoint(3, hold_and_look))
+        finished = run(
+            experiment, tmp_path, ("sweep",), control=control, companion=RunAtPoint(3, hold_and_look)
+        )
     assert drives == [0.0]
     assert len(finished.points) == 15
 

@@ -6,9 +6,9 @@ import signal
 import threading
 
 import pytest
-from at_point import AtPoint
 from diagnosis_cases import facts
 from formula_rig import formula_rig
+from run_at_point import RunAtPoint
 
 from fitting.effects import CATALOGUE
 from instrument.cli.output import Output
@@ -102,7 +102,7 @@ def test_without_a_law_nothing_is_asked(tmp_path):
 
 def test_a_sweep_that_is_stopped_is_not_diagnosed_and_its_resumed_whole_is(tmp_path):
     control = Control()
-    enough = AtPoint(6, lambda: control.abort("enough"))
+    enough = RunAtPoint(6, lambda: control.abort("enough"))
     with formula_rig(tmp_path) as (_, experiment):
         with pytest.raises(RigStopped, match="enough"):
             run_experiment(

@@ -1,8 +1,8 @@
 """Carrying on a run that broke off: with its calibration, and with nothing but its own experiment."""
 
 import pytest
-from at_point import AtPoint
 from formula_rig import formula_rig
+from run_at_point import RunAtPoint
 
 from instrument.errors import BadInput, RigStopped
 from instrument.run.control import Control
@@ -45,7 +45,7 @@ def calibrated(experiment):
 def broken_off(experiment, folder, after):
     """Run until so many points are measured, then abort; the folder."""
     control = Control()
-    enough = AtPoint(after, lambda: control.abort("broken off"))
+    enough = RunAtPoint(after, lambda: control.abort("broken off"))
     with pytest.raises(RigStopped, match="broken off"):
         run(experiment, folder, control=control, companion=enough)
     (running,) = folder.glob("*.running")

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from session_cases import RATE, Tape, configuration
+from session_cases import RATE, SyntheticSession, configuration
 
 from instrument.errors import BadInput
 from instrument.session.dwell import dwell_of
@@ -11,22 +11,22 @@ from instrument.stream.raw import BlockAcquired
 
 
 @pytest.fixture(scope="module")
-def tape():
-    tape = Tape(configuration())
-    tape.begin()
-    tape.calibrate()
-    tape.sweep((1,), steps=4)
-    return tape
+def synthetic():
+    synthetic = SyntheticSession(configuration())
+    synthetic.begin()
+    synthetic.calibrate()
+    synthetic.sweep((1,), steps=4)
+    return synthetic
 
 
 @pytest.fixture(scope="module")
-def points(tape):
-    return [e for e in tape.events if isinstance(e, PointMeasured)]
+def points(synthetic):
+    return [e for e in synthetic.events if isinstance(e, PointMeasured)]
 
 
 @pytest.fixture
-def session(tape, tmp_path):
-    with SessionFile(tape.save(tmp_path)) as session:
+def session(synthetic, tmp_path):
+    with SessionFile(synthetic.save(tmp_path)) as session:
         yield session
 
 
@@ -49,9 +49,13 @@ def test_a_step_that_is_not_there_is_said(session):
         dwell_of(session, 999)
 
 
-def test_lost_samples_are_said(tape, points, tmp_path):
-    lost = Tape(tape.configuration)
-    lost.events = [e for e in tape.events if not (isinstance(e, BlockAcquired) and e.first_sample > 5000)]
+def test_lost_samples_are_said(synthetic, points, tmp_path):
+    lost = SyntheticSession(synthetic.configuration)
+    lost.events = [
+        e for e in synthetic.events if not (isinstance(e, BlockAcquired) and e.first_sample > 5000)
+    ]
+        e for e in synthetic.events if not (isinstance(e, BlockAcquired) and e.first_sample > 5000)
+    ]
     with SessionFile(lost.save(tmp_path)) as session, pytest.raises(BadInput, match="samples of step"):
         dwell_of(session, points[-1].step)
 

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from instrument.stepped_sine.course import Course, begins_at
 from instrument.stepped_sine.settings import SweepSettings
+from instrument.stepped_sine.settling_trace import SettlingTrace, begins_at
 from instrument.stream.raw import RangeSet, ShakerCommanded
 
 RATE, FREQUENCY, DECAY_1_S = 2000.0, 25.0, 4.0
@@ -21,7 +21,7 @@ def ringing(count, transient=0.0, noise=0.0):
 
 
 def followed(x, pieces=1, begin=0):
-    course = Course(FREQUENCY, DECAY_1_S, RATE, begin, SETTINGS)
+    course = SettlingTrace(FREQUENCY, DECAY_1_S, RATE, begin, SETTINGS)
     first = 0
     for piece in np.array_split(x, pieces, axis=1):
         course.add(first, piece)
@@ -59,7 +59,7 @@ def test_samples_before_the_change_took_effect_do_not_count():
 
 
 def test_it_begins_again_behind_a_gap():
-    course = Course(FREQUENCY, DECAY_1_S, RATE, 0, SETTINGS)
+    course = SettlingTrace(FREQUENCY, DECAY_1_S, RATE, 0, SETTINGS)
     x = ringing(4000)
     course.add(0, x[:, :1000])
     course.add(1500, x[:, 1500:])

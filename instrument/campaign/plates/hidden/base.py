@@ -7,14 +7,11 @@ from dataclasses import asdict, dataclass
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array, Complex
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.response import Motion
 from instrument.campaign.plates.solid import Build, Field
-
-Array = NDArray[np.float64]
-Complex = NDArray[np.complex128]
 
 
 def times(first: Field | None, second: Field) -> Field:

@@ -7,7 +7,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from instrument.campaign.plates.hidden.base import Array, Complex, Hidden, Setting, either_sign, log_uniform
+from fitting.arrays import Array, Complex
+from instrument.campaign.plates.hidden.base import Hidden, Setting, either_sign, log_uniform
 from instrument.campaign.plates.response import Motion
 
 

@@ -7,8 +7,9 @@ from typing import ClassVar
 
 import numpy as np
 
+from fitting.arrays import Array, Complex
 from instrument.campaign.plates.geometry import TruePlate
-from instrument.campaign.plates.hidden.base import Array, Complex, Hidden, Setting, either_sign, log_uniform
+from instrument.campaign.plates.hidden.base import Hidden, Setting, either_sign, log_uniform
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,9 @@ from typing import ClassVar
 
 import numpy as np
 
+from fitting.arrays import Array
 from instrument.campaign.plates.geometry import TruePlate
-from instrument.campaign.plates.hidden.base import Array, Hidden, Setting, either_sign, log_uniform, times
+from instrument.campaign.plates.hidden.base import Hidden, Setting, either_sign, log_uniform, times
 from instrument.campaign.plates.solid import Build, Field
 
 GAS_J_MOL_K = 8.314

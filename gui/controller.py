@@ -5,12 +5,12 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
+from gui.background_task import BackgroundTask, Progress
 from gui.feeds.feed import Feed
 from gui.feeds.live import LiveFeed
 from gui.feeds.recorded import RecordedFeed
-from gui.picture import Picture
 from gui.rediagnosis import Rediagnosis
-from gui.work import Progress, Work
+from gui.state import SessionState
 from instrument.engine import Engine, Order, Stopped
 from instrument.engine.client import ENGINE
 from instrument.engine.messages import Ended
@@ -23,7 +23,7 @@ SESSION_ENDINGS = (".h5", ".hdf5")
 FOREIGN_ENDINGS = (".csv", ".txt", ".uff", ".unv", ".mat")
 
 
-class Desk(QObject):
+class AppController(QObject):
     """Holds at most one feed.
 
     Signals
@@ -61,13 +61,13 @@ class Desk(QObject):
         self.ending: Ended | None = None
         """Of the last run; None while one goes on."""
         self._opening: RecordedFeed | None = None
-        self._reading: dict[Path, Work[Found]] = {}
+        self._reading: dict[Path, BackgroundTask[Found]] = {}
         self._starting: _Starting | None = None
 
     @property
-    def picture(self) -> Picture | None:
+    def state(self) -> SessionState | None:
         """Of the session shown; None where there is none."""
-        return self.feed.picture if self.feed is not None else None
+        return self.feed.state if self.feed is not None else None
 
     @property
     def live(self) -> LiveFeed | None:
@@ -134,7 +134,7 @@ class Desk(QObject):
         """Silence the shaker and wait, or go on where it is held."""
         if self.live is None or not self.running:
             return
-        if self.live.picture is not None and self.live.picture.run.state == "held":
+        if self.live.state is not None and self.live.state.run.state == "held":
             self.live.engine.resume()
         else:
             self.live.engine.hold()
@@ -267,7 +267,7 @@ class Desk(QObject):
         work.deleteLater()
 
 
-class _Starting(Work[Configuration]):
+class _Starting(BackgroundTask[Configuration]):
     """Of a run: its files are read."""
 
     def __init__(self, order: Order, parent: QObject) -> None:
@@ -278,7 +278,7 @@ class _Starting(Work[Configuration]):
         return read_whole_experiment(self.order.experiment).configuration(self.order.experiment.stem, "")
 
 
-class _Reading(Work[Found]):
+class _Reading(BackgroundTask[Found]):
     """Of another program's file."""
 
     def __init__(self, path: Path, parent: QObject) -> None:

@@ -7,7 +7,7 @@ from instrument.stream.derived import PointMeasured
 from instrument.stream.event import Event
 
 
-class AtPoint(Companion):
+class RunAtPoint(Companion):
     """Does it on the thread that measures: a watcher is told later, the run may be over by then."""
 
     def __init__(self, number: int, do: Callable[[], None]) -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from gui.pages.sweep.points import Array, Complex, Mask
+from fitting.arrays import Array, Complex, Mask
 from instrument.files.sweep_file import SweepFile
 from instrument.interchange.found import REFERENCE_M_S2, Found
 

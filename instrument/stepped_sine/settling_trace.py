@@ -3,15 +3,13 @@
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from instrument.stepped_sine.samples import Samples
 from instrument.stepped_sine.settings import SweepSettings
 from instrument.stepped_sine.settling import Settling
 from instrument.stepped_sine.sine_fit import sine_fit
 from instrument.stream.raw import RangeSet, ShakerCommanded
-
-Array = NDArray[np.float64]
 
 
 def begins_at(
@@ -26,7 +24,7 @@ def begins_at(
 
 
 @dataclass(frozen=True)
-class Standing:
+class SettlingSample:
     """After a block."""
 
     seconds: float
@@ -40,7 +38,7 @@ class Standing:
 
 
 @dataclass
-class Course:
+class SettlingTrace:
     """Of one step under one drive, in one range. Blocks in, a `Standing` for each."""
 
     frequency_hz: float
@@ -49,7 +47,7 @@ class Course:
     begin: int
     """First sample that counts."""
     settings: SweepSettings
-    standings: list[Standing] = field(default_factory=list)
+    standings: list[SettlingSample] = field(default_factory=list)
     _samples: Samples = field(default_factory=lambda: Samples(2))
     _settling: Settling | None = None
 
@@ -75,5 +73,5 @@ class Course:
         self._settling.add(complex(velocity / base), noise, count / self.sample_rate_hz)
         seconds = (first + count - self.begin) / self.sample_rate_hz
         s = self._settling
-        self.standings.append(Standing(seconds, float(abs(base)), s.remaining, s.noise))
+        self.standings.append(SettlingSample(seconds, float(abs(base)), s.remaining, s.noise))
         return True

@@ -10,10 +10,10 @@ from typing import Literal
 
 import numpy as np
 
-from gui.picture.log import Kind, Log
-from gui.picture.plan import Plan
-from gui.picture.run import Run
-from gui.picture.step import Step
+from gui.state.log import Kind, Log
+from gui.state.plan import Plan
+from gui.state.run import Run
+from gui.state.step import Step
 from instrument.cli.watching import said_of
 from instrument.errors import BadInput
 from instrument.impact.record import Channel, Hit
@@ -60,7 +60,7 @@ Topic = Literal[
     "run", "step", "samples", "points", "hits", "damping", "calibration", "sentinels", "fits", "diagnosis",
     "limits", "log",
 ]  # fmt: skip
-"""What a page can ask after; `Picture.changed` counts for each how often it changed."""
+"""What a page can ask after; `SessionState.changed` counts for each how often it changed."""
 
 _TOPICS: dict[type[Event], tuple[Topic, ...]] = {
     SessionBegan: ("run",),
@@ -94,7 +94,7 @@ _TOPICS: dict[type[Event], tuple[Topic, ...]] = {
 }
 
 
-class Picture:
+class SessionState:
     """Of one session.
 
     Attributes

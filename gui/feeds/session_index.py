@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from gui.picture import Picture
+from gui.state import SessionState
 from instrument.session.configuration import Configuration
 from instrument.session.storage import SessionFile
 from instrument.stream.clock import SessionClock
@@ -30,7 +30,7 @@ class Mark:
 
 
 @dataclass(frozen=True)
-class Tape:
+class SessionIndex:
     """The index of a session; events are read again when they are wanted.
 
     Attributes
@@ -54,7 +54,7 @@ class Tape:
     marks: tuple[Mark, ...]
 
     @classmethod
-    def of(cls, file: SessionFile, look: Look) -> "Tape":
+    def of(cls, file: SessionFile, look: Look) -> "SessionIndex":
         """Read a session once without its samples. Raises `BadInput`."""
         times: list[float] = []
         firsts: list[int] = []
@@ -99,9 +99,9 @@ class Tape:
         for part in range(self._part(first), len(self.part_first)):
             yield from self._part_events(file, part, first, with_samples=True)
 
-    def picture(self, file: SessionFile, count: int, look: Look) -> Picture:
+    def state(self, file: SessionFile, count: int, look: Look) -> SessionState:
         """The picture after so many events. Samples are read only where the picture keeps them."""
-        picture = Picture(self.configuration, self.path)
+        state = SessionState(self.configuration, self.path)
         step = self.step_first[bisect_right(self.step_first, count - 1) - 1] if self.step_first else 0
         for part in range(self._part(count - 1) + 1 if count else 0):
             look()
@@ -109,8 +109,8 @@ class Tape:
             for number, event in self._part_events(file, part, 0, with_samples=needed):
                 if number >= count:
                     break
-                picture.take(event)
-        return picture
+                state.take(event)
+        return state
 
     def _part(self, number: int) -> int:
         return max(0, bisect_right(self.part_first, number) - 1)

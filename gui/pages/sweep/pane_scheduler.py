@@ -12,7 +12,7 @@ _LONGEST_REST_S = 0.2
 """... but no longer than this."""
 
 
-class Turns(QObject):
+class PaneScheduler(QObject):
     """Panes that no longer show what is known wait here for their turn.
 
     Parameters

@@ -1,7 +1,8 @@
 """Long work off the main thread, with progress, and cancelled where nobody wants it any more.
 
-Reading files goes to a thread (`Work`). What needs the processor for long, a fit or a diagnosis, goes to a
-process (`Command`): the interpreter lets one thread compute at a time, and the window has to be that one.
+Reading files goes to a thread (`BackgroundTask`). What needs the processor for long, a fit or a diagnosis,
+goes to a process (`Command`): the interpreter lets one thread compute at a time, and the window has to be
+that one.
 
 Connect bound methods of objects that live in the main thread, and nothing else: a plain function would be
 called in the thread that does the work.
@@ -32,7 +33,7 @@ class Cancelled(Exception):
     """The work is no longer wanted."""
 
 
-class Work(QObject, Generic[T]):
+class BackgroundTask(QObject, Generic[T]):
     """A function in another thread. One of `done`, `failed`, `cancelled` comes, in the main thread.
 
     Parameters

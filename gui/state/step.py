@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from instrument.files.rig_file import Channels
 from instrument.stepped_sine.sine_fit import sine_fit
 from instrument.stream.derived import (
@@ -17,8 +18,6 @@ from instrument.stream.derived import (
 )
 from instrument.stream.event import Event
 from instrument.stream.raw import AcquisitionBegan, BlockAcquired, Held, RangeSet, ShakerCommanded, StepBegan
-
-Array = NDArray[np.float64]
 
 _MOST_SAMPLES = 2_000_000
 """Of one step, all channels together; the oldest are let go of."""
