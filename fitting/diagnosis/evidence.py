@@ -14,6 +14,7 @@ from fitting.specimen import Face
 from fitting.sweep import Sweep
 
 _BLUNT = 0.03
+"""Of a reading, as its noise: ten times what a sweep has, so that far starts still feel the bottom."""
 
 
 @dataclass(frozen=True)

@@ -26,6 +26,7 @@ _H = 1e-4
 _SMALL = 1e-6
 """Of the velocity: the step along which a derivative of it is read."""
 _SOFTENED = np.array([-0.3, 0.0, 0.25, 0.5])
+"""Shares by which the core softens where its strain is computed: a cubic through them serves all between."""
 _ONE_G = 9.81
 _KEPT = 8
 

@@ -16,12 +16,17 @@ from fitting.arrays import Array, Complex
 from fitting.modal.frf import Estimate, Frf, Refusal, corrected, is_near
 
 _HALF_WIDTH_LINES = 8
+"""At least, on either side: 34 numbers for the 12 that two poles ask for."""
 _HALF_WIDTH_BANDWIDTHS = 6.0
+"""Half-power bandwidths on either side: there a mode is down to a twelfth of its height."""
 _LEAST_HEIGHT = 6.0
 """Of a resonance over the scatter of a line: noise alone reaches 4."""
 _MOST_LINES = 400
+"""Of a window: more hold other modes rather than more of this one, and cost time."""
 _MOST_RATIO = 0.3
+"""Of critical damping: a wider pole is no longer told from the smooth remainder."""
 _MOST_RELATIVE_ERROR = 0.15
+"""Of a ratio: known worse than that it is refused, not reported."""
 
 
 @dataclass(frozen=True)
