@@ -16,7 +16,7 @@ def numbers(
     `above_zero` asks that of real numbers, and of phasors that they are not zero.
     """
     try:
-        given = np.atleast_1d(np.asarray(values, dtype=dtype))
+        given: NDArray[Any] = np.atleast_1d(np.asarray(values, dtype=dtype))
     except (TypeError, ValueError) as error:
         raise BadInput(f"{name}: {error}, expected numbers") from None
     if given.ndim != 1 or not given.size:

@@ -1,9 +1,9 @@
 """Natural frequencies and damping ratios of the bare plate, from hits or FRFs."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,13 +15,14 @@ from instrument.files.hammer_file import HammerModes, hammer_modes, read_hammer
 from instrument.files.impact_csv import MOTIONS
 from instrument.files.records import Named, read_records
 from instrument.files.toml import one_line
-from instrument.impact import damping as impact
+from instrument.impact.damping import damping_of_frfs, damping_of_hits
 from instrument.impact.facts import damping_facts
 from instrument.impact.judge import judge
 from instrument.impact.record import Channel
 from instrument.impact.record import Hit as Record
 from instrument.impact.spectra import Estimator
 from instrument.stream.jsonable import to_jsonable
+from viscorig.checked import numbers
 from viscorig.facts import Facts
 from viscorig.shown import Columns
 
@@ -31,41 +32,33 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _SAME_RATE = 1e-4
-METHODS = ("rational_fit", "half_power", "lscf")
+METHODS = {"rational_fit": "rational fit", "half_power": "half power", "lscf": "LSCF"}
 
 
-class Hit(Record):
-    """One blow: force in N and the motion it caused, of one length and on one clock. Shape (samples,).
+@dataclass(frozen=True, eq=False)
+class Hit:
+    """One blow: force and at least one motion that it caused, on one clock. Shape (samples,) each."""
 
-    Raises `BadInput` without a motion, or where lengths differ.
-    """
+    force_n: ArrayLike
+    sample_rate_hz: float
+    _: KW_ONLY
+    acceleration_m_s2: ArrayLike | None = None
+    velocity_m_s: ArrayLike | None = None
+    displacement_m: ArrayLike | None = None
+    name: str = "hit"
 
-    def __init__(
-        self,
-        force_n: ArrayLike,
-        sample_rate_hz: float,
-        *,
-        acceleration_m_s2: ArrayLike | None = None,
-        velocity_m_s: ArrayLike | None = None,
-        displacement_m: ArrayLike | None = None,
-        name: str = "hit",
-    ) -> None:
-        force = np.asarray(force_n, dtype=float)
-        given = zip(MOTIONS.items(), (acceleration_m_s2, velocity_m_s, displacement_m), strict=True)
+    def record(self) -> Record:
+        """As records are read from files. Raises `BadInput` without a motion, or where lengths differ."""
+        force = numbers(f"{self.name}: force_n", self.force_n, float)
         channels = tuple(
-            Channel(column, motion, np.asarray(samples, dtype=float))
-            for (column, motion), samples in given
-            if samples is not None
+            Channel(column, motion, numbers(f"{self.name}: {column}", samples, float, len(force)))
+            for column, motion in MOTIONS.items()
+            if (samples := getattr(self, column)) is not None
         )
         if not channels:
-            raise BadInput(f"{name}: force alone, expected one of {', '.join(MOTIONS)} beside it")
-        for channel in channels:
-            if force.ndim != 1 or channel.samples.shape != force.shape:
-                raise BadInput(
-                    f"{name}: {channel.name} of shape {channel.samples.shape}, force of {force.shape}, "
-                    "expected one length"
-                )
-        super().__init__(name, float(sample_rate_hz), force, channels)
+            raise BadInput(f"{self.name}: force alone, expected one of {', '.join(MOTIONS)} beside it")
+        (rate,) = numbers(f"{self.name}: sample_rate_hz", self.sample_rate_hz, float, 1, above_zero=True)
+        return Record(self.name, float(rate), force, channels)
 
 
 @dataclass(frozen=True, repr=False)
@@ -114,7 +107,7 @@ class Damping(Facts):
 
 
 def damping(
-    records: str | Path | Record | Sequence[str | Path | Record],
+    records: str | Path | Hit | Sequence[str | Path | Hit],
     *,
     band_hz: tuple[float, float] | None = None,
     at_hz: Sequence[float] = (),
@@ -127,23 +120,18 @@ def damping(
     them in `band_hz`; `exponential_percent` is where an exponential window ends, its damping taken off
     again. The same numbers as `viscorig damping`. Raises `BadInput`.
     """
-    given = [records] if isinstance(records, str | Path | Record) else list(records)
-    read = [r if isinstance(r, Record) else read_records(Path(r), Named()) for r in given]
+    given = [records] if isinstance(records, str | Path | Hit) else list(records)
+    read = [[r.record()] if isinstance(r, Hit) else read_records(Path(r), Named()) for r in given]
     band, at = band_hz, tuple(at_hz)
     frfs = [r for r in read if isinstance(r, dict)]
+    if frfs and len(read) > 1:
+        raise BadInput("FRFs are read one file at a time, and not beside records")
     if frfs:
-        if len(read) > 1:
-            raise BadInput("FRFs are read one file at a time, and not beside records")
-        return Damping(to_jsonable(damping_facts(impact.damping_of_frfs(frfs[0], band_hz=band, at_hz=at))))
-    hits = [h for r in read for h in ([r] if isinstance(r, Record) else cast(list[Record], r))]
+        return Damping(to_jsonable(damping_facts(damping_of_frfs(frfs[0], band_hz=band, at_hz=at))))
+    hits = [hit for one in read for hit in one if isinstance(hit, Record)]
     _refuse_unlike(hits)
-    found = impact.damping_of_hits(
-        [judge(hit) for hit in hits],
-        band_hz=band,
-        at_hz=at,
-        estimator=estimator,
-        end_value=exponential_percent / 100 if exponential_percent else None,
-    )
+    judged, end = [judge(h) for h in hits], exponential_percent / 100 if exponential_percent else None
+    found = damping_of_hits(judged, band_hz=band, at_hz=at, estimator=estimator, end_value=end)
     return Damping(to_jsonable(damping_facts(found)))
 
 

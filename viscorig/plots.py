@@ -80,13 +80,12 @@ def plot_residual(ax: Axes | None, points: Sequence[dict[str, Any]], titles: Map
     return ax
 
 
-def plot_ratios(ax: Axes | None, table: Columns, methods: Sequence[str]) -> Axes:
-    """Damping ratios by method over frequency, with one standard error."""
+def plot_ratios(ax: Axes | None, table: Columns, methods: Mapping[str, str]) -> Axes:
+    """Damping ratios over frequency with one standard error. `methods`: their names by the columns' stem."""
     ax = axes_of(ax)
-    for method, (marker, color) in zip(methods, _MARKERS, strict=True):
-        ratio, error = (100 * table[f"{method}_{key}"] for key in ("ratio", "standard_error"))
-        name = method.replace("_", " ")
-        ax.errorbar(table["frequency_hz"], ratio, error, fmt=marker, color=color, capsize=3, label=name)
+    for (stem, name), (marker, color) in zip(methods.items(), _MARKERS, strict=True):
+        f, ratio, error = table["frequency_hz"], table[f"{stem}_ratio"], table[f"{stem}_standard_error"]
+        ax.errorbar(f, 100 * ratio, 100 * error, fmt=marker, color=color, mfc="none", capsize=3, label=name)
     label(ax, x="Frequency / Hz", y="Damping ratio / % of critical")
     legend(ax)
     return ax

@@ -55,7 +55,10 @@ class Shown:
         return path
 
     def __repr__(self) -> str:
-        return f"<{type(self).__name__}: {'; '.join(self.lines())}>"
+        return f"<{type(self).__name__}: {self.lines()[0]}>"
+
+    def __str__(self) -> str:
+        return "\n".join(self.lines())
 
     def _repr_html_(self) -> str:
         heading, *rest = (escape(line) for line in self.lines())

@@ -1,0 +1,58 @@
+"""Objects of the front door that several tests look at, made once; plots without a screen."""
+
+import json
+
+import matplotlib as mpl
+import pytest
+from session_cases import whole_session
+
+import viscorig as vr
+from instrument.cli.main import run
+
+
+@pytest.fixture(autouse=True)
+def _without_a_screen():
+    from matplotlib import pyplot
+
+    mpl.use("Agg")
+    yield
+    pyplot.close("all")
+
+
+@pytest.fixture
+def command(capsys):
+    """The JSON of a command."""
+
+    def call(*arguments):
+        status = run([*(str(a) for a in arguments), "--json", "-"])
+        captured = capsys.readouterr()
+        assert status == 0, captured.err
+        return json.loads(captured.out)
+
+    return call
+
+
+@pytest.fixture(scope="session")
+def plate():
+    return vr.load_specimen(vr.example_file("zn1.toml"))
+
+
+@pytest.fixture(scope="session")
+def coarse_plate(plate):
+    """On the paper's own mesh: quick."""
+    return plate.but(mesh={"elements_x": 10, "elements_y": 10})
+
+
+@pytest.fixture(scope="session")
+def sweep(plate):
+    return vr.load_sweep(vr.example_file("table5.csv"), plate)
+
+
+@pytest.fixture(scope="session")
+def found(sweep, plate):
+    return vr.identify(sweep, plate)
+
+
+@pytest.fixture(scope="session")
+def session_path(tmp_path_factory):
+    return whole_session(tmp_path_factory.mktemp("session"))

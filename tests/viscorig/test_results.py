@@ -1,0 +1,128 @@
+"""Results in a notebook: shown, as numpy and pandas, as JSON, plotted."""
+
+import json
+import sys
+
+import numpy as np
+import pytest
+
+import viscorig as vr
+
+
+@pytest.fixture(scope="module")
+def diagnosis(sweep, plate):
+    return vr.diagnose(sweep, plate, resamples=0)
+
+
+@pytest.fixture(scope="module")
+def results(sweep, plate, found, diagnosis):
+    return [sweep, plate, found, diagnosis, vr.modes(plate, 2), vr.predict(plate, np.arange(15.0, 35.0))]
+
+
+def test_arrays_come_out_with_units_in_their_names(found):
+    assert found.frequency_hz.shape == found.storage_modulus_pa.shape == found.loss_factor.shape
+    assert set(found.parameters) == set(found.standard_errors) == {"g0_pa", "ginf_pa", "tau_s", "alpha"}
+    assert found.points["measured_m_s"].shape == (9,)
+    assert found.rms_percent == found.as_dict()["rms_percent"]
+
+
+def test_the_law_found_is_a_function_of_frequency(found):
+    G = found.modulus_pa(found.frequency_hz)
+    np.testing.assert_allclose(G.real, found.storage_modulus_pa, rtol=1e-12)
+    np.testing.assert_allclose(G.imag / G.real, found.loss_factor, rtol=1e-12)
+
+
+def test_what_was_found_cannot_be_changed_by_accident(found):
+    found.as_dict()["parameters"]["g0_pa"] = 0.0
+    found.parameters["g0_pa"] = 0.0
+    assert found.parameters["g0_pa"] > 0
+    with pytest.raises(AttributeError):
+        found.facts = {}
+
+
+def test_a_diagnosis_says_what_it_found(diagnosis):
+    assert diagnosis.verdict in ("none", "effect", "ambiguous", "unknown")
+    assert diagnosis.to_numpy()["delta_bic"].shape == diagnosis.to_numpy()["name"].shape
+    assert set(diagnosis.before) == set(diagnosis.after)
+    assert diagnosis.lines()[0].startswith(diagnosis.verdict)
+
+
+def test_everything_is_a_table_in_a_notebook(results):
+    for one in results:
+        html = one._repr_html_()
+        assert html.count("<th>") == len(one.to_numpy())
+        assert html.count("<tr>") == html.count("</tr>") <= 14
+        assert one.lines()[0] in repr(one)
+
+
+def test_html_of_a_name_stays_text(plate):
+    class Named(vr.Modes):
+        def lines(self):
+            return ["<b>x</b> & y"]
+
+    assert "&lt;b&gt;x&lt;/b&gt; &amp; y" in Named({"modes": []})._repr_html_()
+
+
+def test_everything_becomes_pandas(results):
+    for one in results:
+        frame, arrays = one.to_dataframe(), one.to_numpy()
+        assert list(frame.columns) == list(arrays)
+        assert all(len(frame) == len(values) for values in arrays.values())
+
+
+def test_without_pandas_one_line_says_what_to_install(monkeypatch, found):
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(vr.errors.BadInput, match=r"pip install 'viscorig\[notebook\]'") as refusal:
+        found.to_dataframe()
+    assert "\n" not in str(refusal.value)
+
+
+def test_everything_becomes_json(results, tmp_path):
+    for k, one in enumerate(results):
+        path = one.to_json(tmp_path / f"{k}.json")
+        assert json.loads(path.read_text(encoding="utf-8")) == one.as_dict()
+
+
+def test_json_into_no_folder_is_refused(found, tmp_path):
+    with pytest.raises(vr.errors.BadInput, match="nowhere"):
+        found.to_json(tmp_path / "nowhere" / "found.json")
+
+
+def test_plots_have_units_and_legends(found, diagnosis, sweep, plate):
+    modes, response = vr.modes(plate, 2), vr.predict(plate, [20.0, 21.0])
+    plots = [
+        found.plot,
+        found.plot_fit,
+        diagnosis.plot,
+        diagnosis.plot_law,
+        sweep.plot,
+        modes.plot,
+        response.plot,
+    ]
+    for plot in plots:
+        ax = plot()
+        assert ax.get_xlabel() == "Frequency / Hz"
+        assert ax.get_ylabel()
+        assert any(a.get_legend() is not None for a in ax.figure.axes)
+
+
+def test_plots_go_onto_given_axes(sweep, found):
+    from matplotlib.figure import Figure
+
+    ax = Figure().subplots()
+    assert sweep.plot(ax) is ax
+    assert found.plot(ax) is ax
+    assert {a.get_ylabel() for a in ax.figure.axes} == {"Storage modulus G' / MPa", "Loss factor η"}
+
+
+def test_damping_is_drawn_method_by_method():
+    method = {"ratio": 0.003, "standard_error": 1e-5}
+    mode = {
+        "frequency_hz": 17.7, "damping_ratio": 0.003, "accepted": True, "why": "half power refused",
+        "rational_fit": method, "half_power": None, "lscf": method,
+    }  # fmt: skip
+    found = vr.Damping({"modes": [mode], "hits": [], "warnings": ["one hit"]})
+    assert np.isnan(found.to_numpy()["half_power_ratio"][0])
+    assert found.lines() == ["1 modes of 1 accepted", "one hit"]
+    names = [text.get_text() for text in found.plot().get_legend().get_texts()]
+    assert names == ["rational fit", "half power", "LSCF"]
