@@ -178,7 +178,11 @@ def _errors(law: PointwiseLaw, smooth: Complex) -> tuple[Array, Array]:
 def _whitened_nnls(A: Complex, b: Complex, C: Array) -> tuple[Array, float]:
     """Non-negative weights and the norm of what they leave, whitened by the covariance."""
     both = _stacked(np.concatenate([A.T, b[None]])).T
-    whitened = solve_triangular(np.linalg.cholesky(C), both, lower=True)
+    try:
+        root = np.linalg.cholesky(C)
+    except np.linalg.LinAlgError:
+        raise TooFewPoints("the bands carry no noise of their own: nothing to test causality against") from None
+    whitened = solve_triangular(root, both, lower=True)
     scale = np.linalg.norm(whitened[:, :-1], axis=0)
     x, left_over = nnls(whitened[:, :-1] / scale, whitened[:, -1], maxiter=50 * len(scale))
     return np.asarray(x / scale), float(left_over)

@@ -23,7 +23,7 @@ from gui.pages.run import RunPage
 from gui.settings import Settings
 from gui.theme import Appearance
 from gui.window import Window
-from gui.work import Command, Work
+from gui.background_task import Command, BackgroundTask
 from instrument.simulated_case import case_file
 
 WIDTH, HEIGHT = 1366, 768
@@ -66,7 +66,7 @@ def _fill(window: Window, session: Path) -> None:
     assert isinstance(run, RunPage)
     run.files.open(case_file("experiment.toml"))
     window.open(session)
-    if not _wait(PATIENCE_S, lambda: run.files.drafts is not None and window.desk.recorded is not None):
+    if not _wait(PATIENCE_S, lambda: run.files.drafts is not None and window.controller.recorded is not None):
         sys.exit(f"{session}: was not opened: {window.notice.text}")
     run.files.name.setText("experiment.toml")
     run.starting.out.setText("sessions")
@@ -86,7 +86,7 @@ def _rest(window: Window) -> None:
 
     def rested() -> bool:
         nonlocal last
-        if not all(work.over for work in (*window.findChildren(Work), *window.findChildren(Command))):
+        if not all(work.over for work in (*window.findChildren(BackgroundTask), *window.findChildren(Command))):
             last = time.monotonic()
         return time.monotonic() - last > _LOOKS_S
 

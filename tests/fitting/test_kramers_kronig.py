@@ -153,3 +153,9 @@ def test_the_slope_scatters_as_stated():
 
 def test_a_slope_needs_dense_bands():
     assert len(kramers_kronig(pointwise(havriliak_negami, 0.01, 0, OCTAVES_HZ[::9])).local.frequency_hz) == 0
+
+
+def test_bands_without_any_noise_are_refused_in_words():
+    common = [np.full(len(BANDS_HZ), 0.03)]
+    with pytest.raises(TooFewPoints, match="no noise of their own"):
+        kramers_kronig(pointwise(zener, 0.0, common=common))
