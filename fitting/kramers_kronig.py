@@ -181,7 +181,8 @@ def _whitened_nnls(A: Complex, b: Complex, C: Array) -> tuple[Array, float]:
     try:
         root = np.linalg.cholesky(C)
     except np.linalg.LinAlgError:
-        raise TooFewPoints("the bands carry no noise of their own: nothing to test causality against") from None
+        why = "the bands carry no noise of their own: nothing to test causality against"
+        raise TooFewPoints(why) from None
     whitened = solve_triangular(root, both, lower=True)
     scale = np.linalg.norm(whitened[:, :-1], axis=0)
     x, left_over = nnls(whitened[:, :-1] / scale, whitened[:, -1], maxiter=50 * len(scale))

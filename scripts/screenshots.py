@@ -19,11 +19,11 @@ from PySide6.QtCore import QSettings
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QApplication
 
+from gui.background_task import BackgroundTask, Command
 from gui.pages.run import RunPage
 from gui.settings import Settings
 from gui.theme import Appearance
 from gui.window import Window
-from gui.background_task import Command, BackgroundTask
 from instrument.simulated_case import case_file
 
 WIDTH, HEIGHT = 1366, 768
@@ -86,7 +86,8 @@ def _rest(window: Window) -> None:
 
     def rested() -> bool:
         nonlocal last
-        if not all(work.over for work in (*window.findChildren(BackgroundTask), *window.findChildren(Command))):
+        works = (*window.findChildren(BackgroundTask), *window.findChildren(Command))
+        if not all(work.over for work in works):
             last = time.monotonic()
         return time.monotonic() - last > _LOOKS_S
 

@@ -158,4 +158,4 @@ def test_a_slope_needs_dense_bands():
 def test_bands_without_any_noise_are_refused_in_words():
     common = [np.full(len(BANDS_HZ), 0.03)]
     with pytest.raises(TooFewPoints, match="no noise of their own"):
-        kramers_kronig(pointwise(zener, 0.0, common=common))
+        kramers_kronig(pointwise(havriliak_negami, 0.0, common=common))
