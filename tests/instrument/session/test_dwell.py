@@ -54,8 +54,6 @@ def test_lost_samples_are_said(synthetic, points, tmp_path):
     lost.events = [
         e for e in synthetic.events if not (isinstance(e, BlockAcquired) and e.first_sample > 5000)
     ]
-        e for e in synthetic.events if not (isinstance(e, BlockAcquired) and e.first_sample > 5000)
-    ]
     with SessionFile(lost.save(tmp_path)) as session, pytest.raises(BadInput, match="samples of step"):
         dwell_of(session, points[-1].step)
 
