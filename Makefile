@@ -6,10 +6,10 @@ READY   := $(VENV)/.ready
 OUT     := out
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test checks unit coverage lint types contracts format bench docs clean
+.PHONY: help setup demo test test-long checks unit coverage lint types contracts format bench docs clean
 
 help:          ## list the targets
-	@awk -F':.*## ' '/^[a-z]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
 
 setup: $(READY) ## virtual environment in .venv with viscorig and its tools
 
@@ -20,7 +20,7 @@ $(READY): pyproject.toml scripts/setup.sh
 demo: $(READY) ## a whole experiment on the simulated rig, then the published case; all in out/
 	@$(BIN)/viscorig demo --out $(OUT)
 
-test: checks unit ## all checks and tests
+test: checks unit ## all checks, and all tests but the long ones
 
 checks: lint types contracts ## style, types and import directions
 
@@ -34,9 +34,13 @@ types: $(READY)
 contracts: $(READY)
 	@$(BIN)/lint-imports
 
-unit: $(READY) ## the test suite
-	@$(BIN)/pytest -m timing
-	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 -m "not timing"
+unit: $(READY) ## the tests that take less than some seconds each
+	@$(BIN)/pytest -m "timing and not long"
+	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 -m "not timing and not long"
+
+test-long: $(READY) ## the tests that take longer
+	@$(BIN)/pytest -m "timing and long"
+	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 -m "long and not timing"
 
 coverage: $(READY) ## the test suite once more, with the lines it does not reach
 	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 -m "not timing" --cov --cov-report=term

@@ -11,8 +11,8 @@ import numpy as np
 from drivers.vibrometer import Range
 from fitting.arrays import Array
 from fitting.complex_modes import complex_modes
-from fitting.damping import viscous_damping
-from fitting.direct import displacement_direct
+from fitting.damping import ViscousDamping, viscous_damping
+from fitting.half_plate import HalfPlate
 from fitting.identification.model import velocity
 from fitting.plate import Plate
 from fitting.specimen import Specimen
@@ -71,13 +71,31 @@ class Forecast:
             few = np.linspace(few[0], few[-1], _MOST_SOLVED)
         omega = 2 * np.pi * few
         G = law.modulus(omega) if law is not None else np.zeros(len(few), dtype=complex)
-        x = displacement_direct(self._plate, viscous_damping(self._plate), omega, G)
+        x = np.array([self._displacement(w, complex(g)) for w, g in zip(omega, G, strict=True)])
         seen = np.abs(velocity(omega, x, self.specimen.reads)) * level_m_s2
         return np.interp(frequency_hz, few, seen)
 
+    def _displacement(self, omega: float, G: complex) -> complex:
+        """At the pickup for 1 m/s^2 of the base. It moves the plate evenly in y, and nothing else."""
+        if (omega, G) not in self._solved:
+            half, damping = self._half, self._damping
+            load = half.down @ self._half.plate.base_load[:, None]
+            x = half.solver(omega, G, damping)(load)[:, 0]
+            self._solved[omega, G] = complex((half.down @ half.plate.pickup) @ x)
+        return self._solved[omega, G]
+
     @cached_property
-    def _plate(self) -> Plate:
-        return Plate(self.specimen)
+    def _solved(self) -> dict[tuple[float, complex], complex]:
+        return {}
+
+    @cached_property
+    def _half(self) -> HalfPlate:
+        return HalfPlate(Plate(self.specimen), odd=False)
+
+    @cached_property
+    def _damping(self) -> ViscousDamping:
+        whole = viscous_damping(self._half.plate)
+        return replace(whole, U=self._half.down @ whole.U)
 
     def frequencies_hz(self, segment: Segment) -> tuple[float, ...]:
         """Of a segment's steps. Raises `BadInput`."""

@@ -58,6 +58,7 @@ def screen():
     shutil.which("Xvfb") is None or shutil.which("xdotool") is None,
     reason="needs Xvfb and xdotool (Debian: xvfb, xdotool)",
 )
+@pytest.mark.long
 def test_a_person_runs_an_experiment_from_the_form_to_the_diagnosis(tmp_path):
     experiment = write_case(tmp_path)
     experiment.write_text(EXPERIMENT)

@@ -17,19 +17,23 @@ from gui.window import Window
 MESH = "[mesh]\nelements_x = 8\nelements_y = 5\n"
 
 
+@pytest.mark.long
 def test_a_thousand_repaints_leave_nothing_behind(opened):
     assert repaint(opened, 1000) < 10
 
 
+@pytest.mark.long
 def test_replaying_again_and_again_leaves_nothing_behind(opened):
     assert replay(opened, 200) < 20
 
 
+@pytest.mark.long
 def test_windows_come_and_go_and_leave_nothing_behind(appearance, settings, session_path):
     assert open_and_close(lambda: Window(appearance, settings), session_path, 10) < 15
 
 
 @pytest.mark.timing
+@pytest.mark.long
 def test_a_run_at_over_50_ks_a_second_with_its_fits_never_keeps_a_person_waiting(window, tmp_path):
     window.resize(1366, 768)
     with rig_in_real_time(tmp_path, points=6, mesh=MESH) as experiment:

@@ -5,8 +5,9 @@ sum over the panel's corners. The pressure jump is density times the rate of the
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
-from drivers.arrays import Array
+Array = NDArray[np.float64]
 
 
 def centres(length_m: float, width_m: float, shape: tuple[int, int]) -> tuple[Array, Array]:

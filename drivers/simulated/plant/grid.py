@@ -1,9 +1,11 @@
 """Values on a grid of Chebyshev points, interpolated by the barycentric formula (Berrut, Trefethen 2004)."""
 
 import numpy as np
+from numpy.typing import NDArray
 
-from drivers.arrays import Array
 from drivers.simulated.plant.specimen import LENGTH_M, WIDTH_M
+
+Array = NDArray[np.float64]
 
 POINTS_X, POINTS_Y = 21, 15
 

@@ -1,10 +1,12 @@
 """Strips of the core that may come loose: all along x, and some at either long edge."""
 
 import numpy as np
+from numpy.typing import NDArray
 
-from drivers.arrays import Array
 from drivers.simulated.plant.effects import PartialDebond
 from drivers.simulated.plant.specimen import LENGTH_M, WIDTH_M
+
+Array = NDArray[np.float64]
 
 EDGE_STRIPS = 5
 """At each long edge."""

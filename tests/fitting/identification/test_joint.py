@@ -76,6 +76,7 @@ def drawn(ready):
         return [Drawn(ready, seed) for seed in range(SEEDS)]
 
 
+@pytest.mark.long
 def test_stated_errors_cover_the_truth_where_everything_unknown_is_drawn(drawn):
     """60 sweeps: coverage of one number is known to 3 %, of all six together to 2 %."""
     pulls = np.array([one.pulls for one in drawn])

@@ -160,6 +160,7 @@ def test_json_to_a_file_holds_the_same_facts(capsys, tmp_path):
     assert f"{f:.3f}" in out
 
 
+@pytest.mark.long
 def test_demo_identifies_and_draws(capsys, tmp_path):
     status, out, err = call(capsys, "demo", "--out", tmp_path / "out")
     assert status == 0, err

@@ -102,6 +102,7 @@ def test_a_full_disk_stops_the_run_and_keeps_what_was_whole(tmp_path):
     assert rig_log(tmp_path)[-1]["drive_v"] == 0.0
 
 
+@pytest.mark.long
 def test_nothing_complete_is_lost_by_kills_at_random_moments(tmp_path):
     """A short form of `python tests/campaigns/kill.py --kills 100`."""
     experiment = write_case(tmp_path, SEGMENTS)

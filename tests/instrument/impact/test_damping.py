@@ -20,6 +20,7 @@ def found_in(hits, **more):
     return damping_of_hits([judge(h) for h in hits], **more)
 
 
+@pytest.mark.long
 def test_the_papers_eight_ratios_over_100_seeds(clean):
     rational, half, refused = [], [], set()
     for seed in range(100):

@@ -119,6 +119,7 @@ def test_hum_and_a_wrong_level_are_seen_in_the_channels(kind):
     assert used.all() == (kind == "level_error")
 
 
+@pytest.mark.long
 def test_nine_amplitudes_cannot_name_one_effect():
     plate = read_specimen(case_file("zn1.toml"))
     sweep = read_sweep(case_file("table5.csv")).sweep(plate.base_acceleration_m_s2)

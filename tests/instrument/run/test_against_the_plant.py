@@ -124,6 +124,7 @@ def test_the_law_is_the_plants_within_its_band(demo_run):
         assert abs(loss - G.imag / G.real) < 1.96 * law[f]["loss_factor_standard_error"]
 
 
+@pytest.mark.long
 def test_a_whole_session_replays_to_the_bit(demo_run):
     with SessionFile(demo_run.session) as file:
         again = replay(file)

@@ -33,6 +33,7 @@ def test_the_file_is_small():
     assert FILE.stat().st_size < 3.1e6
 
 
+@pytest.mark.long
 def test_the_shipped_plate_answers_as_the_solid(script):
     """A full solution at a place that no snapshot was taken at: only this mesh gives these digits."""
     solid = script.Solid(script.Mesh())
@@ -50,6 +51,7 @@ def test_the_shipped_plate_answers_as_the_solid(script):
     np.testing.assert_allclose(read @ script.displacement(model, case)[:, 0], rows @ X[:, 0], rtol=3e-4)
 
 
+@pytest.mark.long
 def test_a_coarse_plate_is_built_from_scratch(script):
     mesh = script.Mesh((6, 20), (), (), strips_x=6, air_panels=(9, 6))
     recipe = script.sandwich_recipe(mesh)
