@@ -36,10 +36,10 @@ def executor() -> AbstractContextManager[Executor]:
     """Two where the machine has two processors, unless `VISCORIG_PROCESSES` is 1."""
     if processors() < 2 or os.environ.get(VARIABLE) == "1":
         return nullcontext(ALONE)
-    return TwoHands()
+    return TwoProcesses()
 
 
-class TwoHands(Executor):
+class TwoProcesses(Executor):
     """A second process beside this one; a context manager. It begins to load at once."""
 
     def __init__(self) -> None:
@@ -48,8 +48,10 @@ class TwoHands(Executor):
         )
         self._other.submit(_nothing)
         self._known: object = None
+        self._number = 0
+        """Of objects sent over so far."""
 
-    def __enter__(self) -> "TwoHands":
+    def __enter__(self) -> "TwoProcesses":
         return self
 
     def __exit__(
@@ -79,7 +81,7 @@ class TwoHands(Executor):
                 except Exception as error:  # raised where it is waited for
                     failed.append(error)
 
-        thread = Thread(target=beside, name="second hand", daemon=True)
+        thread = Thread(target=beside, name="second process", daemon=True)
         thread.start()
         while left or thread.is_alive():
             try:
@@ -94,17 +96,23 @@ class TwoHands(Executor):
         report(1.0)
         yield from (found[k] for k in range(len(wanted)))
 
-    def _elsewhere(self, do: Callable[[A], B], one: A) -> B:
+    def _elsewhere(self, do: Callable[[A], B], one: A) -> Any:
         owner: object = do.__self__  # type: ignore[attr-defined]
         if owner is not self._known:
-            self._known = owner
-            self._other.submit(_learn, owner)
-        return self._other.submit(_do, do.__name__, one).result()
+            self._known, self._number = owner, self._number + 1
+            self._other.submit(_learn, self._number, owner)
+        found = self._other.submit(_do, self._number, do.__name__, one).result()
+        if isinstance(found, _Forgotten):
+            # loky replaces a process whose memory has grown; the new one knows nothing.
+            self._known = None
+            return self._elsewhere(do, one)
+        return found
 
 
 # In the second process.
 
 _owner: Any = None
+_number = 0
 
 
 def _begin(first: int) -> None:
@@ -130,10 +138,14 @@ def _nothing() -> None:
     pass
 
 
-def _learn(owner: object) -> None:
-    global _owner
-    _owner = owner
+class _Forgotten:
+    """Answer of a process that does not have the object it is asked of."""
 
 
-def _do(name: str, one: object) -> object:
-    return getattr(_owner, name)(one)
+def _learn(number: int, owner: object) -> None:
+    global _owner, _number
+    _owner, _number = owner, number
+
+
+def _do(number: int, name: str, one: object) -> object:
+    return getattr(_owner, name)(one) if number == _number else _Forgotten()

@@ -7,12 +7,12 @@ from squares import Squares
 
 from fitting.diagnosis.executor import ALONE
 from fitting.errors import OutsideModel
-from instrument.models.second_process import TwoHands
+from instrument.models.second_process import TwoProcesses, _learn
 
 
 @pytest.fixture(scope="module")
 def two():
-    with TwoHands() as executor:
+    with TwoProcesses() as executor:
         yield executor
 
 
@@ -56,7 +56,21 @@ def test_a_refusal_reaches_the_caller(two):
 
 
 def test_a_second_process_that_is_killed_leaves_its_work_to_the_first():
-    with TwoHands() as executor:
+    with TwoProcesses() as executor:
         for _ in range(3):
             found = list(executor.each(Squares().end_the_other, [os.getpid()] * 50))
             assert found == [os.getpid()] * 50
+
+
+def test_a_second_process_that_is_replaced_is_told_anew(two):
+    squares = Squares()
+
+    def shared_by_two():
+        return any(
+            len({pid for _, pid in two.each(squares.square, list(range(500)))}) == 2 for _ in range(100)
+        )
+
+    assert shared_by_two()
+    # What a new process knows, where loky puts one in the place of another whose memory has grown.
+    two._other.submit(_learn, 0, None).result()
+    assert shared_by_two()
