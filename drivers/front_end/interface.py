@@ -42,11 +42,6 @@ class Block:
         """How many there are of each channel."""
         return int(self.counts.shape[1])
 
-    @property
-    def volts(self) -> NDArray[np.float64]:
-        """Shape (channels, samples)."""
-        return self.counts * self.volts_per_count[:, None]
-
 
 class FrontEnd(Protocol):
     """Every method returns within a bounded time or raises a `DriverError`."""

@@ -55,6 +55,7 @@ from instrument.stream.raw import (
     SignalLevelRead,
     StepBegan,
 )
+from instrument.stream.scaling import Scaling
 
 Topic = Literal[
     "run", "step", "samples", "points", "hits", "damping", "calibration", "sentinels", "fits", "diagnosis",
@@ -204,7 +205,9 @@ class SessionState:
             case SignalLevelRead():
                 self.signal_level = event.value
             case StepBegan() if self.acquisition is not None:
-                self.step = Step(event, self.acquisition, self.configuration.rig.channels)
+                sensors = self.configuration.rig.channels.named()
+                scaling = Scaling.of(self.acquisition.channels, sensors)
+                self.step = Step(event, self.acquisition, scaling)
             case FitStarted():
                 self.fit_running = event.number
             case FitUpdated():

@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array
-from instrument.files.rig_file import Channels
 from instrument.stepped_sine.sine_fit import sine_fit
 from instrument.stream.derived import (
     DriveRequested,
@@ -18,6 +17,7 @@ from instrument.stream.derived import (
 )
 from instrument.stream.event import Event
 from instrument.stream.raw import AcquisitionBegan, BlockAcquired, Held, RangeSet, ShakerCommanded, StepBegan
+from instrument.stream.scaling import Scaling
 
 _MOST_SAMPLES = 2_000_000
 """Of one step, all channels together; the oldest are let go of."""
@@ -47,7 +47,7 @@ class Step:
 
     began: StepBegan
     acquisition: AcquisitionBegan
-    sensors: Channels
+    scaling: Scaling
     commands: list[ShakerCommanded] = field(default_factory=list)
     asked: list[DriveRequested | RangeRequested] = field(default_factory=list)
     """Corrections."""
@@ -159,7 +159,4 @@ class Step:
 
     def _in_units(self, heard: _Heard) -> Array:
         """Shape (2, samples): m/s^2 and m/s."""
-        row, volts = self.acquisition.channels.index, heard.block.volts
-        sign = -1.0 if self.sensors.velocity.invert else 1.0
-        velocity = volts[row("velocity")] * sign * heard.scale_m_s_v
-        return np.stack([volts[row("base")] * self.sensors.base.units_per_volt, velocity])
+        return self.scaling.motion(heard.block.volts, heard.scale_m_s_v)

@@ -15,6 +15,7 @@ from instrument.stream.derived import DampingFound, HitJudged, HitRevised
 from instrument.stream.event import Derived
 from instrument.stream.jsonable import to_jsonable
 from instrument.stream.raw import BlockAcquired, HammerTestEnded, OperatorDid
+from instrument.stream.scaling import Scaling
 
 WEAK = 0.3
 """Share of the median blow below which one is too weak to average with the others."""
@@ -33,16 +34,6 @@ class HammerSettings:
     """The response sensor on the plate."""
 
 
-@dataclass(frozen=True)
-class HammerChannels:
-    """Which row of a block is what, and how volts become units."""
-
-    force: int
-    response: int
-    force_n_v: float
-    response_m_s2_v: float
-
-
 @dataclass
 class _Caught:
     judged: Judged
@@ -52,8 +43,8 @@ class _Caught:
 class HammerAnalysis:
     """Follows a hammer test."""
 
-    def __init__(self, settings: HammerSettings, channels: HammerChannels, sample_rate_hz: float) -> None:
-        self._settings, self._channels, self._rate = settings, channels, sample_rate_hz
+    def __init__(self, settings: HammerSettings, scaling: Scaling, sample_rate_hz: float) -> None:
+        self._settings, self._scaling, self._rate = settings, scaling, sample_rate_hz
         self._trigger = Trigger(sample_rate_hz, settings.record_s, settings.pre_trigger_s)
         self._hits: list[_Caught] = []
 
@@ -88,10 +79,9 @@ class HammerAnalysis:
 
     def block(self, block: BlockAcquired) -> list[Derived]:
         """Samples in; the hits that are whole now."""
-        c = self._channels
-        volts = block.volts
-        rows = np.stack([volts[c.force] * c.force_n_v, volts[c.response] * c.response_m_s2_v])
-        overload = np.array([block.overload[c.force], block.overload[c.response]])
+        row = self._scaling.rows
+        rows = self._scaling.blow(block.volts)
+        overload = np.array([block.overload[row["force"]], block.overload[row["response"]]])
         return [
             self._judged(first, record, flags)
             for first, record, flags in self._trigger.feed(block.first_sample, rows, overload)

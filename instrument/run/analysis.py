@@ -4,10 +4,10 @@ import cmath
 from contextlib import suppress
 
 from fitting.errors import TooFewPoints
-from instrument.hammer_test.analysis import HammerAnalysis, HammerChannels
+from instrument.hammer_test.analysis import HammerAnalysis
 from instrument.session.setup import Setup
 from instrument.stepped_sine.calibration import Calibration, calibrate
-from instrument.stepped_sine.step import Channels, StepAnalysis
+from instrument.stepped_sine.step import StepAnalysis
 from instrument.stream.clock import SessionClock
 from instrument.stream.derived import (
     CalibrationFound,
@@ -30,6 +30,7 @@ from instrument.stream.raw import (
     SignalLevelRead,
     StepBegan,
 )
+from instrument.stream.scaling import Scaling
 
 _MOST_GAIN, _MOST_GAIN_STD = 0.3, 0.05
 """Off one, and uncertain, relative: beyond these a calibration is none."""
@@ -139,7 +140,7 @@ class Analysis:
     def _acquire(self, event: AcquisitionBegan) -> None:
         self._acquisition, self.step, self._latest = event, None, 0
         if event.part == "hammer" and self._setup.hammer is not None:
-            self.hammer = HammerAnalysis(self._setup.hammer, self._hammer_channels(), event.sample_rate_hz)
+            self.hammer = HammerAnalysis(self._setup.hammer, self._scaling(), event.sample_rate_hz)
 
     def _begin(self, began: StepBegan) -> StepAnalysis:
         assert self._acquisition is not None
@@ -147,7 +148,7 @@ class Analysis:
         return StepAnalysis(
             began,
             self._setup.sweep,
-            self._step_channels(),
+            self._scaling(),
             self._acquisition.sample_rate_hz,
             self._range,
             self._wider(),
@@ -188,32 +189,9 @@ class Analysis:
             return ()
         return names[names.index(self._range.name) + 1 :]
 
-    def _step_channels(self) -> Channels:
+    def _scaling(self) -> Scaling:
         assert self._acquisition is not None
-        row = self._acquisition.channels.index
-        sensors = self._setup.sensors
-        temperature = sensors.temperature
-        return Channels(
-            base=row("base"),
-            velocity=row("velocity"),
-            base_m_s2_v=sensors.base.units_per_volt,
-            velocity_sign=-1.0 if sensors.velocity.invert else 1.0,
-            temperature=row("temperature") if temperature is not None else None,
-            temperature_c_v=temperature.units_per_volt if temperature is not None else 0.0,
-        )
-
-    def _hammer_channels(self) -> HammerChannels:
-        assert self._acquisition is not None
-        row = self._acquisition.channels.index
-        sensors = self._setup.sensors
-        assert sensors.force is not None
-        assert sensors.response is not None
-        return HammerChannels(
-            force=row("force"),
-            response=row("response"),
-            force_n_v=sensors.force.units_per_volt,
-            response_m_s2_v=sensors.response.units_per_volt,
-        )
+        return Scaling.of(self._acquisition.channels, self._setup.sensors.named())
 
 
 def _refused(found: CalibrationFound) -> list[Derived]:

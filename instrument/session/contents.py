@@ -35,6 +35,7 @@ from instrument.stream.raw import (
     SessionBegan,
     SessionEnded,
 )
+from instrument.stream.scaling import Scaling
 
 _LONGEST_RECORD_S = 400.0
 """No record of a hit is longer; older samples are let go of however long nobody strikes."""
@@ -242,20 +243,16 @@ class _Tape:
         blocks = self._blocks
         if self._acquisition is None or not blocks or not _inside(hit.first_sample, end, blocks):
             raise BadInput(f"hit {hit.hit}: its samples are missing, expected them before its verdict")
-        rows = self._acquisition.channels.index
         volts = np.concatenate([b.volts for b in self._blocks], axis=1)
         start = hit.first_sample - self._blocks[0].first_sample
         record = volts[:, start : start + hit.samples]
         # Records do not overlap: what lies before the end of this one is done with.
         self._blocks = [b for b in self._blocks if _end(b) > end]
-        s = self._sensors
-        assert s.force is not None
-        assert s.response is not None
-        response = record[rows("response")] * s.response.units_per_volt
+        force, response = Scaling.of(self._acquisition.channels, self._sensors.named()).blow(record)
         return Hit(
             f"hit {hit.hit}",
             self._acquisition.sample_rate_hz,
-            record[rows("force")] * s.force.units_per_volt,
+            force,
             (Channel("response", "acceleration", response),),
         )
 

@@ -8,11 +8,11 @@ import numpy as np
 
 from fitting.arrays import Array
 from instrument.errors import BadInput
-from instrument.files.rig_file import Channels
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import PointMeasured
 from instrument.stream.event import Event
 from instrument.stream.raw import AcquisitionBegan, BlockAcquired, RangeSet, StepBegan
+from instrument.stream.scaling import Scaling
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,9 @@ def dwell_of(session: SessionFile, step: int, look: Callable[[], None] = lambda:
     if found.point is None or found.acquisition is None:
         raise BadInput(f"{session.path}: no point of step {step} in it")
     volts = _volts(session, range(found.first_part, last + 1), found.point, found.acquisition)
-    return _in_units(volts, found.acquisition, found.scale_m_s_v, session.configuration.rig.channels)
+    scaling = Scaling.of(found.acquisition.channels, session.configuration.rig.channels.named())
+    base, velocity = scaling.motion(volts, found.scale_m_s_v)
+    return DwellSamples(np.arange(volts.shape[1]) / found.acquisition.sample_rate_hz, base, velocity)
 
 
 @dataclass
@@ -105,15 +107,3 @@ def _volts(session: SessionFile, parts: range, point: PointMeasured, acquisition
     if found.shape[1] != end - point.sample:
         raise BadInput(f"{session.path}: the samples of step {point.step} are missing")
     return found
-
-
-def _in_units(
-    volts: Array, acquisition: AcquisitionBegan, scale_m_s_v: float, sensors: Channels
-) -> DwellSamples:
-    row = acquisition.channels.index
-    sign = -1.0 if sensors.velocity.invert else 1.0
-    return DwellSamples(
-        np.arange(volts.shape[1]) / acquisition.sample_rate_hz,
-        volts[row("base")] * sensors.base.units_per_volt,
-        volts[row("velocity")] * sign * scale_m_s_v,
-    )

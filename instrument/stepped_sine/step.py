@@ -8,7 +8,6 @@ A new command makes what came before worthless: blocks count from the end of its
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -32,6 +31,7 @@ from instrument.stream.derived import (
 )
 from instrument.stream.event import Derived
 from instrument.stream.raw import RangeSet, ShakerCommanded, StepBegan
+from instrument.stream.scaling import Scaling
 
 _TRIM = 0.5
 """Share of the control tolerance at which the drive is corrected: drift has room until the point is read."""
@@ -41,19 +41,6 @@ _CLIPPED = 0.98
 """Share of the vibrometer's full scale from which its output counts as clipped."""
 
 
-@dataclass(frozen=True)
-class Channels:
-    """Which row of a block is what, and how volts become units."""
-
-    base: int
-    velocity: int
-    base_m_s2_v: float
-    """Signed: negative where the sensor faces the other way."""
-    velocity_sign: float = 1.0
-    temperature: int | None = None
-    temperature_c_v: float = 0.0
-
-
 class StepAnalysis:
     """Follows one step from its command to its point."""
 
@@ -61,7 +48,7 @@ class StepAnalysis:
         self,
         began: StepBegan,
         settings: SweepSettings,
-        channels: Channels,
+        scaling: Scaling,
         sample_rate_hz: float,
         vibrometer: RangeSet,
         wider: tuple[str, ...],
@@ -69,7 +56,7 @@ class StepAnalysis:
         signal_level: float | None,
         latest: int,
     ) -> None:
-        self._began, self._settings, self._channels = began, settings, channels
+        self._began, self._settings, self._scaling = began, settings, scaling
         self._rate = sample_rate_hz
         self._range, self._wider = vibrometer, wider
         self._calibration = calibration
@@ -119,10 +106,10 @@ class StepAnalysis:
         self._latest = first_sample + volts.shape[1]
         if self._command is None or self.done:
             return []
-        c = self._channels
-        if overload[c.velocity] and self._latest > self._from:
+        row = self._scaling.rows
+        if overload[row["velocity"]] and self._latest > self._from:
             return self._overloaded()
-        if overload[c.base]:
+        if overload[row["base"]]:
             return [self._guard.stop("base acceleration channel overload", 1.0, 0.0, "", "raise its range")]
         self._samples.add(first_sample, self._in_units(volts), self._from)
         events: list[Derived] = []
@@ -228,7 +215,7 @@ class StepAnalysis:
             velocity_distortion_percent=100 * float(fit.distortion[1]),
             range_name=self._range.name,
             signal_level=self._signal_level,
-            temperature_c=float(fit.mean[2]) if self._channels.temperature is not None else None,
+            temperature_c=float(fit.mean[2]) if self._scaling.has("temperature") else None,
             remarks=tuple(self._remarks),
         )
 
@@ -301,14 +288,9 @@ class StepAnalysis:
 
     def _in_units(self, volts: Array) -> Array:
         """m/s^2, m/s and degree Celsius. Shape (3, samples)."""
-        c = self._channels
-        temperature = (
-            volts[c.temperature] * c.temperature_c_v
-            if c.temperature is not None
-            else np.zeros(volts.shape[1])
-        )
-        velocity = volts[c.velocity] * c.velocity_sign * self._range.scale_m_s_v
-        return np.stack([volts[c.base] * c.base_m_s2_v, velocity, temperature])
+        known = self._scaling.has("temperature")
+        temperature = self._scaling.units("temperature", volts) if known else np.zeros(volts.shape[1])
+        return np.vstack([self._scaling.motion(volts, self._range.scale_m_s_v), temperature])
 
 
 def _final(events: list[Derived]) -> bool:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from instrument.stream.event import Event
+from instrument.stream.scaling import volts_of
 
 Part = Literal["hammer", "calibration", "sweep"]
 Purpose = Literal["loop-check", "calibration", "step", "sentinel"]
@@ -57,8 +58,8 @@ class BlockAcquired(Event):
 
     @property
     def volts(self) -> NDArray[np.float64]:
-        """Shape (channels, samples), row by row in memory, so that sums are the same on replay."""
-        return np.multiply(self.counts, np.array(self.volts_per_count)[:, None], order="C")
+        """Shape (channels, samples)."""
+        return volts_of(self.counts, self.volts_per_count)
 
 
 @dataclass(frozen=True)

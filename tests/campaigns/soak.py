@@ -12,8 +12,6 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from drivers.front_end import InputChannel
 from drivers.front_end.lan_xi import LanXiFrontEnd
 from instrument.files.rig_file import RigDocument
@@ -63,8 +61,9 @@ def soak(samples: int, folder: Path, *, rate_hz: float = 8192.0) -> Soaked:
                 block = front_end.read(BLOCK)
                 gaps += block.first_sample != done
                 done += block.samples
-                sine_fit(np.ascontiguousarray(block.volts), block.first_sample, rate_hz, 100.0)
-                recorder.record(_event(block))
+                event = _event(block)
+                sine_fit(event.volts, block.first_sample, rate_hz, 100.0)
+                recorder.record(event)
                 if not half_mb and done > samples / 2:
                     half_mb = _peak_mb()
         seconds = time.monotonic() - began

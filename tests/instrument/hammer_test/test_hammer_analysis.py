@@ -3,15 +3,16 @@
 import numpy as np
 import pytest
 
-from instrument.hammer_test.analysis import HammerAnalysis, HammerChannels, HammerSettings
+from instrument.hammer_test.analysis import HammerAnalysis, HammerSettings
 from instrument.stream.derived import DampingFound, HitJudged, HitRevised
 from instrument.stream.raw import BlockAcquired, HammerTestEnded, OperatorDid
+from instrument.stream.scaling import Scaling
 
 RATE = 2048.0
 RECORD_S = 6.0
 MODES = ((17.7, 0.01), (59.8, 0.006))
 SETTINGS = HammerSettings(hits=3, record_s=RECORD_S, pre_trigger_s=0.05, band_hz=(5.0, 200.0))
-CHANNELS = HammerChannels(force=0, response=1, force_n_v=50.0, response_m_s2_v=100.0)
+SCALING = Scaling({"force": 0, "response": 1}, {"force": 50.0, "response": 100.0})
 
 
 def stream(blows, seconds, seed=0, clip_v=10.0):
@@ -44,7 +45,7 @@ def feed(analysis, volts, over, size=333):
 
 
 def caught(blows, seconds, size=333):
-    analysis = HammerAnalysis(SETTINGS, CHANNELS, RATE)
+    analysis = HammerAnalysis(SETTINGS, SCALING, RATE)
     return analysis, feed(analysis, *stream(blows, seconds), size)
 
 

@@ -8,7 +8,7 @@ from station import BASE_V, RANGE, RATE, Station, began, of_kind
 
 from instrument.stepped_sine.calibration import Calibration
 from instrument.stepped_sine.settings import Limits, Settle, SweepSettings
-from instrument.stepped_sine.step import Channels, StepAnalysis
+from instrument.stepped_sine.step import StepAnalysis
 from instrument.stream.derived import (
     DriveRequested,
     LimitExceeded,
@@ -19,8 +19,9 @@ from instrument.stream.derived import (
     SettlingTimedOut,
     StepSettled,
 )
+from instrument.stream.scaling import Scaling
 
-CHANNELS = Channels(base=0, velocity=1, base_m_s2_v=1 / BASE_V)
+SCALING = Scaling({"base": 0, "velocity": 1}, {"base": 1 / BASE_V, "velocity": 1.0})
 SETTINGS = SweepSettings()
 
 
@@ -30,7 +31,7 @@ def follow(
     """Do what the step asks for until it is done or gives up; every event."""
     step = step or began()
     ask = (lambda name: calibration) if calibration else None
-    analysis = StepAnalysis(step, settings, CHANNELS, RATE, RANGE, wider, ask, light, station.now)
+    analysis = StepAnalysis(step, settings, SCALING, RATE, RANGE, wider, ask, light, station.now)
     events = list(analysis.commanded(station.command(step.frequency_hz, step.drive_v, told=told)))
     for _ in range(most):
         if analysis.done or of_kind(events, LimitExceeded) or of_kind(events, RangeRequested):
