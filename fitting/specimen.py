@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
+from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
 
 Boundary = Literal["cantilever", "simply-supported", "free"]
@@ -54,7 +55,7 @@ class Specimen:
     """Remaining viscous damping, fractions of critical, in frequency order (Table 3)."""
     pickup_m: tuple[float, float] | None = None
     reads: Reading = "relative"
-    base_acceleration_m_s2: float = 9.81
+    base_acceleration_m_s2: float = PUBLISHED_G_M_S2
     tolerances: Mapping[str, float] = field(default_factory=dict)
     """Standard deviations of stated numbers (`fitting.tolerances`): relative, m or s. Not named: typical
     ones."""

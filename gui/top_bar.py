@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from fitting.gravity import PUBLISHED_G_M_S2
 from gui.controller import AppController
 from gui.gauge import Gauge
 from gui.state import SessionState
@@ -21,7 +22,6 @@ from gui.state.run import WORDS
 from gui.stop_button import StopButton
 from gui.theme import Role, current_theme
 from gui.widgets import button
-from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2
 
 _PERMILLE = 1000
 _COLORS: dict[str, Role] = {"held": "fair", "stopped": "bad", "done": "good", "idle": "faint"}
@@ -108,9 +108,7 @@ class TopBar(QFrame):
                 gauge.show_value(None)
             return
         level = step.began.level_m_s2
-        self.level.setText(
-            f"level {level / STANDARD_GRAVITY_M_S2:.3g} g" if level is not None else "level \u2013"
-        )
+        self.level.setText(f"level {level / PUBLISHED_G_M_S2:.3g} g" if level is not None else "level \u2013")
         base, velocity = step.peaks()
         travel = base / (2 * pi * step.began.frequency_hz) ** 2
         self.gauges["drive"].show_value(step.drive_v, limits.drive_v, "V")

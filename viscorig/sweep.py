@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.sweep import Sweep as Points
 from fitting.sweep import segments_by_gap
 from instrument.files.sweep_file import read_sweep
@@ -33,7 +34,7 @@ class Sweep(Shown, Points):
         self,
         frequency_hz: ArrayLike,
         velocity_m_s: ArrayLike,
-        commanded_m_s2: ArrayLike = 9.81,
+        commanded_m_s2: ArrayLike = PUBLISHED_G_M_S2,
         segment: ArrayLike | None = None,
         sweep: ArrayLike = 1,
         base_m_s2: ArrayLike | None = None,

@@ -19,6 +19,7 @@ from fitting.diagnosis.problem import DiagnosisProblem, Grid
 from fitting.effects.base import Effect, EffectParameter, ModulusAt
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
 
 _H = 1e-4
@@ -27,7 +28,6 @@ _SMALL = 1e-6
 """Of the velocity: the step along which a derivative of it is read."""
 _SOFTENED = np.array([-0.3, 0.0, 0.25, 0.5])
 """Shares by which the core softens where its strain is computed: a cubic through them serves all between."""
-_ONE_G = 9.81
 _KEPT = 8
 
 
@@ -253,7 +253,7 @@ class Response:
                 self._strains.clear()
             self._strains[key] = table
             if self._largest is None:
-                self._largest = float(np.exp(table[-1]).max()) * _ONE_G
+                self._largest = float(np.exp(table[-1]).max()) * PUBLISHED_G_M_S2
         return self._strains[key]
 
     def _read(self, v: Complex, u: Array) -> Complex:

@@ -10,35 +10,12 @@ from instrument.campaign.cases import Case, Truth, nominal_specimen
 from instrument.campaign.materials import TrueLaw
 from instrument.campaign.noise import NoiseFigures
 from instrument.files.hammer_file import read_hammer
-from instrument.files.sweep_file import read_sweep
-
-_COLUMNS = (
-    "sweep",
-    "segment",
-    "level_g",
-    "frequency_hz",
-    "velocity_re_m_s",
-    "velocity_im_m_s",
-    "base_accel_re_m_s2",
-    "base_accel_im_m_s2",
-    "time_s",
-)
+from instrument.files.sweep_file import read_sweep, sweep_text
 
 
 def write_csv(case: Case, path: Path) -> None:
     """The sweep alone, as `viscorig` reads it."""
-    s, g = case.sweep, case.specimen.base_acceleration_m_s2
-    assert s.base_m_s2 is not None
-    assert s.time_s is not None
-    lines = [",".join(_COLUMNS)]
-    for k in range(len(s)):
-        v, a = s.velocity_m_s[k], s.base_m_s2[k]
-        phasors = ",".join(f"{part:.9e}" for part in (v.real, v.imag, a.real, a.imag))
-        lines.append(
-            f"{s.sweep[k]},{s.segment[k]},{s.commanded_m_s2[k] / g:.10g},{s.frequency_hz[k]:.10g},"
-            f"{phasors},{s.time_s[k]:.10g}"
-        )
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    path.write_text(sweep_text(case.sweep, case.specimen.base_acceleration_m_s2), encoding="utf-8")
 
 
 def save_case(case: Case, folder: Path, name: str) -> Path:

@@ -9,6 +9,7 @@ import numpy as np
 
 from drivers.vibrometer.models import MODELS
 from fitting.errors import FittingError
+from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Specimen
 from instrument.check.faults import experiment_objections
 from instrument.check.forecast import (
@@ -29,7 +30,7 @@ from instrument.models.tolerance_words import tolerance_facts
 from instrument.session.configuration import Experiment, read_whole_experiment
 from instrument.session.setup import hammer_settings, setup_of
 from instrument.stepped_sine.plan import PlannedSegment
-from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2, SweepSettings
+from instrument.stepped_sine.settings import SweepSettings
 
 _HIT_AND_RING_S = 3.0
 """A person's time for a hit, beside its record."""
@@ -134,7 +135,7 @@ def _sweep(
     planned, sentinel = planned_segments(forecast, table, ranges)
     names = with_next_coarser([s.range_name for s in planned], ranges)
     calibration = calibration_segments(table, names, ranges)
-    level = table.level_g * STANDARD_GRAVITY_M_S2
+    level = table.level_g * PUBLISHED_G_M_S2
     segments = tuple(_segment(experiment, forecast, s, settings) for s in planned)
     warnings = [w for s in segments for w in _warnings(s, settings)]
     if level > settings.limits.base_m_s2:

@@ -3,12 +3,12 @@
 from collections.abc import Iterator
 
 from drivers.vibrometer.models import MODELS
+from fitting.gravity import PUBLISHED_G_M_S2
 from instrument.check.forecast import Forecast, distinct, planned_segment
 from instrument.errors import BadInput
 from instrument.session.configuration import Experiment
 from instrument.session.setup import sweep_settings
 from instrument.simulated_case.simulation import refuse_simulation
-from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2
 
 _SAMPLES_A_CYCLE = 4.0
 """Below, a front-end's own filter is near."""
@@ -76,7 +76,7 @@ def _sweep(experiment: Experiment, forecast: Forecast) -> Iterator[str]:
                 f"expected at most {highest:g} Hz"
             )
     limits = sweep_settings(experiment.document, experiment.rig).limits
-    level = table.level_g * STANDARD_GRAVITY_M_S2
+    level = table.level_g * PUBLISHED_G_M_S2
     if level > limits.base_m_s2:
         limit = f"{limits.base_m_s2:.3g} m/s^2"
         yield f"{path}: sweep.level_g = {table.level_g:g} is {level:.3g} m/s^2, limit {limit}"

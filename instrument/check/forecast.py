@@ -12,6 +12,7 @@ from drivers.vibrometer import Range
 from fitting.arrays import Array
 from fitting.complex_modes import complex_modes
 from fitting.damping import ViscousDamping, viscous_damping
+from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.half_plate import HalfPlate
 from fitting.identification.model import velocity
 from fitting.plate import Plate
@@ -19,7 +20,7 @@ from fitting.specimen import Specimen
 from instrument.errors import BadInput
 from instrument.files.experiment_file import Segment, SweepTable
 from instrument.stepped_sine.plan import PlannedSegment
-from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2, SweepSettings
+from instrument.stepped_sine.settings import SweepSettings
 
 _COARSE = (20, 14)
 _MODES = 12
@@ -120,7 +121,7 @@ def planned_segment(
         raise BadInput(f"{len(f)} steps, expected at most {_MOST_STEPS}: take a wider step_hz")
     if segment.range is not None and segment.range not in {r.name for r in ranges}:
         raise BadInput(f"range {segment.range!r}, expected one of {', '.join(r.name for r in ranges)}")
-    level = sweep.level_g * STANDARD_GRAVITY_M_S2
+    level = sweep.level_g * PUBLISHED_G_M_S2
     name = segment.range or range_for(float(forecast.velocity_m_s(np.array(f), level).max()), ranges).name
     return PlannedSegment(number, 1, f, (level,) * len(f), name)
 
@@ -135,7 +136,7 @@ def planned_segments(
         return whole, None
     first = whole[0]
     sentinel = sweep.sentinel.frequency_hz or first.frequencies_hz[len(first.frequencies_hz) // 2]
-    level = sweep.level_g * STANDARD_GRAVITY_M_S2
+    level = sweep.level_g * PUBLISHED_G_M_S2
     name = range_for(float(forecast.velocity_m_s(np.array([sentinel]), level)[0]), ranges).name
     return whole, (sentinel, name)
 
@@ -147,7 +148,7 @@ def calibration_segments(
     if sweep.calibration is None:
         return []
     f = tuple(sweep.calibration.frequencies_hz)
-    highest = sweep.calibration.level_g * STANDARD_GRAVITY_M_S2
+    highest = sweep.calibration.level_g * PUBLISHED_G_M_S2
     segments = []
     for number, one in enumerate(ranges, start=1):
         # Numbered among all ranges: a run that is carried on has the same numbers.

@@ -8,6 +8,7 @@ import numpy as np
 from scipy.io import loadmat
 
 from fitting.arrays import Array
+from fitting.gravity import STANDARD_GRAVITY_M_S2
 from fitting.modal.frf import Frf, Motion
 from instrument.errors import BadInput
 from instrument.files.impact_csv import MOTIONS, read_impact_csv
@@ -15,11 +16,10 @@ from instrument.files.lvm import read_lvm
 from instrument.files.uff58 import read_uff58
 from instrument.impact.record import Channel, Hit
 
-_STANDARD_GRAVITY = 9.80665
 _UNITS: dict[str, tuple[Motion, float]] = {
     "m/s^2": ("acceleration", 1.0),
     "m/s2": ("acceleration", 1.0),
-    "g": ("acceleration", _STANDARD_GRAVITY),
+    "g": ("acceleration", STANDARD_GRAVITY_M_S2),
     "m/s": ("velocity", 1.0),
     "mm/s": ("velocity", 1e-3),
     "m": ("displacement", 1.0),

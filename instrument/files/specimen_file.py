@@ -6,6 +6,7 @@ from typing import Annotated, Any
 from pydantic import Field, ValidationError, create_model, model_validator
 
 from fitting.errors import OutsideModel
+from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import LAWS, CoreLaw
 from fitting.specimen import Boundary, Core, Face, Reading, Specimen
 from instrument.errors import BadInput
@@ -102,7 +103,7 @@ class SpecimenDocument(Table):
     core: _Core | None = None
     damping: _Damping | None = None
     pickup: _Pickup | None = None
-    base: _Base = _Base(acceleration_m_s2=9.81)
+    base: _Base = _Base(acceleration_m_s2=PUBLISHED_G_M_S2)
     mesh: _Mesh | None = None
     tolerances: _Tolerances | None = None
 

@@ -8,27 +8,11 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.sweep import Sweep, segments_by_gap
 from instrument.errors import BadInput
+from instrument.files.column import Column
+from instrument.files.point_columns import understood
 from instrument.files.table import number, read_rows
 
-_NUMBERS = (
-    "frequency_hz",
-    "velocity_re_m_s",
-    "velocity_im_m_s",
-    "velocity_m_s",
-    "base_accel_re_m_s2",
-    "base_accel_im_m_s2",
-    "level_g",
-    "time_s",
-    "velocity_std_m_s",
-    "weight",
-    "segment",
-    "sweep",
-)
-_ABOVE_ZERO = ("frequency_hz", "velocity_m_s", "level_g", "velocity_std_m_s", "weight")
-_WHOLE = ("segment", "sweep")
 _LARGEST_WHOLE = 1e9
-_IDENTITY = ("sweep", "segment", "level_g", "frequency_hz", "time_s")
-"""Two rows equal in all of these are one measurement written twice."""
 
 
 @dataclass(frozen=True)
@@ -63,59 +47,88 @@ class SweepFile:
 def read_sweep(path: Path) -> SweepFile:
     """Read and check a sweep. Raises `BadInput` naming file, line and column."""
     header, rows = read_rows(path, lambda header: _check_header(path, header))
+    known = {column.name: column for column in understood()}
     columns: dict[str, Array] = {}
     for k, name in enumerate(header):
-        if name in _NUMBERS:
-            columns[name] = np.array([_number(path, line, name, row[k]) for line, row in rows])
+        if name in known:
+            columns[name] = np.array([_number(path, line, known[name], row[k]) for line, row in rows])
     lines = [line for line, _ in rows]
     _check_phasors(path, lines, columns)
     _check_twice(path, lines, columns)
     unknown = {
-        name: [row[k] for _, row in rows] for k, name in enumerate(header) if name and name not in _NUMBERS
+        name: [row[k] for _, row in rows] for k, name in enumerate(header) if name and name not in known
     }
     return SweepFile(path, columns, unknown)
 
 
 def _check_header(path: Path, header: list[str]) -> None:
-    if "frequency_hz" not in header:
-        raise BadInput(f"{path}: header: column frequency_hz missing, found {', '.join(header)[:120]}")
+    for column in understood():
+        if column.given == "always" and column.name not in header:
+            raise BadInput(f"{path}: header: column {column.name} missing, found {', '.join(header)[:120]}")
     has_phasor = "velocity_re_m_s" in header and "velocity_im_m_s" in header
     if not has_phasor and "velocity_m_s" not in header:
         raise BadInput(
             f"{path}: header: no velocity, expected velocity_re_m_s and velocity_im_m_s, or velocity_m_s"
         )
-    for pair in (("velocity_re_m_s", "velocity_im_m_s"), ("base_accel_re_m_s2", "base_accel_im_m_s2")):
+    for pair in _phasors():
         given = [name for name in pair if name in header]
         if len(given) == 1:
             missing = pair[0] if given[0] == pair[1] else pair[1]
             raise BadInput(f"{path}: header: column {missing} missing beside {given[0]}")
 
 
-def _number(path: Path, line: int, name: str, text: str) -> float:
+def _phasors() -> list[tuple[str, str]]:
+    """Names of real and imaginary parts."""
+    return [(c.name, c.imaginary) for c in understood() if c.imaginary]
+
+
+def _number(path: Path, line: int, column: Column, text: str) -> float:
+    name = column.name
     value = number(path, line, name, text)
-    if name in _ABOVE_ZERO and value <= 0:
+    if column.above_zero and value <= 0:
         raise BadInput(f"{path}: line {line}: {name} = {text}, expected more than 0")
-    if name in _WHOLE and (value != int(value) or abs(value) > _LARGEST_WHOLE):
+    if column.whole and (value != int(value) or abs(value) > _LARGEST_WHOLE):
         raise BadInput(f"{path}: line {line}: {name} = {text}, expected a whole number below 1e9")
     return value
 
 
 def _check_phasors(path: Path, lines: list[int], columns: dict[str, Array]) -> None:
-    for stem, unit in (("velocity", "m_s"), ("base_accel", "m_s2")):
-        names = f"{stem}_re_{unit}", f"{stem}_im_{unit}"
-        if names[0] in columns:
-            zero = np.flatnonzero((columns[names[0]] == 0) & (columns[names[1]] == 0))
+    for real, imaginary in _phasors():
+        if real in columns:
+            zero = np.flatnonzero((columns[real] == 0) & (columns[imaginary] == 0))
             if zero.size:
+                stem = real.partition("_re_")[0]
                 raise BadInput(f"{path}: line {lines[zero[0]]}: {stem} is zero, expected a reading")
 
 
 def _check_twice(path: Path, lines: list[int], columns: dict[str, Array]) -> None:
-    keys = [columns[name] for name in _IDENTITY if name in columns]
+    names = [column.name for column in understood() if column.identity and column.name in columns]
+    keys = [columns[name] for name in names]
     seen: dict[tuple[float, ...], int] = {}
     for line, key in zip(lines, zip(*keys, strict=True), strict=True):
         if key in seen:
             raise BadInput(
                 f"{path}: line {line}: the same point as line {seen[key]} "
-                f"({', '.join(n for n in _IDENTITY if n in columns)} all equal), expected each once"
+                f"({', '.join(names)} all equal), expected each once"
             )
         seen[key] = line
+
+
+def sweep_text(sweep: Sweep, acceleration_m_s2: float) -> str:
+    """A sweep with its base and its times as CSV, levels in multiples of `acceleration_m_s2`."""
+    assert sweep.base_m_s2 is not None
+    assert sweep.time_s is not None
+    v, a = sweep.velocity_m_s, sweep.base_m_s2
+    columns = {
+        "sweep": [str(n) for n in sweep.sweep],
+        "segment": [str(n) for n in sweep.segment],
+        "level_g": [f"{level / acceleration_m_s2:.10g}" for level in sweep.commanded_m_s2],
+        "frequency_hz": [f"{f:.10g}" for f in sweep.frequency_hz],
+        "velocity_re_m_s": [f"{x:.9e}" for x in v.real],
+        "velocity_im_m_s": [f"{x:.9e}" for x in v.imag],
+        "base_accel_re_m_s2": [f"{x:.9e}" for x in a.real],
+        "base_accel_im_m_s2": [f"{x:.9e}" for x in a.imag],
+        "time_s": [f"{t:.10g}" for t in sweep.time_s],
+    }
+    rows = [",".join(row) for row in zip(*columns.values(), strict=True)]
+    return "\n".join([",".join(columns), *rows]) + "\n"

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
+from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.modal.frf import Frf, Motion
 from instrument.errors import BadInput
 from instrument.impact.record import Channel, Hit
@@ -14,7 +15,7 @@ from instrument.interchange.units import DERIVATIVE, Quantity
 Columns = dict[str, Array]
 """Of the sweep CSV, by their names."""
 
-REFERENCE_M_S2 = 9.81
+REFERENCE_M_S2 = PUBLISHED_G_M_S2
 """Base acceleration a ratio is stated at where its level is not known: it cancels in the fit."""
 _CSV_NAMES: dict[Motion, str] = {
     "acceleration": "acceleration_m_s2",

@@ -9,6 +9,7 @@ import numpy as np
 from fitting.sweep import segments_by_gap
 from instrument.errors import BadInput
 from instrument.files.impact_csv import write_frf_csv, write_impact_csv
+from instrument.files.point_columns import understood
 from instrument.files.sweep_file import read_sweep
 from instrument.impact.record import Hit
 from instrument.interchange.found import Columns, Found
@@ -18,8 +19,6 @@ from instrument.interchange.read_mat import read_mat
 from instrument.interchange.read_uff import read_uff
 
 _READERS = {".uff": read_uff, ".unv": read_uff, ".mat": read_mat, ".csv": read_csv, ".txt": read_csv}
-_UNSAID: dict[str, float] = {"sweep": 1.0, "level_g": 1.0}
-"""What a column means where only other tables of the file have it."""
 _MOTION_NAMES = {"displacement": "receptance", "velocity": "mobility", "acceleration": "accelerance"}
 
 
@@ -132,22 +131,24 @@ def one_table(sweeps: list[Columns]) -> Columns:
     Raises `BadInput` where they are of different kinds.
     """
     sweeps = _told_apart(sweeps)
+    unsaid = {column.name: column.unsaid for column in understood() if column.unsaid is not None}
     names = list(dict.fromkeys(name for s in sweeps for name in s))
-    missing = [n for n in names if n not in _UNSAID and not all(n in s for s in sweeps)]
+    missing = [n for n in names if n not in unsaid and not all(n in s for s in sweeps)]
     if missing:
         raise BadInput(
             f"its sweeps differ in {', '.join(missing)}: expected all of one kind, import them apart"
         )
     return {
-        n: np.concatenate([s.get(n, np.full(len(s["frequency_hz"]), _UNSAID.get(n, 0.0))) for s in sweeps])
+        n: np.concatenate([s.get(n, np.full(len(s["frequency_hz"]), unsaid.get(n, 0.0))) for s in sweeps])
         for n in names
     }
 
 
 def _sweep_text(sweeps: list[Columns]) -> str:
     table = one_table(sweeps)
+    whole = {column.name for column in understood() if column.whole}
     rows = (
-        ",".join(_text(n, v) for n, v in zip(table, row, strict=True))
+        ",".join(str(int(v)) if n in whole else repr(float(v)) for n, v in zip(table, row, strict=True))
         for row in zip(*table.values(), strict=True)
     )
     return "\n".join([",".join(table), *rows]) + "\n"
@@ -164,7 +165,3 @@ def _told_apart(sweeps: list[Columns]) -> list[Columns]:
         }
         for k, s in enumerate(sweeps, start=1)
     ]
-
-
-def _text(name: str, value: float) -> str:
-    return str(int(value)) if name in ("sweep", "segment") else repr(float(value))

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from fitting.arrays import Array
 from fitting.modal.frf import Motion
 from instrument.errors import BadInput
+from instrument.files.point_columns import understood
 from instrument.interchange.found import Columns, Found, Ratio
 from instrument.interchange.units import DERIVATIVE, KNOWN, Quantity, Unit, unit_of
 
@@ -40,8 +41,6 @@ _SUFFIXES = (
     ("_g", "g"),
 )
 """Units at the end of a name, longest first."""
-_OTHERS = ("sweep", "segment", "level_g", "velocity_std_m_s", "weight", "time_s")
-"""Columns of the sweep CSV that pass as they are."""
 _RATES = ("sample_rate_hz", "sampling_rate_hz", "fs", "fs_hz", "sample_rate", "sampling_frequency")
 _OFF_GRID = 0.2
 """Times are often written with few digits: judged by their place on the grid, in steps."""
@@ -106,11 +105,18 @@ def _rate_hz(source: str, table: Named) -> float:
 # Signals
 
 
+def _others() -> list[str]:
+    """Columns of the sweep CSV that pass as they are; phasors may come in other units and other parts."""
+    names = [column for column in understood() if column.given == "if known"]
+    return [column.name for column in names if not any(f"_{part}_" in column.name for part in ("re", "im"))]
+
+
 def _signals(source: str, table: Named) -> list[_Signal]:
     """Real and imaginary parts, or magnitude and phase, put together."""
+    others = _others()
     parts: dict[tuple[str, ...], dict[Part, str]] = {}
     for name in table:
-        if name in _OTHERS or (_unit(name) is None and _part(name) != "phase"):
+        if name in others or (_unit(name) is None and _part(name) != "phase"):
             continue
         parts.setdefault(_stem(name), {})[_part(name)] = name
     return [s for stem, by_part in parts.items() if (s := _signal(source, table, stem, by_part)) is not None]
@@ -207,7 +213,7 @@ def _sweep(
     if base is not None:
         a = _as(source, base, "acceleration", f)
         columns |= _phasor("base_accel", "m_s2", a)
-    columns |= {n: np.asarray(table[n], float) for n in _OTHERS if n in table and table[n].shape == f.shape}
+    columns |= {n: np.asarray(table[n], float) for n in _others() if n in table and table[n].shape == f.shape}
     how = "phasors" if np.iscomplexobj(v) else "amplitudes"
     over = f", with {base.name}" if base is not None else ", no base channel"
     band = f"{len(f)} points, {f.min():.5g} to {f.max():.5g} Hz"

@@ -4,10 +4,9 @@ import re
 from dataclasses import dataclass
 from typing import Literal
 
-Quantity = Literal["displacement", "velocity", "acceleration", "force"]
+from fitting.gravity import STANDARD_GRAVITY_M_S2
 
-STANDARD_GRAVITY_M_S2 = 9.80665
-"""What a g is on an accelerometer's calibration sheet."""
+Quantity = Literal["displacement", "velocity", "acceleration", "force"]
 
 DERIVATIVE: dict[Quantity, int] = {"displacement": 0, "velocity": 1, "acceleration": 2}
 """How often a motion is differentiated from displacement."""

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from instrument.files.column import Row
+from instrument.files.point_columns import in_report
 from instrument.report.blocks import Block, Section, Sentence, Table
 from instrument.report.fitted import Fitted
 from instrument.report.measured import noise_of, segments_of
@@ -77,24 +79,7 @@ def _remarks(points: list[PointMeasured]) -> list[Block]:
 
 
 def _points(contents: Contents) -> Table:
-    rows = tuple(
-        (
-            str(p.step),
-            "sentinel" if p.purpose == "sentinel" else f"{p.sweep}.{p.segment}",
-            f"{p.frequency_hz:g}",
-            format_number(p.level_m_s2),
-            f"{abs(p.velocity_m_s):.5g}",
-            format_number(100 * p.velocity_std_m_s / abs(p.velocity_m_s), 2),
-            signed(p.control_error_percent),
-            format_number(p.velocity_distortion_percent, 2),
-            f"{p.settle_s:.2f}",
-            f"{p.dwell_s:.2f}",
-            p.range_name,
-        )
-        for p in contents.measured
-    )
-    columns = (
-        *("step", "sweep.segment", "f / Hz", "level / (m/s²)", "|v| / (m/s)", "noise / %", "control / %"),
-        *("distortion / %", "settling / s", "dwell / s", "range"),
-    )
+    shown = [shown for _, shown in in_report()]
+    rows = tuple(tuple(s.text(Row(p)) for s in shown) for p in contents.measured)
+    columns = tuple(s.label for s in shown)
     return Table(f"All {len(rows)} points", columns, rows, folded=True)

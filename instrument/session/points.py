@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from fitting.sweep import Sweep
+from instrument.files.column import reading_std_m_s
 from instrument.stream.derived import PointMeasured
 
 
@@ -24,17 +25,13 @@ def sweep_of(points: list[PointMeasured], times_s: Sequence[float] | None = None
 
     The reading's standard deviation holds the reference channel's too: both blur the response over the base.
     """
-    base = np.array([p.base_m_s2 for p in points])
-    velocity = np.array([p.velocity_m_s for p in points])
-    base_std = np.array([p.base_accel_std_m_s2 for p in points])
-    velocity_std = np.array([p.velocity_std_m_s for p in points])
     return Sweep(
         frequency_hz=np.array([p.frequency_hz for p in points]),
-        velocity_m_s=velocity,
+        velocity_m_s=np.array([p.velocity_m_s for p in points]),
         commanded_m_s2=np.array([p.level_m_s2 for p in points]),
         segment=np.array([p.segment for p in points], dtype=np.intp),
         sweep=np.array([p.sweep for p in points], dtype=np.intp),
-        base_m_s2=base,
-        std_m_s=np.hypot(velocity_std, np.abs(velocity / base) * base_std),
+        base_m_s2=np.array([p.base_m_s2 for p in points]),
+        std_m_s=reading_std_m_s(points),
         time_s=None if times_s is None else np.array(times_s) - min(times_s),
     )

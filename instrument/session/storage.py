@@ -25,6 +25,7 @@ import h5py
 import numpy as np
 
 from instrument.errors import BadInput
+from instrument.files.point_columns import stored
 from instrument.session.configuration import Configuration
 from instrument.stream.derived import CalibrationFound, PointMeasured
 from instrument.stream.event import Event, from_line, to_line
@@ -35,29 +36,6 @@ LAYOUT_VERSION = 1
 
 _ROOM, _OVERHEAD_BYTES = 1.1, 1_000_000
 """A session takes as much as its parts and a little more."""
-
-_UNITS = {
-    "frequency_hz": "Hz",
-    "level_m_s2": "m/s^2",
-    "base_accel_re_m_s2": "m/s^2",
-    "base_accel_im_m_s2": "m/s^2",
-    "base_accel_std_m_s2": "m/s^2",
-    "velocity_re_m_s": "m/s",
-    "velocity_im_m_s": "m/s",
-    "velocity_std_m_s": "m/s",
-    "settle_s": "s",
-    "dwell_s": "s",
-    "drive_v": "V",
-    "control_error_percent": "%",
-    "base_distortion_percent": "%",
-    "velocity_distortion_percent": "%",
-    "signal_level": "1",
-    "temperature_c": "degC",
-    "step": "1",
-    "segment": "1",
-    "sweep": "1",
-    "sample": "1",
-}
 
 
 def write_part(path: Path, events: list[Event]) -> str:
@@ -250,10 +228,10 @@ def _events(group: Any, with_samples: bool) -> Iterator[Event]:
 
 def _write_points(file: Any, points: list[PointMeasured]) -> None:
     group = file.create_group("points")
-    for name, unit in _UNITS.items():
-        values = [getattr(p, name) for p in points]
-        group[name] = np.array([np.nan if v is None else v for v in values], dtype=float)
-        group[name].attrs["units"] = unit
+    for column in stored():
+        values = [getattr(p, column.field) for p in points]
+        group[column.field] = np.array([np.nan if v is None else v for v in values], dtype=float)
+        group[column.field].attrs["units"] = column.unit
     group.create_dataset("purpose", data=[p.purpose for p in points], dtype=h5py.string_dtype())
 
 

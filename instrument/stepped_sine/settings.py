@@ -2,9 +2,6 @@
 
 from dataclasses import dataclass, field
 
-STANDARD_GRAVITY_M_S2 = 9.81
-"""As the paper and the specimen files round it."""
-
 
 @dataclass(frozen=True)
 class Control:

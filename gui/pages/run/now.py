@@ -5,6 +5,7 @@ from math import pi
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
+from fitting.gravity import PUBLISHED_G_M_S2
 from gui.feeds.live import LiveFeed
 from gui.gauge import Gauge
 from gui.state import SessionState
@@ -13,7 +14,6 @@ from gui.tables import Cell, Table
 from gui.theme import Role, current_theme
 from gui.widgets import hint
 from instrument.engine.messages import Ended
-from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2
 
 _COLORS: dict[str, Role] = {"held": "fair", "stopped": "bad", "done": "good", "idle": "faint"}
 _COLUMNS = {
@@ -90,7 +90,7 @@ class NowPane(QWidget):
             return
         wanted = step.began.level_m_s2
         base, velocity = step.peaks()
-        g = STANDARD_GRAVITY_M_S2
+        g = PUBLISHED_G_M_S2
         self.level.show_value(None if wanted is None else wanted / g, limits.base_m_s2 / g, "g")
         travel = base / (2 * pi * step.began.frequency_hz) ** 2
         self.gauges["drive"].show_value(step.drive_v, limits.drive_v, "V")

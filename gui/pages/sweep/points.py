@@ -9,9 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex, Mask
+from fitting.gravity import PUBLISHED_G_M_S2
+from instrument.files.point_columns import stored
 from instrument.results.quality import QUALITIES, quality_of
 from instrument.session.contents import TimedPoint
-from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2, SweepSettings
+from instrument.stepped_sine.settings import SweepSettings
 
 if TYPE_CHECKING:
     from gui.plots.plot import Symbol
@@ -42,12 +44,7 @@ class Group:
     """Which points."""
 
 
-_COLUMNS = (
-    *("frequency_hz", "level_m_s2", "base_accel_re_m_s2", "base_accel_im_m_s2", "base_accel_std_m_s2"),
-    *("velocity_re_m_s", "velocity_im_m_s", "velocity_std_m_s", "control_error_percent"),
-    *("base_distortion_percent", "velocity_distortion_percent", "settle_s", "temperature_c"),
-    *("segment", "sweep", "step"),
-)
+_COLUMNS = tuple(column.field for column in stored())
 
 
 @dataclass(frozen=True)
@@ -144,7 +141,7 @@ class Points:
         sweep, level = one
         said = [f"pass {sweep}"] if len({s for s, _ in self.passes}) > 1 else []
         if len({v for _, v in self.passes}) > 1:
-            said.append(f"{level / STANDARD_GRAVITY_M_S2:.3g} g")
+            said.append(f"{level / PUBLISHED_G_M_S2:.3g} g")
         return ", ".join(said)
 
     def groups(self, wanted: Mask) -> list[Group]:

@@ -5,10 +5,10 @@ from typing import Literal
 
 import numpy as np
 
+from fitting.gravity import PUBLISHED_G_M_S2
 from gui.pages.sweep.points import Points
 from gui.state import SessionState
 from instrument.files.experiment_file import Segment
-from instrument.stepped_sine.settings import STANDARD_GRAVITY_M_S2
 
 State = Literal["planned", "running", "broken off", "done"]
 
@@ -52,13 +52,13 @@ def _standing(state: SessionState, points: Points, number: int, planned: Segment
     most = f" of {wanted * turns}" if wanted is not None else ""
     passes = f", pass {len(runs)} of {turns}" if turns > 1 and runs else ""
     levels = np.unique(np.round(points.level_m_s2[mine], 6)).tolist()
-    given = [sweep.level_g * STANDARD_GRAVITY_M_S2] if (sweep := plan.sweep) is not None else []
+    given = [sweep.level_g * PUBLISHED_G_M_S2] if (sweep := plan.sweep) is not None else []
     return SegmentStatus(
         number,
         _band(planned, [(run.low_hz, run.high_hz) for run in runs.values()]),
         _state(state, list(runs), turns),
         f"{done}{most} points{passes}",
-        ", ".join(f"{v / STANDARD_GRAVITY_M_S2:.3g} g" for v in levels or given),
+        ", ".join(f"{v / PUBLISHED_G_M_S2:.3g} g" for v in levels or given),
         int((points.quality[mine] > 0).sum()),
     )
 

@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 
 from fitting.arrays import Array
+from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.campaign.plates.geometry import PLATES, TruePlate, plate_named
@@ -23,7 +24,7 @@ from instrument.campaign.plates.schedule import (
     widest_band_hz,
 )
 from instrument.campaign.plates.simulate import Channel, built, moduli_of, peaks_hz, reading, struck
-from instrument.campaign.plates.stated import CAREFUL, G_M_S2, draw_stated, specimen_from, toml
+from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
 from instrument.campaign.schedule import Schedule
 
 NONE, PAIR = "none", "pair"
@@ -184,7 +185,7 @@ def _share(clean: ReducedPlate, law: TrueLaw, frequency_hz: float) -> float:
 def measured(truth: PlateTruth, plate: ReducedPlate, schedule: Schedule, rng: np.random.Generator) -> Sweep:
     """The sweep as the rig would record it."""
     ratio = reading(plate, truth.plate, truth.effects, truth.law, schedule, truth.channel)
-    commanded = schedule.level_g * G_M_S2
+    commanded = schedule.level_g * PUBLISHED_G_M_S2
     white = truth.noise.white
     base = commanded * white.drive(rng, len(commanded))
     velocity = ratio * base * truth.noise.factor(rng, schedule)

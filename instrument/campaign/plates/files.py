@@ -14,20 +14,16 @@ from instrument.campaign.plates.noise import PlateNoise
 from instrument.campaign.plates.simulate import Channel
 from instrument.campaign.plates.stated import specimen_from
 from instrument.files.hammer_file import read_hammer
-from instrument.files.sweep_file import read_sweep
+from instrument.files.sweep_file import read_sweep, sweep_text
 from instrument.files.text import read_text
 
 DATA, SPECIMEN, HAMMER, TRUTH = "data.csv", "specimen.toml", "hammer.json", "truth.json"
-_COLUMNS = (
-    "sweep,segment,level_g,frequency_hz,velocity_re_m_s,velocity_im_m_s,"
-    "base_accel_re_m_s2,base_accel_im_m_s2,time_s"
-)
 
 
 def save_case(case: PlateCase, folder: Path) -> Path:
     """Its files in a folder of its own, which is made; the folder."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / DATA).write_text(_csv(case), encoding="utf-8")
+    (folder / DATA).write_text(sweep_text(case.sweep, case.specimen.base_acceleration_m_s2), encoding="utf-8")
     (folder / SPECIMEN).write_text(case.specimen_toml, encoding="utf-8")
     if case.hammer_test is not None:
         _write(folder / HAMMER, case.hammer_test.facts)
@@ -61,19 +57,6 @@ def _truth(facts: dict[str, Any]) -> PlateTruth:
         resonances_hz=tuple(facts["resonances_hz"]),
         lowest_share=facts["lowest_share"],
     )
-
-
-def _csv(case: PlateCase) -> str:
-    s, g = case.sweep, case.specimen.base_acceleration_m_s2
-    assert s.base_m_s2 is not None
-    assert s.time_s is not None
-    lines = [_COLUMNS]
-    for k in range(len(s)):
-        v, a = s.velocity_m_s[k], s.base_m_s2[k]
-        phasors = ",".join(f"{part:.9e}" for part in (v.real, v.imag, a.real, a.imag))
-        place = f"{s.sweep[k]},{s.segment[k]},{s.commanded_m_s2[k] / g:.10g},{s.frequency_hz[k]:.10g}"
-        lines.append(f"{place},{phasors},{s.time_s[k]:.10g}")
-    return "\n".join(lines) + "\n"
 
 
 def _write(path: Path, facts: dict[str, Any]) -> None:

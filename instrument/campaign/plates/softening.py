@@ -6,10 +6,10 @@ import numpy as np
 
 from drivers.simulated.plant.one_thread import one_thread
 from fitting.arrays import Array, Complex
+from fitting.gravity import PUBLISHED_G_M_S2
 from instrument.campaign.plates.hidden.core import AmplitudeSoftening
 from instrument.campaign.plates.reduced import ReducedPlate
 from instrument.campaign.plates.response import Shaken
-from instrument.campaign.plates.stated import G_M_S2
 from instrument.campaign.schedule import Schedule
 
 _RELAXED = 0.8
@@ -28,7 +28,7 @@ def softened(shaken: Shaken, G: Complex, soft: AmplitudeSoftening, schedule: Sch
 
     `G` is the modulus at small strain, shape (points,) or (points, bricks).
     """
-    level = schedule.level_g * G_M_S2
+    level = schedule.level_g * PUBLISHED_G_M_S2
     plate = shaken.plate
     G = np.broadcast_to(G[:, None] if G.ndim == 1 else G, (len(level), len(plate.K_1)))
     q = shaken.displacements(G)
@@ -47,7 +47,7 @@ def softened(shaken: Shaken, G: Complex, soft: AmplitudeSoftening, schedule: Sch
 def _reference(plate: ReducedPlate, q: Complex, schedule: Schedule) -> float:
     """The core's rms strain at 1 g where it is largest in the first segment, before it softens."""
     strain = strains(plate, q[schedule.segment == schedule.segment.min()])
-    return float(np.sqrt((strain**2) @ plate.volume_m3 / plate.volume_m3.sum()).max()) * G_M_S2
+    return float(np.sqrt((strain**2) @ plate.volume_m3 / plate.volume_m3.sum()).max()) * PUBLISHED_G_M_S2
 
 
 def _settled(shaken: Shaken, G: Complex, soft: AmplitudeSoftening, level: Array, reference: float) -> Complex:

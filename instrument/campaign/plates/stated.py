@@ -6,11 +6,11 @@ from math import exp
 
 import numpy as np
 
+from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Specimen
 from instrument.campaign.plates.geometry import Damping, Metal, TruePlate
 from instrument.files.specimen_file import SpecimenDocument, specimen_of
 
-G_M_S2 = 9.81
 _LEAST_APART_POISSON = 0.499
 
 
@@ -107,7 +107,7 @@ def toml(plate: TruePlate, tolerances: Tolerances | None, middle_hz: float) -> s
     ratios = ", ".join(_digits(100 * r) for r in plate.ratios)
     lines += [f"modal_percent = [{ratios}]", "", "[pickup]"]
     lines += [f"x_mm = {_digits(1e3 * plate.spot_m[0])}", f"y_mm = {_digits(1e3 * plate.spot_m[1])}", ""]
-    lines += ["[base]", f"acceleration_m_s2 = {G_M_S2}", "", "[tolerances]"]
+    lines += ["[base]", f"acceleration_m_s2 = {PUBLISHED_G_M_S2}", "", "[tolerances]"]
     lines += ["exact = true"] if tolerances is None else tolerances.lines()
     return "\n".join(lines) + "\n"
 

@@ -2,7 +2,8 @@
 
 import pytest
 
-from instrument.interchange.units import STANDARD_GRAVITY_M_S2, unit_of
+from fitting.gravity import STANDARD_GRAVITY_M_S2
+from instrument.interchange.units import unit_of
 
 G = STANDARD_GRAVITY_M_S2
 
