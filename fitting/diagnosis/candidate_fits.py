@@ -6,22 +6,19 @@ from itertools import permutations
 
 import numpy as np
 
-from fitting.diagnosis.candidates import FINISHED, CandidateFit, Known, Start, look, polished
+from fitting.diagnosis.candidates import CandidateFit, Known, Start, look, polished
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.prediction import held_out
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import ROUGH, Fitted, kept, refit
 from fitting.diagnosis.response import Response
+from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
 from fitting.identification.validation import Validation
 
 Form = tuple[str, int]
 """An effect by its name, and the number of its variant."""
-LAWS_FINISHED = 2
-"""Other laws that are fitted to the end, of those fitted roughly."""
-ABLE = 0.2
-"""Of what the best explains: what another effect must promise, from where the best has got to."""
 State = list[Known]
 """What is known of each variant of an effect."""
 
@@ -73,7 +70,7 @@ class CandidateFits:
         rough = [refit(coarse, self.evidence, law, self.none.u, tolerance=ROUGH) for law in laws]
         order = sorted(rough, key=lambda f: cost(f, self.problem.plate))
         worth = [f for f in order if f.chi2 < self.none.chi2]
-        best = worth[:LAWS_FINISHED] or order[:1]
+        best = worth[: SEARCH.laws_finished] or order[:1]
         return [refit(response, self.evidence, f.law, f.u) for f in best]
 
     def starts(self, name: str) -> State:
@@ -104,7 +101,7 @@ class CandidateFits:
         bare = kept(Response(self.problem, ()), self.evidence, best.law, best.z)
         there = [self._beside(bare, c.effect) for c in self.candidates[name]]
         for candidate, from_there in zip(self.candidates[name], there, strict=True):
-            able = from_there.is_open or from_there.promise > ABLE * (bare.chi2 - best.chi2)
+            able = from_there.is_open or from_there.promise > SEARCH.able * (bare.chi2 - best.chi2)
             candidate.learn({"near": from_there.near if able else candidate.briefly()})
         return Begun(name, [f for c in self.candidates[name] for f in c.near], self.state(name))
 
@@ -134,9 +131,9 @@ class CandidateFits:
         self.learn(name, state)
         candidates = self.candidates[name]
         followed = _best_first([(c, f) for c in candidates for f in c.near])[:1]
-        near = _best_first([(c, f) for c in candidates for f in [*c.near, *c.elsewhere]])[:FINISHED]
+        near = _best_first([(c, f) for c in candidates for f in [*c.near, *c.elsewhere]])[: SEARCH.finished]
         near = [one for one in near if one not in followed]
-        far = _best_first([(c, f) for c in candidates for f in c.far])[:FINISHED] if astray else []
+        far = _best_first([(c, f) for c in candidates for f in c.far])[: SEARCH.finished] if astray else []
         return [c.finished(f) for c, f in [*near, *far]]
 
     def everywhere(self, one: tuple[str, State]) -> list[Fitted]:
@@ -144,7 +141,7 @@ class CandidateFits:
         name, state = one
         self.learn(name, state)
         fits = [(c, f) for c in self.candidates[name] for f in [*c.elsewhere, *c.everywhere]]
-        return [c.finished(f) for c, f in _best_first(fits)[:FINISHED]]
+        return [c.finished(f) for c, f in _best_first(fits)[: SEARCH.finished]]
 
     def look(self, one: tuple[Fitted, Form]) -> list[Start]:
         """Starts of a second effect beside a fit."""

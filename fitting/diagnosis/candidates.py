@@ -12,6 +12,7 @@ from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import ROUGH, Fitted, refit
 from fitting.diagnosis.response import Response
+from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
 
@@ -20,22 +21,6 @@ Start = tuple[float, Array]
 Known = dict[str, Any]
 """What a contender has found so far, by the name of the property."""
 
-FOLLOWED, FOLLOWED_PLACES = 2, 4
-"""Of an effect's starts, how many are fitted roughly; of one with a place to be found."""
-LEAST_PROMISE, PROMISE = 3.0, 0.1
-"""In chi-square, and as a share of the best start's: what a further start must promise."""
-LEAST_GAIN = 1.0
-"""In chi-square, gained or still to be made good after a few steps: then a start is followed all the same."""
-MORE_PLACES = 6
-"""Further starts of the latter, in a thorough search."""
-MOST_PLACES = 30
-"""And of the rest, where all that lead lean."""
-FINISHED = 2
-"""Rough fits of a kind that are followed to the end by a thorough search."""
-WRONG = 2.0
-"""Chi-square per degree of freedom beyond which the law so far is no place to begin."""
-HOPELESS = 30.0
-"""Chi-square per degree of freedom that finer grids will not mend."""
 _FOUND = ("starts", "near", "elsewhere", "plain", "far")
 _ROUNDS = 3
 _FAR = 0.02
@@ -165,7 +150,7 @@ class CandidateFit:
     def everywhere(self) -> list[Fitted]:
         """The same from those that are left."""
         followed = self._first + self._more
-        return self._from(self.starts[followed : followed + MOST_PLACES])
+        return self._from(self.starts[followed : followed + SEARCH.most_places])
 
     def _is_told_nothing(self, start: Start) -> bool:
         return start[0] == 0 and not has_place(self.effect)
@@ -173,24 +158,24 @@ class CandidateFit:
     @property
     def _least_promise(self) -> float:
         """Chi-square that a further start must promise to be followed."""
-        return max(LEAST_PROMISE, PROMISE * self.starts[0][0])
+        return max(SEARCH.least_promise, SEARCH.promise * self.starts[0][0])
 
     @property
     def _first(self) -> int:
-        return FOLLOWED_PLACES if has_place(self.effect) else FOLLOWED
+        return SEARCH.followed_places if has_place(self.effect) else SEARCH.followed
 
     @property
     def _more(self) -> int:
-        return MORE_PLACES if has_place(self.effect) else 0
+        return SEARCH.more_places if has_place(self.effect) else 0
 
     def _from(self, starts: Sequence[Start]) -> list[Fitted]:
         fits = [self._followed(promise, u) for promise, u in starts]
         return sorted(fits, key=_chi2)
 
     def _followed(self, promise: float, u: Array) -> Fitted:
-        if 0 < promise < LEAST_PROMISE:
+        if 0 < promise < SEARCH.least_promise:
             brief = self._rough(self.before.law, u, self.evidence, brief=True)
-            if brief.converged or abs(self.before.chi2 - brief.chi2) < LEAST_GAIN:
+            if brief.converged or abs(self.before.chi2 - brief.chi2) < SEARCH.least_gain:
                 return brief
         return self._rough(self.before.law, u, self.evidence)
 
@@ -249,7 +234,7 @@ def polished(
     """A fit to the end, its grid made for the law it starts from, and again where the law has moved far."""
     for _ in range(_ROUNDS):
         fitted = refit(Response(problem.around(law), effects), evidence, law, u)
-        if fitted.chi2_per_dof > HOPELESS:
+        if fitted.chi2_per_dof > SEARCH.hopeless:
             break
         omega = problem.fine.nodes.omega
         moved = np.max(np.abs(fitted.law.modulus(omega) / law.modulus(omega) - 1))

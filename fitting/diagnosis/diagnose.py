@@ -19,6 +19,7 @@ from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.singles import Singles
 from fitting.diagnosis.stage import few_of_law, found_effects, mixed_band, stage_of
 from fitting.diagnosis.structure import roughness
+from fitting.diagnosis.thresholds import SEARCH, VERDICT
 from fitting.diagnosis.verdict import Judgement, in_light_of, judge, told
 from fitting.effects import CATALOGUE
 from fitting.effects.base import Effect
@@ -28,15 +29,6 @@ from fitting.reduced import ReducedPlate
 from fitting.sweep import Sweep
 
 Report = Callable[[float], None]
-
-NOTHING_LEFT = 0.5
-"""Chi-square per degree of freedom below which no second effect is looked for."""
-CLEAN_ENOUGH = 1.08
-"""Chi-square per degree of freedom above which a second effect is looked for beside all leading ones."""
-OVERSTATED = 0.75
-"""Times the noise's variance: where the best fit leaves less, local scatter was more than noise."""
-_NUMBERS_A_PARAMETER = 10
-"""Data per parameter below which no second effect is looked for."""
 
 
 def seen_in_channels(sweep: Sweep, effects: Sequence[Effect]) -> tuple[Mask, tuple[FoundEffect, ...], Noise]:
@@ -133,7 +125,7 @@ def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, lis
     """The whole catalogue, and the verdict; the search as it ended."""
     singles = Singles(search, lambda x: report(0.5 * x)).best()
     share = _noise_left(search, singles) if noise.source == "local scatter" else 1.0
-    if share < OVERSTATED:
+    if share < VERDICT.overstated:
         # What scatters from point to point need not be noise: a drift does, in a sweep that jumps about.
         search = search.with_evidence(search.evidence.scaled(float(np.sqrt(share))))
         singles = Singles(search, lambda x: report(0.5)).best()
@@ -173,16 +165,16 @@ def _pairs(search: Search, singles: Sequence[ScoredFit], report: Report) -> list
     if not singles or not search.evidence.scale_known:
         return []
     best = singles[0]
-    if search.evidence.count < _NUMBERS_A_PARAMETER * (best.fitted.parameter_count + 2):
+    if search.evidence.count < SEARCH.numbers_a_parameter * (best.fitted.parameter_count + 2):
         return []
     flexible = any(e.replaces_law for e in best.fitted.effects)
     if search.none.cost < best.cost:
         return []
     doubtful = flexible or best.fails
     left = best.fitted.chi2_per_dof / search.allowed(best)
-    if left < NOTHING_LEFT and not doubtful:
+    if left < SEARCH.nothing_left and not doubtful:
         return []
-    return Pairs(search).best(singles, report, wide=left > CLEAN_ENOUGH or doubtful)
+    return Pairs(search).best(singles, report, wide=left > SEARCH.clean_enough or doubtful)
 
 
 def _candidate(

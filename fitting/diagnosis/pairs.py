@@ -6,21 +6,10 @@ import numpy as np
 
 from fitting.diagnosis.candidate_fits import Form
 from fitting.diagnosis.candidates import has_place
-from fitting.diagnosis.search import LEADERS, ScoredFit, Search
+from fitting.diagnosis.search import ScoredFit, Search
+from fitting.diagnosis.thresholds import SEARCH
 
 Report = Callable[[float], None]
-
-PAIRS = 16
-"""Pairs fitted in full."""
-PAIRS_A_LEADER = 5
-WILL_DO = 1.25
-"""Chi-square per degree of freedom that strong effects may leave."""
-RETRIED = 3
-"""Pairs begun again from other places where none of them will do."""
-EVERY_SECOND = 3
-"""Leaders beside which every other effect is then fitted roughly."""
-LEAST_EXPECTED = 12.0
-"""Chi-square that a second effect must promise where the first leaves little."""
 
 
 class Pairs:
@@ -32,7 +21,7 @@ class Pairs:
     def best(self, singles: Sequence[ScoredFit], report: Report, *, wide: bool) -> list[ScoredFit]:
         """Second effects beside the leading single ones, or the first alone; best first."""
         search, work, each = self._search, self._search.work, self._search.executor.each
-        leaders = list(singles[: LEADERS if wide else 1])
+        leaders = list(singles[: SEARCH.leaders if wide else 1])
         tasks = [(t, form) for t in leaders for form in self._others(t.names)]
         asked = [(t.fitted, form) for t, form in tasks]
         looks = list(each(work.look, asked, lambda x: report(0.4 * x)))
@@ -42,11 +31,11 @@ class Pairs:
         ]
         chosen: dict[frozenset[str], int] = {}
         beside: dict[ScoredFit, int] = {}
-        enough = singles[0].fitted.chi2 - LEAST_EXPECTED * search.temper(singles[0])
+        enough = singles[0].fitted.chi2 - SEARCH.least_expected * search.temper(singles[0])
         for k in np.argsort(expected):
             scored, (name, _) = tasks[k]
             # Each leader has its say: a linear step from a poor one promises too much.
-            many = len(chosen) == PAIRS or beside.get(scored, 0) == PAIRS_A_LEADER
+            many = len(chosen) == SEARCH.pairs or beside.get(scored, 0) == SEARCH.pairs_a_leader
             if not many and (wide or expected[k] < enough):
                 beside[scored] = beside.get(scored, 0) + 1
                 chosen.setdefault(frozenset((*scored.names, name)), int(k))
@@ -55,7 +44,7 @@ class Pairs:
         found = sorted((search.judged(f) for f in fits if f is not None), key=lambda t: t.cost)
         if wide and found and not self._will_do([*leaders[:1], *found]):
             # The best may only have begun from the wrong place, or not have looked promising.
-            again = [(t.fitted, {n: work.state(n) for n in _plainly(t)}) for t in found[:RETRIED]]
+            again = [(t.fitted, {n: work.state(n) for n in _plainly(t)}) for t in found[: SEARCH.retried]]
             found += [search.judged(f) for fits in each(work.together, again) for f in fits]
             if not self._will_do(found):
                 found += self._every_second([t for t in singles if _plainly(t)], found)
@@ -66,7 +55,9 @@ class Pairs:
     def _will_do(self, scored_fits: Sequence[ScoredFit]) -> bool:
         """Whether any, the law being of the stated kind, leaves little and fails no check."""
         plain = (t for t in scored_fits if len(_plainly(t)) == len(t.names))
-        return any(t.fitted.chi2_per_dof < WILL_DO * self._search.allowed(t) and not t.fails for t in plain)
+        return any(
+            t.fitted.chi2_per_dof < SEARCH.will_do * self._search.allowed(t) and not t.fails for t in plain
+        )
 
     def _others(self, names: Sequence[str]) -> list[Form]:
         """Every form of the effects that may stand beside some."""
@@ -81,7 +72,10 @@ class Pairs:
         """Every effect beside the leading ones roughly; the best pairs that are new to the end."""
         search, work, each = self._search, self._search.work, self._search.executor.each
         known = {frozenset(t.names) for t in pairs}
-        order = [*(t.names[0] for t in leaders[:EVERY_SECOND]), *search.order_of_plain()[:EVERY_SECOND]]
+        order = [
+            *(t.names[0] for t in leaders[: SEARCH.every_second]),
+            *search.order_of_plain()[: SEARCH.every_second],
+        ]
         first = set(order) & {e.name for e in search.effects}
         wanted = [
             (name, work.state(name), form)
@@ -90,7 +84,7 @@ class Pairs:
             if {name, form[0]} not in known
         ]
         rough = [f for fits in each(work.roughly, wanted) for f in fits]
-        best = sorted(rough, key=lambda f: f.chi2)[:PAIRS_A_LEADER]
+        best = sorted(rough, key=lambda f: f.chi2)[: SEARCH.pairs_a_leader]
         return [search.judged(f) for f in each(work.ended, best)]
 
     def _swapped(self, pairs: Sequence[ScoredFit]) -> list[ScoredFit]:
@@ -107,7 +101,7 @@ class Pairs:
         promising = sorted(
             (one for one in zip(asked, looks, strict=True) if one[1]),
             key=lambda one: one[0][0].chi2 - one[1][0][0],
-        )[:PAIRS_A_LEADER]
+        )[: SEARCH.pairs_a_leader]
         fits = each(work.second, [(before, form, starts) for (before, form), starts in promising])
         return [search.judged(f) for f in fits if f is not None]
 

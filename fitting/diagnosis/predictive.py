@@ -12,21 +12,13 @@ from scipy.stats import norm
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.refit import Fitted
 from fitting.diagnosis.structure import along_frequency
+from fitting.diagnosis.thresholds import VERDICT
 from fitting.sweep import Sweep
-
-LEVEL = 1e-4
-"""Tail probability below which an explanation fails."""
-FORM = 1e-4
-"""Share of what an effect explains that any formula may leave: no channel's gain is one number to 1 %."""
-NOISE = 0.08
-"""Relative standard deviation of the noise itself, as local scatter or an instrument states it."""
-SHAPES = 10.0
-"""In about so many directions an error of a formula shows."""
 
 
 def form_error(none: Fitted, fitted: Fitted) -> float:
     """Chi-square that the formulas of a fit's effects may leave."""
-    share = max((max(FORM, e.unexplained_share) for e in fitted.effects), default=0.0)
+    share = max((max(VERDICT.formula_share, e.unexplained_share) for e in fitted.effects), default=0.0)
     return share * max(0.0, none.chi2 - fitted.chi2)
 
 
@@ -35,13 +27,13 @@ def _allowed(none: Fitted, fitted: Fitted) -> float:
 
     What two loose formulas together come near to is no evidence for either.
     """
-    share = min((max(FORM, e.unexplained_share) for e in fitted.effects), default=0.0)
+    share = min((max(VERDICT.formula_share, e.unexplained_share) for e in fitted.effects), default=0.0)
     return share * max(0.0, none.chi2 - fitted.chi2)
 
 
 def temper(none: Fitted, best: Fitted) -> float:
     """How much less a difference in chi-square says where what was explained is far above the noise."""
-    return 1.0 + form_error(none, best) / SHAPES
+    return 1.0 + form_error(none, best) / VERDICT.formula_shapes
 
 
 def checks(sweep: Sweep, evidence: Evidence, none: Fitted, fitted: Fitted) -> Mapping[str, float]:
@@ -53,30 +45,25 @@ def checks(sweep: Sweep, evidence: Evidence, none: Fitted, fitted: Fitted) -> Ma
     allowed = 1 + may_leave / dof
     left = fitted.chi2_per_dof / allowed
     # Ln of a mean square: its own scatter, and the noise's.
-    spread = np.hypot(2 * NOISE, np.sqrt(2 / dof))
+    spread = np.hypot(2 * VERDICT.noise_known_to, np.sqrt(2 / dof))
     whitened = fitted.residuals[: fitted.data]
     found = {"size": float(norm.sf(np.log(max(left, 1e-12)) / spread))}
     along = evidence.whitening.along(whitened)
-    t = 1 + may_leave / SHAPES
+    t = 1 + may_leave / VERDICT.formula_shapes
     if len(along):
         found["the plate's own error"] = float(chi2_of.sf(along @ along / t, len(along)))
     if fitted.stated:
         found["tolerances"] = float(chi2_of.sf(fitted.unexplained / t, fitted.stated))
     runs, memory = along_frequency(sweep, whitened, parts=2 if evidence.has_phase else 1)
     excess = may_leave / dof
-    found["signs"] = float(norm.sf(runs / (_WIDER * (1 + _BY_FORM * excess))))
-    found["memory"] = float(norm.sf(memory / (_WIDER * (1 + _BY_FORM * excess))))
+    found["signs"] = float(norm.sf(runs / (VERDICT.wider_along * (1 + VERDICT.formula_along * excess))))
+    found["memory"] = float(norm.sf(memory / (VERDICT.wider_along * (1 + VERDICT.formula_along * excess))))
     return found
-
-
-_WIDER = 1.5
-"""The model's error is marginalised, not gone: statistics along frequency scatter more than white noise's."""
-_BY_FORM = 10.0
 
 
 def passes(found: Mapping[str, float]) -> bool:
     """Whether nothing speaks against an explanation."""
-    return all(p >= LEVEL for p in found.values())
+    return all(p >= VERDICT.check_level for p in found.values())
 
 
 def weakest(found: Mapping[str, float]) -> tuple[str, float] | None:

@@ -17,7 +17,7 @@ _ROUGH_EVALUATIONS = 10
 _BRIEF_EVALUATIONS = 3
 _WIDEST = 3.0
 """Times a standard error, that a flat chi-square may widen it."""
-ROUGH, GOOD = 1e-3, 1e-5
+ROUGH, COMPARABLE = 1e-3, 1e-5
 """Relative change of chi-square and parameters at which a fit stops: to choose, and to compare."""
 
 
@@ -117,7 +117,7 @@ def refit(
     law: CoreLaw,
     u: Array,
     *,
-    tolerance: float = GOOD,
+    tolerance: float = COMPARABLE,
     points: Mask | None = None,
     brief: bool = False,
 ) -> Fitted:

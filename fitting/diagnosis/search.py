@@ -19,8 +19,6 @@ from fitting.errors import OutsideModel
 from fitting.identification.validation import Validation
 
 Report = Callable[[float], None]
-LEADERS = 5
-"""Effects that are gone into twice, and that a second one is looked for beside."""
 _SPARE = 2
 """Data a candidate must leave over."""
 

@@ -3,26 +3,12 @@
 from collections.abc import Callable, Iterable, Sequence
 
 from fitting.diagnosis.candidate_fits import Begun
-from fitting.diagnosis.candidates import WRONG, has_place
+from fitting.diagnosis.candidates import has_place
 from fitting.diagnosis.refit import Fitted
-from fitting.diagnosis.search import LEADERS, ScoredFit, Search
+from fitting.diagnosis.search import ScoredFit, Search
+from fitting.diagnosis.thresholds import SEARCH
 
 Report = Callable[[float], None]
-
-NEAR = 40.0
-"""In cost above the best: effects so near are gone into twice, where the law so far is no place to begin."""
-NEARER = 12.0
-"""The same, where it is."""
-UNCLEAR = 1.1
-"""Chi-square per degree of freedom above which the first pass may have missed the cause."""
-PROMISING = 5.0
-"""In cost below none's: below it nothing is gone into twice."""
-LEFT_BEHIND = 4.0
-"""Times the least chi-square: rough fits beyond are not followed to the end."""
-FIRST = 4
-"""Effects that are fitted before all others, where they promise most."""
-AT_A_TIME = 2
-"""Effects that are gone into twice together, until one explains everything."""
 
 
 class Singles:
@@ -63,7 +49,7 @@ class Singles:
         """Further starts of what leads, and of more where the law is no place to begin."""
         work, left, astray = self._work, self._worth_more(), self._astray
         while left:
-            some, left = (left[:AT_A_TIME], left[AT_A_TIME:]) if astray else (left, [])
+            some, left = (left[: SEARCH.at_a_time], left[SEARCH.at_a_time :]) if astray else (left, [])
             tasks = [(name, work.state(name), astray) for name in some]
             for fits in self._each(work.thorough, tasks, self._part(0.6, 0.2)):
                 self._keep(fits)
@@ -83,7 +69,9 @@ class Singles:
 
     def _explains_all(self, scored: ScoredFit) -> bool:
         best = scored.fitted
-        enough = self._search.none.cost - scored.cost > PROMISING and best.chi2_per_dof < UNCLEAR
+        enough = (
+            self._search.none.cost - scored.cost > SEARCH.promising and best.chi2_per_dof < SEARCH.unclear
+        )
         return enough and not scored.fails and not any(e.replaces_law for e in best.effects)
 
     # What has been found.
@@ -114,31 +102,35 @@ class Singles:
     @property
     def _astray(self) -> bool:
         """Whether the law so far is no place to begin."""
-        return self._search.none.fitted.chi2_per_dof > WRONG and not self._settled
+        return self._search.none.fitted.chi2_per_dof > SEARCH.wrong and not self._settled
 
     def _leading(self) -> list[str]:
         """Where something is left to be explained, the effects that promise most of it."""
         work, names = self._work, list(self._effects)
         for name, state in zip(names, self._each(work.starts, names, self._part(0.0, 0.1)), strict=True):
             work.learn(name, state)
-        order = sorted(names, key=work.promise, reverse=True)[:FIRST]
-        clean = self._search.none.fitted.chi2_per_dof < UNCLEAR
-        return [] if not order or (clean and work.promise(order[0]) < NEAR) else order
+        order = sorted(names, key=work.promise, reverse=True)[: SEARCH.first]
+        clean = self._search.none.fitted.chi2_per_dof < SEARCH.unclear
+        return [] if not order or (clean and work.promise(order[0]) < SEARCH.near) else order
 
     def _ahead(self) -> list[str]:
         """Effects whose rough fit is among the best or not far behind."""
         order = self._order()
         if self._astray:
             order.sort(key=lambda t: t.fitted.chi2)
-            near = [t for t in order if t.fitted.chi2 < LEFT_BEHIND * order[0].fitted.chi2]
+            near = [t for t in order if t.fitted.chi2 < SEARCH.left_behind * order[0].fitted.chi2]
         else:
             # What was still on its way may have far to go.
-            near = [t for t in order if t.cost < order[0].cost + (NEARER if t.fitted.converged else NEAR)]
-        names = {t.names[0] for t in near[: 2 * LEADERS]}
+            near = [
+                t
+                for t in order
+                if t.cost < order[0].cost + (SEARCH.nearer if t.fitted.converged else SEARCH.near)
+            ]
+        names = {t.names[0] for t in near[: 2 * SEARCH.leaders]}
         return [name for name in self._effects if name in names]
 
     def _gains(self, order: Sequence[ScoredFit]) -> bool:
-        return bool(order) and self._search.none.cost - order[0].cost >= PROMISING
+        return bool(order) and self._search.none.cost - order[0].cost >= SEARCH.promising
 
     def _worth_more(self) -> list[str]:
         """Effects that better starts might bring to the top, after a first pass."""
@@ -148,13 +140,17 @@ class Singles:
         sized = [name for name, e in self._effects.items() if e.parameters]
         if not self._astray and not order[0].fails:
             # What has no place to be found is where it belongs by now.
-            near = {t.names[0] for t in order if t.cost < min(order[0].cost + NEARER, self._search.none.cost)}
+            near = {
+                t.names[0]
+                for t in order
+                if t.cost < min(order[0].cost + SEARCH.nearer, self._search.none.cost)
+            }
             return [name for name in sized if name in near and has_place(self._effects[name])]
-        names = [t.names[0] for t in order if t.cost < order[0].cost + NEAR]
+        names = [t.names[0] for t in order if t.cost < order[0].cost + SEARCH.near]
         best = order[0].fitted
-        if not best.chi2_per_dof < UNCLEAR or any(e.replaces_law for e in best.effects):
-            plain = self._search.order_of_plain()[:LEADERS] if self._astray else []
-            names = [*plain, *names, *(t.names[0] for t in order[:LEADERS])]
+        if not best.chi2_per_dof < SEARCH.unclear or any(e.replaces_law for e in best.effects):
+            plain = self._search.order_of_plain()[: SEARCH.leaders] if self._astray else []
+            names = [*plain, *names, *(t.names[0] for t in order[: SEARCH.leaders])]
         return [name for name in dict.fromkeys(names) if name in sized]
 
     def _misplaced(self) -> list[str]:
@@ -162,7 +158,7 @@ class Singles:
         order = self._order()
         if not self._gains(order):
             return []
-        leading = [t for t in order if t.cost < order[0].cost + NEAR and t.names[0] in self._effects]
+        leading = [t for t in order if t.cost < order[0].cost + SEARCH.near and t.names[0] in self._effects]
         if not all(t.fails for t in leading):
             return []
         return [t.names[0] for t in leading if has_place(self._effects[t.names[0]])]

@@ -10,12 +10,9 @@ from scipy.stats import chi2
 
 from fitting.arrays import Array
 from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.thresholds import VERDICT
 from fitting.sweep import Sweep
 
-CHI2_PER_DOF = 1.35
-RUNS_SIGMA = 5.0
-MEMORY_SIGMA = 6.0
-BENT_BY_CHANCE = 1e-4
 LAGS = 8
 _FEWEST = 20
 
@@ -25,15 +22,15 @@ def structure(sweep: Sweep, evidence: Evidence, whitened: Array, chi2_per_dof: f
     if not evidence.scale_known:
         return ()
     said = []
-    if chi2_per_dof > CHI2_PER_DOF:
+    if chi2_per_dof > VERDICT.size:
         said.append(f"the residual is {chi2_per_dof:.3g} times what noise and model error explain")
     runs, memory = along_frequency(sweep, whitened, parts=2 if evidence.has_phase else 1)
-    if runs > RUNS_SIGMA:
+    if runs > VERDICT.runs_sigma:
         said.append(f"its signs keep together along frequency ({runs:.1f} sigma, runs test)")
-    if memory > MEMORY_SIGMA:
+    if memory > VERDICT.memory_sigma:
         said.append(f"neighbouring points agree ({memory:.1f} sigma, Ljung-Box over {LAGS} lags)")
     along = evidence.whitening.along(whitened)
-    if len(along) and along @ along > chi2.isf(BENT_BY_CHANCE, len(along)):
+    if len(along) and along @ along > chi2.isf(VERDICT.bent_by_chance, len(along)):
         times = float(np.sqrt(along @ along / len(along)))
         said.append(f"the plate would have to be off by {times:.2g} times what a layer-wise plate is")
     return tuple(said)

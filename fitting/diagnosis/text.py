@@ -6,11 +6,9 @@ from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import Fitted
 from fitting.diagnosis.response import Response
 from fitting.diagnosis.result import FoundEffect, Stage
+from fitting.diagnosis.thresholds import VERDICT
 from fitting.diagnosis.verdict import NONE, Judgement
 from fitting.effects.base import Effect
-
-_WORTH_SAYING = 0.1
-"""Probability of an effect that is not named from which it is spoken of."""
 
 
 def story(effect: Effect, found: FoundEffect) -> str:
@@ -69,7 +67,7 @@ def explain(
 
 def _beside_none(judgement: Judgement) -> list[str]:
     """What is not excluded though nothing is named."""
-    others = {names: p for names, p in judgement.probability.items() if names and p > _WORTH_SAYING}
+    others = {names: p for names, p in judgement.probability.items() if names and p > VERDICT.worth_saying}
     if not others:
         return []
     best = max(others, key=lambda names: others[names])

@@ -10,17 +10,12 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from fitting.diagnosis.marginal import probabilities
-from fitting.diagnosis.predictive import LEVEL, weakest
+from fitting.diagnosis.predictive import weakest
 from fitting.diagnosis.result import Verdict
 from fitting.diagnosis.search import ScoredFit
+from fitting.diagnosis.thresholds import VERDICT
 
 NONE = "none"
-CREDIBLE = 0.95
-"""Probability that the group must hold, and above which one explanation stands alone."""
-LEAST_DOUBTED = 0.2
-"""Probability of none up to which an effect is named; of a clean sweep none keeps four fifths."""
-POOR, HARDLY_BETTER = 3.0, 0.5
-"""Times the noise, and times the error without any effect: what predicts no better explains nothing."""
 
 
 @dataclass(frozen=True)
@@ -62,7 +57,11 @@ def told(scored: ScoredFit) -> Judgement:
 
 def in_light_of(judgement: Judgement, p_value: float | None) -> Judgement:
     """Nothing is named that sweeps without any effect would name too. The band stays the group's."""
-    if p_value is None or p_value <= 1 - CREDIBLE + 1e-9 or judgement.verdict not in ("effect", "ambiguous"):
+    if (
+        p_value is None
+        or p_value <= 1 - VERDICT.credible + 1e-9
+        or judgement.verdict not in ("effect", "ambiguous")
+    ):
         return judgement
     why = f"gains no more than {100 * p_value:.2g} % of sweeps without any effect do"
     nearest = judgement.accepted.names if judgement.accepted is not None else ()
@@ -95,7 +94,7 @@ def judge(
 
     visible = [t for t, _ in group if not hidden & set(t.names)]
     named = [t for t in visible if t.names]
-    if probability[()] > LEAST_DOUBTED or not named:
+    if probability[()] > VERDICT.least_doubted or not named:
         if none.fails or not visible:
             return _unknown(judgement, none, ranked)
         return judgement("none", None)
@@ -121,7 +120,7 @@ def _group(ranked: Sequence[tuple[ScoredFit, float]]) -> tuple[tuple[ScoredFit, 
     """The first of them that hold 95 %, their shares scaled to one."""
     found, total = [], 0.0
     for scored, share in ranked:
-        if total >= CREDIBLE:
+        if total >= VERDICT.credible:
             break
         found.append((scored, share))
         total += share
@@ -152,7 +151,7 @@ def _equivalent(
 def _against(none: ScoredFit, best: ScoredFit, held_out: Callable[[ScoredFit], float]) -> str:
     """Why an explanation is none; empty where nothing speaks against it."""
     worst = weakest(best.checks)
-    if worst is not None and worst[1] < LEVEL:
+    if worst is not None and worst[1] < VERDICT.check_level:
         return f"would leave such data once in {1 / max(worst[1], 1e-99):.2g} times ({worst[0]})"
     if _predicts_nothing(none, best, held_out):
         return "does not predict the segments it has not seen"
@@ -164,7 +163,7 @@ def _predicts_nothing(none: ScoredFit, best: ScoredFit, held_out: Callable[[Scor
     if not none.fails or not any(e.replaces_law for e in best.fitted.effects):
         return False
     off = held_out(best)
-    return off > POOR and off > HARDLY_BETTER * held_out(none)
+    return off > VERDICT.poor and off > VERDICT.hardly_better * held_out(none)
 
 
 def _best_of_each(scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:

@@ -18,6 +18,15 @@ _UNITS: dict[Motion, tuple[str, str]] = {
 }
 
 
+_BEYOND = 1.25
+"""Times the highest mode: so far an FRF is drawn."""
+
+
+def highest_hz(found: Damping) -> float:
+    """Up to where an FRF is worth drawing; 0 where no mode was found."""
+    return _BEYOND * max((m.frequency_hz for m in found.modes), default=0.0)
+
+
 def save_figures(found: Damping, folder: Path) -> list[Path]:
     """Write what there is to draw as PNG. Raises `BadInput` where the folder cannot be made."""
     try:
@@ -43,7 +52,7 @@ def frf_figure(found: Damping) -> Figure:
         axes = [figure.subplots()]
     else:
         axes = list(figure.subplots(2, 1, sharex=True, height_ratios=(3, 1)))
-    highest = 1.25 * max((m.frequency_hz for m in found.modes), default=0.0)
+    highest = highest_hz(found)
     for name, frf in found.plain.items():
         axes[0].semilogy(frf.frequency_hz[1:], np.abs(frf.H[1:]), linewidth=1, label=name)
     for mode in found.modes:

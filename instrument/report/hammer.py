@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from instrument.errors import BadInput
 from instrument.impact.damping import Damping, damping_of_hits
 from instrument.impact.facts import damping_facts
+from instrument.impact.figures import highest_hz
 from instrument.report.blocks import Block, Section, Sentence, Table
 from instrument.report.numbers import format_number
 from instrument.report.picture import picture
@@ -15,6 +16,8 @@ from instrument.results.drawing import DATA, MARK, label, panels
 from instrument.session.contents import Contents
 
 _METHODS = ("rational_fit", "half_power", "lscf")
+_WITHOUT_MODES_HZ = 1250.0
+"""Up to here an FRF without modes is drawn."""
 
 
 def hammer_section(contents: Contents) -> Section:
@@ -101,10 +104,7 @@ def _frf(contents: Contents, found: Damping) -> Block:
 def _figure(found: Damping, band_hz: tuple[float, float] | None) -> Figure:
     """Magnitude over the band, and coherence below it where there are several hits."""
     (name, frf), *_ = found.plain.items()
-    low, high = band_hz or (
-        frf.frequency_hz[1],
-        1.25 * max((m.frequency_hz for m in found.modes), default=1e3),
-    )
+    low, high = band_hz or (frf.frequency_hz[1], highest_hz(found) or _WITHOUT_MODES_HZ)
     inside = (frf.frequency_hz >= low) & (frf.frequency_hz <= high)
     with_coherence = found.coherence is not None and sum(j.accepted for j in found.hits) > 1
     figure, rows = panels(2 if with_coherence else 1, 1, 5.0 if with_coherence else 3.6)

@@ -5,8 +5,6 @@ import pytest
 
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.predictive import (
-    LEVEL,
-    SHAPES,
     checks,
     form_error,
     passes,
@@ -14,6 +12,7 @@ from fitting.diagnosis.predictive import (
     weakest,
 )
 from fitting.diagnosis.refit import Fitted
+from fitting.diagnosis.thresholds import VERDICT
 from fitting.effects.base import Effect
 from fitting.laws.constant import ConstantModulus
 from fitting.sweep import Sweep
@@ -68,7 +67,7 @@ def checked(r, z=(), **how):
 
 def test_noise_and_stated_numbers_as_expected_pass():
     worst = [weakest(checked(white(s), np.random.default_rng(s + 1000).normal(size=20))) for s in range(300)]
-    assert min(p for _, p in worst) >= LEVEL
+    assert min(p for _, p in worst) >= VERDICT.check_level
 
 
 def test_every_tail_is_looked_at():
@@ -91,7 +90,7 @@ def test_every_tail_is_looked_at():
 def test_what_is_not_as_it_would_be_left_fails_by_name(what, left, z):
     found = checked(left(), z)
     assert not passes(found)
-    assert found[what] < LEVEL
+    assert found[what] < VERDICT.check_level
 
 
 def test_the_noise_itself_is_known_to_a_tenth_or_so():
@@ -110,7 +109,7 @@ def test_nothing_is_checked_where_the_noise_is_unknown():
 def test_what_a_formula_may_leave_is_a_share_of_what_it_explains():
     none, one = fitted(100 * white(8)), fitted(white(8), effects=[Rough()])
     assert form_error(none, one) == pytest.approx(0.01 * (none.chi2 - one.chi2))
-    assert temper(none, one) == pytest.approx(1 + form_error(none, one) / SHAPES)
+    assert temper(none, one) == pytest.approx(1 + form_error(none, one) / VERDICT.formula_shapes)
     # What explains nothing may leave nothing.
     assert form_error(one, none) == 0
     assert temper(one, one) == 1
@@ -120,15 +119,15 @@ def test_a_large_effect_may_leave_what_a_small_one_may_not():
     left = 2.0 * white(9)
     small, large = fitted(1.1 * white(9)), fitted(60 * white(9))
     one = fitted(left, effects=[Rough()])
-    assert checks(SWEEP, EVIDENCE, small, one)["size"] < LEVEL
-    assert checks(SWEEP, EVIDENCE, large, one)["size"] > LEVEL
+    assert checks(SWEEP, EVIDENCE, small, one)["size"] < VERDICT.check_level
+    assert checks(SWEEP, EVIDENCE, large, one)["size"] > VERDICT.check_level
     # Stated numbers are held against it less, too.
     moved = fitted(white(9), np.full(20, 2.0), [Rough()])
-    assert checks(SWEEP, EVIDENCE, small, moved)["tolerances"] < LEVEL
-    assert checks(SWEEP, EVIDENCE, large, moved)["tolerances"] > LEVEL
+    assert checks(SWEEP, EVIDENCE, small, moved)["tolerances"] < VERDICT.check_level
+    assert checks(SWEEP, EVIDENCE, large, moved)["tolerances"] > VERDICT.check_level
 
 
 def test_one_check_below_the_level_is_enough_to_fail():
-    assert passes({"size": LEVEL, "signs": 0.5})
-    assert not passes({"size": 0.99 * LEVEL, "signs": 0.5})
+    assert passes({"size": VERDICT.check_level, "signs": 0.5})
+    assert not passes({"size": 0.99 * VERDICT.check_level, "signs": 0.5})
     assert weakest({"size": 0.3, "signs": 0.2}) == ("signs", 0.2)

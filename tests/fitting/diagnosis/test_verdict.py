@@ -7,26 +7,22 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fitting.diagnosis.predictive import LEVEL
 from fitting.diagnosis.search import ScoredFit
+from fitting.diagnosis.thresholds import VERDICT
 from fitting.diagnosis.verdict import (
-    CREDIBLE,
-    HARDLY_BETTER,
-    LEAST_DOUBTED,
     NONE,
-    POOR,
     judge,
     told,
 )
 from fitting.effects import CATALOGUE
 
-EVEN = 2 * np.log(CREDIBLE / (1 - CREDIBLE))
+EVEN = 2 * np.log(VERDICT.credible / (1 - VERDICT.credible))
 """In cost: so far below another, an explanation has just the probability that is asked for."""
 
 
 def scored(*names, cost, fails=False):
     fitted = SimpleNamespace(effects=tuple(CATALOGUE[name] for name in names))
-    return ScoredFit(fitted, cost, {"size": 0.5, "signs": 0.1 * LEVEL if fails else 0.5})
+    return ScoredFit(fitted, cost, {"size": 0.5, "signs": 0.1 * VERDICT.check_level if fails else 0.5})
 
 
 def judged(none, *scored_fits, temper=1.0, hidden=(), off=None):
@@ -42,7 +38,7 @@ def judged(none, *scored_fits, temper=1.0, hidden=(), off=None):
 POOR_NONE = scored(cost=1000.0, fails=True)
 
 
-NAMED = 2 * np.log((1 - LEAST_DOUBTED) / LEAST_DOUBTED)
+NAMED = 2 * np.log((1 - VERDICT.least_doubted) / VERDICT.least_doubted)
 """In cost: so far below none, an effect may be named."""
 
 
@@ -52,7 +48,7 @@ NAMED = 2 * np.log((1 - LEAST_DOUBTED) / LEAST_DOUBTED)
 def test_an_effect_is_named_where_none_is_improbable(gain, verdict):
     said = judged(scored(cost=100.0), scored("spot_offset", cost=100.0 - gain))
     assert said.verdict == verdict
-    assert (said.probability[()] > LEAST_DOUBTED) == (verdict == "none")
+    assert (said.probability[()] > VERDICT.least_doubted) == (verdict == "none")
     assert (said.accepted is not None) == (verdict != "none")
     # That nothing is there stays in the group while it has more than 5 %.
     assert (
@@ -100,8 +96,8 @@ def test_probabilities_add_up_to_one_and_the_group_is_the_smallest_of_95_percent
     assert sum(said.probability.values()) == pytest.approx(1)
     assert sum(share for _, share in said.group) == pytest.approx(1)
     held = [said.probability[t.names] for t, _ in said.group]
-    assert sum(held) >= CREDIBLE - 1e-12
-    assert sum(held[:-1]) < CREDIBLE
+    assert sum(held) >= VERDICT.credible - 1e-12
+    assert sum(held[:-1]) < VERDICT.credible
     assert held == sorted(held, reverse=True)
     assert sum(said.of_effect(n) for n in names) == pytest.approx(1 - said.probability[()])
 
@@ -181,14 +177,17 @@ def test_another_explanation_altogether_stands_for_all_of_a_pair():
         assert set(said.equivalent[name]) == {name, "added_mass"}
 
 
-@pytest.mark.parametrize(("off", "none_off"), [(1.1 * POOR, 1.0), (10.0, 15.0)])
+@pytest.mark.parametrize(("off", "none_off"), [(1.1 * VERDICT.poor, 1.0), (10.0, 15.0)])
 def test_another_law_that_does_not_predict_is_refused(off, none_off):
     law = scored("core_law", cost=0.0)
     said = judged(POOR_NONE, law, off={("core_law",): off, (): none_off})
     assert (said.verdict, said.refused) == ("unknown", ("core_law",))
     assert "not seen" in said.why
-    assert judged(POOR_NONE, law, off={("core_law",): off, (): 1.1 * off / HARDLY_BETTER}).verdict == "effect"
-    assert judged(POOR_NONE, law, off={("core_law",): 0.9 * POOR, (): none_off}).verdict == "effect"
+    assert (
+        judged(POOR_NONE, law, off={("core_law",): off, (): 1.1 * off / VERDICT.hardly_better}).verdict
+        == "effect"
+    )
+    assert judged(POOR_NONE, law, off={("core_law",): 0.9 * VERDICT.poor, (): none_off}).verdict == "effect"
 
 
 def test_what_two_segments_cannot_place_is_believed_all_the_same():

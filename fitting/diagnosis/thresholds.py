@@ -1,0 +1,117 @@
+"""Every number that a diagnosis is decided by, and why it is what it is.
+
+`VERDICT` decides what is said, `SEARCH` only what is looked at on the way: more of it costs time and finds no
+other verdict, unless the cause was missed. How the verdict's numbers were found: docs/diagnosis.md.
+"""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class VerdictThresholds:
+    """What is named, what is refused, what counts as random."""
+
+    credible: float = 0.95
+    """Probability that the group must hold, and above which one explanation stands alone; a gain that more
+    than one in twenty sweeps without any effect would show too names nothing."""
+    least_doubted: float = 0.2
+    """Probability of none up to which an effect is named; of a clean sweep none keeps four fifths."""
+    worth_saying: float = 0.1
+    """Probability of an effect that is not named from which it is spoken of: one in ten is no surprise."""
+    check_level: float = 1e-4
+    """Tail probability below which an explanation fails; five checks refuse one true one in 2000 at most."""
+    poor: float = 3.0
+    """Times the noise: a law that predicts held-out segments worse explains nothing ..."""
+    hardly_better: float = 0.5
+    """... where that is not half the error without any effect either."""
+    formula_share: float = 1e-4
+    """Share of what an effect explains that any formula may leave: no channel's gain is one number to 1 %."""
+    formula_shapes: float = 10.0
+    """In about so many directions an error of a formula shows."""
+    formula_along: float = 10.0
+    """Times its share of chi-square: what an error of a formula adds to the scatter along frequency, where it
+    is smooth."""
+    noise_known_to: float = 0.08
+    """Relative standard deviation of the noise itself, as local scatter or an instrument states it."""
+    wider_along: float = 1.5
+    """The model's error is marginalised, not gone: statistics along frequency scatter more than noise's."""
+    overstated: float = 0.75
+    """Times the noise's variance: where the best fit leaves less, local scatter was more than noise."""
+    size: float = 1.35
+    """Chi-square per degree of freedom above which a residual is more than noise: clean sweeps stay below."""
+    runs_sigma: float = 5.0
+    """Of the runs test: clean sweeps of the solid plate stay below."""
+    memory_sigma: float = 6.0
+    """Of Ljung-Box's test, the same; its tail is heavier."""
+    bent_by_chance: float = 1e-4
+    """Chance that the plate's own error is as large: one clean sweep in ten thousand is called structured."""
+
+
+@dataclass(frozen=True)
+class SearchThresholds:
+    """What is looked for, gone into twice, followed to the end."""
+
+    nothing_left: float = 0.5
+    """Chi-square per degree of freedom below which no second effect is looked for."""
+    clean_enough: float = 1.08
+    """Chi-square per degree of freedom above which a second effect is looked for beside all leading ones."""
+    numbers_a_parameter: int = 10
+    """Data per parameter below which no second effect is looked for."""
+    will_do: float = 1.25
+    """Chi-square per degree of freedom that strong effects may leave."""
+    least_expected: float = 12.0
+    """Chi-square that a second effect must promise where the first leaves little."""
+    near: float = 40.0
+    """In cost above the best: effects so near are gone into twice, where the law is no place to begin."""
+    nearer: float = 12.0
+    """The same, where it is."""
+    unclear: float = 1.1
+    """Chi-square per degree of freedom above which the first pass may have missed the cause."""
+    promising: float = 5.0
+    """In cost below none's: below it nothing is gone into twice."""
+    left_behind: float = 4.0
+    """Times the least chi-square: rough fits beyond are not followed to the end."""
+    wrong: float = 2.0
+    """Chi-square per degree of freedom beyond which the law so far is no place to begin."""
+    hopeless: float = 30.0
+    """Chi-square per degree of freedom that finer grids will not mend."""
+    able: float = 0.2
+    """Of what the best explains: what another effect must promise, from where the best has got to."""
+    least_promise: float = 3.0
+    """Chi-square that a further start must promise ..."""
+    promise: float = 0.1
+    """... and its share of the best start's."""
+    least_gain: float = 1.0
+    """Chi-square gained, or still to be made good, after a few steps: then a start is followed after all."""
+
+    # How many
+
+    leaders: int = 5
+    """Effects that are gone into twice, and that a second one is looked for beside."""
+    first: int = 4
+    """Effects that are fitted before all others, where they promise most."""
+    at_a_time: int = 2
+    """Effects that are gone into twice together, until one explains everything."""
+    pairs: int = 16
+    """Pairs fitted in full ..."""
+    pairs_a_leader: int = 5
+    """... and of those, with one leader: each has its say."""
+    retried: int = 3
+    """Pairs begun again from other places where none of them will do."""
+    every_second: int = 3
+    """Leaders beside which every other effect is then fitted roughly."""
+    followed: int = 2
+    """Of an effect's starts, how many are fitted roughly ..."""
+    followed_places: int = 4
+    """... and of one with a place to be found."""
+    more_places: int = 6
+    """Further starts of the latter, in a thorough search ..."""
+    most_places: int = 30
+    """... and of the rest, where all that lead lean."""
+    finished: int = 2
+    """Rough fits of a kind that are followed to the end by a thorough search."""
+    laws_finished: int = 2
+    """Other laws that are fitted to the end, of those fitted roughly."""
+
+
+VERDICT, SEARCH = VerdictThresholds(), SearchThresholds()
