@@ -1,4 +1,7 @@
-"""EXPERIMENT.toml: which plate on which rig, which hits and which frequencies."""
+"""EXPERIMENT.toml: which plate on which rig, which hits and which frequencies.
+
+What a sweep is measured with where the file is silent stands in `instrument/stepped_sine/settings.py`.
+"""
 
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -6,9 +9,11 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, model_validator
 
 from instrument.files.toml import NotNegative, Positive, Table, document_faults, read_document
+from instrument.stepped_sine.settings import Control, Dwell, Settle
 
 Count = Annotated[int, Field(ge=1, le=1000)]
 Frequency = Annotated[float, Field(ge=0.5, le=1e5)]
+_CONTROL, _SETTLE, _DWELL = Control(), Settle(), Dwell()
 
 
 class Mounting(Table):
@@ -66,24 +71,24 @@ class Segment(Table):
 class ControlTable(Table):
     """Level control."""
 
-    tolerance_percent: Annotated[float, Field(gt=0, le=20)] = 1.0
-    abort_percent: Annotated[float, Field(gt=0, le=500)] = 50.0
-    ramp_s: Annotated[float, Field(ge=1e-3, le=10)] = 0.05
+    tolerance_percent: Annotated[float, Field(gt=0, le=20)] = 100 * _CONTROL.tolerance
+    abort_percent: Annotated[float, Field(gt=0, le=500)] = 100 * _CONTROL.abort
+    ramp_s: Annotated[float, Field(ge=1e-3, le=10)] = _CONTROL.ramp_s
 
 
 class SettleTable(Table):
     """When a response counts as steady."""
 
-    tolerance_percent: Annotated[float, Field(gt=0, le=20)] = 0.1
-    most_s: Annotated[float, Field(ge=0.1, le=300)] = 8.0
+    tolerance_percent: Annotated[float, Field(gt=0, le=20)] = 100 * _SETTLE.tolerance
+    most_s: Annotated[float, Field(ge=0.1, le=300)] = _SETTLE.most_s
 
 
 class DwellTable(Table):
     """How long it is read then."""
 
-    cycles: Annotated[float, Field(ge=1, le=1e4)] = 20.0
-    least_s: Annotated[float, Field(ge=0.01, le=300)] = 0.3
-    most_s: Annotated[float, Field(ge=0.05, le=300)] = 4.0
+    cycles: Annotated[float, Field(ge=1, le=1e4)] = _DWELL.cycles
+    least_s: Annotated[float, Field(ge=0.01, le=300)] = _DWELL.least_s
+    most_s: Annotated[float, Field(ge=0.05, le=300)] = _DWELL.most_s
 
 
 class LimitsTable(Table):

@@ -10,11 +10,15 @@ from pydantic import Field, model_validator
 
 from drivers.shaker.register_map import DEFAULT
 from instrument.files.toml import NotNegative, Number, Positive, Table
+from instrument.stepped_sine.settings import Limits
 
 SIMULATED = "simulated"
 NOT_KEPT = "-"
 """Address of a simulated device in a session: it was another one each time."""
 Input = Annotated[int, Field(ge=1, le=64)]
+
+
+_LIMITS = Limits()
 
 
 class Shaker(Table):
@@ -114,10 +118,10 @@ class Channels(Table):
 class RigLimits(Table):
     """What this rig can bear, whatever an experiment asks."""
 
-    base_m_s2: Positive = 50.0
-    velocity_m_s: Positive = 1.0
-    travel_mm: Positive = 5.0
-    drive_v: Positive = 5.0
+    base_m_s2: Positive = _LIMITS.base_m_s2
+    velocity_m_s: Positive = _LIMITS.velocity_m_s
+    travel_mm: Positive = 1e3 * _LIMITS.travel_m
+    drive_v: Positive = _LIMITS.drive_v
 
 
 class Operator(Table):

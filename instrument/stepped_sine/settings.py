@@ -1,4 +1,7 @@
-"""How a sweep is measured: tolerances, times, limits. Every value can be set in the experiment file."""
+"""How a sweep is measured: tolerances, times, limits, and what counts where nobody says anything.
+
+The tables of the experiment and the rig file take their defaults from here.
+"""
 
 from dataclasses import dataclass, field
 
