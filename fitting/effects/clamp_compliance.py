@@ -17,8 +17,6 @@ from fitting.effects.full_plate import FullPlate
 from fitting.effects.released_root import RootSpan
 from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
 
-RIGID_N_M3 = 1e17
-"""Springs beyond which the root is at rest for every purpose here."""
 _SPANNED = (4e12, 1e13, 3e13, 1e14, 1e15)
 
 

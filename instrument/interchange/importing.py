@@ -19,7 +19,6 @@ from instrument.interchange.read_mat import read_mat
 from instrument.interchange.read_uff import read_uff
 
 _READERS = {".uff": read_uff, ".unv": read_uff, ".mat": read_mat, ".csv": read_csv, ".txt": read_csv}
-_MOTION_NAMES = {"displacement": "receptance", "velocity": "mobility", "acceleration": "accelerance"}
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,6 @@ import queue
 import threading
 from collections.abc import Callable
 from contextlib import suppress
-from pathlib import Path
 from time import monotonic
 
 from instrument.errors import RigStopped
@@ -89,11 +88,6 @@ class Recorder:
                 self._thread.join(deadline - monotonic())
         if self._thread.is_alive():
             self._failure = TimeoutError(f"the disk took nothing for {_LAST_PATIENCE_S:.0f} s")
-
-    @property
-    def part_files(self) -> list[Path]:
-        """Sealed so far."""
-        return [self._journal.folder / entry.file for entry in self._parts]
 
     def record(self, event: Event) -> None:
         """Take an event. Raises `RigStopped` once the disk has failed."""

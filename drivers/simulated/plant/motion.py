@@ -120,11 +120,6 @@ class Motion:
         """As it is now."""
         return self._stretches[-1].system
 
-    @property
-    def changed_s(self) -> float:
-        """When the drive or the system last changed."""
-        return self._stretches[-1].begin_s
-
     def drive(self, piece: DrivePiece) -> None:
         """The drive from `piece.begin_s` on. A time before the last change is refused (ValueError)."""
         self.excite(piece.begin_s, tones_of(piece, self._harmonics))

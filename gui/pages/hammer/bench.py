@@ -52,7 +52,7 @@ class Latest(QObject):
     def _next(self) -> None:
         if self._wanted is None:
             return
-        work, self._wanted = _Wanted(self._wanted, self), None
+        work, self._wanted = BackgroundTask[Any](self._wanted, self), None
         self._work = work
         work.done.connect(self._has_done)
         work.failed.connect(self._has_failed)
@@ -72,16 +72,6 @@ class Latest(QObject):
             self._work.deleteLater()
             self._work = None
         self._next()
-
-
-class _Wanted(BackgroundTask[Any]):
-    """Knows whether its result will be told."""
-
-    unwanted = False
-
-    def cancel(self) -> None:
-        self.unwanted = True
-        super().cancel()
 
 
 class Bench(QObject):

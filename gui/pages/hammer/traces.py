@@ -57,10 +57,6 @@ class Lines:
         part = frf.between(float(frf.frequency_hz[1]), reach_hz)
         return cls(part.frequency_hz, np.abs(part.H), _degrees(part.H))
 
-    def magnitude_at(self, frequency_hz: Array) -> Array:
-        """Between lines, linearly."""
-        return np.interp(frequency_hz, self.frequency_hz, self.magnitude)
-
 
 @dataclass(frozen=True)
 class Surroundings:

@@ -75,11 +75,6 @@ class Comparison(QWidget):
         reading.failed.connect(self._not_read)
         reading.start()
 
-    def close_readings(self) -> None:
-        """Let go of files still being read."""
-        for reading in self._reading:
-            reading.close()
-
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         """Sessions are compared here instead of opened."""
         if self._sessions(event):

@@ -63,19 +63,6 @@ def moduli_of(law: TrueLaw, frequency_hz: Array) -> tuple[float, ...]:
     return tuple(float(g) for g in np.geomspace(low, high, 3))
 
 
-def clean_reading(
-    true: TruePlate,
-    hidden: Sequence[Hidden],
-    law: TrueLaw,
-    schedule: Schedule,
-    channel: Channel,
-    fineness: Fineness | None = None,
-) -> Complex:
-    """The reading over the reference channel's at each point, in s."""
-    plate = built(true, hidden, moduli_of(law, schedule.frequency_hz), fineness)
-    return reading(plate, true, hidden, law, schedule, channel)
-
-
 def reading(
     plate: ReducedPlate,
     true: TruePlate,

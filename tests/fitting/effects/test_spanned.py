@@ -11,7 +11,7 @@ from fitting.damping import viscous_damping
 from fitting.diagnosis.plate_answer import answer
 from fitting.domain import domain_of
 from fitting.effects import CATALOGUE, SPANS, Change
-from fitting.effects.clamp_compliance import RIGID_N_M3, root_springs
+from fitting.effects.clamp_compliance import root_springs
 from fitting.effects.enriching import enriched
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.partial_debond import LEFT, PartialDebond, strips
@@ -20,6 +20,8 @@ from fitting.reduced import reduce_plate
 from instrument.files.specimen_file import read_specimen
 from instrument.paper_case import case_file
 
+RIGID_N_M3 = 1e17
+"""Springs beyond which the root is at rest."""
 OMEGA = 2 * np.pi * np.array([19.5, 100.0, 281.0])
 G = np.array([0.3e6 * (1 + 0.3j), 0.55e6 * (1 + 0.9j), 1.2e6 * (1 + 1.1j)])
 MASS, PLACE = 3e-3, (0.27, 0.06)

@@ -1,10 +1,12 @@
+import threading
+
 import numpy as np
 import pytest
 from diagnosed_session import diagnosed_session
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
 
-from gui.pages.material import MaterialPage
+from gui.pages.material import MaterialPage, comparison
 from gui.pages.material.compared import PAPER
 from gui.pages.material.numbers import headline, parameters
 
@@ -169,3 +171,22 @@ def test_a_table_is_copied_whole(qtbot, qapp, page):
     lines = qapp.clipboard().text().splitlines()
     assert lines[0].split("\t")[:3] == ["f / Hz", "at", "G' / MPa"]
     assert len(lines) == page.places.row_count + 1
+
+
+def test_a_session_still_being_read_is_let_go_of_with_the_window(page, window, session_path, monkeypatch):
+    begun, let_go = threading.Event(), threading.Event()
+
+    def read_slowly(path):
+        begun.set()
+        assert let_go.wait(10)
+        return []
+
+    monkeypatch.setattr(comparison, "recorded_laws", read_slowly)
+    page.comparison.read(session_path)
+    (reading,) = page.comparison.findChildren(comparison.BackgroundTask)
+    assert begun.wait(10)
+    cancel = reading.cancel
+    monkeypatch.setattr(reading, "cancel", lambda: (cancel(), let_go.set()))
+    window.close()
+    assert reading.unwanted
+    assert "work" not in {thread.name for thread in threading.enumerate()}
