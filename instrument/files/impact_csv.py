@@ -1,6 +1,5 @@
 """Impact records and FRFs as CSV."""
 
-import re
 from pathlib import Path
 
 import numpy as np
@@ -8,8 +7,7 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.modal.frf import Frf, Motion
 from instrument.errors import BadInput
-from instrument.files.table import number, read_rows
-from instrument.files.text import read_text
+from instrument.files.table import number, rate_of_times, read_rows, stated_rate_hz
 from instrument.impact.record import Channel, Hit
 
 MOTIONS: dict[str, Motion] = {
@@ -22,8 +20,6 @@ FRF_STEMS: dict[str, Motion] = {
     "mobility": "velocity",
     "receptance": "displacement",
 }
-_RATE = re.compile(r"^#\s*sample_rate_hz\s*:\s*(\S+)", re.M)
-_OFF_GRID = 0.2
 _CONTRADICTION = 2e-3
 
 
@@ -34,7 +30,7 @@ def is_frf(header: list[str]) -> bool:
 
 def read_impact_csv(path: Path, rate_hz: float | None = None) -> list[Hit] | dict[str, Frf]:
     """Hits of a record, or the FRFs of a file that begins with `frequency_hz`. Raises `BadInput`."""
-    header, rows = read_rows(path, lambda header: None)
+    header, rows = read_rows(path)
     if is_frf(header):
         return _frfs(path, header, rows)
     names = [n for n in header if n in MOTIONS]
@@ -96,19 +92,9 @@ def _column(path: Path, header: list[str], rows: list[tuple[int, list[str]]], na
     return np.array([number(path, line, name, row[k]) for line, row in rows])
 
 
-def _stated_rate(path: Path) -> float | None:
-    found = _RATE.search(read_text(path))
-    if found is None:
-        return None
-    rate = number(path, 1, "sample_rate_hz", found.group(1))
-    if rate <= 0:
-        raise BadInput(f"{path}: sample_rate_hz: {rate:g}, expected more than 0")
-    return rate
-
-
 def _rate(path: Path, columns: dict[str, Array], rate_hz: float | None) -> float:
     """The rate the file states or its times give; the option where neither does. They must not contradict."""
-    stated = _stated_rate(path)
+    stated = stated_rate_hz(path)
     said = [r for r in (rate_hz, stated) if r is not None]
     if "time_s" in columns or not said:
         said.append(_rate_of(path, columns))
@@ -126,9 +112,7 @@ def _rate_of(path: Path, columns: dict[str, Array]) -> float:
     t = columns["time_s"]
     if "hit" in columns:
         t = t[columns["hit"] == columns["hit"][0]]
-    even = np.linspace(t[0], t[-1], len(t))
-    step = (t[-1] - t[0]) / max(1, len(t) - 1)
-    # Times are often written with few digits: judged by their place on the grid, not by their steps.
-    if step <= 0 or np.max(np.abs(t - even)) > _OFF_GRID * step:
+    rate = rate_of_times(t)
+    if rate is None:
         raise BadInput(f"{path}: time_s is not evenly spaced, expected a constant step")
-    return float(1 / step)
+    return rate

@@ -1,30 +1,20 @@
 """Impact records and FRFs of any kind, by the file's ending; what a file does not say, options do."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.io import loadmat
 
 from fitting.arrays import Array
-from fitting.gravity import STANDARD_GRAVITY_M_S2
-from fitting.modal.frf import Frf, Motion
+from fitting.modal.frf import Frf
 from instrument.errors import BadInput
 from instrument.files.impact_csv import MOTIONS, read_impact_csv
 from instrument.files.lvm import read_lvm
-from instrument.files.uff58 import read_uff58
+from instrument.files.mat import read_mat_variables
+from instrument.files.uff58 import FRF, TIME, Function, read_uff58
+from instrument.files.units import KNOWN_MOTIONS, unit_of
 from instrument.impact.record import Channel, Hit
-
-_UNITS: dict[str, tuple[Motion, float]] = {
-    "m/s^2": ("acceleration", 1.0),
-    "m/s2": ("acceleration", 1.0),
-    "g": ("acceleration", STANDARD_GRAVITY_M_S2),
-    "m/s": ("velocity", 1.0),
-    "mm/s": ("velocity", 1e-3),
-    "m": ("displacement", 1.0),
-    "mm": ("displacement", 1e-3),
-}
 
 
 @dataclass(frozen=True)
@@ -47,7 +37,7 @@ def read_records(path: Path, named: Named) -> list[Hit] | dict[str, Frf]:
     if ending == ".csv":
         return read_impact_csv(path, named.rate_hz)
     if ending in (".uff", ".unv"):
-        return read_uff58(path)
+        return _universal(path)
     if ending == ".lvm":
         return [
             _hit(
@@ -91,21 +81,48 @@ def _channel(path: Path, columns: dict[str, Array], units: dict[str, str], wante
     if name not in columns:
         raise BadInput(f"{path}: no channel {name}, found {', '.join(columns)}")
     unit = unit or units.get(name, "")
-    if unit not in _UNITS:
+    known = unit_of(unit)
+    if known is None or known.per is not None or known.quantity == "force":
         raise BadInput(
             f"{path}: channel {name} has unit {unit or 'missing'!r}, say --response {name}:UNIT "
-            f"with one of {', '.join(_UNITS)}"
+            f"with one of {KNOWN_MOTIONS}"
         )
-    motion, factor = _UNITS[unit]
-    return Channel(name, motion, columns[name] * factor)
+    return Channel(name, known.quantity, columns[name] * known.factor)
+
+
+def _universal(path: Path) -> list[Hit] | dict[str, Frf]:
+    """The FRFs of a file where it holds any, else its time records in order: a force, then its responses."""
+    functions = read_uff58(path, over="force").functions
+    frfs = {f"{f.label or 'frf'} {k}": _frf(path, f) for k, f in enumerate(functions, 1) if f.kind == FRF}
+    if frfs:
+        return frfs
+    hits: list[Hit] = []
+    for f in (f for f in functions if f.kind == TIME):
+        if f.unit.quantity == "force":
+            hits.append(Hit(f"{path.name} hit {len(hits) + 1}", f.rate_hz, f.values, ()))
+        elif hits:
+            last = hits[-1]
+            channel = Channel(f.label or f"response {len(last.responses) + 1}", f.unit.quantity, f.values)
+            hits[-1] = replace(last, responses=(*last.responses, channel))
+    if not hits or not all(h.responses for h in hits):
+        raise BadInput(f"{path}: no force with a response behind it, and no FRF (data set 58)")
+    return hits
+
+
+def _frf(path: Path, f: Function) -> Frf:
+    if f.unit.per != "force":
+        raise BadInput(
+            f"{path}: FRF over {f.unit.per}, expected over a force: "
+            "'viscorig import' takes a response over a base motion"
+        )
+    if f.unit.quantity == "force":
+        raise BadInput(f"{path}: FRF of a force, expected displacement, velocity or acceleration")
+    return Frf(f.x, f.values, f.unit.quantity)
 
 
 def _mat(path: Path, named: Named) -> Hit:
     """MATLAB 5 to 7.2: numeric vectors only. Names carry the unit (`acceleration_m_s2`) or the options do."""
-    try:
-        content: dict[str, Any] = loadmat(str(path), squeeze_me=True, struct_as_record=True)
-    except Exception as error:
-        raise BadInput(f"{path}: not a MATLAB file that can be read: {error}") from None
+    content = read_mat_variables(path)
     vectors = {
         name: np.asarray(v, float)
         for name, v in content.items()

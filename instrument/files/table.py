@@ -1,21 +1,30 @@
-"""Rows of a CSV with their line numbers: comma-separated, `#` comments, one header."""
+"""Rows of a CSV with their line numbers: `#` comments, one header; sample rates as a file says them."""
 
 import csv
 import math
+import re
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+import numpy as np
+
+from fitting.arrays import Array
 from instrument.errors import BadInput
 from instrument.files.text import read_text
 
 Rows = list[tuple[int, list[str]]]
+_RATE = re.compile(r"^#\s*sample_rate_hz\s*:\s*(\S+)", re.M)
+_OFF_GRID = 0.2
+"""Times are often written with few digits: judged by their place on the grid, in steps."""
 
 
-def read_rows(path: Path, check_header: Callable[[list[str]], None]) -> tuple[list[str], Rows]:
+def read_rows(
+    path: Path, check_header: Callable[[list[str]], None] = lambda header: None, separator: str = ","
+) -> tuple[list[str], Rows]:
     """The header, checked by `check_header`, and the rows with their line numbers, all equally long."""
     header: list[str] | None = None
     rows: Rows = []
-    for line, row in _fields(path):
+    for line, row in _fields(path, separator):
         if header is None:
             header = row
             for name in header:
@@ -46,10 +55,32 @@ def number(path: Path, line: int, name: str, text: str) -> float:
     return value
 
 
-def _fields(path: Path) -> Iterator[tuple[int, list[str]]]:
+def stated_rate_hz(path: Path) -> float | None:
+    """By a comment `# sample_rate_hz: ...`, where there is one. Raises `BadInput`."""
+    found = _RATE.search(read_text(path))
+    if found is None:
+        return None
+    rate = number(path, 1, "sample_rate_hz", found[1])
+    if rate <= 0:
+        raise BadInput(f"{path}: sample_rate_hz: {rate:g}, expected more than 0")
+    return rate
+
+
+def rate_of_times(t: Array) -> float | None:
+    """Samples a second of times in s; None where they are not evenly spaced."""
+    step = (t[-1] - t[0]) / max(1, len(t) - 1)
+    if not step > 0 or np.max(np.abs(t - np.linspace(t[0], t[-1], len(t)))) > _OFF_GRID * step:
+        return None
+    return float(1 / step)
+
+
+def _fields(path: Path, separator: str) -> Iterator[tuple[int, list[str]]]:
     for line, text in enumerate(read_text(path).splitlines(), start=1):
         if text.strip() and not text.lstrip().startswith("#"):
             try:
-                yield line, [field.strip() for field in next(csv.reader([text], strict=True))]
+                yield (
+                    line,
+                    [field.strip() for field in next(csv.reader([text], delimiter=separator, strict=True))],
+                )
             except csv.Error as error:
                 raise BadInput(f"{path}: line {line}: {error}") from None

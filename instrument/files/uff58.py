@@ -1,62 +1,187 @@
-"""Universal file, data set 58: time records and FRFs, ASCII or binary, by pyuff."""
+"""Universal files: functions of data set 58 in SI units, as labelled or as data set 164 scales them."""
 
+import re
 import warnings
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pyuff
+from numpy.typing import NDArray
 
-from fitting.modal.frf import Frf, Motion
+from fitting.arrays import Array
 from instrument.errors import BadInput
-from instrument.impact.record import Channel, Hit
+from instrument.files.units import KNOWN, Quantity, Unit, unit_of
 
-_TIME, _FRF = 1, 4
-_FORCE = 13
-_MOTIONS: dict[int, Motion] = {8: "displacement", 11: "velocity", 12: "acceleration"}
-_CODES = {motion: code for code, motion in _MOTIONS.items()}
+TIME, FRF, TRANSMISSIBILITY, COHERENCE = 1, 4, 5, 6
+"""Function types."""
+CODES: dict[Quantity, int] = {"displacement": 8, "velocity": 11, "acceleration": 12, "force": 13}
+"""Data types of an axis."""
+_QUANTITIES = {code: quantity for quantity, code in CODES.items()}
+_UNSAID = (0, 1)
+"""Data types "unknown" and "general"."""
+_PLACE = re.compile(r"\bsweep (\d+) segment (\d+)\b")
 
 
-def read_uff58(path: Path) -> list[Hit] | dict[str, Frf]:
-    """The FRFs of a file where it holds any, else its time records in order: a force, then its responses."""
+@dataclass(frozen=True)
+class Function:
+    """One data set 58."""
+
+    label: str
+    """First line of its names; empty for none."""
+    name: str
+    kind: int
+    x: Array
+    """Hz or s."""
+    values: NDArray[Any]
+    """In SI units."""
+    unit: Unit
+    rate_hz: float = np.nan
+    """Of samples in time."""
+    level_m_s2: float | None = None
+    """Base acceleration it was measured at."""
+    place: tuple[int, int] | None = None
+    """Sweep and segment, where the file says."""
+
+
+@dataclass(frozen=True)
+class _Scale:
+    """Factors of data set 164 to SI."""
+
+    length: float
+    force: float
+
+    def of(self, quantity: Quantity) -> float:
+        return self.force if quantity == "force" else self.length
+
+
+@dataclass
+class Universal:
+    """A file's functions; those of another kind by their names alone."""
+
+    functions: list[Function]
+    others: list[tuple[str, int]]
+    """Name and function type."""
+
+
+def read_uff58(path: Path, *, over: Quantity | None = None) -> Universal:
+    """Time records, FRFs, transmissibilities, coherences. Raises `BadInput` naming the data set.
+
+    `over` is what an FRF is over where the file does not say; time records of no known kind are then left
+    out. Without it such a file is refused.
+    """
     sets = _sets(path)
-    frfs = {
-        f"{s['id1'].strip() or 'frf'} {k + 1}": _frf(path, s)
-        for k, s in enumerate(sets)
-        if s["func_type"] == _FRF
-    }
-    if frfs:
-        return frfs
-    hits: list[Hit] = []
-    for s in (s for s in sets if s["func_type"] == _TIME):
-        rate = 1 / float(s["abscissa_inc"])
-        if s["ordinate_spec_data_type"] == _FORCE:
-            hits.append(Hit(f"{path.name} hit {len(hits) + 1}", rate, np.asarray(s["data"], float), ()))
-        elif s["ordinate_spec_data_type"] in _MOTIONS and hits:
-            last = hits[-1]
-            name = s["id1"].strip() or f"response {len(last.responses) + 1}"
-            channel = Channel(name, _MOTIONS[s["ordinate_spec_data_type"]], np.asarray(s["data"], float))
-            hits[-1] = Hit(last.source, last.sample_rate_hz, last.force_n, (*last.responses, channel))
-    if not hits or not all(h.responses for h in hits):
-        raise BadInput(f"{path}: no force with a response behind it, and no FRF (data set 58)")
-    return hits
+    scale = next(
+        (_Scale(1 / s["length"], 1 / s["force"]) for s in sets if s["type"] == 164), _Scale(1.0, 1.0)
+    )
+    if not any(s["type"] == 58 for s in sets):
+        kinds = ", ".join(sorted({str(s["type"]) for s in sets})) or "no set at all"
+        raise BadInput(f"{path}: no data set 58, found {kinds}")
+    found = Universal([], [])
+    for k, s in enumerate(sets, start=1):
+        if s["type"] != 58:
+            continue
+        where, kind = f"{path}: set {k}", s["func_type"]
+        if kind in (FRF, TRANSMISSIBILITY):
+            found.functions.append(_ratio(where, k, s, scale, over))
+        elif kind == TIME and not (over and _is_unknown(s)):
+            found.functions.append(_record(where, k, s, scale))
+        elif kind == COHERENCE:
+            found.functions.append(_coherence(k, s))
+        else:
+            found.others.append((_name(s, k), kind))
+    return found
 
 
-def write_frf(path: Path, frfs: dict[str, Frf], *, binary: bool = True) -> None:
-    """FRFs as data set 58, double precision; uneven lines are kept as they are."""
-    _write(path, [_frf_set(name, frf, binary=binary) for name, frf in frfs.items()])
+def _is_unknown(s: dict[str, Any]) -> bool:
+    """Whether neither data type nor label says what was recorded."""
+    return (
+        int(s.get("ordinate_spec_data_type", 0)) not in _QUANTITIES and unit_of(_label(s, "ordinate")) is None
+    )
 
 
-def write_hits(path: Path, hits: list[Hit], *, binary: bool = True) -> None:
-    """Each hit as its force and then its responses."""
-    sets = []
-    for hit in hits:
-        sets.append(_time_set("force", _FORCE, hit.force_n, hit.sample_rate_hz, binary=binary))
-        sets += [
-            _time_set(c.name, _CODES[c.motion], c.samples, hit.sample_rate_hz, binary=binary)
-            for c in hit.responses
-        ]
-    _write(path, sets)
+def _coherence(k: int, s: dict[str, Any]) -> Function:
+    values = np.asarray(s["data"], float)
+    return Function(_line(s), _name(s, k), COHERENCE, _hz(s), values, Unit("force", 1.0, "force"))
+
+
+def _ratio(where: str, k: int, s: dict[str, Any], scale: _Scale, over: Quantity | None) -> Function:
+    unit = _ratio_unit(where, s, scale, over)
+    level = None
+    if s.get("z_axis_spec_data_type") == CODES["acceleration"] and float(s.get("z_axis_value", 0)) > 0:
+        level = float(s["z_axis_value"]) * _unit(where, "z_axis", s, scale).factor
+    place = _PLACE.search(f"{s.get('id1', '')} {s.get('id2', '')}")
+    return Function(
+        _line(s),
+        _name(s, k),
+        s["func_type"],
+        _hz(s),
+        np.asarray(s["data"], np.complex128) * unit.factor,
+        unit,
+        level_m_s2=level,
+        place=(int(place[1]), int(place[2])) if place else None,
+    )
+
+
+def _ratio_unit(where: str, s: dict[str, Any], scale: _Scale, over: Quantity | None) -> Unit:
+    """Numerator over denominator; some programs label the numerator with the unit of the whole."""
+    whole = unit_of(_label(s, "ordinate"))
+    if whole is not None and whole.per is not None:
+        return whole
+    above = _unit(where, "ordinate", s, scale)
+    unsaid = int(s.get("orddenom_spec_data_type", 0)) in _UNSAID and not _label(s, "orddenom")
+    below = Unit(over, scale.of(over)) if over and unsaid else _unit(where, "orddenom", s, scale)
+    return Unit(above.quantity, above.factor / below.factor, below.quantity)
+
+
+def _record(where: str, k: int, s: dict[str, Any], scale: _Scale) -> Function:
+    unit = _unit(where, "ordinate", s, scale)
+    x = np.asarray(s["x"], float)
+    step = float(s["abscissa_inc"]) if s.get("abscissa_spacing") else float(x[-1] - x[0]) / (len(x) - 1)
+    if not step > 0:
+        raise BadInput(f"{where}: a step of {step:g} s between samples, expected more than 0")
+    values = np.asarray(s["data"], float) * unit.factor
+    return Function(_line(s), _name(s, k), TIME, x, values, unit, rate_hz=1 / step)
+
+
+def _unit(where: str, axis: str, s: dict[str, Any], scale: _Scale) -> Unit:
+    """Of an axis: what its label says, else its data type in the file's units."""
+    code = int(s.get(f"{axis}_spec_data_type", 0))
+    label = _label(s, axis)
+    named = unit_of(label)
+    if label and (named is None or named.per is not None):
+        raise BadInput(f"{where}: {axis} in {label!r}, expected one of {KNOWN}")
+    if named is not None:
+        if code in _QUANTITIES and _QUANTITIES[code] != named.quantity:
+            raise BadInput(f"{where}: {axis} is {_QUANTITIES[code]} (type {code}) in {label!r}: which is it?")
+        return named
+    if code not in _QUANTITIES:
+        raise BadInput(
+            f"{where}: {axis} of data type {code} without a unit, expected 8, 11, 12 or 13 "
+            "(displacement, velocity, acceleration, force)"
+        )
+    return Unit(_QUANTITIES[code], scale.of(_QUANTITIES[code]))
+
+
+def _label(s: dict[str, Any], axis: str) -> str:
+    """The unit an axis is labelled with; empty for none."""
+    label = str(s.get(f"{axis}_axis_units_lab", "")).strip()
+    return "" if label == "NONE" else label
+
+
+def _hz(s: dict[str, Any]) -> Array:
+    x = np.asarray(s["x"], float)
+    return x / (2 * np.pi) if _label(s, "abscissa").lower() == "rad/s" else x
+
+
+def _line(s: dict[str, Any]) -> str:
+    return str(s.get("id1", "")).strip()
+
+
+def _name(s: dict[str, Any], k: int) -> str:
+    said = " ".join(str(s.get(key, "")).strip() for key in ("id1", "id2"))
+    return " ".join(said.replace("NONE", "").split()) or f"set {k}"
 
 
 def _sets(path: Path) -> list[dict[str, Any]]:
@@ -66,84 +191,6 @@ def _sets(path: Path) -> list[dict[str, Any]]:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             read = pyuff.UFF(str(path)).read_sets()
-    except Exception as error:
-        raise BadInput(f"{path}: not a universal file: {error}") from None
-    found = [s for s in (read if isinstance(read, list) else [read]) if s.get("type") == 58]
-    if not found:
-        raise BadInput(f"{path}: no data set 58")
-    return found
-
-
-def _frf(path: Path, s: dict[str, Any]) -> Frf:
-    denominator = s.get("orddenom_spec_data_type", 0)
-    if denominator not in (0, 1, _FORCE):
-        raise BadInput(
-            f"{path}: FRF over data type {denominator}, expected over a force: "
-            "'viscorig import' takes a response over a base motion"
-        )
-    motion = _MOTIONS.get(s["ordinate_spec_data_type"])
-    if motion is None:
-        raise BadInput(
-            f"{path}: FRF of data type {s['ordinate_spec_data_type']}, "
-            "expected 8, 11 or 12 (displacement, velocity, acceleration)"
-        )
-    return Frf(np.asarray(s["x"], float), np.asarray(s["data"], complex), motion)
-
-
-def _frf_set(name: str, frf: Frf, *, binary: bool) -> dict[str, Any]:
-    steps = np.diff(frf.frequency_hz)
-    even = bool(np.allclose(steps, steps[0], rtol=1e-9))
-    return _common(name, binary=binary) | {
-        "func_type": _FRF,
-        "ord_data_type": 6,
-        "abscissa_spacing": 1 if even else 0,
-        "num_pts": len(frf.frequency_hz),
-        "abscissa_min": float(frf.frequency_hz[0]),
-        "abscissa_inc": float(steps[0]) if even else 0.0,
-        "abscissa_spec_data_type": 18,
-        "ordinate_spec_data_type": _CODES[frf.motion],
-        "orddenom_spec_data_type": _FORCE,
-        "data": frf.H,
-        "x": frf.frequency_hz,
-    }
-
-
-def _time_set(name: str, code: int, samples: Any, rate: float, *, binary: bool) -> dict[str, Any]:
-    return _common(name, binary=binary) | {
-        "func_type": _TIME,
-        "ord_data_type": 4,
-        "abscissa_spacing": 1,
-        "num_pts": len(samples),
-        "abscissa_min": 0.0,
-        "abscissa_inc": float(1 / rate),
-        "abscissa_spec_data_type": 17,
-        "ordinate_spec_data_type": code,
-        "orddenom_spec_data_type": 0,
-        "data": np.asarray(samples, float),
-        "x": np.arange(len(samples)) / rate,
-    }
-
-
-def _common(name: str, *, binary: bool) -> dict[str, Any]:
-    return {
-        "type": 58,
-        "binary": int(binary),
-        "id1": name,
-        "id2": "NONE",
-        "id3": "NONE",
-        "id4": "NONE",
-        "id5": "NONE",
-        "rsp_node": 1,
-        "rsp_dir": 3,
-        "ref_node": 1,
-        "ref_dir": 3,
-        "z_axis_value": 0.0,
-    }
-
-
-def _write(path: Path, sets: list[dict[str, Any]]) -> None:
-    path.unlink(missing_ok=True)
-    # The library's "overwrite" wipes a binary set's header; closing its file it leaves to the collector.
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ResourceWarning)
-        pyuff.UFF(str(path)).write_sets(sets, mode="add")
+    except Exception as error:  # the library raises whatever it meets
+        raise BadInput(f"{path}: not a universal file: {' '.join(str(error).split())[:80]}") from None
+    return [s for s in (read if isinstance(read, list) else [read]) if "type" in s]

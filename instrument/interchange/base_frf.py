@@ -18,7 +18,7 @@ _TIMES_I_OMEGA = {"displacement": 1, "velocity": 0, "acceleration": -1}
 
 def is_frf_csv(path: Path) -> bool:
     """Whether a CSV's columns are an FRF's and not a sweep's."""
-    header, _ = read_rows(path, lambda header: None)
+    header, _ = read_rows(path)
     return any(f"{stem}_re" in header for stem in FRF_STEMS) and not any("velocity" in n for n in header)
 
 

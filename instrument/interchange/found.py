@@ -9,19 +9,16 @@ from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.modal.frf import Frf, Motion
 from instrument.errors import BadInput
+from instrument.files.impact_csv import MOTIONS
+from instrument.files.units import DERIVATIVE, Quantity
 from instrument.impact.record import Channel, Hit
-from instrument.interchange.units import DERIVATIVE, Quantity
 
 Columns = dict[str, Array]
 """Of the sweep CSV, by their names."""
 
 REFERENCE_M_S2 = PUBLISHED_G_M_S2
 """Base acceleration a ratio is stated at where its level is not known: it cancels in the fit."""
-_CSV_NAMES: dict[Motion, str] = {
-    "acceleration": "acceleration_m_s2",
-    "velocity": "velocity_m_s",
-    "displacement": "displacement_m",
-}
+_CSV_NAMES = {motion: name for name, motion in MOTIONS.items()}
 
 
 @dataclass(frozen=True)

@@ -1,27 +1,25 @@
 """CSV of any origin: comma, semicolon or tab; decimal comma; units in the names or in a row of their own."""
 
-import csv
 import re
 from pathlib import Path
 
 import numpy as np
 
 from instrument.errors import BadInput
+from instrument.files.table import Rows, read_rows, stated_rate_hz
 from instrument.files.text import read_text
 from instrument.interchange.found import Found
 from instrument.interchange.read_table import Named, read_table
 
-_RATE = re.compile(r"^#\s*sample_rate_hz\s*:\s*(\S+)\s*$", re.M)
 _SEPARATORS = (";", "\t", ",")
 
 
 def read_csv(path: Path) -> Found:
     """The table's sweep, FRF or record. Raises `BadInput` naming file and line."""
-    text = read_text(path)
-    header, table = _table(path, text)
-    rate = _RATE.search(text)
+    header, table = _table(path)
+    rate = stated_rate_hz(path)
     if rate is not None:
-        table["sample_rate_hz"] = np.array([_number(path, 1, rate[1], comma=False)])
+        table["sample_rate_hz"] = np.array([rate])
     found = Found()
     for name, part in _hits_apart(path, table):
         if not read_table(name, part, found):
@@ -47,29 +45,19 @@ def _hits_apart(path: Path, table: Named) -> list[tuple[str, Named]]:
     ]
 
 
-def _table(path: Path, text: str) -> tuple[list[str], Named]:
+def _table(path: Path) -> tuple[list[str], Named]:
     """All names, and the columns of numbers."""
-    lines = [
-        (k, s) for k, s in enumerate(text.splitlines(), 1) if s.strip() and not s.lstrip().startswith("#")
-    ]
-    if len(lines) < 2:
-        raise BadInput(f"{path}: {len(lines)} lines, expected a header and rows below it")
-    separator = next((s for s in _SEPARATORS if s in lines[0][1]), ",")
-    header, *rows = ((k, _fields(path, k, s, separator)) for k, s in lines)
-    names = header[1]
-    if len(set(names)) < len(names):
-        raise BadInput(f"{path}: line {header[0]}: a column twice, expected each once")
+    first = next((line for line in read_text(path).splitlines() if _is_said(line)), "")
+    separator = next((s for s in _SEPARATORS if s in first), ",")
+    names, rows = read_rows(path, separator=separator)
     if _is_units(rows[0][1]):
-        names = [f"{n} [{u.strip('[]')}]" if u else n for n, u in zip(names, rows[0][1], strict=False)]
+        names = [f"{n} [{u.strip('[]')}]" if u else n for n, u in zip(names, rows[0][1], strict=True)]
         rows = rows[1:]
     return names, _numbers(path, names, rows, comma=separator != ",")
 
 
-def _fields(path: Path, line: int, text: str, separator: str) -> list[str]:
-    try:
-        return [f.strip() for f in next(csv.reader([text], delimiter=separator, strict=True))]
-    except csv.Error as error:
-        raise BadInput(f"{path}: line {line}: {error}") from None
+def _is_said(line: str) -> bool:
+    return bool(line.strip()) and not line.lstrip().startswith("#")
 
 
 def _is_units(row: list[str]) -> bool:
@@ -77,11 +65,8 @@ def _is_units(row: list[str]) -> bool:
     return not any(re.search(r"\d", re.sub(r"s\^?2|s²", "", field)) for field in row)
 
 
-def _numbers(path: Path, names: list[str], rows: list[tuple[int, list[str]]], *, comma: bool) -> Named:
+def _numbers(path: Path, names: list[str], rows: Rows, *, comma: bool) -> Named:
     """Columns of numbers; a column whose first value is none is text and passed over."""
-    for line, row in rows:
-        if len(row) != len(names):
-            raise BadInput(f"{path}: line {line}: {len(row)} columns, expected {len(names)} as in the header")
     if not rows:
         raise BadInput(f"{path}: no rows below the header")
     numeric = [k for k, name in enumerate(names) if name and _is_number(rows[0][1][k], comma=comma)]

@@ -5,14 +5,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from scipy.io import loadmat
 
 from fitting.arrays import Array
 from fitting.modal.frf import Motion
 from instrument.errors import BadInput
+from instrument.files.mat import read_mat_variables
+from instrument.files.units import DERIVATIVE, KNOWN, Unit, unit_of
 from instrument.interchange.found import Found, Ratio, motion_of
 from instrument.interchange.read_table import Named, read_table
-from instrument.interchange.units import DERIVATIVE, KNOWN, Unit, unit_of
 
 _DEPTH = 4
 _OUR_OWN = ("units", "about")
@@ -20,14 +20,7 @@ _OUR_OWN = ("units", "about")
 
 def read_mat(path: Path) -> Found:
     """What its variables hold. Raises `BadInput`."""
-    try:
-        content: dict[str, Any] = loadmat(str(path), simplify_cells=True)
-    except NotImplementedError:
-        raise BadInput(f"{path}: a MATLAB 7.3 file (HDF5), expected one saved with -v7 or earlier") from None
-    except Exception as error:  # the library raises whatever it meets
-        said = " ".join(str(error).split())[:80]
-        raise BadInput(f"{path}: not a MATLAB file that can be read: {said}") from None
-    variables = {n: v for n, v in content.items() if not n.startswith("__") and n not in _OUR_OWN}
+    variables = {n: v for n, v in read_mat_variables(path).items() if n not in _OUR_OWN}
     found = Found()
     _walk(path, path.name, variables, found, 0)
     _testlab(path, variables, found)

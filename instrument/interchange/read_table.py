@@ -14,8 +14,9 @@ from fitting.arrays import Array
 from fitting.modal.frf import Motion
 from instrument.errors import BadInput
 from instrument.files.point_columns import understood
+from instrument.files.table import rate_of_times
+from instrument.files.units import DERIVATIVE, KNOWN, Quantity, Unit, unit_of
 from instrument.interchange.found import Columns, Found, Ratio
-from instrument.interchange.units import DERIVATIVE, KNOWN, Quantity, Unit, unit_of
 
 Named = dict[str, NDArray[Any]]
 """Arrays of one length; matrices (samples, hits) for hits side by side; single numbers as arrays of one."""
@@ -42,8 +43,6 @@ _SUFFIXES = (
 )
 """Units at the end of a name, longest first."""
 _RATES = ("sample_rate_hz", "sampling_rate_hz", "fs", "fs_hz", "sample_rate", "sampling_frequency")
-_OFF_GRID = 0.2
-"""Times are often written with few digits: judged by their place on the grid, in steps."""
 _AXIS_HZ = {"hz": 1.0, "khz": 1e3, "rad/s": 1 / (2 * np.pi), "": 1.0}
 _AXIS_S = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "": 1.0}
 
@@ -96,10 +95,10 @@ def _rate_hz(source: str, table: Named) -> float:
     t = _axis(table, ("time", "t"), _AXIS_S)
     if t is None:
         raise BadInput(f"{source}: no sample rate, expected sample_rate_hz or a column of times")
-    step = (t[-1] - t[0]) / (len(t) - 1)
-    if not step > 0 or np.max(np.abs(t - np.linspace(t[0], t[-1], len(t)))) > _OFF_GRID * step:
+    rate = rate_of_times(t)
+    if rate is None:
         raise BadInput(f"{source}: its times are not evenly spaced, expected a constant step")
-    return float(1 / step)
+    return rate
 
 
 # Signals

@@ -15,11 +15,12 @@ import pyuff
 from numpy.typing import NDArray
 
 from fitting.modal.frf import Frf
+from instrument.files.uff58 import CODES, COHERENCE, FRF, TIME
 from instrument.impact.spectra import spectra
 from instrument.session.contents import Contents, RecordedHit, TimedPoint
 
-_TIME, _FRF, _COHERENCE = 1, 4, 6
-_VELOCITY, _ACCELERATION, _FORCE, _SECONDS, _HERTZ = 11, 12, 13, 17, 18
+_VELOCITY, _ACCELERATION, _FORCE = CODES["velocity"], CODES["acceleration"], CODES["force"]
+_SECONDS, _HERTZ = 17, 18
 _NODES = {"velocity": 1, "base": 2, "force": 3, "response": 4}
 _LEAST_LINES = 2
 """The library takes the step from the first two."""
@@ -75,7 +76,7 @@ def _sweep_set(contents: Contents, which: str, level_m_s2: float, points: list[T
         _common(contents, f"{reads} velocity over base acceleration", which, "velocity", "base")
         | _on_lines(f, even=False)
         | {
-            "func_type": _FRF,
+            "func_type": FRF,
             "ord_data_type": 6,
             "data": H,
             "ordinate_spec_data_type": _VELOCITY,
@@ -103,7 +104,7 @@ def _hammer_sets(contents: Contents) -> list[dict[str, Any]]:
         )
         coherence |= _on_lines(frf.frequency_hz, even=True)
         sets.append(
-            coherence | {"func_type": _COHERENCE, "ord_data_type": 4, "data": found.coherence["response"]}
+            coherence | {"func_type": COHERENCE, "ord_data_type": 4, "data": found.coherence["response"]}
         )
     return sets
 
@@ -113,7 +114,7 @@ def _hammer_frf(contents: Contents, frf: Frf, hits: int) -> dict[str, Any]:
         _common(contents, "accelerance of the bare plate, H1", f"{hits} hits", "response", "force")
         | _on_lines(frf.frequency_hz, even=True)
         | {
-            "func_type": _FRF,
+            "func_type": FRF,
             "ord_data_type": 6,
             "data": frf.H,
             "ordinate_spec_data_type": _ACCELERATION,
@@ -130,7 +131,7 @@ def _hit_sets(contents: Contents, hit: RecordedHit) -> list[dict[str, Any]]:
     return [
         _common(contents, label, f"hit {hit.number} {verdict}", channel, "force")
         | {
-            "func_type": _TIME,
+            "func_type": TIME,
             "ord_data_type": 4,
             "abscissa_spacing": 1,
             "num_pts": len(samples),

@@ -6,10 +6,10 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.modal.frf import Frf
+from instrument.files.units import DERIVATIVE
 from instrument.impact.curves import HalfPowerMarks, fit_curve, half_power_at
 from instrument.impact.damping import Damping, Mode
 from instrument.impact.judge import Judged
-from instrument.interchange.units import DERIVATIVE
 
 XY = tuple[Array, Array]
 

@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 from impact_cases import BARE_HZ, RATE, TABLE_3, clean_hit, noisy_hits
 from scipy.io import savemat
+from uff_files import write_frf, write_hits
 
 from fitting.modal.frf import Frf
 from instrument.cli.main import run
 from instrument.errors import BadInput
-from instrument.files import uff58
 from instrument.files.impact_csv import write_frf_csv, write_impact_csv
 from instrument.files.records import Named, read_records
 
@@ -37,7 +37,7 @@ def test_csv_round_trip(tmp_path, hits):
 
 @pytest.mark.parametrize("binary", [True, False])
 def test_uff_round_trip_of_hits(tmp_path, hits, binary):
-    uff58.write_hits(tmp_path / "a.uff", hits, binary=binary)
+    write_hits(tmp_path / "a.uff", hits, binary=binary)
     same_hits(read_records(tmp_path / "a.uff", Named()), hits, rtol=1e-10 if binary else 1e-4)
 
 
@@ -46,7 +46,7 @@ def test_uff_round_trip_of_hits(tmp_path, hits, binary):
 def test_uff_round_trip_of_an_frf(tmp_path, binary, even):
     f = np.linspace(10, 20, 50) if even else np.array([10, 11, 12.5, 15, 20.0, 21])
     frf = Frf(f, np.exp(1j * f), "velocity")
-    uff58.write_frf(tmp_path / "a.uff", {"mobility": frf}, binary=binary)
+    write_frf(tmp_path / "a.uff", {"mobility": frf}, binary=binary)
     (back,) = read_records(tmp_path / "a.uff", Named()).values()
     assert back.motion == "velocity"
     np.testing.assert_allclose(back.frequency_hz, f, rtol=1e-5)

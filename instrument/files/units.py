@@ -30,6 +30,7 @@ _SIMPLE: dict[str, tuple[Quantity, float]] = {
     "lbf": ("force", 4.4482216152605),
 }
 KNOWN = ", ".join(_SIMPLE)
+KNOWN_MOTIONS = ", ".join(name for name, (quantity, _) in _SIMPLE.items() if quantity != "force")
 
 
 @dataclass(frozen=True)

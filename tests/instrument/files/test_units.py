@@ -3,7 +3,7 @@
 import pytest
 
 from fitting.gravity import STANDARD_GRAVITY_M_S2
-from instrument.interchange.units import unit_of
+from instrument.files.units import unit_of
 
 G = STANDARD_GRAVITY_M_S2
 
