@@ -1,7 +1,5 @@
 """Always seen: how the run stands, what comes next, how near the limits are; and the stop button."""
 
-from math import pi
-
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import (
     QFrame,
@@ -16,15 +14,13 @@ from PySide6.QtWidgets import (
 
 from fitting.gravity import PUBLISHED_G_M_S2
 from gui.controller import AppController
-from gui.gauge import Gauge
+from gui.run_gauges import run_gauges, show_on_gauges, state_color
 from gui.state import SessionState
 from gui.state.run import WORDS
 from gui.stop_button import StopButton
-from gui.theme import Role, current_theme
 from gui.widgets import button
 
 _PERMILLE = 1000
-_COLORS: dict[str, Role] = {"held": "fair", "stopped": "bad", "done": "good", "idle": "faint"}
 
 
 class TopBar(QFrame):
@@ -40,7 +36,7 @@ class TopBar(QFrame):
         self.progress.setTextVisible(False)
         self.progress.setFixedWidth(160)
         self.level = QLabel()
-        self.gauges = {name: Gauge(name) for name in ("drive", "base", "velocity", "travel")}
+        self.gauges = run_gauges()
         self.hold = button("Hold", "Silence the shaker and wait (F9)")
         self.abort = button("Abort", "End the run in order; what is complete is kept")
         self.stop = StopButton()
@@ -65,10 +61,8 @@ class TopBar(QFrame):
         if state is None:
             self._say("idle", "no session")
             self.left.clear()
-            self.level.clear()
             self.progress.hide()
-            for gauge in self.gauges.values():
-                gauge.show_value(None)
+            self._show_gauges(None)
             return
         run = state.run
         self.hold.setText("Resume" if run.state == "held" else "Hold")
@@ -86,8 +80,7 @@ class TopBar(QFrame):
             label.setFixedWidth(self.fontMetrics().horizontalAdvance(longest) * 6 // 5)
 
     def _say(self, state: str, words: str) -> None:
-        color = current_theme().color(_COLORS.get(state, "data")).name()
-        self.state.setText(f"<b style='color:{color}'>\u25cf {WORDS[state]}</b>")  # type: ignore[index]
+        self.state.setText(f"<b style='color:{state_color(state)}'>\u25cf {WORDS[state]}</b>")  # type: ignore[index]
         self.next.setText(words)
         self.next.setToolTip(words)
 
@@ -100,21 +93,12 @@ class TopBar(QFrame):
         left = self._desk.feed.left_s if self._desk.feed is not None else None
         self.left.setText("" if left is None or state.run.over else f"{duration(left)} left")
 
-    def _show_gauges(self, state: SessionState) -> None:
-        step, limits = state.step, state.limits.limits
-        if step is None or state.run.over:
+    def _show_gauges(self, state: SessionState | None) -> None:
+        if not show_on_gauges(self.gauges, state) or state is None or state.step is None:
             self.level.clear()
-            for gauge in self.gauges.values():
-                gauge.show_value(None)
             return
-        level = step.began.level_m_s2
+        level = state.step.began.level_m_s2
         self.level.setText(f"level {level / PUBLISHED_G_M_S2:.3g} g" if level is not None else "level \u2013")
-        base, velocity = step.peaks()
-        travel = base / (2 * pi * step.began.frequency_hz) ** 2
-        self.gauges["drive"].show_value(step.drive_v, limits.drive_v, "V")
-        self.gauges["base"].show_value(base, limits.base_m_s2, "m/s\u00b2")
-        self.gauges["velocity"].show_value(1e3 * velocity, 1e3 * limits.velocity_m_s, "mm/s")
-        self.gauges["travel"].show_value(1e3 * travel, 1e3 * limits.travel_m, "mm")
 
     def _arrange(self) -> None:
         above, below = QHBoxLayout(), QHBoxLayout()

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from fitting.modal.frf import Estimate, Refusal
-from instrument.cli.options import json_option
+from instrument.cli.options import figures_option, json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.files.records import Named, read_records
@@ -64,7 +64,7 @@ def _at(_: click.Context, __: click.Parameter, text: str | None) -> tuple[float,
     metavar="PERCENT",
     help="Exponential window ending at this, its damping taken off again. Half power always has one (1 %).",
 )
-@click.option("--figures", type=click.Path(path_type=Path, file_okay=False), help="Folder for figures.")
+@figures_option("Folder for figures.")
 @json_option
 def damping(
     records: tuple[Path, ...],

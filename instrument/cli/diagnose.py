@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from instrument.cli.options import file_argument, json_option
+from instrument.cli.options import figures_option, file_argument, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
 from instrument.cli.reading import read_data, reading_options
@@ -36,12 +36,7 @@ from instrument.stream.jsonable import to_jsonable
     help="Repeat the search on so many sweeps drawn without any effect (p-value), and with segments held "
     "out. Always done for 30 points or fewer; 0 for never.",
 )
-@click.option(
-    "--figures",
-    type=click.Path(path_type=Path, file_okay=False),
-    metavar="FOLDER",
-    help="Save residual, evidence and law as PNG.",
-)
+@figures_option("Save residual, evidence and law as PNG.")
 @json_option
 def diagnose(
     data: Path,

@@ -25,6 +25,13 @@ json_option: Any = click.option(
 )
 
 
+def figures_option(said: str) -> Any:
+    """A folder for figures."""
+    return click.option(
+        "--figures", type=click.Path(path_type=Path, file_okay=False), metavar="FOLDER", help=said
+    )
+
+
 class Frequencies(click.ParamType):  # type: ignore[type-arg]
     """`A:B:STEP` (B included) or a list `F1,F2,...`, in Hz."""
 

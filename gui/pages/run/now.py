@@ -1,21 +1,19 @@
 """How a run or a recorded session stands: large enough to be read from the rig."""
 
-from math import pi
-
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
 from fitting.gravity import PUBLISHED_G_M_S2
 from gui.feeds.live import LiveFeed
 from gui.gauge import Gauge
+from gui.run_gauges import run_gauges, show_on_gauges, state_color
 from gui.state import SessionState
 from gui.state.run import WORDS
 from gui.tables import Cell, Table
-from gui.theme import Role, current_theme
+from gui.theme import Role
 from gui.widgets import hint
 from instrument.engine.messages import Ended
 
-_COLORS: dict[str, Role] = {"held": "fair", "stopped": "bad", "done": "good", "idle": "faint"}
 _COLUMNS = {
     "sweep": "Pass over all segments; 0 is the calibration",
     "segment": "Its number",
@@ -35,7 +33,7 @@ class NowPane(QWidget):
         self.next.setWordWrap(True)
         self.next.setTextFormat(Qt.TextFormat.PlainText)
         self.level = Gauge("level", large=True)
-        self.gauges = {name: Gauge(name, large=True) for name in ("drive", "base", "velocity", "travel")}
+        self.gauges = run_gauges(large=True)
         self.segments = Table(_COLUMNS)
         self.path = QLabel()
         self.path.setWordWrap(True)
@@ -53,10 +51,8 @@ class NowPane(QWidget):
         self.nothing.hide()
         self._whole.show()
         run = state.run
-        color = current_theme().color(_COLORS.get(run.state, "data")).name()
-        self.state.setText(
-            f"<span style='font-size:xx-large; color:{color}'><b>{WORDS[run.state]}</b></span>"
-        )
+        style = f"font-size:xx-large; color:{state_color(run.state)}"
+        self.state.setText(f"<span style='{style}'><b>{WORDS[run.state]}</b></span>")
         self.next.setText(run.next_words)
         self._show_gauges(state)
         words = path_words(live) if live is not None else ending_words(ending)
@@ -83,20 +79,11 @@ class NowPane(QWidget):
         self.segments.scrollToBottom()
 
     def _show_gauges(self, state: SessionState) -> None:
-        step, limits = state.step, state.limits.limits
-        if step is None or state.run.over:
-            for gauge in (self.level, *self.gauges.values()):
-                gauge.show_value(None)
+        if not show_on_gauges(self.gauges, state) or state.step is None:
+            self.level.show_value(None)
             return
-        wanted = step.began.level_m_s2
-        base, velocity = step.peaks()
-        g = PUBLISHED_G_M_S2
-        self.level.show_value(None if wanted is None else wanted / g, limits.base_m_s2 / g, "g")
-        travel = base / (2 * pi * step.began.frequency_hz) ** 2
-        self.gauges["drive"].show_value(step.drive_v, limits.drive_v, "V")
-        self.gauges["base"].show_value(base, limits.base_m_s2, "m/s\u00b2")
-        self.gauges["velocity"].show_value(1e3 * velocity, 1e3 * limits.velocity_m_s, "mm/s")
-        self.gauges["travel"].show_value(1e3 * travel, 1e3 * limits.travel_m, "mm")
+        wanted, most, g = state.step.began.level_m_s2, state.limits.limits.base_m_s2, PUBLISHED_G_M_S2
+        self.level.show_value(None if wanted is None else wanted / g, most / g, "g")
 
     def _arrange(self) -> None:
         self._whole = QWidget()
