@@ -4,7 +4,6 @@ from collections.abc import Collection, Sequence
 from dataclasses import replace
 from typing import Any
 
-from fitting.identification.bare_plate import fit_bare_plate
 from fitting.pointwise import phase_is_kept
 from fitting.sweep import Sweep as Points
 from instrument.errors import BadInput
@@ -53,8 +52,8 @@ def identify(
         phase_is_kept(sweep)
     found = identify_sweep(sweep, model, method, bar, modes)
     facts = identification_facts(found, sweep)
-    if modes is not None:
-        facts["hammer"] = bare_plate_facts(fit_bare_plate(model, *modes), model)
+    if found.bare is not None:
+        facts["hammer"] = bare_plate_facts(found.bare, model)
     if pointwise:
         facts |= second_look_facts(pointwise_of(found, sweep))
     return Identification(to_jsonable({**facts, **said}), plate)

@@ -5,9 +5,8 @@ from pathlib import Path
 
 import click
 
-from fitting.identification.bare_plate import fit_bare_plate
 from fitting.pointwise import phase_is_kept
-from instrument.cli.options import file_argument, json_option
+from instrument.cli.options import figures_option, file_argument, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_identification import print_bare_plate, print_identification
 from instrument.cli.reading import read_data, reading_options
@@ -40,12 +39,7 @@ from instrument.results.pointwise_figures import save_pointwise_figure
     is_flag=True,
     help="Also G* band by band without a law, and whether G' and eta are those of one causal core.",
 )
-@click.option(
-    "--figures",
-    type=click.Path(path_type=Path, file_okay=False),
-    metavar="FOLDER",
-    help="With --pointwise: save the law band by band as PNG.",
-)
+@figures_option("With --pointwise: save the law band by band as PNG.")
 @json_option
 def identify(
     data: Path,
@@ -78,10 +72,9 @@ def identify(
     found: Identified = identify_sweep(given.sweep, read, method, bar, given.modes)
     print_identification(out, found, given.sweep, read)
     facts = identification_facts(found, given.sweep)
-    if given.modes is not None:
-        bare = fit_bare_plate(read, *given.modes)
-        print_bare_plate(out, bare, read)
-        facts["hammer"] = bare_plate_facts(bare, read)
+    if found.bare is not None:
+        print_bare_plate(out, found.bare, read)
+        facts["hammer"] = bare_plate_facts(found.bare, read)
     if pointwise:
         bands = pointwise_of(found, given.sweep)
         out.say(bands.words)

@@ -4,11 +4,11 @@ from dataclasses import dataclass
 
 from pydantic import ValidationError
 
-from fitting.identification.bare_plate import BarePlateFit, fit_bare_plate
+from fitting.identification.bare_plate import BarePlateFit
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.errors import BadInput
-from instrument.files.hammer_file import HammerModes, hammer_modes
+from instrument.files.hammer_file import HammerModes, accepted_modes
 from instrument.files.toml import one_line
 from instrument.models.identification import Identified, identify
 from instrument.progress import Progress, quiet
@@ -31,12 +31,10 @@ def identify_session(contents: Contents, progress: Progress = quiet) -> SessionF
 
     Raises `BadInput` without points, `FittingError` where these points carry no law.
     """
-    specimen, bare = contents.specimen, None
-    modes = session_modes(contents)
-    if modes is not None:
-        bare = fit_bare_plate(specimen, *modes)
+    specimen, modes = contents.specimen, session_modes(contents)
     sweep = session_sweep(contents, specimen)
-    return SessionFit(identify(sweep, specimen, "direct", progress, modes), sweep, specimen, bare)
+    found = identify(sweep, specimen, "direct", progress, modes)
+    return SessionFit(found, sweep, specimen, found.bare)
 
 
 def session_sweep(contents: Contents, specimen: Specimen) -> Sweep:
@@ -48,10 +46,9 @@ def session_sweep(contents: Contents, specimen: Specimen) -> Sweep:
 
 def session_modes(contents: Contents) -> HammerModes | None:
     """The hammer test's accepted modes, if any. Raises `BadInput` where they are beyond what can be used."""
-    found = contents.damping.facts_json if contents.damping is not None else {"modes": ()}
-    if not any(m["accepted"] for m in found["modes"]):
+    if contents.damping is None:
         return None
     try:
-        return hammer_modes(found)
+        return accepted_modes(contents.damping.facts_json)
     except ValidationError as error:
         raise BadInput(f"{contents.path}: {one_line(error, prefix='hammer test: ')}") from None

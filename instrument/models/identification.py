@@ -14,7 +14,7 @@ from fitting.diagnosis.joint import fit_of
 from fitting.diagnosis.prediction import held_out
 from fitting.errors import OutsideModel
 from fitting.identification import paper
-from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
+from fitting.identification.bare_plate import BarePlateFit, fit_bare_plate, with_bare_plate
 from fitting.identification.fit import Fit
 from fitting.identification.result import LOST_PERCENT, Identification, differences_percent, summarise
 from fitting.identification.validation import Validation, rms, validate
@@ -58,6 +58,8 @@ class Identified:
     """The layer-wise theory's error under the law found; None for the paper's method."""
     joint: Joint | None = None
     """What a second look at the same fit needs; None for the paper's method."""
+    bare: BarePlateFit | None = None
+    """What the hammer test gave; None without one."""
 
 
 def identify(
@@ -76,8 +78,9 @@ def identify(
     if specimen.core is None:
         raise OutsideModel("a bare plate has no core to identify, expected [core] and [constraining]")
     start, noise = specimen.core.law, noise_of(sweep)
-    if method == "paper" and hammer is not None:
-        specimen = with_bare_plate(specimen, fit_bare_plate(specimen, *hammer))
+    bare = fit_bare_plate(specimen, *hammer) if hammer is not None else None
+    if method == "paper" and bare is not None:
+        specimen = with_bare_plate(specimen, bare)
     models: Models | None = Models.of(specimen, sweep.frequency_hz, progress) if method == "paper" else None
     setup = seconds = 0.0
     further = remarks_on_noise(sweep)
@@ -109,7 +112,7 @@ def identify(
     with threadpool_limits(1, "blas"), progress("validating") as report:
         validation = problem.validated(sweep, noise, fit, report)
     result = summarise(method, sweep, noise, fit, validation, further)
-    return Identified(result, setup, seconds, perf_counter() - began, theory, problem.joint)
+    return Identified(result, setup, seconds, perf_counter() - began, theory, problem.joint, bare)
 
 
 def _checked(specimen: Specimen, sweep: Sweep, fit: Fit) -> TheoryError:

@@ -9,7 +9,7 @@ from threadpoolctl import threadpool_limits
 from fitting.errors import FittingError
 from fitting.specimen import Specimen
 from instrument.errors import BadInput
-from instrument.files.hammer_file import hammer_modes
+from instrument.files.hammer_file import accepted_modes
 from instrument.models.diagnosis import diagnose
 from instrument.progress import Progress, quiet
 from instrument.results.diagnosis_facts import diagnosis_facts
@@ -52,9 +52,7 @@ def _facts(
     specimen: Specimen,
     progress: Progress,
 ) -> dict[str, object]:
-    hammer = None
-    if damping is not None and any(m["accepted"] for m in damping.facts_json["modes"]):
-        hammer = hammer_modes(damping.facts_json)
+    hammer = accepted_modes(damping.facts_json) if damping is not None else None
     sweep = sweep_of(points, times_s)
     facts = diagnosis_facts(diagnose(sweep, specimen, hammer, progress=progress), sweep)
     facts["warnings"] += uncalibrated(points)

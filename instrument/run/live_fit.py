@@ -7,9 +7,8 @@ from pydantic import ValidationError
 from threadpoolctl import threadpool_limits
 
 from fitting.errors import FittingError
-from fitting.identification.bare_plate import fit_bare_plate
 from fitting.specimen import Specimen
-from instrument.files.hammer_file import hammer_modes
+from instrument.files.hammer_file import accepted_modes
 from instrument.models.identification import identify
 from instrument.progress import Progress, quiet
 from instrument.results.identification_facts import bare_plate_facts, identification_facts
@@ -46,13 +45,10 @@ def fit_points(
 def _facts(
     used: list[PointMeasured], damping: DampingFound | None, specimen: Specimen, progress: Progress
 ) -> dict[str, object]:
-    hammer: dict[str, object] = {}
-    modes = None
-    if damping is not None and any(m["accepted"] for m in damping.facts_json["modes"]):
-        modes = hammer_modes(damping.facts_json)
-        hammer = {"hammer": bare_plate_facts(fit_bare_plate(specimen, *modes), specimen)}
+    modes = accepted_modes(damping.facts_json) if damping is not None else None
     sweep = sweep_of(used)
     found = identify(sweep, specimen, progress=progress, hammer=modes)
+    hammer = {"hammer": bare_plate_facts(found.bare, specimen)} if found.bare is not None else {}
     facts = identification_facts(found, sweep)
     facts["warnings"] += uncalibrated(used)
     kept = {key: value for key, value in facts.items() if key not in _SECONDS}
