@@ -14,15 +14,20 @@ def write_frf(path, frfs, *, binary=True):
     _write(path, [_frf_set(name, frf, binary=binary) for name, frf in frfs.items()])
 
 
-def write_hits(path, hits, *, binary=True):
-    """Each hit as its force and then its responses."""
-    sets = []
+def write_hits(path, hits, *, binary=True, ordinate_axis_units_lab=None, further=()):
+    """Each hit as its force, then its responses, then records of `further` data types."""
+    labels, sets = ordinate_axis_units_lab or {}, []
+
+    def add(name, code, samples, hit, quantity=""):
+        made = _time_set(name, code, samples, hit.sample_rate_hz, binary=binary)
+        sets.append(made | ({"ordinate_axis_units_lab": labels[quantity]} if quantity in labels else {}))
+
     for hit in hits:
-        sets.append(_time_set("force", _FORCE, hit.force_n, hit.sample_rate_hz, binary=binary))
-        sets += [
-            _time_set(c.name, _CODES[c.motion], c.samples, hit.sample_rate_hz, binary=binary)
-            for c in hit.responses
-        ]
+        add("force", _FORCE, hit.force_n, hit, "force")
+        for c in hit.responses:
+            add(c.name, _CODES[c.motion], c.samples, hit, c.motion)
+        for code in further:
+            add("tacho", code, hit.force_n, hit)
     _write(path, sets)
 
 

@@ -1,4 +1,5 @@
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -7,6 +8,7 @@ from impact_cases import BARE_HZ, RATE, TABLE_3, clean_hit, noisy_hits
 from scipy.io import savemat
 from uff_files import write_frf, write_hits
 
+from fitting.gravity import STANDARD_GRAVITY_M_S2 as G
 from fitting.modal.frf import Frf
 from instrument.cli.main import run
 from instrument.errors import BadInput
@@ -51,6 +53,21 @@ def test_uff_round_trip_of_an_frf(tmp_path, binary, even):
     assert back.motion == "velocity"
     np.testing.assert_allclose(back.frequency_hz, f, rtol=1e-5)
     np.testing.assert_allclose(back.H, frf.H, rtol=1e-4)
+
+
+def test_uff_records_are_read_in_the_units_they_are_labelled_with(tmp_path, hits):
+    plain = hits[:1]
+    labelled = [
+        replace(h, responses=(replace(h.responses[0], samples=h.responses[0].samples / G),)) for h in plain
+    ]
+    write_hits(tmp_path / "a.uff", labelled, ordinate_axis_units_lab={"acceleration": "g", "force": "N"})
+    same_hits(read_records(tmp_path / "a.uff", Named()), plain)
+
+
+def test_uff_records_of_no_known_kind_are_left_out(tmp_path, hits):
+    write_hits(tmp_path / "a.uff", hits[:1], further=(0,))
+    (hit,) = read_records(tmp_path / "a.uff", Named())
+    assert len(hit.responses) == 1
 
 
 def test_frf_csv_round_trip(tmp_path):
