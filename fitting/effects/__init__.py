@@ -1,21 +1,66 @@
-"""What a plate or a rig may do that the model lacks, one file each; a new file is found by itself."""
+"""What a plate or a rig may do that the model lacks, one file each; a new file is found by itself.
+
+Other packages add theirs (`fitting.plugins`).
+"""
 
 from importlib import import_module
 from pkgutil import iter_modules
+from typing import Any
 
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.span import Span
+from fitting.plugins import NoPlugin, Registry, derived_from
 
 for _module in iter_modules(__path__):
     import_module(f"{__name__}.{_module.name}")
 
-CATALOGUE: dict[str, Effect] = {cls.name: cls() for cls in Effect.__subclasses__()}
+_OWN: dict[str, Effect] = {
+    cls.name: cls() for cls in Effect.__subclasses__() if cls.__module__.startswith(f"{__name__}.")
+}
+_span_classes: dict[str, type[Span]] = {}
+"""Whose a span's name is."""
+
+
+def _judge(name: str, found: Any) -> Effect:
+    effect = derived_from(Effect, name, found, "name")()
+    if effect.extends is not None and effect.extends not in _OWN:
+        raise NoPlugin(f"it extends {effect.extends!r}, which is no effect of viscorig's own")
+    _claim(effect)
+    return effect
+
+
+def _claim(effect: Effect) -> None:
+    """Names of spans are used by all effects together. Raises `NoPlugin` for one that is another's."""
+    for span in spans_of(effect):
+        if _span_classes.setdefault(span.name, type(span)) is not type(span):
+            raise NoPlugin(f"its span {span.name!r} has the name of another one")
+
+
+def spans_of(effect: Effect) -> list[Span]:
+    """Of all its variants."""
+    return [span for variant in effect.variants() for span in variant.spans]
+
+
+def all_spans() -> list[Span]:
+    """Every span of the catalogue once."""
+    return list({span.name: span for e in CATALOGUE.values() for span in spans_of(e)}.values())
+
+
+def span_modules() -> list[str]:
+    """Modules that say what the reduced plate must span, another package's effects among them."""
+    spanning = {type(span).__module__ for span in all_spans()}
+    return sorted(
+        spanning | {type(e).__module__ for n, e in CATALOGUE.items() if n not in _OWN and spans_of(e)}
+    )
+
+
+for _effect in _OWN.values():
+    _claim(_effect)
+
+CATALOGUE: Registry[Effect] = Registry("viscorig.effects", _OWN, _judge)
 """Every effect by its name."""
 
-SPANS: list[Span] = list(
-    {span.name: span for e in CATALOGUE.values() for v in e.variants() for span in v.spans}.values()
-)
-"""Every span once."""
-
-__all__ = ["CATALOGUE", "SPANS", "Change", "Effect", "EffectParameter", "Points", "Span"]
+__all__ = [
+    "CATALOGUE", "Change", "Effect", "EffectParameter", "Points", "Span", "all_spans", "span_modules",
+]  # fmt: skip

@@ -1,14 +1,25 @@
-"""Core laws, one file each. A new file with a `CoreLaw` in it is found by itself."""
+"""Core laws, one file each. A new file with a `CoreLaw` in it is found by itself; other packages add theirs."""
 
 from importlib import import_module
 from pkgutil import iter_modules
+from typing import Any
 
 from fitting.laws.base import CoreLaw, Quantity
+from fitting.plugins import Registry, derived_from
 
 for _module in iter_modules(__path__):
     import_module(f"{__name__}.{_module.name}")
 
-LAWS: dict[str, type[CoreLaw]] = {law.kind: law for law in CoreLaw.__subclasses__()}
+
+def _judge(name: str, found: Any) -> type[CoreLaw]:
+    return derived_from(CoreLaw, name, found, "kind")
+
+
+LAWS: Registry[type[CoreLaw]] = Registry(
+    "viscorig.laws",
+    {law.kind: law for law in CoreLaw.__subclasses__() if law.__module__.startswith(f"{__name__}.")},
+    _judge,
+)
 """Every law by its `kind`."""
 
 __all__ = ["LAWS", "CoreLaw", "Quantity"]

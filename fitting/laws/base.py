@@ -13,6 +13,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.errors import OutsideModel
+from fitting.laws.vicinity import Vicinity
 
 _UNITS = ("_pa", "_rad_s", "_s")
 """How a name may end; a list's number goes before it."""
@@ -96,6 +97,11 @@ class CoreLaw:
 
     def objections(self) -> list[str]:
         """What is unphysical about the parameters together, in words."""
+        return []
+
+    @classmethod
+    def alternatives(cls, near: Vicinity) -> list["CoreLaw"]:
+        """Laws of this kind to try where the stated one may be another (the effect `core_law`); none by default."""
         return []
 
     @classmethod

@@ -8,6 +8,7 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.errors import OutsideModel
 from fitting.laws.base import CoreLaw, quantity
+from fitting.laws.vicinity import Vicinity
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,15 @@ class GeneralisedMaxwell(CoreLaw):
                 f"core law {self.kind}: {len(self.g_pa)} g_mpa and {len(self.tau_s)} tau_s, "
                 "expected as many of one as of the other, at least one"
             )
+
+    @classmethod
+    def alternatives(cls, near: Vicinity) -> list[CoreLaw]:
+        (rest, rise), tau = near.rest_and_rise_pa, near.times_s
+        return [
+            cls(rest, (2 * rise,), (tau[0],)),
+            cls(rest, (2 * rise, 0.3 * rise), (tau[0], tau[1])),
+            cls(rest, (2 * rise, 0.3 * rise, 0.1 * rise), (tau[0], tau[1], tau[2])),
+        ]
 
     def modulus(self, omega: Array) -> Complex:
         s = 1j * np.multiply.outer(np.array(self.tau_s), omega)

@@ -8,6 +8,7 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.errors import OutsideModel
 from fitting.laws.base import CoreLaw, quantity
+from fitting.laws.vicinity import Vicinity
 
 
 @dataclass(frozen=True)
@@ -34,6 +35,11 @@ class GollaHughesMcTavish(CoreLaw):
                 f"core law {self.kind}: {len(self.alpha)} alpha, {len(self.zeta)} zeta and "
                 f"{len(self.omega_rad_s)} omega_rad_s, expected as many of each, at least one"
             )
+
+    @classmethod
+    def alternatives(cls, near: Vicinity) -> list[CoreLaw]:
+        rest, rise = near.rest_and_rise_pa
+        return [cls(rest, (2 * rise / rest,), (1.0,), (2 / near.times_s[0],))]
 
     def modulus(self, omega: Array) -> Complex:
         relaxed, _, _ = self._terms(omega)

@@ -12,6 +12,7 @@ from scipy.interpolate import CubicSpline
 from fitting.arrays import Array, Complex
 from fitting.errors import OutsideModel
 from fitting.laws.base import CoreLaw, fixed, quantity
+from fitting.laws.vicinity import LOSS, STORAGE_PA, Vicinity
 
 
 @dataclass(frozen=True)
@@ -43,6 +44,24 @@ class Smooth(CoreLaw):
                 f"core law {self.kind}: {len(f)} frequency_hz, {len(self.g_pa)} g_mpa and "
                 f"{len(self.loss_factor)} loss_factor, expected as many of each"
             )
+
+    @classmethod
+    def alternatives(cls, near: Vicinity) -> list[CoreLaw]:
+        knots = near.sextiles_hz
+        return [
+            cls._near(near, sorted({knots[k] for k in some}))
+            for some in ((0, 3, 5), (0, 1, 3, 5), (0, 1, 2, 3, 4, 5))
+        ]
+
+    @classmethod
+    def _near(cls, law: Vicinity, knots_hz: list[float]) -> Self:
+        """Through a law at the knots, where that is a material."""
+        G, eta = law.storage_and_loss(2 * np.pi * np.array(knots_hz))
+        return cls(
+            tuple(knots_hz),
+            tuple(float(g) for g in np.clip(G, *STORAGE_PA)),
+            tuple(float(e) for e in np.clip(eta, *LOSS)),
+        )
 
     @classmethod
     def through(cls, law: CoreLaw, frequency_hz: Sequence[float] | Array) -> Self:

@@ -11,6 +11,7 @@ import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from functools import cache
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -84,7 +85,8 @@ def _plain(value: Any) -> Any:
 def _sources(modules: tuple[str, ...]) -> str:
     """A digest of the code that builds models: an older version's files are stale.
 
-    Of some modules of `fitting` and all that they import from it, not of those that only use models.
+    Of some modules of `fitting` and all that they import from it, not of those that only use models; of a module
+    from elsewhere, an effect that another package adds, its whole package, and what that imports from `fitting`.
     """
     folder = Path(fitting.__file__).parent
     digest, left, seen = hashlib.sha256(), list(modules), set[Path]()
@@ -102,6 +104,18 @@ _IMPORTED = re.compile(r"^from (fitting[\w.]*) import", re.MULTILINE)
 
 
 def _files(folder: Path, module: str) -> list[Path]:
+    if module.partition(".")[0] != fitting.__name__:
+        return _elsewhere(module.partition(".")[0])
     place = folder.joinpath(*module.split(".")[1:])
     found = [place.with_suffix(".py"), place / "__init__.py"]
     return [path for path in found if path.is_file()]
+
+
+def _elsewhere(package: str) -> list[Path]:
+    """Every source of another package, or the file of a module that stands alone."""
+    spec = find_spec(package)
+    if spec is None:
+        return []
+    if spec.submodule_search_locations is not None:
+        return sorted(path for place in spec.submodule_search_locations for path in Path(place).rglob("*.py"))
+    return [Path(spec.origin)] if spec.origin is not None and Path(spec.origin).is_file() else []

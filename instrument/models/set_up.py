@@ -9,7 +9,7 @@ from fitting.arrays import Array
 from fitting.bare_modes import Sensor
 from fitting.diagnosis.evidence import BareModes
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.effects import SPANS
+from fitting.effects import all_spans, span_modules
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.enriching import enriched
 from fitting.effects.full_plate import FullPlate
@@ -144,10 +144,9 @@ def _spanned(models: Models) -> EnrichedReducedPlate:
     def build() -> EnrichedReducedPlate:
         full = FullPlate(models.plate, models.damping)
         with models.progress("spanning what effects change") as report:
-            return enriched(full, models.plate.even @ reduced.V, SPANS, report)
+            return enriched(full, models.plate.even @ reduced.V, all_spans(), report)
 
-    spans = sorted({type(span).__module__ for span in SPANS})
-    return cached("spanned", [models.without_law, models.domain], EnrichedReducedPlate, build, spans)
+    return cached("spanned", [models.without_law, models.domain], EnrichedReducedPlate, build, span_modules())
 
 
 def _bare(modes: MatchedModes, specimen: Specimen) -> BareModes:

@@ -10,7 +10,7 @@ import scipy.sparse.linalg as sla
 from fitting.damping import viscous_damping
 from fitting.diagnosis.plate_answer import answer
 from fitting.domain import domain_of
-from fitting.effects import CATALOGUE, SPANS, Change
+from fitting.effects import CATALOGUE, Change, all_spans
 from fitting.effects.clamp_compliance import root_springs
 from fitting.effects.enriching import enriched
 from fitting.effects.full_plate import FullPlate
@@ -37,7 +37,7 @@ class Full:
         self.full = FullPlate(self.plate, self.damping)
         domain = domain_of(self.specimen, np.array([14.0, 300.0]))
         reduced = reduce_plate(self.plate, self.damping, domain)
-        self.spanned = enriched(self.full, self.plate.even @ reduced.V, SPANS)
+        self.spanned = enriched(self.full, self.plate.even @ reduced.V, all_spans())
 
     def direct(self, *, K=0.0, K_1=0.0, M=0.0, load=0.0, row=None, root=None, damping=1.0, pitch=False):
         loose, found = self.full.loose, []

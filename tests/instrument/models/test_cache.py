@@ -144,3 +144,17 @@ def test_further_modules_count_too(sources):
     (sources / "d.py").write_text("three = 4\n")
     assert digest("fitting.a", "fitting.d") != before
     assert digest("fitting.a") != digest("fitting.a", "fitting.d")
+
+
+def test_of_another_packages_effect_the_whole_package_counts(sources, tmp_path, monkeypatch):
+    package = tmp_path / "another_package"
+    package.mkdir()
+    (package / "__init__.py").write_text("")
+    (package / "effect.py").write_text("from fitting.d import three\n")
+    (package / "helper.py").write_text("")
+    monkeypatch.syspath_prepend(tmp_path)
+    seen = [digest("fitting.a", "another_package.effect")]
+    for changed in (package / "helper.py", sources / "d.py"):
+        changed.write_text(changed.read_text() + "# another version\n")
+        seen.append(digest("fitting.a", "another_package.effect"))
+    assert len(set(seen)) == 3
