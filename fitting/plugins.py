@@ -125,7 +125,9 @@ class Registry(Mapping[str, T], Generic[T]):
         others = self._others
         if name in self._own:
             own = self._own[name]
-            return self._judge(name, EntryPoint(name, own, self.group).load()) if isinstance(own, str) else own
+            return (
+                self._judge(name, EntryPoint(name, own, self.group).load()) if isinstance(own, str) else own
+            )
         if name not in others:
             return None
         try:

@@ -70,6 +70,10 @@ class Shaker(Protocol):
         """The heartbeat. Without one within the device's time-out it goes silent by itself."""
         ...
 
+    def set_heartbeat_timeout_s(self, timeout_s: float) -> None:
+        """How long without a beat the device waits until it goes silent. Told at the start of a run."""
+        ...
+
     def status(self) -> ShakerStatus:
         """What the device says of itself."""
         ...

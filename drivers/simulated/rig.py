@@ -1,9 +1,13 @@
-"""The simulated rig: one world behind a Modbus shaker, a serial vibrometer and a LAN-XI front-end."""
+"""The simulated rig: one world behind a Modbus shaker, a serial vibrometer and a LAN-XI front-end.
+
+The vibrometer speaks Polytec's language, unless another driver's own simulated one takes its place.
+"""
 
 import json
 import threading
 import time
-from contextlib import ExitStack
+from collections.abc import Callable
+from contextlib import AbstractContextManager, ExitStack
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -13,9 +17,12 @@ from drivers.simulated.modbus_server import ModbusShakerServer
 from drivers.simulated.shaker_device import LogEntry, ShakerDevice
 from drivers.simulated.vibrometer_server import Head, VibrometerServer
 from drivers.simulated.world import World
+from drivers.vibrometer.driver import Optics
 from drivers.vibrometer.interface import Range
 
 SAMPLE_RATES_HZ = tuple(131072.0 / 2**k for k in range(10))
+OWN_MODEL = "OFV-5000"
+"""What the vibrometer is where nothing is said."""
 _TICK_S = 0.02
 _LONGEST_RAMP_S = 60.0
 _GRACE_S = 1.0
@@ -29,14 +36,36 @@ class Ports:
     front_end: int = 0
 
 
+VibrometerPeer = Callable[[Optics], AbstractContextManager[str]]
+"""Another simulated vibrometer: entered it answers at the address it gives."""
+
+
+class RigOptics:
+    """`Optics` of a world's laser."""
+
+    def __init__(self, world: World, signal_level: float) -> None:
+        self._world, self._signal_level = world, signal_level
+
+    @property
+    def signal_level(self) -> float:
+        """How much light comes back, 0 to 1."""
+        return self._signal_level
+
+    def choose(self, chosen: Range) -> None:
+        """The range in use from now on."""
+        with self._world.lock:
+            self._world.laser.scale_m_s_v = chosen.scale_m_s_v
+            self._world.laser.full_scale_v = chosen.full_scale_v
+
+
 class SimulatedRig:
-    """Stands from entering to leaving the context."""
+    """Stands from entering to leaving the context. `vibrometer` takes the place of the one with `model`."""
 
     def __init__(
         self,
         world: World,
         *,
-        model: str,
+        model: str = OWN_MODEL,
         signal_level: float,
         delay_s: dict[str, float],
         limit_v: float,
@@ -45,6 +74,7 @@ class SimulatedRig:
         heartbeat_timeout_s: float = 2.0,
         ports: Ports = Ports(),
         log: Path | None = None,
+        vibrometer: VibrometerPeer | None = None,
     ) -> None:
         self.world, self._ports, self._log_path = world, ports, log
         self._written = 0
@@ -57,7 +87,11 @@ class SimulatedRig:
             emergency_ramp_s=0.0 if world.virtual else 0.1,
         )
         world.advance = self.device.advance
-        self._head = Head(model=model, signal_level=signal_level, delay_s=delay_s, on_range=self._on_range)
+        self._optics = RigOptics(world, signal_level)
+        self._head = Head(
+            model=model, signal_level=signal_level, delay_s=delay_s, on_range=self._optics.choose
+        )
+        self._peer = vibrometer
         self._ending = threading.Event()
         self._stack = ExitStack()
 
@@ -65,8 +99,7 @@ class SimulatedRig:
         """Addresses by the names `viscorig simulate` prints."""
         world = self.world
         with ExitStack() as stack:
-            self._on_range(self._head.range)
-            vibrometer = stack.enter_context(VibrometerServer(self._head, lock=world.lock))
+            vibrometer_tty = self._stand_up_vibrometer(stack)
             inputs = max(8, *world.wiring.inputs)
             front_end = stack.enter_context(
                 LanXiServer(
@@ -94,12 +127,12 @@ class SimulatedRig:
             stack.callback(ticking.join)
             stack.callback(self._ending.set)
             self._stack = stack.pop_all()
-        self.front_end, self.vibrometer, self.modbus = front_end, vibrometer, modbus
+        self.front_end, self.modbus = front_end, modbus
         host, port = modbus.address
         return {
             "modbus_tcp": f"{host}:{port}",
             "modbus_rtu": modbus.rtu_path or "",
-            "vibrometer_tty": vibrometer.path,
+            "vibrometer_tty": vibrometer_tty,
             "frontend_url": front_end.url,
         }
 
@@ -118,9 +151,13 @@ class SimulatedRig:
         with self.world.lock:
             return self.device.status(self.world.clock()[1]).running
 
-    def _on_range(self, chosen: Range) -> None:
-        laser = self.world.laser
-        laser.scale_m_s_v, laser.full_scale_v = chosen.scale_m_s_v, chosen.full_scale_v
+    def _stand_up_vibrometer(self, stack: ExitStack) -> str:
+        """Where it answers."""
+        if self._peer is not None:
+            return stack.enter_context(self._peer(self._optics))
+        self._optics.choose(self._head.range)
+        self.vibrometer = stack.enter_context(VibrometerServer(self._head, lock=self.world.lock))
+        return self.vibrometer.path
 
     def _tick(self) -> None:
         while not self._ending.wait(_TICK_S):

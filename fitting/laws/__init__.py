@@ -1,4 +1,4 @@
-"""Core laws, one file each. A new file with a `CoreLaw` in it is found by itself; other packages add theirs."""
+"""Core laws, one file each. A new file with a `CoreLaw` is found by itself; other packages add theirs."""
 
 from importlib import import_module
 from pkgutil import iter_modules

@@ -101,7 +101,7 @@ class CoreLaw:
 
     @classmethod
     def alternatives(cls, near: Vicinity) -> list["CoreLaw"]:
-        """Laws of this kind to try where the stated one may be another (the effect `core_law`); none by default."""
+        """Laws of this kind to try in the place of the stated one (effect `core_law`); none by default."""
         return []
 
     @classmethod

@@ -27,7 +27,7 @@ class Vicinity:
 
     @property
     def rest_and_rise_pa(self) -> tuple[float, float]:
-        """A modulus at rest somewhat below G' at the lowest frequency, and by how much G' rises to the highest."""
+        """A modulus at rest, somewhat below G' at the lowest frequency, and its rise to the highest."""
         G = np.clip(self.storage_and_loss(2 * np.pi * np.array(self.ends_hz))[0], *STORAGE_PA)
         return float(0.8 * G[0]), float(max(G[1] - G[0], 0.1 * G[0]))
 

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from drivers.vibrometer.models import MODELS
 from fitting.errors import FittingError
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Specimen
@@ -21,6 +20,7 @@ from instrument.check.forecast import (
     with_next_coarser,
 )
 from instrument.errors import BadInput
+from instrument.files.devices import ranges_of
 from instrument.files.experiment_file import experiment_faults, read_experiment
 from instrument.files.rig_file import RigDocument
 from instrument.files.specimen_file import read_specimen
@@ -130,8 +130,7 @@ def _sweep(
     table = experiment.document.sweep
     if table is None:
         return (), 0.0, []
-    model = MODELS[experiment.rig.vibrometer.model]
-    ranges = distinct(model.ranges)
+    ranges = distinct(ranges_of(experiment.rig.vibrometer))
     planned, sentinel = planned_segments(forecast, table, ranges)
     names = with_next_coarser([s.range_name for s in planned], ranges)
     calibration = calibration_segments(table, names, ranges)

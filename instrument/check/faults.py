@@ -2,10 +2,10 @@
 
 from collections.abc import Iterator
 
-from drivers.vibrometer.models import MODELS
 from fitting.gravity import PUBLISHED_G_M_S2
 from instrument.check.forecast import Forecast, distinct, planned_segment
 from instrument.errors import BadInput
+from instrument.files.devices import ranges_of
 from instrument.session.configuration import Experiment
 from instrument.session.setup import sweep_settings
 from instrument.simulated_case.simulation import refuse_simulation
@@ -55,7 +55,7 @@ def _sweep(experiment: Experiment, forecast: Forecast) -> Iterator[str]:
     table, path = experiment.document.sweep, experiment.path
     if table is None:
         return
-    ranges = distinct(MODELS[experiment.rig.vibrometer.model].ranges)
+    ranges = distinct(ranges_of(experiment.rig.vibrometer))
     highest = experiment.rig.front_end.sample_rate_hz / _SAMPLES_A_CYCLE
     frequencies: list[tuple[str, float]] = []
     for number, segment in enumerate(table.segments, start=1):

@@ -1,24 +1,27 @@
 """The client's own way to the shaker, past the engine: a second connection, kept ready.
 
-A Modbus TCP device takes several; a serial line has room for one program, so there the way opens only when
-the engine's process has ended. Until then the engine itself stops the shaker when it is told to.
+A Modbus TCP device takes several; a serial line has room for one program, so there, and wherever a driver
+does not say that its device is shared, the way opens only when the engine's process has ended. Until then
+the engine itself stops the shaker when it is told to.
 """
 
 import threading
 from collections.abc import Callable
 
 from drivers.errors import DriverError
+from drivers.shaker.driver import ShakerOptions
 from instrument.engine.messages import StopPathChanged
 from instrument.engine.stoppable import came_to_rest
-from instrument.files.rig_file import Shaker
+from instrument.files.devices import SHAKERS
 from instrument.run.rig import open_shaker
 
 _TRIED_EVERY_S = 1.0
 """Devices close connections that are idle."""
 _ANSWER_S, _RETRIES = 0.5, 2
 """A stop that waits longer for one answer had better begin again."""
-_SERIAL = (
-    "serial line: the engine itself stops the shaker; where it does not answer, its process is ended first"
+_ALONE = (
+    "one connection at a time: the engine itself stops the shaker; "
+    "where it does not answer, its process is ended first"
 )
 
 
@@ -33,9 +36,9 @@ class StopPath:
         Told when the connection stands, and when it does not any more; on a thread of its own.
     """
 
-    def __init__(self, table: Shaker, changed: Callable[[StopPathChanged], object]) -> None:
+    def __init__(self, table: ShakerOptions, changed: Callable[[StopPathChanged], object]) -> None:
         self._shaker = open_shaker(table, timeout_s=_ANSWER_S, retries=_RETRIES)
-        self.is_shared = table.kind == "modbus-tcp"
+        self.is_shared = SHAKERS[table.kind].is_shared
         """Whether it works beside the engine."""
         self._changed = changed
         self._closing = threading.Event()
@@ -54,7 +57,7 @@ class StopPath:
 
     def _keep_ready(self) -> None:
         if not self.is_shared:
-            self._changed(StopPathChanged(False, _SERIAL))
+            self._changed(StopPathChanged(False, _ALONE))
             return
         told: StopPathChanged | None = None
         while not self._closing.is_set():

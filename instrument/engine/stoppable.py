@@ -51,6 +51,10 @@ class StoppableShaker:
         """The heartbeat."""
         self._shaker.beat()
 
+    def set_heartbeat_timeout_s(self, timeout_s: float) -> None:
+        """How long the device waits for a beat."""
+        self._shaker.set_heartbeat_timeout_s(timeout_s)
+
     def status(self) -> ShakerStatus:
         """What the device says of itself."""
         return self._shaker.status()

@@ -6,64 +6,27 @@ A device's address is where it answers; "simulated" means the one stood up for t
 from datetime import date
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field, SerializeAsAny, model_validator
 
-from drivers.shaker.register_map import DEFAULT
+from drivers.front_end.driver import FrontEndOptions
+from drivers.options import NOT_KEPT, SIMULATED
+from drivers.shaker.driver import ShakerOptions
+from drivers.vibrometer.driver import VibrometerOptions
+from instrument.files.devices import by_kind
 from instrument.files.toml import NotNegative, Number, Positive, Table
 from instrument.stepped_sine.settings import Limits
 
-SIMULATED = "simulated"
-NOT_KEPT = "-"
-"""Address of a simulated device in a session: it was another one each time."""
 Input = Annotated[int, Field(ge=1, le=64)]
 
 
 _LIMITS = Limits()
 
-
-class Shaker(Table):
-    """The shaker's controller or amplifier."""
-
-    kind: Literal["modbus-tcp", "modbus-rtu"] = "modbus-tcp"
-    address: str
-    """host:port, or a serial port."""
-    baud: Annotated[int, Field(gt=0)] = 115200
-    unit: Annotated[int, Field(ge=0, le=255)] = 1
-    registers: dict[str, Annotated[int, Field(ge=0, le=65535)]] = Field(default_factory=dict)
-    """Addresses that differ from the documented map, by name."""
-    heartbeat_timeout_s: Annotated[float, Field(ge=0.5, le=10)] = 2.0
-    """Told to the device: without a beat for so long it goes silent. The run beats five times a second."""
-
-    @model_validator(mode="after")
-    def _reachable(self) -> "Shaker":
-        DEFAULT.with_addresses(self.registers)
-        if self.kind == "modbus-tcp" and self.address not in (SIMULATED, NOT_KEPT):
-            host, _, port = self.address.rpartition(":")
-            if not host or not port.isdecimal() or not 0 < int(port) < 65536:
-                raise ValueError(f"address: {self.address!r}, expected host:port")
-        return self
-
-
-class Vibrometer(Table):
-    """The laser vibrometer. Its samples come through the front-end."""
-
-    kind: Literal["polytec"] = "polytec"
-    address: str
-    model: Literal["OFV-5000", "OFV-5000 VD-08", "PDV-100"] = "OFV-5000"
-    baud: Annotated[int, Field(gt=0)] = 115200
-    reads: Literal["absolute", "relative"] = "absolute"
-    """A laser on a tripod reads absolute velocity; one that rides with the clamp, relative."""
-
-
-class FrontEnd(Table):
-    """The data acquisition."""
-
-    kind: Literal["lan-xi", "ni-daqmx"] = "lan-xi"
-    address: str
-    """URL, or the name of the device."""
-    sample_rate_hz: Annotated[float, Field(ge=100, le=1e6)] = 8192.0
-    paced_by_reader: bool = False
-    """Of a `viscorig simulate --virtual-time` alone: it makes samples as they are asked for."""
+Shaker = Annotated[SerializeAsAny[ShakerOptions], by_kind("shaker")]
+"""The shaker's table, as its driver has it."""
+Vibrometer = Annotated[SerializeAsAny[VibrometerOptions], by_kind("vibrometer")]
+"""The vibrometer's table, as its driver has it."""
+FrontEnd = Annotated[SerializeAsAny[FrontEndOptions], by_kind("front_end")]
+"""The front-end's table, as its driver has it."""
 
 
 class Sensor(Table):

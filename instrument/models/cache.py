@@ -85,8 +85,8 @@ def _plain(value: Any) -> Any:
 def _sources(modules: tuple[str, ...]) -> str:
     """A digest of the code that builds models: an older version's files are stale.
 
-    Of some modules of `fitting` and all that they import from it, not of those that only use models; of a module
-    from elsewhere, an effect that another package adds, its whole package, and what that imports from `fitting`.
+    Of some modules of `fitting` and all that they import from it, not of those that only use models. Of a
+    module from elsewhere, an effect that another package adds, its whole package and what that imports.
     """
     folder = Path(fitting.__file__).parent
     digest, left, seen = hashlib.sha256(), list(modules), set[Path]()

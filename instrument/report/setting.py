@@ -66,7 +66,7 @@ def rig_section(contents: Contents) -> Section:
     instruments: Block = Sentence("The session holds no instrument's identity.", "note")
     if contents.began:
         named = {**contents.began[-1].instruments, "sampled at": _rates(contents)}
-        named |= {"vibrometer's model in the rig file": c.rig.vibrometer.model}
+        named |= {"vibrometer's model in the rig file": c.rig.vibrometer.model_name}
         rows = tuple((k.replace("_", " "), v) for k, v in named.items() if v)
         instruments = Facts(f"Instruments of {c.rig.name!r}", rows)
     return Section("Rig", (instruments, _sensors(contents), Facts("Mounting", tuple(mounting))))

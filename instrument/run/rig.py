@@ -8,20 +8,15 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Timer
-from typing import Any
 
 from drivers.errors import Unreachable
 from drivers.front_end import FrontEnd
-from drivers.front_end.lan_xi import LanXiFrontEnd
-from drivers.front_end.ni_daqmx import NiDaqmxFrontEnd
 from drivers.shaker import Shaker
-from drivers.shaker.modbus import ModbusShaker
-from drivers.shaker.register_map import DEFAULT
+from drivers.shaker.driver import ShakerOptions
 from drivers.vibrometer import Vibrometer
-from drivers.vibrometer.serial_port import PolytecVibrometer
+from instrument.files.devices import FRONT_ENDS, SHAKERS, VIBROMETERS
 from instrument.files.experiment_file import Hammer
 from instrument.files.rig_file import RigDocument, Sensor
-from instrument.files.rig_file import Shaker as ShakerTable
 from instrument.run.operator import Operator, Person, SimulatedOperator
 
 _SIMULATOR_STARTS_S = 30.0
@@ -75,11 +70,9 @@ def open_rig(document: RigDocument, path: Path, hammer: Hammer | None) -> Iterat
         shaker = open_shaker(document.shaker)
         stack.callback(shaker.close)
         shaker.set_heartbeat_timeout_s(document.shaker.heartbeat_timeout_s)
-        vibrometer = PolytecVibrometer(
-            document.vibrometer.address, model=document.vibrometer.model, baud=document.vibrometer.baud
-        )
+        vibrometer = VIBROMETERS[document.vibrometer.kind].open(document.vibrometer)
         stack.callback(vibrometer.close)
-        front_end = _front_end(document)
+        front_end = FRONT_ENDS[document.front_end.kind].open(document.front_end)
         stack.callback(front_end.close)
         yield Rig(
             shaker,
@@ -92,14 +85,9 @@ def open_rig(document: RigDocument, path: Path, hammer: Hammer | None) -> Iterat
         )
 
 
-def open_shaker(table: ShakerTable, *, timeout_s: float = 1.0, retries: int = 2) -> ModbusShaker:
-    """The shaker a rig file names; it is connected to when first used."""
-    registers = DEFAULT.with_addresses(table.registers)
-    options: dict[str, Any] = {"registers": registers, "timeout_s": timeout_s, "retries": retries}
-    if table.kind == "modbus-rtu":
-        return ModbusShaker.rtu(table.address, baud=table.baud, unit=table.unit, **options)
-    host, _, port = table.address.rpartition(":")
-    return ModbusShaker.tcp(host, int(port), unit=table.unit, **options)
+def open_shaker(table: ShakerOptions, *, timeout_s: float = 1.0, retries: int = 2) -> Shaker:
+    """The shaker a rig file names; it may be connected to when first used."""
+    return SHAKERS[table.kind].open(table, timeout_s=timeout_s, retries=retries)
 
 
 @contextmanager
@@ -133,7 +121,7 @@ def simulator(path: Path, *options: str) -> Iterator[Addresses]:
 
 
 def _at(document: RigDocument, addresses: Addresses) -> RigDocument:
-    shaker = addresses.modbus_tcp if document.shaker.kind == "modbus-tcp" else addresses.modbus_rtu
+    shaker = addresses.modbus_rtu if document.shaker.kind == "modbus-rtu" else addresses.modbus_tcp
     return document.model_copy(
         update={
             "shaker": document.shaker.model_copy(update={"address": shaker}),
@@ -143,13 +131,6 @@ def _at(document: RigDocument, addresses: Addresses) -> RigDocument:
             ),
         }
     )
-
-
-def _front_end(document: RigDocument) -> FrontEnd:
-    table = document.front_end
-    if table.kind == "ni-daqmx":
-        return NiDaqmxFrontEnd(table.address)
-    return LanXiFrontEnd(table.address, paced_by_reader=table.paced_by_reader)
 
 
 def _operator(document: RigDocument, hammer: Hammer | None) -> Operator:

@@ -1,20 +1,23 @@
 """From RIG.toml's [simulation] to the simulated rig: its plates, sensors, and what it hides."""
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import MISSING, fields
 from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
+from drivers.shaker.modbus_driver import ModbusOptions
 from drivers.shaker.register_map import DEFAULT
 from drivers.simulated.plant.effects import CoreLaw, Effects
 from drivers.simulated.plant.law import MaxwellLaw
 from drivers.simulated.plates import BarePlate, DampedPlate
-from drivers.simulated.rig import Ports, SimulatedRig
+from drivers.simulated.rig import OWN_MODEL, Ports, SimulatedRig, VibrometerPeer
 from drivers.simulated.sensors import Sensor
 from drivers.simulated.world import Laser, Plate, Wiring, World
-from drivers.vibrometer.models import model_named
+from drivers.vibrometer.driver import Optics
+from drivers.vibrometer.polytec_driver import PolytecOptions
 from instrument.errors import BadInput
+from instrument.files.devices import VIBROMETERS, ranges_of
 from instrument.files.rig_file import Channels, RigDocument, Simulation
 
 _QUANTITIES = {
@@ -55,19 +58,22 @@ def simulated_rig(
         raise BadInput(f"{path}: [simulation] is missing, expected it for a rig to simulate; it may be empty")
     try:
         world = _world(document, simulation, virtual_time)
-        registers = DEFAULT.with_addresses(document.shaker.registers)
     except (ValueError, TypeError) as error:
         raise BadInput(f"{path}: simulation: {error}") from None
+    _refuse_without_peer(document, path)
+    shaker, vibrometer = document.shaker, document.vibrometer
+    modbus = shaker if isinstance(shaker, ModbusOptions) else None
     rig = SimulatedRig(
         world,
-        model=document.vibrometer.model,
+        model=vibrometer.model if isinstance(vibrometer, PolytecOptions) else OWN_MODEL,
         signal_level=simulation.signal_level,
         delay_s={},
         limit_v=document.limits.drive_v,
-        registers=registers,
-        unit=document.shaker.unit,
+        registers=DEFAULT.with_addresses(modbus.registers) if modbus is not None else DEFAULT,
+        unit=modbus.unit if modbus is not None else 1,
         ports=Ports(*ports),
         log=log or (path.parent / simulation.log if simulation.log else None),
+        vibrometer=_peer(document),
     )
     with rig as addresses:
         yield addresses
@@ -84,6 +90,30 @@ def refuse_simulation(document: RigDocument, path: Path) -> None:
             raise ValueError(f"log: {log}: no such folder")
     except (ValueError, TypeError) as error:
         raise BadInput(f"{path}: simulation: {error}") from None
+    _refuse_without_peer(document, path)
+
+
+def _refuse_without_peer(document: RigDocument, path: Path) -> None:
+    """Raises `BadInput` for a device that nothing here can play."""
+    for name, played in (("shaker", ("modbus-tcp", "modbus-rtu")), ("front_end", ("lan-xi",))):
+        kind = getattr(document, name).kind
+        if document.is_simulated and kind not in played:
+            raise BadInput(f"{path}: {name}.kind: {kind!r} is not simulated, expected {' or '.join(played)}")
+    kind = document.vibrometer.kind
+    if kind != "polytec" and not VIBROMETERS[kind].can_be_simulated:
+        raise BadInput(f"{path}: vibrometer.kind: {kind!r}: its driver brings no simulated one")
+
+
+def _peer(document: RigDocument) -> VibrometerPeer | None:
+    """The simulated vibrometer that another package's driver brings."""
+    table = document.vibrometer
+    if isinstance(table, PolytecOptions):
+        return None
+
+    def peer(optics: Optics) -> AbstractContextManager[str]:
+        return VIBROMETERS[table.kind].simulated(table, optics)
+
+    return peer
 
 
 def _world(document: RigDocument, simulation: Simulation, virtual_time: bool) -> World:
@@ -91,7 +121,7 @@ def _world(document: RigDocument, simulation: Simulation, virtual_time: bool) ->
     delay = simulation.vibrometer_delay_s + channel.get("channel_delay", {}).get("delay_s", 0.0)
     gain = channel.get("gain_error", {}).get("factor", 1.0)
     absolute = document.vibrometer.reads == "absolute" or "absolute_velocity" in channel
-    chosen = model_named(document.vibrometer.model).ranges[0]
+    chosen = ranges_of(document.vibrometer)[0]
     laser = Laser(
         chosen.scale_m_s_v,
         chosen.full_scale_v,

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from drivers.shaker.modbus_driver import ModbusTcpOptions
 from instrument.engine.messages import (
     Answered,
     Asked,
@@ -23,7 +24,6 @@ from instrument.engine.messages import (
     StopPathChanged,
 )
 from instrument.engine.wire import encode, read
-from instrument.files.rig_file import Shaker
 from instrument.stream.derived import FitUpdated
 from instrument.stream.raw import BlockAcquired, StepBegan
 
@@ -39,7 +39,7 @@ MESSAGES = (
     Asked("mount", "bare"),
     Logged("2026-04-01T08:00:05+00:00", "WARNING", "line\nand another"),
     RecordingBegan(Path("x.running"), Path("x.h5")),
-    RigOpened(Shaker(address="127.0.0.1:502", registers={"heartbeat": 108})),
+    RigOpened(ModbusTcpOptions(address="127.0.0.1:502", registers={"heartbeat": 108})),
     StopPathChanged(False, "why"),
     Ended("done", "", Path("x.h5"), None),
 )

@@ -1,0 +1,37 @@
+"""How a front-end of one kind is described in RIG.toml and opened; others derive theirs from this."""
+
+from typing import Annotated, Any, Generic, TypeVar
+
+from pydantic import Field
+
+from drivers.front_end.interface import FrontEnd
+from drivers.options import DeviceOptions
+
+
+class FrontEndOptions(DeviceOptions):
+    """The data acquisition."""
+
+    kind: str = "lan-xi"
+    sample_rate_hz: Annotated[float, Field(ge=100, le=1e6)] = 8192.0
+    paced_by_reader: bool = False
+    """Of a `viscorig simulate --virtual-time` alone: it makes samples as they are asked for."""
+
+
+OptionsT = TypeVar("OptionsT", bound=FrontEndOptions)
+
+
+class FrontEndDriver(Generic[OptionsT]):
+    """Of one kind, the name of its entry point in the group `viscorig.front_ends`.
+
+    Made without arguments.
+    """
+
+    options: type[OptionsT]
+    """The keys of `[front_end]` with this kind."""
+
+    def open(self, options: OptionsT) -> FrontEnd:
+        """The front-end at an address, connected, not sampling. Raises `DriverError`."""
+        raise NotImplementedError
+
+
+AnyFrontEndDriver = FrontEndDriver[Any]

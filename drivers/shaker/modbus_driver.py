@@ -1,0 +1,84 @@
+"""Shakers of the kinds `modbus-tcp` and `modbus-rtu`."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from drivers.shaker.driver import ShakerDriver, ShakerOptions
+from drivers.shaker.interface import Shaker
+from drivers.shaker.register_map import DEFAULT
+
+
+class ModbusOptions(ShakerOptions):
+    """A controller or amplifier on Modbus."""
+
+    unit: Annotated[int, Field(ge=0, le=255)] = 1
+    registers: dict[str, Annotated[int, Field(ge=0, le=65535)]] = Field(default_factory=dict)
+    """Addresses that differ from the documented map, by name."""
+    baud: Annotated[int, Field(gt=0)] = 115200
+    """Of a serial line."""
+
+    @model_validator(mode="after")
+    def _mapped(self) -> "ModbusOptions":
+        DEFAULT.with_addresses(self.registers)
+        return self
+
+
+class ModbusTcpOptions(ModbusOptions):
+    """A controller or amplifier on Modbus TCP."""
+
+    kind: Literal["modbus-tcp"] = "modbus-tcp"
+    address: str
+    """host:port."""
+
+    @model_validator(mode="after")
+    def _reachable(self) -> "ModbusTcpOptions":
+        host, _, port = self.address.rpartition(":")
+        if self.is_addressed and (not host or not port.isdecimal() or not 0 < int(port) < 65536):
+            raise ValueError(f"address: {self.address!r}, expected host:port")
+        return self
+
+
+class ModbusRtuOptions(ModbusOptions):
+    """A controller or amplifier on a serial line."""
+
+    kind: Literal["modbus-rtu"] = "modbus-rtu"
+    address: str
+    """A serial port."""
+
+
+class ModbusTcpDriver(ShakerDriver[ModbusTcpOptions]):
+    """Modbus TCP: a device takes several connections."""
+
+    options = ModbusTcpOptions
+    is_shared = True
+
+    def open(self, options: ModbusTcpOptions, *, timeout_s: float = 1.0, retries: int = 2) -> Shaker:
+        """Connected to when first used."""
+        from drivers.shaker.modbus import ModbusShaker
+
+        host, _, port = options.address.rpartition(":")
+        registers = DEFAULT.with_addresses(options.registers)
+        return ModbusShaker.tcp(
+            host, int(port), unit=options.unit, registers=registers, timeout_s=timeout_s, retries=retries
+        )
+
+
+class ModbusRtuDriver(ShakerDriver[ModbusRtuOptions]):
+    """Modbus RTU: a serial line has room for one program."""
+
+    options = ModbusRtuOptions
+
+    def open(self, options: ModbusRtuOptions, *, timeout_s: float = 1.0, retries: int = 2) -> Shaker:
+        """Connected to when first used."""
+        from drivers.shaker.modbus import ModbusShaker
+
+        registers = DEFAULT.with_addresses(options.registers)
+        return ModbusShaker.rtu(
+            options.address,
+            baud=options.baud,
+            unit=options.unit,
+            registers=registers,
+            timeout_s=timeout_s,
+            retries=retries,
+        )
