@@ -67,11 +67,16 @@ def leave_out(entry: EntryPoint, why: object) -> str:
     if isinstance(why, Exception) and not isinstance(why, NoPlugin):
         words = f"{type(why).__name__}: {words}"
     line = f"plugin {entry.name!r} of package {package_of(entry)[0]} ({entry.group}) is left out: {words}"
-    told = os.environ.get(TOLD, "").splitlines()
-    if line not in told:
-        os.environ[TOLD] = "\n".join([*told, line])
+    before = told()
+    if line not in before:
+        os.environ[TOLD] = "\n".join([*before, line])
         log.warning("%s", line)
     return words
+
+
+def told() -> list[str]:
+    """What was said of packages that are left out, here or by the process that started this one."""
+    return os.environ.get(TOLD, "").splitlines()
 
 
 class Registry(Mapping[str, T], Generic[T]):
@@ -111,6 +116,11 @@ class Registry(Mapping[str, T], Generic[T]):
         """For a message about an unknown name: those there are, and why this one is none of them."""
         why = self._why.get(name) if isinstance(name, str) else None
         return f"expected one of {', '.join(sorted(self))}" + (f" (its plugin: {why})" if why else "")
+
+    def leave_out(self, name: str, why: Exception) -> None:
+        """No longer use another package's, which failed at its work; said in one line."""
+        self._why[name] = leave_out(self._others[name], why)
+        self._loaded[name] = None
 
     def is_own(self, name: str) -> bool:
         """Whether it is the project's."""

@@ -15,12 +15,11 @@ from instrument.engine import Engine, Order, Stopped
 from instrument.engine.client import ENGINE
 from instrument.engine.messages import Ended
 from instrument.interchange.found import Found
-from instrument.interchange.importing import read_foreign
+from instrument.interchange.readers import foreign_endings, read_foreign
 from instrument.session.configuration import Configuration, read_whole_experiment
 
 EXPERIMENT_ENDING = ".toml"
 SESSION_ENDINGS = (".h5", ".hdf5")
-FOREIGN_ENDINGS = (".csv", ".txt", ".uff", ".unv", ".mat")
 
 
 class AppController(QObject):
@@ -105,10 +104,10 @@ class AppController(QObject):
             self.experiment_chosen.emit(path)
         elif ending in SESSION_ENDINGS:
             self._open_session(path)
-        elif ending in FOREIGN_ENDINGS:
+        elif ending in foreign_endings():
             self._read_beside(path)
         else:
-            known = ", ".join((EXPERIMENT_ENDING, *SESSION_ENDINGS, *FOREIGN_ENDINGS))
+            known = ", ".join((EXPERIMENT_ENDING, *SESSION_ENDINGS, *foreign_endings()))
             self.refused.emit(f"{path}: ending {path.suffix!r}, expected one of {known}")
 
     def leave(self) -> None:

@@ -7,13 +7,15 @@ from PySide6.QtCore import QObject
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QFileDialog, QMenu, QMessageBox
 
-from gui.controller import EXPERIMENT_ENDING, FOREIGN_ENDINGS, SESSION_ENDINGS
+from gui.controller import EXPERIMENT_ENDING, SESSION_ENDINGS
 from gui.export import Export
+from gui.page_set import key_of
 from gui.shell import Shell
 from gui.theme import SCALES, Mode
+from instrument.interchange.readers import foreign_endings
 
 _KEYS = """
-Ctrl+1 ... Ctrl+5\tthe pages
+Ctrl+1, Ctrl+2, ...\tthe pages
 F12, or Esc twice\tstop the shaker at once
 F9\thold, resume
 Ctrl+F9\tend the run in order
@@ -73,7 +75,8 @@ class Menus(QObject):
     def _pages(self) -> None:
         menu = self._window.menuBar().addMenu("&Page")
         for number, page in enumerate(self._window.pages):
-            self._add(menu, page.title, self._show_page, f"Ctrl+{number + 1}").setData(number)
+            keys = [key] if (key := key_of(number)) else []
+            self._add(menu, page.title, self._show_page, *keys).setData(page.objectName())
 
     def _view(self) -> None:
         menu = self._window.menuBar().addMenu("&View")
@@ -113,7 +116,7 @@ class Menus(QObject):
         return action.data()
 
     def _open(self) -> None:
-        endings = " ".join(f"*{e}" for e in (*SESSION_ENDINGS, EXPERIMENT_ENDING, *FOREIGN_ENDINGS))
+        endings = " ".join(f"*{e}" for e in (*SESSION_ENDINGS, EXPERIMENT_ENDING, *foreign_endings()))
         kinds = f"Sessions, experiments and data ({endings});;Everything (*)"
         chosen, _ = QFileDialog.getOpenFileName(self._window, "Open", "", kinds)
         if chosen:
@@ -123,7 +126,7 @@ class Menus(QObject):
         self._window.open(Path(str(self._data())))
 
     def _show_page(self) -> None:
-        self._window.show_page(int(str(self._data())))
+        self._window.show_page(str(self._data()))
 
     def _choose_mode(self) -> None:
         mode = self._data()

@@ -13,11 +13,12 @@ _MOST_RECENT = 10
 
 @dataclass(frozen=True)
 class Arrangement:
-    """Where a window was and what it showed; None where nothing is known."""
+    """Where a window was and what it showed; None or empty where nothing is known."""
 
     geometry: QByteArray | None
     docks: QByteArray | None
-    page: int
+    page: str
+    """Its name."""
 
 
 class Settings:
@@ -66,9 +67,8 @@ class Settings:
     def arrangement(self) -> Arrangement:
         """For a new window."""
         geometry, docks = self._kept.value("geometry"), self._kept.value("docks")
-        page = str(self._kept.value("page", "0"))
         return Arrangement(
             geometry if isinstance(geometry, QByteArray) else None,
             docks if isinstance(docks, QByteArray) else None,
-            int(page) if page.isdecimal() else 0,
+            str(self._kept.value("page", "")),
         )

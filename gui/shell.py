@@ -26,6 +26,6 @@ class Shell(QMainWindow):
         """A session, an experiment, or other data; returns at once."""
         raise NotImplementedError
 
-    def show_page(self, number: int) -> None:
-        """Counted from 0."""
+    def show_page(self, name: str) -> None:
+        """As `gui.pages` calls it."""
         raise NotImplementedError

@@ -7,13 +7,13 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence, QShortcut, QShowEvent
 from PySide6.QtWidgets import QMessageBox, QTabWidget, QVBoxLayout, QWidget
 
+from fitting.plugins import told
 from gui.background_task import BackgroundTask, Command
 from gui.controller import AppController
 from gui.log_pane import LogPane
 from gui.menus import Menus
 from gui.notice import Notice
-from gui.page import Page
-from gui.pages import PAGES
+from gui.page_set import PageSet, key_of
 from gui.replay_bar import ReplayBar
 from gui.settings import Arrangement, Settings
 from gui.shell import Shell
@@ -42,7 +42,8 @@ class Window(Shell):
         self.bar, self.notice = TopBar(self.controller), Notice()
         self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
-        self.pages: tuple[Page, ...] = tuple(kind(self.controller) for kind in PAGES)
+        self._page_set = PageSet(self.controller)
+        self.pages = self._page_set.all
         self.replay = ReplayBar()
         self.log = LogPane()
         self._escaped_s = -_TWICE_S
@@ -64,6 +65,8 @@ class Window(Shell):
         self._first_drawing = QTimer(self)
         self._first_drawing.timeout.connect(self._draw_next)
         self._restore(settings.arrangement)
+        if told():
+            self.notice.refuse("; ".join(told()))
 
     def turn(self) -> None:
         """Take what has come and show it."""
@@ -71,8 +74,7 @@ class Window(Shell):
         state = self.controller.state
         self.bar.show_state(state)
         self.log.show_state(state)
-        for page in self.pages:
-            page.show_state(state)
+        self._page_set.show_state(state)
         if self._closing and not self.controller.running:
             self.close()
 
@@ -80,9 +82,9 @@ class Window(Shell):
         """A session, an experiment, or other data; returns at once."""
         self.controller.open(path)
 
-    def show_page(self, number: int) -> None:
-        """Counted from 0."""
-        self.tabs.setCurrentIndex(number)
+    def show_page(self, name: str) -> None:
+        """As `gui.pages` calls it; the first one where there is none of this name."""
+        self.tabs.setCurrentWidget(self._page_set.by_name.get(name, self.pages[0]))
 
     # What Qt tells
 
@@ -117,7 +119,7 @@ class Window(Shell):
         self._timer.stop()
         self._first_drawing.stop()
         self.settings.keep(
-            Arrangement(self.saveGeometry(), self.saveState(_LAYOUT), self.tabs.currentIndex()),
+            Arrangement(self.saveGeometry(), self.saveState(_LAYOUT), self.tabs.currentWidget().objectName()),
             self.appearance,
         )
         for work in self.findChildren(BackgroundTask):
@@ -149,9 +151,10 @@ class Window(Shell):
             page.grab()
 
     def _arrange(self) -> None:
-        for number, page in enumerate(self.pages, start=1):
+        for number, page in enumerate(self.pages):
+            key = key_of(number)
             index = self.tabs.addTab(page, page.title)
-            self.tabs.setTabToolTip(index, f"{page.hint} (Ctrl+{number})")
+            self.tabs.setTabToolTip(index, f"{page.hint} ({key})" if key else page.hint)
         whole = QWidget()
         column = QVBoxLayout(whole)
         column.setContentsMargins(0, 0, 0, 0)
@@ -199,10 +202,10 @@ class Window(Shell):
             self.notice.hide()
 
     def _chosen(self, path: Path) -> None:
-        """The first page shows experiments."""
+        """The page that runs experiments shows them."""
         self.settings.remember(path)
         self.menus.refresh()
-        self.show_page(0)
+        self.show_page("run")
 
     def _changed(self) -> None:
         recorded = self.controller.recorded

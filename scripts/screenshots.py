@@ -47,8 +47,8 @@ def main() -> int:
         window.resize(WIDTH, HEIGHT)
         window.show()
         _fill(window, given.session)
-        for number, page in enumerate(window.pages):
-            window.show_page(number)
+        for page in window.pages:
+            window.show_page(page.objectName())
             _rest(window)
             _save(window, given.to / f"window-{page.title.lower()}.png")
             if page.title.lower() == _DARK:

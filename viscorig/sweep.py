@@ -11,7 +11,8 @@ from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.sweep import Sweep as Points
 from fitting.sweep import segments_by_gap
 from instrument.files.sweep_file import read_sweep
-from instrument.interchange.base_frf import FOREIGN_ENDINGS, is_frf_csv, sweep_of_foreign, sweep_of_frf_csv
+from instrument.interchange.base_frf import is_frf_csv, sweep_of_foreign, sweep_of_frf_csv
+from instrument.interchange.readers import is_foreign
 from instrument.stream.jsonable import to_jsonable
 from viscorig.checked import numbers
 from viscorig.shown import Columns, Shown
@@ -99,7 +100,7 @@ def load_sweep(path: str | Path, specimen: Specimen) -> Sweep:
     The levels of a file are multiples of the specimen's base acceleration.
     """
     path, level = Path(path), specimen.model.base_acceleration_m_s2
-    if path.suffix.lower() in FOREIGN_ENDINGS:
+    if is_foreign(path):
         return as_sweep(sweep_of_foreign(path, level))
     if is_frf_csv(path):
         return as_sweep(sweep_of_frf_csv(path, level))

@@ -1,6 +1,6 @@
 """What a form asks for, read off a model. No Qt."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
@@ -8,8 +8,10 @@ from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticUndefined
 
+from drivers.options import DeviceOptions
 from fitting.laws import LAWS
 from fitting.laws.base import Quantity
+from instrument.files.devices import DEVICES, options_of
 
 Place = tuple[str | int, ...]
 """Where a value stands in a file: keys, and numbers of tables in a list."""
@@ -86,7 +88,8 @@ def section_of(
         if table is not None:
             is_list = get_origin(_plain(info.annotation)) is list
             counts = info.get_default(call_default_factory=True)
-            sections.append(section_of(table, name, _off(info), repeated=is_list, default=counts))
+            inner = section_of(table, name, _off(info), repeated=is_list, default=counts)
+            sections.append(_device(inner) if issubclass(table, DeviceOptions) else inner)
         elif (name, info.annotation) == ("law", dict[str, Any]):
             sections.append(Section("law", "How the core's modulus depends on frequency.", (law_kind(),)))
         else:
@@ -100,6 +103,22 @@ def law_kind() -> Field:
     return Field("kind", "choice", needed=True, choices=tuple(sorted(LAWS)), tip="The law of the core.")
 
 
+def _device(section: Section) -> Section:
+    """What is asked of every device; its kind, one of those there are, decides what else."""
+    kinds = tuple(sorted(DEVICES[section.key]))
+    fields = (replace(f, kind="choice", choices=kinds) if f.key == "kind" else f for f in section.fields)
+    return replace(section, fields=tuple(fields))
+
+
+def device_fields(section: Section, kind: object) -> tuple[Field, ...]:
+    """What the driver of this kind asks for beside what `section` does; nothing where it is no device's."""
+    options = options_of(section.key, kind) if section.key in DEVICES else None
+    if options is None:
+        return ()
+    asked = {field.key for field in section.fields}
+    return tuple(field for field in section_of(options, section.key).fields if field.key not in asked)
+
+
 def law_fields(kind: object) -> tuple[Field, ...]:
     """What a law of this kind asks for; nothing where there is none."""
     law = LAWS.get(kind) if isinstance(kind, str) else None
@@ -108,7 +127,7 @@ def law_fields(kind: object) -> tuple[Field, ...]:
     return tuple(
         Field(
             field.file_key,
-            "number" if law.__annotations__[name] is float else "numbers",
+            "number" if law.__annotations__[name] in (float, "float") else "numbers",
             needed=True,
             tip=_law_range(field) if isinstance(field, Quantity) else "",
         )

@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
 )
 
 from gui.form.draft import Draft
-from gui.form.fields import Field, Place, Section, law_fields, section_of
+from gui.form.fields import Field, Place, Section, device_fields, law_fields, section_of
 from gui.theme import current_theme
 from gui.widgets import tool
 
@@ -147,6 +147,8 @@ class Form(QTreeWidget):
         if section.key == "law":
             for field in law_fields(self.draft.value((*place, "kind"))):
                 self._field(item, (*place, field.key), field)
+        for field in device_fields(section, self.draft.value((*place, "kind"))):
+            self._field(item, (*place, field.key), field)
         for inner in section.sections:
             self._section(item, (*place, inner.key), inner)
 
@@ -232,7 +234,7 @@ class Form(QTreeWidget):
 
     def _chosen(self, place: Place, field: Field, text: str) -> None:
         self.draft.write(place, field, text)
-        if place[-2:] == ("law", "kind"):
+        if field.key == "kind":
             self._build_later()
         self._tell()
 

@@ -13,8 +13,9 @@ from instrument.cli.output import Output
 from instrument.files.hammer_file import HammerModes, read_hammer
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
-from instrument.interchange.base_frf import FOREIGN_ENDINGS, is_frf_csv, sweep_of_foreign, sweep_of_frf_csv
+from instrument.interchange.base_frf import is_frf_csv, sweep_of_foreign, sweep_of_frf_csv
 from instrument.interchange.identified import session_modes, session_sweep
+from instrument.interchange.readers import is_foreign
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 
@@ -73,7 +74,7 @@ def _of_sweep(out: Output, data: Path, specimen: Path | None) -> Given:
         raise click.UsageError("Missing option '--specimen': a sweep does not say which plate it was")
     read = read_specimen(specimen)
     level = read.base_acceleration_m_s2
-    if data.suffix.lower() in FOREIGN_ENDINGS:
+    if is_foreign(data):
         sweep = sweep_of_foreign(data, level)
     elif is_frf_csv(data):
         out.say("an FRF: taken as the pickup over the base's acceleration\n")

@@ -10,9 +10,9 @@ from instrument.errors import BadInput
 from instrument.files.impact_csv import FRF_STEMS, read_impact_csv
 from instrument.files.sweep_file import SweepFile
 from instrument.files.table import read_rows
-from instrument.interchange.importing import one_table, read_foreign
+from instrument.interchange.importing import one_table
+from instrument.interchange.readers import read_foreign
 
-FOREIGN_ENDINGS = (".uff", ".unv", ".mat")
 _TIMES_I_OMEGA = {"displacement": 1, "velocity": 0, "acceleration": -1}
 
 
@@ -32,7 +32,7 @@ def sweep_of_frf_csv(path: Path, acceleration_m_s2: float) -> Sweep:
 
 
 def sweep_of_foreign(path: Path, acceleration_m_s2: float) -> Sweep:
-    """The FRFs over a base's motion of a .uff, .unv or .mat file. Raises `BadInput`."""
+    """The FRFs over a base's motion of another program's file. Raises `BadInput`."""
     found = read_foreign(path)
     if not found.sweeps:
         raise BadInput(

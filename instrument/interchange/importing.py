@@ -12,13 +12,10 @@ from instrument.files.impact_csv import write_frf_csv, write_impact_csv
 from instrument.files.point_columns import understood
 from instrument.files.sweep_file import read_sweep
 from instrument.impact.record import Hit
-from instrument.interchange.found import Columns, Found
+from instrument.interchange.found import Columns
 from instrument.interchange.provenance import one_line
-from instrument.interchange.read_csv import read_csv
-from instrument.interchange.read_mat import read_mat
-from instrument.interchange.read_uff import read_uff
+from instrument.interchange.readers import read_foreign
 
-_READERS = {".uff": read_uff, ".unv": read_uff, ".mat": read_mat, ".csv": read_csv, ".txt": read_csv}
 
 
 @dataclass(frozen=True)
@@ -59,20 +56,6 @@ def import_file(path: Path, out: Path | None) -> Imported:
             "relative to the clamp or absolute velocity? [pickup] reads in the specimen says it"
         )
     return Imported(tuple(plan.values()), tuple(found.said))
-
-
-def read_foreign(path: Path) -> Found:
-    """What a file holds, by its ending. Raises `BadInput`."""
-    if not path.is_file():
-        raise BadInput(f"{path}: no such file")
-    reader = _READERS.get(path.suffix.lower())
-    if reader is None:
-        raise BadInput(f"{path}: unknown ending {path.suffix!r}, expected one of {', '.join(_READERS)}")
-    found = reader(path)
-    if not (found.sweeps or found.frfs or found.hits):
-        said = "; ".join(found.said) or "no array that says what it is"
-        raise BadInput(f"{path}: nothing to import: {one_line(said)[:160]}")
-    return found
 
 
 def _names(target: Path, counts: dict[str, int]) -> dict[tuple[str, int], Path]:

@@ -166,7 +166,7 @@ def stalls_of_a_run(window: Window, experiment: Path, out: Path) -> Lateness:
     def over() -> bool:
         if time.monotonic() - page_at[0] > _PAGE_EVERY_S:
             page_at[0] = time.monotonic()
-            window.show_page((window.tabs.currentIndex() + 1) % len(window.pages))
+            show_next_page(window, window.tabs.currentIndex() + 1)
         return live.ending is not None
 
     with lateness() as found:
@@ -183,6 +183,11 @@ def memory_mb() -> float:
     """Of this process, now."""
     pages = int(Path("/proc/self/statm").read_text().split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+
+def show_next_page(window: Window, number: int) -> None:
+    """Pages in turn."""
+    window.show_page(window.pages[number % len(window.pages)].objectName())
 
 
 def settle() -> None:
@@ -212,7 +217,7 @@ def repaint(window: Window, count: int) -> float:
 
     def one(number: int) -> None:
         if number % 50 == 0:
-            window.show_page((number // 50) % len(window.pages))
+            show_next_page(window, number // 50)
             QCoreApplication.processEvents()
         page = window.pages[window.tabs.currentIndex()]
         plots = [plot for plot in page.findChildren(Plot) if plot.isVisible()]
@@ -233,7 +238,7 @@ def open_and_close(make: Callable[[], Window], session: Path, count: int) -> flo
     def one(number: int) -> None:
         window = make()
         window.show()
-        window.show_page(number % len(window.pages))
+        show_next_page(window, number)
         window.open(session)
         assert turn(PATIENCE_S, lambda: window.controller.recorded is not None)
         window.turn()
@@ -250,7 +255,7 @@ def replay(window: Window, seconds: float) -> float:
     assert feed is not None
 
     def one(number: int) -> None:
-        window.show_page(number % len(window.pages))
+        show_next_page(window, number)
         feed.play(None)
         assert turn(PATIENCE_S, lambda: not feed.playing)
 

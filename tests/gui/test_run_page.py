@@ -23,7 +23,7 @@ SWEEP = "[[sweep.segments]]\nlow_hz = 95.0\nhigh_hz = 107.0\npoints = 5\n"
 @pytest.fixture
 def page(window):
     window.controller.engine = QUICK_ENGINE
-    window.show_page(0)
+    window.show_page("run")
     return window.pages[0]
 
 
@@ -132,7 +132,7 @@ def test_a_hit_is_rejected_and_taken_back_while_the_run_waits(qtbot, window, pag
         qtbot.waitUntil(lambda: live.question is not None, timeout=PATIENCE_MS)
         qtbot.waitUntil(lambda: page.banner.isVisible())
         assert "2 good hits" in page.banner.words.text()
-        window.show_page(2)
+        window.show_page("hammer")
         hits = window.pages[2].hits
         first = hits.table.visualRect(hits.table.model().index(0, 0))
         qtbot.mouseClick(hits.table.viewport(), LEFT, pos=first.center())
@@ -141,7 +141,7 @@ def test_a_hit_is_rejected_and_taken_back_while_the_run_waits(qtbot, window, pag
         qtbot.waitUntil(lambda: live.question is not None, timeout=PATIENCE_MS)
         qtbot.mouseClick(hits.undo, LEFT)
         qtbot.waitUntil(lambda: accepted(1), timeout=PATIENCE_MS)
-        window.show_page(0)
+        window.show_page("run")
         qtbot.mouseClick(page.banner.button, LEFT)
         ending = wait_for_end(qtbot, window)
     assert ending.why == "done"

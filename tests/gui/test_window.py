@@ -38,7 +38,7 @@ def test_a_window_that_is_late_looks_less_often_in_a_run_only(window, monkeypatc
 
 @pytest.mark.parametrize("number", range(5))
 def test_each_page_has_its_key(qtbot, window, number):
-    window.show_page((number + 1) % 5)
+    window.show_page(window.pages[(number + 1) % 5].objectName())
     qtbot.keyClick(window, Qt.Key.Key_1 + number, Qt.KeyboardModifier.ControlModifier)
     assert window.tabs.currentIndex() == number
 
@@ -64,7 +64,7 @@ def test_type_size_can_be_changed_and_is_remembered(qtbot, window, settings):
 
 
 def test_page_and_mode_are_remembered(qtbot, window, settings, appearance):
-    window.show_page(3)
+    window.show_page("material")
     appearance.choose("dark")
     window.close()
     again = Window(appearance, settings)

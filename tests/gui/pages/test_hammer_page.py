@@ -42,7 +42,7 @@ def hits(session_path):
 @pytest.fixture
 def page(qtbot, opened):
     """Of the session, its hits drawn."""
-    opened.show_page(2)
+    opened.show_page("hammer")
     page = opened.pages[2]
     qtbot.waitUntil(lambda: page._averaged is not None, timeout=PATIENCE_MS)
     return page
@@ -90,7 +90,7 @@ def may_press(page):
 
 
 def test_without_a_session_it_says_what_to_do(window):
-    window.show_page(2)
+    window.show_page("hammer")
     page = window.pages[2]
     assert page.nothing.isVisible()
     assert "start a run" in page.nothing.text()
@@ -103,7 +103,7 @@ def test_an_experiment_without_a_hammer_test_says_so(qtbot, window, tmp_path):
     index.begin()
     index.sweep((1,), steps=2)
     index.end()
-    window.show_page(2)
+    window.show_page("hammer")
     window.open(index.save(tmp_path))
     qtbot.waitUntil(lambda: "no hammer test" in window.pages[2].nothing.text(), timeout=PATIENCE_MS)
     assert window.pages[2].nothing.isVisible()
@@ -240,7 +240,7 @@ def live(window, tmp_path):
     with engine_rig(tmp_path, hammer=True) as (_, experiment):
         order = Order(experiment, tmp_path / "out", ("hammer",), ask_content=True)
         setup = read_whole_experiment(experiment).configuration("run", "")
-        window.show_page(2)
+        window.show_page("hammer")
         window.controller._show(LiveFeed(order, setup, window.controller, Engine.start(order, QUICK_ENGINE)))
         yield window.controller.live
 

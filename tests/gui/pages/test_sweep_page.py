@@ -20,7 +20,7 @@ BEGAN = SessionBegan("2026-04-01T08:00:05+00:00", "0", {}, ())
 def page(opened):
     """Of the session at its end."""
     opened.resize(1366, 768)
-    opened.show_page(1)
+    opened.show_page("sweep")
     return opened.pages[1]
 
 
@@ -67,7 +67,7 @@ def fed(page, state, events):
 
 
 def test_without_a_session_it_says_what_will_appear(qtbot, window):
-    window.show_page(1)
+    window.show_page("sweep")
     assert "Open a session, or start a run" in window.pages[1]._layers.currentWidget().text()
 
 
@@ -157,9 +157,9 @@ def test_reading_ends_with_the_page(qtbot, opened, page):
     page.walk(1)
     page.tabs.setCurrentWidget(page.samples)
     assert page.samples.dwells.busy
-    opened.show_page(0)
+    opened.show_page("run")
     assert not page.samples.dwells.busy
-    opened.show_page(1)
+    opened.show_page("sweep")
     qtbot.waitUntil(lambda: "calibration not taken off" in page.samples.said.text(), timeout=PATIENCE_MS)
 
 
@@ -195,22 +195,22 @@ def test_until_there_is_a_curve_the_fits_own_predictions_are_drawn(page):
 
 def test_a_page_that_is_left_computes_nothing(qtbot, opened, page):
     qtbot.waitUntil(lambda: page.model._command is not None, timeout=PATIENCE_MS)
-    opened.show_page(0)
+    opened.show_page("run")
     assert not page.model.busy
-    opened.show_page(1)
+    opened.show_page("sweep")
     assert page.model.busy
 
 
 @pytest.mark.parametrize(("running", "most"), [(True, 1), (False, 3)])
 def test_in_a_run_a_page_that_is_shown_again_is_drawn_pane_by_pane(opened, page, monkeypatch, running, most):
     drawn, draw = [], page.turns._draw
-    opened.show_page(0)
+    opened.show_page("run")
     with monkeypatch.context() as patched:
         patched.setattr(type(opened.controller), "running", property(lambda controller: running))
         patched.setattr(page.turns, "_draw", lambda pane: (drawn.append(pane), draw(pane)))
         page._mark_all()
         page._version = -1
-        opened.show_page(1)
+        opened.show_page("sweep")
         first = len(drawn)
     assert 1 <= first <= most
     assert (first == 3) == (not running)
@@ -296,7 +296,7 @@ def test_a_sweep_of_another_file_is_drawn_even_without_a_session(qtbot, window, 
     path.write_text(
         "frequency_hz,velocity_re_m_s,velocity_im_m_s\n" + "".join(f"{f},0.1,0.02\n" for f in range(15, 25))
     )
-    window.show_page(1)
+    window.show_page("sweep")
     page = window.pages[1]
     window.open(path)
     qtbot.waitUntil(lambda: "other.csv" in page.response.amplitude.names, timeout=5000)

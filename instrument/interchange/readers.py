@@ -1,0 +1,77 @@
+"""Readers of other programs' files, by the ending of the file's name; other packages add theirs."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from fitting.plugins import NoPlugin, Registry
+from instrument.errors import BadInput
+from instrument.interchange.found import Found
+from instrument.interchange.provenance import one_line
+
+Reader = Callable[[Path], Found]
+"""From a file to what it holds. Raises `BadInput`."""
+
+_OURS = ("csv", "txt")
+"""Endings of sweeps as this program writes them, too."""
+
+
+def _judge(name: str, found: Any) -> Reader:
+    if name != name.lower() or name.startswith("."):
+        raise NoPlugin("the entry point's name is no ending in small letters without its dot")
+    if not callable(found):
+        raise NoPlugin(f"{found!r:.80} is no function from a path to `instrument.interchange.found.Found`")
+    reader: Reader = found
+    return reader
+
+
+READERS: Registry[Reader] = Registry(
+    "viscorig.readers",
+    {
+        **dict.fromkeys(("uff", "unv"), "instrument.interchange.read_uff:read_uff"),
+        "mat": "instrument.interchange.read_mat:read_mat",
+        **dict.fromkeys(("csv", "txt"), "instrument.interchange.read_csv:read_csv"),
+    },
+    _judge,
+)
+"""By the ending without its dot, in small letters."""
+
+
+def read_foreign(path: Path) -> Found:
+    """What a file holds, by its ending. Raises `BadInput`."""
+    if not path.is_file():
+        raise BadInput(f"{path}: no such file")
+    reader = READERS.get(_ending(path))
+    if reader is None:
+        raise BadInput(f"{path}: unknown ending {path.suffix!r}, {READERS.expected(_ending(path))}")
+    found = _read(reader, path)
+    if not (found.sweeps or found.frfs or found.hits):
+        said = "; ".join(found.said) or "no array that says what it is"
+        raise BadInput(f"{path}: nothing to import: {one_line(said)[:160]}")
+    return found
+
+
+def _read(reader: Reader, path: Path) -> Found:
+    """What a reader finds; another package's may fail in ways that ours do not."""
+    try:
+        return reader(path)
+    except BadInput:
+        raise
+    except Exception as error:
+        if READERS.is_own(_ending(path)):
+            raise
+        raise BadInput(f"{path}: its reader failed: {type(error).__name__}: {one_line(str(error))}") from None
+
+
+def is_foreign(path: Path) -> bool:
+    """Whether the ending says that it is another program's file, and somebody reads it."""
+    return _ending(path) not in _OURS and _ending(path) in READERS
+
+
+def foreign_endings() -> tuple[str, ...]:
+    """Of all files there is a reader for, with their dots."""
+    return tuple(f".{name}" for name in READERS)
+
+
+def _ending(path: Path) -> str:
+    return path.suffix.lower().removeprefix(".")
