@@ -4,13 +4,15 @@ import os
 import sys
 from contextlib import suppress
 from importlib import import_module
-from importlib.metadata import entry_points, version
+from importlib.metadata import version
 from keyword import iskeyword
+from typing import Any
 
 import click
 
 from drivers.errors import DriverError
 from fitting.errors import FittingError
+from fitting.plugins import GROUPS, NoPlugin, Registry, others, package_of
 from instrument.errors import BadInput, RigStopped, StoppedByUser
 from instrument.models.background import VARIABLE as BACKGROUND
 from instrument.models.background import step_back
@@ -39,8 +41,23 @@ COMMANDS = (
     "bench",
 )
 """Each is a function of that name in the module of that name beside this file (or `import_`)."""
-ELSEWHERE = "viscorig.commands"
-"""Entry points of this group are commands too: so rooms above this one add theirs."""
+
+
+def _place(name: str) -> str:
+    known = f"{name}_" if iskeyword(name) else name
+    return f"instrument.cli.{known}:{known}"
+
+
+def _judge(name: str, found: Any) -> click.Command:
+    if not isinstance(found, click.Command):
+        raise NoPlugin(f"{found!r:.80} is no command of click")
+    return found
+
+
+BY_NAME: Registry[click.Command] = Registry(
+    "viscorig.commands", {name: _place(name) for name in COMMANDS}, _judge
+)
+"""Ours, and those that rooms above this one and other packages add by entry points."""
 
 
 class _Commands(click.Group):
@@ -48,22 +65,36 @@ class _Commands(click.Group):
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """In the order of the work."""
-        return [*COMMANDS, *sorted(entry_points(group=ELSEWHERE).names)]
+        return [*COMMANDS, *sorted(set(BY_NAME) - set(COMMANDS))]
 
     def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
         """The command, or None where there is none of that name."""
         if name in COMMANDS:
-            known = f"{name}_" if iskeyword(name) else name
-            found = getattr(import_module(f"instrument.cli.{known}"), known)
-        else:
-            found = next((e.load() for e in entry_points(group=ELSEWHERE, name=name)), None)
-        return found if isinstance(found, click.Command) else None
+            # Without a look at what is installed: that takes longer than the command's own module.
+            module, _, attribute = _place(name).partition(":")
+            found = getattr(import_module(module), attribute)
+            return found if isinstance(found, click.Command) else None
+        return BY_NAME.get(name)
+
+
+def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
+    """The version, and what other packages add, without loading any of it."""
+    if not wanted:
+        return
+    click.echo(f"viscorig, version {version('viscorig')}")
+    for entry in others():
+        package = " ".join(package_of(entry))
+        click.echo(f"  {GROUPS[entry.group]} {entry.name}, from {package}")
+    ctx.exit()
 
 
 @click.group(
     cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100}
 )
-@click.version_option(version("viscorig"), prog_name="viscorig")
+@click.option(
+    "--version", is_flag=True, is_eager=True, expose_value=False, callback=_version,
+    help="Show the version, and what other packages add to it.",
+)  # fmt: skip
 def viscorig() -> None:
     """Measure damping materials: a core's complex shear modulus from a plate's response."""
 

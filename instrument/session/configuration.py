@@ -6,6 +6,7 @@ from pathlib import Path
 
 from pydantic import BaseModel
 
+from fitting.plugins import packages
 from fitting.specimen import Specimen
 from instrument.files.experiment_file import ExperimentDocument, read_experiment
 from instrument.files.rig_file import RigDocument
@@ -47,7 +48,7 @@ class Experiment:
         return Configuration(
             name=name,
             created_utc=created_utc,
-            versions={package: version(package) for package in ("viscorig", "numpy", "scipy", "h5py")},
+            versions={p: version(p) for p in ("viscorig", "numpy", "scipy", "h5py")} | packages(),
             experiment=self.document,
             rig=self.rig.without_simulation(),
             specimen=self.specimen,

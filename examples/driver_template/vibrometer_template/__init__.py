@@ -1,0 +1,1 @@
+"""A vibrometer that does not exist: where a driver begins."""
