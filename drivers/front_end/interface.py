@@ -44,7 +44,10 @@ class Block:
 
 
 class FrontEnd(Protocol):
-    """Every method returns within a bounded time or raises a `DriverError`."""
+    """What a driver must do. Every method returns within a bounded time or raises a `DriverError`.
+
+    More of it, by device: docs/plugins.md.
+    """
 
     @property
     def sample_rate_hz(self) -> float:

@@ -48,7 +48,10 @@ class ShakerStatus:
 
 
 class Shaker(Protocol):
-    """Every method returns within a bounded time or raises a `DriverError`."""
+    """What a driver must do. Every method returns within a bounded time or raises a `DriverError`.
+
+    More of it, by device: docs/plugins.md.
+    """
 
     def identity(self) -> str:
         """Maker, model, version, as the device states them."""

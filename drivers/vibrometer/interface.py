@@ -25,7 +25,10 @@ class Range:
 
 
 class Vibrometer(Protocol):
-    """Every method returns within a bounded time or raises a `DriverError`."""
+    """What a driver must do. Every method returns within a bounded time or raises a `DriverError`.
+
+    More of it, by device: docs/plugins.md.
+    """
 
     @property
     def ranges(self) -> tuple[Range, ...]:
