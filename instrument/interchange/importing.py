@@ -17,7 +17,6 @@ from instrument.interchange.provenance import one_line
 from instrument.interchange.readers import read_foreign
 
 
-
 @dataclass(frozen=True)
 class Imported:
     """Files written, and what was found in the foreign one."""
