@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 
 from rich.console import Console
-from rich.progress import BarColumn, TextColumn, TimeElapsedColumn
+from rich.progress import BarColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 from rich.progress import Progress as Bars
 
 Report = Callable[[float], None]
@@ -17,6 +17,8 @@ Progress = Callable[[str], AbstractContextManager[Report]]
 LINES = "VISCORIG_PROGRESS"
 """Where this variable of the environment is `lines`, a bar is told as lines on standard error."""
 _LEAST_STEP = 0.01
+_PACE_S = 300.0
+"""Over which the pace is taken that says how long it will go on."""
 
 
 @contextmanager
@@ -36,6 +38,9 @@ def bar(name: str) -> Iterator[Report]:
         TextColumn("{task.description}"),
         BarColumn(),
         TimeElapsedColumn(),
+        TextColumn("left"),
+        TimeRemainingColumn(),
+        speed_estimate_period=_PACE_S,
         console=console,
         transient=True,
         disable=not console.is_terminal,

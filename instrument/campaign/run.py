@@ -2,18 +2,12 @@
 
 import hashlib
 import json
-import os
-import signal
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass
 from functools import partial
 from importlib import import_module
-from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
-
-from threadpoolctl import threadpool_limits
 
 from instrument.campaign.cases import KINDS, NONE, PAIR, Case, draw
 from instrument.campaign.outcome import Outcome, Said, line_of, outcome_of, said_of
@@ -22,8 +16,7 @@ from instrument.campaign.tables import summary
 from instrument.campaign.visibility import visible_chi2
 from instrument.errors import BadInput, StoppedByUser
 from instrument.files.text import read_text
-from instrument.models.second_process import VARIABLE as PROCESSES
-from instrument.models.second_process import end_with
+from instrument.models.processes import in_processes
 from instrument.progress import Progress, quiet
 
 OUTCOMES, BEGUN, SUMMARY = "outcomes.jsonl", "campaign.json", "summary.md"
@@ -106,7 +99,7 @@ def run_campaign(
     done = len(jobs) - len(left)
     with progress(f"{len(jobs)} cases") as report, open(folder / OUTCOMES, "a", encoding="utf-8") as file:
 
-        def keep(line: dict[str, Any]) -> None:
+        def keep(job: Job, line: dict[str, Any]) -> None:
             nonlocal done
             file.write(json.dumps(line) + "\n")
             file.flush()
@@ -115,7 +108,7 @@ def run_campaign(
             report(done / len(jobs))
 
         try:
-            _judge_all(judged_by or partial(judge, taken_out=taken_out), left, workers, keep)
+            in_processes(judged_by or partial(judge, taken_out=taken_out), left, workers, keep)
         except KeyboardInterrupt:
             said = f"{done} of {len(jobs)} cases done, kept in {folder}; the same command goes on"
             raise StoppedByUser(said) from None
@@ -162,40 +155,3 @@ def _same_program(folder: Path, facts: dict[str, Any]) -> None:
         path.write_text(json.dumps(facts) + "\n", encoding="utf-8")
     elif json.loads(read_text(path)) != facts:
         raise BadInput(f"{folder}: a campaign begun with other sources or options, expected a new folder")
-
-
-def _judge_all(
-    judge_one: Judge, jobs: Sequence[Job], workers: int, keep: Callable[[dict[str, Any]], None]
-) -> None:
-    """Every line as it comes; one worker is this process.
-
-    Ctrl-C lets the cases under way in other processes end, keeps them, and is raised again.
-    """
-    if workers == 1 or not jobs:
-        with threadpool_limits(1, "blas"):
-            for job in jobs:
-                keep(judge_one(job))
-        return
-    context = get_context("spawn")
-    most, parent = min(workers, len(jobs)), os.getpid()
-    with ProcessPoolExecutor(most, context, initializer=_alone, initargs=(parent,)) as pool:
-        waiting = {pool.submit(judge_one, job) for job in jobs}
-        try:
-            for future in as_completed(set(waiting)):
-                waiting.discard(future)
-                keep(future.result())
-        except BaseException as stop:
-            pool.shutdown(wait=True, cancel_futures=True)
-            if isinstance(stop, KeyboardInterrupt):
-                for future in waiting:
-                    if not future.cancelled():
-                        keep(future.result())
-            raise
-
-
-def _alone(parent: int) -> None:
-    """A worker: one process, one BLAS thread, deaf to Ctrl-C, which the parent hears."""
-    end_with(parent)
-    os.environ[PROCESSES] = "1"
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    threadpool_limits(1, "blas")

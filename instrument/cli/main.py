@@ -35,6 +35,7 @@ COMMANDS = (
     "damping",
     "identify",
     "diagnose",
+    "batch",
     "report",
     "export",
     "import",

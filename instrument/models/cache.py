@@ -44,6 +44,8 @@ def cached(
     if found is None:
         found = build()
         _store(path, digest, found)
+        # As every later use will find it: arrays in another order in memory round in another way.
+        found = _load(path, digest, cls) or found
     return found
 
 

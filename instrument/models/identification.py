@@ -68,12 +68,14 @@ def identify(
     method: Method = "direct",
     progress: Progress = quiet,
     hammer: Hammer | None = None,
+    like: Specimen | None = None,
 ) -> Identified:
     """The core's law from a sweep, the specimen's own law as the start.
 
     Directly: law, stated numbers within their tolerances, model error and the bare plate's `hammer` test in
     one posterior. The reduced model is certified where the fit ends; beyond that it is widened and the fit
-    repeated. Raises `OutsideModel` where the layer-wise theory does not hold for the law found.
+    repeated. Raises `OutsideModel` where the layer-wise theory does not hold for the law found. `like` as
+    `set_up` takes it, of the direct method.
     """
     if specimen.core is None:
         raise OutsideModel("a bare plate has no core to identify, expected [core] and [constraining]")
@@ -94,7 +96,9 @@ def identify(
             assert models is not None
             problem: _Direct | _Paper = _Paper(sweep, models)
         else:
-            ready_made = set_up(sweep, specimen, hammer, progress, with_effects=False, models=models)
+            ready_made = set_up(
+                sweep, specimen, hammer, progress, with_effects=False, models=models, like=like
+            )
             models, problem = ready_made.models, _Direct(ready_made, noise)
         ready = perf_counter()
         with threadpool_limits(1, "blas"), progress(f"fitting ({method})") as report:

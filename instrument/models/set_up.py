@@ -73,7 +73,7 @@ def set_up(
         specimen = replace(specimen, modal_ratios=modes.ratios)
         bare = _bare(modes, specimen)
     if like is not None:
-        _check_like(specimen, like)
+        check_like(specimen, like)
     count = max(_USUAL_MODES, len(specimen.modal_ratios))
     usual = replace(like or specimen, modal_ratios=(_USUAL_RATIO,) * count)
     models = models or Models.of(usual, sweep.frequency_hz, progress)
@@ -103,7 +103,7 @@ def set_up(
     return SetUp(problem, reduced, models, bare, remade)
 
 
-def _check_like(specimen: Specimen, like: Specimen) -> None:
+def check_like(specimen: Specimen, like: Specimen) -> None:
     """Raise `OutsideModel` where one plate's model cannot serve the other."""
     for name, ours, theirs in _numbers(specimen, like):
         if abs(ours / theirs - 1) > _LIKE:

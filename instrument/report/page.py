@@ -1,9 +1,6 @@
 """The page: every section of a session, rendered to one HTML text that needs nothing beside it."""
 
 from importlib.metadata import version
-from pathlib import Path
-
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from instrument.progress import Progress, quiet
 from instrument.report.blocks import Section
@@ -12,6 +9,7 @@ from instrument.report.diagnosis import diagnosis_sections
 from instrument.report.ending import ending_section
 from instrument.report.fitted import Fitted
 from instrument.report.hammer import hammer_section
+from instrument.report.html import html_page
 from instrument.report.identification import (
     identification_section,
     result_in_short,
@@ -21,7 +19,6 @@ from instrument.report.setting import rig_section, specimen_section, versions_se
 from instrument.report.sweep import sweep_section
 from instrument.session.contents import Contents
 
-_TEMPLATE = "page.html"
 _PACKAGES = ("viscorig", "numpy", "scipy", "h5py", "matplotlib")
 
 
@@ -31,19 +28,14 @@ def report_page(contents: Contents, progress: Progress = quiet) -> str:
     with progress("drawing"):
         sections = sections_of(contents, fitted)
     c = contents.configuration
-    return (
-        _environment()
-        .get_template(_TEMPLATE)
-        .render(
-            title=c.experiment.title or c.name,
-            session=c.name,
-            operator=c.experiment.operator or "not stated",
-            date=c.created_utc.replace("T", " ").replace("+00:00", " UTC"),
-            specimen=c.experiment.specimen,
-            result=result_in_short(fitted),
-            sections=sections,
-        )
-    )
+    header = [
+        ("operator", c.experiment.operator or "not stated"),
+        ("date", c.created_utc.replace("T", " ").replace("+00:00", " UTC")),
+        ("session", c.name),
+        ("specimen file", c.experiment.specimen),
+        ("result", result_in_short(fitted)),
+    ]
+    return html_page(c.experiment.title or c.name, header, sections)
 
 
 def sections_of(contents: Contents, fitted: Fitted) -> list[Section]:
@@ -60,14 +52,3 @@ def sections_of(contents: Contents, fitted: Fitted) -> list[Section]:
         *diagnosis_sections(contents),
         versions_section(contents, {package: version(package) for package in _PACKAGES}),
     ]
-
-
-def _environment() -> Environment:
-    """Escapes everything: titles and remarks are foreign text."""
-    return Environment(
-        loader=FileSystemLoader(Path(__file__).parent),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )

@@ -1,0 +1,1 @@
+"""Many sessions or sweeps, one row each: here, or on a Dask cluster."""

@@ -1,0 +1,76 @@
+"""What a batch is asked to do: sessions and sweeps as named, or the rows of a table."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from instrument.batch.task import Task
+from instrument.errors import BadInput
+from instrument.files.table import number, read_rows
+from instrument.interchange.given import is_session
+
+COLUMNS = ("data", "specimen", "hammer", "temperature_c")
+"""Of a table; `data` has to be there, others than these are passed over."""
+
+
+def tasks_of(
+    files: Sequence[Path], specimen: Path | None, hammer: Path | None = None, *, diagnose: bool = False
+) -> list[Task]:
+    """A row each, in order. Raises `BadInput` for what is wrong with the question, not with a file."""
+    tables = [path for path in files if _is_table(path)]
+    if tables and len(files) > 1:
+        raise BadInput(f"{tables[0]}: a table beside other files, expected one table, or data only")
+    if tables:
+        found = _of_table(tables[0], specimen, hammer)
+    else:
+        found = [_task(path, specimen, hammer) for path in files]
+        lonely = next((t for t in found if t.specimen is None and not is_session(Path(t.data))), None)
+        if lonely is not None:
+            raise BadInput(
+                f"{lonely.data}: Missing option '--specimen': a sweep does not say which plate it was"
+            )
+    return [replace(task, diagnose=diagnose) for task in found]
+
+
+def _task(data: Path, specimen: Path | None, hammer: Path | None) -> Task:
+    return Task(str(data), str(specimen) if specimen else None, str(hammer) if hammer else None)
+
+
+def _is_table(path: Path) -> bool:
+    """A CSV with a column `data`; what cannot be read is none, and fails as a row."""
+    if path.suffix.lower() != ".csv":
+        return False
+    try:
+        with open(path, encoding="utf-8-sig") as file:
+            head = next((line for line in file if line.strip() and not line.lstrip().startswith("#")), "")
+    except (OSError, UnicodeDecodeError):
+        return False
+    return "data" in [name.strip().strip('"') for name in head.split(",")]
+
+
+def _of_table(table: Path, specimen: Path | None, hammer: Path | None) -> list[Task]:
+    """Paths in a table are from the table's own folder."""
+
+    def check(header: list[str]) -> None:
+        assert "data" in header
+
+    header, rows = read_rows(table, check)
+    found = []
+    for line, row in rows:
+        cell = dict(zip(header, row, strict=True))
+        if not cell["data"]:
+            raise BadInput(f"{table}: line {line}: data is empty, expected a session or a sweep")
+        t = cell.get("temperature_c") or ""
+        found.append(
+            Task(
+                _beside(table, cell["data"]) or "",
+                _beside(table, cell.get("specimen")) or (str(specimen) if specimen else None),
+                _beside(table, cell.get("hammer")) or (str(hammer) if hammer else None),
+                number(table, line, "temperature_c", t) if t else None,
+            )
+        )
+    return found
+
+
+def _beside(table: Path, name: str | None) -> str | None:
+    return str(table.parent / name) if name else None

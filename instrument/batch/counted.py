@@ -1,0 +1,51 @@
+"""What a batch came to, in a few numbers."""
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import Any
+
+from instrument.batch.columns import NOT_DIAGNOSED
+from instrument.batch.run import Row
+
+
+@dataclass
+class Counted:
+    """Rows by what came of them."""
+
+    rows: int = 0
+    done: int = 0
+    verdicts: Counter[str] = field(default_factory=Counter)
+    effects: Counter[str] = field(default_factory=Counter)
+    failures: list[tuple[str, str]] = field(default_factory=list)
+    """Data and reason, in the order of the rows."""
+    borrowed: int = 0
+    """Rows worked out on another specimen's reduced model."""
+
+    @classmethod
+    def of(cls, rows: Iterable[Row]) -> "Counted":
+        """In one pass."""
+        found = cls()
+        for row in rows:
+            o = row.outcome
+            found.rows += 1
+            if o["failed"]:
+                found.failures.append((row.task.data, o["failed"]))
+                continue
+            found.done += 1
+            found.borrowed += bool(o["borrowed_model"])
+            found.verdicts[o["verdict"] or NOT_DIAGNOSED] += 1
+            found.effects.update(o["effects"])
+        return found
+
+    def facts(self) -> dict[str, Any]:
+        """For the JSON."""
+        return {
+            "rows": self.rows,
+            "done": self.done,
+            "failed": len(self.failures),
+            "verdicts": dict(self.verdicts),
+            "effects": dict(self.effects.most_common()),
+            "borrowed_models": self.borrowed,
+            "failures": [{"data": data, "reason": why} for data, why in self.failures],
+        }

@@ -1,0 +1,52 @@
+"""What a row's outcome depends on, as one digest: contents, options and the program itself."""
+
+import hashlib
+import json
+from functools import cache
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+import scipy
+
+from instrument.batch.task import Task
+
+_ROOMS = ("fitting", "instrument")
+_DIGITS = 32
+
+
+class Keys:
+    """Keys of tasks; a file that many of them name is read once."""
+
+    def __init__(self) -> None:
+        self._digest = cache(digest_of)
+
+    def key(self, task: Task) -> str | None:
+        """None where a file cannot be read: such a row is tried again.
+
+        A file's name counts, its folder does not: messages name files.
+        """
+        said: list[object] = [program(), task.diagnose]
+        for path in (task.data, task.specimen, task.hammer, task.like):
+            try:
+                said.append([Path(path).name, self._digest(path)] if path else None)
+            except OSError:
+                return None
+        return hashlib.sha256(json.dumps(said).encode()).hexdigest()[:_DIGITS]
+
+
+def digest_of(path: str) -> str:
+    """Of a file's content. Raises `OSError`."""
+    with open(path, "rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
+@cache
+def program() -> str:
+    """Version and sources of the program and of what it computes with."""
+    digest = hashlib.sha256()
+    root = Path(__file__).parents[2]
+    for room in _ROOMS:
+        for file in sorted((root / room).rglob("*.py")):
+            digest.update(file.read_bytes())
+    return f"{version('viscorig')} {digest.hexdigest()[:_DIGITS]} {np.__version__} {scipy.__version__}"

@@ -1,0 +1,104 @@
+"""batch.html: laws overlaid, verdicts counted, failures listed, all rows in a table; nothing is fetched."""
+
+from collections.abc import Sequence
+from importlib.metadata import version
+from itertools import islice
+from pathlib import Path
+
+from instrument.batch.columns import Cell, cells
+from instrument.batch.counted import Counted
+from instrument.batch.figure import MOST, laws_figure
+from instrument.batch.run import Rows
+from instrument.batch.table import beside
+from instrument.report.blocks import Block, Facts, Section, Sentence, Table
+from instrument.report.html import html_page
+from instrument.report.picture import picture
+
+HTML = "batch.html"
+_ROWS_SHOWN = 2000
+_SHOWN: Sequence[tuple[str, str, float]] = (
+    ("points", "points", 1),
+    ("lowest_hz", "from / Hz", 1),
+    ("highest_hz", "to / Hz", 1),
+    ("temperature_c", "T / °C", 1),
+    ("middle_hz", "at / Hz", 1),
+    ("storage_modulus_pa", "G' / MPa", 1e-6),
+    ("storage_modulus_standard_error_pa", "± / MPa", 1e-6),
+    ("loss_factor", "η", 1),
+    ("loss_factor_standard_error", "±", 1),
+    ("rms_percent", "rms / %", 1),
+    ("held_out_rms_percent", "held out / %", 1),
+    ("verdict", "verdict", 1),
+    ("effects", "effects", 1),
+    ("warnings", "remarks", 1),
+)
+
+
+def write_page(rows: Rows, counted: Counted, folder: Path) -> Path:
+    """The page's path."""
+    title = f"{counted.rows} rows"
+    head = [
+        ("done", f"{counted.done} of {counted.rows}"),
+        (
+            "verdicts",
+            ", ".join(f"{count} {name}" for name, count in counted.verdicts.most_common()) or "none",
+        ),
+        ("program", f"viscorig {version('viscorig')}"),
+    ]
+    sections = [
+        Section("Laws", _laws(rows, counted)),
+        Section("Verdicts", _verdicts(counted)),
+        Section("Failures", _failures(counted)),
+        Section("Rows", _rows(rows)),
+    ]
+    path = folder / HTML
+    with beside(path) as draft:
+        draft.write_text(html_page(title, head, sections), encoding="utf-8")
+    return path
+
+
+def _laws(rows: Rows, counted: Counted) -> tuple[Block, ...]:
+    if not counted.done:
+        return (Sentence("No row has a law.", "note"),)
+    every = 1 + (counted.done - 1) // MOST
+    some = "" if every == 1 else f" One in {every} of them is drawn."
+    said = f"G' and η of {counted.done} rows over the bands measured, with 95 % bands.{some}"
+    return (picture(laws_figure(rows, counted.done), said),)
+
+
+def _verdicts(counted: Counted) -> tuple[Block, ...]:
+    blocks: list[Block] = [
+        Table("", ("verdict", "rows"), tuple((name, str(n)) for name, n in counted.verdicts.most_common()))
+    ]
+    if counted.effects:
+        found = tuple((name, str(n)) for name, n in counted.effects.most_common())
+        blocks.append(Table("Effects named", ("effect", "rows"), found))
+    if counted.borrowed:
+        said = f"{counted.borrowed} rows were worked out on the reduced model of a specimen like theirs."
+        blocks.append(Facts("", (("models", said),)))
+    return tuple(blocks)
+
+
+def _failures(counted: Counted) -> tuple[Block, ...]:
+    if not counted.failures:
+        return (Sentence("None."),)
+    return (Table("", ("data", "why"), tuple(counted.failures)),)
+
+
+def _rows(rows: Rows) -> tuple[Block, ...]:
+    shown = []
+    for row in islice(rows, _ROWS_SHOWN):
+        found = cells(row)
+        if row.outcome["failed"]:
+            found["warnings"] = row.outcome["failed"]
+        shown.append((row.task.data, *(_text(found.get(key), scale) for key, _, scale in _SHOWN)))
+    table = Table("", ("data", *(head for _, head, _ in _SHOWN)), tuple(shown))
+    if len(rows) <= _ROWS_SHOWN:
+        return (table,)
+    return (Sentence(f"The first {_ROWS_SHOWN}; batch.csv has all of them.", "note"), table)
+
+
+def _text(cell: Cell, scale: float) -> str:
+    if cell is None:
+        return ""
+    return f"{cell * scale:.4g}" if isinstance(cell, int | float) else cell

@@ -1,0 +1,121 @@
+"""A batch from its question to its table: what is known is not done again, what is found is kept at once."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+
+from instrument.batch.cluster import on_cluster
+from instrument.batch.families import with_families
+from instrument.batch.journal import Journal
+from instrument.batch.keys import Keys
+from instrument.batch.task import Task
+from instrument.batch.work import Outcome, failure, lost, outcome_of
+from instrument.errors import StoppedByUser
+from instrument.models.processes import in_processes
+from instrument.progress import Progress, quiet
+
+Keep = Callable[[Task, Outcome], None]
+Runner = Callable[[Sequence[Task], Keep], None]
+
+
+def here(workers: int) -> Runner:
+    """In processes of this machine."""
+    return lambda tasks, keep: in_processes(outcome_of, tasks, workers, keep, lost)
+
+
+def there(address: str) -> Runner:
+    """On a Dask scheduler."""
+    return partial(on_cluster, address)
+
+
+@dataclass(frozen=True)
+class Row:
+    """A task and what came of it."""
+
+    task: Task
+    outcome: Outcome
+
+
+class Rows:
+    """All rows in the order of the question, one at a time from the disk; a context."""
+
+    def __init__(self, tasks: Sequence[Task], keys: Sequence[str | None], journal: Journal) -> None:
+        self._tasks, self._keys, self._journal = tasks, keys, journal
+        self.repeated = 0
+        """How many the journal had already."""
+
+    def __len__(self) -> int:
+        return len(self._tasks)
+
+    def __iter__(self) -> Iterator[Row]:
+        for task, key in zip(self._tasks, self._keys, strict=True):
+            if key is not None and key in self._journal:
+                yield Row(task, self._journal[key])
+            else:
+                yield Row(task, _unread(task))
+
+    def __enter__(self) -> "Rows":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._journal.__exit__(None, None, None)
+
+
+def run_batch(
+    tasks: Sequence[Task], folder: Path, runner: Runner | None = None, progress: Progress = quiet
+) -> Rows:
+    """Do what is not done yet. Raises `BadInput`, `StoppedByUser`."""
+    tasks = with_families(tasks)
+    journal = Journal(folder)
+    try:
+        with progress("looking for what is done"):
+            keyed = Keys()
+            keys = [keyed.key(task) for task in tasks]
+        known = {key for key in keys if key in journal}
+        _do_what_is_left(tasks, keys, journal, runner or here(1), progress)
+    except BaseException:
+        journal.__exit__(None, None, None)
+        raise
+    rows = Rows(tasks, keys, journal)
+    rows.repeated = sum(key in known for key in keys)
+    return rows
+
+
+def _do_what_is_left(
+    tasks: Sequence[Task],
+    keys: Sequence[str | None],
+    journal: Journal,
+    runner: Runner,
+    progress: Progress,
+) -> None:
+    """Rows of one key are done once."""
+    left = {key: task for task, key in zip(tasks, keys, strict=True) if key and key not in journal}
+    by_task = {task: key for key, task in left.items()}
+    count, done = len(tasks), len(tasks) - len(left)
+    with progress(f"{count} rows") as report:
+        report(done / count if count else 1.0)
+
+        def keep(task: Task, outcome: Outcome) -> None:
+            nonlocal done
+            journal.keep(by_task[task], outcome)
+            done += 1
+            report(done / count)
+
+        try:
+            runner(list(by_task), keep)
+        except KeyboardInterrupt:
+            said = f"{done} of {count} rows done, kept in {journal.path}; the same command goes on"
+            raise StoppedByUser(said) from None
+
+
+def _unread(task: Task) -> Outcome:
+    """Of a row that names a file which cannot be read."""
+    for path in (task.data, task.specimen, task.hammer):
+        if path is not None:
+            try:
+                with open(path, "rb") as file:
+                    file.read(1)
+            except OSError as error:
+                return failure(f"{Path(path).name}: {error.strerror or error}", again=True)
+    return failure("its files changed while the batch went on", again=True)

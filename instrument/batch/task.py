@@ -1,0 +1,18 @@
+"""One row of a batch, as files and tables ask for it."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Task:
+    """Paths as text: a task goes to other processes and other machines."""
+
+    data: str
+    specimen: str | None = None
+    """None for a session's own."""
+    hammer: str | None = None
+    temperature_c: float | None = None
+    """As the table has it."""
+    like: str | None = None
+    """A specimen file whose models may serve this one."""
+    diagnose: bool = False

@@ -1,0 +1,126 @@
+"""A row's work: read, identify or diagnose, and say in one line why not. The same here and on a cluster."""
+
+import os
+from pathlib import Path
+from typing import Any
+
+from threadpoolctl import threadpool_limits
+
+from fitting.errors import FittingError
+from fitting.specimen import Specimen
+from instrument.batch.keys import program
+from instrument.batch.task import Task
+from instrument.errors import BadInput
+from instrument.files.specimen_file import read_specimen
+from instrument.interchange.given import Given, read_given
+from instrument.models.diagnosis import diagnose
+from instrument.models.identification import identify
+from instrument.models.second_process import VARIABLE as PROCESSES
+from instrument.models.sharing import serves
+from instrument.results.diagnosis_facts import diagnosis_facts
+from instrument.results.identification_facts import identification_facts
+from instrument.stream.jsonable import to_jsonable
+
+Outcome = dict[str, Any]
+"""As JSON has it. `failed` is a line, or None; `again` where the next run should try once more."""
+_KEPT = (
+    "law_kind",
+    "parameters",
+    "standard_errors",
+    "rms_percent",
+    "held_out_rms_percent",
+    "leave_one_out_rms_percent",
+    "chi2_per_dof",
+    "law",
+)
+
+
+def outcome_of(task: Task) -> Outcome:
+    """Work on a row and never fail. `program` says whose answer it is."""
+    # Rows share the processors among them; a row is alone on its own.
+    os.environ[PROCESSES] = "1"
+    with threadpool_limits(1, "blas"):
+        try:
+            found = _worked(task)
+        except (BadInput, FittingError) as error:
+            found = failure(_without_folders(task, str(error)))
+        except Exception as error:  # one row is not the end of a batch
+            found = failure(f"{type(error).__name__}: {_without_folders(task, str(error))}", again=True)
+    return {**found, "program": program()}
+
+
+def failure(why: str, *, again: bool = False) -> Outcome:
+    """A row without a law."""
+    return {"failed": " ".join(why.split()) or "no reason given", "again": again}
+
+
+def lost(task: Task) -> Outcome:
+    """A row whose process died with it, twice."""
+    return {**failure("its process was ended from outside, or crashed", again=True), "program": program()}
+
+
+def _without_folders(task: Task, message: str) -> str:
+    """Outcomes are kept by names and contents of files, wherever these are."""
+    for path in (task.data, task.specimen, task.hammer):
+        if path:
+            message = message.replace(path, Path(path).name)
+    return message
+
+
+def _worked(task: Task) -> Outcome:
+    data, specimen, hammer = (Path(p) if p else None for p in (task.data, task.specimen, task.hammer))
+    assert data is not None
+    if specimen is None and not data.suffix:
+        raise BadInput(f"{data}: neither a session nor a sweep")
+    given = read_given(data, specimen, hammer)
+    like = _lender(task, given)
+    facts = _diagnosed(given, like) if task.diagnose else _identified(given, like)
+    f = given.sweep.frequency_hz
+    kept = {
+        "failed": None,
+        "again": False,
+        "points": len(given.sweep),
+        "lowest_hz": float(f.min()),
+        "highest_hz": float(f.max()),
+        "temperature_c": given.temperature_c,
+        "borrowed_model": like is not None,
+        **facts,
+    }
+    found: Outcome = to_jsonable({**kept, "law": _columns(facts["law"])})
+    return found
+
+
+def _columns(rows: list[dict[str, float]]) -> dict[str, list[float]]:
+    """Short on disk: each key once."""
+    return {key: [row[key] for row in rows] for key in rows[0]} if rows else {}
+
+
+def _lender(task: Task, given: Given) -> Specimen | None:
+    if task.like is None:
+        return None
+    lender = read_specimen(Path(task.like))
+    return lender if serves(lender, given.specimen, given.sweep) else None
+
+
+def _identified(given: Given, like: Specimen | None) -> dict[str, Any]:
+    found = identify(given.sweep, given.specimen, hammer=given.modes, like=like)
+    facts = identification_facts(found, given.sweep)
+    return {
+        "verdict": None,
+        "effects": [],
+        "converged": facts["converged"],
+        "warnings": facts["warnings"],
+        **{key: facts[key] for key in _KEPT},
+    }
+
+
+def _diagnosed(given: Given, like: Specimen | None) -> dict[str, Any]:
+    found = diagnose(given.sweep, given.specimen, given.modes, like=like)
+    facts = diagnosis_facts(found, given.sweep)
+    return {
+        "verdict": facts["verdict"],
+        "effects": [effect["name"] for effect in facts["effects"]],
+        "converged": None,
+        "warnings": facts["warnings"],
+        **{key: facts["after"][key] for key in _KEPT},
+    }

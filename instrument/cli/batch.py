@@ -1,0 +1,95 @@
+"""`viscorig batch`: many sessions or sweeps to one table and one page."""
+
+from pathlib import Path
+
+import click
+
+from instrument.batch.asking import tasks_of
+from instrument.batch.counted import Counted
+from instrument.batch.page import write_page
+from instrument.batch.run import here, run_batch, there
+from instrument.batch.table import CSV, write_tables
+from instrument.cli.options import json_option
+from instrument.cli.output import Output
+from instrument.errors import BadInput
+from instrument.models.second_process import VARIABLE, processors
+from instrument.progress import bar
+
+_FAILURES_SHOWN = 20
+
+
+@click.command()
+@click.argument("files", type=click.Path(path_type=Path), nargs=-1, required=True)
+@click.option(
+    "--specimen",
+    type=click.Path(path_type=Path),
+    help="SPECIMEN.toml of every row that names none; a session has its own.",
+)
+@click.option(
+    "--hammer",
+    type=click.Path(path_type=Path),
+    help="JSON of 'viscorig damping' for every row that names none.",
+)
+@click.option(
+    "--diagnose", is_flag=True, help="Trace every residual to its effect; the law is the one after."
+)
+@click.option(
+    "--out",
+    "folder",
+    type=click.Path(path_type=Path, file_okay=False),
+    default=Path(),
+    help="Where batch.csv, batch.html and the journal go; the current folder otherwise.",
+)
+@click.option(
+    "--workers",
+    type=click.IntRange(1, 1024),
+    help=f"Processes on this machine; as many as it has processors otherwise (one where {VARIABLE} is 1).",
+)
+@click.option(
+    "--scheduler",
+    metavar="ADDRESS",
+    help="A Dask scheduler, as tcp://host:8786, instead of this machine (extra 'cluster'). Its workers see "
+    "the files at the same paths.",
+)
+@json_option
+def batch(
+    files: tuple[Path, ...],
+    specimen: Path | None,
+    hammer: Path | None,
+    diagnose: bool,
+    folder: Path,
+    workers: int | None,
+    scheduler: str | None,
+    json_path: str | None,
+) -> None:
+    """A law for each of FILES: sessions (.h5), sweeps, or one table with the columns data and specimen.
+
+    A table's other columns are hammer and temperature_c; its paths are from its own folder. A row that
+    fails says why and stops nothing. Stopped or killed, the same command goes on where it was.
+    """
+    out = Output(json_path)
+    if scheduler is not None and workers is not None:
+        raise click.UsageError("--workers and --scheduler exclude each other")
+    if any(path.absolute() == (folder / CSV).absolute() for path in files):
+        raise BadInput(f"{folder / CSV}: both given and to be written, expected another --out")
+    tasks = tasks_of(files, specimen, hammer, diagnose=diagnose)
+    runner = there(scheduler) if scheduler is not None else here(workers or processors())
+    with run_batch(tasks, folder, runner, bar) as rows:
+        counted = Counted.of(rows)
+        written = [*write_tables(rows, folder), write_page(rows, counted, folder)]
+        repeated = rows.repeated
+    _say(out, counted, repeated)
+    for path in written:
+        out.say(f"wrote {path}")
+    out.result({**counted.facts(), "known_before": repeated, "files": [str(path) for path in written]})
+
+
+def _say(out: Output, counted: Counted, repeated: int) -> None:
+    before = f", {repeated} of them known before" if repeated else ""
+    out.say(f"{counted.done} of {counted.rows} rows done{before}, {len(counted.failures)} failed")
+    if counted.verdicts:
+        out.say("verdicts: " + ", ".join(f"{n} {name}" for name, n in counted.verdicts.most_common()))
+    for data, why in counted.failures[:_FAILURES_SHOWN]:
+        out.say(f"failed: {data}: {why}")
+    if len(counted.failures) > _FAILURES_SHOWN:
+        out.say(f"and {len(counted.failures) - _FAILURES_SHOWN} more, all in {CSV}")

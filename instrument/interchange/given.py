@@ -1,0 +1,85 @@
+"""What is to be identified: a sweep, its plate and its hammer test, whatever file they come in."""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from fitting.specimen import Specimen
+from fitting.sweep import Sweep
+from instrument.errors import BadInput
+from instrument.files.hammer_file import HammerModes, read_hammer
+from instrument.files.specimen_file import read_specimen
+from instrument.files.sweep_file import read_sweep
+from instrument.interchange.base_frf import is_frf_csv, sweep_of_foreign, sweep_of_frf_csv
+from instrument.interchange.identified import session_modes, session_sweep
+from instrument.interchange.readers import is_foreign
+from instrument.session.contents import Contents, contents_of
+from instrument.session.storage import SessionFile
+
+SESSION_ENDINGS = (".h5", ".hdf5")
+
+
+@dataclass(frozen=True)
+class Given:
+    """What the files gave."""
+
+    specimen: Specimen
+    sweep: Sweep
+    modes: HammerModes | None
+    """Of the hammer test that is to take part."""
+    facts: dict[str, Any]
+    """Of the session, for the JSON."""
+    remark: str = ""
+    """For people, where a file leaves something to say."""
+    temperature_c: float | None = None
+    """Mean over a session's points, where it was measured."""
+
+
+def is_session(data: Path) -> bool:
+    """By the ending."""
+    return data.suffix.lower() in SESSION_ENDINGS
+
+
+def read_given(data: Path, specimen: Path | None, hammer: Path | None, *, own_hammer: bool = True) -> Given:
+    """Read data, specimen and hammer test; `own_hammer`: a session's own where none is named.
+
+    Raises `BadInput`, `FittingError`.
+    """
+    if is_session(data):
+        given = _of_session(data, specimen, own_hammer=hammer is None and own_hammer)
+    else:
+        given = _of_sweep(data, specimen)
+    return given if hammer is None else replace(given, modes=read_hammer(hammer))
+
+
+def _of_sweep(data: Path, specimen: Path | None) -> Given:
+    if specimen is None:
+        raise BadInput("Missing option '--specimen': a sweep does not say which plate it was")
+    read = read_specimen(specimen)
+    level = read.base_acceleration_m_s2
+    if is_foreign(data):
+        return Given(read, sweep_of_foreign(data, level), None, {})
+    if is_frf_csv(data):
+        said = "an FRF: taken as the pickup over the base's acceleration"
+        return Given(read, sweep_of_frf_csv(data, level), None, {}, said)
+    return Given(read, read_sweep(data).sweep(level), None, {})
+
+
+def _of_session(data: Path, specimen: Path | None, *, own_hammer: bool) -> Given:
+    with SessionFile(data) as session:
+        contents = contents_of(session, with_hits=False)
+    reads = contents.configuration.rig.vibrometer.reads
+    read = contents.specimen if specimen is None else replace(read_specimen(specimen), reads=reads)
+    modes = session_modes(contents) if own_hammer else None
+    sweep = session_sweep(contents, read)
+    name = contents.configuration.name
+    hammer = f", its hammer test with {len(modes.frequency_hz)} modes" if modes is not None else ""
+    said = f"session {name}: {len(sweep)} points, velocity {reads}{hammer}"
+    return Given(read, sweep, modes, {"session": name, "reads": reads}, said, _temperature_c(contents))
+
+
+def _temperature_c(contents: Contents) -> float | None:
+    read = [p.temperature_c for p in contents.measured if p.temperature_c is not None]
+    return float(np.mean(read)) if read else None

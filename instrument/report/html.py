@@ -1,0 +1,22 @@
+"""Sections to one HTML text that needs nothing beside it."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+from instrument.report.blocks import Section
+
+_TEMPLATE = "page.html"
+
+
+def html_page(title: str, header: Sequence[tuple[str, str]], sections: Sequence[Section]) -> str:
+    """`header` are names and values under the title. All is escaped: much of it is foreign text."""
+    environment = Environment(
+        loader=FileSystemLoader(Path(__file__).parent),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    return environment.get_template(_TEMPLATE).render(title=title, header=header, sections=sections)

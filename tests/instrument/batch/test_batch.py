@@ -1,0 +1,182 @@
+"""A batch: rows that fail beside rows that do not, one table, one page."""
+
+import csv
+import json
+import re
+
+import pytest
+from batch_cases import CORRUPT, write_specimen, write_sweeps
+from diagnosed_session import diagnosed_session
+
+from instrument.batch.asking import tasks_of
+from instrument.batch.run import here, run_batch
+from instrument.cli.main import run
+from instrument.errors import BadInput
+
+
+@pytest.fixture(scope="module")
+def plate(tmp_path_factory):
+    return write_specimen(tmp_path_factory.mktemp("plate"))
+
+
+@pytest.fixture(scope="module")
+def sweeps(tmp_path_factory, plate):
+    folder = tmp_path_factory.mktemp("sweeps")
+    paths = write_sweeps(folder, plate, 4, points=(9, 12))
+    paths[2].write_text(CORRUPT, encoding="utf-8")
+    return paths
+
+
+def rows_of(folder):
+    with open(folder / "batch.csv", encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def batch(*arguments):
+    return run(["batch", *map(str, arguments)])
+
+
+def test_a_corrupt_file_is_a_row_with_its_reason(tmp_path, sweeps, plate, capsys):
+    assert batch(*sweeps, "--specimen", plate, "--out", tmp_path, "--json", "-") == 0
+    said = json.loads(capsys.readouterr().out)
+    assert (said["rows"], said["done"], said["failed"]) == (4, 3, 1)
+    assert said["verdicts"] == {"not diagnosed": 3}
+    rows = rows_of(tmp_path)
+    assert [row["status"] for row in rows] == ["done", "done", "failed", "done"]
+    assert rows[2]["reason"] == said["failures"][0]["reason"]
+    assert "column frequency_hz missing" in rows[2]["reason"]
+    assert rows[0]["points"] == "9"
+    assert float(rows[0]["storage_modulus_pa"]) == pytest.approx(0.9e6, rel=0.5)
+    assert float(rows[0]["g0_pa"]) > 0
+    assert float(rows[0]["alpha_standard_error"]) > 0
+
+
+def test_a_row_says_what_identify_says(tmp_path, sweeps, plate):
+    assert batch(sweeps[0], "--specimen", plate, "--out", tmp_path) == 0
+    assert (
+        run(["identify", str(sweeps[0]), "--specimen", str(plate), "--json", str(tmp_path / "i.json")]) == 0
+    )
+    alone = json.loads((tmp_path / "i.json").read_text())
+    (row,) = rows_of(tmp_path)
+    for name, value in alone["parameters"].items():
+        assert float(row[name]) == pytest.approx(value, rel=1e-9)
+    assert float(row["rms_percent"]) == pytest.approx(alone["rms_percent"], rel=1e-9)
+
+
+def test_the_page_needs_nothing_beside_it(tmp_path, sweeps, plate):
+    assert batch(*sweeps, "--specimen", plate, "--out", tmp_path) == 0
+    page = (tmp_path / "batch.html").read_text(encoding="utf-8")
+    assert not re.search(r'(src|href)="(?!data:|#)', page)
+    for words in ("3 of 4", "sweep-0002.csv", "column frequency_hz missing", "data:image/svg+xml"):
+        assert words in page
+
+
+def test_started_again_nothing_is_repeated_and_the_table_is_the_same(tmp_path, sweeps, plate, capsys):
+    batch(*sweeps, "--specimen", plate, "--out", tmp_path)
+    first, journal = (tmp_path / "batch.csv").read_bytes(), (tmp_path / "batch.jsonl").read_bytes()
+    with open(tmp_path / "batch.jsonl", "a", encoding="utf-8") as file:
+        file.write('{"key": "torn')
+    (tmp_path / "batch.csv").unlink()
+    capsys.readouterr()
+    assert batch(*sweeps, "--specimen", plate, "--out", tmp_path) == 0
+    assert "4 of them known before" in capsys.readouterr().out
+    assert (tmp_path / "batch.csv").read_bytes() == first
+    assert (tmp_path / "batch.jsonl").read_bytes() == journal
+
+
+def test_another_content_is_another_row(tmp_path, plate):
+    (path,) = write_sweeps(tmp_path, plate, 1)
+    batch(path, "--specimen", plate, "--out", tmp_path / "out")
+    write_sweeps(tmp_path, plate, 1, seed=2)
+    with run_batch(tasks_of([path], plate), tmp_path / "out", here(1)) as rows:
+        assert rows.repeated == 0
+
+
+def test_a_table_names_data_specimen_and_temperature(tmp_path, sweeps, plate):
+    table = sweeps[0].parent / "rows.csv"
+    table.write_text(
+        "# a comment\n"
+        "remark,data,specimen,temperature_c\n"
+        f"first,{sweeps[0].name},{plate},21.5\n"
+        f"gone,nowhere.csv,{plate},\n"
+        f"no plate,{sweeps[1].name},,\n",
+        encoding="utf-8",
+    )
+    assert batch(table, "--out", tmp_path) == 0
+    rows = rows_of(tmp_path)
+    assert [row["status"] for row in rows] == ["done", "failed", "failed"]
+    assert rows[0]["temperature_c"] == "21.5"
+    assert rows[1]["reason"] == "nowhere.csv: No such file or directory"
+    assert "--specimen" in rows[2]["reason"]
+
+
+def test_a_session_is_a_row_without_a_specimen(tmp_path):
+    session = diagnosed_session(tmp_path)
+    assert batch(session, "--out", tmp_path) == 0
+    (row,) = rows_of(tmp_path)
+    assert (row["status"], row["specimen"]) == ("done", "")
+
+
+def test_diagnosed_rows_carry_a_verdict(tmp_path, sweeps, plate, capsys):
+    assert batch(sweeps[0], "--specimen", plate, "--out", tmp_path, "--diagnose") == 0
+    (row,) = rows_of(tmp_path)
+    assert row["verdict"] in ("none", "effect", "ambiguous", "unknown")
+    assert f"1 {row['verdict']}" in capsys.readouterr().out
+
+
+def test_parquet_holds_the_same_numbers(tmp_path, sweeps, plate):
+    parquet = pytest.importorskip("pyarrow.parquet")
+    batch(*sweeps, "--specimen", plate, "--out", tmp_path)
+    table = parquet.read_table(tmp_path / "batch.parquet").to_pylist()
+    rows = rows_of(tmp_path)
+    assert [row["data"] for row in table] == [row["data"] for row in rows]
+    assert table[0]["storage_modulus_pa"] == float(rows[0]["storage_modulus_pa"])
+    assert table[2]["storage_modulus_pa"] is None
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (["sweep-0000.csv"], "Missing option '--specimen'"),
+        (["rows.csv", "sweep-0000.csv"], "expected one table"),
+        (["empty.csv"], "no rows"),
+        (["warm.csv"], "expected a number"),
+    ],
+)
+def test_a_wrong_question_is_one_line(tmp_path, given, said):
+    for name, text in (
+        ("sweep-0000.csv", "frequency_hz,velocity_m_s\n1,1\n"),
+        ("rows.csv", "data\nx.csv\n"),
+        ("empty.csv", "data,specimen\n"),
+        ("warm.csv", "data,temperature_c\nx.csv,warm\n"),
+    ):
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    with pytest.raises(BadInput, match=re.escape(said)):
+        tasks_of([tmp_path / name for name in given], None)
+
+
+def test_a_journal_of_another_kind_is_refused(tmp_path, sweeps, plate, capsys):
+    (tmp_path / "batch.jsonl").write_text('{"mine": 1}\n', encoding="utf-8")
+    assert batch(*sweeps, "--specimen", plate, "--out", tmp_path) == 2
+    assert "line 1: not a row of a batch" in capsys.readouterr().err
+
+
+def test_specimens_that_differ_a_little_share_one_model(tmp_path, plate):
+    folder = tmp_path
+    plates = [
+        write_specimen(folder, f"plate-{k}.toml", core_mm=mm, exact=False)
+        for k, mm in enumerate((0.5, 0.502, 0.6))
+    ]
+    data = write_sweeps(folder, plates[0], 3)
+    table = folder / "rows.csv"
+    lines = [f"{d.name},{p.name}" for d, p in zip(data, plates, strict=True)]
+    table.write_text("\n".join(["data,specimen", *lines, ""]), encoding="utf-8")
+    assert batch(table, "--out", folder / "shared") == 0
+    shared = rows_of(folder / "shared")
+    # Its own, its neighbour's by certificate, and its own again: too far off.
+    assert [row["borrowed_model"] for row in shared] == ["false", "true", "false"]
+    assert batch(data[1], "--specimen", plates[1], "--out", folder / "own") == 0
+    (own,) = rows_of(folder / "own")
+    for name in ("storage_modulus_pa", "loss_factor"):
+        error = float(own[f"{name.removesuffix('_pa')}_standard_error" + ("_pa" if "_pa" in name else "")])
+        assert abs(float(shared[1][name]) - float(own[name])) < 0.1 * error
