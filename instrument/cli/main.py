@@ -37,6 +37,7 @@ COMMANDS = (
     "diagnose",
     "batch",
     "report",
+    "card",
     "export",
     "import",
     "bench",

@@ -1,0 +1,94 @@
+"""What every card is made of: the law, its series, Poisson's ratio, and the lines it begins with."""
+
+from dataclasses import dataclass
+from importlib.metadata import version
+
+import numpy as np
+
+from fitting.arrays import Array
+from fitting.prony import Prony, fit_prony
+from instrument.material.found_law import MaterialLaw
+
+USUAL_POISSON = 0.49
+
+
+@dataclass(frozen=True)
+class Card:
+    """A law, ready to be written in any format. SI throughout: Pa, s, Hz."""
+
+    law: MaterialLaw
+    prony: Prony
+    poisson: float
+    poisson_is_assumed: bool
+
+    @classmethod
+    def of(cls, law: MaterialLaw, poisson: float | None = None, wanted: float = 0.01) -> "Card":
+        """`poisson` where the law's file does not state it; `wanted`: relative error of the series."""
+        given = poisson if poisson is not None else law.poisson
+        prony = fit_prony(law.modulus, *law.band_hz, wanted)
+        return cls(law, prony, USUAL_POISSON if given is None else given, given is None)
+
+    def header(self) -> list[str]:
+        """Lines without the format's comment sign."""
+        law, (low, high) = self.law, self.law.band_hz
+        warm = "not measured" if law.temperature_c is None else f"{law.temperature_c:.1f} degrees C"
+        lines = [
+            f"viscorig {version('viscorig')}: complex shear modulus of a viscoelastic core",
+            f"source: {law.source}; specimen: {law.specimen}",
+            f"band: {low:g} to {high:g} Hz, not to be used outside; temperature: {warm}",
+            f"verdict: {law.verdict}",
+        ]
+        if law.verdict == "unknown":
+            lines.append(
+                "WARNING: verdict unknown: the data show structure that nothing in the catalogue explains; "
+                "this law may be biased beyond its band"
+            )
+        assumed = " (assumed: not stated in the source)" if self.poisson_is_assumed else " (as stated)"
+        lines += [
+            "units: SI: Pa, s, Hz",
+            f"Poisson's ratio: {self.poisson:g}{assumed}, real and constant: bulk and shear relax alike",
+            f"law: {law.kind}: " + ", ".join(f"{k} = {v:.6g}" for k, v in law.parameters.items()),
+        ]
+        # Names come from files: none of them may begin a line of its own.
+        return [" ".join(line.split()) for line in lines]
+
+    def about_series(self) -> str:
+        """How well the series stands for the law."""
+        p = self.prony
+        return (
+            f"Prony series of {len(p.g_pa)} terms: at most {100 * p.max_error:.2g} % off the law's G* in the "
+            f"band, rms {100 * p.rms_error:.2g} %"
+        )
+
+    def about_table(self) -> str:
+        """How well straight lines between the listed points stand for the law."""
+        return f"table read with straight lines: at most {100 * self.table_error:.2g} % off the law's G*"
+
+    @property
+    def table_error(self) -> float:
+        """Largest relative error of G* by linear interpolation of G' and G''."""
+        law = self.law
+        f = np.geomspace(*law.band_hz, 40 * len(law.frequency_hz))
+        G = law.modulus(2 * np.pi * f)
+        straight = np.interp(f, law.frequency_hz, self.storage) + 1j * np.interp(
+            f, law.frequency_hz, self.loss
+        )
+        return float(np.max(np.abs(straight / G - 1)))
+
+    @property
+    def storage(self) -> Array:
+        """G' in Pa at the law's frequencies."""
+        return self.law.storage_modulus_pa
+
+    @property
+    def loss(self) -> Array:
+        """G'' in Pa."""
+        return self.law.storage_modulus_pa * self.law.loss_factor
+
+    def young_pa(self, shear_pa: float) -> float:
+        """E of a shear modulus."""
+        return 2 * (1 + self.poisson) * shear_pa
+
+    def bulk_over_shear(self) -> float:
+        """K / G of the stated Poisson's ratio."""
+        return 2 * (1 + self.poisson) / (3 * (1 - 2 * self.poisson))

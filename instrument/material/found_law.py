@@ -1,0 +1,189 @@
+"""A law as it was found, whoever found it: G' and eta over a band, how well they are known, what was said."""
+
+import json
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+from pydantic import BaseModel, Field, ValidationError
+from scipy.interpolate import PchipInterpolator
+
+from fitting.arrays import Array, Complex
+from fitting.errors import FittingError
+from instrument.errors import BadInput
+from instrument.files.text import read_text
+from instrument.interchange.given import is_session
+from instrument.interchange.identified import identify_session
+from instrument.progress import Progress, quiet
+from instrument.results.identification_facts import identification_facts
+from instrument.session.contents import Contents, contents_of
+from instrument.session.storage import SessionFile
+from instrument.stream.jsonable import to_jsonable
+
+NOT_DIAGNOSED = "not diagnosed"
+NOT_STATED = "not stated"
+
+Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+
+
+class _Row(BaseModel):
+    frequency_hz: Positive
+    storage_modulus_pa: Positive
+    loss_factor: Finite
+    storage_modulus_standard_error_pa: float | None = None
+    loss_factor_standard_error: float | None = None
+
+
+class _Found(BaseModel):
+    """What `identify` says, or `after` of `diagnose`."""
+
+    law_kind: str
+    parameters: dict[str, float]
+    standard_errors: dict[str, float | None] = {}
+    law: list[_Row] = Field(min_length=2)
+    temperature_c: float | None = None
+
+
+class _Diagnosed(BaseModel):
+    verdict: str
+    after: _Found
+
+
+@dataclass(frozen=True)
+class MaterialLaw:
+    """A core's law over the band that was measured. Arrays have shape (frequencies,), ascending."""
+
+    source: str
+    """The file's name."""
+    specimen: str
+    verdict: str
+    kind: str
+    parameters: dict[str, float]
+    standard_errors: dict[str, float | None]
+    frequency_hz: Array
+    storage_modulus_pa: Array
+    loss_factor: Array
+    storage_modulus_standard_error_pa: Array
+    """NaN where the data say nothing of it."""
+    loss_factor_standard_error: Array
+    temperature_c: float | None = None
+    poisson: float | None = None
+    """Of the core, as stated."""
+
+    @property
+    def band_hz(self) -> tuple[float, float]:
+        """The first and the last frequency."""
+        return float(self.frequency_hz[0]), float(self.frequency_hz[-1])
+
+    def modulus(self, omega: Array) -> Complex:
+        """G* in Pa inside the band: what is listed, smoothly in the logarithm of the frequency."""
+        x, at = np.log(self.frequency_hz), np.log(np.asarray(omega) / (2 * np.pi))
+        # A band's own edge may round to just outside it.
+        at = np.clip(at, x[0], x[-1])
+        storage = np.exp(PchipInterpolator(x, np.log(self.storage_modulus_pa))(at))
+        return np.asarray(storage * (1 + 1j * PchipInterpolator(x, self.loss_factor)(at)))
+
+
+def read_law(path: Path, progress: Progress = quiet) -> MaterialLaw:
+    """From a session (after its diagnosis, where it has one) or the JSON of `identify` or `diagnose`.
+
+    Raises `BadInput`, `FittingError`.
+    """
+    if is_session(path):
+        return _of_session(path, progress)
+    try:
+        facts = json.loads(read_text(path))
+    except json.JSONDecodeError as error:
+        raise BadInput(f"{path}: line {error.lineno}: not JSON: {error.msg}") from None
+    except RecursionError:
+        raise BadInput(f"{path}: not JSON that can be read: too deep") from None
+    found = _of_facts(path, facts)
+    if found is None:
+        raise BadInput(
+            f"{path}: expected the JSON of 'viscorig identify' or 'viscorig diagnose', or a session"
+        )
+    return found
+
+
+def _of_facts(path: Path, facts: Any) -> MaterialLaw | None:
+    """Of a diagnosis where there is one, else of an identification."""
+    if not isinstance(facts, dict):
+        return None
+    for read in (_diagnosed, _identified):
+        for inside in (facts, facts.get("diagnose"), facts.get("identify")):
+            if isinstance(inside, dict) and (found := read(path, inside)) is not None:
+                return found
+    return None
+
+
+def _diagnosed(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
+    try:
+        found = _Diagnosed.model_validate(facts)
+    except ValidationError:
+        return None
+    return _law(path, found.after, found.verdict)
+
+
+def _identified(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
+    try:
+        return _law(path, _Found.model_validate(facts), NOT_DIAGNOSED)
+    except ValidationError:
+        return None
+
+
+def _of_session(path: Path, progress: Progress) -> MaterialLaw:
+    with SessionFile(path) as session:
+        contents = contents_of(session, with_hits=False)
+    found = None
+    for event in (contents.diagnosis, contents.fit):
+        found = found or (_of_facts(path, event.facts_json) if event is not None else None)
+    found = found or _identified_now(path, contents, progress)
+    specimen = contents.specimen
+    temperatures = [p.temperature_c for p in contents.measured if p.temperature_c is not None]
+    return replace(
+        found,
+        specimen=contents.configuration.experiment.specimen,
+        temperature_c=float(np.mean(temperatures)) if temperatures else None,
+        poisson=specimen.core.poisson if specimen.core is not None else None,
+    )
+
+
+def _identified_now(path: Path, contents: Contents, progress: Progress) -> MaterialLaw:
+    """Of a session that was recorded without a fit."""
+    try:
+        fit = identify_session(contents, progress)
+    except FittingError as error:
+        raise BadInput(f"{path}: no law in this session, and none to be found: {error}") from None
+    found = _identified(path, to_jsonable(identification_facts(fit.identified, fit.sweep)))
+    if found is None:
+        raise BadInput(f"{path}: the law of this session has no band, expected a sweep over a range")
+    return found
+
+
+def _law(path: Path, found: _Found, verdict: str) -> MaterialLaw | None:
+    rows = {row.frequency_hz: row for row in found.law}
+    f = np.array(sorted(rows))
+    if len(f) < 2:
+        return None
+
+    def column(name: str) -> Array:
+        values = [getattr(rows[at], name) for at in f.tolist()]
+        return np.array([np.nan if v is None else v for v in values], dtype=float)
+
+    storage, loss, storage_error, loss_error = (column(name) for name in list(_Row.model_fields)[1:])
+    return MaterialLaw(
+        path.name,
+        NOT_STATED,
+        verdict,
+        found.law_kind,
+        found.parameters,
+        found.standard_errors,
+        f,
+        storage,
+        loss,
+        storage_error,
+        loss_error,
+        found.temperature_c,
+    )

@@ -1,0 +1,169 @@
+"""Cards, read back by readers of their own: what they say is the law within what they promise."""
+
+import json
+import re
+
+import card_readers as readers
+import numpy as np
+import pytest
+from conftest import TABLE_4
+from diagnosed_session import diagnosed_session
+
+from fitting.prony import MOST_TERMS, fit_prony
+from instrument.cli.main import run
+from instrument.errors import BadInput
+from instrument.material.found_law import read_law
+from instrument.paper_case import case_file
+
+LOW, HIGH = 14.0, 300.0
+F = np.geomspace(LOW, HIGH, 500)
+FORMATS = ("abaqus", "ansys", "nastran", "comsol", "csv", "json")
+
+
+def facts(law=TABLE_4, points=42, **more):
+    f = np.geomspace(LOW, HIGH, points)
+    G, eta = law.storage_and_loss(2 * np.pi * f)
+    keys = ("frequency_hz", "storage_modulus_pa", "loss_factor")
+    rows = [
+        dict(zip(keys, row, strict=True)) for row in zip(f.tolist(), G.tolist(), eta.tolist(), strict=True)
+    ]
+    for row in rows:
+        row["storage_modulus_standard_error_pa"] = 0.02 * row["storage_modulus_pa"]
+        row["loss_factor_standard_error"] = None
+    return {
+        "law_kind": law.kind,
+        "parameters": dict(zip(law.names, law.values.tolist(), strict=True)),
+        "standard_errors": dict.fromkeys(law.names),
+        "law": rows,
+        **more,
+    }
+
+
+@pytest.fixture
+def found(tmp_path):
+    path = tmp_path / "identify.json"
+    path.write_text(json.dumps(facts()), encoding="utf-8")
+    return path
+
+
+def card(found, to, *more):
+    out = found.with_name(f"card.{to}")
+    assert run(["card", str(found), "--to", to, "--out", str(out), *more]) == 0
+    return out.read_text(encoding="utf-8")
+
+
+def promised(text, what):
+    """The error that the card states, as a fraction."""
+    return float(re.search(rf"{what}[^\n]*at most (\S+) %", text)[1]) / 100
+
+
+def off(modulus):
+    return np.max(np.abs(modulus(F) / TABLE_4.modulus(2 * np.pi * F) - 1))
+
+
+def within(modulus, error):
+    # Errors are printed with two digits, the law is listed at points.
+    return off(modulus) <= 1.06 * error + 2e-4
+
+
+def test_abaqus_reads_back(found):
+    text = card(found, "abaqus")
+    assert within(readers.abaqus(text), promised(text, "Prony series"))
+    assert promised(text, "Prony series") <= 0.01
+
+
+def test_ansys_reads_back_by_series_and_by_table(found):
+    text = card(found, "ansys")
+    by_series, by_table = readers.ansys(text)
+    assert within(by_series, promised(text, "Prony series"))
+    assert within(by_table, promised(text, "table"))
+
+
+def test_nastran_reads_back(found):
+    text = card(found, "nastran")
+    assert within(readers.nastran(text), promised(text, "table"))
+
+
+def test_comsol_reads_back_by_series_and_by_table(found):
+    text = card(found, "comsol")
+    by_series, by_table = readers.comsol(text)
+    assert within(by_series, promised(text, "Prony series"))
+    assert within(by_table, promised(text, "table"))
+
+
+def test_tables_read_back(found):
+    assert off(readers.plain_csv(card(found, "csv"))) < 2e-3
+    text = card(found, "json")
+    assert within(readers.plain_json(text), json.loads(text)["prony"]["max_error_percent"] / 100)
+
+
+@pytest.mark.parametrize("to", FORMATS)
+def test_every_header_says_band_temperature_specimen_verdict_and_units(found, to):
+    text = card(found, to)
+    for words in ("band: 14 to 300 Hz", "temperature: not measured", "specimen: ", "verdict: not diagnosed"):
+        assert words in text
+    assert "SI: Pa, s, Hz" in text
+    assert "WARNING" not in text
+
+
+@pytest.mark.parametrize("to", FORMATS)
+def test_a_law_whose_verdict_is_unknown_says_so(tmp_path, to):
+    path = tmp_path / "diagnose.json"
+    path.write_text(json.dumps({"verdict": "unknown", "before": {}, "after": facts()}), encoding="utf-8")
+    assert "WARNING: verdict unknown" in card(path, to)
+
+
+def test_a_name_of_many_lines_stays_a_comment(tmp_path):
+    path = tmp_path / "identify.json"
+    path.write_text(json.dumps(facts() | {"law_kind": "a\n*STEP"}), encoding="utf-8")
+    assert "\n*STEP" not in card(path, "abaqus")
+
+
+def test_the_specimen_file_gives_poissons_ratio(found, tmp_path):
+    plate = tmp_path / "plate.toml"
+    plate.write_text(case_file("zn1.toml").read_text().replace("poisson = 0.49", "poisson = 0.45"))
+    text = card(found, "abaqus", "--specimen", str(plate))
+    assert "Poisson's ratio: 0.45 (as stated)" in text
+    assert "specimen: plate.toml" in text
+    assert "assumed" in card(found, "abaqus")
+
+
+def test_a_session_gives_the_law_after_its_diagnosis(tmp_path):
+    path = diagnosed_session(tmp_path)
+    law = read_law(path)
+    assert law.verdict != "not diagnosed"
+    assert law.poisson == pytest.approx(0.49)
+    assert "zn1" in law.specimen
+
+
+def test_a_session_whose_diagnosis_failed_gives_its_last_fit(tmp_path):
+    assert read_law(diagnosed_session(tmp_path, message="too few")).verdict == "not diagnosed"
+
+
+@pytest.mark.parametrize("text", ["[]", "{}", '{"law": 1}', "nonsense", "[" * 5000])
+def test_what_is_no_law_is_refused_in_one_line(tmp_path, text):
+    path = tmp_path / "x.json"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(BadInput, match=r"x\.json"):
+        read_law(path)
+
+
+def test_fewer_terms_where_less_is_wanted():
+    rough, fine = (fit_prony(TABLE_4.modulus, LOW, HIGH, wanted) for wanted in (0.05, 0.001))
+    assert len(rough.g_pa) < len(fine.g_pa) <= MOST_TERMS
+    assert rough.max_error <= 0.05
+    assert fine.max_error <= 0.001
+    assert np.all(fine.g_pa > 0)
+
+
+def test_a_series_is_found_again():
+    g, tau = np.array([2e6, 1e6]), np.array([1e-3, 1e-2])
+
+    def modulus(omega):
+        s = 1j * np.multiply.outer(omega, tau)
+        return 3e5 + (s / (1 + s)) @ g
+
+    found = fit_prony(modulus, 1.0, 1000.0, 1e-3)
+    assert found.max_error < 1e-3
+    assert found.g_inf_pa == pytest.approx(3e5, rel=0.05)
+    assert found.g_0_pa == pytest.approx(3.3e6, rel=0.01)
