@@ -38,6 +38,7 @@ COMMANDS = (
     "batch",
     "report",
     "card",
+    "compare",
     "export",
     "import",
     "bench",

@@ -15,6 +15,7 @@ from instrument.errors import BadInput
 from instrument.files.text import read_text
 from instrument.interchange.given import is_session
 from instrument.interchange.identified import identify_session
+from instrument.material.knowledge import Posterior, posterior_of
 from instrument.progress import Progress, quiet
 from instrument.results.identification_facts import identification_facts
 from instrument.session.contents import Contents, contents_of
@@ -71,6 +72,8 @@ class MaterialLaw:
     temperature_c: float | None = None
     poisson: float | None = None
     """Of the core, as stated."""
+    posterior: Posterior | None = None
+    """Where the source holds the covariance of the whole curve."""
 
     @property
     def band_hz(self) -> tuple[float, float]:
@@ -128,9 +131,10 @@ def _diagnosed(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
 
 def _identified(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
     try:
-        return _law(path, _Found.model_validate(facts), NOT_DIAGNOSED)
+        found = _law(path, _Found.model_validate(facts), NOT_DIAGNOSED)
     except ValidationError:
         return None
+    return replace(found, posterior=posterior_of(facts)) if found is not None else None
 
 
 def _of_session(path: Path, progress: Progress) -> MaterialLaw:

@@ -1,0 +1,68 @@
+"""`viscorig compare`: which laws differ beyond their uncertainties, and where."""
+
+from itertools import combinations
+from pathlib import Path
+
+import click
+import numpy as np
+
+from instrument.cli.options import json_option
+from instrument.cli.output import Output
+from instrument.material.comparing import LEVEL, Comparison, comparison_facts
+from instrument.material.comparing import compare as compare_laws
+from instrument.material.found_law import read_law
+from instrument.progress import bar
+
+_SAYS = {True: "differ", False: "agree", None: "cannot be told"}
+
+
+@click.command()
+@click.argument("files", type=click.Path(path_type=Path), nargs=-1, required=True)
+@json_option
+def compare(files: tuple[Path, ...], json_path: str | None) -> None:
+    """Where the laws in FILES differ beyond their joint uncertainties: two or more, each with each.
+
+    FILES are sessions (.h5) or the JSON of `identify` or `diagnose`. Laws are compared on the band that both
+    have; the p-value is of all frequencies together.
+    """
+    if len(files) < 2:
+        raise click.UsageError(f"{files[0]}: one file, expected two or more to compare")
+    out = Output(json_path)
+    laws = [read_law(path, bar) for path in files]
+    found = [compare_laws(a, b) for a, b in combinations(laws, 2)]
+    names = _names(files)
+    pairs = list(combinations(names, 2))
+    out.table(
+        "",
+        ["A", "B", "band / Hz", "G' B/A / %", "eta B-A", "chi2", "dof", "p", f"at {LEVEL:g}"],
+        [[*pair, *_cells(c)] for pair, c in zip(pairs, found, strict=True)],
+    )
+    for (a, b), c in zip(pairs, found, strict=True):
+        for what, z in (("G'", c.storage_z), ("eta", c.loss_factor_z)):
+            ranges = ", ".join(f"{low:.4g} to {high:.4g} Hz" for low, high in c.where(z))
+            if ranges:
+                out.say(f"{a} and {b}: {what} differs beyond 1.96 joint standard errors at {ranges}")
+    facts = [{**comparison_facts(c), "a": a, "b": b} for (a, b), c in zip(pairs, found, strict=True)]
+    out.result({"pairs": facts})
+
+
+def _names(files: tuple[Path, ...]) -> list[str]:
+    """File names, with their folders where names alone are not told apart."""
+    alone = [path.name for path in files]
+    return alone if len(set(alone)) == len(alone) else [str(path) for path in files]
+
+
+def _cells(c: Comparison) -> list[str]:
+    if not len(c.frequency_hz):
+        return ["none in common", *("",) * 5, _SAYS[None]]
+    dG = c.storage_difference[np.argmax(np.abs(c.storage_difference))]
+    de = c.loss_factor_difference[np.argmax(np.abs(c.loss_factor_difference))]
+    return [
+        f"{c.frequency_hz[0]:.4g} to {c.frequency_hz[-1]:.4g}",
+        f"{100 * dG:+.2f}",
+        f"{de:+.4f}",
+        f"{c.chi2:.2f}",
+        f"{c.dof:.1f}",
+        f"{c.p_value:.3g}",
+        _SAYS[c.differs],
+    ]

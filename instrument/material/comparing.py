@@ -1,0 +1,150 @@
+"""Two laws over their common band: where they differ beyond what is known of both, and whether they do."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.stats import chi2
+
+from fitting.arrays import Array, Mask
+from fitting.bent_law import REACH
+from instrument.material.found_law import MaterialLaw
+
+SURELY = 1.96
+"""Joint standard deviations beyond which a difference at one frequency is listed."""
+LEVEL = 0.05
+"""Of the p-value below which two laws differ as a whole."""
+RESOLUTION = 1e-3
+"""Relative difference that the models themselves allow: what is known better than this counts no more."""
+_POINTS = 41
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Of A and B; differences are B less A. Arrays have shape (frequencies,); NaN where nothing is known."""
+
+    a: MaterialLaw
+    b: MaterialLaw
+    frequency_hz: Array
+    """Empty without a common band."""
+    storage_difference: Array
+    """Relative to A."""
+    storage_z: Array
+    """In joint standard errors."""
+    loss_factor_difference: Array
+    loss_factor_z: Array
+    chi2: float
+    dof: float
+    p_value: float
+    covariance: str
+    """Whence the curves' covariance is: `posterior` of both fits, or `standard errors` of one of them."""
+
+    @property
+    def differs(self) -> bool | None:
+        """As a whole; None where it cannot be told."""
+        return None if np.isnan(self.p_value) else bool(self.p_value < LEVEL)
+
+    def where(self, z: Array) -> list[tuple[float, float]]:
+        """Ranges of frequency in Hz over which a difference is beyond its joint uncertainty."""
+        return _ranges(self.frequency_hz, np.abs(np.nan_to_num(z)) > SURELY)
+
+
+def compare(a: MaterialLaw, b: MaterialLaw) -> Comparison:
+    """On the band that both have. Taken as independent: a tolerance that both share makes this cautious."""
+    low, high = (max(a.band_hz[0], b.band_hz[0]), min(a.band_hz[1], b.band_hz[1]))
+    if not low < high:
+        nothing = np.zeros(0)
+        return Comparison(a, b, *(nothing,) * 5, *(float("nan"),) * 3, "")
+    f = np.geomspace(low, high, _POINTS)
+    (storage_a, eta_a), (storage_b, eta_b) = _curves(a, f), _curves(b, f)
+    difference = np.concatenate([np.log(storage_b / storage_a), eta_b - eta_a])
+    errors = [_errors(law, f) for law in (a, b)]
+    joint = np.sqrt(errors[0] ** 2 + errors[1] ** 2)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        z = np.where(joint > 0, difference / joint, np.nan)
+    found = [_covariance(law, f, error) for law, error in zip((a, b), errors, strict=True)]
+    floor = np.repeat([RESOLUTION, RESOLUTION * float(np.mean(np.abs(eta_a)))], len(f))
+    statistic, dof = _chi2(difference, found[0] + found[1], floor)
+    own = a.posterior is not None and b.posterior is not None
+    return Comparison(
+        a,
+        b,
+        f,
+        storage_b / storage_a - 1,
+        z[: len(f)],
+        eta_b - eta_a,
+        z[len(f) :],
+        statistic,
+        dof,
+        float(chi2.sf(statistic, dof)) if dof > 0 else float("nan"),
+        "posterior" if own else "standard errors",
+    )
+
+
+def comparison_facts(c: Comparison) -> dict[str, Any]:
+    """As JSON has it."""
+    f = c.frequency_hz
+    rows = zip(f, c.storage_difference, c.storage_z, c.loss_factor_difference, c.loss_factor_z, strict=True)
+    return {
+        "a": c.a.source,
+        "b": c.b.source,
+        "verdicts": [c.a.verdict, c.b.verdict],
+        "band_hz": [f[0], f[-1]] if len(f) else None,
+        "chi2": c.chi2,
+        "degrees_of_freedom": c.dof,
+        "p_value": c.p_value,
+        "differs": c.differs,
+        "covariance": c.covariance or None,
+        "storage_modulus_differs_hz": c.where(c.storage_z),
+        "loss_factor_differs_hz": c.where(c.loss_factor_z),
+        "frequencies": [
+            {
+                "frequency_hz": at,
+                "storage_modulus_difference_percent": 100 * dG,
+                "storage_modulus_z": zG,
+                "loss_factor_difference": de,
+                "loss_factor_z": ze,
+            }
+            for at, dG, zG, de, ze in rows
+        ],
+    }
+
+
+def _curves(law: MaterialLaw, f: Array) -> tuple[Array, Array]:
+    G = law.modulus(2 * np.pi * f)
+    return G.real, G.imag / G.real
+
+
+def _errors(law: MaterialLaw, f: Array) -> Array:
+    """Standard errors of ln G', then of eta. Shape (2 frequencies,)."""
+    x, at = np.log(law.frequency_hz), np.log(f)
+    relative = law.storage_modulus_standard_error_pa / law.storage_modulus_pa
+    return np.concatenate([np.interp(at, x, relative), np.interp(at, x, law.loss_factor_standard_error)])
+
+
+def _covariance(law: MaterialLaw, f: Array, errors: Array) -> Array:
+    """Of the curve: the fit's own, else errors that go together over as far as a law's bend does."""
+    if law.posterior is not None:
+        return law.posterior.curve(f)
+    x = np.log(f)
+    near = np.exp(-0.5 * ((x[:, None] - x) / REACH) ** 2)
+    nothing = np.zeros_like(near)
+    return np.asarray(np.block([[near, nothing], [nothing, near]]) * np.outer(errors, errors))
+
+
+def _chi2(difference: Array, covariance: Array, floor: Array) -> tuple[float, float]:
+    """Over the directions in which the curves are not known exactly, each as far as it is one.
+
+    NaN and 0 where nothing is known.
+    """
+    if not np.isfinite(covariance).all() or not np.isfinite(difference).all():
+        return float("nan"), 0.0
+    size, turned = np.linalg.eigh(covariance / np.outer(floor, floor))
+    size = np.maximum(size, 0.0)
+    along = turned.T @ (difference / floor)
+    return float(np.sum(along**2 / (size + 1))), float(np.sum(size / (size + 1)))
+
+
+def _ranges(f: Array, there: Mask) -> list[tuple[float, float]]:
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], there.astype(int), [0]])))
+    return [(float(f[i]), float(f[j - 1])) for i, j in zip(edges[::2], edges[1::2], strict=True)]

@@ -1,0 +1,63 @@
+"""How well a law is known as a whole: the covariance of its curve, not of its points one by one."""
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+from pydantic import ValidationError
+
+from fitting.arrays import Array
+from fitting.errors import FittingError
+from fitting.laws import LAWS, CoreLaw
+from instrument.errors import BadInput
+from instrument.results.fit_file import FoundLaw, found_law
+
+
+@dataclass(frozen=True)
+class Posterior:
+    """The fit's own covariance of a law's parameters and bend."""
+
+    law: CoreLaw
+    covariance_of_logs: Array
+
+    def curve(self, frequency_hz: Array) -> Array:
+        """Covariance of ln G' at the frequencies, then of eta. Shape (2 frequencies, 2 frequencies)."""
+        omega = 2 * np.pi * frequency_hz
+        storage, eta = self.law.storage_and_loss(omega)
+        by = self.law.jacobian(omega) * self.law.values[:, None]
+        J = np.concatenate([by.real / storage, (by.imag - eta * by.real) / storage], axis=1)
+        return np.asarray(J.T @ self.covariance_of_logs @ J)
+
+
+def posterior_of(facts: Any) -> Posterior | None:
+    """Of the JSON of `identify`; None where it does not hold enough of it."""
+    try:
+        found = found_law(facts)
+        law = found.law(_start(found))
+    except (ValidationError, BadInput, FittingError, KeyError, ValueError, TypeError):
+        return None
+    if found.posterior is not None and set(law.names) <= set(found.posterior.names):
+        return Posterior(law, found.posterior.covariance(law.names))
+    plain = found.covariance(law.plain.names)
+    return Posterior(law.plain, plain) if found.bend is None and np.isfinite(plain).all() else None
+
+
+def _start(found: FoundLaw) -> CoreLaw:
+    """A law of the kind with the parameters found. Raises `KeyError` for one that needs more than those."""
+    cls = LAWS[found.law_kind]
+    if set(cls.file_fields()) - set(cls.quantities()):
+        raise KeyError(f"{found.law_kind} has numbers that are not parameters")
+    return cls(**{f.name: _values(found, f.name) for f in fields(cls) if f.name in cls.quantities()})
+
+
+def _values(found: FoundLaw, name: str) -> float | tuple[float, ...]:
+    """A parameter, or a list's items in their order: g_pa from g_1_pa, g_2_pa, ..."""
+    if name in found.parameters:
+        return found.parameters[name]
+    stem, _, unit = name.partition("_")
+    items: list[float] = []
+    while (key := f"{stem}_{len(items) + 1}" + (f"_{unit}" if unit else "")) in found.parameters:
+        items.append(found.parameters[key])
+    if not items:
+        raise KeyError(name)
+    return tuple(items)

@@ -1,0 +1,130 @@
+"""Laws compared: what noise leaves is no difference, what is one is found where it is."""
+
+import json
+
+import numpy as np
+import pytest
+from batch_cases import write_specimen, write_sweeps
+from conftest import TABLE_4
+from diagnosed_session import diagnosed_session
+
+from instrument.cli.main import run
+from instrument.material.comparing import SURELY, compare
+from instrument.material.found_law import read_law
+
+LOW, HIGH = 14.0, 300.0
+ERRORS = np.array([0.03, 0.02, 0.04, 0.01])
+NAMES = TABLE_4.names
+
+
+def facts(law, *, low=LOW, high=HIGH, errors=ERRORS, posterior=True):
+    """As `identify` says them, its parameters uncertain by `errors` in their logarithms, unrelated."""
+    f = np.geomspace(low, high, 41)
+    omega = 2 * np.pi * f
+    G, eta = law.storage_and_loss(omega)
+    by = law.jacobian(omega) * law.values[:, None]
+    error_G = np.sqrt(errors**2 @ by.real**2)
+    error_eta = np.sqrt(errors**2 @ ((by.imag - eta * by.real) / G) ** 2)
+    keys = (
+        "frequency_hz",
+        "storage_modulus_pa",
+        "loss_factor",
+        "storage_modulus_standard_error_pa",
+        "loss_factor_standard_error",
+    )
+    columns = [column.tolist() for column in (f, G, eta, error_G, error_eta)]
+    found = {
+        "law_kind": law.kind,
+        "parameters": dict(zip(NAMES, law.values.tolist(), strict=True)),
+        "standard_errors": dict(zip(NAMES, (errors * law.values).tolist(), strict=True)),
+        "correlations": {a: {b: float(a == b) for b in NAMES} for a in NAMES},
+        "law": [dict(zip(keys, row, strict=True)) for row in zip(*columns, strict=True)],
+    }
+    if not posterior:
+        found["standard_errors"] = dict.fromkeys(NAMES)
+        found["correlations"] = {a: dict.fromkeys(NAMES) for a in NAMES}
+    return found
+
+
+@pytest.fixture
+def law_of(tmp_path):
+    def made(law, name="a.json", **how):
+        path = tmp_path / name
+        path.write_text(json.dumps(facts(law, **how)), encoding="utf-8")
+        return read_law(path)
+
+    return made
+
+
+def drawn(rng):
+    return TABLE_4.with_values(TABLE_4.values * np.exp(ERRORS * rng.standard_normal(4)))
+
+
+def test_a_law_agrees_with_itself(law_of):
+    c = compare(law_of(TABLE_4), law_of(TABLE_4))
+    assert c.covariance == "posterior"
+    assert c.p_value > 0.99
+    assert c.differs is False
+    assert c.where(c.storage_z) == []
+
+
+def test_one_in_twenty_differs_by_chance(law_of):
+    rng = np.random.default_rng(3)
+    p = [compare(law_of(drawn(rng)), law_of(drawn(rng))).p_value for _ in range(200)]
+    assert 0.01 <= np.mean(np.array(p) < 0.05) <= 0.10
+    assert 0.35 < np.median(p) < 0.7
+
+
+def test_a_stiffer_core_is_found_where_it_is_stiffer(law_of):
+    values = TABLE_4.values * np.array([1.3, 1.0, 1.0, 1.0])
+    c = compare(law_of(TABLE_4), law_of(TABLE_4.with_values(values)))
+    assert c.differs is True
+    ((low, high),) = c.where(c.storage_z)
+    assert low == pytest.approx(LOW)
+    assert high < HIGH
+    assert np.abs(c.storage_z[0]) > SURELY
+    assert c.storage_difference[0] > c.storage_difference[-1] > -0.01
+
+
+def test_without_the_fits_covariance_errors_go_together_over_a_reach(law_of):
+    stiff = TABLE_4.with_values(TABLE_4.values * np.array([1.5, 1.5, 1, 1]))
+    same, other = law_of(TABLE_4, posterior=False), law_of(stiff)
+    c = compare(same, other)
+    assert c.covariance == "standard errors"
+    assert c.differs is True
+    assert compare(same, same).differs is False
+
+
+def test_without_errors_nothing_is_told(law_of):
+    c = compare(law_of(TABLE_4, errors=np.full(4, np.nan), posterior=False), law_of(TABLE_4))
+    assert c.differs is None
+
+
+def test_laws_without_a_common_band_cannot_be_told_apart(law_of):
+    c = compare(law_of(TABLE_4, high=50.0), law_of(TABLE_4, low=60.0))
+    assert len(c.frequency_hz) == 0
+    assert c.differs is None
+
+
+def test_the_command_says_each_pair(tmp_path, capsys):
+    plate = write_specimen(tmp_path)
+    names = []
+    for k, sweep in enumerate(write_sweeps(tmp_path, plate, 2, points=(25,))):
+        names.append(str(tmp_path / f"{k}.json"))
+        assert run(["identify", str(sweep), "--specimen", str(plate), "--json", names[-1]]) == 0
+    names.append(str(diagnosed_session(tmp_path)))
+    capsys.readouterr()
+    assert run(["compare", *names, "--json", "-"]) == 0
+    said = json.loads(capsys.readouterr().out)
+    assert len(said["pairs"]) == 3
+    first = said["pairs"][0]
+    assert first["covariance"] == "posterior"
+    assert first["p_value"] is not None
+    assert len(first["frequencies"]) == 41
+    assert run(["compare", *names]) == 0
+    assert "joint standard errors" in capsys.readouterr().out
+
+
+def test_one_file_is_not_enough(tmp_path, capsys):
+    assert run(["compare", str(tmp_path / "a.json")]) == 2
+    assert "two or more" in capsys.readouterr().err
