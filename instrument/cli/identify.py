@@ -2,14 +2,22 @@
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import click
 
+from fitting.errors import OutsideModel
 from fitting.pointwise import phase_is_kept
+from fitting.specimen import Specimen
 from instrument.cli.options import figures_option, file_argument, json_option
 from instrument.cli.output import Output
+from instrument.cli.print_beside import print_beside
 from instrument.cli.print_identification import print_bare_plate, print_identification
 from instrument.cli.reading import read_data, reading_options
+from instrument.files.dma_file import DmaTable, read_dma
+from instrument.material.beside import beside, beside_facts
+from instrument.material.found_law import law_of_facts
+from instrument.material.overlay import save_overlay
 from instrument.models.identification import Identified, Method
 from instrument.models.identification import identify as identify_sweep
 from instrument.models.pointwise import pointwise_of
@@ -17,6 +25,7 @@ from instrument.progress import bar
 from instrument.results.identification_facts import bare_plate_facts, identification_facts
 from instrument.results.pointwise_facts import second_look_facts
 from instrument.results.pointwise_figures import save_pointwise_figure
+from instrument.stream.jsonable import to_jsonable
 
 
 @click.command()
@@ -39,7 +48,15 @@ from instrument.results.pointwise_figures import save_pointwise_figure
     is_flag=True,
     help="Also G* band by band without a law, and whether G' and eta are those of one causal core.",
 )
-@figures_option("With --pointwise: save the law band by band as PNG.")
+@click.option(
+    "--with",
+    "dma",
+    type=click.Path(path_type=Path),
+    metavar="DMA.csv",
+    help="Compare with somebody's table: frequency_hz, temperature_c, storage_modulus_pa, loss_factor or "
+    "loss_modulus_pa; a line '# kind: tension' where it is not of shear.",
+)
+@figures_option("With --pointwise or --with: save the law beside them as PNG.")
 @json_option
 def identify(
     data: Path,
@@ -49,6 +66,7 @@ def identify(
     no_hammer: bool,
     no_viscous_damping: bool,
     pointwise: bool,
+    dma: Path | None,
     figures: Path | None,
     json_path: str | None,
 ) -> None:
@@ -59,8 +77,8 @@ def identify(
     """
     if pointwise and method == "paper":
         raise click.UsageError("--pointwise and --method paper: expected the direct method")
-    if figures is not None and not pointwise:
-        raise click.UsageError("--figures shows the law band by band, expected --pointwise with it")
+    if figures is not None and not pointwise and dma is None:
+        raise click.UsageError("--figures shows the law band by band, expected --pointwise or --with")
     out = Output(json_path)
     given = read_data(out, data, specimen, hammer, no_hammer=no_hammer)
     read = given.specimen
@@ -69,6 +87,7 @@ def identify(
     if pointwise:
         # Said before the work, not after it.
         phase_is_kept(given.sweep)
+    table = _table(dma, read)
     found: Identified = identify_sweep(given.sweep, read, method, bar, given.modes)
     print_identification(out, found, given.sweep, read)
     facts = identification_facts(found, given.sweep)
@@ -81,4 +100,31 @@ def identify(
         facts |= second_look_facts(bands)
         if figures is not None:
             out.say(f"saved {save_pointwise_figure(bands, found.result.band, figures)}")
+    if table is not None:
+        facts["with"] = _beside(out, table, data, to_jsonable(facts), figures)
     out.result({**facts, **given.facts})
+
+
+def _table(dma: Path | None, specimen: Specimen) -> DmaTable | None:
+    """Read before the work, not after it."""
+    if dma is None:
+        return None
+    if specimen.core is None:
+        raise OutsideModel("a bare plate has no core to identify, expected [core] and [constraining]")
+    return read_dma(dma, specimen.core.poisson)
+
+
+def _beside(
+    out: Output, table: DmaTable, data: Path, facts: dict[str, Any], figures: Path | None
+) -> dict[str, Any] | None:
+    """The table beside the law just found."""
+    law = law_of_facts(data, facts)
+    if law is None:
+        out.say("the law found has no band, nothing to compare with")
+        return None
+    found = beside(law, table)
+    said = beside_facts(table, found)
+    print_beside(out, table, found, said)
+    if figures is not None:
+        out.say(f"saved {save_overlay(law, table, figures)}")
+    return said

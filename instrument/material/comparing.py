@@ -110,6 +110,11 @@ def comparison_facts(c: Comparison) -> dict[str, Any]:
     }
 
 
+def covariance_of(law: MaterialLaw, frequency_hz: Array) -> Array:
+    """Of ln G' at the frequencies inside the band, then of eta. Shape (2 frequencies, 2 frequencies)."""
+    return _covariance(law, frequency_hz, _errors(law, frequency_hz))
+
+
 def _curves(law: MaterialLaw, f: Array) -> tuple[Array, Array]:
     G = law.modulus(2 * np.pi * f)
     return G.real, G.imag / G.real

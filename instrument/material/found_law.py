@@ -114,7 +114,7 @@ def _of_facts(path: Path, facts: Any) -> MaterialLaw | None:
     """Of a diagnosis where there is one, else of an identification."""
     if not isinstance(facts, dict):
         return None
-    for read in (_diagnosed, _identified):
+    for read in (_diagnosed, law_of_facts):
         for inside in (facts, facts.get("diagnose"), facts.get("identify")):
             if isinstance(inside, dict) and (found := read(path, inside)) is not None:
                 return found
@@ -129,7 +129,8 @@ def _diagnosed(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
     return _law(path, found.after, found.verdict)
 
 
-def _identified(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
+def law_of_facts(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
+    """Of the JSON of `identify`, read from `path` or not yet written; None where it is none."""
     try:
         found = _law(path, _Found.model_validate(facts), NOT_DIAGNOSED)
     except ValidationError:
@@ -160,7 +161,7 @@ def _identified_now(path: Path, contents: Contents, progress: Progress) -> Mater
         fit = identify_session(contents, progress)
     except FittingError as error:
         raise BadInput(f"{path}: no law in this session, and none to be found: {error}") from None
-    found = _identified(path, to_jsonable(identification_facts(fit.identified, fit.sweep)))
+    found = law_of_facts(path, to_jsonable(identification_facts(fit.identified, fit.sweep)))
     if found is None:
         raise BadInput(f"{path}: the law of this session has no band, expected a sweep over a range")
     return found

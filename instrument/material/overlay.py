@@ -1,0 +1,49 @@
+"""A law and somebody's DMA in one figure."""
+
+from pathlib import Path
+
+import numpy as np
+
+from instrument.errors import BadInput
+from instrument.files.dma_file import DmaTable
+from instrument.material.found_law import MaterialLaw
+from instrument.results.drawing import DATA, label, legend, panels
+
+_BAND_95 = 1.96
+_MARKS = "osD^v<>ph*"
+
+
+def save_overlay(law: MaterialLaw, table: DmaTable, folder: Path) -> Path:
+    """One PNG. Raises `BadInput` where the folder cannot be written."""
+    figure, ((left, right),) = panels(1, 2, 4.2)
+    f = law.frequency_hz
+    for ax, value, error, points, scale, y in (
+        (
+            left,
+            law.storage_modulus_pa,
+            law.storage_modulus_standard_error_pa,
+            table.storage_modulus_pa,
+            1e-6,
+            "Storage modulus G' / MPa",
+        ),
+        (right, law.loss_factor, law.loss_factor_standard_error, table.loss_factor, 1.0, "Loss factor η"),
+    ):
+        ax.plot(f, value * scale, color=DATA, label="identified")
+        if np.isfinite(error).all():
+            wide = _BAND_95 * error
+            ax.fill_between(f, (value - wide) * scale, (value + wide) * scale, color=DATA, alpha=0.2)
+        for k, t in enumerate(table.temperatures()):
+            rows = np.isnan(table.temperature_c) if np.isnan(t) else table.temperature_c == t
+            name = table.path.name + ("" if np.isnan(t) else f", {t:g} °C")
+            mark = _MARKS[k % len(_MARKS)]
+            ax.plot(table.frequency_hz[rows], points[rows] * scale, mark, markersize=4, label=name)
+        ax.set_xscale("log")
+        label(ax, x="Frequency / Hz", y=y)
+    legend(left)
+    path = folder / "with-dma.png"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        figure.savefig(path, dpi=110)
+    except OSError as error:
+        raise BadInput(f"{folder}: {error.strerror or error}") from None
+    return path
