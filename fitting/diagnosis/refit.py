@@ -83,6 +83,22 @@ class Fitted:
         A parameter of the law that sits at a limit is taken as fixed there; what the data leave open is
         bounded by the ranges that are searched.
         """
+        J, kept = self.weighted()
+        found = np.zeros((len(kept), len(kept)))
+        if not kept.any():
+            return found
+        size = np.linalg.norm(J, axis=0)
+        size = np.where(size > 0, size, 1.0)
+        _, s, Vt = np.linalg.svd(J / size, full_matrices=False)
+        root = Vt.T / np.maximum(s, 1e-12 * s.max()) / size[:, None]
+        found[np.ix_(kept, kept)] = root @ root.T
+        return found
+
+    def weighted(self) -> tuple[Array, Mask]:
+        """The Jacobian of what may move, its rows of unit variance, and which columns those are.
+
+        Below the rows of `residuals` stand those of the ranges that are searched, one a parameter.
+        """
         chi2 = self.chi2_per_dof
         scale = chi2 if np.isfinite(chi2) else 1.0
         if self.noise_known:
@@ -95,16 +111,7 @@ class Fitted:
         widths = self.law.search_widths
         bounds = np.zeros((len(widths), self.jacobian.shape[1]))
         bounds[:, : len(widths)] = np.diag(1 / widths)
-        J = np.vstack([J, bounds[:, kept]])
-        found = np.zeros((len(kept), len(kept)))
-        if not kept.any():
-            return found
-        size = np.linalg.norm(J, axis=0)
-        size = np.where(size > 0, size, 1.0)
-        _, s, Vt = np.linalg.svd(J / size, full_matrices=False)
-        root = Vt.T / np.maximum(s, 1e-12 * s.max()) / size[:, None]
-        found[np.ix_(kept, kept)] = root @ root.T
-        return found
+        return np.vstack([J, bounds[:, kept]]), kept
 
     @property
     def _others(self) -> int:

@@ -12,6 +12,7 @@ from fitting.specimen import Specimen
 from instrument.cli.options import figures_option, file_argument, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_beside import print_beside
+from instrument.cli.print_budget import print_budget
 from instrument.cli.print_identification import print_bare_plate, print_identification
 from instrument.cli.reading import read_data, reading_options
 from instrument.files.dma_file import DmaTable, read_dma
@@ -22,6 +23,7 @@ from instrument.models.identification import Identified, Method
 from instrument.models.identification import identify as identify_sweep
 from instrument.models.pointwise import pointwise_of
 from instrument.progress import bar
+from instrument.results.budget_facts import budget, budget_facts
 from instrument.results.identification_facts import bare_plate_facts, identification_facts
 from instrument.results.pointwise_facts import second_look_facts
 from instrument.results.pointwise_figures import save_pointwise_figure
@@ -56,6 +58,12 @@ from instrument.stream.jsonable import to_jsonable
     help="Compare with somebody's table: frequency_hz, temperature_c, storage_modulus_pa, loss_factor or "
     "loss_modulus_pa; a line '# kind: tension' where it is not of shear.",
 )
+@click.option(
+    "--budget",
+    "with_budget",
+    is_flag=True,
+    help="Also the uncertainty of G' and eta by source: noise, model error, every tolerance.",
+)
 @figures_option("With --pointwise or --with: save the law beside them as PNG.")
 @json_option
 def identify(
@@ -67,6 +75,7 @@ def identify(
     no_viscous_damping: bool,
     pointwise: bool,
     dma: Path | None,
+    with_budget: bool,
     figures: Path | None,
     json_path: str | None,
 ) -> None:
@@ -94,6 +103,8 @@ def identify(
     if found.bare is not None:
         print_bare_plate(out, found.bare, read)
         facts["hammer"] = bare_plate_facts(found.bare, read)
+    if with_budget:
+        facts["budget"] = _budget(out, found)
     if pointwise:
         bands = pointwise_of(found, given.sweep)
         out.say(bands.words)
@@ -103,6 +114,17 @@ def identify(
     if table is not None:
         facts["with"] = _beside(out, table, data, to_jsonable(facts), figures)
     out.result({**facts, **given.facts})
+
+
+def _budget(out: Output, found: Identified) -> list[dict[str, Any]] | None:
+    """By source, at a few frequencies."""
+    by_source = budget(found)
+    if by_source is None:
+        out.say("no budget: these data give no uncertainty, or the method none of its own")
+        return None
+    facts: list[dict[str, Any]] = to_jsonable(budget_facts(by_source))
+    print_budget(out, facts)
+    return facts
 
 
 def _table(dma: Path | None, specimen: Specimen) -> DmaTable | None:

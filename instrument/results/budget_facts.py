@@ -1,0 +1,40 @@
+"""The budget of a law's uncertainty as JSON holds it."""
+
+from typing import Any
+
+import numpy as np
+
+from fitting.diagnosis.budget import Budget, budget_of
+from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
+from instrument.models.identification import Identified
+
+
+def budget(found: Identified) -> Budget | None:
+    """At the band's ends and reference frequencies inside; None for the paper's method, or without errors."""
+    if found.joint is None or np.isnan(found.result.uncertainty.covariance).any():
+        return None
+    f = found.result.band.frequency_hz
+    low, high = float(f[0]), float(f[-1])
+    at = sorted({low, high, *(r for r in REFERENCE_FREQUENCIES_HZ if low < r < high)})
+    return budget_of(found.joint.begun, np.array(at))
+
+
+def budget_facts(b: Budget) -> list[dict[str, Any]]:
+    """A row a frequency: standard uncertainties by source, largest for G' first."""
+    by_storage, by_loss = b.total(b.storage_relative), b.total(b.loss_factor)
+    return [
+        {
+            "frequency_hz": f,
+            "storage_modulus_standard_error_percent": 100 * by_storage[k],
+            "loss_factor_standard_error": by_loss[k],
+            "sources": [
+                {
+                    "source": name,
+                    "storage_modulus_percent": 100 * part[k],
+                    "loss_factor": b.loss_factor[name][k],
+                }
+                for name, part in sorted(b.storage_relative.items(), key=lambda item: -item[1][k])
+            ],
+        }
+        for k, f in enumerate(b.frequency_hz)
+    ]
