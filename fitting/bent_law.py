@@ -33,14 +33,16 @@ class BentLaw(CoreLaw):
     knots_hz: tuple[float, ...]
     bend: tuple[float, ...]
     """Exponentials of whitened values: of b_G at the knots, then of b_eta."""
+    freedom: float = 1.0
+    """Times the usual standard deviations."""
 
     @classmethod
-    def over(cls, law: CoreLaw, frequency_hz: Array) -> "BentLaw":
+    def over(cls, law: CoreLaw, frequency_hz: Array, freedom: float = 1.0) -> "BentLaw":
         """`law` unbent, free to bend over a range of frequencies."""
         low, high = float(np.min(frequency_hz)), float(np.max(frequency_hz))
         count = 2 + int(np.log(high / low) / _A_KNOT)
         knots = tuple(float(f) for f in np.geomspace(low, high, count))
-        return cls(law, knots, (1.0,) * (2 * count))
+        return cls(law, knots, (1.0,) * (2 * count), freedom)
 
     @property
     def plain(self) -> CoreLaw:
@@ -76,7 +78,7 @@ class BentLaw(CoreLaw):
         """The same law with other parameters and another bend."""
         n = len(self.law.names)
         bend = tuple(float(v) for v in values[n:])
-        return type(self)(self.law.with_values(values[:n]), self.knots_hz, bend)
+        return type(self)(self.law.with_values(values[:n]), self.knots_hz, bend, self.freedom)
 
     def objections(self) -> list[str]:
         """Of the law that is bent."""
@@ -96,14 +98,22 @@ class BentLaw(CoreLaw):
         own = np.exp(g) * (own.real + 1j * np.exp(e) * own.imag)
         W, G = self._weights(omega), self.modulus(omega)
         half = len(self.knots_hz)
-        by_g = STORAGE * W * G / np.array(self.bend[:half]).reshape(-1, *(1,) * np.ndim(omega))
-        by_e = LOSS * W * 1j * G.imag / np.array(self.bend[half:]).reshape(-1, *(1,) * np.ndim(omega))
+        by_g = self.freedom * STORAGE * W * G / np.array(self.bend[:half]).reshape(-1, *(1,) * np.ndim(omega))
+        by_e = (
+            self.freedom
+            * LOSS
+            * W
+            * 1j
+            * G.imag
+            / np.array(self.bend[half:]).reshape(-1, *(1,) * np.ndim(omega))
+        )
         return np.concatenate([own, by_g, by_e])
 
     def _bent(self, omega: Array) -> tuple[Array, Array]:
         xi = np.log(np.array(self.bend)).reshape(2, -1)
         W = self._weights(omega)
-        return STORAGE * np.tensordot(xi[0], W, axes=1), LOSS * np.tensordot(xi[1], W, axes=1)
+        storage, loss = self.freedom * STORAGE, self.freedom * LOSS
+        return storage * np.tensordot(xi[0], W, axes=1), loss * np.tensordot(xi[1], W, axes=1)
 
     def _weights(self, omega: Array) -> Array:
         """Of the whitened values at each frequency. Shape (knots, ...)."""

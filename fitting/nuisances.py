@@ -110,6 +110,11 @@ class Nuisances:
         found = np.concatenate([c.K_0, c.K_1, c.M, [c.load]])
         return np.asarray(found if np.any(found.imag) else found.real)
 
+    @property
+    def _counts(self) -> tuple[int, int, int]:
+        """How many parts K_0, K_1 and M have; those of the load follow them."""
+        return len(STIFFNESS), len(CORE), len(MASS)
+
     @cached_property
     def _places(self) -> dict[str, int]:
         return {n.name: k for k, n in enumerate(self.each)}
@@ -183,7 +188,7 @@ class Nuisances:
     def change(self, plate: EnrichedReducedPlate, z: Array) -> Change:
         """What they change of a plate that has the parts of `specimen`."""
         c = self.coefficients(z)
-        n_0, n_1, n_M = len(STIFFNESS), len(CORE), len(MASS)
+        n_0, n_1, n_M = self._counts
         K, K_1, M = (
             np.tensordot(c[a:b], plate.parts[a:b], axes=1)
             for a, b in ((0, n_0), (n_0, n_0 + n_1), (n_0 + n_1, n_0 + n_1 + n_M))
@@ -192,10 +197,17 @@ class Nuisances:
             K=K,
             K_1=K_1.real,
             M=M.real,
-            load=-float(np.real(c[-1])) * plate.load_part,
-            observe=self.row(plate, z) - plate.pickup_row,
+            load=self._load(plate, c),
+            observe=self._row_change(plate, z),
             damping=self._damping(len(plate.d), z),
         )
+
+    def _load(self, plate: EnrichedReducedPlate, c: Array) -> Array:
+        """What the load becomes more. Shape (k,)."""
+        return np.asarray(-float(np.real(c[-1])) * plate.load_part)
+
+    def _row_change(self, plate: EnrichedReducedPlate, z: Array) -> Array:
+        return self.row(plate, z) - plate.pickup_row
 
     def row(self, plate: EnrichedReducedPlate, z: Array) -> Array:
         """Reads w at the pickup, where it is on the plate as long and as wide as it is. Shape (k,)."""
@@ -248,8 +260,11 @@ class Nuisances:
         For a load that does not depend on the stated numbers take `by_pitch`.
         """
         found = self._by_matrices(plate, omega, G, q, adjoint, z)
-        found -= self.by_coefficients(z)[:, -1:].real * (adjoint @ plate.load_part)
+        found -= self._by_load(plate, adjoint, z)
         return found
+
+    def _by_load(self, plate: EnrichedReducedPlate, adjoint: Complex, z: Array) -> Complex:
+        return np.asarray(self.by_coefficients(z)[:, -1:].real * (adjoint @ plate.load_part))
 
     def by_pitch(
         self, plate: EnrichedReducedPlate, omega: Array, G: Complex, p: Complex, adjoint: Complex, z: Array
@@ -261,10 +276,11 @@ class Nuisances:
         self, plate: EnrichedReducedPlate, omega: Array, G: Complex, q: Complex, adjoint: Complex, z: Array
     ) -> Complex:
         between = _between(plate.parts, q, adjoint)
-        n_0, n_1 = len(STIFFNESS), len(CORE)
+        n_0, n_1, n_M = self._counts
         between[n_0 : n_0 + n_1] *= G
         between[n_0 + n_1 :] *= -(omega**2)
-        found = np.asarray(-(self.by_coefficients(z)[:, :-1] @ between), dtype=complex)
+        by = self.by_coefficients(z)[:, : n_0 + n_1 + n_M]
+        found = np.asarray(-(by @ between), dtype=complex)
         for k, row in self.rows_by(plate, z).items():
             found[k] += q @ row
         factor = self._damping(len(plate.d), z)

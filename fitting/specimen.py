@@ -5,7 +5,7 @@ Frozen data only. Files and their units are translated at the border (`instrumen
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Literal
+from typing import Literal, Protocol
 
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
@@ -38,6 +38,38 @@ class Core:
     law: CoreLaw
 
 
+class Stated(Protocol):
+    """What every specimen says, plate or not."""
+
+    @property
+    def kind(self) -> str:
+        """Which structure it is: `plate`, `shear-pair`, `beam`."""
+
+    @property
+    def core(self) -> Core | None:
+        """Its law is where identification starts."""
+
+    @property
+    def reads(self) -> Reading:
+        """Relative to the base, or absolute."""
+
+    @property
+    def base_acceleration_m_s2(self) -> float:
+        """Zero to peak."""
+
+    @property
+    def tolerances(self) -> Mapping[str, float]:
+        """As named (`fitting.tolerances`)."""
+
+    @property
+    def exact(self) -> bool:
+        """Everything stated is exact."""
+
+    @property
+    def modal_ratios(self) -> tuple[float, ...]:
+        """Remaining viscous damping."""
+
+
 @dataclass(frozen=True)
 class Specimen:
     """A rectangular plate, bare (`core` and `constraining` None) or with a constrained core.
@@ -63,6 +95,11 @@ class Specimen:
     """Everything stated is exact: a simulation of this very plate, or a published case."""
     elements: tuple[int, int] | None = None
     """Elements along x and y; None for the default mesh."""
+
+    @property
+    def kind(self) -> str:
+        """Which structure it is."""
+        return "plate"
 
     @property
     def mesh(self) -> tuple[int, int]:

@@ -46,6 +46,7 @@ _STATED = (
     Stated("gain", "1", 0.003, "two calibrated channels"),
     Stated("delay", "s", 2e-6, "decoder against accelerometer, a known delay taken out"),
     Stated("mass", "1", 0.02, "what sits on the plate, on a letter balance"),
+    Stated("area", "1", 0.01, "a disc's diameters by caliper"),
 )
 STATED: dict[str, Stated] = {s.name: s for s in _STATED}
 """Every kind of stated number by its name, in the order in which results list them."""
@@ -63,6 +64,8 @@ _LARGEST_POISSON = 0.4999
 
 def kind_of(name: str) -> str:
     """The kind that one number is of: `pickup` of `pickup_x`. Raises `ValueError`."""
+    # Of several files each may have its own: `gain [2]`.
+    name = name.split(" [")[0]
     kind, _, number = name.partition("_")
     known = name if name in STATED else kind
     if known not in STATED or (kind == "damping" and not number.isdecimal()):

@@ -15,7 +15,7 @@ from fitting.diagnosis.evidence import BareModes, Evidence
 from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import ROUGH, Fitted, refit
-from fitting.diagnosis.response import Response
+from fitting.diagnosis.responses import response_of
 from fitting.identification.direct import fit_direct
 from fitting.identification.fit import Fit
 from fitting.identification.model import SweepModel
@@ -44,11 +44,15 @@ class Begun:
 
 
 def begin(
-    problem: DiagnosisProblem, reduced: ReducedPlate, noise: Noise, bare: BareModes | None, start: CoreLaw
+    problem: DiagnosisProblem,
+    reduced: ReducedPlate | None,
+    noise: Noise,
+    bare: BareModes | None,
+    start: CoreLaw,
 ) -> Begun:
     """The fit without any effect, and the evidence all candidates are judged by."""
     sweep = problem.sweep
-    model = SweepModel(problem.rational, np.arange(len(sweep)), sweep.commanded_m_s2, problem.specimen.reads)
+    model = SweepModel(problem.rational, np.arange(len(sweep)), sweep.commanded_m_s2, problem.points.reads)
     first = fit_direct(Residuals.of(sweep, noise, model), start)
     laws: list[CoreLaw] = [first.law]
     inside = within_search(first.law, sweep.omega)
@@ -56,7 +60,7 @@ def begin(
         # A law alone may end at its limits, where numbers that are not quite as stated keep it.
         laws.append(inside)
     if not problem.specimen.exact:
-        laws = [BentLaw.over(one, sweep.frequency_hz) for one in laws]
+        laws = [BentLaw.over(one, sweep.frequency_hz, problem.freedom) for one in laws]
     law, u = laws[0], problem.as_stated
     for _ in range(_ROUNDS):
         here = problem.condensed(law).around(law)
@@ -67,7 +71,7 @@ def begin(
             dof = max(1, evidence.count - len(law.names))
             evidence = evidence.scaled(float(np.linalg.norm(first.residuals) / np.sqrt(dof)))
         if len(laws) > 1:
-            rough = Response(here, (), here.coarse)
+            rough = response_of(here, (), here.coarse)
             fits = [refit(rough, evidence, one, u, tolerance=ROUGH) for one in laws]
             best = min(fits, key=lambda f: f.chi2)
             law, u, laws = best.law, best.u, [best.law]

@@ -12,7 +12,7 @@ from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.prediction import held_out
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import ROUGH, Fitted, kept, refit
-from fitting.diagnosis.response import Response
+from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
 from fitting.identification.validation import Validation
@@ -64,8 +64,8 @@ class CandidateFits:
 
     def other_laws(self, effect: Effect) -> list[Fitted]:
         """Fits with each of the laws that an effect has in the place of the stated one."""
-        response = Response(self.problem, [*self.none.effects, effect])
-        coarse = Response(self.problem, [*self.none.effects, effect], self.problem.coarse)
+        response = response_of(self.problem, [*self.none.effects, effect])
+        coarse = response_of(self.problem, [*self.none.effects, effect], self.problem.coarse)
         laws = effect.laws(self.none.law, self.problem.points)
         rough = [refit(coarse, self.evidence, law, self.none.u, tolerance=ROUGH) for law in laws]
         order = sorted(rough, key=lambda f: cost(f, self.problem.plate))
@@ -98,7 +98,7 @@ class CandidateFits:
         if self.effects[name].laws(self.none.law, self.problem.points):
             return Begun(name, self.other_laws(self.effects[name]), [])
         self.learn(name, state)
-        bare = kept(Response(self.problem, ()), self.evidence, best.law, best.z)
+        bare = kept(response_of(self.problem, ()), self.evidence, best.law, best.z)
         there = [self._beside(bare, c.effect) for c in self.candidates[name]]
         for candidate, from_there in zip(self.candidates[name], there, strict=True):
             able = from_there.is_open or from_there.promise > SEARCH.able * (bare.chi2 - best.chi2)
@@ -157,7 +157,7 @@ class CandidateFits:
     def alone(self, one: tuple[Fitted, Effect]) -> Fitted:
         """One effect of a pair as the pair has it, law and all, the other one taken away."""
         pair, effect = one
-        response = Response(self.problem, [effect])
+        response = response_of(self.problem, [effect])
         u = np.concatenate([pair.z, pair.of(effect)])
         return kept(response, self.evidence, pair.law, u)
 

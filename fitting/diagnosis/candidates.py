@@ -12,6 +12,7 @@ from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import ROUGH, Fitted, refit
 from fitting.diagnosis.response import Response
+from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
@@ -28,8 +29,8 @@ _FAR = 0.02
 
 def look(problem: DiagnosisProblem, evidence: Evidence, before: Fitted, effect: Effect) -> list[Start]:
     """Starts of an effect, scaled by a linear step, with the chi-square each may gain; best first."""
-    response = Response(problem, [*before.effects, effect], problem.coarse)
-    plain = Response(problem, before.effects, problem.coarse)
+    response = response_of(problem, [*before.effects, effect], problem.coarse)
+    plain = response_of(problem, before.effects, problem.coarse)
     law, known = before.law, before.u
     v = plain.velocity(law, known)
     r = before.residuals
@@ -102,7 +103,7 @@ class CandidateFit:
 
     @cached_property
     def _response(self) -> Response:
-        return Response(self.problem, [*self.before.effects, self.effect], self.problem.coarse)
+        return response_of(self.problem, [*self.before.effects, self.effect], self.problem.coarse)
 
     def _rough(
         self, law: CoreLaw, u: Array, evidence: Evidence, *, as_stated: bool = False, brief: bool = False
@@ -216,7 +217,7 @@ class CandidateFit:
 
 def bent_as(law: CoreLaw, other: CoreLaw) -> CoreLaw:
     """Another law, as free to bend as one is."""
-    return BentLaw.over(other, np.array(law.knots_hz)) if isinstance(law, BentLaw) else other
+    return BentLaw.over(other, np.array(law.knots_hz), law.freedom) if isinstance(law, BentLaw) else other
 
 
 def _chi2(fitted: Fitted) -> float:
@@ -233,7 +234,7 @@ def polished(
 ) -> Fitted:
     """A fit to the end, its grid made for the law it starts from, and again where the law has moved far."""
     for _ in range(_ROUNDS):
-        fitted = refit(Response(problem.around(law), effects), evidence, law, u)
+        fitted = refit(response_of(problem.around(law), effects), evidence, law, u)
         if fitted.chi2_per_dof > SEARCH.hopeless:
             break
         omega = problem.fine.nodes.omega

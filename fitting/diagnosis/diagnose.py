@@ -29,6 +29,7 @@ from fitting.reduced import ReducedPlate
 from fitting.sweep import Sweep
 
 Report = Callable[[float], None]
+Settle = Callable[[Search, Judgement], Judgement]
 
 
 def seen_in_channels(sweep: Sweep, effects: Sequence[Effect]) -> tuple[Mask, tuple[FoundEffect, ...], Noise]:
@@ -45,7 +46,7 @@ def seen_in_channels(sweep: Sweep, effects: Sequence[Effect]) -> tuple[Mask, tup
 
 def diagnose_task(
     problem: DiagnosisProblem,
-    reduced: ReducedPlate,
+    reduced: ReducedPlate | None,
     effects: Sequence[Effect],
     noise: Noise,
     bare: BareModes | None,
@@ -57,12 +58,13 @@ def diagnose_task(
     executor: Executor = ALONE,
     remade: Callable[[Sweep], DiagnosisProblem] | None = None,
     resamples: int | None = None,
+    settle: Settle | None = None,
 ) -> Diagnosis:
     """Everything that can be said of a sweep's residual; `task` holds the points in use.
 
     With `accepted_by_hand` these effects are fitted and nothing is searched for. `remade` gives the task of
     some of the points; with it the search is repeated on `resamples` sweeps without effects (None: where
-    points are few) and with points held out.
+    points are few) and with points held out. `settle` has the last word on the judgement.
     """
     given = problem
     begun = begin(problem, reduced, noise, bare, start)
@@ -82,6 +84,8 @@ def diagnose_task(
         again = Again(given, remade, reduced, effects, bare, start, search.none.fitted, noise)
         resampled = resampled_of(again, gain(search.none, scored_fits), resamples, executor, report)
         judgement = in_light_of(judgement, resampled.p_value)
+    if settle is not None and accepted_by_hand is None:
+        judgement = settle(search, judgement)
     known = evidence.scale_known
     report(0.8)
     none = search.none.fitted

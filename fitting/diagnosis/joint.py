@@ -2,7 +2,7 @@
 
 from fitting.diagnosis.begin import Begun
 from fitting.diagnosis.refit import posterior
-from fitting.diagnosis.response import Response
+from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.stage import adjusted_of
 from fitting.identification.fit import Fit
 
@@ -10,7 +10,7 @@ from fitting.identification.fit import Fit
 def fit_of(begun: Begun) -> Fit:
     """The fit without effects as `fitting.identification.result.summarise` takes it."""
     none, first = begun.none, begun.first
-    C = posterior(Response(begun.problem, ()), begun.evidence, none)
+    C = posterior(response_of(begun.problem, ()), begun.evidence, none)
     n = len(none.law.names)
     return Fit(
         law=none.law,

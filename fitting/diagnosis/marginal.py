@@ -82,9 +82,14 @@ def _prior(q: EffectParameter, lower: float, upper: float, u: float) -> tuple[fl
         width = upper - lower
         return float(-np.log(width)), float(width / np.sqrt(_UNIFORM))
     # Cauchy's: most are small, some are not, and no size is ruled out.
-    s = q.spread or _TYPICALS * q.typical
+    s = expected_size(q)
     sides = 1 if lower < q.neutral < upper else 2
     return float(np.log(sides / (np.pi * s * (1 + ((u - q.neutral) / s) ** 2)))), s
+
+
+def expected_size(q: EffectParameter) -> float:
+    """How large an unknown with a neutral value is expected to be, in its unit."""
+    return q.spread or _TYPICALS * q.typical
 
 
 def probabilities(costs: Array, temper: float = 1.0) -> Array:

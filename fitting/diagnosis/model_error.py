@@ -11,10 +11,19 @@ from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.laws import CoreLaw
 from fitting.model_error import DRIFT, GAIN, model_error_at
 from fitting.reduced import ReducedPlate
+from fitting.specimen import Specimen
 
 
-def model_error(problem: DiagnosisProblem, reduced: ReducedPlate, law: CoreLaw, v: Complex) -> Complex:
-    """Changes of the velocity `v`, one standard deviation each. Shape (nuisances, points)."""
+def model_error(problem: DiagnosisProblem, reduced: ReducedPlate | None, law: CoreLaw, v: Complex) -> Complex:
+    """Changes of the velocity `v`, one standard deviation each. Shape (nuisances, points).
+
+    `reduced` is the plate's; None for what knows its own error.
+    """
+    own = problem.model_error(law, v)
+    if own is not None:
+        return own
+    assert reduced is not None
+    assert isinstance(problem.specimen, Specimen)
     omega, index = np.unique(problem.points.omega, return_inverse=True)
     dx = reduced.by_frequency(omega, law.modulus(omega))
     dv = (1j * omega * dx)[index.ravel()] * problem.points.acceleration_m_s2

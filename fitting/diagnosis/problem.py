@@ -11,10 +11,11 @@ from fitting.diagnosis.plate_answer import ModulusNear
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.effects.base import Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.identification.adjusted import Adjusted, adjusted
 from fitting.laws import CoreLaw
 from fitting.nuisances import Nuisances, nuisances_of
 from fitting.rational import RationalSweep
-from fitting.specimen import Specimen
+from fitting.specimen import Specimen, Stated
 from fitting.sweep import Sweep
 
 DENSE, FINE, COARSE = 16, 10, 6
@@ -56,7 +57,7 @@ class DiagnosisProblem:
     """A sweep with the plate it was measured on."""
 
     sweep: Sweep
-    specimen: Specimen
+    specimen: Stated
     plate: EnrichedReducedPlate
     points: Points
     rational: RationalSweep
@@ -120,6 +121,19 @@ class DiagnosisProblem:
         return replace(self, plate=plate)
 
     @property
+    def freedom(self) -> float:
+        """How much more than usual the law may bend."""
+        return 1.0
+
+    def model_error(self, law: CoreLaw, v: Complex) -> Complex | None:
+        """Changes of the velocity `v` by what the model gets wrong; None for a plate, see `model_error`."""
+        return None
+
+    def adjusted(self, z: Array, errors: Array) -> tuple[Adjusted, ...]:
+        """The stated numbers as a fit has them, and their errors, in standard deviations of tolerances."""
+        return adjusted(self.specimen, self.nuisances.each, z, errors)
+
+    @property
     def as_stated(self) -> Array:
         """Where every stated number is what it is stated to be."""
         return np.zeros(len(self.nuisances))
@@ -135,7 +149,7 @@ class DiagnosisProblem:
         return replace(self, fine=fine, coarse=coarse, passes=passes)
 
 
-def points_of(sweep: Sweep, specimen: Specimen) -> Points:
+def points_of(sweep: Sweep, specimen: Stated) -> Points:
     """What effects may ask of a sweep's points."""
     if sweep.time_s is not None:
         time = sweep.time_s - sweep.time_s.min()

@@ -14,7 +14,7 @@ from fitting.diagnosis.evidence import BareModes
 from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import Fitted
-from fitting.diagnosis.response import Response
+from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.singles import Singles
 from fitting.diagnosis.verdict import judge
@@ -41,7 +41,7 @@ class Again:
     problem: DiagnosisProblem
     remade: Callable[[Sweep], DiagnosisProblem]
     """The task of some of the points."""
-    reduced: ReducedPlate
+    reduced: ReducedPlate | None
     effects: Sequence[Effect]
     bare: BareModes | None
     start: CoreLaw
@@ -88,7 +88,7 @@ class Again:
         )
         best = (judged.accepted or search.none).fitted
         whole = self.problem.condensed(best.law).around(best.law)
-        v = Response(whole, best.effects).velocity(best.law, best.u)
+        v = response_of(whole, best.effects).velocity(best.law, best.u)
         return differences_percent(self.problem.sweep, v)[held]
 
 

@@ -43,7 +43,7 @@ class Response:
         self.problem, self.effects, self.nuisances = problem, tuple(effects), problem.nuisances
         count = len(self.nuisances)
         self.parameters: tuple[EffectParameter, ...] = (
-            *(_STATED,) * count,
+            *(STATED_NUMBER,) * count,
             *(u for e in effects for u in e.parameters),
         )
         spans = {s.name: s for e in effects for s in e.spans}
@@ -330,7 +330,7 @@ class Response:
         return (self._read(raw, _moved(u, n, h)) - self._read(raw, _moved(u, n, -h))) / (2 * h)
 
 
-_STATED = EffectParameter("stated", "1", -12.0, 12.0, 1.0)
+STATED_NUMBER = EffectParameter("stated", "1", -12.0, 12.0, 1.0)
 """A stated number, in standard deviations of its tolerance."""
 
 

@@ -13,7 +13,7 @@ from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.predictive import checks, form_error, passes, temper
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import Fitted, refit
-from fitting.diagnosis.response import Response
+from fitting.diagnosis.responses import response_of
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.identification.validation import Validation
@@ -74,7 +74,7 @@ class Search:
     def with_evidence(self, evidence: Evidence) -> "Search":
         """The same search of data that are worth something else."""
         none = self.none.fitted
-        again = refit(Response(self.problem, ()), evidence, none.law, none.u)
+        again = refit(response_of(self.problem, ()), evidence, none.law, none.u)
         return Search(self.problem, evidence, again, self.effects, self.executor, self.unnamed)
 
     def judged(self, fitted: Fitted) -> ScoredFit:

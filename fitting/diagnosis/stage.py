@@ -8,12 +8,12 @@ from fitting.arrays import Array
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import Fitted, posterior
-from fitting.diagnosis.response import Response
+from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.result import Estimate, FoundEffect, Stage
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.structure import structure
 from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.identification.adjusted import Adjusted, adjusted
+from fitting.identification.adjusted import Adjusted
 from fitting.identification.result import LawBand, differences_percent, law_band
 from fitting.identification.uncertainty import Uncertainty, limits_reached
 from fitting.identification.validation import Validation
@@ -27,7 +27,7 @@ def stage_of(
 ) -> Stage:
     """`validation` is what the fit says of data it has not seen; `scale` multiplies its covariance."""
     law = fitted.law
-    C = scale * posterior(Response(problem, fitted.effects), evidence, fitted)
+    C = scale * posterior(response_of(problem, fitted.effects), evidence, fitted)
     uncertainty = _of_law(fitted, C)
     reached = uncertainty.at_bound
     plain = law.plain
@@ -65,7 +65,7 @@ def adjusted_of(problem: DiagnosisProblem, fitted: Fitted, covariance: Array) ->
     """The stated numbers as a fit has them."""
     n = len(fitted.law.names)
     errors = np.sqrt(np.maximum(np.diag(covariance)[n : n + fitted.stated], 0))
-    return adjusted(problem.specimen, problem.nuisances.each, fitted.z, errors)
+    return problem.adjusted(fitted.z, errors)
 
 
 def few_of_law(problem: DiagnosisProblem, fitted: Fitted, scale: float) -> LawBand:
@@ -84,7 +84,7 @@ def mixed_band(
     bands, shares = [], np.array([p for _, p in group])
     for scored, _ in group:
         fitted = scored.fitted
-        C = posterior(Response(problem, fitted.effects), search.evidence, fitted)
+        C = posterior(response_of(problem, fitted.effects), search.evidence, fitted)
         bands.append(law_band(problem.sweep, fitted.law, _of_law(fitted, search.temper(scored) * C)))
 
     def mixture(value: str, error: str) -> tuple[Array, Array]:

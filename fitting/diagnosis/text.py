@@ -4,7 +4,7 @@ import numpy as np
 
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import Fitted
-from fitting.diagnosis.response import Response
+from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.result import FoundEffect, Stage
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.diagnosis.verdict import NONE, Judgement
@@ -44,6 +44,9 @@ def explain(
         )
         if judgement.refused:
             said.append(f"What comes nearest, {' with '.join(judgement.refused)}, {judgement.why}.")
+        return tuple(said)
+    if judgement.verdict == "ambiguous" and judgement.why:
+        said.append(judgement.why)
         return tuple(said)
     stories = [story(e, f) for e, f in zip(scored.fitted.effects, found, strict=True)]
     likely = "By your word" if judgement.by_hand else "Most likely"
@@ -118,7 +121,7 @@ def _worst_segment(problem: DiagnosisProblem, before: Stage) -> int:
 
 def _moved(problem: DiagnosisProblem, fitted: Fitted) -> str:
     """How much the effect changes the response, segment by segment, the law kept."""
-    plain = Response(problem, ()).velocity(fitted.law, fitted.z)
+    plain = response_of(problem, ()).velocity(fitted.law, fitted.z)
     changed = 100 * np.abs(fitted.velocity_m_s / plain - 1)
     parts = []
     for number in np.unique(problem.sweep.segment):

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import Effect, Points
+from fitting.effects.base import EVERY_STRUCTURE, Effect, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 
@@ -15,6 +15,7 @@ class AbsoluteVelocity(Effect):
     name = "absolute_velocity"
     enters = "observation"
     source = "kinematics of a moving base"
+    structures = EVERY_STRUCTURE
     discriminating_test = "where the laser's head stands, and whether a reference beam goes to the clamp"
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter, Points
 
 
 class AcCoupling(Effect):
@@ -14,6 +14,7 @@ class AcCoupling(Effect):
     name = "ac_coupling"
     enters = "channel"
     source = "first-order filter: the input's series capacitor"
+    structures = EVERY_STRUCTURE
     parameters = (EffectParameter("corner", "Hz", 0.0, 5.0, 0.5, spread=1.0),)
     chance = 0.015
     discriminating_test = "the channel's input set to DC; the laser on the base beside the accelerometer"

@@ -7,6 +7,7 @@ import scipy.sparse as sp
 
 from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter, ModulusAt, Points
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.span import Span
 from fitting.element import Shape, core_shear_stiffness
@@ -41,6 +42,9 @@ class AmplitudeSoftening(Effect):
     chance = 0.03
     discriminating_test = "a second level"
 
+    def on(self, kind: str) -> Effect | None:
+        return SofteningOfPair() if kind == "shear-pair" else super().on(kind)
+
     def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex:
         softened = np.zeros(len(points.omega))
         for _ in range(_ITERATIONS):
@@ -56,3 +60,11 @@ class AmplitudeSoftening(Effect):
         return (
             f"the core softens with strain, by {100 * u['k']:.2g} % at the largest strain of the sweep at 1 g"
         )
+
+
+class SofteningOfPair(AmplitudeSoftening):
+    """The same of a pad in shear."""
+
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
+        # Over one level strain is a function of frequency, as the law is.
+        return None if points.levels > 1 else "one level does not tell softening from the law"

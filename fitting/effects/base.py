@@ -22,7 +22,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.span import Span
 from fitting.laws import CoreLaw
 from fitting.noise import Noise
-from fitting.specimen import Face
+from fitting.specimen import Face, Reading
 from fitting.sweep import Sweep
 
 
@@ -43,6 +43,10 @@ class BarePlate(Protocol):
 
 
 Entry = Literal["stiffness", "mass", "load", "observation", "channel", "time", "level", "core law", "damping"]
+
+
+PLATE_ONLY = frozenset({"plate"})
+EVERY_STRUCTURE = frozenset({"plate", "beam", "shear-pair"})
 
 
 @dataclass(frozen=True)
@@ -81,7 +85,7 @@ class Points:
     """Since the first point; by frequency, evenly, where no time is kept."""
     timed: bool
     has_phase: bool
-    reads: str
+    reads: Reading
 
     @property
     def levels(self) -> int:
@@ -113,11 +117,18 @@ class Effect:
     unexplained_share: ClassVar[float] = 0.0
     """Share of the chi-square it explains that its own formula may leave (`fitting.diagnosis.predictive`)."""
 
+    structures: ClassVar[frozenset[str]] = PLATE_ONLY
+    """Kinds of specimens on which it has a meaning as it is."""
+
     chance: ClassVar[float] = 0.02
     """Prior probability that a laboratory's set-up has it, to be seen or not."""
 
     extends: ClassVar[str | None] = None
     """A simpler effect that this one contains."""
+
+    def on(self, kind: str) -> Effect | None:
+        """The form it has on a `plate`, `beam` or `shear-pair`; None where it has no meaning."""
+        return self if kind in self.structures else None
 
     def seen(self, sweep: Sweep, noise: Noise) -> Seen | None:
         """Its trace in the channels themselves."""

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 
@@ -15,6 +15,7 @@ class ChannelDelay(Effect):
     name = "channel_delay"
     enters = "channel"
     source = "a decoder's or filter's constant group delay"
+    structures = EVERY_STRUCTURE
     parameters = (EffectParameter("delay", "s", -3e-3, 3e-3, 5e-5, spread=1e-4),)
     chance = 0.04
     discriminating_test = (

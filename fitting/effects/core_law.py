@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from fitting.effects.base import Effect, Points
+from fitting.effects.base import EVERY_STRUCTURE, Effect, Points
 from fitting.laws import LAWS, CoreLaw
 from fitting.laws.vicinity import Vicinity
 
@@ -15,6 +15,7 @@ class OtherCoreLaw(Effect):
     name = "core_law"
     enters = "core law"
     source = "Ferry (generalised Maxwell); Golla, Hughes and McTavish; natural splines of ln G' and ln eta"
+    structures = EVERY_STRUCTURE
     replaces_law = True
     chance = 0.03
     discriminating_test = (

@@ -66,7 +66,7 @@ class EnrichedReducedPlate:
     parts: Array
     """By what is stated (`fitting.parts`). Shape (parts, k, k)."""
     load_part: Array
-    """Shape (k,)."""
+    """Shape (k,); of a small structure (parts, k)."""
     layers: Array
     """What is stated of them (`fitting.parts.layers_of`), zero for a plate that carries no effects."""
 
@@ -85,7 +85,8 @@ class EnrichedReducedPlate:
             self,
             group=self.group[columns],
             **{name: getattr(self, name)[square] for name in ("M", "K_0", "K_1", "gram")},
-            **{name: getattr(self, name)[columns] for name in ("U", "load", "pitch", "observe", "load_part")},
+            **{name: getattr(self, name)[columns] for name in ("U", "load", "pitch", "observe")},
+            load_part=self.load_part[..., columns],
             parts=self.parts[:, columns][:, :, columns],
             names=self.names[kept],
             matrices=self.matrices[kept][:, columns][:, :, columns],

@@ -8,6 +8,7 @@ from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.base_rocking import BaseRocking
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.span import Span
 
 _OUTSIDE = (0.6, 1.6)
 _STEP = 0.02
@@ -22,16 +23,19 @@ class FixtureResonance(Effect):
     name = "fixture_resonance"
     enters = "load"
     source = "one mode of the fixture between shaker and clamp"
-    parameters = (
+    parameters: tuple[EffectParameter, ...] = (
         EffectParameter("frequency", "Hz", 1.0, 5000.0, 100.0, logarithmic=True, neutral=None),
         EffectParameter("damping_ratio", "1", 1e-3, 0.3, 0.02, logarithmic=True, neutral=None),
         EffectParameter("gain", "rad/m", -1.0, 1.0, 0.02, spread=0.1),
         EffectParameter("heave", "1", -0.3, 0.3, 0.01, spread=0.02),
         EffectParameter("before", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),
     )
-    spans = BaseRocking.spans
+    spans: tuple[Span, ...] = BaseRocking.spans
     extends = "base_rocking"
     discriminating_test = "two accelerometers on the base; the sweep repeated with a mass on the fixture"
+
+    def on(self, kind: str) -> Effect | None:
+        return LocalDisturbance() if kind == "shear-pair" else super().on(kind)
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         f = points.omega / (2 * np.pi)
@@ -56,3 +60,20 @@ class FixtureResonance(Effect):
     def story(self, u: Mapping[str, float]) -> str:
         f, zeta = u["frequency"], u["damping_ratio"]
         return f"the fixture resonates at {f:.4g} Hz (damping ratio {zeta:.2g}) and turns the base"
+
+
+class LocalDisturbance(FixtureResonance):
+    """On a shear pair: a stretch of frequencies that is set aside (`fitting.diagnosis.glitch`)."""
+
+    parameters = ()
+    spans = ()
+
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
+        return "it shows in the readings themselves"
+
+    def story(self, u: Mapping[str, float]) -> str:
+        of = f" of file {u['file']:.0f}" if "file" in u else ""
+        return (
+            f"a local disturbance{of} from {u['from']:.0f} to {u['to']:.0f} Hz, as of a fixture's resonance, "
+            "is set aside"
+        )

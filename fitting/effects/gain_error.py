@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter, Points
 
 
 class GainError(Effect):
@@ -14,6 +14,7 @@ class GainError(Effect):
     name = "gain_error"
     enters = "channel"
     source = "calibration of the measuring chain"
+    structures = EVERY_STRUCTURE
     parameters = (EffectParameter("factor", "1", 0.5, 2.0, 1.02, neutral=1.0, spread=0.02),)
     chance = 0.04
     discriminating_test = "the laser on the base beside the accelerometer; a second spot"

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from fitting.effects.base import Effect, Points, Seen
+from fitting.effects.base import EVERY_STRUCTURE, Effect, Points, Seen
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.level import level_error
 from fitting.noise import Noise
@@ -17,6 +17,7 @@ class LevelError(Effect):
     name = "level_error"
     enters = "level"
     source = "reference channel over command"
+    structures = EVERY_STRUCTURE
     discriminating_test = "a second accelerometer on the base"
 
     def seen(self, sweep: Sweep, noise: Noise) -> Seen | None:

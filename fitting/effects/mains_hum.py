@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from fitting.effects.base import Effect, Points, Seen
+from fitting.effects.base import EVERY_STRUCTURE, Effect, Points, Seen
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.hum import mains_hum
 from fitting.noise import Noise
@@ -15,6 +15,7 @@ class MainsHum(Effect):
     name = "mains_hum"
     enters = "channel"
     source = "outliers of the local scatter at multiples of 50 or 60 Hz"
+    structures = EVERY_STRUCTURE
     discriminating_test = "a record with the shaker silent"
 
     def seen(self, sweep: Sweep, noise: Noise) -> Seen | None:

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 _HIGHEST = np.pi / 2
@@ -26,6 +26,7 @@ class PhaseScale(Effect):
     name = "phase_scale"
     enters = "channel"
     source = "gain error of a phase detector's output, phases taken as lags behind the reference"
+    structures = EVERY_STRUCTURE
     parameters = (
         EffectParameter("factor", "1", 0.8, 1.2, 1.02, neutral=1.0, spread=0.03),
         EffectParameter("counted", "1", 0.0, 2.0, 0.0, neutral=None, fixed=True),

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter, Points
 
 
 class SensorLowpass(Effect):
@@ -14,6 +14,7 @@ class SensorLowpass(Effect):
     name = "sensor_lowpass"
     enters = "channel"
     source = "first-order filter, e.g. a decoder's output filter or a long cable on a high source impedance"
+    structures = EVERY_STRUCTURE
     parameters = (
         EffectParameter("corner", "Hz", 200.0, 1e5, 3000.0, logarithmic=True, neutral=float("inf")),
     )

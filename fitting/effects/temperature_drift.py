@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import Effect, EffectParameter, ModulusAt, Points
+from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter, ModulusAt, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 C_1, C_2_K = 9.0, 120.0
@@ -18,6 +18,7 @@ class TemperatureDrift(Effect):
     name = "temperature_drift"
     enters = "time"
     source = "Williams, Landel and Ferry, J. Am. Chem. Soc. 77 (1955)"
+    structures = EVERY_STRUCTURE
     parameters = (
         EffectParameter("warming", "K", -25.0, 25.0, 2.0, spread=5.0),
         EffectParameter("time_constant", "s", 20.0, 1e5, 600.0, logarithmic=True, neutral=None),

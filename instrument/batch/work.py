@@ -99,11 +99,11 @@ def _lender(task: Task, given: Given) -> Specimen | None:
     if task.like is None:
         return None
     lender = read_specimen(Path(task.like))
-    return lender if serves(lender, given.specimen, given.sweep) else None
+    return lender if serves(lender, given.plate, given.sweep) else None
 
 
 def _identified(given: Given, like: Specimen | None) -> dict[str, Any]:
-    found = identify(given.sweep, given.specimen, hammer=given.modes, like=like)
+    found = identify(given.sweep, given.plate, hammer=given.modes, like=like)
     facts = identification_facts(found, given.sweep)
     return {
         "verdict": None,
@@ -115,7 +115,7 @@ def _identified(given: Given, like: Specimen | None) -> dict[str, Any]:
 
 
 def _diagnosed(given: Given, like: Specimen | None) -> dict[str, Any]:
-    found = diagnose(given.sweep, given.specimen, given.modes, like=like)
+    found = diagnose(given.sweep, given.plate, given.modes, like=like)
     facts = diagnosis_facts(found, given.sweep)
     return {
         "verdict": facts["verdict"],

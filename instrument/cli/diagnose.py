@@ -4,19 +4,22 @@ from pathlib import Path
 
 import click
 
-from instrument.cli.options import figures_option, file_argument, json_option
+from fitting.specimen import Specimen
+from instrument.cli.options import figures_option, file_arguments, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
-from instrument.cli.reading import read_data, reading_options
+from instrument.cli.reading import read_each, reading_options, together
 from instrument.models.diagnosis import diagnose as diagnose_sweep
+from instrument.models.together import diagnose_together
 from instrument.progress import bar
 from instrument.results.diagnosis_facts import diagnosis_facts
 from instrument.results.diagnosis_figures import save_diagnosis_figures
+from instrument.results.together_facts import diagnosed_together_facts
 from instrument.stream.jsonable import to_jsonable
 
 
 @click.command()
-@file_argument("data")
+@file_arguments("data")
 @reading_options
 @click.option(
     "--without",
@@ -39,8 +42,8 @@ from instrument.stream.jsonable import to_jsonable
 @figures_option("Save residual, evidence and law as PNG.")
 @json_option
 def diagnose(
-    data: Path,
-    specimen: Path | None,
+    data: tuple[Path, ...],
+    specimen: tuple[Path, ...],
     hammer: Path | None,
     no_hammer: bool,
     without: tuple[str, ...],
@@ -52,15 +55,21 @@ def diagnose(
     """What the fit of DATA cannot explain, traced to a physical effect, with the error before and after.
 
     DATA is a sweep (.csv), a recorded session (.h5), or an FRF of the pickup over the base's acceleration
-    (.csv, .uff, .unv, .mat).
+    (.csv, .uff, .unv, .mat). Several are one experiment: an effect common to all is named once.
     """
     out = Output(json_path)
-    given = read_data(out, data, specimen, hammer, no_hammer=no_hammer)
+    every = read_each(out, data, specimen, hammer, no_hammer=no_hammer)
     declined, accepted = frozenset(without), _accepted(accept)
-    found = diagnose_sweep(
-        given.sweep, given.specimen, given.modes, declined, bar, accepted, resamples=resamples
-    )
-    facts = to_jsonable(diagnosis_facts(found, given.sweep))
+    files, given = together(every, data), every[0]
+    if files is not None:
+        several = diagnose_together(files, declined, bar, accepted)
+        facts = to_jsonable(diagnosed_together_facts(several, files))
+    else:
+        assert isinstance(given.specimen, Specimen)
+        found = diagnose_sweep(
+            given.sweep, given.specimen, given.modes, declined, bar, accepted, resamples=resamples
+        )
+        facts = to_jsonable(diagnosis_facts(found, given.sweep))
     print_diagnosis(out, facts)
     if figures is not None:
         for path in save_diagnosis_figures(facts, figures):

@@ -1,5 +1,6 @@
 """`viscorig identify`: the core's law from a sweep."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -9,12 +10,12 @@ import click
 from fitting.errors import OutsideModel
 from fitting.pointwise import phase_is_kept
 from fitting.specimen import Specimen
-from instrument.cli.options import figures_option, file_argument, json_option
+from instrument.cli.options import figures_option, file_arguments, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_beside import print_beside
 from instrument.cli.print_budget import print_budget
 from instrument.cli.print_identification import print_bare_plate, print_identification
-from instrument.cli.reading import read_data, reading_options
+from instrument.cli.reading import read_each, reading_options, together
 from instrument.files.dma_file import DmaTable, read_dma
 from instrument.material.beside import beside, beside_facts
 from instrument.material.found_law import law_of_facts
@@ -22,16 +23,18 @@ from instrument.material.overlay import save_overlay
 from instrument.models.identification import Identified, Method
 from instrument.models.identification import identify as identify_sweep
 from instrument.models.pointwise import pointwise_of
+from instrument.models.together import File, identify_together
 from instrument.progress import bar
 from instrument.results.budget_facts import budget, budget_facts
 from instrument.results.identification_facts import bare_plate_facts, identification_facts
 from instrument.results.pointwise_facts import second_look_facts
 from instrument.results.pointwise_figures import save_pointwise_figure
 from instrument.stream.jsonable import to_jsonable
+from instrument.results.together_facts import identified_together_facts
 
 
 @click.command()
-@file_argument("data")
+@file_arguments("data")
 @reading_options
 @click.option(
     "--method",
@@ -67,8 +70,8 @@ from instrument.stream.jsonable import to_jsonable
 @figures_option("With --pointwise or --with: save the law beside them as PNG.")
 @json_option
 def identify(
-    data: Path,
-    specimen: Path | None,
+    data: tuple[Path, ...],
+    specimen: tuple[Path, ...],
     method: Method,
     hammer: Path | None,
     no_hammer: bool,
@@ -82,15 +85,25 @@ def identify(
     """The core's complex shear modulus from DATA, with its uncertainty.
 
     DATA is a sweep (.csv), a recorded session (.h5), or an FRF of the pickup over the base's acceleration
-    (.csv, .uff, .unv, .mat).
+    (.csv, .uff, .unv, .mat). Several are fitted together: one law, each file its own specimen and channels.
     """
     if pointwise and method == "paper":
         raise click.UsageError("--pointwise and --method paper: expected the direct method")
     if figures is not None and not pointwise and dma is None:
         raise click.UsageError("--figures shows the law band by band, expected --pointwise or --with")
     out = Output(json_path)
-    given = read_data(out, data, specimen, hammer, no_hammer=no_hammer)
+    every = read_each(out, data, specimen, hammer, no_hammer=no_hammer)
+    files = together(every, data)
+    if files is not None:
+        if pointwise or method == "paper" or no_viscous_damping or dma is not None or with_budget:
+            raise click.UsageError(
+                "--pointwise, --method paper, --no-viscous-damping, --with, --budget: expected one plate's data"
+            )
+        _identify_together(out, files)
+        return
+    given = every[0]
     read = given.specimen
+    assert isinstance(read, Specimen)
     if no_viscous_damping:
         read = replace(read, modal_ratios=())
     if pointwise:
@@ -112,7 +125,7 @@ def identify(
         if figures is not None:
             out.say(f"saved {save_pointwise_figure(bands, found.result.band, figures)}")
     if table is not None:
-        facts["with"] = _beside(out, table, data, to_jsonable(facts), figures)
+        facts["with"] = _beside(out, table, data[0], to_jsonable(facts), figures)
     out.result({**facts, **given.facts})
 
 
@@ -150,3 +163,9 @@ def _beside(
     if figures is not None:
         out.say(f"saved {save_overlay(law, table, figures)}")
     return said
+
+
+def _identify_together(out: Output, files: Sequence[File]) -> None:
+    found = identify_together(files, bar)
+    print_identification(out, found.found, found.sweep, files[0].specimen)
+    out.result(identified_together_facts(found, files))

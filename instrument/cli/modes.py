@@ -6,9 +6,11 @@ import click
 
 from fitting.complex_modes import complex_modes
 from fitting.plate import Plate
+from fitting.specimen import Specimen
+from fitting.structures.small_modes import small_modes
 from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
-from instrument.files.specimen_file import read_specimen
+from instrument.files.structure_file import read_structure
 from instrument.progress import bar
 
 
@@ -23,10 +25,13 @@ def modes(specimen: Path, count: int, json_path: str | None) -> None:
     damping does not; rigid modes of a free plate are left out.
     """
     out = Output(json_path)
-    read = read_specimen(specimen)
+    read = read_structure(specimen)
     law = read.core.law if read.core is not None else None
-    with bar("modes") as report:
-        found = complex_modes(Plate(read), law, count, report)
+    if isinstance(read, Specimen):
+        with bar("modes") as report:
+            found = complex_modes(Plate(read), law, count, report)
+    else:
+        found = small_modes(read, law, count)
     rows = [[str(k + 1), f"{m.frequency_hz:.3f}", f"{m.loss_factor:.5f}"] for k, m in enumerate(found)]
     out.table("", ["mode", "frequency/Hz", "loss factor"], rows)
     out.result({"modes": [{"frequency_hz": m.frequency_hz, "loss_factor": m.loss_factor} for m in found]})

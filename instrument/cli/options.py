@@ -17,6 +17,11 @@ def file_argument(name: str) -> Any:
     return click.argument(name, type=click.Path(path_type=Path))
 
 
+def file_arguments(name: str) -> Any:
+    """One file to read, or several."""
+    return click.argument(name, type=click.Path(path_type=Path), nargs=-1, required=True)
+
+
 json_option: Any = click.option(
     "--json",
     "json_path",

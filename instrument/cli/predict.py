@@ -7,10 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
+from fitting.specimen import Specimen, Stated
+from fitting.structures.small_modes import small_velocity
 from instrument.cli.options import Frequencies, file_argument, json_option
 from instrument.cli.output import Output
 from instrument.files.hammer_file import read_hammer
-from instrument.files.specimen_file import read_specimen
+from instrument.files.structure_file import read_structure
 from instrument.models.specimen_models import Models
 from instrument.models.theory import theory_remark
 from instrument.progress import bar
@@ -52,7 +54,12 @@ def predict(
     if real_modes and fit is not None:
         raise click.UsageError("--real-modes and --fit: expected one of them")
     out = Output(json_path)
-    read = read_specimen(specimen)
+    read = read_structure(specimen)
+    if not isinstance(read, Specimen):
+        if real_modes or fit is not None or hammer is not None:
+            raise click.UsageError(f"--real-modes, --fit, --hammer with a {read.kind}: expected a plate")
+        _show(out, read, frequencies, small_velocity(read, frequencies), {}, "")
+        return
     if hammer is not None:
         read = with_bare_plate(read, fit_bare_plate(read, *read_hammer(hammer)))
     errors: dict[str, NDArray[np.float64]] = {}
@@ -68,6 +75,17 @@ def predict(
         }
     else:
         v = Models.of(read, frequencies, bar).predict(law, frequencies, real_modes=real_modes)
+    _show(out, read, frequencies, v, errors, theory_remark(read, law, frequencies))
+
+
+def _show(
+    out: Output,
+    read: Stated,
+    frequencies: NDArray[np.float64],
+    v: NDArray[np.complex128],
+    errors: dict[str, NDArray[np.float64]],
+    remark: str,
+) -> None:
     points = [
         {
             "frequency_hz": float(f),
@@ -84,7 +102,6 @@ def predict(
     ]
     title = f"{read.reads} velocity at {read.base_acceleration_m_s2:g} m/s^2 base acceleration"
     out.table(title, ["frequency/Hz", "amplitude/(m/s)", "real/(m/s)", "imaginary/(m/s)"], rows)
-    remark = theory_remark(read, law, frequencies)
     if remark:
         out.say(f"note: {remark}")
     out.result({"points": points, "notes": [remark] if remark else []})

@@ -4,7 +4,7 @@ import numpy as np
 
 from fitting.identification.bare_plate import BarePlateFit
 from fitting.identification.result import Identification
-from fitting.specimen import Specimen
+from fitting.specimen import Specimen, Stated
 from fitting.sweep import Sweep
 from instrument.cli.output import Output
 from instrument.models.identification import Identified
@@ -13,7 +13,7 @@ from instrument.results.adjusted_words import COLUMNS, adjusted_rows, more_adjus
 _MOST_ROWS = 30
 
 
-def print_identification(out: Output, found: Identified, sweep: Sweep, specimen: Specimen) -> None:
+def print_identification(out: Output, found: Identified, sweep: Sweep, specimen: Stated) -> None:
     """What was found, how well it is known, and what the data do not say; `specimen` as stated."""
     r = found.result
     errors = r.standard_errors
@@ -73,7 +73,7 @@ def _print_band(out: Output, r: Identification) -> None:
     )
 
 
-def _print_adjusted(out: Output, r: Identification, specimen: Specimen) -> None:
+def _print_adjusted(out: Output, r: Identification, specimen: Stated) -> None:
     found = r.fit.adjusted
     if not found:
         return

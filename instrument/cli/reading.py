@@ -1,18 +1,22 @@
 """DATA of `identify` and `diagnose`, as their options have it."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import click
 
+from fitting.specimen import Specimen
 from instrument.cli.output import Output
 from instrument.interchange.given import Given, read_given
+from instrument.models.together import File
 
 _OPTIONS = (
     click.option(
         "--specimen",
         type=click.Path(path_type=Path),
-        help="SPECIMEN.toml; its law is the start. A session has its own.",
+        multiple=True,
+        help="SPECIMEN.toml; its law is the start. A session has its own. With several files one for each, "
+        "in order, or one for all.",
     ),
     click.option(
         "--hammer",
@@ -29,6 +33,33 @@ def reading_options(command: Callable[..., None]) -> Callable[..., None]:
     for option in reversed(_OPTIONS):
         command = option(command)
     return command
+
+
+def read_each(
+    out: Output, data: Sequence[Path], specimens: Sequence[Path], hammer: Path | None, *, no_hammer: bool
+) -> list[Given]:
+    """Read every file with its specimen, paired in order; one specimen serves all. Raises as `read_data`."""
+    if len(specimens) > 1 and len(specimens) != len(data):
+        raise click.UsageError(
+            f"{len(specimens)} times --specimen for {len(data)} files, expected one for each or one for all"
+        )
+    if len(data) > 1 and hammer is not None:
+        raise click.UsageError("--hammer with several files: expected one file")
+    paired = list(specimens) if len(specimens) == len(data) else [*specimens, None][:1] * len(data)
+    given = [
+        read_data(out, one, specimen, hammer, no_hammer=no_hammer or len(data) > 1)
+        for one, specimen in zip(data, paired, strict=True)
+    ]
+    if hammer is not None and not isinstance(given[0].specimen, Specimen):
+        raise click.UsageError(f"--hammer with a {given[0].specimen.kind}: expected a plate")
+    return given
+
+
+def together(given: Sequence[Given], data: Sequence[Path]) -> list[File] | None:
+    """As files under one law; None for a single plate, which has a path of its own."""
+    if len(given) == 1 and isinstance(given[0].specimen, Specimen):
+        return None
+    return [File(g.sweep, g.specimen, path.name) for g, path in zip(given, data, strict=True)]
 
 
 def read_data(

@@ -103,6 +103,10 @@ COLUMNS: tuple[Column, ...] = (
         report=Shown("|v| / (m/s)", lambda r: f"{abs(r.point.velocity_m_s):.5g}"),
         record=Shown("Velocity", lambda r: f"{abs(1e3 * r.point.velocity_m_s):.5g} mm/s", _READ_TIP),
     ),
+    Column("acceleration_re_m_s2", "m/s^2", given="velocity"),
+    Column("acceleration_im_m_s2", "m/s^2", given="velocity"),
+    Column("displacement_re_m", "m", given="velocity"),
+    Column("displacement_im_m", "m", given="velocity"),
     plain(
         "base_accel_re_m_s2",
         "m/s^2",

@@ -65,7 +65,7 @@ class _Mesh(Table):
     elements_y: Elements
 
 
-class _Tolerances(Table):
+class Tolerances(Table):
     """Standard deviations of what was measured or looked up; typical ones where a key is left out."""
 
     substrate_young_percent: NotNegative | None = None
@@ -86,6 +86,7 @@ class _Tolerances(Table):
     gain_percent: NotNegative | None = None
     delay_us: NotNegative | None = None
     mass_percent: NotNegative | None = None
+    area_percent: NotNegative | None = None
     exact: bool = False
 
 
@@ -105,7 +106,7 @@ class SpecimenDocument(Table):
     pickup: _Pickup | None = None
     base: _Base = _Base(acceleration_m_s2=PUBLISHED_G_M_S2)
     mesh: _Mesh | None = None
-    tolerances: _Tolerances | None = None
+    tolerances: Tolerances | None = None
 
     @model_validator(mode="after")
     def _whole(self) -> "SpecimenDocument":
@@ -134,7 +135,7 @@ def specimen_of(d: SpecimenDocument) -> Specimen:
     """The specimen a document describes. Raises `OutsideModel`."""
     core = None
     if d.core is not None:
-        core = Core(d.core.thickness_mm * 1e-3, d.core.poisson, d.core.density_kg_m3, _law(d.core.law))
+        core = Core(d.core.thickness_mm * 1e-3, d.core.poisson, d.core.density_kg_m3, law_of(d.core.law))
     return Specimen(
         length_m=d.plate.length_mm * 1e-3,
         width_m=d.plate.width_mm * 1e-3,
@@ -146,14 +147,15 @@ def specimen_of(d: SpecimenDocument) -> Specimen:
         pickup_m=(d.pickup.x_mm * 1e-3, d.pickup.y_mm * 1e-3) if d.pickup else None,
         reads=d.pickup.reads if d.pickup else "relative",
         base_acceleration_m_s2=d.base.acceleration_m_s2,
-        tolerances=_tolerances(d),
+        tolerances=tolerances_of(d.tolerances),
         exact=d.tolerances is not None and d.tolerances.exact,
         elements=(d.mesh.elements_x, d.mesh.elements_y) if d.mesh else None,
     )
 
 
-def _tolerances(d: SpecimenDocument) -> dict[str, float]:
-    given = d.tolerances.model_dump(exclude_none=True, exclude={"exact"}) if d.tolerances is not None else {}
+def tolerances_of(table: Tolerances | None) -> dict[str, float]:
+    """As named, in what `fitting.tolerances` counts in. Raises `OutsideModel`."""
+    given = table.model_dump(exclude_none=True, exclude={"exact"}) if table is not None else {}
     found = {}
     for key, value in given.items():
         name, _, unit = key.rpartition("_")
@@ -165,7 +167,7 @@ def _tolerances(d: SpecimenDocument) -> dict[str, float]:
     return found
 
 
-def _law(table: dict[str, Any]) -> CoreLaw:
+def law_of(table: dict[str, Any]) -> CoreLaw:
     """The law of `[core.law]`: `kind` decides the other keys."""
     known = ", ".join(sorted(LAWS))
     kind = table.get("kind")

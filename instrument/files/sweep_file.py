@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Complex
 from fitting.sweep import Sweep, segments_by_gap
 from instrument.errors import BadInput
 from instrument.files.column import Column
@@ -13,6 +13,8 @@ from instrument.files.point_columns import understood
 from instrument.files.table import number, read_rows
 
 _LARGEST_WHOLE = 1e9
+_READINGS = (("velocity", "m_s", 0), ("acceleration", "m_s2", -1), ("displacement", "m", 1))
+"""Stem and unit of phasor columns, and the power of i omega that makes a velocity of them."""
 
 
 @dataclass(frozen=True)
@@ -27,13 +29,12 @@ class SweepFile:
         """The sweep, its levels multiples of `acceleration_m_s2`."""
         c = self.columns
         f = c["frequency_hz"]
-        phasor = "velocity_re_m_s" in c
         base = None
         if "base_accel_re_m_s2" in c:
             base = c["base_accel_re_m_s2"] + 1j * c["base_accel_im_m_s2"]
         return Sweep(
             frequency_hz=f,
-            velocity_m_s=c["velocity_re_m_s"] + 1j * c["velocity_im_m_s"] if phasor else c["velocity_m_s"],
+            velocity_m_s=self._velocity(),
             commanded_m_s2=c.get("level_g", np.ones(len(f))) * acceleration_m_s2,
             segment=c["segment"].astype(np.intp) if "segment" in c else segments_by_gap(f),
             sweep=c["sweep"].astype(np.intp) if "sweep" in c else np.ones(len(f), dtype=np.intp),
@@ -42,6 +43,15 @@ class SweepFile:
             weight=c.get("weight"),
             time_s=c.get("time_s"),
         )
+
+    def _velocity(self) -> Array | Complex:
+        """As read, or made from acceleration or displacement: v = a/(i omega) = i omega x."""
+        c, jw = self.columns, 2j * np.pi * self.columns["frequency_hz"]
+        for stem, unit, power in _READINGS:
+            if f"{stem}_re_{unit}" in c:
+                read = c[f"{stem}_re_{unit}"] + 1j * c[f"{stem}_im_{unit}"]
+                return np.asarray(read * jw**power) if power else read
+        return c["velocity_m_s"]
 
 
 def read_sweep(path: Path) -> SweepFile:
@@ -65,11 +75,15 @@ def _check_header(path: Path, header: list[str]) -> None:
     for column in understood():
         if column.given == "always" and column.name not in header:
             raise BadInput(f"{path}: header: column {column.name} missing, found {', '.join(header)[:120]}")
-    has_phasor = "velocity_re_m_s" in header and "velocity_im_m_s" in header
-    if not has_phasor and "velocity_m_s" not in header:
+    pairs = [(f"{stem}_re_{unit}", f"{stem}_im_{unit}") for stem, unit, _ in _READINGS]
+    readings = [pair for pair in pairs if pair[0] in header and pair[1] in header]
+    if not readings and "velocity_m_s" not in header:
         raise BadInput(
-            f"{path}: header: no velocity, expected velocity_re_m_s and velocity_im_m_s, or velocity_m_s"
+            f"{path}: header: no velocity, expected velocity_re_m_s and velocity_im_m_s, or velocity_m_s, "
+            "or acceleration or displacement in their place"
         )
+    if len(readings) > 1:
+        raise BadInput(f"{path}: header: {readings[0][0]} and {readings[1][0]}, expected one kind of reading")
     for pair in _phasors():
         given = [name for name in pair if name in header]
         if len(given) == 1:

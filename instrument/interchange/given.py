@@ -7,10 +7,12 @@ from typing import Any
 import numpy as np
 
 from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
 from instrument.errors import BadInput
 from instrument.files.hammer_file import HammerModes, read_hammer
 from instrument.files.specimen_file import read_specimen
+from instrument.files.structure_file import read_structure
 from instrument.files.sweep_file import read_sweep
 from instrument.interchange.base_frf import is_frf_csv, sweep_of_foreign, sweep_of_frf_csv
 from instrument.interchange.identified import session_modes, session_sweep
@@ -25,7 +27,7 @@ SESSION_ENDINGS = (".h5", ".hdf5")
 class Given:
     """What the files gave."""
 
-    specimen: Specimen
+    specimen: AnySpecimen
     sweep: Sweep
     modes: HammerModes | None
     """Of the hammer test that is to take part."""
@@ -35,6 +37,13 @@ class Given:
     """For people, where a file leaves something to say."""
     temperature_c: float | None = None
     """Mean over a session's points, where it was measured."""
+
+    @property
+    def plate(self) -> Specimen:
+        """The specimen where only a plate will do. Raises `BadInput`."""
+        if not isinstance(self.specimen, Specimen):
+            raise BadInput(f"the specimen is a {self.specimen.kind}, expected a plate")
+        return self.specimen
 
 
 def is_session(data: Path) -> bool:
@@ -57,7 +66,7 @@ def read_given(data: Path, specimen: Path | None, hammer: Path | None, *, own_ha
 def _of_sweep(data: Path, specimen: Path | None) -> Given:
     if specimen is None:
         raise BadInput("Missing option '--specimen': a sweep does not say which plate it was")
-    read = read_specimen(specimen)
+    read = read_structure(specimen)
     level = read.base_acceleration_m_s2
     if is_foreign(data):
         return Given(read, sweep_of_foreign(data, level), None, {})

@@ -49,6 +49,7 @@ class SetUp:
     @property
     def specimen(self) -> Specimen:
         """As stated, the damping ratios as the hammer test has them."""
+        assert isinstance(self.problem.specimen, Specimen)
         return self.problem.specimen
 
 

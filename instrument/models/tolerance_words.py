@@ -7,7 +7,7 @@ from fitting.tolerances import STATED, tolerance
 
 _UNITS = {"1": ("percent", "%", 1e2), "m": ("mm", "mm", 1e3), "s": ("us", "µs", 1e6)}
 """Ending of the file's key, unit for people, factor."""
-_NOT_OF_A_SWEEP = ("mass",)
+_NOT_OF_A_SWEEP = ("mass", "area")
 _OF_TREATMENT = ("constraining_", "core_")
 
 

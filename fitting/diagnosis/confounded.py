@@ -1,0 +1,84 @@
+"""Causes that the law itself imitates: the data can neither name them nor rule them out.
+
+A shear pair's readings depend on modulus over mass alone, the rubber's own inertia apart: a mass that is
+stated wrongly leaves nothing, and moves the law by as much. Then `none` would say more than the data do.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from fitting.arrays import Array
+from fitting.diagnosis.marginal import expected_size
+from fitting.diagnosis.refit import kept
+from fitting.diagnosis.responses import response_of
+from fitting.diagnosis.search import ScoredFit, Search
+from fitting.diagnosis.verdict import NONE, Judgement
+from fitting.effects.base import Effect
+
+HIDDEN = 1.0
+"""Standard deviations that a cause of the usual size may leave and still be hidden."""
+MOVES = 1.0
+"""Standard errors of the law's modulus from which a hidden cause matters."""
+
+
+def in_light_of_the_law(search: Search, judgement: Judgement) -> Judgement:
+    """`ambiguous` in the place of `none` where a usual cause would hide in the law and move it."""
+    if judgement.verdict != "none":
+        return judgement
+    hidden = [e for e in search.effects if _hides(search, e)]
+    if not hidden:
+        return judgement
+    best = max(hidden, key=lambda e: e.chance)
+    scored = _as_absent(search, best)
+    names = tuple(e.name for e in hidden)
+    said = (
+        f"{' and '.join(names)} cannot be told from the core's modulus by these data: what one does to "
+        f"the response "
+        "the other does too. The law found is that of what is stated."
+    )
+    return replace(
+        judgement, verdict="ambiguous", accepted=scored, equivalent={best.name: (*names, NONE)}, why=said
+    )
+
+
+def _as_absent(search: Search, effect: Effect) -> ScoredFit:
+    """The fit without effects, the effect beside it at its neutral value."""
+    none = search.none.fitted
+    u = np.concatenate([none.z, [_neutral(q.neutral) for q in effect.parameters]])
+    found = kept(response_of(search.problem, [effect]), search.evidence, none.law, u)
+    return search.judged(found)
+
+
+def _neutral(value: float | None) -> float:
+    return 0.0 if value is None else value
+
+
+def _hides(search: Search, effect: Effect) -> bool:
+    sized = [q for q in effect.parameters if not q.fixed]
+    if len(sized) != 1 or sized[0].neutral is None or sized[0].logarithmic:
+        return False
+    none, law = search.none.fitted, search.none.fitted.law
+    absent = _as_absent(search, effect).fitted
+    J = absent.jacobian
+    step = expected_size(sized[0]) * J[:, -1]
+    widths = law.search_widths
+    loose = np.zeros((len(widths), J.shape[1] - 1))
+    loose[:, : len(widths)] = np.diag(1 / widths)
+    A = np.vstack([J[:, :-1], loose])
+    moved, *_ = np.linalg.lstsq(A, -np.append(step, np.zeros(len(widths))), rcond=None)
+    left = A @ moved + np.append(step, np.zeros(len(widths)))
+    if np.linalg.norm(left) > HIDDEN:
+        return False
+    omega = search.problem.points.omega
+    by_log = (law.jacobian(omega) * law.values[:, None] / law.modulus(omega)).real
+    C = none.covariance[: len(law.names), : len(law.names)]
+    return bool(_rms(by_log.T @ moved[: len(law.names)]) > MOVES * _rms(np.sqrt(_diagonal(by_log, C))))
+
+
+def _diagonal(rows: Array, C: Array) -> Array:
+    return np.asarray(np.maximum(np.einsum("ip,ij,jp->p", rows, C, rows), 0))
+
+
+def _rms(values: Array) -> float:
+    return float(np.sqrt(np.mean(values**2)))

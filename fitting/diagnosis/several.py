@@ -1,0 +1,243 @@
+"""Several sweeps of several specimens under one law, each with its own matrices and channels.
+
+The stated numbers of all members are the unknowns, those of the same thing once (`shared`). An effect stands
+for all files or for one of them (`OfFiles`).
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.arrays import Array, Complex
+from fitting.diagnosis.every_point import EveryPoint
+from fitting.diagnosis.model_error import model_error
+from fitting.diagnosis.of_files import OfFiles
+from fitting.diagnosis.problem import DiagnosisProblem, Grid
+from fitting.diagnosis.response import STATED_NUMBER, Response
+from fitting.effects.base import Effect, Points
+from fitting.errors import OutsideModel
+from fitting.identification.adjusted import Adjusted, stated_number
+from fitting.laws import CoreLaw
+from fitting.nuisances import Nuisance, Nuisances
+from fitting.rational import RationalSweep
+from fitting.reduced import ReducedPlate
+from fitting.sweep import Sweep
+
+OF_EACH_FILE = ("mass", "gain", "delay", "pickup", "damping", "length", "width")
+"""Kinds of stated numbers that are another one in every file, though they are stated alike."""
+Places = tuple[NDArray[np.intp], ...]
+
+
+@dataclass(frozen=True)
+class SeveralProblem(DiagnosisProblem):
+    """Members side by side: their points, one after the other."""
+
+    members: tuple[DiagnosisProblem, ...]
+    reduced: tuple[ReducedPlate | None, ...]
+    places: Places
+    """Of every member's stated numbers among all."""
+    owners: tuple[tuple[int, ...], ...]
+    """Members that each stated number belongs to."""
+
+    @classmethod
+    def of_members(
+        cls, members: Sequence[DiagnosisProblem], reduced: Sequence[ReducedPlate | None]
+    ) -> "SeveralProblem":
+        """One task of several. Raises `OutsideModel` where they cannot be fitted together."""
+        if len({m.points.reads for m in members}) > 1:
+            raise OutsideModel("some files read absolute, others relative to the base, expected one of them")
+        if len({m.sweep.has_phase for m in members}) > 1:
+            raise OutsideModel("some files hold phasors, others amplitudes, expected one of them")
+        if len({m.specimen.exact for m in members}) > 1:
+            raise OutsideModel("some specimens are exact, others not, expected one of them")
+        each, places, owners = _together(members)
+        sweep = joined([m.sweep for m in members])
+        rational = _side_by_side([m.rational for m in members])
+        nodes = EveryPoint.at(sweep.omega)
+        grid = Grid(nodes, rational)
+        first = members[0]
+        return cls(
+            sweep,
+            first.specimen,
+            first.plate,
+            _points([m.points for m in members]),
+            rational,
+            grid,
+            grid,
+            grid,
+            nodes,
+            Nuisances(first.nuisances.specimen, each),
+            tuple(members),
+            tuple(reduced),
+            places,
+            owners,
+        )
+
+    @property
+    def starts_at(self) -> list[slice]:
+        """Where each member's points are."""
+        ends = np.cumsum([len(m.sweep) for m in self.members])
+        return [slice(int(e) - len(m.sweep), int(e)) for e, m in zip(ends, self.members, strict=True)]
+
+    @property
+    def freedom(self) -> float:
+        """As much as any member asks for."""
+        return max(m.freedom for m in self.members)
+
+    def condensed(self, law: CoreLaw) -> "SeveralProblem":
+        """Every member condensed."""
+        return replace(self, members=tuple(m.condensed(law) for m in self.members))
+
+    def around(self, law: CoreLaw) -> "SeveralProblem":
+        """Every member's grids made for a law."""
+        return replace(self, members=tuple(m.around(law) for m in self.members))
+
+    def model_error(self, law: CoreLaw, v: Complex) -> Complex:
+        """Each member's own. Shape (any, points)."""
+        rows = []
+        for m, reduced, part in zip(self.members, self.reduced, self.starts_at, strict=True):
+            own = model_error(m, reduced, law, v[part])
+            block = np.zeros((len(own), len(v)), complex)
+            block[:, part] = own
+            rows.append(block)
+        return np.concatenate(rows)
+
+    def adjusted(self, z: Array, errors: Array) -> tuple[Adjusted, ...]:
+        """Under the names of `nuisances`; each as its first owner states it."""
+        found = []
+        for k, n in enumerate(self.nuisances.each):
+            owner = self.members[self.owners[k][0]]
+            own = replace(n, name=n.name.split(" [")[0])
+            (one,) = replace(owner, nuisances=replace(owner.nuisances, each=(own,))).adjusted(
+                z[k : k + 1], errors[k : k + 1]
+            )
+            found.append(replace(one, name=n.name))
+        return tuple(found)
+
+
+class SeveralResponse(Response):
+    """What all members read under one law."""
+
+    def __init__(self, problem: SeveralProblem, effects: Sequence[Effect], *, coarse: bool = False) -> None:
+        self.problem: SeveralProblem = problem
+        self.effects, self.nuisances, self.plate = tuple(effects), problem.nuisances, problem.plate
+        count = len(self.nuisances)
+        self.parameters = (*(STATED_NUMBER,) * count, *(q for e in effects for q in e.parameters))
+        self._stated = slice(0, count)
+        self._of_member: list[tuple[Response, NDArray[np.intp]]] = []
+        self._coarse = coarse
+        for k, m in enumerate(problem.members):
+            places, inner, start = [problem.places[k]], [], count
+            for e in effects:
+                of = e.inner if isinstance(e, OfFiles) else e
+                if not isinstance(e, OfFiles) or e.file in (0, k + 1):
+                    inner.append(of)
+                    places.append(start + np.arange(len(of.parameters)))
+                start += len(e.parameters)
+            response = Response(m, inner, m.coarse if coarse else None)
+            self._of_member.append((response, np.concatenate(places)))
+
+    def velocity(self, law: CoreLaw, u: Array) -> Complex:
+        """Phasors in m/s, member after member. Shape (points,)."""
+        return np.concatenate([r.velocity(law, u[at]) for r, at in self._of_member])
+
+    def with_derivatives(self, law: CoreLaw, u: Array) -> tuple[Complex, Complex]:
+        """Phasors and derivatives as `Response.with_derivatives` gives them."""
+        n = len(law.names)
+        found, rows = [], np.zeros((n + len(u), len(self.problem.sweep)), complex)
+        for (response, at), part in zip(self._of_member, self.problem.starts_at, strict=True):
+            v, dv = response.with_derivatives(law, u[at])
+            found.append(v)
+            rows[:n, part] = dv[:n]
+            rows[n + at, part] = dv[n:]
+        return np.concatenate(found), rows
+
+    def signatures(self, law: CoreLaw, known: Array, starts: Sequence[Array]) -> Complex:
+        """What the last effect changes as it comes in. Shape (starts, points)."""
+        plain = SeveralResponse(self.problem, self.effects[:-1], coarse=self._coarse).velocity(law, known)
+        return np.array([self.velocity(law, np.concatenate([known, u])) - plain for u in starts])
+
+    def beside(self, effect: Effect) -> "SeveralResponse":
+        """The same with one more effect."""
+        return SeveralResponse(self.problem, [*self.effects, effect], coarse=self._coarse)
+
+
+def joined(sweeps: Sequence[Sweep]) -> Sweep:
+    """All points one after the other; every file's segments are its own, numbered on."""
+    segments, last = [], 0
+    for s in sweeps:
+        _, numbers = np.unique(s.segment, return_inverse=True)
+        segments.append(last + 1 + numbers.ravel())
+        last = int(segments[-1].max())
+
+    def all_of(name: str) -> Array | None:
+        values = [getattr(s, name) for s in sweeps]
+        return np.concatenate(values) if all(v is not None for v in values) else None
+
+    return Sweep(
+        frequency_hz=np.concatenate([s.frequency_hz for s in sweeps]),
+        velocity_m_s=np.concatenate([s.response_m_s for s in sweeps]),
+        commanded_m_s2=np.concatenate([s.commanded_m_s2 for s in sweeps]),
+        segment=np.concatenate(segments),
+        sweep=np.concatenate([s.sweep for s in sweeps]),
+        std_m_s=all_of("response_std_m_s"),
+        weight=all_of("weight"),
+        time_s=all_of("time_s"),
+    )
+
+
+def _points(each: Sequence[Points]) -> Points:
+    return Points(
+        omega=np.concatenate([p.omega for p in each]),
+        acceleration_m_s2=np.concatenate([p.acceleration_m_s2 for p in each]),
+        time_s=np.concatenate([p.time_s for p in each]),
+        timed=all(p.timed for p in each),
+        has_phase=each[0].has_phase,
+        reads=each[0].reads,
+    )
+
+
+def _together(
+    members: Sequence[DiagnosisProblem],
+) -> tuple[tuple[Nuisance, ...], Places, tuple[tuple[int, ...], ...]]:
+    """All stated numbers, those of the same thing once: where each member's are, and whose each is."""
+    keys: dict[tuple[object, ...], int] = {}
+    each: list[Nuisance] = []
+    owners: list[list[int]] = []
+    places = []
+    for k, m in enumerate(members):
+        at = []
+        for n in m.nuisances.each:
+            key: tuple[object, ...] = (n.name, n.sigma, stated_number(m.specimen, n)[0])
+            if n.kind in OF_EACH_FILE:
+                key = (n.name, k)
+            if key not in keys:
+                keys[key] = len(each)
+                each.append(n)
+                owners.append([])
+            owners[keys[key]].append(k)
+            at.append(keys[key])
+        places.append(np.array(at, dtype=np.intp))
+    named = [
+        n if len(of) == len(members) else replace(n, name=f"{n.name} [{', '.join(str(k + 1) for k in of)}]")
+        for n, of in zip(each, owners, strict=True)
+    ]
+    return tuple(named), tuple(places), tuple(tuple(of) for of in owners)
+
+
+def _side_by_side(each: Sequence[RationalSweep]) -> RationalSweep:
+    """One sum over all points about the first one's modulus; terms that a member lacks are zero."""
+    G_ref = each[0].G_ref
+    terms = max(r.c.shape[1] for r in each)
+    c, mu = [], []
+    for r in each:
+        # 1 + (G - G_r) mu = (1 + (G_0 - G_r) mu) (1 + (G - G_0) mu / (1 + (G_0 - G_r) mu))
+        turned = 1 + (G_ref - r.G_ref) * r.mu
+        wide = ((0, 0), (0, terms - r.c.shape[1]))
+        c.append(np.pad(r.c / turned, wide))
+        mu.append(np.pad(r.mu / turned, wide))
+    return RationalSweep(
+        np.concatenate([r.omega for r in each]), G_ref, np.concatenate(c), np.concatenate(mu)
+    )

@@ -1,0 +1,101 @@
+"""The task of one sweep of a small structure: exact at every point, no grid between."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from fitting.arrays import Complex
+from fitting.diagnosis.every_point import EveryPoint
+from fitting.diagnosis.problem import DiagnosisProblem, Grid, points_of
+from fitting.laws import CoreLaw
+from fitting.model_error import DRIFT, GAIN
+from fitting.noise import Noise
+from fitting.structures.small import SmallSpecimen, nuisances_of, rational_of, system_of
+from fitting.sweep import Sweep
+
+OCTAVE, WANDERING = 0.7, 0.3
+"""In ln f; share of a misfit that gain and phase wander by from one octave to the next."""
+LEVEL = 0.05
+"""Of the modulus from one file to the next, where files disagree: less than a kelvin of a damping polymer."""
+REACH = 0.12
+"""In ln f: how far a misfit goes on; so many neighbouring points say it only once."""
+BENT_MORE = 2.0
+"""Times the usual freedom of the law, where there is a misfit."""
+DEAF = 0.15
+"""Where ln of the reading changes by less for a change of ln G*, a misfit leaves nothing of the core."""
+
+
+@dataclass(frozen=True)
+class SmallProblem(DiagnosisProblem):
+    """A sweep with the small structure it was measured on."""
+
+    misfit: float = 0.0
+    """Of the reading, relative: what a fit has left that nothing explains."""
+
+    @classmethod
+    def of_small(cls, sweep: Sweep, specimen: SmallSpecimen) -> "SmallProblem":
+        """Everything made, which takes milliseconds."""
+        parts = specimen.parts()
+        system = system_of(specimen, parts)
+        assert specimen.core is not None
+        size = float(np.exp(np.mean(np.log(np.abs(specimen.core.law.modulus(sweep.omega))))))
+        rational = rational_of(system, sweep.omega, size)
+        nodes = EveryPoint.at(sweep.omega)
+        grid = Grid(nodes, rational)
+        points = points_of(sweep, specimen)
+        stated = nuisances_of(specimen, parts, has_phase=sweep.has_phase)
+        return cls(sweep, specimen, system, points, rational, grid, grid, grid, nodes, stated)
+
+    def condensed(self, law: CoreLaw) -> "SmallProblem":
+        """It is small as it is."""
+        return self
+
+    def around(self, law: CoreLaw) -> "SmallProblem":
+        """The same under any law."""
+        return self
+
+    @property
+    def freedom(self) -> float:
+        """More where no law of the usual freedom will do."""
+        return BENT_MORE if self.misfit else 1.0
+
+    def feels(self, law: CoreLaw, v: Complex) -> Complex:
+        """How the reading feels the core, d ln v / d ln G*. Shape (points,)."""
+        G = law.modulus(self.sweep.omega)
+        _, by_G = self.rational.with_derivative(G)
+        return np.asarray(1j * self.sweep.omega * by_G * G * self.points.acceleration_m_s2 / v)
+
+    def noise(self, noise: Noise) -> Noise:
+        """With the misfit: of one size over `REACH`, however many points are there."""
+        if not self.misfit:
+            return noise
+        f = self.sweep.frequency_hz
+        order = np.argsort(f, kind="stable")
+        a_point = np.empty(len(f))
+        a_point[order] = np.gradient(np.log(f[order])) if len(f) > 1 else REACH
+        together = np.sqrt(np.maximum(1.0, REACH / np.maximum(a_point, 1e-9)))
+        more = self.misfit * together * np.abs(self.sweep.response_m_s)
+        return Noise(np.hypot(noise.std_m_s, more) if noise.is_known else more, "local scatter")
+
+    def model_error(self, law: CoreLaw, v: Complex) -> Complex:
+        """Gain and phase of the instruments, and their drift from one end of a segment to the other.
+
+        What the structure itself gets wrong is in its tolerances and in the law's bend. Shape (any, points).
+        """
+        rows = []
+        for number in np.unique(self.sweep.segment):
+            inside = self.sweep.segment == number
+            f = self.sweep.frequency_hz[inside]
+            along = np.zeros(len(v))
+            along[inside] = 2 * (f - f.min()) / max(float(np.ptp(f)), 1e-9) - 1
+            rows += [GAIN * v * inside, DRIFT * along * v]
+            if self.points.has_phase:
+                rows += [1j * GAIN * v * inside, 1j * DRIFT * along * v]
+        if self.misfit:
+            t = np.log(self.sweep.frequency_hz)
+            at = np.linspace(t.min(), t.max(), 2 + int(np.ptp(t) / OCTAVE))
+            hats = np.maximum(0, 1 - np.abs(t - at[:, None]) / (at[1] - at[0]))
+            size = WANDERING * self.misfit
+            rows += [*(size * hats * v), *(1j * size * hats * v)]
+            rows.append(LEVEL * self.feels(law, v) * v)
+        return np.array(rows)

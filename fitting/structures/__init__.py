@@ -1,0 +1,9 @@
+"""Structures other than the plate: small matrices of the same equation (decision 24)."""
+
+from fitting.specimen import Specimen
+from fitting.structures.shear_pair import ShearPair
+
+AnySpecimen = Specimen | ShearPair
+"""What a specimen file may describe."""
+
+__all__ = ["AnySpecimen", "ShearPair"]

@@ -1,0 +1,129 @@
+"""A mass on viscoelastic discs or pads in shear, between it and a moving base.
+
+With relative displacement u(z) over a pad of thickness t, from base (0) to mass (t), all pads in parallel:
+
+    -omega^2 (m U phi(t) + rho A int u phi) + G* A int u' phi' = -(m phi(t) + rho A int phi) a
+
+u is spanned by integrated Legendre polynomials: the first is the massless pad, all of them the wave in it,
+exact long before its length comes down to the pad's thickness. For a light pad a third of its mass moves
+with the mass.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.polynomial import Legendre
+
+from fitting.arrays import Array, Complex
+from fitting.laws import CoreLaw
+from fitting.specimen import Core, Reading
+from fitting.structures.small import Parts
+from fitting.tolerances import STATED
+
+ORDER = 6
+"""Polynomials over the thickness: the wave is then exact to 1e-9 where kt < 2."""
+NUMBERS = ("mass", "area", "core_thickness", "core_density")
+_TYPICAL = {"mass": 2e-3}
+"""Of a moving mass, weighed."""
+
+
+@dataclass(frozen=True)
+class ShearPair:
+    """What is stated of it, in SI units."""
+
+    mass_kg: float
+    discs: int
+    """In parallel."""
+    area_m2: float
+    """Of each."""
+    core: Core
+    """Its thickness is a disc's."""
+    gyration_m: float | None = None
+    """Radius of gyration of a disc's face about a diameter; None where only its area is stated."""
+    bending: bool = False
+    """Whether the discs' bending is counted."""
+    reads: Reading = "absolute"
+    base_acceleration_m_s2: float = 9.81
+    tolerances: Mapping[str, float] = field(default_factory=dict)
+    exact: bool = False
+
+    kind = "shear-pair"
+    numbers = NUMBERS
+    modal_ratios: tuple[float, ...] = ()
+
+    @property
+    def softer_by_bending(self) -> float:
+        """t^2 / (36 kappa^2): what bending adds to the shear deflection, the discs' faces held parallel.
+
+        A disc as a beam in shear and bending with E = 3 G: F t/(G A) + F t^3/(12 E A kappa^2). Rivlin and
+        Saunders, Trans. IRI 24 (1949); zero where the shape is not stated.
+        """
+        if self.gyration_m is None:
+            return 0.0
+        return (self.core.thickness_m / (6 * self.gyration_m)) ** 2
+
+    def with_law(self, law: CoreLaw) -> "ShearPair":
+        """The same pair with another core law."""
+        return replace(self, core=replace(self.core, law=law))
+
+    def parts(self) -> Parts:
+        """For unit mass, unit rubber mass and unit A/t."""
+        P, dP, mean = pad(ORDER)
+        at_mass = np.zeros(ORDER)
+        at_mass[0] = 1.0
+        return Parts(
+            K_0=np.zeros((0, ORDER, ORDER)),
+            K_1=dP[None],
+            M=np.array([np.outer(at_mass, at_mass), P]),
+            load=-np.array([at_mass, mean]),
+            observe=at_mass,
+            matrices={"strain.mean_square": dP / self.core.thickness_m**2},
+            deflection=np.zeros((4, 3, ORDER)),
+            size=(1.0, 1.0, 1, 1),
+            pickup_m=(0.0, 0.0),
+        )
+
+    def coefficients(self, by: Mapping[str, float]) -> Complex:
+        """N A/t over the bending's share; mass and rubber; both again as loads."""
+        area = self.discs * self.area_m2 * np.exp(by.get("area", 0.0))
+        t = self.core.thickness_m * np.exp(by.get("core_thickness", 0.0))
+        mass = self.mass_kg * np.exp(by.get("mass", 0.0))
+        rubber = self.core.density_kg_m3 * np.exp(by.get("core_density", 0.0)) * area * t
+        softer = self.softer_by_bending * np.exp(2 * by.get("core_thickness", 0.0)) if self.bending else 0.0
+        return np.array([area / t / (1 + softer), mass, rubber, mass, rubber], complex)
+
+    def tolerance(self, name: str) -> float:
+        """Named, else typical."""
+        if self.exact:
+            return 0.0
+        return float(self.tolerances.get(name, _TYPICAL.get(name, STATED[name].typical)))
+
+    def stated_number(self, kind: str) -> tuple[float, float, str]:
+        """In SI, with the factor to the unit of results."""
+        return {
+            "mass": (self.mass_kg, 1.0, "kg"),
+            "area": (self.area_m2, 1e6, "mm^2"),
+            "core_thickness": (self.core.thickness_m, 1e3, "mm"),
+            "core_density": (self.core.density_kg_m3, 1.0, "kg/m^3"),
+            "gain": (1.0, 1.0, "1"),
+            "delay": (0.0, 1e6, "us"),
+        }[kind]
+
+
+def disc(outer_m: float, inner_m: float = 0.0) -> tuple[float, float]:
+    """Area and radius of gyration about a diameter of an annular disc, from its diameters."""
+    return float(np.pi / 4 * (outer_m**2 - inner_m**2)), float(np.hypot(outer_m, inner_m) / 4)
+
+
+def pad(order: int) -> tuple[Array, Array, Array]:
+    """Integrals over 0 < z < 1 of phi phi^T, phi' phi'^T and phi: z, then integrals of Legendre polynomials.
+
+    All but the first vanish at both ends. Shapes (order, order) twice, (order,).
+    """
+    slopes = [Legendre.basis(k, domain=[0.0, 1.0]) for k in range(order)]
+    phi = [p.integ(lbnd=0.0) for p in slopes]
+    z, weight = np.polynomial.legendre.leggauss(order + 2)
+    z, weight = (z + 1) / 2, weight / 2
+    values, steep = np.array([p(z) for p in phi]), np.array([p(z) for p in slopes])
+    return (values * weight) @ values.T, (steep * weight) @ steep.T, values @ weight

@@ -1,0 +1,174 @@
+"""A small structure: full matrices of the equation, by what is stated, for unit coefficients.
+
+    (-omega^2 M + i omega C_1 + K_0 + G* K_1) X = load,   K_0 = sum of c_p P_p,   so K_1, M, load
+
+It needs no reduced basis, and answers at every frequency by itself. What fits and effects are given is the
+same kind of object as the widened reduced plate (`fitting.effects.enriched_plate`), its columns the unknowns
+themselves.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+
+from fitting.arrays import Array, Complex
+from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.nuisances import Nuisance, Nuisances
+from fitting.rational import RationalSweep
+from fitting.specimen import Stated
+
+_LOSSY = 0.8
+"""Argument of the modulus that a rational sum is made about, rad: far from every resonance."""
+
+
+@dataclass(frozen=True)
+class Parts:
+    """Matrices and loads for unit coefficients. Shapes (parts, k, k), the load's (parts, k)."""
+
+    K_0: Array
+    K_1: Array
+    M: Array
+    load: Array
+    observe: Array
+    """Reads the displacement relative to the base. Shape (k,)."""
+    matrices: Mapping[str, Array]
+    """What effects may ask for, by name. Shape (k, k) each."""
+    deflection: Array
+    """w, dw/dy and -dw/dx of every unknown at every node of a strip one element wide. Shape (nodes, 3, k)."""
+    size: tuple[float, float, int, int]
+    """Length and width in m, elements along each."""
+    pickup_m: tuple[float, float]
+
+
+class SmallSpecimen(Stated, Protocol):
+    """What a specimen says of itself so that it can be fitted."""
+
+    @property
+    def numbers(self) -> tuple[str, ...]:
+        """Kinds of stated numbers that move its matrices."""
+
+    def parts(self) -> Parts:
+        """Its matrices for unit coefficients."""
+
+    def coefficients(self, by: Mapping[str, float]) -> Complex:
+        """Of the parts of K_0, K_1, M and the load in this order, its numbers moved. Shape (parts,).
+
+        `by` gives changes of the numbers, relative ones in the logarithm.
+        """
+
+    def tolerance(self, name: str) -> float:
+        """Standard deviation of a stated number."""
+
+    def stated_number(self, kind: str) -> tuple[float, float, str]:
+        """A number in SI, the factor to the unit of results, and that unit."""
+
+
+@dataclass(frozen=True)
+class SmallNuisances(Nuisances):
+    """The stated numbers of a small structure as unknowns."""
+
+    specimen: SmallSpecimen  # type: ignore[assignment]
+    parts: Parts | None = None
+    """What their coefficients multiply."""
+
+    @property
+    def _counts(self) -> tuple[int, int, int]:
+        assert self.parts is not None
+        return len(self.parts.K_0), len(self.parts.K_1), len(self.parts.M)
+
+    @cached_property
+    def _of_plate(self) -> list[int]:
+        return [k for k, n in enumerate(self.each) if n.kind in self.specimen.numbers]
+
+    @cached_property
+    def _stated(self) -> Array:
+        return np.asarray(_real_where_it_is(self.specimen.coefficients({})))
+
+    def _coefficients(self, z: Array) -> Array:
+        by = {self.each[k].name: float(self._sigma[k] * z[k]) for k in self._of_plate}
+        return np.asarray(_real_where_it_is(self.specimen.coefficients(by)))
+
+    def _load(self, plate: EnrichedReducedPlate, c: Array) -> Array:
+        return np.asarray(c[sum(self._counts) :].real @ plate.load_part)
+
+    def _by_load(self, plate: EnrichedReducedPlate, adjoint: Complex, z: Array) -> Complex:
+        # Their sign is in the parts.
+        return np.asarray(
+            -self.by_coefficients(z)[:, sum(self._counts) :].real @ (plate.load_part @ adjoint.T)
+        )
+
+    def _row_change(self, plate: EnrichedReducedPlate, z: Array) -> Array:
+        return np.zeros(len(plate.observe))
+
+    def rows_by(self, plate: EnrichedReducedPlate, z: Array) -> dict[int, Array]:
+        """The reading does not move."""
+        return {}
+
+
+def _real_where_it_is(c: Complex) -> Complex | Array:
+    return c if np.any(np.imag(c)) else np.real(c)
+
+
+def nuisances_of(specimen: SmallSpecimen, parts: Parts, *, has_phase: bool) -> SmallNuisances:
+    """All its stated numbers, and those of the channels."""
+    names = [*specimen.numbers, "gain", *(["delay"] if has_phase else [])]
+    each = [Nuisance(n, n, specimen.tolerance(n)) for n in names]
+    return SmallNuisances(specimen, tuple(n for n in each if n.sigma > 0), None, parts)
+
+
+def system_of(specimen: SmallSpecimen, parts: Parts) -> EnrichedReducedPlate:
+    """As stated, as fits and effects take it."""
+    n_0, n_1, n_M = len(parts.K_0), len(parts.K_1), len(parts.M)
+    c = specimen.coefficients({})
+    k = len(parts.observe)
+    return EnrichedReducedPlate(
+        group=np.full(k, "plate"),
+        M=_sum(c[n_0 + n_1 : n_0 + n_1 + n_M], parts.M, k).real,
+        K_0=_sum(c[:n_0], parts.K_0, k),
+        K_1=_sum(c[n_0 : n_0 + n_1], parts.K_1, k).real,
+        U=np.zeros((k, 0)),
+        d=np.zeros(0),
+        load=c[n_0 + n_1 + n_M :].real @ parts.load,
+        pitch=np.zeros(k),
+        observe=parts.observe,
+        gram=np.eye(k),
+        names=np.array(list(parts.matrices), dtype=str),
+        matrices=np.array(list(parts.matrices.values())).reshape(-1, k, k),
+        vector_names=np.zeros(0, dtype=str),
+        vectors=np.zeros((0, k)),
+        deflection=parts.deflection,
+        size=np.array(parts.size, dtype=float),
+        pickup=np.array(parts.pickup_m),
+        parts=np.concatenate([parts.K_0, parts.K_1, parts.M]),
+        load_part=parts.load,
+        layers=np.zeros((3, 5)),
+    )
+
+
+def _sum(c: Complex, P: Array, k: int) -> Complex:
+    return np.asarray(np.tensordot(c, P, axes=1)) if len(P) else np.zeros((k, k), complex)
+
+
+def rational_of(system: EnrichedReducedPlate, omega: Array, size_pa: float) -> RationalSweep:
+    """The same system at some frequencies (rad/s) as a sum in G*, about a modulus of a size."""
+    G_ref = complex(size_pa * np.exp(1j * _LOSSY))
+    w = np.asarray(omega, dtype=float)[:, None, None]
+    C_1 = (system.U * system.d) @ system.U.T
+    A = system.K_0 + G_ref * system.K_1 - w**2 * system.M + 1j * w * C_1
+    sides = np.concatenate([system.K_1, system.load[:, None]], axis=1).astype(complex)
+    solved = np.linalg.solve(A, np.broadcast_to(sides, (len(omega), *sides.shape)))
+    mu, Y = np.linalg.eig(solved[:, :, :-1])
+    weights = np.linalg.solve(Y, solved[:, :, -1:])[:, :, 0]
+    return RationalSweep(np.asarray(omega, dtype=float), G_ref, (system.observe @ Y) * weights, mu)
+
+
+def displacement(system: EnrichedReducedPlate, omega: Array, G: Complex) -> Complex:
+    """Relative displacement at the reading for a unit load, by a full solve. Shape (points,)."""
+    w = np.asarray(omega, dtype=float)[:, None, None]
+    C_1 = (system.U * system.d) @ system.U.T
+    A = system.K_0 + np.asarray(G)[:, None, None] * system.K_1 - w**2 * system.M + 1j * w * C_1
+    load = np.broadcast_to(system.load.astype(complex)[:, None], (len(omega), len(system.load), 1))
+    return np.asarray(np.linalg.solve(A, load)[:, :, 0] @ system.observe)

@@ -1,0 +1,53 @@
+"""Complex modes and responses of a small structure, from its full matrices."""
+
+import numpy as np
+import scipy.linalg as la
+
+from fitting.arrays import Array, Complex
+from fitting.complex_modes import ComplexMode
+from fitting.identification.model import velocity
+from fitting.laws import CoreLaw
+from fitting.structures.small import SmallSpecimen, displacement, system_of
+
+_STEPS, _SETTLED = 60, 1e-9
+_RIGID = 1e-6
+"""Of the stiffest mode's square: below it a mode is rigid."""
+
+
+def small_modes(specimen: SmallSpecimen, law: CoreLaw | None, count: int) -> list[ComplexMode]:
+    """Modes in frequency order, rigid ones left out: the law taken at each mode's own real frequency.
+
+    lambda of K_0 + G*(omega_r) K_1 with omega_r = sqrt(Re lambda_r), by fixed point.
+    """
+    system = system_of(specimen, specimen.parts())
+
+    def elastic(omega: float) -> tuple[Complex, Complex]:
+        G = complex(law.modulus(np.array([omega]))[0]) if law is not None else 0.0
+        found, shapes = la.eig(system.K_0 + G * system.K_1, system.M)
+        order = np.argsort(found.real)
+        order = order[found.real[order] > _RIGID * np.median(np.abs(found))]
+        return np.asarray(found[order]), np.asarray(shapes[:, order])
+
+    modes = []
+    guess = 2 * np.pi * 100.0
+    for k in range(min(count, len(elastic(guess)[0]))):
+        omega = guess
+        for _ in range(_STEPS):
+            values, shapes = elastic(omega)
+            value, shape = values[k], shapes[:, k]
+            new = float(np.sqrt(value.real))
+            if abs(new - omega) < _SETTLED * new:
+                break
+            omega = new
+        guess = omega
+        modes.append(ComplexMode(complex(value), shape))
+    return modes
+
+
+def small_velocity(specimen: SmallSpecimen, frequency_hz: Array) -> Complex:
+    """Phasors in m/s under its base acceleration. Shape (points,)."""
+    omega = 2 * np.pi * np.asarray(frequency_hz, dtype=float)
+    law = specimen.core.law if specimen.core is not None else None
+    G = law.modulus(omega) if law is not None else np.zeros(len(omega), complex)
+    x = displacement(system_of(specimen, specimen.parts()), omega, G)
+    return velocity(omega, x, specimen.reads) * specimen.base_acceleration_m_s2

@@ -1,0 +1,127 @@
+"""SPECIMEN.toml of any structure: `[plate]`, `[shear-pair]`; which table it holds decides."""
+
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from pydantic import Field, model_validator
+
+from fitting.errors import OutsideModel
+from fitting.laws import CoreLaw
+from fitting.specimen import Core, Reading
+from fitting.structures import AnySpecimen
+from fitting.structures.shear_pair import ShearPair, disc
+from instrument.errors import BadInput
+from instrument.files.specimen_file import Tolerances, law_of, read_specimen, tolerances_of
+from instrument.files.text import read_text
+from instrument.files.toml import NotNegative, Positive, Table, read_document
+
+_RUBBER = 0.4999
+"""Poisson's ratio of a pad; nothing depends on it."""
+
+
+class _Disc(Table):
+    mass_kg: Positive
+    discs: int = Field(default=1, ge=1, le=100)
+    thickness_mm: Positive
+    outer_diameter_mm: Positive | None = None
+    inner_diameter_mm: NotNegative | None = None
+    area_mm2: Positive | None = None
+    bending: bool = False
+
+    @model_validator(mode="after")
+    def _shaped(self) -> "_Disc":
+        if (self.outer_diameter_mm is None) == (self.area_mm2 is None):
+            raise ValueError("expected outer_diameter_mm (and inner_diameter_mm) or area_mm2, one of them")
+        if self.inner_diameter_mm is not None and self.outer_diameter_mm is None:
+            raise ValueError("inner_diameter_mm without outer_diameter_mm, expected both")
+        inner = self.inner_diameter_mm or 0.0
+        if self.outer_diameter_mm is not None and inner >= self.outer_diameter_mm:
+            raise ValueError(
+                f"inner_diameter_mm = {inner:g}, expected less than outer_diameter_mm = "
+                f"{self.outer_diameter_mm:g}"
+            )
+        if self.bending and self.outer_diameter_mm is None:
+            raise ValueError("bending = true with area_mm2, expected the discs' diameters")
+        return self
+
+
+class _Rubber(Table):
+    density_kg_m3: Positive
+    law: dict[str, Any]
+
+
+class _Reads(Table):
+    reads: Reading = "absolute"
+
+
+class _Base(Table):
+    acceleration_m_s2: Positive = 9.81
+
+
+class _PairTolerances(Tolerances):
+    thickness_percent: NotNegative | None = None
+
+
+class ShearPairDocument(Table):
+    """SPECIMEN.toml with `[shear-pair]`."""
+
+    pair: _Disc = Field(alias="shear-pair")
+    core: _Rubber
+    pickup: _Reads = _Reads()
+    base: _Base = _Base()
+    tolerances: _PairTolerances | None = None
+
+    def specimen(self) -> ShearPair:
+        """What it describes. Raises `OutsideModel`."""
+        p = self.pair
+        if p.outer_diameter_mm is not None:
+            area, gyration = disc(p.outer_diameter_mm * 1e-3, (p.inner_diameter_mm or 0.0) * 1e-3)
+        else:
+            assert p.area_mm2 is not None
+            area, gyration = p.area_mm2 * 1e-6, None
+        named = tolerances_of(self.tolerances)
+        if "thickness" in named:
+            # Of the only layer there is.
+            named.setdefault("core_thickness", named["thickness"])
+            del named["thickness"]
+        return ShearPair(
+            mass_kg=p.mass_kg,
+            discs=p.discs,
+            area_m2=area,
+            core=Core(p.thickness_mm * 1e-3, _RUBBER, self.core.density_kg_m3, _law(self.core.law)),
+            gyration_m=gyration,
+            bending=p.bending,
+            reads=self.pickup.reads,
+            base_acceleration_m_s2=self.base.acceleration_m_s2,
+            tolerances=named,
+            exact=self.tolerances is not None and self.tolerances.exact,
+        )
+
+
+_DOCUMENTS = {"shear-pair": ShearPairDocument}
+
+
+def read_structure(path: Path) -> AnySpecimen:
+    """Read and check a specimen of any kind. Raises `BadInput` with one line."""
+    kinds = [name for name in ("plate", *_DOCUMENTS) if name in _tables(path)]
+    if len(kinds) > 1:
+        raise BadInput(f"{path}: [{kinds[0]}] and [{kinds[1]}], expected one of them")
+    if kinds and kinds[0] in _DOCUMENTS:
+        try:
+            return read_document(path, _DOCUMENTS[kinds[0]]).specimen()
+        except OutsideModel as error:
+            raise BadInput(f"{path}: {error}") from None
+    return read_specimen(path)
+
+
+def _law(table: dict[str, Any]) -> CoreLaw:
+    return law_of(table)
+
+
+def _tables(path: Path) -> dict[str, Any]:
+    try:
+        return tomllib.loads(read_text(path))
+    except (tomllib.TOMLDecodeError, RecursionError, ValueError):
+        # What is wrong with it is said where it is read.
+        return {}

@@ -1,0 +1,339 @@
+"""Files with their specimens under one law: any structure, one file or several; identified and diagnosed.
+
+Stretches that a fixture's own resonance spoils are set aside first. Where what is left of some files is far
+above their noise and nothing explains it, that misfit becomes part of what the readings are worth.
+"""
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, field, replace
+from time import perf_counter
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from fitting.arrays import Mask
+from fitting.diagnosis.begin import Begun, begin
+from fitting.diagnosis.confounded import in_light_of_the_law
+from fitting.diagnosis.diagnose import diagnose_task, seen_in_channels
+from fitting.diagnosis.glitch import Glitch, glitches
+from fitting.diagnosis.joint import fit_of
+from fitting.diagnosis.of_files import OfFiles
+from fitting.diagnosis.prediction import held_out
+from fitting.diagnosis.problem import DiagnosisProblem
+from fitting.diagnosis.result import Estimate, FoundEffect
+from fitting.diagnosis.several import SeveralProblem, joined
+from fitting.diagnosis.small_problem import DEAF, SmallProblem
+from fitting.effects import CATALOGUE
+from fitting.effects.base import Effect
+from fitting.errors import OutsideModel
+from fitting.identification.result import summarise
+from fitting.identification.validation import rms
+from fitting.laws import CoreLaw
+from fitting.noise import Noise, noise_of
+from fitting.reduced import ReducedPlate
+from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen
+from fitting.structures.shear_pair import ShearPair
+from fitting.sweep import Sweep
+from instrument.errors import BadInput
+from instrument.models.diagnosis import Diagnosed
+from instrument.models.identification import Identified
+from instrument.models.remarks import remarks_on_noise
+from instrument.models.second_process import executor
+from instrument.models.set_up import set_up
+from instrument.models.theory import theory_over
+from instrument.progress import Progress, quiet
+
+_ROUNDS = 4
+_MISFIT = 3.0
+"""Chi-square per degree of freedom from which a misfit is more than noise."""
+_WORTH_SAYING = 0.01
+"""Of the modulus: a correction that is left out."""
+
+
+@dataclass(frozen=True)
+class File:
+    """One set of data and what it was measured on."""
+
+    sweep: Sweep
+    specimen: AnySpecimen
+    name: str = ""
+
+
+@dataclass(frozen=True)
+class SetAside:
+    """A stretch of one file that takes no part."""
+
+    file: int
+    """From 1."""
+    glitch: Glitch
+    points: int
+
+    def words(self, files: Sequence[File]) -> str:
+        """Where, in a sentence."""
+        name = files[self.file - 1].name
+        of = f"{name}: " if name else ""
+        return (
+            f"{of}{self.glitch.low_hz:.0f} to {self.glitch.high_hz:.0f} Hz is a local disturbance (up to "
+            f"{100 * self.glitch.largest:.2g} %), as of a fixture's resonance: {self.points} points set aside"
+        )
+
+
+@dataclass(frozen=True)
+class Together:
+    """An identification of all files."""
+
+    found: Identified
+    sweep: Sweep
+    """The points that took part, file after file."""
+    aside: tuple[SetAside, ...] = ()
+
+
+@dataclass(frozen=True)
+class DiagnosedTogether:
+    """A diagnosis of all files."""
+
+    found: Diagnosed
+    sweep: Sweep
+    """All points, file after file."""
+    aside: tuple[SetAside, ...] = ()
+
+
+@dataclass
+class _Work:
+    """The files as far as they are understood."""
+
+    files: Sequence[File]
+    progress: Progress
+    with_effects: bool
+    used: list[Mask] = field(default_factory=list)
+    misfit: list[float] = field(default_factory=list)
+    aside: list[SetAside] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.used = [np.ones(len(f.sweep), bool) for f in self.files]
+        self.misfit = [0.0] * len(self.files)
+
+    def problem(self) -> tuple[SeveralProblem, Noise]:
+        """Of the points in use."""
+        members: list[DiagnosisProblem] = []
+        reduced: list[ReducedPlate | None] = []
+        noises = []
+        for file, used, misfit in zip(self.files, self.used, self.misfit, strict=True):
+            sweep = file.sweep.take(used)
+            noise = noise_of(sweep)
+            if isinstance(file.specimen, Specimen):
+                ready = set_up(sweep, file.specimen, None, self.progress, with_effects=self.with_effects)
+                members.append(ready.problem)
+                reduced.append(ready.reduced)
+            else:
+                small = replace(SmallProblem.of_small(sweep, file.specimen), misfit=misfit)
+                noise = small.noise(noise)
+                members.append(small)
+                reduced.append(None)
+            noises.append(noise)
+        known = all(n.is_known for n in noises)
+        std = [
+            n.std_m_s if known else np.abs(m.sweep.response_m_s) for n, m in zip(noises, members, strict=True)
+        ]
+        source = noises[0].source if known else "unknown"
+        return SeveralProblem.of_members(members, reduced), Noise(np.concatenate(std), source)
+
+    @property
+    def start(self) -> CoreLaw:
+        """Of the first file's specimen."""
+        laws = [f.specimen.core.law for f in self.files if f.specimen.core is not None]
+        if len(laws) < len(self.files):
+            raise OutsideModel("a bare specimen has no core to identify, expected a core in every one")
+        if len({law.kind for law in laws}) > 1:
+            raise OutsideModel("the specimens name different core laws, expected one: it is one material")
+        return laws[0]
+
+    def without_glitches(self) -> tuple[Begun, Noise]:
+        """The fit of what is no local disturbance."""
+        for _ in range(_ROUNDS):
+            problem, noise = self.problem()
+            begun = begin(problem, None, noise, None, self.start)
+            if not self._set_aside(begun):
+                break
+        return begun, noise
+
+    def _set_aside(self, begun: Begun) -> bool:
+        assert isinstance(begun.problem, SeveralProblem)
+        found = False
+        for k, (m, part) in enumerate(zip(begun.problem.members, begun.problem.starts_at, strict=True)):
+            if not isinstance(m, SmallProblem) or not isinstance(m.specimen, ShearPair):
+                continue
+            aside, stretches = glitches(m, begun.none.law, begun.none.velocity_m_s[part])
+            f = m.sweep.frequency_hz
+            for g in stretches:
+                count = int(np.sum((f >= g.low_hz) & (f <= g.high_hz)))
+                self._add(SetAside(k + 1, g, count))
+            if aside.any():
+                self.used[k][np.flatnonzero(self.used[k])[aside]] = False
+                found = True
+        return found
+
+    def _add(self, one: SetAside) -> None:
+        """Stretches of a file that touch are one."""
+        for k, other in enumerate(self.aside):
+            g, h = one.glitch, other.glitch
+            if other.file == one.file and g.low_hz <= 1.06 * h.high_hz and h.low_hz <= 1.06 * g.high_hz:
+                whole = Glitch(min(g.low_hz, h.low_hz), max(g.high_hz, h.high_hz), max(g.largest, h.largest))
+                self.aside[k] = SetAside(one.file, whole, one.points + other.points)
+                return
+        self.aside.append(one)
+
+    def with_misfit(self, begun: Begun) -> bool:
+        """Take what the fit leaves as what readings are worth; False where noise explains it."""
+        if not begun.evidence.scale_known or not begun.none.chi2_per_dof > _MISFIT:
+            return False
+        assert isinstance(begun.problem, SeveralProblem)
+        v, law = begun.none.velocity_m_s, begun.none.law
+        for k, (m, part) in enumerate(zip(begun.problem.members, begun.problem.starts_at, strict=True)):
+            if not isinstance(m, SmallProblem) or not isinstance(m.specimen, ShearPair):
+                continue
+            off = (m.sweep.response_m_s if m.sweep.has_phase else np.abs(m.sweep.response_m_s)) / (
+                v[part] if m.sweep.has_phase else np.abs(v[part])
+            ) - 1
+            self.misfit[k] = rms(np.abs(off)) / np.sqrt(2)
+            hears = np.abs(m.feels(law, v[part])) > DEAF
+            if hears.sum() > len(law.names) and not self._deaf_taken:
+                self.used[k][np.flatnonzero(self.used[k])[~hears]] = False
+        self._deaf_taken = True
+        return any(self.misfit)
+
+    _deaf_taken: bool = False
+
+
+def identify_together(files: Sequence[File], progress: Progress = quiet) -> Together:
+    """One law from all files, each with its own plate and channels. Raises `FittingError`, `BadInput`."""
+    began = perf_counter()
+    work = _Work(files, progress, with_effects=False)
+    with threadpool_limits(1, "blas"), progress("fitting"):
+        work.problem()
+        ready = perf_counter()
+        begun, noise = work.without_glitches()
+        further: tuple[str, ...] = ()
+        if work.with_misfit(begun):
+            for _ in range(2):
+                begun, noise = work.without_glitches()
+                sizes = ", ".join(f"{100 * m:.2g}" for m in work.misfit)
+            further = (
+                f"the files follow no one law within their noise (rms {sizes} %): that misfit is taken "
+                f"for the "
+                "error of each reading, and for files whose cores differ by a few percent; see 'viscorig "
+                "diagnose'",
+            )
+        fit = fit_of(begun)
+    seconds = perf_counter() - ready
+    for file in files:
+        if isinstance(file.specimen, Specimen):
+            theory_over(file.specimen, fit.law, file.sweep.frequency_hz)
+    checked = perf_counter()
+    with threadpool_limits(1, "blas"), progress("validating"):
+        validation = held_out(begun.problem, begun.evidence, begun.none)
+    sweep = begun.problem.sweep
+    further += (*_remarks(files), *(one.words(files) for one in work.aside))
+    result = summarise("direct", sweep, noise, fit, validation, further)
+    found = Identified(result, ready - began, seconds, perf_counter() - checked)
+    return Together(found, sweep, tuple(work.aside))
+
+
+def diagnose_together(
+    files: Sequence[File],
+    without: Collection[str] = frozenset(),
+    progress: Progress = quiet,
+    accept: Sequence[str] | None = None,
+) -> DiagnosedTogether:
+    """What one law cannot explain, traced to an effect of all files or of one.
+
+    Raises as `identify_together`.
+    """
+    unknown = sorted({*without, *(accept or ())} - set(CATALOGUE))
+    if unknown:
+        raise BadInput(f"effect {unknown[0]!r}, expected one of {', '.join(sorted(CATALOGUE))}")
+    began = perf_counter()
+    kinds = {f.specimen.kind for f in files}
+    if len(kinds) > 1:
+        raise OutsideModel(
+            f"{' and '.join(sorted(kinds))} together, expected specimens of one kind to diagnose"
+        )
+    effects = [e for e in _standing_on(kinds.pop()) if e.name not in without]
+    work = _Work(files, progress, with_effects=True)
+    with threadpool_limits(1, "blas"), executor() as workers:
+        channels: list[FoundEffect] = []
+        for k, file in enumerate(files):
+            used, seen, _ = seen_in_channels(file.sweep, effects)
+            work.used[k] &= used
+            channels += [_with_file(one, k + 1, len(files)) for one in seen]
+        work.problem()
+        ready = perf_counter()
+        with progress("tracing the residual") as report:
+            work.without_glitches()
+            channels += [_fixture(one, len(files)) for one in work.aside]
+            problem, noise = work.problem()
+            tried = [e if e.replaces_law or len(files) == 1 else OfFiles(e, len(files)) for e in effects]
+            result = diagnose_task(
+                problem,
+                None,
+                tried,
+                noise,
+                None,
+                work.start,
+                tuple(channels),
+                np.concatenate(work.used),
+                report,
+                accept,
+                workers,
+                settle=in_light_of_the_law,
+            )
+    further = (*_remarks(files), *(one.words(files) for one in work.aside))
+    result = replace(result, warnings=(*result.warnings, *further))
+    for file in files:
+        if isinstance(file.specimen, Specimen):
+            theory_over(file.specimen, result.after.law, file.sweep.frequency_hz)
+    found = Diagnosed(result, ready - began, perf_counter() - ready)
+    return DiagnosedTogether(found, _all(files), tuple(work.aside))
+
+
+def _all(files: Sequence[File]) -> Sweep:
+    return joined([f.sweep for f in files])
+
+
+def _standing_on(kind: str) -> list[Effect]:
+    """The forms that effects have on a structure."""
+    return [form for e in CATALOGUE.values() if (form := e.on(kind)) is not None]
+
+
+def _with_file(one: FoundEffect, file: int, files: int) -> FoundEffect:
+    if files == 1:
+        return one
+    return replace(one, parameters={**one.parameters, "file": Estimate(float(file), float("nan"), "1")})
+
+
+def _fixture(one: SetAside, files: int) -> FoundEffect:
+    """A stretch set aside, as what it probably is."""
+    nan, g = float("nan"), one.glitch
+    values = {
+        "frequency": Estimate(float(np.sqrt(g.low_hz * g.high_hz)), nan, "Hz"),
+        "from": Estimate(g.low_hz, nan, "Hz"),
+        "to": Estimate(g.high_hz, nan, "Hz"),
+        "size": Estimate(g.largest, nan, "1"),
+    }
+    return _with_file(FoundEffect("fixture_resonance", values), one.file, files)
+
+
+def _remarks(files: Sequence[File]) -> tuple[str, ...]:
+    said = []
+    for file in files:
+        of = f"{file.name}: " if file.name and len(files) > 1 else ""
+        said += [of + text for text in remarks_on_noise(file.sweep)]
+        s = file.specimen
+        if isinstance(s, ShearPair) and not s.bending and s.softer_by_bending > _WORTH_SAYING:
+            said.append(
+                f"{of}bending of the discs is not counted: with it G' is {100 * s.softer_by_bending:.2g} "
+                f"% higher "
+                "([shear-pair] bending = true)"
+            )
+    return tuple(dict.fromkeys(said))

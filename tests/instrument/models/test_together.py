@@ -1,0 +1,191 @@
+"""One law from several files, and from a single shear pair."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from shear_pair_cases import LAW, MASSES_KG, pair, sweep
+
+from instrument.cli.main import run
+from instrument.errors import BadInput
+from instrument.files.structure_file import read_structure
+from instrument.files.sweep_file import read_sweep
+from instrument.models.together import File, diagnose_together, identify_together
+
+REAL = Path(__file__).parents[3].parent / "shared/data/real/shear"
+AT_100_HZ = (6.11e6, 0.65)
+"""G' and loss factor of the same rubber on another machine at 21 C."""
+
+
+def files(masses=MASSES_KG, **more):
+    return [File(sweep(pair(m), seed=k, **more), pair(m)) for k, m in enumerate(masses)]
+
+
+def law_error(found, f=(60.0, 150.0, 400.0)):
+    omega = 2 * np.pi * np.array(f)
+    return np.abs(found.modulus(omega) / LAW.modulus(omega) - 1)
+
+
+def test_one_pair_gives_its_law():
+    found = identify_together(files([0.573])).found.result
+    assert law_error(found.law, (60, 150)).max() < 0.01
+    # Area and thickness are known to 2 % each: so is the modulus.
+    error = found.band.storage_modulus_standard_error_pa / found.band.storage_modulus_pa
+    assert 0.025 < np.median(error) < 0.05
+
+
+def test_four_masses_give_one_law_and_each_its_own_gain():
+    given = files()
+    given[1] = File(sweep(pair(MASSES_KG[1]), seed=1, factor=1.006), pair(MASSES_KG[1]))
+    found = identify_together(given).found.result
+    assert law_error(found.law).max() < 0.015
+    adjusted = {one.name: one for one in found.fit.adjusted}
+    assert adjusted["gain [2]"].found == pytest.approx(1.006, abs=2e-3)
+    assert adjusted["gain [1]"].found == pytest.approx(1.0, abs=2e-3)
+    assert "area" in adjusted
+    assert "mass [3]" in adjusted
+    assert len(found.validation.held_out) == 4
+
+
+def test_one_mass_stated_wrongly_and_the_modulus_are_one():
+    found = diagnose_together(files([0.573], more_kg=0.05 * 0.573)).found.result
+    assert found.verdict == "ambiguous"
+    assert found.effects[0].name == "added_mass"
+    assert found.equivalent["added_mass"] == ("added_mass", "none")
+
+
+def test_four_masses_name_what_all_of_them_lack():
+    more = 0.05 * MASSES_KG[0]
+    found = diagnose_together(files(more_kg=more)).found.result
+    assert found.verdict == "effect"
+    (effect,) = found.effects
+    assert effect.name == "added_mass"
+    assert effect.parameters["mass"].value == pytest.approx(more, rel=0.05)
+    assert effect.parameters["file"].value == 0
+    assert law_error(found.after.law).max() < law_error(found.before.law).max()
+
+
+def test_a_mass_of_one_file_is_that_file_s():
+    given = files()
+    given[2] = File(sweep(pair(0.573), seed=2, more_kg=0.05 * 0.573), pair(0.573))
+    found = diagnose_together(given).found.result
+    assert found.verdict == "effect"
+    assert found.effects[0].parameters["mass"].value == pytest.approx(0.05 * 0.573, rel=0.05)
+    assert found.effects[0].parameters["file"].value == 3
+
+
+def test_four_masses_as_stated_leave_nothing():
+    assert diagnose_together(files()).found.result.verdict == "none"
+
+
+def test_softening_is_told_by_two_levels_and_not_from_one():
+    def at(levels):
+        p = pair(0.573)
+        return [File(sweep(p, softening=60.0, level=a, seed=k), p) for k, a in enumerate(levels)]
+
+    one = diagnose_together(at([9.81])).found.result
+    assert "amplitude_softening" not in {e.name for e in one.effects}
+    two = diagnose_together(at([9.81, 2.5])).found.result
+    assert two.verdict == "effect"
+    assert two.effects[0].name == "amplitude_softening"
+
+
+def test_a_resonance_of_the_fixture_is_set_aside():
+    given = files(points=400)
+    disturbed = given[0].sweep
+    r = disturbed.frequency_hz / 330.0
+    wobble = 1 + 0.01 / (1 - r**2 + 2j * 0.03 * r)
+    near = np.abs(np.log(r)) < 0.3
+    v = disturbed.velocity_m_s * np.where(near, wobble, 1)
+    given[0] = File(type(disturbed)(**{**vars(disturbed), "velocity_m_s": v}), given[0].specimen)
+    found = identify_together(given)
+    assert {one.file for one in found.aside} == {1}
+    assert any(one.glitch.low_hz < 330 < one.glitch.high_hz for one in found.aside)
+    # Its tails stay.
+    assert law_error(found.found.result.law).max() < 0.03
+
+
+@pytest.mark.skipif(not REAL.exists(), reason="the real records are not here")
+def test_real_records_of_three_masses_follow_one_law():
+    names = ("253g", "573g", "1196g")
+    given = [_real(name) for name in names]
+    band = identify_together(given).found.result.band
+    k = int(np.flatnonzero(band.frequency_hz == 100.0)[0])
+    assert band.storage_modulus_pa[k] == pytest.approx(AT_100_HZ[0], rel=0.08)
+    # Phases of the heaviest mass lead by a degree below 80 Hz: the loss comes out low (docs/structures.md).
+    assert band.loss_factor[k] == pytest.approx(AT_100_HZ[1], rel=0.17)
+
+
+@pytest.mark.skipif(not REAL.exists(), reason="the real records are not here")
+def test_the_lightest_mass_s_disturbance_is_flagged():
+    found = identify_together([_real(name) for name in ("118g", "253g", "573g", "1196g")])
+    low = min(one.glitch.low_hz for one in found.aside if one.file == 1)
+    high = max(one.glitch.high_hz for one in found.aside if one.file == 1)
+    assert low < 230
+    assert 320 < high < 420
+
+
+def _real(name):
+    specimen = read_structure(REAL / f"material_a_{name}.toml")
+    data = read_sweep(REAL / f"material_a_1g_{name}.csv")
+    return File(data.sweep(specimen.base_acceleration_m_s2), specimen, name)
+
+
+PAIR = """
+[shear-pair]
+mass_kg = 0.3
+discs = 2
+outer_diameter_mm = 33.5
+inner_diameter_mm = 11.8
+thickness_mm = 6.0
+[core]
+density_kg_m3 = 1100.0
+[core.law]
+kind = "fractional-zener"
+g0_mpa = 4.0
+ginf_mpa = 30.0
+tau_s = 1.0e-4
+alpha = 0.6
+"""
+FAULTS = {
+    "no shape": (PAIR.replace("outer_diameter_mm = 33.5\ninner_diameter_mm = 11.8\n", ""), "area_mm2"),
+    "both shapes": (PAIR.replace("discs = 2", "discs = 2\narea_mm2 = 700.0"), "area_mm2"),
+    "hole": (PAIR.replace("11.8", "34.0"), "inner_diameter_mm = 34"),
+    "two kinds": (PAIR + "\n[plate]\n", "[plate] and [shear-pair]"),
+    "unknown key": (PAIR.replace("mass_kg", "mass_g"), "mass_g"),
+    "no law": (PAIR.replace('"fractional-zener"', '"rubber"'), "core.law.kind"),
+}
+
+
+@pytest.mark.parametrize(("text", "said"), FAULTS.values(), ids=FAULTS)
+def test_a_bad_shear_pair_is_refused_in_one_line(tmp_path, text, said):
+    path = tmp_path / "pair.toml"
+    path.write_text(text)
+    with pytest.raises(BadInput) as error:
+        read_structure(path)
+    assert said in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+def test_the_commands_take_shear_pairs(tmp_path, capsys):
+    (tmp_path / "pair.toml").write_text(PAIR)
+    s = sweep(read_structure(tmp_path / "pair.toml"), points=60)
+    a = s.velocity_m_s * 2j * np.pi * s.frequency_hz
+    rows = [
+        f"{f!r},{z.real!r},{z.imag!r},9.81,0"
+        for f, z in zip(s.frequency_hz.tolist(), a.tolist(), strict=True)
+    ]
+    header = "frequency_hz,acceleration_re_m_s2,acceleration_im_m_s2,base_accel_re_m_s2,base_accel_im_m_s2"
+    for name in ("a.csv", "b.csv"):
+        (tmp_path / name).write_text("\n".join([header, *rows]) + "\n")
+    pair_toml = str(tmp_path / "pair.toml")
+    for words in (
+        ["identify", str(tmp_path / "a.csv"), "--specimen", pair_toml],
+        ["identify", str(tmp_path / "a.csv"), str(tmp_path / "b.csv"), "--specimen", pair_toml],
+        ["diagnose", str(tmp_path / "a.csv"), "--specimen", pair_toml],
+        ["modes", pair_toml],
+        ["predict", pair_toml, "--frequencies", "50,100"],
+    ):
+        assert run([*words, "--json", str(tmp_path / "out.json")]) == 0, words
+    assert run(["identify", str(tmp_path / "a.csv"), *["--specimen", pair_toml] * 2]) == 2
+    assert "2 times --specimen for 1 files" in capsys.readouterr().err
