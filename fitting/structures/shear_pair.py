@@ -16,6 +16,7 @@ import numpy as np
 from numpy.polynomial import Legendre
 
 from fitting.arrays import Array, Complex
+from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
 from fitting.specimen import Core, Reading
 from fitting.structures.small import Parts
@@ -44,7 +45,7 @@ class ShearPair:
     bending: bool = False
     """Whether the discs' bending is counted."""
     reads: Reading = "absolute"
-    base_acceleration_m_s2: float = 9.81
+    base_acceleration_m_s2: float = PUBLISHED_G_M_S2
     tolerances: Mapping[str, float] = field(default_factory=dict)
     exact: bool = False
 

@@ -7,6 +7,7 @@ from typing import Any
 from pydantic import Field, model_validator
 
 from fitting.errors import OutsideModel
+from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
 from fitting.specimen import Core, Reading
 from fitting.structures import AnySpecimen
@@ -56,7 +57,7 @@ class _Reads(Table):
 
 
 class _Base(Table):
-    acceleration_m_s2: Positive = 9.81
+    acceleration_m_s2: Positive = PUBLISHED_G_M_S2
 
 
 class _PairTolerances(Tolerances):

@@ -259,7 +259,7 @@ def test_stopped_by_the_user_is_130(capsys, monkeypatch):
     def stop(path):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(module, "read_specimen", stop)
+    monkeypatch.setattr(module, "read_structure", stop)
     status, _, err = call(capsys, "modes", ZN1)
     assert status == 130
     assert "Traceback" not in err
