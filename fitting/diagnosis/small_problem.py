@@ -10,7 +10,7 @@ from fitting.diagnosis.problem import DiagnosisProblem, Grid, points_of
 from fitting.laws import CoreLaw
 from fitting.model_error import DRIFT, GAIN
 from fitting.noise import Noise
-from fitting.structures.small import SmallSpecimen, nuisances_of, rational_of, system_of
+from fitting.structures.small import SmallSpecimen, check_driven, nuisances_of, rational_of, system_of
 from fitting.sweep import Sweep
 
 OCTAVE, WANDERING = 0.7, 0.3
@@ -36,6 +36,7 @@ class SmallProblem(DiagnosisProblem):
     def of_small(cls, sweep: Sweep, specimen: SmallSpecimen) -> "SmallProblem":
         """Everything made, which takes milliseconds."""
         parts = specimen.parts()
+        check_driven(parts, specimen.kind)
         system = system_of(specimen, parts)
         assert specimen.core is not None
         size = float(np.exp(np.mean(np.log(np.abs(specimen.core.law.modulus(sweep.omega))))))

@@ -43,7 +43,7 @@ class AmplitudeSoftening(Effect):
     discriminating_test = "a second level"
 
     def on(self, kind: str) -> Effect | None:
-        return SofteningOfPair() if kind == "shear-pair" else super().on(kind)
+        return SofteningBySize() if kind in ("shear-pair", "beam") else super().on(kind)
 
     def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex:
         softened = np.zeros(len(points.omega))
@@ -62,9 +62,11 @@ class AmplitudeSoftening(Effect):
         )
 
 
-class SofteningOfPair(AmplitudeSoftening):
-    """The same of a pad in shear."""
+class SofteningBySize(AmplitudeSoftening):
+    """The same of a pad in shear or of a sandwich beam, seen from two levels on."""
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
+        if "strain.mean_square" not in plate.names:
+            return "a free layer does not shear"
         # Over one level strain is a function of frequency, as the law is.
         return None if points.levels > 1 else "one level does not tell softening from the law"

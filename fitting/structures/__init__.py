@@ -1,9 +1,10 @@
 """Structures other than the plate: small matrices of the same equation (decision 24)."""
 
 from fitting.specimen import Specimen
+from fitting.structures.beam import Beam
 from fitting.structures.shear_pair import ShearPair
 
-AnySpecimen = Specimen | ShearPair
+AnySpecimen = Specimen | ShearPair | Beam
 """What a specimen file may describe."""
 
-__all__ = ["AnySpecimen", "ShearPair"]
+__all__ = ["AnySpecimen", "Beam", "ShearPair"]

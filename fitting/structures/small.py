@@ -16,10 +16,13 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.errors import OutsideModel
 from fitting.nuisances import Nuisance, Nuisances
 from fitting.rational import RationalSweep
 from fitting.specimen import Stated
 
+_STILL = 1e-9
+"""A reading below this reads nothing but rounding."""
 _LOSSY = 0.8
 """Argument of the modulus that a rational sum is made about, rad: far from every resonance."""
 
@@ -146,6 +149,14 @@ def system_of(specimen: SmallSpecimen, parts: Parts) -> EnrichedReducedPlate:
         load_part=parts.load,
         layers=np.zeros((3, 5)),
     )
+
+
+def check_driven(parts: Parts, kind: str) -> None:
+    """Raise `OutsideModel` where nothing drives it, or nothing is read."""
+    if not parts.load.any():
+        raise OutsideModel(f"a free {kind} has no base to be excited by, expected another boundary")
+    if not np.any(np.abs(parts.observe) > _STILL):
+        raise OutsideModel("[pickup] is missing or lies on a held end, expected x_mm of a point that moves")
 
 
 def _sum(c: Complex, P: Array, k: int) -> Complex:

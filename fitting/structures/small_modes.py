@@ -7,7 +7,7 @@ from fitting.arrays import Array, Complex
 from fitting.complex_modes import ComplexMode
 from fitting.identification.model import velocity
 from fitting.laws import CoreLaw
-from fitting.structures.small import SmallSpecimen, displacement, system_of
+from fitting.structures.small import SmallSpecimen, check_driven, displacement, system_of
 
 _STEPS, _SETTLED = 60, 1e-9
 _RIGID = 1e-6
@@ -49,5 +49,7 @@ def small_velocity(specimen: SmallSpecimen, frequency_hz: Array) -> Complex:
     omega = 2 * np.pi * np.asarray(frequency_hz, dtype=float)
     law = specimen.core.law if specimen.core is not None else None
     G = law.modulus(omega) if law is not None else np.zeros(len(omega), complex)
-    x = displacement(system_of(specimen, specimen.parts()), omega, G)
+    parts = specimen.parts()
+    check_driven(parts, specimen.kind)
+    x = displacement(system_of(specimen, parts), omega, G)
     return velocity(omega, x, specimen.reads) * specimen.base_acceleration_m_s2

@@ -22,7 +22,9 @@ class _Plate(Table):
     boundary: Boundary
 
 
-class _Layer(Table):
+class Layer(Table):
+    """An elastic layer."""
+
     thickness_mm: Positive
     young_gpa: Positive
     poisson: Poisson
@@ -30,6 +32,7 @@ class _Layer(Table):
     loss_factor: NotNegative = 0.0
 
     def face(self) -> Face:
+        """In SI units."""
         return Face(
             thickness_m=self.thickness_mm * 1e-3,
             young_pa=self.young_gpa * 1e9,
@@ -99,8 +102,8 @@ class SpecimenDocument(Table):
     """SPECIMEN.toml."""
 
     plate: _Plate
-    substrate: _Layer
-    constraining: _Layer | None = None
+    substrate: Layer
+    constraining: Layer | None = None
     core: _Core | None = None
     damping: _Damping | None = None
     pickup: _Pickup | None = None

@@ -1,4 +1,4 @@
-"""SPECIMEN.toml of any structure: `[plate]`, `[shear-pair]`; which table it holds decides."""
+"""SPECIMEN.toml of any structure: `[plate]`, `[beam]`, `[shear-pair]`; which table it holds decides."""
 
 import tomllib
 from pathlib import Path
@@ -8,12 +8,12 @@ from pydantic import Field, model_validator
 
 from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.laws import CoreLaw
 from fitting.specimen import Core, Reading
 from fitting.structures import AnySpecimen
+from fitting.structures.beam import Beam, Ends
 from fitting.structures.shear_pair import ShearPair, disc
 from instrument.errors import BadInput
-from instrument.files.specimen_file import Tolerances, law_of, read_specimen, tolerances_of
+from instrument.files.specimen_file import Layer, Poisson, Tolerances, law_of, read_specimen, tolerances_of
 from instrument.files.text import read_text
 from instrument.files.toml import NotNegative, Positive, Table, read_document
 
@@ -90,7 +90,7 @@ class ShearPairDocument(Table):
             mass_kg=p.mass_kg,
             discs=p.discs,
             area_m2=area,
-            core=Core(p.thickness_mm * 1e-3, _RUBBER, self.core.density_kg_m3, _law(self.core.law)),
+            core=Core(p.thickness_mm * 1e-3, _RUBBER, self.core.density_kg_m3, law_of(self.core.law)),
             gyration_m=gyration,
             bending=p.bending,
             reads=self.pickup.reads,
@@ -100,7 +100,72 @@ class ShearPairDocument(Table):
         )
 
 
-_DOCUMENTS = {"shear-pair": ShearPairDocument}
+class _Length(Table):
+    length_mm: Positive
+    width_mm: Positive
+    boundary: Ends
+    both_sides: bool = False
+
+
+class _Viscoelastic(Table):
+    thickness_mm: Positive
+    poisson: Poisson
+    density_kg_m3: Positive
+    law: dict[str, Any]
+
+
+class _Spot(Table):
+    x_mm: Positive
+    reads: Reading = "relative"
+
+
+class BeamDocument(Table):
+    """SPECIMEN.toml with `[beam]`."""
+
+    beam: _Length
+    substrate: Layer
+    constraining: Layer | None = None
+    core: _Viscoelastic | None = None
+    pickup: _Spot | None = None
+    base: _Base = _Base()
+    tolerances: Tolerances | None = None
+
+    @model_validator(mode="after")
+    def _whole(self) -> "BeamDocument":
+        if self.constraining is not None and self.core is None:
+            raise ValueError("[core] is missing, expected one between [substrate] and [constraining]")
+        if self.beam.both_sides and (self.core is None or self.constraining is not None):
+            raise ValueError("both_sides = true, expected [core] without [constraining]: a free layer a side")
+        reach = self.beam.length_mm / (2 if self.beam.boundary == "centre-driven" else 1)
+        if self.pickup is not None and self.pickup.x_mm > reach:
+            raise ValueError(f"pickup.x_mm = {self.pickup.x_mm:g} is off the beam, expected 0 to {reach:g}")
+        return self
+
+    def specimen(self) -> Beam:
+        """What it describes. Raises `OutsideModel`."""
+        core, c = None, self.core
+        if c is not None:
+            core = Core(c.thickness_mm * 1e-3, c.poisson, c.density_kg_m3, law_of(c.law))
+        return Beam(
+            length_m=self.beam.length_mm * 1e-3,
+            width_m=self.beam.width_mm * 1e-3,
+            boundary=self.beam.boundary,
+            substrate=self.substrate.face(),
+            constraining=self.constraining.face() if self.constraining is not None else None,
+            core=core,
+            both_sides=self.beam.both_sides,
+            pickup_m=self.pickup.x_mm * 1e-3 if self.pickup is not None else None,
+            reads=self.pickup.reads if self.pickup is not None else "relative",
+            base_acceleration_m_s2=self.base.acceleration_m_s2,
+            tolerances=tolerances_of(self.tolerances),
+            exact=self.tolerances is not None and self.tolerances.exact,
+        )
+
+
+_DOCUMENTS: dict[str, type[ShearPairDocument] | type[BeamDocument]] = {
+    "shear-pair": ShearPairDocument,
+    "beam": BeamDocument,
+}
 
 
 def read_structure(path: Path) -> AnySpecimen:
@@ -114,10 +179,6 @@ def read_structure(path: Path) -> AnySpecimen:
         except OutsideModel as error:
             raise BadInput(f"{path}: {error}") from None
     return read_specimen(path)
-
-
-def _law(table: dict[str, Any]) -> CoreLaw:
-    return law_of(table)
 
 
 def _tables(path: Path) -> dict[str, Any]:

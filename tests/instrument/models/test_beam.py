@@ -1,0 +1,102 @@
+"""Beams through the same identification, diagnosis and commands."""
+
+import numpy as np
+import pytest
+
+from fitting.structures.small_modes import small_modes, small_velocity
+from fitting.sweep import Sweep, segments_by_gap
+from instrument.cli.main import run
+from instrument.errors import BadInput
+from instrument.files.structure_file import read_structure
+from instrument.models.together import File, diagnose_together, identify_together
+
+BEAM = """
+[beam]
+length_mm = 200.0
+width_mm = 20.0
+boundary = "clamped-free"
+[substrate]
+thickness_mm = 2.0
+young_gpa = 70.0
+poisson = 0.3
+density_kg_m3 = 2700.0
+[constraining]
+thickness_mm = 1.0
+young_gpa = 70.0
+poisson = 0.3
+density_kg_m3 = 2700.0
+[core]
+thickness_mm = 0.5
+poisson = 0.49
+density_kg_m3 = 1000.0
+[core.law]
+kind = "fractional-zener"
+g0_mpa = 0.5
+ginf_mpa = 20.0
+tau_s = 1.0e-4
+alpha = 0.6
+[pickup]
+x_mm = 150.0
+"""
+
+
+@pytest.fixture
+def beam(tmp_path):
+    (tmp_path / "beam.toml").write_text(BEAM)
+    return read_structure(tmp_path / "beam.toml")
+
+
+def sweep_of(beam, seed=0, factor=1.0, noise=2e-3):
+    """Around three resonances."""
+    modes = small_modes(beam, beam.core.law, 3)
+    f = np.concatenate([np.linspace(0.8, 1.2, 40) * m.frequency_hz for m in modes])
+    rng = np.random.default_rng(seed)
+    scatter = 1 + noise * (rng.normal(size=len(f)) + 1j * rng.normal(size=len(f)))
+    one = np.ones(len(f), dtype=np.intp)
+    v = factor * small_velocity(beam, f) * scatter
+    return Sweep(f, v, np.full(len(f), beam.base_acceleration_m_s2), segments_by_gap(f), one)
+
+
+def test_a_sandwich_beam_gives_its_law(beam):
+    found = identify_together([File(sweep_of(beam), beam)]).found
+    f = found.result.band.frequency_hz
+    G, eta = beam.core.law.storage_and_loss(2 * np.pi * f)
+    off = (found.result.band.storage_modulus_pa - G) / found.result.band.storage_modulus_standard_error_pa
+    assert np.sqrt(np.mean(off**2)) < 2
+    assert np.abs(found.result.band.loss_factor / eta - 1).max() < 0.05
+    assert {"substrate_young", "core_thickness", "length"} <= {one.name for one in found.result.fit.adjusted}
+
+
+def test_a_gain_is_named_on_a_beam(beam):
+    found = diagnose_together([File(sweep_of(beam, factor=1.05), beam)]).found.result
+    assert found.verdict in ("effect", "ambiguous")
+    assert found.effects[0].name == "gain_error"
+    assert found.effects[0].parameters["factor"].value == pytest.approx(1.05, abs=0.01)
+
+
+def test_commands_take_beams(tmp_path, beam, capsys):
+    path = str(tmp_path / "beam.toml")
+    assert run(["modes", path, "--json", str(tmp_path / "m.json")]) == 0
+    assert run(["predict", path, "--frequencies", "20:40:10"]) == 0
+    free = tmp_path / "free.toml"
+    free.write_text(BEAM.replace("clamped-free", "free-free"))
+    assert run(["modes", str(free)]) == 0
+    assert run(["predict", str(free), "--frequencies", "20"]) == 2
+    assert "no base" in capsys.readouterr().err
+
+
+FAULTS = {
+    "boundary": (BEAM.replace("clamped-free", "hinged"), "boundary"),
+    "off": (BEAM.replace("150.0", "250.0"), "pickup.x_mm = 250"),
+    "two sides of a sandwich": (BEAM.replace("width_mm", "both_sides = true\nwidth_mm"), "both_sides"),
+    "no core": (BEAM.split("[core]")[0], "[core] is missing"),
+}
+
+
+@pytest.mark.parametrize(("text", "said"), FAULTS.values(), ids=FAULTS)
+def test_a_bad_beam_is_refused_in_one_line(tmp_path, text, said):
+    (tmp_path / "beam.toml").write_text(text)
+    with pytest.raises(BadInput) as error:
+        read_structure(tmp_path / "beam.toml")
+    assert said in str(error.value)
+    assert "\n" not in str(error.value)
