@@ -23,6 +23,7 @@ STOPPED_BY_USER = 130
 
 COMMANDS = (
     "demo",
+    "new",
     "check",
     "run",
     "hammer",

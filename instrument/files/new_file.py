@@ -1,0 +1,28 @@
+"""Commented files to start from: each is valid as it stands."""
+
+from pathlib import Path
+
+from instrument.errors import BadInput
+from instrument.files.text import read_text
+
+TEMPLATES = {
+    "plate": Path(__file__).parent / "templates" / "plate.toml",
+    "beam": Path(__file__).parent / "templates" / "beam.toml",
+    "shear-pair": Path(__file__).parent / "templates" / "shear-pair.toml",
+    "experiment": Path(__file__).parent / "templates" / "experiment.toml",
+    "rig": Path(__file__).parents[1] / "simulated_case" / "rig.toml",
+}
+"""Kind of file, and where it is. A rig begins as the simulated one, which says how it becomes a real one."""
+
+
+def write_new(kind: str, path: Path | None) -> Path:
+    """Write one, by default as KIND.toml here. Raises `BadInput` where there is a file already."""
+    where = path if path is not None else Path(f"{kind}.toml")
+    try:
+        with open(where, "x", encoding="utf-8") as file:
+            file.write(read_text(TEMPLATES[kind]))
+    except FileExistsError:
+        raise BadInput(f"{where}: there is a file already, expected a new name") from None
+    except OSError as error:
+        raise BadInput(f"{where}: {error.strerror or error}") from None
+    return where
