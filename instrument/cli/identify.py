@@ -10,6 +10,7 @@ import click
 from fitting.errors import OutsideModel
 from fitting.pointwise import phase_is_kept
 from fitting.specimen import Specimen
+from instrument.cli.identify_modes import identify_modes
 from instrument.cli.options import figures_option, file_arguments, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_beside import print_beside
@@ -20,6 +21,7 @@ from instrument.files.dma_file import DmaTable, read_dma
 from instrument.material.beside import beside, beside_facts
 from instrument.material.found_law import law_of_facts
 from instrument.material.overlay import save_overlay
+from instrument.files.modal_table import is_modal_table
 from instrument.models.identification import Identified, Method
 from instrument.models.identification import identify as identify_sweep
 from instrument.models.pointwise import pointwise_of
@@ -92,6 +94,13 @@ def identify(
     if figures is not None and not pointwise and dma is None:
         raise click.UsageError("--figures shows the law band by band, expected --pointwise or --with")
     out = Output(json_path)
+    if specimen and all(path.suffix.lower() == ".csv" and is_modal_table(path) for path in data):
+        if pointwise or method == "paper" or hammer is not None or dma is not None or with_budget:
+            raise click.UsageError(
+                "--pointwise, --method paper, --hammer, --with, --budget with modal tables: expected sweeps"
+            )
+        identify_modes(out, data, specimen)
+        return
     every = read_each(out, data, specimen, hammer, no_hammer=no_hammer)
     files = together(every, data)
     if files is not None:
