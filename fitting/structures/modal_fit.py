@@ -1,7 +1,7 @@
 """A law from tables of modes: natural frequency and loss factor of each mode of each specimen.
 
 One posterior as for sweeps: ln f and ln eta over their standard deviations, stated numbers over their
-tolerances, the law's bend. Stated numbers of the same thing in several specimens are one number, as for several sweeps.
+tolerances, the law's bend. Stated numbers of the same thing in several specimens are one number.
 """
 
 from collections.abc import Sequence
@@ -80,7 +80,7 @@ class _Member:
     def by_everything(self, law: CoreLaw, z: Array) -> tuple[Array, Array]:
         """Derivatives of ln f and ln eta to the law's log parameters and to `z`. Shape (modes, numbers) each.
 
-        With y a mode, lambda = y^T K y / y^T M y; the law is taken at omega_r = sqrt(Re lambda): it moves too.
+        With y a mode, lambda = y^T K y / y^T M y; the law is taken at omega_r = sqrt(Re lambda).
         """
         n_0, n_1, n_M = len(self.parts.K_0), len(self.parts.K_1), len(self.parts.M)
         every = np.concatenate([self.parts.K_0, self.parts.K_1, self.parts.M])
