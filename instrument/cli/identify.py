@@ -18,10 +18,10 @@ from instrument.cli.print_budget import print_budget
 from instrument.cli.print_identification import print_bare_plate, print_identification
 from instrument.cli.reading import read_each, reading_options, together
 from instrument.files.dma_file import DmaTable, read_dma
+from instrument.files.modal_table import is_modal_table
 from instrument.material.beside import beside, beside_facts
 from instrument.material.found_law import law_of_facts
 from instrument.material.overlay import save_overlay
-from instrument.files.modal_table import is_modal_table
 from instrument.models.identification import Identified, Method
 from instrument.models.identification import identify as identify_sweep
 from instrument.models.pointwise import pointwise_of
@@ -31,8 +31,8 @@ from instrument.results.budget_facts import budget, budget_facts
 from instrument.results.identification_facts import bare_plate_facts, identification_facts
 from instrument.results.pointwise_facts import second_look_facts
 from instrument.results.pointwise_figures import save_pointwise_figure
-from instrument.stream.jsonable import to_jsonable
 from instrument.results.together_facts import identified_together_facts
+from instrument.stream.jsonable import to_jsonable
 
 
 @click.command()
@@ -106,7 +106,7 @@ def identify(
     if files is not None:
         if pointwise or method == "paper" or no_viscous_damping or dma is not None or with_budget:
             raise click.UsageError(
-                "--pointwise, --method paper, --no-viscous-damping, --with, --budget: expected one plate's data"
+                "--pointwise, --method, --no-viscous-damping, --with, --budget: expected one plate's data"
             )
         _identify_together(out, files)
         return
