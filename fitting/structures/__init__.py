@@ -1,4 +1,4 @@
-"""Structures other than the plate: small matrices of the same equation (decision 24)."""
+"""Structures other than the plate: small matrices of the same equation (decision 25)."""
 
 from fitting.specimen import Specimen
 from fitting.structures.beam import Beam
