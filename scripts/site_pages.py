@@ -21,6 +21,9 @@ ROOT_PAGES = {
     "README.md": "index.md",
     "ARCHITECTURE.md": "architecture.md",
     "CHANGELOG.md": "changelog.md",
+    "examples/README.md": "examples.md",
+    "examples/viscorig_example_plugin/README.md": "example-plugin.md",
+    "examples/driver_template/README.md": "driver-template.md",
     "CONTRIBUTING.md": "contributing.md",
     "VISION.md": "vision.md",
 }
