@@ -127,6 +127,7 @@ class AppController(QObject):
         self._starting = _Starting(order, self)
         self._starting.done.connect(self._started)
         self._starting.failed.connect(self._not_started)
+        self._starting.cancelled.connect(self._start_cancelled)
         self._starting.start()
 
     def hold(self) -> None:
@@ -149,8 +150,10 @@ class AppController(QObject):
             self.live.engine.abort()
 
     def stop(self) -> None:
-        """Silence the shaker past whatever hangs."""
-        if self.live is not None:
+        """Silence the shaker past whatever hangs; a run that is about to begin does not."""
+        if self._starting is not None:
+            self._starting.cancel()
+        elif self.live is not None and self.running:
             self.live.stop()
 
     def close(self) -> None:
@@ -183,6 +186,9 @@ class AppController(QObject):
             self._starting.deleteLater()
         self._starting = None
         self.refused.emit(message)
+
+    def _start_cancelled(self) -> None:
+        self._not_started("stopped before it began: nothing was driven")
 
     def _ended(self) -> None:
         """What was recorded takes the run's place: from now on it can be looked through."""

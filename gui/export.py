@@ -1,12 +1,14 @@
 """A session's report and its data for other programs: by the commands of that name."""
 
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QAction
-from PySide6.QtWidgets import QFileDialog, QWidget
+from PySide6.QtWidgets import QWidget
 
+from gui.asking import ask_folder, ask_save
 from gui.background_task import Command
 from gui.controller import AppController
 
@@ -28,18 +30,22 @@ class Export(QObject):
         if session is None:
             return
         suggested = str(session.with_suffix(".html"))
-        chosen, _ = QFileDialog.getSaveFileName(self._window, "Save report", suggested, "Page (*.html)")
-        if chosen:
-            self._run(["report", str(session), "--out", chosen])
+        then = partial(self._report, session)
+        ask_save(self._window, "Save report", suggested, "Page (*.html)", then)
 
     def data(self) -> None:
         """For the program that the menu's entry names."""
         action, session = self.sender(), self._session
         if session is None or not isinstance(action, QAction):
             return
-        folder = QFileDialog.getExistingDirectory(self._window, "Export data to", str(session.parent))
-        if folder:
-            self._run(["export", str(session), "--to", str(action.data()), "--out", folder])
+        then = partial(self._data, session, str(action.data()))
+        ask_folder(self._window, "Export data to", str(session.parent), then)
+
+    def _report(self, session: Path, to: Path) -> None:
+        self._run(["report", str(session), "--out", str(to)])
+
+    def _data(self, session: Path, kind: str, folder: Path) -> None:
+        self._run(["export", str(session), "--to", kind, "--out", str(folder)])
 
     def _run(self, arguments: list[str]) -> None:
         command = Command(arguments, self)

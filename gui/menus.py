@@ -5,8 +5,9 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
-from PySide6.QtWidgets import QFileDialog, QMenu, QMessageBox
+from PySide6.QtWidgets import QMenu
 
+from gui.asking import ask_open, tell
 from gui.controller import EXPERIMENT_ENDING, SESSION_ENDINGS
 from gui.export import Export
 from gui.page_set import key_of
@@ -118,9 +119,7 @@ class Menus(QObject):
     def _open(self) -> None:
         endings = " ".join(f"*{e}" for e in (*SESSION_ENDINGS, EXPERIMENT_ENDING, *foreign_endings()))
         kinds = f"Sessions, experiments and data ({endings});;Everything (*)"
-        chosen, _ = QFileDialog.getOpenFileName(self._window, "Open", "", kinds)
-        if chosen:
-            self._window.open(Path(chosen))
+        ask_open(self._window, "Open", "", kinds, self._window.open)
 
     def _open_recent(self) -> None:
         self._window.open(Path(str(self._data())))
@@ -156,4 +155,4 @@ class Menus(QObject):
             f"<tr><td><b>{keys}</b>&nbsp;&nbsp;</td><td>{does}</td></tr>"
             for keys, does in (line.split("\t") for line in _KEYS.splitlines())
         )
-        QMessageBox.information(self._window, "Keys", f"<table>{rows}</table>")
+        tell(self._window, "Keys", f"<table>{rows}</table>")

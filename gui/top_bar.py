@@ -56,8 +56,9 @@ class TopBar(QFrame):
     def show_state(self, state: SessionState | None) -> None:
         """How things stand now."""
         running = self._desk.running
-        for one in (self.hold, self.abort, self.stop):
+        for one in (self.hold, self.abort):
             one.setEnabled(running)
+        self.stop.setEnabled(running or self._desk.starting)
         if state is None:
             self._say("idle", "no session")
             self.left.clear()

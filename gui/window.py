@@ -4,10 +4,19 @@ from pathlib import Path
 from time import monotonic
 
 from PySide6.QtCore import Qt, QTimer
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QKeySequence, QShortcut, QShowEvent
+from PySide6.QtGui import (
+    QCloseEvent,
+    QDragEnterEvent,
+    QDropEvent,
+    QKeyEvent,
+    QKeySequence,
+    QShortcut,
+    QShowEvent,
+)
 from PySide6.QtWidgets import QMessageBox, QTabWidget, QVBoxLayout, QWidget
 
 from fitting.plugins import told
+from gui.asking import ask_word
 from gui.background_task import BackgroundTask, Command
 from gui.controller import AppController
 from gui.log_pane import LogPane
@@ -17,6 +26,7 @@ from gui.page_set import PageSet, key_of
 from gui.replay_bar import ReplayBar
 from gui.settings import Arrangement, Settings
 from gui.shell import Shell
+from gui.stop_guard import StopGuard
 from gui.theme import Appearance
 from gui.top_bar import TopBar
 
@@ -24,10 +34,9 @@ TURN_MS = 33
 """Between two looks at what has come: 30 a second."""
 _REST, _MOST_REST_MS = 3.0, 300.0
 """Times as long as a look came late, until the next one; at most."""
+_LEAVE = "Stop the shaker, end the run and close? What is complete is kept."
 _LAYOUT = 1
 """Raised when docks change: an older arrangement is not restored then."""
-_TWICE_S = 1.0
-"""Two presses of Esc within this time are meant."""
 
 
 class Window(Shell):
@@ -46,8 +55,10 @@ class Window(Shell):
         self.pages = self._page_set.all
         self.replay = ReplayBar()
         self.log = LogPane()
-        self._escaped_s = -_TWICE_S
+        self._guard = StopGuard(self.bar.stop, self.controller.stop, self._escaped)
         self._closing = False
+        self._asked: QMessageBox | None = None
+        """Whether to close although a run goes on."""
         self._undrawn = list(self.pages)
         self._arrange()
         self.menus = Menus(self)
@@ -75,8 +86,13 @@ class Window(Shell):
         self.bar.show_state(state)
         self.log.show_state(state)
         self._page_set.show_state(state)
-        if self._closing and not self.controller.running:
-            self.close()
+        if not self.controller.running:
+            if self._asked is not None:
+                # There is nothing left to ask.
+                self._asked.close()
+                self._asked = None
+            if self._closing:
+                self.close()
 
     def open(self, path: Path) -> None:
         """A session, an experiment, or other data; returns at once."""
@@ -112,9 +128,8 @@ class Window(Shell):
         if self.controller.running:
             # It closes by itself once the run has ended.
             event.ignore()
-            if not self._closing and self._really():
-                self._closing = True
-                self.controller.stop()
+            if not self._closing:
+                self._asked = ask_word(self, "A run goes on", _LEAVE, "Stop and close", self._leave)
             return
         self._timer.stop()
         self._first_drawing.stop()
@@ -127,7 +142,14 @@ class Window(Shell):
         for command in self.findChildren(Command):
             command.close()
         self.controller.close()
+        self._guard.release()
         super().closeEvent(event)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Esc takes the message away; what it does in a run is the guard's matter."""
+        if event.key() == Qt.Key.Key_Escape and not self.controller.running:
+            self.notice.hide()
+        super().keyPressEvent(event)
 
     # Inside
 
@@ -177,8 +199,6 @@ class Window(Shell):
 
     def _shortcuts(self) -> None:
         for keys, slot in (
-            ("F12", self.controller.stop),
-            ("Esc", self._escape),
             ("F9", self.controller.hold),
             ("Ctrl+F9", self.controller.abort),
             ("Ctrl+Return", self.controller.answer),
@@ -190,16 +210,9 @@ class Window(Shell):
             shortcut.setContext(Qt.ShortcutContext.ApplicationShortcut)
             shortcut.activated.connect(slot)
 
-    def _escape(self) -> None:
-        """Once closes the message, twice stops the shaker."""
-        now = monotonic()
-        twice, self._escaped_s = now - self._escaped_s < _TWICE_S, now
-        if twice and self.controller.running:
-            self.controller.stop()
-        elif self.controller.running:
+    def _escaped(self) -> None:
+        if self.controller.running:
             self.notice.say("Esc once more stops the shaker")
-        else:
-            self.notice.hide()
 
     def _chosen(self, path: Path) -> None:
         """The page that runs experiments shows them."""
@@ -223,8 +236,6 @@ class Window(Shell):
         self.statusBar().setVisible(bool(name))
         self.statusBar().showMessage(f"reading {name} ..." if name else "")
 
-    def _really(self) -> bool:
-        said = QMessageBox.question(
-            self, "A run goes on", "Stop the shaker, end the run and close? What is complete is kept."
-        )
-        return said == QMessageBox.StandardButton.Yes
+    def _leave(self) -> None:
+        self._closing = True
+        self.controller.stop()

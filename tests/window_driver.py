@@ -97,7 +97,7 @@ def visit(window: Window, experiment: Path, seen: dict[str, object]) -> Steps:
     yield from press("ctrl+1")
 
     yield from press("ctrl+o")
-    yield from until(lambda: isinstance(QApplication.activeModalWidget(), QFileDialog), "a file is asked for")
+    yield from until(lambda: isinstance(QApplication.activeWindow(), QFileDialog), "a file is asked for")
     yield from write(str(experiment))
     yield from press("Return")
     yield from until(lambda: run.files.drafts is not None, "the experiment is read")

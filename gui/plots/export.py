@@ -3,6 +3,7 @@
 import csv
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -11,11 +12,12 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QObject, QRectF, QSize
 from PySide6.QtGui import QAction, QImage, QPainter
 from PySide6.QtSvg import QSvgGenerator
-from PySide6.QtWidgets import QFileDialog, QMessageBox
+
+from gui.asking import ask_save, tell
 
 _PNG_SCALE = 2.0
 """Pixels a point: sharp on paper and on a 4K screen."""
-_KINDS = {"PNG": "SessionState (*.png)", "SVG": "Drawing (*.svg)", "data CSV": "Data (*.csv)"}
+_KINDS = {"PNG": "Picture (*.png)", "SVG": "Drawing (*.svg)", "data CSV": "Data (*.csv)"}
 
 
 def save_png(plot: Any, path: Path) -> None:
@@ -93,13 +95,12 @@ class _Exporter(QObject):
         """Where to, then save."""
         action = self.sender()
         kind = action.data() if isinstance(action, QAction) else "PNG"
-        chosen, _ = QFileDialog.getSaveFileName(self._plot, f"Export {kind}", "", _KINDS[kind])
-        if not chosen:
-            return
-        path = Path(chosen)
+        ask_save(self._plot, f"Export {kind}", "", _KINDS[kind], partial(self._save, kind))
+
+    def _save(self, kind: str, path: Path) -> None:
         if not path.suffix:
             path = path.with_suffix("." + kind.split()[-1].lower())
         try:
             _SAVERS[kind](self._plot, path)
         except OSError as error:
-            QMessageBox.warning(self._plot, "Export", f"{path}: {error.strerror or error}")
+            tell(self._plot, "Export", f"{path}: {error.strerror or error}")

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QAction, QImage
-from PySide6.QtWidgets import QApplication, QFileDialog
+from PySide6.QtWidgets import QApplication
 
 from gui.plots import Axis, Plot
 from gui.theme import LIGHT
@@ -30,7 +30,7 @@ def plot(qtbot, appearance):
 
 def export(plot, kind, path, monkeypatch):
     """By the plot's own menu."""
-    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
+    monkeypatch.setattr("gui.plots.export.ask_save", lambda *asked: asked[-1](path))
     (action,) = [a for a in plot.getViewBox().menu.actions() if a.text() == f"Export {kind}..."]
     assert isinstance(action, QAction)
     action.trigger()
@@ -66,7 +66,7 @@ def test_csv_has_every_number(plot, tmp_path, monkeypatch):
 
 def test_where_nothing_can_be_written_one_message_says_so(plot, tmp_path, monkeypatch):
     said = []
-    monkeypatch.setattr("gui.plots.export.QMessageBox.warning", lambda *a: said.append(a[-1]))
+    monkeypatch.setattr("gui.plots.export.tell", lambda *a: said.append(a[-1]))
     for kind, ending in (("PNG", "png"), ("SVG", "svg"), ("data CSV", "csv")):
         export(plot, kind, tmp_path / "absent" / f"plot.{ending}", monkeypatch)
     assert len(said) == 3

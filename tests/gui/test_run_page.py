@@ -181,12 +181,14 @@ def test_stop_silences_a_shaker_whose_acquisition_hangs(qtbot, window, page, tmp
     assert ending.why == "stopped by the user"
 
 
-def test_closing_the_window_ends_the_run_first(qtbot, window, page, rig, tmp_path, monkeypatch):
-    monkeypatch.setattr(QMessageBox, "question", lambda *_: QMessageBox.StandardButton.Yes)
+def test_closing_the_window_ends_the_run_first(qtbot, window, page, rig, tmp_path):
     opened(qtbot, window, page, tmp_path / "experiment.toml")
     live = started(qtbot, window, page)
     wait_for_points(qtbot, window)
     window.close()
+    (question,) = window.findChildren(QMessageBox)
+    assert window.controller.running
+    next(b for b in question.buttons() if "close" in b.text()).click()
     qtbot.waitUntil(lambda: not window.isVisible(), timeout=PATIENCE_MS)
     assert live.ending.why == "stopped by the user"
     assert is_silent(rig)

@@ -1,11 +1,11 @@
 """What the model lacks: verdict, evidence, residual, and a person's word on it."""
 
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QShowEvent
 from PySide6.QtWidgets import (
-    QFileDialog,
     QLabel,
     QMenu,
     QProgressBar,
@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from gui.asking import ask_open
 from gui.controller import AppController
 from gui.page import Page
 from gui.pages.diagnosis.candidates import Candidates
@@ -142,13 +143,14 @@ class DiagnosisPage(Page):
         action = self.sender()
         assert isinstance(action, QAction)
         data = Path(str(action.data()))
-        chosen, _ = QFileDialog.getOpenFileName(
-            self, f"Specimen of {data.name}", self._specimen_folder or str(data.parent), "Specimen (*.toml)"
-        )
-        if chosen:
-            self._specimen_folder = str(Path(chosen).parent)
-            self.candidates.clear()
-            self.controller.rediagnosis.start(Asked(data, Path(chosen)))
+        start = self._specimen_folder or str(data.parent)
+        then = partial(self._diagnose_with, data)
+        ask_open(self, f"Specimen of {data.name}", start, "Specimen (*.toml)", then)
+
+    def _diagnose_with(self, data: Path, specimen: Path) -> None:
+        self._specimen_folder = str(specimen.parent)
+        self.candidates.clear()
+        self.controller.rediagnosis.start(Asked(data, specimen))
 
     def _recompute(self) -> None:
         decisions = self.candidates.decisions

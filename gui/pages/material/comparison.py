@@ -4,8 +4,9 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QDragEnterEvent, QDropEvent
-from PySide6.QtWidgets import QCheckBox, QFileDialog, QGridLayout, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QCheckBox, QGridLayout, QVBoxLayout, QWidget
 
+from gui.asking import ask_open_many
 from gui.background_task import BackgroundTask, Progress
 from gui.controller import SESSION_ENDINGS
 from gui.pages.law.plots import LawLine
@@ -92,9 +93,7 @@ class Comparison(QWidget):
 
     def _ask(self) -> None:
         endings = " ".join(f"*{ending}" for ending in SESSION_ENDINGS)
-        chosen, _ = QFileDialog.getOpenFileNames(self, "Compare with", "", f"Sessions ({endings})")
-        for name in chosen:
-            self.read(Path(name))
+        ask_open_many(self, "Compare with", "", f"Sessions ({endings})", self.read)
 
     def _read(self, laws: object) -> None:
         self._forget(self.sender())

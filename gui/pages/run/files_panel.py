@@ -6,7 +6,6 @@ from pathlib import Path
 
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import (
-    QFileDialog,
     QHBoxLayout,
     QLabel,
     QSizePolicy,
@@ -15,6 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from gui.asking import ask_open, ask_save, show
 from gui.background_task import BackgroundTask, Progress
 from gui.form.draft import Drafts
 from gui.form.form import Form
@@ -188,15 +188,12 @@ class FilesPanel(QWidget):
 
     def _ask_open(self) -> None:
         start = str(self.path.parent) if self.path is not None else ""
-        chosen, _ = QFileDialog.getOpenFileName(self, "Open experiment", start, _KINDS)
-        if chosen:
-            self.chose.emit(Path(chosen))
+        ask_open(self, "Open experiment", start, _KINDS, self.chose.emit)
 
     def _ask_new(self) -> None:
         dialog = NewCase(_free_folder(Path.cwd()), self)
         dialog.accepted.connect(self._make_asked)
-        dialog.finished.connect(dialog.deleteLater)
-        dialog.open()
+        show(dialog, self, "New simulated experiment")
 
     def _make_asked(self) -> None:
         dialog = self.sender()
@@ -205,10 +202,10 @@ class FilesPanel(QWidget):
 
     def _ask_save_as(self) -> None:
         suggested = str(self.path) if self.path is not None else ""
-        chosen, _ = QFileDialog.getSaveFileName(self, "Save experiment", suggested, _KINDS)
-        if chosen:
-            path = Path(chosen)
-            self.save_as(path if path.suffix else path.with_suffix(".toml"))
+        ask_save(self, "Save experiment", suggested, _KINDS, self._save_as)
+
+    def _save_as(self, path: Path) -> None:
+        self.save_as(path if path.suffix else path.with_suffix(".toml"))
 
     def _arrange(self) -> None:
         buttons = QHBoxLayout()

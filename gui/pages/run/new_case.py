@@ -6,7 +6,6 @@ from PySide6.QtWidgets import (
     QComboBox,
     QDialog,
     QDialogButtonBox,
-    QFileDialog,
     QFormLayout,
     QHBoxLayout,
     QLabel,
@@ -15,6 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from gui.asking import ask_folder
 from gui.widgets import button
 from instrument.errors import BadInput
 from instrument.simulated_case import DEFAULT_EFFECT, EFFECTS, FILES, chosen_effect, write_case
@@ -62,9 +62,10 @@ class NewCase(QDialog):
         return Path(self.folder.text()).expanduser(), self.effect.currentText(), self.seed.value()
 
     def _browse(self) -> None:
-        chosen = QFileDialog.getExistingDirectory(self, "Folder", self.folder.text())
-        if chosen:
-            self.folder.setText(chosen)
+        ask_folder(self, "Folder", self.folder.text(), self._chosen)
+
+    def _chosen(self, folder: Path) -> None:
+        self.folder.setText(str(folder))
 
 
 def write(folder: Path, effect: str, seed: int) -> Path:

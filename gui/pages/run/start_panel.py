@@ -7,7 +7,6 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
-    QFileDialog,
     QFormLayout,
     QHBoxLayout,
     QLineEdit,
@@ -16,6 +15,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from gui.asking import ask_folder
 from gui.form.draft import Drafts
 from gui.widgets import button
 from instrument.engine import Order
@@ -122,10 +122,11 @@ class StartPanel(QWidget):
             one.setShortcut(key)
 
     def _browse(self) -> None:
-        chosen = QFileDialog.getExistingDirectory(self, "Folder of the session", self.out.text())
-        if chosen:
-            self.out.setText(chosen)
-            self.out_changed.emit()
+        ask_folder(self, "Folder of the session", self.out.text(), self._chosen)
+
+    def _chosen(self, folder: Path) -> None:
+        self.out.setText(str(folder))
+        self.out_changed.emit()
 
     def _arrange(self) -> None:
         parts = QHBoxLayout()

@@ -1,0 +1,95 @@
+"""Questions to a person: for a file, for a word. None of them is modal, so that STOP is never behind one.
+
+What was chosen goes to a function; nothing is waited for. A dialog of a purpose is there once: asked for
+again, the one before goes.
+"""
+
+from collections.abc import Callable
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QDialog, QFileDialog, QMessageBox, QWidget
+
+Then = Callable[[Path], object]
+_FILES = QFileDialog.FileMode
+
+
+def show(dialog: QDialog, owner: QWidget, purpose: str) -> None:
+    """On top of its window, which stays alive below it."""
+    for before in owner.findChildren(QDialog, purpose, Qt.FindChildOption.FindDirectChildrenOnly):
+        before.close()
+        before.deleteLater()
+    dialog.setObjectName(purpose)
+    dialog.setModal(False)
+    dialog.show()
+    dialog.raise_()
+    dialog.activateWindow()
+
+
+def ask_open(owner: QWidget, title: str, start: str, kinds: str, then: Then) -> None:
+    """For a file that is there."""
+    _ask(owner, title, start, kinds, _FILES.ExistingFile, then)
+
+
+def ask_open_many(owner: QWidget, title: str, start: str, kinds: str, then: Then) -> None:
+    """For files; each is told."""
+    _ask(owner, title, start, kinds, _FILES.ExistingFiles, then)
+
+
+def ask_save(owner: QWidget, title: str, start: str, kinds: str, then: Then) -> None:
+    """For a file to be written."""
+    _ask(owner, title, start, kinds, _FILES.AnyFile, then)
+
+
+def ask_folder(owner: QWidget, title: str, start: str, then: Then) -> None:
+    """For a folder."""
+    _ask(owner, title, start, "", _FILES.Directory, then)
+
+
+def ask_word(owner: QWidget, title: str, question: str, yes: str, then: Callable[[], object]) -> QMessageBox:
+    """For a yes, whose words are given; anything else changes nothing."""
+    box = QMessageBox(QMessageBox.Icon.Question, title, question, parent=owner)
+    agreed = box.addButton(yes, QMessageBox.ButtonRole.AcceptRole)
+    box.addButton(QMessageBox.StandardButton.Cancel)
+    agreed.clicked.connect(then)
+    show(box, owner, title)
+    return box
+
+
+def tell(owner: QWidget, title: str, text: str) -> None:
+    """Something to read."""
+    box = QMessageBox(QMessageBox.Icon.NoIcon, title, text, parent=owner)
+    box.addButton(QMessageBox.StandardButton.Close)
+    show(box, owner, title)
+
+
+def _ask(owner: QWidget, title: str, start: str, kinds: str, mode: QFileDialog.FileMode, then: Then) -> None:
+    dialog = _Files(owner, title, then)
+    # The system's own dialogs are modal, and keep the keyboard to themselves.
+    dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
+    dialog.setFileMode(mode)
+    if mode == _FILES.AnyFile:
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+    if mode == _FILES.Directory:
+        dialog.setOption(QFileDialog.Option.ShowDirsOnly)
+    if kinds:
+        dialog.setNameFilter(kinds)
+    at = Path(start).expanduser() if start else Path.cwd()
+    if at.is_dir():
+        dialog.setDirectory(str(at))
+    else:
+        dialog.setDirectory(str(at.parent))
+        dialog.selectFile(at.name)
+    show(dialog, owner, title)
+
+
+class _Files(QFileDialog):
+    def __init__(self, owner: QWidget, title: str, then: Then) -> None:
+        super().__init__(owner, title)
+        self._then = then
+        self.accepted.connect(self._tell)
+
+    def _tell(self) -> None:
+        for name in self.selectedFiles():
+            if name:
+                self._then(Path(name))
