@@ -39,6 +39,8 @@ class AppController(QObject):
         `beside` holds other data now.
     experiment_chosen
         Path of an experiment file, to be shown and run.
+    comparison_wanted
+        Path of a session whose law is to be laid beside this one's.
     """
 
     changed = Signal()
@@ -47,6 +49,7 @@ class AppController(QObject):
     busy = Signal(str)
     beside_changed = Signal()
     experiment_chosen = Signal(Path)
+    comparison_wanted = Signal(Path)
     engine: Sequence[str] = ENGINE
     """The program runs live in."""
 

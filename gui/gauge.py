@@ -4,10 +4,12 @@ from PySide6.QtCore import QRectF
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy, QWidget
 
+from gui.state.readings import FRESH_S
 from gui.theme import Role, current_theme
 
 _NEAR, _AT = 0.8, 1.0
 _BAR_PX = 3
+_OLD = "Nothing newer has come"
 
 
 class Gauge(QLabel):
@@ -16,22 +18,27 @@ class Gauge(QLabel):
     def __init__(self, name: str, parent: QWidget | None = None, *, large: bool = False) -> None:
         super().__init__(parent)
         self._name, self._share, self._said, self._large = name, 0.0, "", large
+        self.value: float | None = None
+        self.marked = False
+        """Whether it says that the value is not of now."""
         self.setContentsMargins(0, 0, 0, _BAR_PX + 1)
         # Numbers that change their width must not move everything around them.
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.show_value(None)
 
-    def show_value(self, value: float | None, limit: float = 1.0, unit: str = "") -> None:
-        """The value now, and the limit it is held under; None where there is none."""
+    def show_value(self, value: float | None, limit: float = 1.0, unit: str = "", age_s: float = 0.0) -> None:
+        """The value, the limit it is held under, and how old it is; None where there is none."""
+        self.value, self.marked = value, value is not None and age_s > FRESH_S
         share = 0.0 if value is None else min(1.0, value / limit)
-        said = (
-            f"{self._name} \u2013"
-            if value is None
-            else f"{self._name} {_short(value)} / {_short(limit)} {unit}"
-        )
+        said = f"{self._name} \u2013"
+        if value is not None:
+            age = f", {_old(age_s)} ago" if self.marked else ""
+            said = f"{self._name} {_short(value)} / {_short(limit)} {unit}{age}"
         if share != self._share or said != self._said:
             self._share, self._said = share, said
             self.setText(f"<span style='font-size:x-large'>{said}</span>" if self._large else said)
+            self.setToolTip(_OLD if self.marked else "")
+            self.setEnabled(not self.marked)
             self.update()
 
     def paintEvent(self, event: QPaintEvent) -> None:
@@ -49,9 +56,15 @@ class Gauge(QLabel):
 
     @property
     def _role(self) -> Role:
+        if self.marked:
+            return "faint"
         if self._share >= _AT:
             return "bad"
         return "fair" if self._share >= _NEAR else "good"
+
+
+def _old(seconds: float) -> str:
+    return f"{seconds:.1f} s" if seconds < 10 else f"{seconds:.0f} s"
 
 
 def _short(value: float) -> str:

@@ -2,13 +2,15 @@
 
 from typing import Any
 
-from PySide6.QtCore import QSignalBlocker, Qt
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
+from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import (
     QComboBox,
     QFrame,
     QHBoxLayout,
     QLabel,
     QSlider,
+    QStyle,
     QWidget,
 )
 
@@ -17,6 +19,7 @@ from gui.top_bar import duration
 from gui.widgets import button, tool
 
 _STEPS = 10_000
+_VERIFY = "Verify"
 SPEEDS: dict[str, float | None] = {
     "0.25\u00d7": 0.25,
     "1\u00d7": 1.0,
@@ -28,8 +31,28 @@ SPEEDS: dict[str, float | None] = {
 }
 
 
+class Scrubber(QSlider):
+    """A click goes to where it is, and the handle follows from there."""
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Go there, then drag."""
+        if event.button() == Qt.MouseButton.LeftButton:
+            handle = self.style().pixelMetric(QStyle.PixelMetric.PM_SliderLength, None, self)
+            at, room = round(event.position().x()) - handle // 2, self.width() - handle
+            self.setValue(QStyle.sliderValueFromPosition(self.minimum(), self.maximum(), at, room))
+        super().mousePressEvent(event)
+
+
 class ReplayBar(QFrame):
-    """Of one recording at a time."""
+    """Of one recording at a time.
+
+    Signals
+    -------
+    compare_wanted
+        Another session is to be laid beside this one.
+    """
+
+    compare_wanted = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -37,7 +60,7 @@ class ReplayBar(QFrame):
         self.play = button("Play", "Play or pause (Ctrl+Space)")
         self.back = tool("|\u25c0", "To the mark before (Ctrl+Left)")
         self.on = tool("\u25b6|", "To the next mark (Ctrl+Right)")
-        self.slider = QSlider(Qt.Orientation.Horizontal)
+        self.slider = Scrubber(Qt.Orientation.Horizontal)
         self.slider.setMaximum(_STEPS)
         self.slider.setPageStep(_STEPS // 50)
         self.time, self.mark = QLabel(), QLabel()
@@ -45,14 +68,16 @@ class ReplayBar(QFrame):
         self.speed.setToolTip("Speed")
         self.speed.addItems(list(SPEEDS))
         self.speed.setCurrentText("1\u00d7")
-        self.compare = button("Compare", "Compute everything derived again and compare with the recording")
+        self.compare = button("Compare ...", "Lay the law of another session beside this one's")
+        self.verify = button(_VERIFY, "Compute everything derived again: does it equal the recording?")
         self.verdict = QLabel()
         self.play.clicked.connect(self.toggle)
         self.back.clicked.connect(self.to_mark_before)
         self.on.clicked.connect(self.to_next_mark)
         self.slider.valueChanged.connect(self._slid)
         self.speed.currentTextChanged.connect(self._speed_chosen)
-        self.compare.clicked.connect(self._compare)
+        self.compare.clicked.connect(self.compare_wanted)
+        self.verify.clicked.connect(self._verify)
         row = QHBoxLayout(self)
         row.setContentsMargins(8, 2, 8, 2)
         for widget in (
@@ -64,6 +89,7 @@ class ReplayBar(QFrame):
             self.mark,
             self.speed,
             self.compare,
+            self.verify,
             self.verdict,
         ):
             row.addWidget(widget, 1 if widget is self.slider else 0)
@@ -120,24 +146,24 @@ class ReplayBar(QFrame):
         self.mark.setText(passed[-1] if passed else "")
         self.play.setText("Pause" if feed.playing else "Play")
 
-    def _compare(self) -> None:
+    def _verify(self) -> None:
         if self._feed is None:
             return
         if self._feed.comparing:
             self._feed.cancel_comparison()
-            self._say("Compare", "not compared")
+            self._say(_VERIFY, "not compared")
         else:
             self._feed.compare()
             self._say("Cancel", "computing again ...")
 
     def _compared(self, facts: dict[str, Any]) -> None:
         same = facts["equal_to_recorded"]
-        self._say("Compare", f"{facts['derived_events']} events {'equal' if same else 'NOT all equal'}")
+        self._say(_VERIFY, f"{facts['derived_events']} events {'equal' if same else 'NOT all equal'}")
         self.verdict.setToolTip("\n".join(facts["differences"]))
 
     def _not_compared(self, message: str) -> None:
-        self._say("Compare", message)
+        self._say(_VERIFY, message)
 
     def _say(self, button: str, verdict: str) -> None:
-        self.compare.setText(button)
+        self.verify.setText(button)
         self.verdict.setText(verdict)

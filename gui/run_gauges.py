@@ -1,12 +1,16 @@
 """How near a run is to its limits, and the colour of its state: the same in the bar above and on the page."""
 
-from math import pi
+from PySide6.QtCore import QObject, QTimer
 
+from gui.controller import AppController
 from gui.gauge import Gauge
 from gui.state import SessionState
 from gui.theme import Role, current_theme
+from instrument.stepped_sine.settings import Limits
 
 _COLORS: dict[str, Role] = {"held": "fair", "stopped": "bad", "done": "good", "idle": "faint"}
+_LOOKS_MS = 100
+"""A value grows older also where nothing comes."""
 
 
 def state_color(state: str) -> str:
@@ -14,23 +18,42 @@ def state_color(state: str) -> str:
     return current_theme().color(_COLORS.get(state, "data")).name()
 
 
-def run_gauges(*, large: bool = False) -> dict[str, Gauge]:
-    """One for each limit."""
-    return {name: Gauge(name, large=large) for name in ("drive", "base", "velocity", "travel")}
+class RunGauges(QObject):
+    """One for each limit. They show what is so now, or how old it is, whether anything comes or not."""
 
+    def __init__(self, controller: AppController, *, large: bool = False) -> None:
+        super().__init__()
+        self._desk = controller
+        self.by_name = {name: Gauge(name, large=large) for name in ("drive", "base", "velocity", "travel")}
+        self._timer = QTimer(self)
+        self._timer.timeout.connect(self.refresh)
+        self._timer.start(_LOOKS_MS)
 
-def show_on_gauges(gauges: dict[str, Gauge], state: SessionState | None) -> bool:
-    """The step in progress; whether there is one."""
-    step = state.step if state is not None else None
-    if state is None or step is None or state.run.over:
-        for gauge in gauges.values():
-            gauge.show_value(None)
-        return False
-    limits = state.limits.limits
-    base, velocity = step.peaks()
-    travel = base / (2 * pi * step.began.frequency_hz) ** 2
-    gauges["drive"].show_value(step.drive_v, limits.drive_v, "V")
-    gauges["base"].show_value(base, limits.base_m_s2, "m/s\u00b2")
-    gauges["velocity"].show_value(1e3 * velocity, 1e3 * limits.velocity_m_s, "mm/s")
-    gauges["travel"].show_value(1e3 * travel, 1e3 * limits.travel_m, "mm")
-    return True
+    @property
+    def drive(self) -> Gauge:
+        """Of the shaker's output."""
+        return self.by_name["drive"]
+
+    def refresh(self) -> None:
+        """Look again."""
+        state, feed = self._desk.state, self._desk.feed
+        if state is None or feed is None or state.run.over:
+            for gauge in self.by_name.values():
+                gauge.show_value(None)
+            return
+        drive_age_s, samples_age_s = feed.ages_s
+        readings, limits = state.readings, state.limits.limits
+        self.drive.show_value(readings.drive_v, limits.drive_v, "V", drive_age_s)
+        self._show_motion(state, limits, samples_age_s)
+
+    def _show_motion(self, state: SessionState, limits: Limits, age_s: float) -> None:
+        peaks = state.peaks()
+        base, velocity = peaks if peaks is not None else (None, None)
+        travel = state.readings.travel_m(base) if base is not None else None
+        for name, value, limit, factor, unit in (
+            ("base", base, limits.base_m_s2, 1.0, "m/s\u00b2"),
+            ("velocity", velocity, limits.velocity_m_s, 1e3, "mm/s"),
+            ("travel", travel, limits.travel_m, 1e3, "mm"),
+        ):
+            gauge = self.by_name[name]
+            gauge.show_value(None if value is None else factor * value, factor * limit, unit, age_s)

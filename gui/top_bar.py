@@ -1,6 +1,7 @@
 """Always seen: how the run stands, what comes next, how near the limits are; and the stop button."""
 
 from PySide6.QtCore import QEvent, Qt
+from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
@@ -14,13 +15,15 @@ from PySide6.QtWidgets import (
 
 from fitting.gravity import PUBLISHED_G_M_S2
 from gui.controller import AppController
-from gui.run_gauges import run_gauges, show_on_gauges, state_color
+from gui.run_gauges import RunGauges, state_color
 from gui.state import SessionState
 from gui.state.run import WORDS
 from gui.stop_button import StopButton
+from gui.theme import current_theme
 from gui.widgets import button
 
 _PERMILLE = 1000
+_EDGE_PX = 2
 
 
 class TopBar(QFrame):
@@ -28,7 +31,7 @@ class TopBar(QFrame):
 
     def __init__(self, controller: AppController, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._desk = controller
+        self._desk, self._recorded = controller, False
         self.state, self.next, self.left = QLabel(), QLabel(), QLabel()
         self.next.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.next.setTextFormat(Qt.TextFormat.PlainText)
@@ -36,7 +39,7 @@ class TopBar(QFrame):
         self.progress.setTextVisible(False)
         self.progress.setFixedWidth(160)
         self.level = QLabel()
-        self.gauges = run_gauges()
+        self.gauges = RunGauges(controller)
         self.hold = button("Hold", "Silence the shaker and wait (F9)")
         self.abort = button("Abort", "End the run in order; what is complete is kept")
         self.stop = StopButton()
@@ -71,31 +74,50 @@ class TopBar(QFrame):
         self._show_progress(state)
         self._show_gauges(state)
 
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """A recorded session stands on other ground, with an edge all around."""
+        super().paintEvent(event)
+        if self._recorded:
+            painter, theme = QPainter(self), current_theme()
+            painter.fillRect(self.rect(), QColor(theme.note))
+            painter.fillRect(0, self.height() - _EDGE_PX, self.width(), _EDGE_PX, theme.color("fair"))
+            painter.end()
+
+    def _look(self, recorded: bool) -> None:
+        if recorded != self._recorded:
+            self._recorded = recorded
+            self.update()
+
     def _size(self) -> None:
         """Words that change must not move what stands beside them."""
         for label, longest in (
-            (self.state, "hammer test  "),
+            (self.state, "RECORDED calibration"),
             (self.left, "59:59 min left"),
             (self.level, "level 0.123 g"),
         ):
             label.setFixedWidth(self.fontMetrics().horizontalAdvance(longest) * 6 // 5)
 
     def _say(self, state: str, words: str) -> None:
-        self.state.setText(f"<b style='color:{state_color(state)}'>\u25cf {WORDS[state]}</b>")  # type: ignore[index]
+        recorded = self._desk.recorded is not None
+        sign = "RECORDED" if recorded else "\u25cf"
+        self.state.setText(f"<b style='color:{state_color(state)}'>{sign} {WORDS[state]}</b>")  # type: ignore[index]
+        self._look(recorded)
         self.next.setText(words)
         self.next.setToolTip(words)
 
     def _show_progress(self, state: SessionState) -> None:
         work = state.run.work
         fraction = work[1] if work is not None else state.plan.progress
-        self.progress.setVisible(not state.run.over)
+        live = self._desk.recorded is None and not state.run.over
+        self.progress.setVisible(live)
         self.progress.setMaximum(_PERMILLE if fraction is not None else 0)
         self.progress.setValue(round(_PERMILLE * (fraction or 0.0)))
         left = self._desk.feed.left_s if self._desk.feed is not None else None
-        self.left.setText("" if left is None or state.run.over else f"{duration(left)} left")
+        self.left.setText(f"{duration(left)} left" if live and left is not None else "")
 
     def _show_gauges(self, state: SessionState | None) -> None:
-        if not show_on_gauges(self.gauges, state) or state is None or state.step is None:
+        self.gauges.refresh()
+        if state is None or state.run.over or state.step is None or not state.readings.channels:
             self.level.clear()
             return
         level = state.step.began.level_m_s2
@@ -108,7 +130,7 @@ class TopBar(QFrame):
         above.addWidget(self.progress)
         above.addWidget(self.left)
         below.addWidget(self.level)
-        for gauge in self.gauges.values():
+        for gauge in self.gauges.by_name.values():
             below.addWidget(gauge, 1)
         rows = QVBoxLayout()
         rows.addLayout(above)

@@ -16,9 +16,9 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QMessageBox, QTabWidget, QVBoxLayout, QWidget
 
 from fitting.plugins import told
-from gui.asking import ask_word
+from gui.asking import ask_open_many, ask_word
 from gui.background_task import BackgroundTask, Command
-from gui.controller import AppController
+from gui.controller import SESSION_ENDINGS, AppController
 from gui.log_pane import LogPane
 from gui.menus import Menus
 from gui.notice import Notice
@@ -68,6 +68,7 @@ class Window(Shell):
         self.controller.said.connect(self.notice.say)
         self.controller.busy.connect(self._busy)
         self.controller.experiment_chosen.connect(self._chosen)
+        self.replay.compare_wanted.connect(self._ask_compare)
         self._timer = QTimer(self)
         self._timer.setInterval(TURN_MS)
         self._timer.timeout.connect(self._tick)
@@ -219,6 +220,15 @@ class Window(Shell):
         self.settings.remember(path)
         self.menus.refresh()
         self.show_page("run")
+
+    def _ask_compare(self) -> None:
+        endings = " ".join(f"*{ending}" for ending in SESSION_ENDINGS)
+        ask_open_many(self, "Compare with", "", f"Sessions ({endings})", self._compare)
+
+    def _compare(self, path: Path) -> None:
+        """Shown where laws are drawn beside each other."""
+        self.controller.comparison_wanted.emit(path)
+        self.show_page("material")
 
     def _changed(self) -> None:
         recorded = self.controller.recorded

@@ -33,6 +33,11 @@ class Feed(QObject):
         """Seconds until the end; None where nobody knows."""
         return None
 
+    @property
+    def ages_s(self) -> tuple[float, float]:
+        """Of the drive and of the samples in `state.readings`; 0 of a recording, whose time stands still."""
+        return 0.0, 0.0
+
     def advance(self) -> None:
         """Take what is there, for `MOST_S` at most. Never waits."""
         raise NotImplementedError

@@ -21,6 +21,7 @@ from instrument.engine.messages import (
     RecordingBegan,
     RigClosed,
     RigOpened,
+    ShakerSeen,
     StopPathChanged,
 )
 from instrument.session.configuration import Configuration
@@ -81,6 +82,13 @@ class LiveFeed(Feed):
         left = self.state.plan.left_s if self.state is not None else None
         return None if left is None else left * self._pace.wall_s_per_s
 
+    @property
+    def ages_s(self) -> tuple[float, float]:
+        """Seconds since anything was heard of the drive, and of the samples."""
+        assert self.state is not None
+        readings, now = self.state.readings, monotonic()
+        return now - readings.drive_at, now - readings.samples_at
+
     def expect(self, seconds: dict[int, float]) -> None:
         """Seconds forecast for each segment."""
         if self.state is not None:
@@ -132,7 +140,7 @@ class LiveFeed(Feed):
         assert self.state is not None
         match message:
             case Happened():
-                self.state.take(message.event)
+                self.state.take(message.event, message.at_s)
                 self._follow(message.event)
             case Asked():
                 self._ask(message)
@@ -147,6 +155,10 @@ class LiveFeed(Feed):
                 self.recording = message
             case RigOpened() | RigClosed():
                 self.rig_open = isinstance(message, RigOpened)
+                self.state.readings.forget()
+            case ShakerSeen():
+                if self.rig_open:
+                    self.state.readings.see_drive(message.drive_v, message.at_s)
             case StopPathChanged():
                 self.stop_path = message
                 if not message.ready:

@@ -12,6 +12,7 @@ import numpy as np
 
 from gui.state.log import Kind, Log
 from gui.state.plan import Plan
+from gui.state.readings import Readings
 from gui.state.run import Run
 from gui.state.step import Step
 from instrument.cli.watching import said_of
@@ -123,6 +124,7 @@ class SessionState:
         self.run = Run(configuration.experiment)
         self.plan = Plan(configuration.experiment.sweep)
         self.step: Step | None = None
+        self.readings = Readings()
         self.acquisition: AcquisitionBegan | None = None
         self.range: RangeSet | None = None
         self.signal_level: float | None = None
@@ -143,8 +145,8 @@ class SessionState:
         """Grows with every change of anything."""
         return self.changed.total()
 
-    def take(self, event: Event) -> None:
-        """One event of the stream, in order."""
+    def take(self, event: Event, at: float = 0.0) -> None:
+        """One event of the stream, in order, and when it came on the clock of whoever watches it live."""
         self._clock.take(event)
         if isinstance(event, BlockAcquired):
             self._now_s = self._clock.at(event.first_sample + event.samples)
@@ -152,6 +154,7 @@ class SessionState:
         self.run.take(event)
         self.plan.take(event, self._now_s)
         self._follow(event)
+        self.readings.take(event, at)
         said = said_of(event)
         if said is not None:
             self.say(said, "warning" if isinstance(event, LimitWarned) else "said")
@@ -181,6 +184,13 @@ class SessionState:
             self.say(self.run.ending, "said" if why == "done" else "fault")
         self._changed("run", "fits")
 
+    def peaks(self) -> tuple[float, float] | None:
+        """Largest base acceleration and velocity of the newest block; None where there is none."""
+        return self.readings.peaks(self._scaling(self.acquisition)) if self.acquisition is not None else None
+
+    def _scaling(self, acquisition: AcquisitionBegan) -> Scaling:
+        return Scaling.of(acquisition.channels, self.configuration.rig.channels.named())
+
     def expect(self, seconds: dict[int, float]) -> None:
         """Seconds forecast for each segment: from then on the time left can be told."""
         self.plan.forecast_s = dict(seconds)
@@ -205,9 +215,7 @@ class SessionState:
             case SignalLevelRead():
                 self.signal_level = event.value
             case StepBegan() if self.acquisition is not None:
-                sensors = self.configuration.rig.channels.named()
-                scaling = Scaling.of(self.acquisition.channels, sensors)
-                self.step = Step(event, self.acquisition, scaling)
+                self.step = Step(event, self.acquisition, self._scaling(self.acquisition))
             case FitStarted():
                 self.fit_running = event.number
             case FitUpdated():

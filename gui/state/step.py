@@ -97,13 +97,6 @@ class Step:
         """A channel's, so far."""
         return sum(h.block.samples for h in self._heard)
 
-    def peaks(self) -> tuple[float, float]:
-        """Largest base acceleration and velocity of the latest block, m/s^2 and m/s; 0 before the first."""
-        if not self._heard:
-            return 0.0, 0.0
-        base, velocity = np.abs(self._in_units(self._heard[-1])).max(axis=1)
-        return float(base), float(velocity)
-
     def trace(self, last_s: float | None = None) -> Trace:
         """Base and velocity in units; the last seconds alone where a number is given."""
         wanted = self._last(last_s)

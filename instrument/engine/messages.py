@@ -1,7 +1,8 @@
 """What goes over the pipe between the engine and its client. Frozen, plain; every kind is in this file."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+from time import monotonic
 from typing import ClassVar, Literal
 
 from instrument.files.rig_file import Shaker
@@ -88,6 +89,8 @@ class Happened(Message):
     """
 
     event: Event
+    at_s: float = field(default_factory=monotonic, compare=False)
+    """When it came here, on `time.monotonic`."""
 
 
 @dataclass(frozen=True)
@@ -185,6 +188,16 @@ class StopPathChanged(Message):
     ready: bool
     message: str = ""
     """Why not, in one line; what stops the shaker then."""
+
+
+@dataclass(frozen=True)
+class ShakerSeen(Message):
+    """What the shaker itself says, over the client's own connection: several times a second."""
+
+    drive_v: float
+    """Amplitude at its output."""
+    at_s: float
+    """When it was asked, on `time.monotonic`."""
 
 
 def ended(why: Why, message: str, recorded: RecordingBegan | None) -> Ended:

@@ -7,16 +7,17 @@ the engine itself stops the shaker when it is told to.
 
 import threading
 from collections.abc import Callable
+from time import monotonic
 
 from drivers.errors import DriverError
 from drivers.shaker.driver import ShakerOptions
-from instrument.engine.messages import StopPathChanged
+from instrument.engine.messages import Message, ShakerSeen, StopPathChanged
 from instrument.engine.stoppable import came_to_rest
 from instrument.files.devices import SHAKERS
 from instrument.run.rig import open_shaker
 
-_TRIED_EVERY_S = 1.0
-"""Devices close connections that are idle."""
+_LOOKS_EVERY_S = 0.2
+"""Devices close connections that are idle, and a person wants to see the drive of now."""
 _ANSWER_S, _RETRIES = 0.5, 2
 """A stop that waits longer for one answer had better begin again."""
 _ALONE = (
@@ -33,10 +34,11 @@ class StopPath:
     table
         Where it answers.
     changed
-        Told when the connection stands, and when it does not any more; on a thread of its own.
+        Told when the connection stands, and when it does not any more, and what the shaker says of itself;
+        on a thread of its own.
     """
 
-    def __init__(self, table: ShakerOptions, changed: Callable[[StopPathChanged], object]) -> None:
+    def __init__(self, table: ShakerOptions, changed: Callable[[Message], object]) -> None:
         self._shaker = open_shaker(table, timeout_s=_ANSWER_S, retries=_RETRIES)
         self.is_shared = SHAKERS[table.kind].is_shared
         """Whether it works beside the engine."""
@@ -65,11 +67,13 @@ class StopPath:
             if now != told and not self._closing.is_set():
                 self._changed(now)
                 told = now
-            self._closing.wait(_TRIED_EVERY_S)
+            self._closing.wait(_LOOKS_EVERY_S)
 
     def _try(self) -> StopPathChanged:
+        asked_s = monotonic()
         try:
-            self._shaker.status()
+            status = self._shaker.status()
         except DriverError as error:
             return StopPathChanged(False, " ".join(str(error).split()))
+        self._changed(ShakerSeen(status.drive_v, asked_s))
         return StopPathChanged(True)

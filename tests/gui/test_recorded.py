@@ -109,15 +109,15 @@ def test_a_file_that_is_none_is_said_once(tmp_path):
 def test_comparison_says_equal(qtbot, opened):
     feed = opened.controller.recorded
     with qtbot.waitSignal(feed.compared, timeout=60_000):
-        opened.replay.compare.click()
+        opened.replay.verify.click()
         assert feed.comparing
     assert feed.comparison["equal_to_recorded"]
     assert "equal" in opened.replay.verdict.text()
 
 
 def test_comparison_can_be_cancelled(qtbot, opened):
-    opened.replay.compare.click()
-    opened.replay.compare.click()
+    opened.replay.verify.click()
+    opened.replay.verify.click()
     qtbot.waitUntil(lambda: not opened.controller.recorded.comparing)
     assert opened.controller.recorded.comparison is None
 

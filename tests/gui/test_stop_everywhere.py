@@ -9,13 +9,10 @@ from engine_cases import LONG, drive_v, engine_rig, is_silent, wait_until
 from openers import aside, click, close_all, dialogs, opened_by, openers, popups, press, visit
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QLineEdit, QMessageBox
-from quick_engine import QUICK_ENGINE
+from window_runs import run_until_driven
 
 from gui.background_task import Command
 from gui.controller import AppController
-from gui.feeds.live import LiveFeed
-from instrument.engine import Engine, Order
-from instrument.session.configuration import read_whole_experiment
 
 WITHIN_S = 0.5
 
@@ -150,19 +147,6 @@ def test_a_file_dialog_gives_what_was_chosen(qtbot, opened, session_path):
 
 
 # With a shaker
-
-
-def run_until_driven(qtbot, window, rig, experiment, out):
-    order = Order(experiment, out, ("sweep",))
-    configuration = read_whole_experiment(experiment).configuration("run", "")
-    window.controller._show(
-        LiveFeed(order, configuration, window.controller, Engine.start(order, QUICK_ENGINE))
-    )
-    live = window.controller.live
-    qtbot.waitUntil(
-        lambda: bool(live.state.contents.points) and live.stop_path is not None and drive_v(rig) > 0.05,
-        timeout=60_000,
-    )
 
 
 def opened_now(qtbot, window, name):

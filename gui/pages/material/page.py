@@ -42,6 +42,7 @@ class MaterialPage(Page):
         self._arrange()
         self.comparison.changed.connect(self._draw_lines)
         self.comparison.failed.connect(controller.refused)
+        controller.comparison_wanted.connect(self.comparison.read)
         controller.changed.connect(self._another_session)
         controller.rediagnosis.changed.connect(self._show)
 

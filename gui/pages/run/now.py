@@ -4,9 +4,10 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
 from fitting.gravity import PUBLISHED_G_M_S2
+from gui.controller import AppController
 from gui.feeds.live import LiveFeed
 from gui.gauge import Gauge
-from gui.run_gauges import run_gauges, show_on_gauges, state_color
+from gui.run_gauges import RunGauges, state_color
 from gui.state import SessionState
 from gui.state.run import WORDS
 from gui.tables import Cell, Table
@@ -27,13 +28,13 @@ _NOTHING = "No run and no session. How a run stands appears here: state, level, 
 class NowPane(QWidget):
     """Reads the picture, and of a run how its stop path stands."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, controller: AppController, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.state, self.next = QLabel(), QLabel()
         self.next.setWordWrap(True)
         self.next.setTextFormat(Qt.TextFormat.PlainText)
         self.level = Gauge("level", large=True)
-        self.gauges = run_gauges(large=True)
+        self.gauges = RunGauges(controller, large=True)
         self.segments = Table(_COLUMNS)
         self.path = QLabel()
         self.path.setWordWrap(True)
@@ -79,7 +80,8 @@ class NowPane(QWidget):
         self.segments.scrollToBottom()
 
     def _show_gauges(self, state: SessionState) -> None:
-        if not show_on_gauges(self.gauges, state) or state.step is None:
+        self.gauges.refresh()
+        if state.step is None or state.run.over or not state.readings.channels:
             self.level.show_value(None)
             return
         wanted, most, g = state.step.began.level_m_s2, state.limits.limits.base_m_s2, PUBLISHED_G_M_S2
@@ -88,7 +90,7 @@ class NowPane(QWidget):
     def _arrange(self) -> None:
         self._whole = QWidget()
         grid = QGridLayout()
-        for k, gauge in enumerate((self.level, *self.gauges.values())):
+        for k, gauge in enumerate((self.level, *self.gauges.by_name.values())):
             grid.addWidget(gauge, k // 2, k % 2)
         inside = QVBoxLayout(self._whole)
         inside.setContentsMargins(0, 0, 0, 0)

@@ -32,7 +32,7 @@ class RunPage(Page):
     def __init__(self, controller: AppController) -> None:
         super().__init__(controller)
         self.files, self.starting = FilesPanel(), StartPanel()
-        self.banner, self.now = Banner(), NowPane()
+        self.banner, self.now = Banner(), NowPane(controller)
         self.check, self.checked = Check(self), CheckPane()
         self.export = Export(controller, self)
         self.report_button = button("Report...", "One self-contained page of the session")
