@@ -106,13 +106,13 @@ class TopBar(QFrame):
         self.next.setToolTip(words)
 
     def _show_progress(self, state: SessionState) -> None:
-        work = state.run.work
-        fraction = work[1] if work is not None else state.plan.progress
+        feed = self._desk.feed
+        fraction = feed.fraction if feed is not None else None
         live = self._desk.recorded is None and not state.run.over
         self.progress.setVisible(live)
         self.progress.setMaximum(_PERMILLE if fraction is not None else 0)
         self.progress.setValue(round(_PERMILLE * (fraction or 0.0)))
-        left = self._desk.feed.left_s if self._desk.feed is not None else None
+        left = feed.left_s if feed is not None else None
         self.left.setText(f"{duration(left)} left" if live and left is not None else "")
 
     def _show_gauges(self, state: SessionState | None) -> None:

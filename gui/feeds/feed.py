@@ -34,6 +34,11 @@ class Feed(QObject):
         return None
 
     @property
+    def fraction(self) -> float | None:
+        """Done, 0 to 1; None where nobody knows."""
+        return None
+
+    @property
     def ages_s(self) -> tuple[float, float]:
         """Of the drive and of the samples in `state.readings`; 0 of a recording, whose time stands still."""
         return 0.0, 0.0

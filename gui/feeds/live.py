@@ -17,6 +17,7 @@ from instrument.engine.messages import (
     Happened,
     Logged,
     Message,
+    Planned,
     Progressed,
     RecordingBegan,
     RigClosed,
@@ -78,9 +79,19 @@ class LiveFeed(Feed):
 
     @property
     def left_s(self) -> float | None:
-        """At the pace so far; a rig in virtual time is faster than its clock."""
-        left = self.state.plan.left_s if self.state is not None else None
-        return None if left is None else left * self._pace.wall_s_per_s
+        """Of the whole run, on the wall; a rig in virtual time is faster than its clock."""
+        assert self.state is not None
+        to_go = self.state.time_to_go
+        measuring, beside = to_go.measuring_s(self.state.time_s), to_go.beside_s(monotonic())
+        if measuring is None or beside is None:
+            return None
+        return measuring * self._pace.wall_s_per_s + beside
+
+    @property
+    def fraction(self) -> float | None:
+        """Of the whole run that is done, 0 to 1; None before anything is known."""
+        assert self.state is not None
+        return self.state.time_to_go.fraction(self.state.time_s, monotonic())
 
     @property
     def ages_s(self) -> tuple[float, float]:
@@ -88,11 +99,6 @@ class LiveFeed(Feed):
         assert self.state is not None
         readings, now = self.state.readings, monotonic()
         return now - readings.drive_at, now - readings.samples_at
-
-    def expect(self, seconds: dict[int, float]) -> None:
-        """Seconds forecast for each segment."""
-        if self.state is not None:
-            self.state.expect(seconds)
 
     def advance(self) -> None:
         """Take what has come."""
@@ -146,6 +152,8 @@ class LiveFeed(Feed):
                 self._ask(message)
             case Progressed():
                 self.state.work("" if message.ended else message.what, message.fraction)
+            case Planned():
+                self.state.time_to_go.plan(message.work, monotonic())
             case BlocksDropped():
                 self.blocks_dropped += message.count
                 self.state.say(f"{message.count} blocks not shown; the session has them", "warning")

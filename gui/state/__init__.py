@@ -15,6 +15,7 @@ from gui.state.plan import Plan
 from gui.state.readings import Readings
 from gui.state.run import Run
 from gui.state.step import Step
+from gui.state.time_to_go import TimeToGo
 from instrument.cli.watching import said_of
 from instrument.errors import BadInput
 from instrument.impact.record import Channel, Hit
@@ -125,6 +126,7 @@ class SessionState:
         self.plan = Plan(configuration.experiment.sweep)
         self.step: Step | None = None
         self.readings = Readings()
+        self.time_to_go = TimeToGo()
         self.acquisition: AcquisitionBegan | None = None
         self.range: RangeSet | None = None
         self.signal_level: float | None = None
@@ -152,7 +154,8 @@ class SessionState:
             self._now_s = self._clock.at(event.first_sample + event.samples)
         self._keep(event)
         self.run.take(event)
-        self.plan.take(event, self._now_s)
+        self.plan.take(event)
+        self.time_to_go.take(event, self._now_s, at)
         self._follow(event)
         self.readings.take(event, at)
         said = said_of(event)
@@ -173,6 +176,8 @@ class SessionState:
     def work(self, name: str, fraction: float | None) -> None:
         """Long work before or after measuring: how far it is; None where that is not known."""
         self.run.work = (name, fraction) if name else None
+        if self.run.state == "diagnosing":
+            self.time_to_go.computed(fraction)
         self._changed("run")
 
     def end(self, why: str, message: str) -> None:
@@ -190,11 +195,6 @@ class SessionState:
 
     def _scaling(self, acquisition: AcquisitionBegan) -> Scaling:
         return Scaling.of(acquisition.channels, self.configuration.rig.channels.named())
-
-    def expect(self, seconds: dict[int, float]) -> None:
-        """Seconds forecast for each segment: from then on the time left can be told."""
-        self.plan.forecast_s = dict(seconds)
-        self._changed("run")
 
     def _keep(self, event: Event) -> None:
         try:

@@ -46,6 +46,7 @@ WORDS: dict[State, str] = {
 }
 OVER: tuple[State, ...] = ("idle", "done", "stopped")
 """States in which nothing is going on."""
+_MEASURING: tuple[State, ...] = ("hammer", "calibration", "sweep", "held")
 
 
 @dataclass
@@ -120,7 +121,8 @@ class Run:
         """What is being done or waited for, in a line."""
         if self.question:
             return self.question
-        if self.work is not None:
+        if self.work is not None and self.state not in _MEASURING:
+            # A fit beside the sweep is not what the run does.
             return self.work[0]
         match self.state:
             case "hammer":

@@ -16,6 +16,7 @@ from time import monotonic, sleep
 from typing import BinaryIO
 
 from drivers.errors import DriverError
+from instrument.check.work import Work
 from instrument.engine.asking import HelpedOperator, RemoteOperator
 from instrument.engine.interruption import Interruption
 from instrument.engine.mailbox import Mailbox
@@ -27,6 +28,7 @@ from instrument.engine.messages import (
     HoldWanted,
     Logged,
     Message,
+    Planned,
     Progressed,
     RecordingBegan,
     ResumeWanted,
@@ -71,6 +73,10 @@ class Host(Companion):
         """Told to the client."""
         self.recorded = RecordingBegan(folder, session)
         self.mailbox.put(self.recorded)
+
+    def planned(self, work: tuple[Work, ...]) -> None:
+        """Told to the client."""
+        self.mailbox.put(Planned(work))
 
     def happened(self, event: Event) -> None:
         """Told to the client."""

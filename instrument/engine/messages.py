@@ -5,6 +5,7 @@ from pathlib import Path
 from time import monotonic
 from typing import ClassVar, Literal
 
+from instrument.check.work import Work
 from instrument.files.rig_file import Shaker
 from instrument.run.experiment import Part
 from instrument.stream.event import Event
@@ -91,6 +92,13 @@ class Happened(Message):
     event: Event
     at_s: float = field(default_factory=monotonic, compare=False)
     """When it came here, on `time.monotonic`."""
+
+
+@dataclass(frozen=True)
+class Planned(Message):
+    """All the work of the run, before it begins."""
+
+    work: tuple[Work, ...]
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,7 @@ from instrument.check.forecast import (
     planned_segments,
     with_next_coarser,
 )
+from instrument.check.work import planned_work
 from instrument.errors import BadInput, RigStopped, StoppedByUser
 from instrument.progress import Progress, quiet
 from instrument.run.analysis import Analysis
@@ -115,6 +116,7 @@ def _run(
     earlier = [event for e in entries for event in part_events(journal.folder / e.file)]
     path = journal.folder.parent / f"{name}.h5"
     companion.recording(journal.folder, path)
+    companion.planned(planned_work(experiment, forecast, parts))
     for event in earlier:
         if not isinstance(event, BlockAcquired):
             companion.happened(event)

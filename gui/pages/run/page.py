@@ -124,16 +124,9 @@ class RunPage(Page):
     def _passed(self, facts: dict[str, Any]) -> None:
         self._facts = facts
         self.checked.show_facts(facts)
-        self._expect()
 
     def _objected(self, lines: list[str]) -> None:
         self.checked.show_objections(lines)
-
-    def _expect(self) -> None:
-        """The time left can be told from the dry run."""
-        live = self.controller.live
-        if live is not None and self._facts is not None and self.controller.running:
-            live.expect({s["segment"]: s["seconds"] for s in self._facts["segments"]})
 
     def _look_for_broken_off(self) -> None:
         path = self.files.path
@@ -155,9 +148,7 @@ class RunPage(Page):
         self.export_button.setEnabled(has_session)
         if self.controller.feed is not None:
             self.tabs.setCurrentWidget(self.now)
-        if running:
-            self._expect()
-        elif self.controller.ending is not None:
+        if not running and self.controller.ending is not None:
             self._look_for_broken_off()
 
     @property

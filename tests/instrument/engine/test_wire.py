@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from drivers.shaker.modbus_driver import ModbusTcpOptions
+from instrument.check.work import Work
 from instrument.engine.messages import (
     Answered,
     Asked,
@@ -18,9 +19,11 @@ from instrument.engine.messages import (
     Logged,
     Message,
     Order,
+    Planned,
     Progressed,
     RecordingBegan,
     RigOpened,
+    ShakerSeen,
     StopPathChanged,
 )
 from instrument.engine.wire import encode, read
@@ -36,6 +39,8 @@ MESSAGES = (
     Happened(StepBegan(1, "step", 1, 1, 100.0, None, 0.5, 8.0)),
     BlocksDropped(7),
     Progressed("forecasting", 0.5),
+    Planned((Work("hit", 15.0), Work("step", 1.0, 2.5))),
+    ShakerSeen(0.5, 12.25),
     Asked("mount", "bare"),
     Logged("2026-04-01T08:00:05+00:00", "WARNING", "line\nand another"),
     RecordingBegan(Path("x.running"), Path("x.h5")),

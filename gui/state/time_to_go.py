@@ -1,0 +1,177 @@
+"""How long a run will still take, all of it, and how far it is. No Qt.
+
+A piece of work is forecast before the run begins; each kind is then weighed with what its pieces took so far,
+so that the forecast grows true as the run goes on. Measuring goes by the session's clock, waiting for a
+person and computing by the wall's.
+"""
+
+from collections import deque
+from dataclasses import dataclass, field
+
+from instrument.check.work import Kind, Work
+from instrument.stream.derived import DiagnosisFound, FitUpdated, HitJudged, PointMeasured
+from instrument.stream.event import Event
+from instrument.stream.raw import (
+    AcquisitionBegan,
+    DiagnosisStarted,
+    FitStarted,
+    HammerTestEnded,
+    Held,
+    OperatorDid,
+    StepBegan,
+)
+
+_SETTLES = 0.5
+"""Of the time from scratch that settling takes as a rule: a step begins near its end."""
+_PRIOR = 2.0
+"""So many pieces of a kind count as having gone as forecast."""
+_DIDS: dict[str, Kind] = {"mounted": "mount", "aimed": "aim"}
+_POINTS: dict[str, Kind] = {"calibration": "calibration", "step": "step", "sentinel": "sentinel"}
+_ON_WALL: tuple[Kind, ...] = ("mount", "aim", "fit", "diagnosis")
+
+
+@dataclass
+class _Pace:
+    """Of one kind."""
+
+    forecast_s: float = 0.0
+    took_s: float = 0.0
+    pieces: int = 0
+
+    def learn(self, work: Work, took_s: float) -> None:
+        self.forecast_s += _seconds(work)
+        self.took_s += took_s
+        self.pieces += 1
+
+    @property
+    def ratio(self) -> float:
+        """Of what it takes to what was forecast."""
+        if not self.pieces:
+            return 1.0
+        prior_s = _PRIOR * self.forecast_s / self.pieces
+        return (self.took_s + prior_s) / (self.forecast_s + prior_s)
+
+
+@dataclass
+class TimeToGo:
+    """Follows one run; `plan` it first."""
+
+    _left: dict[Kind, deque[Work]] = field(default_factory=dict)
+    _paces: dict[Kind, _Pace] = field(default_factory=dict)
+    _done_s: float = 0.0
+    """Of all pieces that are done, as long as they took."""
+    _session_s: float = 0.0
+    """Where the piece in progress began, on the session's clock."""
+    _wall_s: float = 0.0
+    """The same on the wall's."""
+    _held: bool = False
+    _fit_began_s: float | None = None
+    _fraction: float | None = None
+    """Of the computation in progress."""
+    _planned: bool = False
+
+    def plan(self, work: tuple[Work, ...], wall_s: float) -> None:
+        """All there is to do."""
+        for one in work:
+            self._left.setdefault(one.kind, deque()).append(one)
+        self._paces = {kind: _Pace() for kind in self._left}
+        self._wall_s, self._planned = wall_s, True
+
+    def take(self, event: Event, session_s: float, wall_s: float) -> None:
+        """One event, and both clocks."""
+        match event:
+            case AcquisitionBegan():
+                self._session_s = session_s
+            case Held():
+                self._held = True
+            case StepBegan() if self._held:
+                # Nobody's pace is the worse for a pause.
+                self._held, self._session_s = False, session_s
+            case HitJudged() if event.accepted:
+                self._finish("hit", session_s - self._session_s, session_s, wall_s)
+            case HammerTestEnded():
+                self._left.pop("hit", None)
+            case PointMeasured() if event.purpose in _POINTS:
+                self._finish(_POINTS[event.purpose], session_s - self._session_s, session_s, wall_s)
+            case OperatorDid() if event.what in _DIDS:
+                self._finish(_DIDS[event.what], wall_s - self._wall_s, session_s, wall_s)
+            case FitStarted():
+                self._fit_began_s = wall_s
+            case FitUpdated() if self._fit_began_s is not None:
+                self._fitted(wall_s - self._fit_began_s, session_s, wall_s)
+            case DiagnosisStarted():
+                self._left.pop("fit", None)
+                self._wall_s, self._fraction = wall_s, None
+            case DiagnosisFound():
+                self._left.pop("diagnosis", None)
+
+    def computed(self, fraction: float | None) -> None:
+        """The diagnosis in progress is so far."""
+        self._fraction = fraction
+
+    def measuring_s(self, session_s: float) -> float | None:
+        """Still to be measured, on the session's clock; None before there is a plan."""
+        if not self._planned:
+            return None
+        pieces = [k for k in self._left if k not in _ON_WALL]
+        begun = 0.0 if self._held else session_s - self._session_s
+        return self._rest(pieces, begun)
+
+    def beside_s(self, wall_s: float) -> float | None:
+        """Still to be waited for and computed, on the wall's clock."""
+        if not self._planned:
+            return None
+        pieces = [k for k in self._left if k in _ON_WALL]
+        begun = wall_s - self._wall_s if not self._measuring else 0.0
+        if self._fraction and list(self._left) == ["diagnosis"]:
+            return begun * (1 / self._fraction - 1)
+        return self._rest(pieces, begun)
+
+    def fraction(self, session_s: float, wall_s: float) -> float | None:
+        """Of the whole run, 0 to 1."""
+        measuring, beside = self.measuring_s(session_s), self.beside_s(wall_s)
+        if measuring is None or beside is None:
+            return None
+        begun = session_s - self._session_s if self._measuring else wall_s - self._wall_s
+        done = self._done_s + (0.0 if self._held else begun)
+        return done / (done + measuring + beside) if done + measuring + beside > 0 else 1.0
+
+    @property
+    def _measuring(self) -> bool:
+        return any(k not in _ON_WALL for k in self._left)
+
+    def _rest(self, kinds: list[Kind], begun_s: float) -> float:
+        """Of these kinds, less what the first piece has behind it: never less than a bit of that piece."""
+        each = [_seconds(w) * self._ratio(k) for k in kinds for w in self._left[k]]
+        if not each:
+            return 0.0
+        return sum(each) - min(begun_s, 0.9 * min(each))
+
+    def _ratio(self, kind: Kind) -> float:
+        """A sentinel is a step; what steps took counts for it too."""
+        return self._paces["step" if kind == "sentinel" and "step" in self._paces else kind].ratio
+
+    def _finish(self, kind: Kind, took_s: float, session_s: float, wall_s: float) -> None:
+        self._session_s, self._wall_s = session_s, wall_s
+        pieces = self._left.get(kind)
+        if not pieces:
+            return
+        work = pieces.popleft()
+        if not pieces:
+            del self._left[kind]
+        self._done_s += max(took_s, 0.0)
+        # What was measured before a break took no time of this run's.
+        if took_s > 0:
+            self._paces[kind].learn(work, took_s)
+
+    def _fitted(self, took_s: float, session_s: float, wall_s: float) -> None:
+        """Fits during the sweep tell how long the last one will take."""
+        self._fit_began_s = None
+        if "fit" in self._left:
+            self._left["fit"] = deque([Work("fit", took_s)])
+            if not self._measuring:
+                self._finish("fit", took_s, session_s, wall_s)
+
+
+def _seconds(work: Work) -> float:
+    return work.fixed_s + _SETTLES * work.settling_s

@@ -1,0 +1,73 @@
+"""All the work of a run, piece by piece, with the time each will take: what a time to go is made of."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from drivers.vibrometer.models import MODELS
+from instrument.check.forecast import (
+    Forecast,
+    calibration_segments,
+    distinct,
+    planned_segments,
+    with_next_coarser,
+)
+from instrument.session.configuration import Experiment
+from instrument.session.setup import hammer_settings, setup_of
+
+Kind = Literal["mount", "aim", "hit", "calibration", "step", "sentinel", "fit", "diagnosis"]
+_MOUNT_S, _AIM_S, _STRIKE_S = 180.0, 60.0, 3.0
+"""A person's time."""
+_FIT_S, _DIAGNOSIS_S = 8.0, 60.0
+"""The computer's; what it really takes shows in the run."""
+
+
+@dataclass(frozen=True)
+class Work:
+    """One piece: two parts of its time, since only the second is a guess of the plate."""
+
+    kind: Kind
+    fixed_s: float
+    settling_s: float = 0.0
+    """From scratch to the tolerance; a step begins near its end and takes less."""
+
+
+def planned_work(experiment: Experiment, forecast: Forecast, parts: tuple[str, ...]) -> tuple[Work, ...]:
+    """In order. Raises `BadInput`."""
+    found: list[Work] = []
+    person = experiment.rig.operator.kind == "person"
+    configuration = experiment.configuration("", "")
+    hammer = hammer_settings(configuration)
+    if hammer is not None and "hammer" in parts:
+        found += [Work("mount", _MOUNT_S)] * person
+        found += [Work("hit", hammer.record_s + person * _STRIKE_S)] * hammer.hits
+    if experiment.document.sweep is not None and "sweep" in parts:
+        found += _sweep(experiment, forecast, person)
+    return tuple(found)
+
+
+def _sweep(experiment: Experiment, forecast: Forecast, person: bool) -> list[Work]:
+    table, settings = experiment.document.sweep, setup_of(experiment.configuration("", "")).sweep
+    assert table is not None
+    ranges = distinct(MODELS[experiment.rig.vibrometer.model].ranges)
+    segments, sentinel = planned_segments(forecast, table, ranges)
+    used = [s.range_name for s in segments] + ([sentinel[1]] if sentinel else [])
+    wait = float(np.log(1 / settings.settle.tolerance))
+
+    def step(kind: Kind, frequency_hz: float) -> Work:
+        settling = min(wait / forecast.decay_1_s(frequency_hz), settings.settle.most_s)
+        # A drive comes up, and two blocks are compared, before anything can be called settled.
+        least = settings.control.ramp_s + 2 * settings.block_s(frequency_hz)
+        return Work(kind, least + settings.dwell_s(frequency_hz), settling)
+
+    watch = [step("sentinel", sentinel[0])] if sentinel else []
+    calibration = calibration_segments(table, with_next_coarser(used, ranges), ranges)
+    found = [Work("mount", _MOUNT_S)] * person
+    if calibration:
+        found += [Work("aim", _AIM_S)] * person
+        found += [step("calibration", f) for s in calibration for f in s.frequencies_hz]
+    found += [Work("aim", _AIM_S)] * person + watch
+    for segment in segments:
+        found += [step("step", f) for f in segment.frequencies_hz] + watch
+    return [*found, Work("fit", _FIT_S), Work("diagnosis", _DIAGNOSIS_S)]

@@ -1,0 +1,165 @@
+"""The time to go of whole runs, on the run's own clock."""
+
+import random
+
+import pytest
+from sessions import point
+
+from gui.state.time_to_go import TimeToGo
+from instrument.check.work import Work
+from instrument.run.companion import Companion
+from instrument.run.experiment import run_experiment
+from instrument.session.configuration import read_whole_experiment
+from instrument.simulated_case import write_case
+from instrument.stream.clock import SessionClock
+from instrument.stream.derived import DiagnosisFound, FitUpdated
+from instrument.stream.raw import (
+    AcquisitionBegan,
+    BlockAcquired,
+    DiagnosisStarted,
+    FitStarted,
+    Held,
+    OperatorDid,
+    SessionBegan,
+    StepBegan,
+)
+
+WITHIN = 0.15
+SHARES = (0.1, 0.3, 0.6)
+
+
+class Watched(Companion):
+    """Keeps what was foretold at every event, and when."""
+
+    def __init__(self):
+        self.to_go, self.clock, self.now_s = TimeToGo(), SessionClock(), 0.0
+        self.told: list[tuple[float, float, float]] = []
+
+    def planned(self, work):
+        self.to_go.plan(work, 0.0)
+        self.note()
+
+    def happened(self, event):
+        self.clock.take(event)
+        if isinstance(event, BlockAcquired):
+            self.now_s = self.clock.at(event.first_sample + event.samples)
+        self.to_go.take(event, self.now_s, 0.0)
+        self.note()
+
+    def note(self):
+        done = self.to_go.fraction(self.now_s, 0.0)
+        self.told.append((self.now_s, self.to_go.measuring_s(self.now_s), done))
+
+    def errors(self) -> dict[float, float]:
+        """How far off, relative, at shares of the whole run."""
+        found = {}
+        for share in SHARES:
+            now, told, _ = next(t for t in self.told if t[0] >= share * self.now_s)
+            found[share] = told / (self.now_s - now) - 1
+        return found
+
+
+def no_fit(number, last_step, points, damping, specimen):
+    return FitUpdated(number, last_step, {}, "not fitted")
+
+
+def told_of(folder, parts, seed, change=lambda text: text) -> Watched:
+    path, watched = write_case(folder, seed=seed), Watched()
+    path.write_text(change(path.read_text()))
+    run_experiment(read_whole_experiment(path), folder, parts, fit=no_fit, companion=watched)
+    return watched
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", [1, 2, 3, 4])
+def test_of_a_whole_run_the_time_to_go_is_right_within_15_percent(tmp_path, seed):
+    watched = told_of(tmp_path, ("hammer", "sweep"), seed)
+    assert max(map(abs, watched.errors().values())) < WITHIN, watched.errors()
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [
+        ("fewer points", lambda text: text.replace("points = 21", "points = 9")),
+        ("wider", lambda text: text.replace("span_percent = 25.0", "span_percent = 60.0")),
+        ("two sweeps", lambda text: text.replace("[sweep]\n", "[sweep]\nsweeps = 2\n")),
+        ("without calibration", lambda text: text.replace("[sweep]\n", "[sweep]\ncalibration = false\n")),
+        ("weaker", lambda text: text.replace("level_g = 1.0", "level_g = 0.3")),
+        ("without sentinel", lambda text: text.replace("[sweep]\n", "[sweep]\nsentinel = false\n")),
+    ],
+)
+def test_of_other_sweeps_too(tmp_path, name, change):
+    watched = told_of(tmp_path, ("sweep",), 7, change)
+    assert max(map(abs, watched.errors().values())) < WITHIN, watched.errors()
+
+
+# Made up
+
+
+def steps(count: int) -> tuple[Work, ...]:
+    return (Work("step", 1.0, 2.0),) * count
+
+
+def measured(watched: TimeToGo, durations, begin_s=0.0) -> float:
+    now = begin_s
+    for number, took in enumerate(durations, start=1):
+        now += took
+        watched.take(point(number), now, 0.0)
+    return now
+
+
+@pytest.mark.parametrize("pace", [0.5, 1.0, 3.0])
+def test_a_pace_other_than_forecast_is_learned(pace):
+    chance, to_go = random.Random(1), TimeToGo()
+    to_go.plan(steps(100), 0.0)
+    durations = [pace * 2.3 * chance.uniform(0.8, 1.2) for _ in range(100)]
+    for share in (0.3, 0.6):
+        count = round(100 * share)
+        at = TimeToGo()
+        at.plan(steps(100), 0.0)
+        now = measured(at, durations[:count])
+        assert at.measuring_s(now) == pytest.approx(sum(durations[count:]), rel=WITHIN)
+
+
+def test_something_is_known_before_the_first_sample_and_the_bar_never_goes_back():
+    to_go, last = TimeToGo(), 0.0
+    assert to_go.measuring_s(0.0) is None
+    to_go.plan((Work("hit", 15.0), *steps(20), Work("fit", 8.0), Work("diagnosis", 60.0)), 0.0)
+    assert to_go.measuring_s(0.0) > 50
+    assert to_go.beside_s(0.0) == 68
+    for number in range(1, 21):
+        to_go.take(point(number), 2.3 * number, 0.0)
+        assert to_go.fraction(2.3 * number, 0.0) >= last
+        last = to_go.fraction(2.3 * number, 0.0)
+
+
+def test_a_pause_is_nobodys_pace():
+    to_go = TimeToGo()
+    to_go.plan(steps(10), 0.0)
+    now = measured(to_go, [2.3] * 5)
+    before = to_go.measuring_s(now)
+    to_go.take(Held(), now, 0.0)
+    assert to_go.measuring_s(now + 600) == before
+    to_go.take(StepBegan(6, "step", 1, 1, 20.0, 9.8, 0.5, 8.0), now + 600, 0.0)
+    assert to_go.measuring_s(now + 600) == pytest.approx(before)
+
+
+def test_a_person_who_is_waited_for_and_the_diagnosis_count():
+    to_go = TimeToGo()
+    to_go.plan((Work("mount", 180.0), *steps(2), Work("fit", 8.0), Work("diagnosis", 60.0)), 100.0)
+    to_go.take(SessionBegan("2026-04-01T08:00:00+00:00", "1", {}, ()), 0.0, 100.0)
+    to_go.take(OperatorDid("mounted", "damped"), 0.0, 130.0)
+    assert to_go.beside_s(130.0) == 68.0
+    to_go.take(AcquisitionBegan(1, "sweep", 8192.0, ("base", "velocity")), 0.0, 130.0)
+    to_go.take(FitStarted(1, 1), 1.0, 131.0)
+    to_go.take(FitUpdated(1, 1, {}, ""), 1.0, 151.0)
+    # The last fit will take as long as this one.
+    assert to_go.beside_s(151.0) == 80.0
+    measured(to_go, [2.3, 2.3])
+    to_go.take(DiagnosisStarted(1, 2), 4.6, 200.0)
+    assert to_go.measuring_s(4.6) == 0.0
+    to_go.computed(0.25)
+    assert to_go.beside_s(210.0) == pytest.approx(30.0)
+    to_go.take(DiagnosisFound(1, 2, {}, ""), 4.6, 240.0)
+    assert to_go.fraction(4.6, 240.0) == 1.0
