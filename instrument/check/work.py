@@ -5,7 +5,6 @@ from typing import Literal
 
 import numpy as np
 
-from drivers.vibrometer.models import MODELS
 from instrument.check.forecast import (
     Forecast,
     calibration_segments,
@@ -13,6 +12,7 @@ from instrument.check.forecast import (
     planned_segments,
     with_next_coarser,
 )
+from instrument.files.devices import ranges_of
 from instrument.session.configuration import Experiment
 from instrument.session.setup import hammer_settings, setup_of
 
@@ -50,7 +50,7 @@ def planned_work(experiment: Experiment, forecast: Forecast, parts: tuple[str, .
 def _sweep(experiment: Experiment, forecast: Forecast, person: bool) -> list[Work]:
     table, settings = experiment.document.sweep, setup_of(experiment.configuration("", "")).sweep
     assert table is not None
-    ranges = distinct(MODELS[experiment.rig.vibrometer.model].ranges)
+    ranges = distinct(ranges_of(experiment.rig.vibrometer))
     segments, sentinel = planned_segments(forecast, table, ranges)
     used = [s.range_name for s in segments] + ([sentinel[1]] if sentinel else [])
     wait = float(np.log(1 / settings.settle.tolerance))

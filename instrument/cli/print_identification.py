@@ -9,6 +9,7 @@ from fitting.sweep import Sweep
 from instrument.cli.output import Output
 from instrument.models.identification import Identified
 from instrument.results.adjusted_words import COLUMNS, adjusted_rows, more_adjusted
+from instrument.results.error_words import is_below_floor, percent_words
 
 _MOST_ROWS = 30
 
@@ -51,7 +52,10 @@ def print_bare_plate(out: Output, bare: BarePlateFit, specimen: Specimen) -> Non
 
 
 def _relative(error: float, value: float) -> str:
-    return f"{error:.2g} ({100 * error / value:.2g} %)" if error == error else "-"
+    if error != error:
+        return "-"
+    percent = f"{percent_words(error, value)} %"
+    return percent if is_below_floor(error, value) else f"{error:.2g} ({percent})"
 
 
 def _print_band(out: Output, r: Identification) -> None:

@@ -7,7 +7,7 @@ import click
 from instrument.cli.options import json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
-from instrument.session.journal import Journal
+from instrument.session.journal import CONFIGURATION, Journal
 from instrument.session.storage import SessionFile, part_events, write_session
 from instrument.stream.derived import HitJudged
 
@@ -18,9 +18,12 @@ from instrument.stream.derived import HitJudged
 def recover(folder: Path, json_path: str | None) -> None:
     """Put together the session of a run that was killed, from its FOLDER (NAME.running).
 
+    The folder above will do where there is one such folder in it.
+
     The folder stays, so that the run can be carried on with --resume.
     """
     out = Output(json_path)
+    folder = _of_run(folder)
     journal = Journal(folder)
     configuration = journal.configuration()
     entries = journal.entries()
@@ -41,3 +44,14 @@ def recover(folder: Path, json_path: str | None) -> None:
     out.say(f"{hits} hits and {len(steps)} completed steps in {len(entries)} parts, all whole: {path}")
     out.say(f"to go on: viscorig run EXPERIMENT.toml --resume {folder}")
     out.result({"session": str(path), "parts": len(entries), "hits": hits, "steps": steps})
+
+
+def _of_run(folder: Path) -> Path:
+    """The folder of a run: itself, or the only one in it. Raises `BadInput` where it is not clear which."""
+    if not folder.is_dir() or (folder / CONFIGURATION).exists():
+        return folder
+    inside = sorted(f for f in folder.glob("*.running") if f.is_dir())
+    if len(inside) > 1:
+        named = ", ".join(f.name for f in inside)
+        raise BadInput(f"{folder}: holds {len(inside)} runs ({named}): say which")
+    return inside[0] if inside else folder

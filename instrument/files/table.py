@@ -10,12 +10,14 @@ import numpy as np
 
 from fitting.arrays import Array
 from instrument.errors import BadInput
+from instrument.files.rates import rate_of_step
 from instrument.files.text import read_text
 
 Rows = list[tuple[int, list[str]]]
 _RATE = re.compile(r"^#\s*sample_rate_hz\s*:\s*(\S+)", re.M)
 _OFF_GRID = 0.2
 """Times are often written with few digits: judged by their place on the grid, in steps."""
+_ROUNDING = 1e-12
 
 
 def read_rows(
@@ -69,9 +71,10 @@ def stated_rate_hz(path: Path) -> float | None:
 def rate_of_times(t: Array) -> float | None:
     """Samples a second of times in s; None where they are not evenly spaced."""
     step = (t[-1] - t[0]) / max(1, len(t) - 1)
-    if not step > 0 or np.max(np.abs(t - np.linspace(t[0], t[-1], len(t)))) > _OFF_GRID * step:
+    off = float(np.max(np.abs(t - np.linspace(t[0], t[-1], len(t)))))
+    if not step > 0 or off > _OFF_GRID * step:
         return None
-    return float(1 / step)
+    return rate_of_step(float(step), 2 * off / float(t[-1] - t[0]) + _ROUNDING)
 
 
 def _fields(path: Path, separator: str) -> Iterator[tuple[int, list[str]]]:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array
 from instrument.errors import BadInput
+from instrument.files.rates import rate_of_step
 from instrument.files.units import KNOWN, Quantity, Unit, unit_of
 
 TIME, FRF, TRANSMISSIBILITY, COHERENCE = 1, 4, 5, 6
@@ -22,6 +23,9 @@ _QUANTITIES = {code: quantity for quantity, code in CODES.items()}
 _UNSAID = (0, 1)
 """Data types "unknown" and "general"."""
 _PLACE = re.compile(r"\bsweep (\d+) segment (\d+)\b")
+
+_STEP_DIGITS = 5e-6
+"""A step is written with six digits."""
 
 
 @dataclass(frozen=True)
@@ -142,7 +146,8 @@ def _record(where: str, k: int, s: dict[str, Any], scale: _Scale) -> Function:
     if not step > 0:
         raise BadInput(f"{where}: a step of {step:g} s between samples, expected more than 0")
     values = np.asarray(s["data"], float) * unit.factor
-    return Function(_line(s), _name(s, k), TIME, x, values, unit, rate_hz=1 / step)
+    rate = rate_of_step(step, _STEP_DIGITS)
+    return Function(_line(s), _name(s, k), TIME, x, values, unit, rate_hz=rate)
 
 
 def _unit(where: str, axis: str, s: dict[str, Any], scale: _Scale) -> Unit:

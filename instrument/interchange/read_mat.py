@@ -10,11 +10,14 @@ from fitting.arrays import Array
 from fitting.modal.frf import Motion
 from instrument.errors import BadInput
 from instrument.files.mat import read_mat_variables
+from instrument.files.rates import rate_of_step
 from instrument.files.units import DERIVATIVE, KNOWN, Unit, unit_of
 from instrument.interchange.found import Found, Ratio, motion_of
 from instrument.interchange.read_table import Named, read_table
 
 _DEPTH = 4
+_ROUNDING = 1e-9
+"""Of a step, as a difference of two times."""
 _OUR_OWN = ("units", "about")
 
 
@@ -97,7 +100,14 @@ def _function(
             H = columns[:, k].astype(np.complex128) * unit.factor
             found.add_ratio(Ratio(one, x, H, unit.quantity, unit.per))
         elif is_time:
-            records.append((one, unit, 1 / (x[1] - x[0]), np.asarray(columns[:, k].real * unit.factor)))
+            records.append(
+                (
+                    one,
+                    unit,
+                    rate_of_step(float(x[1] - x[0]), 1e-12),
+                    np.asarray(columns[:, k].real * unit.factor),
+                )
+            )
         else:
             found.said.append(f"passed over: {one}: a spectrum in {label}, expected one signal over another")
 

@@ -12,6 +12,7 @@ from instrument.report.numbers import format_number, with_error
 from instrument.report.picture import picture
 from instrument.results.adjusted_words import COLUMNS, adjusted_rows
 from instrument.results.diagnosis_words import UNKNOWN
+from instrument.results.error_words import is_below_floor, percent_words
 from instrument.session.contents import Contents
 
 _SAME = 1e-6
@@ -143,10 +144,10 @@ def _parameters(r: Identification) -> Table:
     for name, value in zip(r.law.names, r.law.values, strict=True):
         error = errors[name]
         bound = r.uncertainty.at_bound.get(name)
-        percent = f"{100 * error / abs(value):.2g}" if np.isfinite(error) and value else "-"
-        rows.append(
-            (name, with_error(float(value), error), percent, f"at its {bound} bound" if bound else "")
-        )
+        below = is_below_floor(error, value)
+        said = format_number(float(value), 5) if below else with_error(float(value), error)
+        percent = percent_words(error, value)
+        rows.append((name, said, percent, f"at its {bound} bound" if bound else ""))
     return Table(
         "Parameters (SI units), ± one standard error",
         ("parameter", "value", "error / %", "remark"),

@@ -2,6 +2,8 @@
 
 from typing import Any
 
+from instrument.results.error_words import FLOOR_PERCENT, is_below_floor
+
 Facts = dict[str, Any]
 
 _MOST_PARAMETERS = 4
@@ -75,7 +77,10 @@ def parameter_words(key: str, p: Facts) -> str:
     """Name, value, standard error where there is one, unit."""
     error = p["standard_error"]
     unit = "" if p["unit"] == "1" else f" {p['unit']}"
-    spread = f" +- {error:.2g}" if error is not None and error == error else ""
+    spread = ""
+    if error is not None and error == error:
+        below = p["value"] and is_below_floor(error, p["value"])
+        spread = f" (+- below {FLOOR_PERCENT:g} %)" if below else f" +- {error:.2g}"
     return f"{key} {p['value']:.4g}{spread}{unit}"
 
 

@@ -86,8 +86,8 @@ def test_every_dialog_there_is_leaves_the_stop_key_and_the_button_alive(qtbot, b
 
 def test_every_menu_and_list_leaves_the_stop_key_and_the_button_alive(qtbot, busy, stops):
     silent = {}
-    for number in range(len(busy.pages)):
-        busy.show_page(number)
+    for page in busy.pages:
+        busy.show_page(page.objectName())
         for name, show in popups(busy):
             for what in ("F12", "STOP"):
                 show()
@@ -118,7 +118,7 @@ def test_a_dialog_that_would_be_modal_is_not(qtbot, busy, stops):
 
 
 def test_the_key_stops_while_somebody_types(qtbot, busy, stops):
-    busy.show_page(0)
+    busy.show_page("run")
     field = next(f for f in busy.pages[0].findChildren(QLineEdit) if f.isVisible())
     field.setFocus()
     press(field, Qt.Key.Key_F12)

@@ -1,0 +1,19 @@
+"""Standard errors as people read them. Numbers in files keep all their digits."""
+
+from math import isfinite
+
+FLOOR_PERCENT = 0.01
+"""Of a parameter. Below it not noise limits it but the plate's theory, its mesh and its stated sizes."""
+
+
+def percent_words(error: float, value: float) -> str:
+    """Of the value; a dash where it is not known."""
+    if not isfinite(error) or not value:
+        return "-"
+    percent = 100 * error / abs(value)
+    return f"below {FLOOR_PERCENT:g}" if percent < FLOOR_PERCENT else f"{percent:.2g}"
+
+
+def is_below_floor(error: float, value: float) -> bool:
+    """Whether nobody means it."""
+    return 100 * error < FLOOR_PERCENT * abs(value)
