@@ -6,6 +6,7 @@ from gui.state import SessionState
 from gui.state.log import Line
 
 _MOST_LINES = 5000
+_NO_CLOCK = 8 * "\u2007"
 _SIGNS = {"said": " ", "warning": "!", "fault": "\u2716"}
 
 
@@ -15,6 +16,7 @@ class LogPane(QDockWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__("Log", parent)
         self.setObjectName("log")
+        self.setToolTip("Time of day, time of the session, what happened")
         self._text = QPlainTextEdit()
         self._text.setReadOnly(True)
         self._text.setMaximumBlockCount(_MOST_LINES)
@@ -44,4 +46,5 @@ class LogPane(QDockWidget):
 
 def _written(line: Line) -> str:
     minutes, seconds = divmod(line.time_s, 60)
-    return f"{int(minutes):4d}:{seconds:04.1f} {_SIGNS[line.kind]} {line.text}"
+    wall = line.wall.astimezone().strftime("%H:%M:%S") if line.wall is not None else _NO_CLOCK
+    return f"{wall} {int(minutes):4d}:{seconds:04.1f} {_SIGNS[line.kind]} {line.text}"

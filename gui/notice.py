@@ -1,6 +1,6 @@
 """One message across the window, until it is read; nothing is blocked by it."""
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QWidget
 
@@ -22,11 +22,29 @@ class Notice(QFrame):
         self._label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         close = tool("\u2715", "Dismiss (Esc)")
         close.clicked.connect(self.hide)
-        row = QHBoxLayout(self)
+        self._row = row = QHBoxLayout(self)
         row.setContentsMargins(10, 2, 4, 2)
         row.addWidget(self._label, 1)
         row.addWidget(close)
         self.hide()
+
+    def float_over(self, page: QWidget) -> None:
+        """Lie on this widget's lower edge, and follow it."""
+        self.setParent(page)
+        page.installEventFilter(self)
+        self.hide()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """The widget below has another size."""
+        if event.type() == QEvent.Type.Resize:
+            self._place()
+        return False
+
+    def _place(self) -> None:
+        page = self.parentWidget()
+        if page is not None:
+            height = self._row.totalHeightForWidth(page.width())
+            self.setGeometry(0, page.height() - height, page.width(), height)
 
     @property
     def text(self) -> str:
@@ -51,5 +69,7 @@ class Notice(QFrame):
     def _show(self, message: str, role: Role) -> None:
         self._role = role
         self._label.setText(message)
+        self._place()
         self.show()
+        self.raise_()
         self.update()

@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
 )
 
 from fitting.gravity import PUBLISHED_G_M_S2
+from gui.channels import ClipLights
 from gui.controller import AppController
 from gui.run_gauges import RunGauges, state_color
 from gui.state import SessionState
@@ -39,7 +40,7 @@ class TopBar(QFrame):
         self.progress.setTextVisible(False)
         self.progress.setFixedWidth(160)
         self.level = QLabel()
-        self.gauges = RunGauges(controller)
+        self.gauges, self.lights = RunGauges(controller), ClipLights()
         self.hold = button("Hold", "Silence the shaker and wait (F9)")
         self.abort = button("Abort", "End the run in order; what is complete is kept")
         self.stop = StopButton()
@@ -117,6 +118,7 @@ class TopBar(QFrame):
 
     def _show_gauges(self, state: SessionState | None) -> None:
         self.gauges.refresh()
+        self.lights.show_feed(self._desk.feed)
         if state is None or state.run.over or state.step is None or not state.readings.channels:
             self.level.clear()
             return
@@ -131,7 +133,8 @@ class TopBar(QFrame):
         above.addWidget(self.left)
         below.addWidget(self.level)
         for gauge in self.gauges.by_name.values():
-            below.addWidget(gauge, 1)
+            below.addWidget(gauge, 2)
+        below.addWidget(self.lights, 2)
         rows = QVBoxLayout()
         rows.addLayout(above)
         rows.addLayout(below)

@@ -183,10 +183,11 @@ class Window(Shell):
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
         column.addWidget(self.bar)
-        column.addWidget(self.notice)
         column.addWidget(self.tabs, 1)
         column.addWidget(self.replay)
         self.setCentralWidget(whole)
+        # Over the page's foot: what comes and goes moves nothing.
+        self.notice.float_over(self.tabs)
         self.addDockWidget(Qt.DockWidgetArea.BottomDockWidgetArea, self.log)
         self.resize(1280, 700)
         self.resizeDocks([self.log], [110], Qt.Orientation.Vertical)

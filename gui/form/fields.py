@@ -11,6 +11,7 @@ from pydantic_core import PydanticUndefined
 from drivers.options import DeviceOptions
 from fitting.laws import LAWS
 from fitting.laws.base import Quantity
+from gui.form.labels import LABELS
 from instrument.files.devices import DEVICES, options_of
 
 Place = tuple[str | int, ...]
@@ -47,7 +48,9 @@ class Field:
 
     @property
     def label(self) -> str:
-        """The key without its unit, in words."""
+        """For people; where nobody has said better, the key without its unit."""
+        if self.key in LABELS:
+            return LABELS[self.key]
         ending = next((ending for ending in _UNITS if self.key.endswith(ending)), "")
         return (self.key.removesuffix(ending) or self.key).replace("_", " ")
 

@@ -94,6 +94,15 @@ class Form(QTreeWidget):
                     self._unfold(item)
         self.headerItem().setText(_FAULT, f"{_FAULTY}{said[()]}" if () in said else "")
 
+    def show_fault(self) -> None:
+        """Go to the first one, and let it be mended."""
+        for place, item in self._items.items():
+            if item.text(_FAULT):
+                self.scrollToItem(item, QTreeWidget.ScrollHint.PositionAtCenter)
+                if place in self._editors:
+                    self._editors[place].setFocus()
+                return
+
     def changeEvent(self, event: QEvent) -> None:
         """Colours follow the window's."""
         super().changeEvent(event)
@@ -118,7 +127,7 @@ class Form(QTreeWidget):
             header = self.header()
             for column in (_NAME, _UNIT):
                 header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
-            header.resizeSection(_VALUE, self.fontMetrics().averageCharWidth() * 20)
+            header.resizeSection(_VALUE, self.fontMetrics().averageCharWidth() * 28)
             header.setStretchLastSection(True)
         self.verticalScrollBar().setValue(at)
         self.judge()

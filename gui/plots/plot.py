@@ -165,22 +165,28 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         name: str = "",
         labels: Sequence[str] = (),
         label_at: float = _LABEL_AT,
+        level: bool = False,
     ) -> None:
         """Vertical lines, instead of those there were under this name; each with its label, if any.
 
-        A label stands beside its line, `label_at` of the way up.
+        A label stands beside its line, `label_at` of the way up. `level` ones lie across, at values of y.
+        None of them moves the axes.
         """
-        wanted = role, tuple(zip_longest(at, labels)), label_at
+        wanted = role, tuple(zip_longest(at, labels)), label_at, level
+        log = self.y.log if level else self.x.log
         if name in self._marks and self._marks[name].wanted == wanted:
             return
         for old in self._marks.pop(name, _NO_MARKS).lines:
             self.removeItem(old)
         drawn = [
             pg.InfiniteLine(
-                np.log10(x) if self.x.log else x, angle=90, label=label, labelOpts={"position": label_at}
+                np.log10(x) if log else x,
+                angle=0 if level else 90,
+                label=label,
+                labelOpts={"position": label_at},
             )
             for x, label in wanted[1]
-            if x > 0 or not self.x.log
+            if x > 0 or not log
         ]
         if not drawn:
             return

@@ -5,6 +5,7 @@ session holds is in `contents`; beside it stands only what a person watching nee
 """
 
 from collections import Counter
+from datetime import datetime
 from pathlib import Path
 from typing import Literal
 
@@ -208,6 +209,8 @@ class SessionState:
     def _follow(self, event: Event) -> None:
         """What only a person watching needs."""
         match event:
+            case SessionBegan() if self.log.began is None:
+                self.log.began = datetime.fromisoformat(event.utc)
             case AcquisitionBegan():
                 self.acquisition, self.step = event, None
             case RangeSet():

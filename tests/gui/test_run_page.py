@@ -273,3 +273,15 @@ def test_segments_and_tables_can_be_added_and_taken_away(qtbot, window, page, tm
     qtbot.waitUntil(lambda: any("missing" in said for said in form.said))
     form.item("hammer").setCheckState(0, Qt.CheckState.Unchecked)
     qtbot.waitUntil(lambda: form.said == [])
+
+
+def test_one_press_goes_to_the_tab_and_the_field_that_is_wrong(qtbot, window, page, tmp_path):
+    with engine_rig(tmp_path, sweep=SWEEP) as (_, experiment):
+        opened(qtbot, window, page, experiment)
+    assert not page.files.faults_button.isVisible()
+    editor = page.files.forms["rig"].editor("front_end", "sample_rate_hz")
+    typed(qtbot, editor, "-1")
+    page.files.tabs.setCurrentIndex(0)
+    qtbot.mouseClick(page.files.faults_button, LEFT)
+    assert page.files.tabs.currentWidget() is page.files.forms["rig"]
+    assert editor.hasFocus()

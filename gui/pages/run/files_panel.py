@@ -63,6 +63,7 @@ class FilesPanel(QWidget):
         self.save_button = button("Save", "Keep the changes; comments stay (Ctrl+S)")
         self.save_button.setShortcut("Ctrl+S")
         self.save_as_button = button("Save as...", "The experiment and its files in another place")
+        self.faults_button = button("", "Go to the first field that is wrong")
         self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
         self.nothing = hint(
@@ -74,6 +75,7 @@ class FilesPanel(QWidget):
         self.new_button.clicked.connect(self._ask_new)
         self.save_button.clicked.connect(self.save)
         self.save_as_button.clicked.connect(self._ask_save_as)
+        self.faults_button.clicked.connect(self.show_fault)
         self._show()
 
     @property
@@ -105,6 +107,14 @@ class FilesPanel(QWidget):
         drafts = self.drafts
         if drafts is not None:
             self._begin(partial(_save, drafts, path), self._saved)
+
+    def show_fault(self) -> None:
+        """The tab and the field of the first one."""
+        for k, form in enumerate(self.forms.values()):
+            if form.draft.faults():
+                self.tabs.setCurrentIndex(k)
+                form.show_fault()
+                return
 
     def lock(self, locked: bool) -> None:
         """While a run goes on its files stay as they are."""
@@ -181,6 +191,9 @@ class FilesPanel(QWidget):
             mark = "*" if form.draft.changed else ""
             self.tabs.setTabText(k, f"{name.capitalize()}{mark}" + (f"  \u2716 {faults}" if faults else ""))
             self.tabs.setTabToolTip(k, str(form.draft.path))
+        count = sum(len(form.draft.faults()) for form in self.forms.values())
+        self.faults_button.setText(f"\u2716 {count} wrong: show" if count else "")
+        self.faults_button.setVisible(bool(count))
         self.name.setText(str(self.path) if self.path is not None else "")
         self.name.setToolTip(self.name.text())
         self.save_button.setEnabled(self.changed)
@@ -212,6 +225,7 @@ class FilesPanel(QWidget):
         for one in (self.open_button, self.new_button, self.save_button, self.save_as_button):
             buttons.addWidget(one)
         buttons.addStretch(1)
+        buttons.addWidget(self.faults_button)
         column = QVBoxLayout(self)
         column.setContentsMargins(6, 6, 6, 6)
         column.addLayout(buttons)

@@ -1,9 +1,10 @@
 """How a run or a recorded session stands: large enough to be read from the rig."""
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
 from fitting.gravity import PUBLISHED_G_M_S2
+from gui.channels import ChannelTable
 from gui.controller import AppController
 from gui.feeds.live import LiveFeed
 from gui.gauge import Gauge
@@ -30,12 +31,13 @@ class NowPane(QWidget):
 
     def __init__(self, controller: AppController, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self._desk = controller
         self.state, self.next = QLabel(), QLabel()
         self.next.setWordWrap(True)
         self.next.setTextFormat(Qt.TextFormat.PlainText)
         self.level = Gauge("level", large=True)
         self.gauges = RunGauges(controller, large=True)
-        self.segments = Table(_COLUMNS)
+        self.segments, self.channels = Table(_COLUMNS), ChannelTable()
         self.path = QLabel()
         self.path.setWordWrap(True)
         self.nothing = hint(_NOTHING)
@@ -52,13 +54,23 @@ class NowPane(QWidget):
         self.nothing.hide()
         self._whole.show()
         run = state.run
-        style = f"font-size:xx-large; color:{state_color(run.state)}"
-        self.state.setText(f"<span style='{style}'><b>{WORDS[run.state]}</b></span>")
+        self._say_state(state)
         self.next.setText(run.next_words)
         self._show_gauges(state)
         words = path_words(live) if live is not None else ending_words(ending)
         self.path.setText(words)
         self.path.setVisible(bool(words))
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Another theme: the state's colour is one of its own."""
+        super().changeEvent(event)
+        state = self._desk.state
+        if event.type() == QEvent.Type.PaletteChange and state is not None and hasattr(self, "_whole"):
+            self._say_state(state)
+
+    def _say_state(self, state: SessionState) -> None:
+        style = f"font-size:xx-large; color:{state_color(state.run.state)}"
+        self.state.setText(f"<span style='{style}'><b>{WORDS[state.run.state]}</b></span>")
 
     def show_segments(self, state: SessionState) -> None:
         """How far each segment is."""
@@ -81,6 +93,7 @@ class NowPane(QWidget):
 
     def _show_gauges(self, state: SessionState) -> None:
         self.gauges.refresh()
+        self.channels.show_feed(self._desk.feed)
         if state.step is None or state.run.over or not state.readings.channels:
             self.level.show_value(None)
             return
@@ -97,7 +110,8 @@ class NowPane(QWidget):
         inside.addWidget(self.state)
         inside.addWidget(self.next)
         inside.addLayout(grid)
-        inside.addWidget(self.segments, 1)
+        inside.addWidget(self.channels, 1)
+        inside.addWidget(self.segments, 2)
         inside.addWidget(self.path)
         column = QVBoxLayout(self)
         column.setContentsMargins(6, 6, 6, 6)

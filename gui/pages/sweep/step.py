@@ -76,7 +76,7 @@ class StepPane(QWidget):
             return
         self._whole.show()
         self.none.hide()
-        self._draw_signal(state.step)
+        self._draw_signal(state, state.step)
         self._go_on()
 
     def clear(self) -> None:
@@ -94,11 +94,16 @@ class StepPane(QWidget):
         self._draw_settling(state.step, following, state.limits)
         self._say(state, state.step, following)
 
-    def _draw_signal(self, step: Step) -> None:
+    def _draw_signal(self, state: SessionState, step: Step) -> None:
         trace = latest_cycles(step)
         milliseconds = 1e3 * trace.time_s
         self.base.trace("base acceleration", milliseconds, trace.base_m_s2, "second")
         self.velocity.trace("velocity", milliseconds, 1e3 * trace.velocity_m_s, "data")
+        limits = state.limits.limits
+        for plot, most in ((self.base, limits.base_m_s2), (self.velocity, 1e3 * limits.velocity_m_s)):
+            plot.mark((most, -most), "bad", name="abort", labels=("abort",), level=True)
+            alarm = limits.warn * most
+            plot.mark((alarm, -alarm), "fair", name="alarm", labels=("alarm",), level=True)
         span(self.base, milliseconds)
         align(self.base, self.velocity, self.settling)
 
@@ -115,18 +120,17 @@ class StepPane(QWidget):
         self.settling.mark(at, "good", name="settled", labels=["dwell"] * len(at))
 
     def _say(self, state: SessionState, step: Step, following: Following) -> None:
-        limits, began, control = state.limits, step.began, state.limits.control
+        limits, began = state.limits, step.began
         self.words.setText(words(step, limits))
         said = {"Drive": f"{step.drive_v:.4g} V of {limits.limits.drive_v:g} V"}
         base = abs(step.point.base_m_s2) if step.point is not None else following.base_m_s2
         if base is not None and began.level_m_s2 is not None:
             off = 100 * (base / began.level_m_s2 - 1)
-            tolerance = f"\u00b1{100 * control.tolerance:g} %"
-            said["Level"] = f"{base:.4g} of {began.level_m_s2:.4g} m/s\u00b2, {off:+.2f} % ({tolerance})"
+            said["Level"] = f"{base:.4g} of {began.level_m_s2:.4g} m/s\u00b2, {off:+.2f} %"
         _, percent, noise = following.remaining()
         if percent.size:
-            limit = f"limit {100 * limits.settle.tolerance:g} %, noise {noise[-1]:.2g} %"
-            said["Transient"] = f"{percent[-1]:.2g} % ({limit})"
+            limit = f"limit {100 * limits.settle.tolerance:g}, noise {noise[-1]:.2g}"
+            said["Transient"] = f"{percent[-1]:.2g} %, {limit}"
         if state.range is not None:
             said["Range"] = state.range.name
         if state.signal_level is not None:
