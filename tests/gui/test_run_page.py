@@ -251,13 +251,14 @@ def test_a_simulated_experiment_is_made_and_its_secret_not_shown(qtbot, window, 
     assert "is there already" in said[0]
 
 
-def test_the_time_left_follows_the_forecast(qtbot, window, page, rig, tmp_path):
+def test_the_time_left_is_known_before_the_first_point(qtbot, window, page, rig, tmp_path):
     opened(qtbot, window, page, tmp_path / "experiment.toml")
-    with qtbot.waitSignal(page.check.passed, timeout=PATIENCE_MS):
-        qtbot.mouseClick(page.starting.check, LEFT)
-    started(qtbot, window, page)
+    live = started(qtbot, window, page)
+    qtbot.waitUntil(lambda: "left" in window.bar.left.text(), timeout=PATIENCE_MS)
+    assert not live.state.contents.points
     wait_for_points(qtbot, window, 5)
-    qtbot.waitUntil(lambda: "left" in window.bar.left.text())
+    assert "left" in window.bar.left.text()
+    assert 0 < live.fraction < 0.5
     window.controller.abort()
     wait_for_end(qtbot, window)
 
