@@ -1,6 +1,7 @@
 """How near a run is to its limits, and the colour of its state: the same in the bar above and on the page."""
 
 from PySide6.QtCore import QObject, QTimer
+from PySide6.QtWidgets import QWidget
 
 from gui.controller import AppController
 from gui.gauge import Gauge
@@ -21,8 +22,8 @@ def state_color(state: str) -> str:
 class RunGauges(QObject):
     """One for each limit. They show what is so now, or how old it is, whether anything comes or not."""
 
-    def __init__(self, controller: AppController, *, large: bool = False) -> None:
-        super().__init__()
+    def __init__(self, controller: AppController, parent: QWidget, *, large: bool = False) -> None:
+        super().__init__(parent)
         self._desk = controller
         self.by_name = {name: Gauge(name, large=large) for name in ("drive", "base", "velocity", "travel")}
         self._timer = QTimer(self)

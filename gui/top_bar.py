@@ -40,7 +40,7 @@ class TopBar(QFrame):
         self.progress.setTextVisible(False)
         self.progress.setFixedWidth(160)
         self.level = QLabel()
-        self.gauges, self.lights = RunGauges(controller), ClipLights()
+        self.gauges, self.lights = RunGauges(controller, self), ClipLights()
         self.hold = button("Hold", "Silence the shaker and wait (F9)")
         self.abort = button("Abort", "End the run in order; what is complete is kept")
         self.stop = StopButton()

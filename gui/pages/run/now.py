@@ -36,7 +36,7 @@ class NowPane(QWidget):
         self.next.setWordWrap(True)
         self.next.setTextFormat(Qt.TextFormat.PlainText)
         self.level = Gauge("level", large=True)
-        self.gauges = RunGauges(controller, large=True)
+        self.gauges = RunGauges(controller, self, large=True)
         self.segments, self.channels = Table(_COLUMNS), ChannelTable()
         self.path = QLabel()
         self.path.setWordWrap(True)
