@@ -6,7 +6,7 @@ READY   := $(VENV)/.ready
 OUT     := out
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test test-long checks unit coverage lint types contracts format bench docs clean
+.PHONY: help setup demo test test-long checks unit coverage lint types contracts format bench benchmark docs clean
 
 help:          ## list the targets
 	@awk -F':.*## ' '/^[a-z-]+:.*## /{printf "  make %-10s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
@@ -58,6 +58,9 @@ $(VENV)/.docs: $(READY)
 	@echo "adding what builds the site to $(VENV)"
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[docs]'
 	@touch $@
+
+benchmark: $(READY) ## seconds of this machine, kept in .benchmarks/ and compared with the run before
+	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest benchmarks --benchmark-enable --benchmark-autosave --benchmark-compare
 
 clean:         ## remove what make has made
 	rm -rf $(VENV) $(OUT) .coverage .mypy_cache .pytest_cache .ruff_cache .import_linter_cache .hypothesis
