@@ -104,6 +104,7 @@ def test_the_law_is_shown_before_and_after(page):
     assert page.law.table.texts(0) == ["20", "100", "280"]
 
 
+@pytest.mark.long
 def test_an_effect_accepted_by_hand_is_fitted_and_the_material_follows(qtbot, window, page, diagnosed_path):
     select(qtbot, page, "spot_offset")
     qtbot.mouseClick(page.candidates.accept, LEFT)

@@ -117,6 +117,7 @@ def test_a_session_is_a_row_without_a_specimen(tmp_path):
     assert (row["status"], row["specimen"]) == ("done", "")
 
 
+@pytest.mark.long
 def test_diagnosed_rows_carry_a_verdict(tmp_path, sweeps, plate, capsys):
     assert batch(sweeps[0], "--specimen", plate, "--out", tmp_path, "--diagnose") == 0
     (row,) = rows_of(tmp_path)

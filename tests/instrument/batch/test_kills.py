@@ -36,6 +36,7 @@ def keys_in(folder):
     return [json.loads(line)["key"] for line in text.splitlines(keepends=True) if line.endswith("\n")]
 
 
+@pytest.mark.long
 def test_killed_at_a_third_and_started_again_the_table_is_equal_to_the_bit(tmp_path, case):
     sweeps, plate, whole = case
     command = [sys.executable, "-m", "instrument.cli", "batch", *map(str, sweeps)]

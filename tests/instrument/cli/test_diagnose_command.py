@@ -54,6 +54,7 @@ def coarse(tmp_path_factory):
     return path
 
 
+@pytest.mark.long
 def test_nine_amplitudes_end_to_end(capsys, coarse, tmp_path):
     status, out, err = call(
         capsys,
