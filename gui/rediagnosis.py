@@ -12,8 +12,7 @@ from PySide6.QtCore import QObject, Signal
 
 from gui.background_task import Command
 from gui.state import SessionState
-
-Facts = dict[str, Any]
+from instrument.facts.diagnosis import DiagnosisResult
 
 
 @dataclass(frozen=True)
@@ -48,7 +47,7 @@ class Asked:
 class Shown:
     """A diagnosis as pages show it."""
 
-    facts: Facts
+    found: DiagnosisResult
     origin: str
     """Where it comes from, for people."""
     asked: Asked | None = None
@@ -75,7 +74,7 @@ class Rediagnosis(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.found: Shown | None = None
-        self._searched: dict[Path, Facts] = {}
+        self._searched: dict[Path, DiagnosisResult] = {}
         """The last whole search of each file made here."""
         self._asked: Asked | None = None
         self._command: Command | None = None
@@ -89,19 +88,16 @@ class Rediagnosis(QObject):
         """What pages show: the one made here, else the session's own; None where there is neither."""
         if self.found is not None:
             return self.found
-        own = state.contents.diagnosis if state is not None else None
-        return (
-            Shown(own.facts_json, "recorded with the session") if own is not None and own.facts_json else None
-        )
+        own = _recorded(state)
+        return Shown(own, "recorded with the session") if own is not None else None
 
-    def ranking(self, state: SessionState | None) -> Facts | None:
+    def ranking(self, state: SessionState | None) -> DiagnosisResult | None:
         """The last whole search of what is shown: an effect fitted by hand has no others beside it."""
         shown = self.shown(state)
         if shown is None or shown.asked is None:
-            return shown.facts if shown is not None else None
-        own = state.contents.diagnosis if state is not None and shown.asked.specimen is None else None
-        recorded = own.facts_json if own is not None else {}
-        return self._searched.get(shown.asked.data) or recorded or shown.facts
+            return shown.found if shown is not None else None
+        own = _recorded(state) if shown.asked.specimen is None else None
+        return self._searched.get(shown.asked.data) or own or shown.found
 
     def start(self, asked: Asked) -> None:
         """Make it; whatever was being made is let go of."""
@@ -131,12 +127,13 @@ class Rediagnosis(QObject):
         """Let go of everything."""
         self._drop()
 
-    def _done(self, facts: Facts) -> None:
+    def _done(self, told: dict[str, Any]) -> None:
         assert self._asked is not None
         self._let_go()
-        self.found = Shown(facts, _origin(self._asked), self._asked)
+        found = DiagnosisResult.model_validate(told)
+        self.found = Shown(found, _origin(self._asked), self._asked)
         if self._asked.accept is None:
-            self._searched[self._asked.data] = facts
+            self._searched[self._asked.data] = found
         self.changed.emit()
 
     def _failed(self, message: str) -> None:
@@ -155,6 +152,12 @@ class Rediagnosis(QObject):
             command.disconnect(self)
             command.deleteLater()
         return command
+
+
+def _recorded(state: SessionState | None) -> DiagnosisResult | None:
+    """The session's own."""
+    own = state.contents.diagnosis if state is not None else None
+    return own.result if own is not None else None
 
 
 def _origin(asked: Asked) -> str:

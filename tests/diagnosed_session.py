@@ -1,6 +1,6 @@
 """A session with two fits and a diagnosis in it; the diagnosis is made by hand, of other points."""
 
-from diagnosis_cases import facts
+from diagnosis_cases import diagnosis as by_hand
 from session_cases import SyntheticSession, configuration
 
 from instrument.run.live_fit import fit_points
@@ -17,7 +17,7 @@ def diagnosed_session(folder, diagnosis=None, *, message=""):
     synthetic.sweep((2, 3), begin=False)
     last = _fit(synthetic, 2)
     synthetic.emit(DiagnosisStarted(1, last))
-    found = {} if message else diagnosis or facts()
+    found = None if message else diagnosis or by_hand()
     synthetic.events.append(DiagnosisFound(1, last, found, message))
     synthetic.end()
     return synthetic.save(folder)

@@ -9,8 +9,7 @@ from fitting.identification.uncertainty import Uncertainty
 from fitting.identification.validation import HeldOutSegment, Validation
 from fitting.sweep import Sweep
 from instrument.models.diagnosis import Diagnosed
-from instrument.results.diagnosis_facts import diagnosis_facts
-from instrument.stream.jsonable import to_jsonable
+from instrument.results.diagnosis_from import diagnosis_from
 
 MASS = FoundEffect("added_mass", {"mass": Estimate(0.008, 1e-4, "kg"), "x": Estimate(0.25, np.nan, "m")})
 SPOT = FoundEffect("spot_offset", {"dx": Estimate(0.004, 2e-5, "m")})
@@ -90,7 +89,7 @@ def diagnosed(s, *, verdict="effect", one_by_one=None):
     return Diagnosed(result, 1.5, 0.25)
 
 
-def facts(**how):
-    """As JSON has them."""
+def diagnosis(**how):
+    """Its result."""
     s = sweep(phase=how.pop("phase", True))
-    return to_jsonable(diagnosis_facts(diagnosed(s, **how), s))
+    return diagnosis_from(diagnosed(s, **how), s)

@@ -14,7 +14,7 @@ QUICK_ENGINE = (sys.executable, str(Path(__file__)))
 
 
 def no_fit(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, {"points": sum(p.step <= last_step for p in points)}, "not fitted")
+    return FitUpdated(number, last_step, None, f"{sum(p.step <= last_step for p in points)} points")
 
 
 if __name__ == "__main__":

@@ -137,7 +137,7 @@ def visit(window: Window, experiment: Path, seen: dict[str, object]) -> Steps:
     seen["title"] = controller.state.configuration.experiment.title
     seen["points"] = len(controller.state.contents.points)
     diagnosis = controller.state.contents.diagnosis
-    seen["verdict"] = diagnosis.facts_json.get("verdict") if diagnosis else None
+    seen["verdict"] = diagnosis.result.verdict if diagnosis and diagnosis.result else None
     for number, page in enumerate(window.pages, start=1):
         yield from press(f"ctrl+{number}")
         yield from until(page.isVisible, f"page {number} is shown")

@@ -2,21 +2,22 @@
 
 from collections.abc import Collection, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import NamedTuple, TypeVar
 
 from fitting.pointwise import phase_is_kept
 from fitting.sweep import Sweep as Points
 from instrument.errors import BadInput
+from instrument.facts.diagnosis import DiagnosisResult
+from instrument.facts.identification import IdentificationResult
 from instrument.files.hammer_file import HammerModes
 from instrument.models.diagnosis import diagnose as diagnose_sweep
 from instrument.models.identification import Method
 from instrument.models.identification import identify as identify_sweep
 from instrument.models.pointwise import pointwise_of
 from instrument.progress import bar
-from instrument.results.diagnosis_facts import diagnosis_facts
-from instrument.results.identification_facts import bare_plate_facts, identification_facts
-from instrument.results.pointwise_facts import second_look_facts
-from instrument.stream.jsonable import to_jsonable
+from instrument.results.diagnosis_from import diagnosis_from
+from instrument.results.identification_from import identification_from
+from instrument.results.pointwise_from import with_second_look
 from viscorig.diagnosis import Diagnosis
 from viscorig.hammer import HammerTest, hammer_modes_of
 from viscorig.identification import Identification
@@ -24,7 +25,22 @@ from viscorig.session import Session
 from viscorig.specimen import Specimen
 from viscorig.sweep import Sweep, points_of
 
-Given = tuple[Points, Specimen, HammerModes | None, dict[str, Any]]
+R = TypeVar("R", IdentificationResult, DiagnosisResult)
+
+
+class Given(NamedTuple):
+    """What is to be fitted."""
+
+    points: Points
+    plate: Specimen
+    modes: HammerModes | None
+    session: Session | None = None
+
+    def said(self, result: R) -> R:
+        """A result of these data, which says whose they are."""
+        if self.session is None:
+            return result
+        return result.but(session=self.session.name, reads=self.session.reads)
 
 
 def identify(
@@ -45,18 +61,16 @@ def identify(
     """
     if pointwise and method == "paper":
         raise BadInput("pointwise with method 'paper', expected the direct method")
-    sweep, plate, modes, said = _given(data, specimen, hammer)
-    model = plate.model if viscous_damping else replace(plate.model, modal_ratios=())
+    given = _given(data, specimen, hammer)
+    model = given.plate.model if viscous_damping else replace(given.plate.model, modal_ratios=())
     if pointwise:
         # Said before the work, not after it.
-        phase_is_kept(sweep)
-    found = identify_sweep(sweep, model, method, bar, modes)
-    facts = identification_facts(found, sweep)
-    if found.bare is not None:
-        facts["hammer"] = bare_plate_facts(found.bare, model)
+        phase_is_kept(given.points)
+    found = identify_sweep(given.points, model, method, bar, given.modes)
+    result = identification_from(found, given.points, model)
     if pointwise:
-        facts |= second_look_facts(pointwise_of(found, sweep))
-    return Identification(to_jsonable({**facts, **said}), plate)
+        result = with_second_look(result, pointwise_of(found, given.points))
+    return Identification(given.said(result), given.plate)
 
 
 def diagnose(
@@ -74,19 +88,19 @@ def diagnose(
     searched for. `resamples` sweeps without effects give the p-value, by default where points are few. The
     same numbers as `viscorig diagnose`. Raises `BadInput`, `OutsideModel`, `TooFewPoints`.
     """
-    sweep, plate, modes, said = _given(data, specimen, hammer)
-    found = diagnose_sweep(sweep, plate.model, modes, frozenset(without), bar, accept, resamples=resamples)
-    return Diagnosis(to_jsonable({**diagnosis_facts(found, sweep), **said}))
+    given = _given(data, specimen, hammer)
+    points, model, declined = given.points, given.plate.model, frozenset(without)
+    found = diagnose_sweep(points, model, given.modes, declined, bar, accept, resamples=resamples)
+    return Diagnosis(given.said(diagnosis_from(found, points)))
 
 
 def _given(data: Sweep | Session, specimen: Specimen | None, hammer: HammerTest | None) -> Given:
-    """Points, plate, hammer test, and what a session adds to the facts. Raises `BadInput`."""
+    """Raises `BadInput`."""
     if isinstance(data, Session):
         if data.sweep is None:
             raise BadInput(f"{data.path}: no point of a sweep in this session, expected a measured sweep")
         tested = hammer if hammer is not None else data.good_hammer
-        said = {"session": data.name, "reads": data.reads}
-        return points_of(data.sweep), specimen or data.specimen, hammer_modes_of(tested), said
+        return Given(points_of(data.sweep), specimen or data.specimen, hammer_modes_of(tested), data)
     if specimen is None:
         raise BadInput("a sweep does not say which plate it was, expected its specimen")
-    return points_of(data), specimen, hammer_modes_of(hammer), {}
+    return Given(points_of(data), specimen, hammer_modes_of(hammer))

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,17 +11,17 @@ from pydantic import ValidationError
 
 from fitting.errors import TooFewPoints
 from instrument.errors import BadInput
+from instrument.facts.damping import METHODS, DampingResult, ModeFound
 from instrument.files.hammer_file import HammerModes, hammer_modes, read_hammer
 from instrument.files.impact_csv import MOTIONS
 from instrument.files.records import Named, read_records
 from instrument.files.toml import one_line
 from instrument.impact.damping import damping_of_frfs, damping_of_hits
-from instrument.impact.facts import damping_facts
 from instrument.impact.judge import judge
 from instrument.impact.record import Channel
 from instrument.impact.record import Hit as Record
+from instrument.impact.result import damping_from
 from instrument.impact.spectra import Estimator
-from instrument.stream.jsonable import to_jsonable
 from viscorig.checked import numbers
 from viscorig.facts import Facts
 from viscorig.shown import Columns
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _SAME_RATE = 1e-4
-METHODS = {"rational_fit": "rational fit", "half_power": "half power", "lscf": "LSCF"}
+_NAMES = {"rational_fit": "rational fit", "half_power": "half power", "lscf": "LSCF"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,48 +62,46 @@ class Hit:
 
 
 @dataclass(frozen=True, repr=False)
-class Damping(Facts):
+class Damping(Facts[DampingResult]):
     """Modes of a hammer test by three methods, one adopted: the JSON of `viscorig damping`."""
 
     @property
     def frequency_hz(self) -> Array:
         """Natural frequencies of the accepted modes. Shape (modes,)."""
-        return np.array([m["frequency_hz"] for m in self._accepted], dtype=float)
+        return np.array([m.frequency_hz for m in self.result.accepted], dtype=float)
 
     @property
     def damping_ratio(self) -> Array:
         """Adopted ratios of the accepted modes, fractions of critical. Shape (modes,)."""
-        return np.array([m["damping_ratio"] for m in self._accepted], dtype=float)
-
-    @property
-    def _accepted(self) -> list[dict[str, Any]]:
-        return [m for m in self.facts["modes"] if m["accepted"]]
+        return np.array([m.damping_ratio for m in self.result.accepted], dtype=float)
 
     def to_numpy(self) -> Columns:
         """A row a mode, accepted or not; what a method does not give is NaN."""
-        modes = self.facts["modes"]
+        modes = self.result.modes
         found: Columns = {
-            key: np.array([m[key] for m in modes], dtype=float) for key in ("frequency_hz", "damping_ratio")
+            "frequency_hz": np.array([m.frequency_hz for m in modes], dtype=float),
+            "damping_ratio": np.array([m.damping_ratio for m in modes], dtype=float),
         }
         for method in METHODS:
-            values = [m[method] or {"ratio": None, "standard_error": None} for m in modes]
-            for key in ("ratio", "standard_error"):
-                found[f"{method}_{key}"] = np.array([v[key] for v in values], dtype=float)
+            said = [m.by(method) for m in modes]
+            found[f"{method}_ratio"] = np.array([e.ratio if e else np.nan for e in said], dtype=float)
+            errors = [e.standard_error if e else np.nan for e in said]
+            found[f"{method}_standard_error"] = np.array(errors, dtype=float)
         return {
             **found,
-            "accepted": np.array([m["accepted"] for m in modes], dtype=bool),
-            "why": np.array([m["why"] for m in modes], dtype=str),
+            "accepted": np.array([m.accepted for m in modes], dtype=bool),
+            "why": np.array([m.why for m in modes], dtype=str),
         }
 
     def lines(self) -> list[str]:
         """How many modes, and the warnings."""
-        return [f"{len(self._accepted)} modes of {len(self.facts['modes'])} accepted", *self.warnings]
+        return [f"{len(self.result.accepted)} modes of {len(self.result.modes)} accepted", *self.warnings]
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Ratios by the three methods over frequency, with one standard error; the axes."""
         from viscorig.plots import plot_ratios
 
-        return plot_ratios(ax, self.to_numpy(), METHODS)
+        return plot_ratios(ax, self.to_numpy(), _NAMES)
 
 
 def damping(
@@ -127,12 +125,12 @@ def damping(
     if frfs and len(read) > 1:
         raise BadInput("FRFs are read one file at a time, and not beside records")
     if frfs:
-        return Damping(to_jsonable(damping_facts(damping_of_frfs(frfs[0], band_hz=band, at_hz=at))))
+        return Damping(damping_from(damping_of_frfs(frfs[0], band_hz=band, at_hz=at)))
     hits = [hit for one in read for hit in one if isinstance(hit, Record)]
     _refuse_unlike(hits)
     judged, end = [judge(h) for h in hits], exponential_percent / 100 if exponential_percent else None
     found = damping_of_hits(judged, band_hz=band, at_hz=at, estimator=estimator, end_value=end)
-    return Damping(to_jsonable(damping_facts(found)))
+    return Damping(damping_from(found))
 
 
 HammerTest = Damping | str | Path | tuple[ArrayLike, ArrayLike]
@@ -145,20 +143,20 @@ def hammer_modes_of(hammer: HammerTest | None) -> HammerModes | None:
         return None
     if isinstance(hammer, str | Path):
         return read_hammer(Path(hammer))
-    facts = hammer.facts if isinstance(hammer, Damping) else {"modes": _given_modes(*hammer)}
     try:
-        return hammer_modes(facts)
+        return hammer_modes(hammer.result if isinstance(hammer, Damping) else _given_modes(*hammer))
     except ValidationError as error:
         raise BadInput(one_line(error, prefix="hammer test: ")) from None
     except TooFewPoints as error:
         raise BadInput(f"hammer test: {error}") from None
 
 
-def _given_modes(frequency_hz: ArrayLike, damping_ratio: ArrayLike) -> list[dict[str, Any]]:
+def _given_modes(frequency_hz: ArrayLike, damping_ratio: ArrayLike) -> DampingResult:
     f, ratio = np.atleast_1d(frequency_hz), np.atleast_1d(damping_ratio)
     if f.shape != ratio.shape:
         raise BadInput(f"hammer test: {f.size} frequencies and {ratio.size} ratios, expected as many")
-    return [dict(to_jsonable({"frequency_hz": a, "damping_ratio": b})) for a, b in zip(f, ratio, strict=True)]
+    pairs = zip(f.tolist(), ratio.tolist(), strict=True)
+    return DampingResult(modes=tuple(ModeFound(frequency_hz=a, damping_ratio=b) for a, b in pairs))
 
 
 def _refuse_unlike(hits: list[Record]) -> None:

@@ -1,11 +1,13 @@
 """A core's law as it was identified, just now or in a session."""
 
 from dataclasses import dataclass
+from math import isnan
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from instrument.facts.identification import IdentificationResult
 from instrument.results.fit_file import found_law
 from viscorig.facts import Facts
 from viscorig.shown import Columns, columns
@@ -19,7 +21,7 @@ Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, repr=False)
-class Identification(Facts):
+class Identification(Facts[IdentificationResult]):
     """A core's law with its uncertainty, and what is left of the data: the JSON of `viscorig identify`."""
 
     specimen: Specimen
@@ -28,12 +30,13 @@ class Identification(Facts):
     @property
     def parameters(self) -> dict[str, float]:
         """Of the law, in SI units, which the names end with."""
-        return dict(self.facts["parameters"])
+        return dict(self.result.parameters)
 
     @property
     def standard_errors(self) -> dict[str, float | None]:
         """Of the parameters; None for one at its limit."""
-        return dict(self.facts["standard_errors"])
+        errors = self.result.standard_errors
+        return {key: None if isnan(error) else error for key, error in errors.items()}
 
     @property
     def frequency_hz(self) -> Array:
@@ -53,29 +56,30 @@ class Identification(Facts):
     @property
     def points(self) -> Columns:
         """Measured and predicted amplitude of every point, and their difference. Shape (points,) each."""
-        return columns(self.facts["points"])
+        return columns(self.result.points)
 
     @property
     def rms_percent(self) -> float:
         """Of the differences in amplitude."""
-        return float(self.facts["rms_percent"])
+        return self.result.rms_percent
 
     def modulus_pa(self, frequency_hz: ArrayLike) -> Complex:
         """G* of the law found, in Pa; an extrapolation beyond the measured band. Shape of `frequency_hz`."""
         core = self.specimen.model.core
         assert core is not None
-        return found_law(self.facts).law(core.law).modulus(2 * np.pi * np.asarray(frequency_hz, dtype=float))
+        omega = 2 * np.pi * np.asarray(frequency_hz, dtype=float)
+        return found_law(self.result).law(core.law).modulus(omega)
 
     def to_numpy(self) -> Columns:
         """The law over the measured band with its standard errors, a row a frequency."""
-        return columns(self.facts["law"])
+        return columns(self.result.law)
 
     def lines(self) -> list[str]:
         """Law, parameters, what is left, warnings."""
         errors = self.standard_errors
         found = ", ".join(f"{k} = {v:.4g}{_error(errors[k])}" for k, v in self.parameters.items())
-        left = f"rms {self.rms_percent:.3g} %, largest {self.facts['max_percent']:.3g} %"
-        return [f"{self.facts['law_kind']}: {found}", left, *self.warnings]
+        left = f"rms {self.rms_percent:.3g} %, largest {self.result.max_percent:.3g} %"
+        return [f"{self.result.law_kind}: {found}", left, *self.warnings]
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """G' and, on an axis of its own, the loss factor over frequency, with 95 % bands; the axes."""

@@ -8,7 +8,9 @@ from numpy.typing import NDArray
 
 from fitting.complex_modes import complex_modes
 from fitting.plate import Plate
+from instrument.facts.modes import ModesResult
 from instrument.progress import bar
+from instrument.results.modes_from import modes_from
 from viscorig.facts import Facts
 from viscorig.shown import Columns, columns
 from viscorig.specimen import Specimen
@@ -20,22 +22,22 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, repr=False)
-class Modes(Facts):
+class Modes(Facts[ModesResult]):
     """Natural frequencies and modal loss factors: the JSON of `viscorig modes`."""
 
     @property
     def frequency_hz(self) -> Array:
         """Shape (modes,)."""
-        return np.array([m["frequency_hz"] for m in self.facts["modes"]], dtype=float)
+        return np.array([m.frequency_hz for m in self.result.modes], dtype=float)
 
     @property
     def loss_factor(self) -> Array:
         """Shape (modes,)."""
-        return np.array([m["loss_factor"] for m in self.facts["modes"]], dtype=float)
+        return np.array([m.loss_factor for m in self.result.modes], dtype=float)
 
     def to_numpy(self) -> Columns:
         """A row a mode."""
-        return columns(self.facts["modes"])
+        return columns(self.result.modes)
 
     def lines(self) -> list[str]:
         """How many, and where."""
@@ -57,5 +59,4 @@ def modes(specimen: Specimen, count: int = 8) -> Modes:
     model = specimen.model
     law = model.core.law if model.core is not None else None
     with bar("modes") as report:
-        found = complex_modes(Plate(model), law, count, report)
-    return Modes({"modes": [{"frequency_hz": m.frequency_hz, "loss_factor": m.loss_factor} for m in found]})
+        return Modes(modes_from(complex_modes(Plate(model), law, count, report)))

@@ -4,12 +4,12 @@ The only file here that needs matplotlib; it is imported when something is drawn
 """
 
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
+from instrument.facts.diagnosis import PointLeft, StageName
 from instrument.results.drawing import DATA, MARK, MODEL, label, legend
 from viscorig.shown import Columns
 
@@ -63,16 +63,16 @@ def plot_amplitude(ax: Axes | None, frequency_hz: Array, amplitude_m_s: Array, s
     return ax
 
 
-def plot_residual(ax: Axes | None, points: Sequence[dict[str, Any]], titles: Mapping[str, str]) -> Axes:
+def plot_residual(ax: Axes | None, points: Sequence[PointLeft], titles: Mapping[StageName, str]) -> Axes:
     """What fits leave of the amplitudes, in percent, over the noise. `titles` by the stage's key."""
     ax = axes_of(ax)
-    points = sorted(points, key=lambda p: float(p["frequency_hz"]))
-    f = np.array([p["frequency_hz"] for p in points])
-    noise = _TWO_STD * np.array([p["noise_percent"] for p in points], dtype=float)
+    points = sorted(points, key=lambda p: p.frequency_hz)
+    f = np.array([p.frequency_hz for p in points])
+    noise = _TWO_STD * np.array([p.noise_percent for p in points], dtype=float)
     if np.isfinite(noise).all():
         ax.errorbar(f, np.zeros(len(f)), noise, fmt="none", color="#999999", label="noise, ± 2 std")
     for (stage, name), (marker, color) in zip(titles.items(), reversed(_MARKERS[:2]), strict=True):
-        rest = np.array([p[stage]["amplitude_percent"] for p in points], dtype=float)
+        rest = np.array([p.stage(stage).amplitude_percent for p in points], dtype=float)
         ax.plot(f, rest, marker, color=color, markersize=4, label=name)
     ax.axhline(0, color="#888888", linewidth=0.8)
     label(ax, x="Frequency / Hz", y="Predicted less measured amplitude / %")

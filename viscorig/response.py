@@ -1,19 +1,20 @@
 """The response at the pickup."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
 from instrument.errors import BadInput
+from instrument.facts.prediction import PredictionResult
 from instrument.models.specimen_models import Models
 from instrument.models.theory import theory_remark
 from instrument.progress import bar
 from instrument.results.fit_file import found_law
 from instrument.results.fitted_response import fitted_response
-from instrument.stream.jsonable import to_jsonable
+from instrument.results.prediction_from import prediction_from, prediction_from_fit
 from viscorig.checked import numbers
 from viscorig.facts import Facts
 from viscorig.hammer import HammerTest, hammer_modes_of
@@ -29,7 +30,7 @@ Complex = NDArray[np.complex128]
 
 
 @dataclass(frozen=True, repr=False)
-class Response(Facts):
+class Response(Facts[PredictionResult]):
     """Velocity at the pickup under the specimen's base acceleration: the JSON of `viscorig predict`."""
 
     @property
@@ -45,12 +46,12 @@ class Response(Facts):
 
     def to_numpy(self) -> Columns:
         """A row a frequency."""
-        return columns(self.facts["points"])
+        return columns(self.result.points)
 
     def lines(self) -> list[str]:
         """How many points, and what is noted."""
         f = self.frequency_hz
-        return [f"response at {len(f)} frequencies, {f.min():g} to {f.max():g} Hz", *self.facts["notes"]]
+        return [f"response at {len(f)} frequencies, {f.min():g} to {f.max():g} Hz", *self.result.notes]
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Amplitude over frequency; the axes."""
@@ -80,25 +81,10 @@ def predict(
     if tested is not None:
         model = with_bare_plate(model, fit_bare_plate(model, *tested))
     law = model.core.law if model.core is not None else None
-    further: dict[str, Array] = {}
     if fit is None:
         v = Models.of(model, f, bar).predict(law, f, real_modes=real_modes)
-    else:
-        known = found_law(fit.facts)
-        found = fitted_response(model, known, f, bar)
-        v, law = found.velocity_m_s, known.law(law) if law is not None else None
-        further = {
-            "velocity_standard_error_m_s": found.amplitude_standard_error_m_s,
-            "phase_standard_error_rad": found.phase_standard_error_rad,
-        }
-    remark = theory_remark(model, law, f)
-    rows = {
-        "frequency_hz": f,
-        "velocity_re_m_s": v.real,
-        "velocity_im_m_s": v.imag,
-        "velocity_m_s": np.array([abs(z) for z in v]),
-        **further,
-    }
-    points = [dict(zip(rows, row, strict=True)) for row in zip(*rows.values(), strict=True)]
-    facts: dict[str, Any] = {"points": points, "notes": [remark] if remark else []}
-    return Response(to_jsonable(facts))
+        return Response(prediction_from(f, v, theory_remark(model, law, f)))
+    known = found_law(fit.result)
+    found = fitted_response(model, known, f, bar)
+    law = known.law(law) if law is not None else None
+    return Response(prediction_from_fit(found, theory_remark(model, law, f)))

@@ -86,9 +86,9 @@ def _session(contents: Contents) -> Session:
         reads=contents.configuration.rig.vibrometer.reads,
         specimen=specimen,
         sweep=as_sweep(session_sweep(contents, contents.specimen)) if contents.points else None,
-        hammer=Damping(contents.damping.facts_json) if contents.damping is not None else None,
-        identification=Identification(fit.facts_json, specimen) if fit and fit.facts_json else None,
-        diagnosis=Diagnosis(diagnosis.facts_json) if diagnosis and diagnosis.facts_json else None,
+        hammer=Damping(contents.damping.result) if contents.damping is not None else None,
+        identification=Identification(fit.result, specimen) if fit and fit.result else None,
+        diagnosis=Diagnosis(diagnosis.result) if diagnosis and diagnosis.result else None,
         remarks=(*_why("no law identified", fit), *_why("no diagnosis", diagnosis)),
     )
 

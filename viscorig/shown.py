@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from instrument.errors import BadInput
+from instrument.facts.result import Result
 from instrument.stream.jsonable import to_jsonable
 
 Columns = dict[str, NDArray[Any]]
@@ -66,9 +67,10 @@ class Shown:
         return f"<p><b>{heading}</b>{said}</p>{_table(self.to_numpy())}"
 
 
-def columns(rows: Sequence[dict[str, Any]]) -> Columns:
-    """Rows of JSON as columns; None is NaN among numbers."""
-    return {key: _column([row[key] for row in rows]) for key in (rows[0] if rows else ())}
+def columns(rows: Sequence[Result]) -> Columns:
+    """Rows of a result as columns; None is NaN among numbers."""
+    keys = [key for key in type(rows[0]).model_fields if key in rows[0].model_fields_set] if rows else []
+    return {key: _column([getattr(row, key) for row in rows]) for key in keys}
 
 
 def _column(values: list[Any]) -> NDArray[Any]:

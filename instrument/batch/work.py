@@ -11,14 +11,16 @@ from fitting.specimen import Specimen
 from instrument.batch.keys import program
 from instrument.batch.task import Task
 from instrument.errors import BadInput
+from instrument.facts.diagnosis import StageFitted
+from instrument.facts.identification import IdentificationResult
 from instrument.files.specimen_file import read_specimen
 from instrument.interchange.given import Given, read_given
 from instrument.models.diagnosis import diagnose
 from instrument.models.identification import identify
 from instrument.models.second_process import VARIABLE as PROCESSES
 from instrument.models.sharing import serves
-from instrument.results.diagnosis_facts import diagnosis_facts
-from instrument.results.identification_facts import identification_facts
+from instrument.results.diagnosis_from import diagnosis_from
+from instrument.results.identification_from import identification_from
 from instrument.stream.jsonable import to_jsonable
 
 Outcome = dict[str, Any]
@@ -104,23 +106,28 @@ def _lender(task: Task, given: Given) -> Specimen | None:
 
 def _identified(given: Given, like: Specimen | None) -> dict[str, Any]:
     found = identify(given.sweep, given.plate, hammer=given.modes, like=like)
-    facts = identification_facts(found, given.sweep)
+    result = identification_from(found, given.sweep, given.plate)
     return {
         "verdict": None,
         "effects": [],
-        "converged": facts["converged"],
-        "warnings": facts["warnings"],
-        **{key: facts[key] for key in _KEPT},
+        "converged": result.converged,
+        "warnings": result.warnings,
+        **_kept(result),
     }
 
 
 def _diagnosed(given: Given, like: Specimen | None) -> dict[str, Any]:
     found = diagnose(given.sweep, given.plate, given.modes, like=like)
-    facts = diagnosis_facts(found, given.sweep)
+    result = diagnosis_from(found, given.sweep)
     return {
-        "verdict": facts["verdict"],
-        "effects": [effect["name"] for effect in facts["effects"]],
+        "verdict": result.verdict,
+        "effects": [effect.name for effect in result.effects],
         "converged": None,
-        "warnings": facts["warnings"],
-        **{key: facts["after"][key] for key in _KEPT},
+        "warnings": result.warnings,
+        **_kept(result.after),
     }
+
+
+def _kept(fit: IdentificationResult | StageFitted) -> dict[str, Any]:
+    facts = fit.as_json()
+    return {key: facts[key] for key in _KEPT}

@@ -10,9 +10,9 @@ from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.files.records import Named, read_records
 from instrument.impact.damping import Damping, damping_of_frfs, damping_of_hits
-from instrument.impact.facts import damping_facts
 from instrument.impact.judge import judge
 from instrument.impact.record import Hit
+from instrument.impact.result import damping_from
 from instrument.impact.spectra import Estimator
 
 _HIGHEST_RATE = 1e8
@@ -104,7 +104,7 @@ def damping(
 
         for path in save_figures(found, figures):
             out.say(f"saved {path}")
-    out.result(damping_facts(found))
+    out.result(damping_from(found))
 
 
 def _check_alike(hits: list[Hit]) -> None:

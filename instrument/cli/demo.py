@@ -1,7 +1,6 @@
 """`viscorig demo`: a whole experiment on the simulated rig, then the published case from its tables."""
 
 from pathlib import Path
-from typing import Any
 
 import click
 import numpy as np
@@ -10,10 +9,11 @@ from drivers.simulated.plant.law import ZN1
 from instrument.cli.demo_paper import show_paper_case
 from instrument.cli.options import json_option
 from instrument.cli.output import Output
-from instrument.cli.print_run import print_finished, run_facts
+from instrument.cli.print_run import print_finished, run_result
 from instrument.cli.stopping import safe_stop
 from instrument.cli.watching import Watcher
 from instrument.errors import BadInput
+from instrument.facts.run import RunResult
 from instrument.progress import bar
 from instrument.report.page import report_page
 from instrument.results.diagnosis_figures import save_diagnosis_figures
@@ -59,15 +59,15 @@ def demo(folder: Path, effect: str, seed: int, paper: bool, json_path: str | Non
     except OSError as error:
         raise BadInput(f"{folder}: {error.strerror or error}") from None
     out = Output(json_path)
-    facts = _run_rig(out, folder, chosen_effect(effect, seed), seed)
+    result = _run_rig(out, folder, chosen_effect(effect, seed), seed)
     out.say(f"to change it: edit {folder}/experiment.toml, then  viscorig run {folder}/experiment.toml")
     if paper:
         out.say()
         show_paper_case(out, folder)
-    out.result(facts)
+    out.result(result)
 
 
-def _run_rig(out: Output, folder: Path, effect: str | None, seed: int) -> dict[str, Any]:
+def _run_rig(out: Output, folder: Path, effect: str | None, seed: int) -> RunResult:
     out.say("The simulated rig: bare plate, hammer; damped plate, stepped sine at 1 g.")
     out.say(f"Hidden in it: {effect or 'nothing'}. The model is not told.\n")
     experiment = read_whole_experiment(write_case(folder, seed=seed, effect=effect))
@@ -78,43 +78,42 @@ def _run_rig(out: Output, folder: Path, effect: str | None, seed: int) -> dict[s
         )
     print_finished(out, finished)
     _print_beside_plant(out, finished)
-    if finished.diagnosis is not None and finished.diagnosis.facts_json:
-        for path in save_diagnosis_figures(finished.diagnosis.facts_json, folder):
+    if finished.diagnosis is not None and finished.diagnosis.result is not None:
+        for path in save_diagnosis_figures(finished.diagnosis.result, folder):
             out.say(f"saved {path}")
-    facts = run_facts(finished)
-    Output(str(folder / "run.json")).result(facts)
+    result = run_result(finished)
+    Output(str(folder / "run.json")).result(result)
     with SessionFile(finished.session) as file:
         page = report_page(contents_of(file), bar)
     report = finished.session.with_suffix(".html")
     report.write_text(page, encoding="utf-8")
     out.say(f"report: {report}")
-    return {**facts, "report": str(report)}
+    return result.but(report=str(report))
 
 
 def _print_beside_plant(out: Output, finished: Finished) -> None:
     """The simulated plate has a law of its own that nothing above has seen."""
-    found = finished.diagnosis
-    if found is None or not found.facts_json:
+    found = finished.diagnosis.result if finished.diagnosis is not None else None
+    if found is None:
         return
     rows = []
     for f in _AT_HZ:
-        pair = [law_at(found.facts_json[stage]["law"], f) for stage in ("before", "after")]
-        known = [row for row in pair if row is not None]
-        if len(known) < len(pair):
+        known = [row for stage in found.stages if (row := law_at(stage.law, f)) is not None]
+        if len(known) < len(found.stages):
             continue
         G = complex(ZN1.modulus(2 * np.pi * f))
         eta = G.imag / G.real
         rows.append(
             [
                 f"{f:g}",
-                *(_beside(row["storage_modulus_pa"], G.real, 1e-6) for row in known),
+                *(_beside(row.storage_modulus_pa, G.real, 1e-6) for row in known),
                 f"{G.real / 1e6:.4f}",
-                *(_beside(row["loss_factor"], eta, 1.0) for row in known),
+                *(_beside(row.loss_factor, eta, 1.0) for row in known),
                 f"{eta:.4f}",
             ]
         )
     columns = ["f/Hz", "G'/MPa before", "after", "plant's", "loss factor before", "after", "plant's"]
-    title = with_verdict("the core: what was found beside the simulated plate's own law", found.facts_json)
+    title = with_verdict("the core: what was found beside the simulated plate's own law", found)
     out.table(title, columns, rows)
 
 

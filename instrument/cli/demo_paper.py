@@ -9,9 +9,8 @@ from instrument.paper_case import TABLE_5_THEORY_M_S
 from instrument.paper_case.demo import PaperRun, run_paper_case
 from instrument.paper_case.figures import save_figures
 from instrument.progress import bar
-from instrument.results.diagnosis_facts import diagnosis_facts
-from instrument.results.identification_facts import identification_facts
-from instrument.stream.jsonable import to_jsonable
+from instrument.results.diagnosis_from import diagnosis_from
+from instrument.results.identification_from import identification_from
 
 
 def show_paper_case(out: Output, folder: Path) -> None:
@@ -23,9 +22,13 @@ def show_paper_case(out: Output, folder: Path) -> None:
     _print_beside_paper(out, run)
     out.say()
     _print_diagnosis(out, run)
-    Output(str(folder / "identify-direct.json")).result(identification_facts(run.direct, run.sweep))
-    Output(str(folder / "identify-paper.json")).result(identification_facts(run.paper, run.sweep))
-    Output(str(folder / "diagnose-paper.json")).result(diagnosis_facts(run.diagnosis, run.sweep))
+    Output(str(folder / "identify-direct.json")).result(
+        identification_from(run.direct, run.sweep, run.specimen)
+    )
+    Output(str(folder / "identify-paper.json")).result(
+        identification_from(run.paper, run.sweep, run.specimen)
+    )
+    Output(str(folder / "diagnose-paper.json")).result(diagnosis_from(run.diagnosis, run.sweep))
     out.say()
     for path in save_figures(run, folder, bar):
         out.say(f"saved {path}")
@@ -33,11 +36,11 @@ def show_paper_case(out: Output, folder: Path) -> None:
 
 def _print_diagnosis(out: Output, run: PaperRun) -> None:
     """What the nine amplitudes say of the difference that four parameters leave."""
-    facts = to_jsonable(diagnosis_facts(run.diagnosis, run.sweep))
+    found = diagnosis_from(run.diagnosis, run.sweep)
     out.say("What the nine points say of that:")
-    print_story(out, facts)
+    print_story(out, found)
     out.say()
-    print_before_after(out, facts)
+    print_before_after(out, found)
 
 
 def _print_beside_paper(out: Output, run: PaperRun) -> None:

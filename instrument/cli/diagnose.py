@@ -12,10 +12,9 @@ from instrument.cli.reading import read_each, reading_options, together
 from instrument.models.diagnosis import diagnose as diagnose_sweep
 from instrument.models.together import diagnose_together
 from instrument.progress import bar
-from instrument.results.diagnosis_facts import diagnosis_facts
 from instrument.results.diagnosis_figures import save_diagnosis_figures
-from instrument.results.together_facts import diagnosed_together_facts
-from instrument.stream.jsonable import to_jsonable
+from instrument.results.diagnosis_from import diagnosis_from
+from instrument.results.together_from import diagnosed_together_from
 
 
 @click.command()
@@ -63,18 +62,19 @@ def diagnose(
     files, given = together(every, data), every[0]
     if files is not None:
         several = diagnose_together(files, declined, bar, accepted)
-        facts = to_jsonable(diagnosed_together_facts(several, files))
+        result = diagnosed_together_from(several, files)
     else:
         assert isinstance(given.specimen, Specimen)
         found = diagnose_sweep(
             given.sweep, given.specimen, given.modes, declined, bar, accepted, resamples=resamples
         )
-        facts = to_jsonable(diagnosis_facts(found, given.sweep))
-    print_diagnosis(out, facts)
+        result = diagnosis_from(found, given.sweep)
+    result = given.said(result)
+    print_diagnosis(out, result)
     if figures is not None:
-        for path in save_diagnosis_figures(facts, figures):
+        for path in save_diagnosis_figures(result, figures):
             out.say(f"saved {path}")
-    out.result({**facts, **given.facts})
+    out.result(result)
 
 
 def _accepted(names: tuple[str, ...]) -> tuple[str, ...] | None:

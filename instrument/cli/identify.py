@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -17,22 +16,24 @@ from instrument.cli.print_beside import print_beside
 from instrument.cli.print_budget import print_budget
 from instrument.cli.print_identification import print_bare_plate, print_identification
 from instrument.cli.reading import read_each, reading_options, together
+from instrument.facts.beside import BesideTable
+from instrument.facts.budget import BudgetRow
+from instrument.facts.identification import IdentificationResult
 from instrument.files.dma_file import DmaTable, read_dma
 from instrument.files.modal_table import is_modal_table
-from instrument.material.beside import beside, beside_facts
-from instrument.material.found_law import law_of_facts
+from instrument.material.beside import beside, beside_table
+from instrument.material.found_law import law_of_result
 from instrument.material.overlay import save_overlay
 from instrument.models.identification import Identified, Method
 from instrument.models.identification import identify as identify_sweep
 from instrument.models.pointwise import pointwise_of
 from instrument.models.together import File, identify_together
 from instrument.progress import bar
-from instrument.results.budget_facts import budget, budget_facts
-from instrument.results.identification_facts import bare_plate_facts, identification_facts
-from instrument.results.pointwise_facts import second_look_facts
+from instrument.results.budget_from import budget, budget_from
+from instrument.results.identification_from import identification_from
 from instrument.results.pointwise_figures import save_pointwise_figure
-from instrument.results.together_facts import identified_together_facts
-from instrument.stream.jsonable import to_jsonable
+from instrument.results.pointwise_from import with_second_look
+from instrument.results.together_from import identified_together_from
 
 
 @click.command()
@@ -121,32 +122,31 @@ def identify(
     table = _table(dma, read)
     found: Identified = identify_sweep(given.sweep, read, method, bar, given.modes)
     print_identification(out, found, given.sweep, read)
-    facts = identification_facts(found, given.sweep)
+    result = identification_from(found, given.sweep, read)
     if found.bare is not None:
         print_bare_plate(out, found.bare, read)
-        facts["hammer"] = bare_plate_facts(found.bare, read)
     if with_budget:
-        facts["budget"] = _budget(out, found)
+        result = result.but(budget=_budget(out, found))
     if pointwise:
         bands = pointwise_of(found, given.sweep)
         out.say(bands.words)
-        facts |= second_look_facts(bands)
+        result = with_second_look(result, bands)
         if figures is not None:
             out.say(f"saved {save_pointwise_figure(bands, found.result.band, figures)}")
     if table is not None:
-        facts["with"] = _beside(out, table, data[0], to_jsonable(facts), figures)
-    out.result({**facts, **given.facts})
+        result = result.but(beside=_beside(out, table, data[0], result, figures))
+    out.result(given.said(result))
 
 
-def _budget(out: Output, found: Identified) -> list[dict[str, Any]] | None:
+def _budget(out: Output, found: Identified) -> tuple[BudgetRow, ...] | None:
     """By source, at a few frequencies."""
     by_source = budget(found)
     if by_source is None:
         out.say("no budget: these data give no uncertainty, or the method none of its own")
         return None
-    facts: list[dict[str, Any]] = to_jsonable(budget_facts(by_source))
-    print_budget(out, facts)
-    return facts
+    rows = budget_from(by_source)
+    print_budget(out, rows)
+    return rows
 
 
 def _table(dma: Path | None, specimen: Specimen) -> DmaTable | None:
@@ -159,15 +159,15 @@ def _table(dma: Path | None, specimen: Specimen) -> DmaTable | None:
 
 
 def _beside(
-    out: Output, table: DmaTable, data: Path, facts: dict[str, Any], figures: Path | None
-) -> dict[str, Any] | None:
+    out: Output, table: DmaTable, data: Path, result: IdentificationResult, figures: Path | None
+) -> BesideTable | None:
     """The table beside the law just found."""
-    law = law_of_facts(data, facts)
+    law = law_of_result(data, result)
     if law is None:
         out.say("the law found has no band, nothing to compare with")
         return None
     found = beside(law, table)
-    said = beside_facts(table, found)
+    said = beside_table(table, found)
     print_beside(out, table, found, said)
     if figures is not None:
         out.say(f"saved {save_overlay(law, table, figures)}")
@@ -177,4 +177,4 @@ def _beside(
 def _identify_together(out: Output, files: Sequence[File]) -> None:
     found = identify_together(files, bar)
     print_identification(out, found.found, found.sweep, files[0].specimen)
-    out.result(identified_together_facts(found, files))
+    out.result(identified_together_from(found, files))

@@ -10,7 +10,7 @@ from fitting.structures.modal_fit import fit_modes
 from instrument.cli.output import Output
 from instrument.files.modal_table import read_modal_table
 from instrument.files.structure_file import read_structure
-from instrument.results.modal_facts import modal_band, modal_facts
+from instrument.results.modal_from import modal_band, modal_from
 
 
 def identify_modes(out: Output, data: Sequence[Path], specimens: Sequence[Path]) -> None:
@@ -26,21 +26,21 @@ def identify_modes(out: Output, data: Sequence[Path], specimens: Sequence[Path])
         raise click.UsageError("a modal table of a plate: expected a beam or a shear pair")
     tables = [read_modal_table(path) for path in data]
     found = fit_modes(tables, [s for s in read if not isinstance(s, Specimen)])
-    facts = modal_facts(found, tables, [path.name for path in data])
-    rows = [[n, f"{v:.5g}", f"{facts['standard_errors'][n]:.2g}"] for n, v in facts["parameters"].items()]
-    out.table(f"{facts['law_kind']} by modes", ["parameter", "value", "standard error"], rows)
+    result = modal_from(found, tables, [path.name for path in data])
+    rows = [[n, f"{v:.5g}", f"{result.standard_errors[n]:.2g}"] for n, v in result.parameters.items()]
+    out.table(f"{result.law_kind} by modes", ["parameter", "value", "standard error"], rows)
     out.say()
     out.table(
         "mode by mode",
         ["file", "mode", "f/Hz", "predicted", "loss factor", "predicted"],
         [
             [
-                f"{m['file']}",
-                f"{m['mode']}",
-                *(f"{m[key]:.5g}" for key in ("frequency_hz", "predicted_hz")),
-                *(f"{m[key]:.4g}" for key in ("loss_factor", "predicted_loss_factor")),
+                f"{m.file}",
+                f"{m.mode}",
+                *(f"{f:.5g}" for f in (m.frequency_hz, m.predicted_hz)),
+                *(f"{eta:.4g}" for eta in (m.loss_factor, m.predicted_loss_factor)),
             ]
-            for m in facts["modes"]
+            for m in result.modes
         ],
     )
     out.say()
@@ -59,5 +59,5 @@ def identify_modes(out: Output, data: Sequence[Path], specimens: Sequence[Path])
             for k in every
         ],
     )
-    out.say(f"chi-square per degree of freedom {facts['chi2_per_dof']:.3g}")
-    out.result(facts)
+    out.say(f"chi-square per degree of freedom {found.uncertainty.chi2_per_dof:.3g}")
+    out.result(result)

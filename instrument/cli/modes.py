@@ -12,6 +12,7 @@ from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
 from instrument.files.structure_file import read_structure
 from instrument.progress import bar
+from instrument.results.modes_from import modes_from
 
 
 @click.command()
@@ -34,4 +35,4 @@ def modes(specimen: Path, count: int, json_path: str | None) -> None:
         found = small_modes(read, law, count)
     rows = [[str(k + 1), f"{m.frequency_hz:.3f}", f"{m.loss_factor:.5f}"] for k, m in enumerate(found)]
     out.table("", ["mode", "frequency/Hz", "loss factor"], rows)
-    out.result({"modes": [{"frequency_hz": m.frequency_hz, "loss_factor": m.loss_factor} for m in found]})
+    out.result(modes_from(found))

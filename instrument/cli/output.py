@@ -2,14 +2,15 @@
 
 import json
 import math
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import click
 from rich.console import Console
 from rich.table import Table
 
 from instrument.errors import BadInput
+from instrument.facts.result import Result
 from instrument.stream.jsonable import to_jsonable
 
 
@@ -41,11 +42,12 @@ class Output:
             table
         )
 
-    def result(self, facts: dict[str, Any]) -> None:
+    def result(self, found: Result | Mapping[str, object]) -> None:
         """The facts as JSON, where they were asked for."""
         if self._json_path is None:
             return
-        text = json.dumps(to_jsonable(facts), indent=1, allow_nan=False)
+        facts = found.as_json() if isinstance(found, Result) else to_jsonable(dict(found))
+        text = json.dumps(facts, indent=1, allow_nan=False)
         if self._json_path == "-":
             click.echo(text)
             return

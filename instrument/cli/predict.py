@@ -11,6 +11,7 @@ from fitting.specimen import Specimen, Stated
 from fitting.structures.small_modes import small_velocity
 from instrument.cli.options import Frequencies, file_argument, json_option
 from instrument.cli.output import Output
+from instrument.facts.prediction import PredictionResult
 from instrument.files.hammer_file import read_hammer
 from instrument.files.structure_file import read_structure
 from instrument.models.specimen_models import Models
@@ -18,6 +19,7 @@ from instrument.models.theory import theory_remark
 from instrument.progress import bar
 from instrument.results.fit_file import read_fit
 from instrument.results.fitted_response import fitted_response
+from instrument.results.prediction_from import prediction_from, prediction_from_fit
 
 
 @click.command()
@@ -58,50 +60,32 @@ def predict(
     if not isinstance(read, Specimen):
         if real_modes or fit is not None or hammer is not None:
             raise click.UsageError(f"--real-modes, --fit, --hammer with a {read.kind}: expected a plate")
-        _show(out, read, frequencies, small_velocity(read, frequencies), {}, "")
+        _show(out, read, prediction_from(frequencies, small_velocity(read, frequencies)))
         return
     if hammer is not None:
         read = with_bare_plate(read, fit_bare_plate(read, *read_hammer(hammer)))
-    errors: dict[str, NDArray[np.float64]] = {}
     law = read.core.law if read.core is not None else None
     if fit is not None:
         known = read_fit(fit)
         found = fitted_response(read, known, frequencies, bar)
         law = known.law(law) if law is not None else None
-        v = found.velocity_m_s
-        errors = {
-            "velocity_standard_error_m_s": found.amplitude_standard_error_m_s,
-            "phase_standard_error_rad": found.phase_standard_error_rad,
-        }
+        result = prediction_from_fit(found, theory_remark(read, law, frequencies))
     else:
         v = Models.of(read, frequencies, bar).predict(law, frequencies, real_modes=real_modes)
-    _show(out, read, frequencies, v, errors, theory_remark(read, law, frequencies))
+        result = prediction_from(frequencies, v, theory_remark(read, law, frequencies))
+    _show(out, read, result)
 
 
-def _show(
-    out: Output,
-    read: Stated,
-    frequencies: NDArray[np.float64],
-    v: NDArray[np.complex128],
-    errors: dict[str, NDArray[np.float64]],
-    remark: str,
-) -> None:
-    points = [
-        {
-            "frequency_hz": float(f),
-            "velocity_re_m_s": float(z.real),
-            "velocity_im_m_s": float(z.imag),
-            "velocity_m_s": float(abs(z)),
-            **{key: float(error[k]) for key, error in errors.items()},
-        }
-        for k, (f, z) in enumerate(zip(frequencies, v, strict=True))
-    ]
+def _show(out: Output, read: Stated, result: PredictionResult) -> None:
     rows = [
-        [f"{f:g}", f"{abs(z):.6g}", f"{z.real:.6g}", f"{z.imag:.6g}"]
-        for f, z in zip(frequencies, v, strict=True)
+        [
+            f"{p.frequency_hz:g}",
+            *(f"{v:.6g}" for v in (p.velocity_m_s, p.velocity_re_m_s, p.velocity_im_m_s)),
+        ]
+        for p in result.points
     ]
     title = f"{read.reads} velocity at {read.base_acceleration_m_s2:g} m/s^2 base acceleration"
     out.table(title, ["frequency/Hz", "amplitude/(m/s)", "real/(m/s)", "imaginary/(m/s)"], rows)
-    if remark:
+    for remark in result.notes:
         out.say(f"note: {remark}")
-    out.result({"points": points, "notes": [remark] if remark else []})
+    out.result(result)

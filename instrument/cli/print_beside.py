@@ -1,34 +1,33 @@
 """Somebody's DMA beside the law found: a table of its temperatures."""
 
-from typing import Any
-
 import numpy as np
 
 from instrument.cli.output import Output
+from instrument.facts.beside import BesideTable
 from instrument.files.dma_file import DmaTable
 from instrument.material.beside import Beside
 
 _SAYS = {True: "differs", False: "agrees", None: "cannot be told"}
 
 
-def print_beside(out: Output, table: DmaTable, found: list[Beside], facts: dict[str, Any]) -> None:
+def print_beside(out: Output, table: DmaTable, found: list[Beside], said: BesideTable) -> None:
     """A row a temperature."""
     what = "" if table.poisson is None else f", {table.kind} to shear with Poisson's ratio {table.poisson:g}"
-    inside = f"{facts['rows_in_band']} of {facts['rows']} rows inside the band"
+    inside = f"{said.rows_in_band} of {said.rows} rows inside the band"
     if not found:
         out.say(f"with {table.path.name}{what}: {inside}, nothing to compare")
         return
     rows = []
-    for one, said in zip(found, facts["temperatures"], strict=True):
+    for one, at in zip(found, said.temperatures, strict=True):
         warm = "not stated" if np.isnan(one.temperature_c) else f"{one.temperature_c:g}"
         rows.append(
             [
                 warm,
-                str(said["rows"]),
-                f"{said['storage_modulus_mean_difference_percent']:+.2f}",
-                f"{said['storage_modulus_rms_difference_percent']:.2f}",
-                f"{said['loss_factor_mean_difference']:+.4f}",
-                f"{said['loss_factor_rms_difference']:.4f}",
+                str(at.rows),
+                f"{at.storage_modulus_mean_difference_percent:+.2f}",
+                f"{at.storage_modulus_rms_difference_percent:.2f}",
+                f"{at.loss_factor_mean_difference:+.4f}",
+                f"{at.loss_factor_rms_difference:.4f}",
                 f"{one.p_value:.3g}",
                 _SAYS[one.differs],
             ]

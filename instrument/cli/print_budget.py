@@ -1,33 +1,34 @@
 """The budget of a law's uncertainty: a row a source."""
 
-from typing import Any
+from collections.abc import Sequence
 
 from instrument.cli.output import Output
+from instrument.facts.budget import BudgetRow, BudgetSource
 
 _LEAST = 0.02
 """Share of the total below which a source is only in the JSON."""
 
 
-def print_budget(out: Output, facts: list[dict[str, Any]]) -> None:
+def print_budget(out: Output, budget: Sequence[BudgetRow]) -> None:
     """G' in percent and eta at the band's ends and in its middle; small sources left out."""
-    facts = [facts[k] for k in sorted({0, len(facts) // 2, len(facts) - 1})]
+    budget = [budget[k] for k in sorted({0, len(budget) // 2, len(budget) - 1})]
     names: dict[str, None] = {}
-    at = [{s["source"]: s for s in row["sources"]} for row in facts]
-    for row in facts:
-        for s in row["sources"]:
+    at = [{s.source: s for s in row.sources} for row in budget]
+    for row in budget:
+        for s in row.sources:
             if (
-                s["storage_modulus_percent"] > _LEAST * row["storage_modulus_standard_error_percent"]
-                or s["loss_factor"] > _LEAST * row["loss_factor_standard_error"]
+                s.storage_modulus_percent > _LEAST * row.storage_modulus_standard_error_percent
+                or s.loss_factor > _LEAST * row.loss_factor_standard_error
             ):
-                names[s["source"]] = None
-    columns = [c for row in facts for c in (f"G' / % {row['frequency_hz']:.4g} Hz", "eta")]
+                names[s.source] = None
+    columns = [c for row in budget for c in (f"G' / % {row.frequency_hz:.4g} Hz", "eta")]
     rows = [[name, *(c for s in at for c in _cells(s[name]))] for name in names]
     total = [
         c
-        for row in facts
+        for row in budget
         for c in (
-            f"{row['storage_modulus_standard_error_percent']:.3f}",
-            f"{row['loss_factor_standard_error']:.5f}",
+            f"{row.storage_modulus_standard_error_percent:.3f}",
+            f"{row.loss_factor_standard_error:.5f}",
         )
     ]
     out.table(
@@ -35,5 +36,5 @@ def print_budget(out: Output, facts: list[dict[str, Any]]) -> None:
     )
 
 
-def _cells(source: dict[str, Any]) -> tuple[str, str]:
-    return f"{source['storage_modulus_percent']:.3f}", f"{source['loss_factor']:.5f}"
+def _cells(source: BudgetSource) -> tuple[str, str]:
+    return f"{source.storage_modulus_percent:.3f}", f"{source.loss_factor:.5f}"

@@ -1,10 +1,11 @@
 """A diagnosis as people read it."""
 
 import textwrap
-from typing import Any
+from math import isnan
 
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from instrument.cli.output import Output
+from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_words import (
     law_at,
     probability_words,
@@ -14,78 +15,74 @@ from instrument.results.diagnosis_words import (
     with_verdict,
 )
 
-Facts = dict[str, Any]
-
 _MOST_CANDIDATES = 8
 _WIDTH = 100
 
 
-def print_diagnosis(out: Output, facts: Facts) -> None:
-    """Everything; `facts` as `diagnosis_facts` gives them."""
-    print_story(out, facts)
+def print_diagnosis(out: Output, found: DiagnosisResult) -> None:
+    """Everything."""
+    print_story(out, found)
     out.say()
-    _print_candidates(out, facts)
+    _print_candidates(out, found)
     out.say()
-    print_before_after(out, facts)
+    print_before_after(out, found)
     out.say()
-    _print_law(out, facts)
-    for text in facts["warnings"]:
+    _print_law(out, found)
+    for text in found.warnings:
         out.say(f"note: {text}")
-    if "seconds" in facts:
+    if found.seconds is not None and found.setup_seconds is not None:
         out.say(
-            f"{len(facts['points'])} points; set-up {facts['setup_seconds']:.2f} s, "
-            f"diagnosis {facts['seconds']:.2f} s"
+            f"{len(found.points)} points; set-up {found.setup_seconds:.2f} s, diagnosis {found.seconds:.2f} s"
         )
 
 
-def print_story(out: Output, facts: Facts) -> None:
+def print_story(out: Output, found: DiagnosisResult) -> None:
     """The verdict, what speaks for it, and what to measure next."""
-    out.say(verdict_line(facts))
+    out.say(verdict_line(found))
     out.say()
-    for text in facts["explanation"]:
+    for text in found.explanation:
         out.say(textwrap.fill(text, _WIDTH))
-    if facts["set_aside_hz"]:
-        listed = ", ".join(f"{f:.4g}" for f in facts["set_aside_hz"])
+    if found.set_aside_hz:
+        listed = ", ".join(f"{f:.4g}" for f in found.set_aside_hz)
         out.say(textwrap.fill(f"Set aside: {listed} Hz.", _WIDTH))
-    if facts["next_measurement"]:
-        out.say(textwrap.fill(f"Next measurement: {facts['next_measurement']}", _WIDTH))
+    if found.next_measurement:
+        out.say(textwrap.fill(f"Next measurement: {found.next_measurement}", _WIDTH))
 
 
-def print_before_after(out: Output, facts: Facts) -> None:
+def print_before_after(out: Output, found: DiagnosisResult) -> None:
     """The fit without and with the effects found."""
-    before, after = facts["before"], facts["after"]
     rows = [
-        ["rms difference in amplitude/%", *(_two(s["rms_percent"]) for s in (before, after)), ""],
-        ["largest difference/%", *(_two(s["max_percent"]) for s in (before, after)), ""],
-        ["chi-square per degree", *(_two(s["chi2_per_dof"]) for s in (before, after)), "1"],
+        ["rms difference in amplitude/%", *(_two(s.rms_percent) for s in found.stages), ""],
+        ["largest difference/%", *(_two(s.max_percent) for s in found.stages), ""],
+        ["chi-square per degree", *(_two(s.chi2_per_dof) for s in found.stages), "1"],
     ]
-    for b, a in zip(before["held_out"], after["held_out"], strict=False):
+    for b, a in zip(found.before.held_out, found.after.held_out, strict=False):
         rows.append(
             [
-                f"segment {b['segment']} from the others, rms/%",
-                *(_two(h["rms_percent"]) for h in (b, a)),
-                _two(b["noise_percent"]),
+                f"segment {b.segment} from the others, rms/%",
+                *(_two(h.rms_percent) for h in (b, a)),
+                _two(b.noise_percent),
             ]
         )
-    one_by_one = [s["leave_one_out_rms_percent"] for s in (before, after)]
+    one_by_one = [s.leave_one_out_rms_percent for s in found.stages]
     if one_by_one[0] is not None:
         rows.append(["each point from the others, rms/%", *(_two(v) for v in one_by_one), ""])
     out.table("what the fit leaves", ["", "before", "after", "noise alone"], rows)
-    resampled = resampling_words(facts)
+    resampled = resampling_words(found)
     if resampled:
         out.say(f"by resampling: {resampled}")
 
 
-def _print_candidates(out: Output, facts: Facts) -> None:
-    candidates = facts["candidates"]
+def _print_candidates(out: Output, found: DiagnosisResult) -> None:
+    candidates = found.candidates
     shown = candidates[:_MOST_CANDIDATES]
-    shown += [c for c in candidates[_MOST_CANDIDATES:] if c["name"] == "none"]
+    shown += tuple(c for c in candidates[_MOST_CANDIDATES:] if c.name == "none")
     rows = [
         [
-            c["name"],
-            probability_words(c, facts),
-            _two(c["chi2_per_dof"]),
-            some_parameters(c["parameters"]) or "-",
+            c.name,
+            probability_words(c, found),
+            _two(c.chi2_per_dof),
+            some_parameters(c.parameters) or "-",
         ]
         for c in shown
     ]
@@ -94,33 +91,28 @@ def _print_candidates(out: Output, facts: Facts) -> None:
     out.table(f"candidates, best first{more}", columns, rows)
 
 
-def _print_law(out: Output, facts: Facts) -> None:
+def _print_law(out: Output, found: DiagnosisResult) -> None:
     rows = []
     for f in REFERENCE_FREQUENCIES_HZ:
-        pair = [law_at(facts[stage]["law"], f) for stage in ("before", "after")]
-        if any(row is None for row in pair):
+        pair = [row for stage in found.stages if (row := law_at(stage.law, f)) is not None]
+        if len(pair) < len(found.stages):
             continue
         rows.append(
             [
                 f"{f:g}",
-                *(_banded(r, "storage_modulus_pa", "storage_modulus_standard_error_pa", 1e-6) for r in pair),
-                *(_banded(r, "loss_factor", "loss_factor_standard_error", 1.0) for r in pair),
+                *(_banded(r.storage_modulus_pa, r.storage_modulus_standard_error_pa, 1e-6) for r in pair),
+                *(_banded(r.loss_factor, r.loss_factor_standard_error) for r in pair),
             ]
         )
     columns = ["f/Hz", "G'/MPa before", "after", "loss factor before", "after"]
     if rows:
-        out.table(with_verdict("the core's law, +- one standard error", facts), columns, rows)
+        out.table(with_verdict("the core's law, +- one standard error", found), columns, rows)
 
 
-def _banded(row: Facts | None, key: str, error: str, scale: float) -> str:
-    assert row is not None
-    value = f"{scale * row[key]:.4f}"
-    return value if _absent(row[error]) else f"{value} +- {scale * row[error]:.4f}"
+def _banded(value: float, error: float, scale: float = 1.0) -> str:
+    said = f"{scale * value:.4f}"
+    return said if isnan(error) else f"{said} +- {scale * error:.4f}"
 
 
 def _two(value: float | None) -> str:
-    return "-" if _absent(value) else f"{value:.2f}"
-
-
-def _absent(value: float | None) -> bool:
-    return value is None or value != value
+    return "-" if value is None or isnan(value) else f"{value:.2f}"

@@ -1,26 +1,27 @@
 """A finished run as a person sees it, and as JSON."""
 
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_before_after, print_story
+from instrument.facts.damping import METHODS, RatioFound
+from instrument.facts.rows import LawRow
+from instrument.facts.run import RunResult
 from instrument.run.experiment import Finished
 from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated, PointMeasured
 
 
-def run_facts(finished: Finished) -> dict[str, Any]:
-    """The JSON of `run`, `hammer` and `sweep`."""
-    return {
-        "session": str(finished.session),
-        "points": len(finished.points),
-        "damping": finished.damping.facts_json if finished.damping else None,
-        "identify": finished.fit.facts_json if finished.fit and finished.fit.facts_json else None,
-        "diagnose": finished.diagnosis.facts_json
-        if finished.diagnosis and finished.diagnosis.facts_json
-        else None,
-    }
+def run_result(finished: Finished) -> RunResult:
+    """The result of `run`, `hammer` and `sweep`."""
+    return RunResult(
+        session=str(finished.session),
+        points=len(finished.points),
+        damping=finished.damping.result if finished.damping is not None else None,
+        identify=finished.fit.result if finished.fit is not None else None,
+        diagnose=finished.diagnosis.result if finished.diagnosis is not None else None,
+    )
 
 
 def print_finished(out: Output, finished: Finished) -> None:
@@ -40,11 +41,11 @@ def print_damping(out: Output, found: DampingFound) -> None:
     """The bare plate's modes, three methods side by side."""
     rows = [
         [
-            f"{m['frequency_hz']:.3f}",
-            *(_percent(m[k]) for k in ("rational_fit", "half_power", "lscf")),
-            m["why"] or "-",
+            f"{m.frequency_hz:.3f}",
+            *(_percent(m.by(method)) for method in METHODS),
+            m.why or "-",
         ]
-        for m in found.facts_json["modes"]
+        for m in found.result.modes
     ]
     out.table(
         "bare plate: damping ratio by three methods, +- one standard error",
@@ -68,48 +69,47 @@ def print_quality(out: Output, points: list[PointMeasured]) -> None:
 
 def print_fit(out: Output, fit: FitUpdated) -> None:
     """The law over the band."""
-    if not fit.facts_json:
+    result = fit.result
+    if result is None:
         out.say(f"no law identified: {fit.message}")
         return
-    facts = fit.facts_json
-    law = facts["law"]
+    law = result.law
     shown = [law[k] for k in sorted({0, len(law) - 1, *_near(law, (20.0, 50.0, 100.0, 200.0, 280.0))})]
     rows = [
         [
-            f"{r['frequency_hz']:.4g}",
-            f"{r['storage_modulus_pa'] / 1e6:.4f} +- {r['storage_modulus_standard_error_pa'] / 1e6:.2g}",
-            f"{r['loss_factor']:.4f} +- {r['loss_factor_standard_error']:.2g}",
+            f"{r.frequency_hz:.4g}",
+            f"{r.storage_modulus_pa / 1e6:.4f} +- {r.storage_modulus_standard_error_pa / 1e6:.2g}",
+            f"{r.loss_factor:.4f} +- {r.loss_factor_standard_error:.2g}",
         ]
         for r in shown
     ]
-    at = f" at {facts['temperature_c']:.1f} degC" if "temperature_c" in facts else ""
+    at = f" at {result.temperature_c:.1f} degC" if result.temperature_c is not None else ""
     out.table(f"core: shear modulus with one standard error{at}", ["f/Hz", "G'/MPa", "loss factor"], rows)
-    chi2 = facts["chi2_per_dof"]
-    held = facts["held_out_rms_percent"]
+    chi2, held = result.chi2_per_dof, result.held_out_rms_percent
     out.say(
-        f"residual {facts['rms_percent']:.2f} % rms"
+        f"residual {result.rms_percent:.2f} % rms"
         + (f", each segment from the others {held:.2f} %" if held is not None else "")
         + (f", chi2 per degree {chi2:.2f}" if chi2 is not None else "")
     )
-    for warning in facts["warnings"]:
+    for warning in result.warnings:
         out.say(f"note: {warning}")
 
 
 def print_found_diagnosis(out: Output, found: DiagnosisFound) -> None:
     """Verdict, explanation, error before and after."""
     out.say()
-    if not found.facts_json:
+    if found.result is None:
         out.say(f"no diagnosis: {found.message}")
         return
-    print_story(out, found.facts_json)
+    print_story(out, found.result)
     out.say()
-    print_before_after(out, found.facts_json)
+    print_before_after(out, found.result)
     out.say()
 
 
-def _near(law: list[dict[str, float]], wanted: tuple[float, ...]) -> list[int]:
-    return [k for k, r in enumerate(law) if any(abs(r["frequency_hz"] - f) < 1e-9 * f for f in wanted)]
+def _near(law: Sequence[LawRow], wanted: tuple[float, ...]) -> list[int]:
+    return [k for k, r in enumerate(law) if any(abs(r.frequency_hz - f) < 1e-9 * f for f in wanted)]
 
 
-def _percent(e: dict[str, float] | None) -> str:
-    return f"{100 * e['ratio']:.4f} +- {100 * e['standard_error']:.1g}" if e else "refused"
+def _percent(e: RatioFound | None) -> str:
+    return f"{100 * e.ratio:.4f} +- {100 * e.standard_error:.1g}" if e else "refused"

@@ -8,6 +8,7 @@ from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_run import print_fit, print_found_diagnosis, print_quality
 from instrument.cli.watching import Watcher
+from instrument.facts.run import ReplayResult
 from instrument.progress import bar
 from instrument.run.replay import replay as replay_session
 from instrument.session.storage import SessionFile
@@ -47,13 +48,11 @@ def replay(session: Path, speed: float | None, json_path: str | None) -> None:
     for difference in again.differences:
         out.say(f"  {difference}")
     out.result(
-        {
-            "identify": again.fit.facts_json if again.fit and again.fit.facts_json else None,
-            "diagnose": again.diagnosis.facts_json
-            if again.diagnosis and again.diagnosis.facts_json
-            else None,
-            "equal_to_recorded": again.equal,
-            "derived_events": again.derived,
-            "differences": again.differences,
-        }
+        ReplayResult(
+            identify=again.fit.result if again.fit is not None else None,
+            diagnose=again.diagnosis.result if again.diagnosis is not None else None,
+            equal_to_recorded=again.equal,
+            derived_events=again.derived,
+            differences=tuple(again.differences),
+        )
     )

@@ -6,7 +6,7 @@ import click
 
 from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
-from instrument.cli.print_run import print_finished, run_facts
+from instrument.cli.print_run import print_finished, run_result
 from instrument.cli.stopping import safe_stop
 from instrument.cli.watching import Watcher
 from instrument.progress import bar
@@ -50,4 +50,4 @@ def run_parts(
             experiment, out, parts, control=control, watch=watch, resume=resume, progress=bar
         )
     print_finished(output, finished)
-    output.result(run_facts(finished))
+    output.result(run_result(finished))

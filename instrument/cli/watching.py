@@ -69,8 +69,8 @@ def said_of(event: Event) -> str | None:
             verdict = "good" if event.accepted else f"left out: {event.why}"
             return f"hit {event.hit}: {event.peak_n:.0f} N, {verdict}"
         case DampingFound():
-            modes = [m for m in event.facts_json["modes"] if m["accepted"]]
-            return f"bare plate: {len(modes)} modes, {modes[0]['frequency_hz']:.2f} Hz on" if modes else None
+            modes = event.result.accepted
+            return f"bare plate: {len(modes)} modes, {modes[0].frequency_hz:.2f} Hz on" if modes else None
         case CalibrationFound():
             return (
                 f"vibrometer in {event.range_name}: gain {event.gain:.5f} +- {event.gain_std:.1g}, "
@@ -89,18 +89,17 @@ def said_of(event: Event) -> str | None:
         case DiagnosisStarted():
             return "tracing what the fit cannot explain"
         case DiagnosisFound():
-            return verdict_line(event.facts_json) if event.facts_json else f"no diagnosis: {event.message}"
+            return verdict_line(event.result) if event.result else f"no diagnosis: {event.message}"
     return None
 
 
 def _fit_said(event: FitUpdated) -> str:
-    if event.message:
+    if event.result is None:
         return f"fit {event.number}: not yet: {event.message}"
-    law = event.facts_json["law"]
-    middle = min(law, key=lambda row: abs(row["frequency_hz"] - 100))
-    g, s = 1e-6 * middle["storage_modulus_pa"], 1e-6 * middle["storage_modulus_standard_error_pa"]
-    eta, e = middle["loss_factor"], middle["loss_factor_standard_error"]
+    middle = min(event.result.law, key=lambda row: abs(row.frequency_hz - 100))
+    g, s = 1e-6 * middle.storage_modulus_pa, 1e-6 * middle.storage_modulus_standard_error_pa
+    eta, e = middle.loss_factor, middle.loss_factor_standard_error
     return (
-        f"fit {event.number}, {len(event.facts_json['points'])} points: at {middle['frequency_hz']:.4g} Hz "
-        f"G' {g:.4f} +- {s:.2g} MPa, eta {eta:.4f} +- {e:.2g}; rms {event.facts_json['rms_percent']:.2f} %"
+        f"fit {event.number}, {len(event.result.points)} points: at {middle.frequency_hz:.4g} Hz "
+        f"G' {g:.4f} +- {s:.2g} MPa, eta {eta:.4f} +- {e:.2g}; rms {event.result.rms_percent:.2f} %"
     )

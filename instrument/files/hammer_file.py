@@ -2,7 +2,7 @@
 
 import json
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from pydantic import BaseModel, Field, ValidationError
@@ -11,6 +11,7 @@ from fitting.arrays import Array
 from fitting.bare_modes import Sensor
 from fitting.errors import TooFewPoints
 from instrument.errors import BadInput
+from instrument.facts.damping import DampingResult
 from instrument.files.text import read_text
 
 
@@ -44,7 +45,7 @@ class HammerModes(NamedTuple):
 def read_hammer(path: Path) -> HammerModes:
     """The JSON of `viscorig damping`. Raises `BadInput`."""
     try:
-        return hammer_modes(json.loads(read_text(path)))
+        return _modes(_Document.model_validate(json.loads(read_text(path))))
     except json.JSONDecodeError as error:
         raise BadInput(f"{path}: line {error.lineno}: not JSON: {error.msg}") from None
     except (ValidationError, RecursionError) as error:
@@ -56,9 +57,12 @@ def read_hammer(path: Path) -> HammerModes:
         raise BadInput(f"{path}: {error}") from None
 
 
-def hammer_modes(facts: Any) -> HammerModes:
-    """The same from the facts themselves. Raises `ValidationError`, `TooFewPoints`."""
-    document = _Document.model_validate(facts)
+def hammer_modes(found: DampingResult) -> HammerModes:
+    """The same from the result itself. Raises `ValidationError`, `TooFewPoints`."""
+    return _modes(_Document.model_validate(found.as_json()))
+
+
+def _modes(document: _Document) -> HammerModes:
     modes = [m for m in document.modes if m.accepted]
     if not modes:
         raise TooFewPoints("no accepted mode")
@@ -68,6 +72,6 @@ def hammer_modes(facts: Any) -> HammerModes:
     return HammerModes(np.array([m.frequency_hz for m in modes]), np.array(ratios), sensor)
 
 
-def accepted_modes(facts: dict[str, Any]) -> HammerModes | None:
+def accepted_modes(found: DampingResult) -> HammerModes | None:
     """The same of a test that may have none. Raises `ValidationError`."""
-    return hammer_modes(facts) if any(m["accepted"] for m in facts["modes"]) else None
+    return hammer_modes(found) if found.accepted else None

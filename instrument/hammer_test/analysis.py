@@ -1,6 +1,6 @@
 """The hammer test as it goes on: samples and the operator's word in, hits and modes out. Pure."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -8,12 +8,11 @@ from fitting.bare_modes import Sensor
 from instrument.errors import BadInput
 from instrument.hammer_test.trigger import Trigger
 from instrument.impact.damping import damping_of_hits
-from instrument.impact.facts import damping_facts
 from instrument.impact.judge import Judged, judge
 from instrument.impact.record import Channel, Hit
+from instrument.impact.result import damping_from, sensor_from
 from instrument.stream.derived import DampingFound, HitJudged, HitRevised
 from instrument.stream.event import Derived
-from instrument.stream.jsonable import to_jsonable
 from instrument.stream.raw import BlockAcquired, HammerTestEnded, OperatorDid
 from instrument.stream.scaling import Scaling
 
@@ -103,11 +102,12 @@ class HammerAnalysis:
             for h in self._hits
         ]
         try:
-            found = damping_of_hits(hits, band_hz=self._settings.band_hz)
+            result = damping_from(damping_of_hits(hits, band_hz=self._settings.band_hz))
         except BadInput:
             return []
-        sensor = {"sensor": asdict(self._settings.sensor)} if self._settings.sensor else {}
-        return [DampingFound(to_jsonable({**damping_facts(found), **sensor}))]
+        if self._settings.sensor is not None:
+            result = result.but(sensor=sensor_from(self._settings.sensor))
+        return [DampingFound(result)]
 
     def _judged(self, first: int, record: np.ndarray, overload: np.ndarray) -> HitJudged:
         number = len(self._hits) + 1

@@ -22,7 +22,7 @@ def export_csv(contents: Contents, folder: Path) -> list[Path]:
         verdict = "" if hit.accepted else "-rejected"
         texts[f"{name}-hit-{hit.number:02d}{verdict}.csv"] = hit_text(contents, hit)
     if contents.damping is not None:
-        texts[f"{name}-damping.json"] = json.dumps(contents.damping.facts_json, indent=1) + "\n"
+        texts[f"{name}-damping.json"] = json.dumps(contents.damping.result.as_json(), indent=1) + "\n"
     texts[f"{name}-specimen.toml"] = specimen_toml(contents)
     for file, text in texts.items():
         (folder / file).write_text(text, encoding="utf-8")

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import TypeVar
 
 import numpy as np
 
@@ -10,6 +10,8 @@ from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
 from instrument.errors import BadInput
+from instrument.facts.diagnosis import DiagnosisResult
+from instrument.facts.identification import IdentificationResult
 from instrument.files.hammer_file import HammerModes, read_hammer
 from instrument.files.specimen_file import read_specimen
 from instrument.files.structure_file import read_structure
@@ -19,6 +21,8 @@ from instrument.interchange.identified import session_modes, session_sweep
 from instrument.interchange.readers import is_foreign
 from instrument.session.contents import Contents, contents_of
 from instrument.session.storage import SessionFile
+
+R = TypeVar("R", IdentificationResult, DiagnosisResult)
 
 SESSION_ENDINGS = (".h5", ".hdf5")
 
@@ -31,8 +35,10 @@ class Given:
     sweep: Sweep
     modes: HammerModes | None
     """Of the hammer test that is to take part."""
-    facts: dict[str, Any]
-    """Of the session, for the JSON."""
+    session: str = ""
+    """Its name, where the data are one."""
+    reads: str = ""
+    """What its laser sees."""
     remark: str = ""
     """For people, where a file leaves something to say."""
     temperature_c: float | None = None
@@ -44,6 +50,10 @@ class Given:
         if not isinstance(self.specimen, Specimen):
             raise BadInput(f"the specimen is a {self.specimen.kind}, expected a plate")
         return self.specimen
+
+    def said(self, result: R) -> R:
+        """A result of these data, which says whose they are."""
+        return result.but(session=self.session, reads=self.reads) if self.session else result
 
 
 def is_session(data: Path) -> bool:
@@ -69,11 +79,11 @@ def _of_sweep(data: Path, specimen: Path | None) -> Given:
     read = read_structure(specimen)
     level = read.base_acceleration_m_s2
     if is_foreign(data):
-        return Given(read, sweep_of_foreign(data, level), None, {})
+        return Given(read, sweep_of_foreign(data, level), None)
     if is_frf_csv(data):
         said = "an FRF: taken as the pickup over the base's acceleration"
-        return Given(read, sweep_of_frf_csv(data, level), None, {}, said)
-    return Given(read, read_sweep(data).sweep(level), None, {})
+        return Given(read, sweep_of_frf_csv(data, level), None, remark=said)
+    return Given(read, read_sweep(data).sweep(level), None)
 
 
 def _of_session(data: Path, specimen: Path | None, *, own_hammer: bool) -> Given:
@@ -86,7 +96,7 @@ def _of_session(data: Path, specimen: Path | None, *, own_hammer: bool) -> Given
     name = contents.configuration.name
     hammer = f", its hammer test with {len(modes.frequency_hz)} modes" if modes is not None else ""
     said = f"session {name}: {len(sweep)} points, velocity {reads}{hammer}"
-    return Given(read, sweep, modes, {"session": name, "reads": reads}, said, _temperature_c(contents))
+    return Given(read, sweep, modes, name, reads, said, _temperature_c(contents))
 
 
 def _temperature_c(contents: Contents) -> float | None:

@@ -49,6 +49,6 @@ def session_modes(contents: Contents) -> HammerModes | None:
     if contents.damping is None:
         return None
     try:
-        return accepted_modes(contents.damping.facts_json)
+        return accepted_modes(contents.damping.result)
     except ValidationError as error:
         raise BadInput(f"{contents.path}: {one_line(error, prefix='hammer test: ')}") from None

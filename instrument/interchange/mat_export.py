@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 from scipy.io import savemat
 
+from instrument.facts.damping import METHODS
 from instrument.impact.spectra import spectra
 from instrument.interchange.point_table import Column, columns
 from instrument.interchange.provenance import provenance, reading
@@ -74,18 +75,20 @@ def _hammer_frf(contents: Contents) -> list[Column]:
 
 def _damping(contents: Contents) -> list[Column]:
     """Adopted values and each method's, NaN where a method refused."""
-    if contents.damping is None or not contents.damping.facts_json["modes"]:
+    if contents.damping is None or not contents.damping.result.modes:
         return []
-    modes = contents.damping.facts_json["modes"]
+    modes = contents.damping.result.modes
     table = [
-        Column("frequency_hz", "Hz", _floats([m["frequency_hz"] for m in modes])),
-        Column("damping_ratio", "1", _floats([m["damping_ratio"] for m in modes])),
-        Column("accepted", "1", np.array([m["accepted"] for m in modes])),
+        Column("frequency_hz", "Hz", _floats([m.frequency_hz for m in modes])),
+        Column("damping_ratio", "1", _floats([m.damping_ratio for m in modes])),
+        Column("accepted", "1", np.array([m.accepted for m in modes])),
     ]
-    for method in ("rational_fit", "half_power", "lscf"):
-        for key, suffix in (("ratio", "ratio"), ("standard_error", "std")):
-            values = _floats([m[method][key] if m[method] else None for m in modes])
-            table.append(Column(f"{method}_{suffix}", "1", values))
+    for method in METHODS:
+        said = [m.by(method) for m in modes]
+        table += [
+            Column(f"{method}_ratio", "1", _floats([e.ratio if e else None for e in said])),
+            Column(f"{method}_std", "1", _floats([e.standard_error if e else None for e in said])),
+        ]
     return table
 
 

@@ -1,12 +1,12 @@
 """Somebody's DMA beside a law: how far off it is, and whether by more than both are known to."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy.stats import chi2
 
 from fitting.arrays import Array, Mask
+from instrument.facts.beside import BesideTable, BesideTemperature
 from instrument.files.dma_file import DmaTable
 from instrument.material.comparing import LEVEL, RESOLUTION, covariance_of
 from instrument.material.found_law import MaterialLaw
@@ -82,31 +82,31 @@ def _noise(f: Array, differences: tuple[Array, ...], stated: tuple[Array, ...]) 
     return np.concatenate(found), "scatter"
 
 
-def beside_facts(table: DmaTable, found: list[Beside]) -> dict[str, Any]:
+def beside_table(table: DmaTable, found: list[Beside]) -> BesideTable:
     """As JSON has it, under `with`."""
-    return {
-        "source": table.path.name,
-        "kind": table.kind,
-        "poisson": table.poisson,
-        "rows": len(table.frequency_hz),
-        "rows_in_band": sum(len(one.frequency_hz) for one in found),
-        "temperatures": [
-            {
-                "temperature_c": one.temperature_c,
-                "rows": len(one.frequency_hz),
-                "storage_modulus_mean_difference_percent": 100 * float(np.mean(one.storage_difference)),
-                "storage_modulus_rms_difference_percent": 100 * _rms(one.storage_difference),
-                "loss_factor_mean_difference": float(np.mean(one.loss_factor_difference)),
-                "loss_factor_rms_difference": _rms(one.loss_factor_difference),
-                "chi2": one.chi2,
-                "degrees_of_freedom": 2 * len(one.frequency_hz),
-                "p_value": one.p_value,
-                "differs": one.differs,
-                "noise": one.noise,
-            }
+    return BesideTable(
+        source=table.path.name,
+        kind=table.kind,
+        poisson=table.poisson,
+        rows=len(table.frequency_hz),
+        rows_in_band=sum(len(one.frequency_hz) for one in found),
+        temperatures=tuple(
+            BesideTemperature(
+                temperature_c=one.temperature_c,
+                rows=len(one.frequency_hz),
+                storage_modulus_mean_difference_percent=100 * float(np.mean(one.storage_difference)),
+                storage_modulus_rms_difference_percent=100 * _rms(one.storage_difference),
+                loss_factor_mean_difference=float(np.mean(one.loss_factor_difference)),
+                loss_factor_rms_difference=_rms(one.loss_factor_difference),
+                chi2=one.chi2,
+                degrees_of_freedom=2 * len(one.frequency_hz),
+                p_value=one.p_value,
+                differs=one.differs,
+                noise=one.noise,
+            )
             for one in found
-        ],
-    }
+        ),
+    )
 
 
 def _rms(values: Array) -> float:

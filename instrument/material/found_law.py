@@ -12,15 +12,15 @@ from scipy.interpolate import PchipInterpolator
 from fitting.arrays import Array, Complex
 from fitting.errors import FittingError
 from instrument.errors import BadInput
+from instrument.facts.identification import IdentificationResult
 from instrument.files.text import read_text
 from instrument.interchange.given import is_session
 from instrument.interchange.identified import identify_session
 from instrument.material.knowledge import Posterior, posterior_of
 from instrument.progress import Progress, quiet
-from instrument.results.identification_facts import identification_facts
+from instrument.results.identification_from import identification_from
 from instrument.session.contents import Contents, contents_of
 from instrument.session.storage import SessionFile
-from instrument.stream.jsonable import to_jsonable
 
 NOT_DIAGNOSED = "not diagnosed"
 NOT_STATED = "not stated"
@@ -114,7 +114,7 @@ def _of_facts(path: Path, facts: Any) -> MaterialLaw | None:
     """Of a diagnosis where there is one, else of an identification."""
     if not isinstance(facts, dict):
         return None
-    for read in (_diagnosed, law_of_facts):
+    for read in (_diagnosed, _identified):
         for inside in (facts, facts.get("diagnose"), facts.get("identify")):
             if isinstance(inside, dict) and (found := read(path, inside)) is not None:
                 return found
@@ -129,8 +129,13 @@ def _diagnosed(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
     return _law(path, found.after, found.verdict)
 
 
-def law_of_facts(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
-    """Of the JSON of `identify`, read from `path` or not yet written; None where it is none."""
+def law_of_result(path: Path, result: IdentificationResult) -> MaterialLaw | None:
+    """Of an identification of the data at `path`; None where it has no band."""
+    return _identified(path, result.as_json())
+
+
+def _identified(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
+    """Of the JSON of `identify`; None where it is none."""
     try:
         found = _law(path, _Found.model_validate(facts), NOT_DIAGNOSED)
     except ValidationError:
@@ -143,7 +148,8 @@ def _of_session(path: Path, progress: Progress) -> MaterialLaw:
         contents = contents_of(session, with_hits=False)
     found = None
     for event in (contents.diagnosis, contents.fit):
-        found = found or (_of_facts(path, event.facts_json) if event is not None else None)
+        if found is None and event is not None and event.result is not None:
+            found = _of_facts(path, event.result.as_json())
     found = found or _identified_now(path, contents, progress)
     specimen = contents.specimen
     temperatures = [p.temperature_c for p in contents.measured if p.temperature_c is not None]
@@ -161,7 +167,7 @@ def _identified_now(path: Path, contents: Contents, progress: Progress) -> Mater
         fit = identify_session(contents, progress)
     except FittingError as error:
         raise BadInput(f"{path}: no law in this session, and none to be found: {error}") from None
-    found = law_of_facts(path, to_jsonable(identification_facts(fit.identified, fit.sweep)))
+    found = law_of_result(path, identification_from(fit.identified, fit.sweep, fit.specimen))
     if found is None:
         raise BadInput(f"{path}: the law of this session has no band, expected a sweep over a range")
     return found

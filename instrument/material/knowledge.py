@@ -10,7 +10,7 @@ from fitting.arrays import Array
 from fitting.errors import FittingError
 from fitting.laws import LAWS, CoreLaw
 from instrument.errors import BadInput
-from instrument.results.fit_file import FoundLaw, found_law
+from instrument.results.fit_file import FoundLaw
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Posterior:
 def posterior_of(facts: Any) -> Posterior | None:
     """Of the JSON of `identify`; None where it does not hold enough of it."""
     try:
-        found = found_law(facts)
+        found = FoundLaw.model_validate(facts)
         law = found.law(_start(found))
     except (ValidationError, BadInput, FittingError, KeyError, ValueError, TypeError):
         return None

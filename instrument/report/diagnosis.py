@@ -1,8 +1,7 @@
-"""The diagnosis the run ended with: verdict, tables and figures from the recorded facts."""
-
-from typing import Any
+"""The diagnosis the run ended with: verdict, tables and figures from the recorded result."""
 
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
+from instrument.facts.diagnosis import DiagnosisResult
 from instrument.report.blocks import Block, Section, Sentence, Table
 from instrument.report.numbers import format_number, with_error
 from instrument.report.picture import picture
@@ -17,88 +16,86 @@ from instrument.results.diagnosis_words import (
 )
 from instrument.session.contents import Contents
 
-Facts = dict[str, Any]
-
 _TITLE = "Diagnosis"
 _MOST_CANDIDATES = 12
 
 
 def diagnosis_sections(contents: Contents) -> list[Section]:
     """One section, or none where the run made no diagnosis."""
-    found = contents.diagnosis
-    if found is None:
+    if contents.diagnosis is None:
         return []
-    if not found.facts_json:
-        return [Section(_TITLE, (Sentence(f"No diagnosis was possible: {found.message}.", "warning"),))]
-    facts = found.facts_json
-    verdict = verdict_line(facts)
+    found = contents.diagnosis.result
+    if found is None:
+        why = contents.diagnosis.message
+        return [Section(_TITLE, (Sentence(f"No diagnosis was possible: {why}.", "warning"),))]
+    verdict = verdict_line(found)
     blocks: list[Block] = [Sentence(f"{verdict[0].upper()}{verdict[1:]}.")]
-    blocks += [Sentence(text) for text in facts["explanation"]]
-    if facts["set_aside_hz"]:
-        listed = ", ".join(f"{f:.4g}" for f in facts["set_aside_hz"])
+    blocks += [Sentence(text) for text in found.explanation]
+    if found.set_aside_hz:
+        listed = ", ".join(f"{f:.4g}" for f in found.set_aside_hz)
         blocks.append(Sentence(f"Set aside for hum: {listed} Hz.", "note"))
-    if facts["next_measurement"]:
-        blocks.append(Sentence(f"Next measurement: {facts['next_measurement']}", "note"))
-    blocks += [Sentence(text, "note") for text in facts["warnings"]]
-    resampled = resampling_words(facts)
+    if found.next_measurement:
+        blocks.append(Sentence(f"Next measurement: {found.next_measurement}", "note"))
+    blocks += [Sentence(text, "note") for text in found.warnings]
+    resampled = resampling_words(found)
     blocks += [Sentence(f"By resampling: {resampled}.")] if resampled else []
     blocks += [
-        _before_after(facts),
-        picture(residual_figure(facts), "Residual before and after: predicted over measured, less one"),
-        _candidates(facts),
-        picture(evidence_figure(facts), "Evidence for each candidate"),
-        _law(facts),
-        picture(law_figure(facts), with_verdict("The core's law before and after, with 95 % bands", facts)),
+        _before_after(found),
+        picture(residual_figure(found), "Residual before and after: predicted over measured, less one"),
+        _candidates(found),
+        picture(evidence_figure(found), "Evidence for each candidate"),
+        _law(found),
+        picture(law_figure(found), with_verdict("The core's law before and after, with 95 % bands", found)),
     ]
     return [Section(_TITLE, tuple(blocks))]
 
 
-def _before_after(facts: Facts) -> Table:
-    before, after = facts["before"], facts["after"]
-    said = (
-        ("rms difference in amplitude / %", "rms_percent"),
-        ("largest difference / %", "max_percent"),
-        ("chi² per degree of freedom", "chi2_per_dof"),
-        ("predicted from the others, rms / %", "held_out_rms_percent"),
+def _before_after(found: DiagnosisResult) -> Table:
+    before, after = found.stages
+    said: tuple[tuple[str, float | None, float | None], ...] = (
+        ("rms difference in amplitude / %", before.rms_percent, after.rms_percent),
+        ("largest difference / %", before.max_percent, after.max_percent),
+        ("chi² per degree of freedom", before.chi2_per_dof, after.chi2_per_dof),
+        ("predicted from the others, rms / %", before.held_out_rms_percent, after.held_out_rms_percent),
     )
     rows: list[tuple[str, ...]] = [
-        (name, format_number(before[key], 3), format_number(after[key], 3), "") for name, key in said
+        (name, format_number(one, 3), format_number(other, 3), "") for name, one, other in said
     ]
     rows += [
         (
-            f"segment {b['segment']} from the others, rms / %",
-            *(format_number(h["rms_percent"], 3) for h in (b, a)),
-            format_number(b["noise_percent"], 3),
+            f"segment {b.segment} from the others, rms / %",
+            *(format_number(h.rms_percent, 3) for h in (b, a)),
+            format_number(b.noise_percent, 3),
         )
-        for b, a in zip(before["held_out"], after["held_out"], strict=False)
+        for b, a in zip(before.held_out, after.held_out, strict=False)
     ]
     return Table("What the fit leaves", ("", "before", "after", "noise alone"), tuple(rows))
 
 
-def _candidates(facts: Facts) -> Table:
+def _candidates(found: DiagnosisResult) -> Table:
     rows = tuple(
         (
-            c["name"],
-            probability_words(c, facts),
-            format_number(c["chi2_per_dof"], 3),
-            some_parameters(c["parameters"]) or "-",
+            c.name,
+            probability_words(c, found),
+            format_number(c.chi2_per_dof, 3),
+            some_parameters(c.parameters) or "-",
         )
-        for k, c in enumerate(facts["candidates"])
-        if k < _MOST_CANDIDATES or c["name"] == "none"
+        for k, c in enumerate(found.candidates)
+        if k < _MOST_CANDIDATES or c.name == "none"
     )
-    title = f"Candidates, best first ({len(facts['candidates'])} were fitted)"
+    title = f"Candidates, best first ({len(found.candidates)} were fitted)"
     return Table(title, ("effect", "probability", "chi² / degree", "parameters"), rows)
 
 
-def _law(facts: Facts) -> Table:
+def _law(found: DiagnosisResult) -> Table:
     rows = []
     for f in REFERENCE_FREQUENCIES_HZ:
-        pair = [law_at(facts[stage]["law"], f) for stage in ("before", "after")]
+        pair = [law_at(stage.law, f) for stage in found.stages]
         known = [r for r in pair if r is not None]
         if len(known) < 2:
             continue
-        G = (with_error(r["storage_modulus_pa"], r["storage_modulus_standard_error_pa"], 1e-6) for r in known)
-        eta = (with_error(r["loss_factor"], r["loss_factor_standard_error"]) for r in known)
+        G = (with_error(r.storage_modulus_pa, r.storage_modulus_standard_error_pa, 1e-6) for r in known)
+        eta = (with_error(r.loss_factor, r.loss_factor_standard_error) for r in known)
         rows.append((f"{f:g}", *G, *eta))
     columns = ("f / Hz", "G' / MPa before", "after", "loss factor before", "after")
-    return Table(with_verdict("The core's law, ± one standard error", facts), columns, tuple(rows))
+    return Table(with_verdict("The core's law, ± one standard error", found), columns, tuple(rows))

@@ -8,13 +8,13 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.errors import FittingError
 from instrument.errors import BadInput
+from instrument.facts.identification import IdentificationResult
 from instrument.interchange.identified import SessionFit, identify_session
 from instrument.progress import Progress, quiet
 from instrument.results.fit_file import found_law
 from instrument.results.fitted_response import FittedModel
-from instrument.results.identification_facts import identification_facts
+from instrument.results.identification_from import identification_from
 from instrument.session.contents import Contents
-from instrument.stream.jsonable import to_jsonable
 
 
 @dataclass(frozen=True)
@@ -33,19 +33,17 @@ class Fitted:
             return cls(None, " ".join(str(error).removeprefix(f"{contents.path}: ").split()))
 
     @cached_property
-    def facts(self) -> dict[str, object]:
-        """The JSON of `viscorig identify`; empty without a fit."""
-        return identification_facts(self.fit.identified, self.fit.sweep) if self.fit is not None else {}
+    def result(self) -> IdentificationResult | None:
+        """That of `viscorig identify`; None without a fit."""
+        fit = self.fit
+        return identification_from(fit.identified, fit.sweep, fit.specimen) if fit is not None else None
 
     @cached_property
     def _model(self) -> FittedModel | None:
         """The plate that was fitted, not the one that was stated."""
-        if self.fit is None:
+        if self.fit is None or self.result is None:
             return None
-        facts = to_jsonable(self.facts)
-        if self.fit.bare is not None:
-            facts["hammer"] = {"modal_ratios": list(self.fit.bare.ratios)}
-        return FittedModel.of(self.fit.specimen, found_law(facts), self.fit.sweep.frequency_hz)
+        return FittedModel.of(self.fit.specimen, found_law(self.result), self.fit.sweep.frequency_hz)
 
     def over_base(self, frequency_hz: Array) -> Complex | None:
         """The model's velocity over base acceleration in s at any frequency."""

@@ -1,21 +1,21 @@
 """The hammer test: hits, modes by three methods, FRF."""
 
-from typing import Any
+from math import isnan
 
 import numpy as np
 from matplotlib.figure import Figure
 
 from instrument.errors import BadInput
+from instrument.facts.damping import METHODS, DampingResult, RatioFound
 from instrument.impact.damping import Damping, damping_of_hits
-from instrument.impact.facts import damping_facts
 from instrument.impact.figures import highest_hz
+from instrument.impact.result import damping_from
 from instrument.report.blocks import Block, Section, Sentence, Table
 from instrument.report.numbers import format_number
 from instrument.report.picture import picture
 from instrument.results.drawing import DATA, MARK, label, panels
 from instrument.session.contents import Contents
 
-_METHODS = ("rational_fit", "half_power", "lscf")
 _WITHOUT_MODES_HZ = 1250.0
 """Up to here an FRF without modes is drawn."""
 
@@ -30,8 +30,8 @@ def hammer_section(contents: Contents) -> Section:
         found = damping_of_hits([h.judged() for h in contents.hits], band_hz=_band_hz(contents))
     except BadInput as error:
         return Section(title, (*blocks, Sentence(f"No damping: {error}.", "warning")))
-    facts = damping_facts(found)
-    blocks += [_modes(facts), _agreement(contents, facts), _frf(contents, found)]
+    result = damping_from(found)
+    blocks += [_modes(result), _agreement(contents, result), _frf(contents, found)]
     blocks += [Sentence(warning, "note") for warning in found.warnings]
     return Section(title, tuple(blocks))
 
@@ -55,15 +55,15 @@ def _hits(contents: Contents) -> Table:
     return Table("Hits", ("hit", "peak / N", "record / s", "verdict", "why"), rows)
 
 
-def _modes(facts: dict[str, Any]) -> Table:
+def _modes(result: DampingResult) -> Table:
     rows = tuple(
         (
-            f"{m['frequency_hz']:.3f}",
-            *(_percent(m[method]) for method in _METHODS),
-            format_number(m["lines_in_bandwidth"], 2),
-            m["why"] or "",
+            f"{m.frequency_hz:.3f}",
+            *(_percent(m.by(method)) for method in METHODS),
+            format_number(m.lines_in_bandwidth, 2),
+            m.why,
         )
-        for m in facts["modes"]
+        for m in result.modes
     )
     columns = ("f / Hz", "rational fit / %", "half power / %", "LSCF / %", "lines in bandwidth", "remarks")
     return Table(
@@ -71,20 +71,20 @@ def _modes(facts: dict[str, Any]) -> Table:
     )
 
 
-def _percent(e: dict[str, float] | None) -> str:
-    return f"{100 * e['ratio']:.4f} ± {100 * e['standard_error']:.1g}" if e else "refused"
+def _percent(e: RatioFound | None) -> str:
+    return f"{100 * e.ratio:.4f} ± {100 * e.standard_error:.1g}" if e else "refused"
 
 
-def _agreement(contents: Contents, facts: dict[str, Any]) -> Sentence:
+def _agreement(contents: Contents, result: DampingResult) -> Sentence:
     """What the run itself had found from the same hits."""
     if contents.damping is None:
         return Sentence(
             "The run itself kept no result of this test: the table was computed for this page.", "note"
         )
-    recorded = [m["damping_ratio"] for m in contents.damping.facts_json["modes"]]
-    now = [m["damping_ratio"] for m in facts["modes"]]
+    recorded = [m.damping_ratio for m in contents.damping.result.modes]
+    now = [m.damping_ratio for m in result.modes]
     same = len(recorded) == len(now) and all(
-        a is None or abs(a - b) <= 1e-9 * abs(b) for a, b in zip(recorded, now, strict=True)
+        isnan(a) or abs(a - b) <= 1e-9 * abs(b) for a, b in zip(recorded, now, strict=True)
     )
     if same:
         return Sentence("The run itself had found the same from these hits.")

@@ -111,8 +111,8 @@ def _hammer(fit: SessionFit) -> str:
 
 
 def _doubt(contents: Contents) -> list[Block]:
-    found = contents.diagnosis
-    if found is None or found.facts_json.get("verdict") != "unknown":
+    found = contents.diagnosis.result if contents.diagnosis is not None else None
+    if found is None or found.verdict != "unknown":
         return []
     return [Sentence(f"Diagnosis: {UNKNOWN}. The law may be far off its band.", "warning")]
 
@@ -178,12 +178,12 @@ def _live(contents: Contents, r: Identification) -> Sentence:
     live = contents.fit
     if live is None:
         return Sentence("The run itself made no fit; this one was made for the page.", "note")
-    if not live.facts_json:
+    if live.result is None:
         return Sentence(f"The run's own last fit failed: {live.message}.", "note")
-    points = live.facts_json["points"]
+    points = live.result.points
     if len(points) != len(contents.points):
         return Sentence(f"The run's own last fit had {len(points)} of {len(contents.points)} points.", "note")
-    recorded = live.facts_json["parameters"]
+    recorded = live.result.parameters
     worst = max(abs(recorded[n] / v - 1) for n, v in zip(r.law.names, r.law.values, strict=True))
     if worst <= _SAME:
         return Sentence("The live identification of the run ended with the same parameters.")

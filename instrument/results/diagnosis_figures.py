@@ -1,8 +1,8 @@
-"""Figures of a diagnosis: residual before and after, evidence, law. Drawn from its facts alone."""
+"""Figures of a diagnosis: residual before and after, evidence, law. Drawn from its result alone."""
 
+from collections.abc import Sequence
 from itertools import product
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,10 +12,10 @@ from matplotlib.patches import Patch
 from fitting.arrays import Array
 from fitting.sweep import segments_by_gap
 from instrument.errors import BadInput
+from instrument.facts.diagnosis import STAGES, DiagnosisResult, PointLeft, StageName
+from instrument.facts.result import Result
 from instrument.results.diagnosis_words import log_odds, probability_words, with_verdict
 from instrument.results.drawing import DATA, MARK, MODEL, SECOND, WIDTH_IN, label, legend_above
-
-Facts = dict[str, Any]
 
 _MOST_BARS = 12
 _BAND_95 = 1.96
@@ -30,12 +30,12 @@ _NO_EFFECT, _OTHER = "#444444", "#9bb8d3"
 _BAR_NAMES = {MARK: "accepted", MODEL: "not to be told from it", _OTHER: "others"}
 
 
-def save_diagnosis_figures(facts: Facts, folder: Path) -> list[Path]:
+def save_diagnosis_figures(found: DiagnosisResult, folder: Path) -> list[Path]:
     """Three PNG. Raises `BadInput` where the folder cannot be written."""
     drawn = {
-        "diagnosis-residual.png": residual_figure(facts),
-        "diagnosis-evidence.png": evidence_figure(facts),
-        "diagnosis-law.png": law_figure(facts),
+        "diagnosis-residual.png": residual_figure(found),
+        "diagnosis-evidence.png": evidence_figure(found),
+        "diagnosis-law.png": law_figure(found),
     }
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -46,18 +46,18 @@ def save_diagnosis_figures(facts: Facts, folder: Path) -> list[Path]:
     return [folder / name for name in drawn]
 
 
-def residual_figure(facts: Facts) -> Figure:
+def residual_figure(found: DiagnosisResult) -> Figure:
     """What is left over frequency: a row a segment, before on the left, after on the right."""
-    points = facts["points"]
-    numbers = sorted({p["segment"] for p in points})[:_MOST_SEGMENTS]
+    points = found.points
+    numbers = sorted({p.segment for p in points})[:_MOST_SEGMENTS]
     rows = len(numbers)
     figure = Figure(figsize=(WIDTH_IN, 1.2 + 1.75 * rows), layout="constrained")
     axes = figure.subplots(rows, 2, squeeze=False, sharex="row", sharey="row")
     for number, pair in zip(numbers, axes, strict=True):
-        mine = _together([p for p in points if p["segment"] == number])
-        for ax, stage in zip(pair, ("before", "after"), strict=True):
+        mine = _together([p for p in points if p.segment == number])
+        for ax, stage in zip(pair, STAGES, strict=True):
             _draw_residual(ax, mine, stage)
-            rms = facts[stage]["rms_percent"]
+            rms = found.stage(stage).rms_percent
             first = f"{stage}: {rms:.2g} % rms in amplitude" if number == numbers[0] else ""
             label(ax, title=first, x="Frequency / Hz" if number == numbers[-1] else "")
         label(pair[0], y=f"Segment {number}\nresidual / %")
@@ -65,39 +65,39 @@ def residual_figure(facts: Facts) -> Figure:
     return figure
 
 
-def _together(points: list[Facts]) -> list[Facts]:
+def _together(points: Sequence[PointLeft]) -> list[PointLeft]:
     """Ascending in frequency, without a sentinel far off: it would leave no room for the others."""
-    points = sorted(points, key=lambda p: float(p["frequency_hz"]))
+    points = sorted(points, key=lambda p: p.frequency_hz)
     cluster = segments_by_gap(_column(points, "frequency_hz"))
     largest = np.bincount(cluster).argmax()
     return [p for p, c in zip(points, cluster, strict=True) if c == largest]
 
 
-def _draw_residual(ax: Axes, points: list[Facts], stage: str) -> None:
+def _draw_residual(ax: Axes, points: Sequence[PointLeft], stage: StageName) -> None:
     # A band for each pass and level: between them the noise jumps.
-    for k, alike in enumerate(sorted({(p["sweep"], p["level_m_s2"]) for p in points})):
-        mine = [p for p in points if (p["sweep"], p["level_m_s2"]) == alike]
+    for k, alike in enumerate(sorted({(p.sweep, p.level_m_s2) for p in points})):
+        mine = [p for p in points if (p.sweep, p.level_m_s2) == alike]
         band = _TWO_STD * _column(mine, "noise_percent")
         if np.isfinite(band).all():
             name = "noise, ± 2 std" if k == 0 else None
             f = _column(mine, "frequency_hz")
             ax.fill_between(f, -band, band, color="#888888", alpha=0.2, linewidth=0, label=name)
     ax.axhline(0, color="#888888", linewidth=0.8)
-    left = [p[stage] for p in points]
-    f, has_phase = _column(points, "frequency_hz"), "re_percent" in left[0]
+    left = [p.stage(stage) for p in points]
+    f, has_phase = _column(points, "frequency_hz"), left[0].has_phase
     for key, name, colour, marker in _PARTS:
         if (key == "amplitude_percent") != has_phase:
             ax.plot(f, _column(left, key), marker, color=colour, markersize=3, label=name)
 
 
-def evidence_figure(facts: Facts) -> Figure:
+def evidence_figure(found: DiagnosisResult) -> Figure:
     """How far each of the best candidates stands above the fit without any effect."""
-    candidates = facts["candidates"]
+    candidates = found.candidates
     shown = candidates[:_MOST_BARS]
-    shown = shown + [c for c in candidates[_MOST_BARS:] if c["name"] == "none"]
-    odds = dict(zip((c["name"] for c in candidates), log_odds(facts), strict=True))
-    gain = np.array([odds[c["name"]] for c in shown], dtype=float)
-    colours = [_bar_colour(c["name"], facts) for c in shown]
+    shown += tuple(c for c in candidates[_MOST_BARS:] if c.name == "none")
+    odds = dict(zip((c.name for c in candidates), log_odds(found), strict=True))
+    gain = np.array([odds[c.name] for c in shown], dtype=float)
+    colours = [_bar_colour(c.name, found) for c in shown]
     figure = Figure(figsize=(WIDTH_IN, 1.4 + 0.3 * len(shown)), layout="constrained")
     ax = figure.subplots()
     ax.barh(np.arange(len(shown)), gain, color=colours)
@@ -107,11 +107,11 @@ def evidence_figure(facts: Facts) -> Figure:
     lowest = max(1.1 * float(gain.min()), -max(best, 10.0))
     ax.set_xlim(lowest, max(1.3 * best, 0.5 * abs(lowest), 5.0))
     for k, c in enumerate(shown):
-        chi2 = "" if c["chi2_per_dof"] is None else f", chi² {c['chi2_per_dof']:.3g}"
-        said = probability_words(c, facts)
+        chi2 = "" if c.chi2_per_dof is None else f", chi² {c.chi2_per_dof:.3g}"
+        said = probability_words(c, found)
         place = (max(float(gain[k]), 0.0), k)
         ax.annotate(said + chi2, place, (4, 0), textcoords="offset points", va="center", fontsize=8)
-    ax.set_yticks(np.arange(len(shown)), [c["name"] for c in shown])
+    ax.set_yticks(np.arange(len(shown)), [c.name for c in shown])
     ax.invert_yaxis()
     label(
         ax,
@@ -122,23 +122,23 @@ def evidence_figure(facts: Facts) -> Figure:
     return figure
 
 
-def _bar_colour(name: str, facts: Facts) -> str:
+def _bar_colour(name: str, found: DiagnosisResult) -> str:
     if name == "none":
         return _NO_EFFECT
-    groups = facts["equivalent"]
+    groups = found.equivalent
     together = set(name.split(" + "))
     if groups and together == set(groups):
         return MARK
     return MODEL if any(together == set(names) for names in product(*groups.values())) else _OTHER
 
 
-def law_figure(facts: Facts) -> Figure:
+def law_figure(found: DiagnosisResult) -> Figure:
     """G' and eta before and after with 95 % bands."""
     figure = Figure(figsize=(WIDTH_IN, 4.2), layout="constrained")
     left, right = figure.subplots(1, 2)
-    stages: list[tuple[str, str, str]] = [("before", MODEL, "--"), ("after", DATA, "-")]
+    stages: list[tuple[StageName, str, str]] = [("before", MODEL, "--"), ("after", DATA, "-")]
     for stage, colour, style in stages:
-        law = facts[stage]["law"]
+        law = found.stage(stage).law
         f = _column(law, "frequency_hz")
         for ax, key, error, scale in (
             (left, "storage_modulus_pa", "storage_modulus_standard_error_pa", 1e-6),
@@ -151,12 +151,11 @@ def law_figure(facts: Facts) -> Figure:
     for ax, y in ((left, "Storage modulus G' / MPa"), (right, "Loss factor η")):
         label(ax, x="Frequency / Hz", y=y)
         ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
-    title = with_verdict("The core's law without and with the effects found, 95 % bands", facts)
+    title = with_verdict("The core's law without and with the effects found, 95 % bands", found)
     left.set_title(title, fontsize=10, loc="left")
     left.legend(fontsize=8, frameon=False)
     return figure
 
 
-def _column(rows: list[Facts], key: str) -> Array:
-    """NaN for null."""
-    return np.array([row[key] for row in rows], dtype=float)
+def _column(rows: Sequence[Result], key: str) -> Array:
+    return np.array([getattr(row, key) for row in rows], dtype=float)

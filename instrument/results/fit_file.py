@@ -4,7 +4,7 @@ import json
 from dataclasses import replace
 from math import log
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
@@ -18,6 +18,7 @@ from fitting.nuisances import Nuisance, Nuisances
 from fitting.specimen import Specimen
 from fitting.tolerances import kind_of
 from instrument.errors import BadInput
+from instrument.facts.identification import IdentificationResult
 from instrument.files.text import read_text
 from instrument.models.fitted_plate import FittedPlate
 
@@ -143,16 +144,16 @@ class FoundLaw(BaseModel):
 def read_fit(path: Path) -> FoundLaw:
     """The JSON of `viscorig identify`. Raises `BadInput`."""
     try:
-        return found_law(json.loads(read_text(path)))
+        return FoundLaw.model_validate(json.loads(read_text(path)))
     except json.JSONDecodeError as error:
         raise BadInput(f"{path}: line {error.lineno}: not JSON: {error.msg}") from None
     except (ValidationError, RecursionError, OutsideModel):
         raise BadInput(f"{path}: expected the JSON of 'viscorig identify'") from None
 
 
-def found_law(facts: Any) -> FoundLaw:
-    """The same from the facts themselves. Raises `ValidationError`."""
-    return FoundLaw.model_validate(facts)
+def found_law(found: IdentificationResult) -> FoundLaw:
+    """The same from the result itself. Raises `ValidationError`."""
+    return FoundLaw.model_validate(found.as_json())
 
 
 def _number(value: float | None) -> float:

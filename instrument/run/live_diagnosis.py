@@ -9,19 +9,18 @@ from threadpoolctl import threadpool_limits
 from fitting.errors import FittingError
 from fitting.specimen import Specimen
 from instrument.errors import BadInput
+from instrument.facts.diagnosis import DiagnosisResult
 from instrument.files.hammer_file import accepted_modes
 from instrument.models.diagnosis import diagnose
 from instrument.progress import Progress, quiet
-from instrument.results.diagnosis_facts import diagnosis_facts
+from instrument.results.diagnosis_from import diagnosis_from
 from instrument.session.points import sweep_of, uncalibrated
 from instrument.stream.derived import DampingFound, DiagnosisFound, PointMeasured
-from instrument.stream.jsonable import to_jsonable
 
 Diagnoser = Callable[
     [int, int, list[PointMeasured], list[float], DampingFound | None, Specimen], DiagnosisFound
 ]
 """Number, last step, points, when each was read, hammer test, specimen."""
-_SECONDS = ("seconds", "setup_seconds")
 
 
 def diagnose_points(
@@ -38,25 +37,24 @@ def diagnose_points(
     try:
         # One thread: sums in another order would differ in the last bit.
         with threadpool_limits(1):
-            facts = _facts([p for p, _ in used], [t for _, t in used], damping, specimen, progress)
-            return DiagnosisFound(number, last_step, facts)
+            result = _result([p for p, _ in used], [t for _, t in used], damping, specimen, progress)
+            return DiagnosisFound(number, last_step, result)
     except (FittingError, BadInput, ValidationError, ValueError, ArithmeticError) as error:
         # Data may be such that nothing can be said of them: that is said, and the session is kept.
-        return DiagnosisFound(number, last_step, {}, " ".join(str(error).split()))
+        return DiagnosisFound(number, last_step, None, " ".join(str(error).split()))
 
 
-def _facts(
+def _result(
     points: list[PointMeasured],
     times_s: list[float],
     damping: DampingFound | None,
     specimen: Specimen,
     progress: Progress,
-) -> dict[str, object]:
-    hammer = accepted_modes(damping.facts_json) if damping is not None else None
+) -> DiagnosisResult:
+    hammer = accepted_modes(damping.result) if damping is not None else None
     sweep = sweep_of(points, times_s)
-    facts = diagnosis_facts(diagnose(sweep, specimen, hammer, progress=progress), sweep)
-    facts["warnings"] += uncalibrated(points)
-    return dict(to_jsonable({key: value for key, value in facts.items() if key not in _SECONDS}))
+    result = diagnosis_from(diagnose(sweep, specimen, hammer, progress=progress), sweep).untimed
+    return result.but(warnings=(*result.warnings, *uncalibrated(points)))
 
 
 def apart(work: Callable[[], DiagnosisFound]) -> DiagnosisFound:

@@ -8,19 +8,18 @@ from threadpoolctl import threadpool_limits
 
 from fitting.errors import FittingError
 from fitting.specimen import Specimen
+from instrument.facts.identification import IdentificationResult
 from instrument.files.hammer_file import accepted_modes
 from instrument.models.identification import identify
 from instrument.progress import Progress, quiet
-from instrument.results.identification_facts import bare_plate_facts, identification_facts
+from instrument.results.identification_from import identification_from
 from instrument.session.points import sweep_of, uncalibrated
 from instrument.stream.derived import DampingFound, FitUpdated, PointMeasured
 from instrument.stream.event import Event
-from instrument.stream.jsonable import to_jsonable
 from instrument.stream.raw import FitStarted
 
 Fitter = Callable[[int, int, list[PointMeasured], DampingFound | None, Specimen], FitUpdated]
 """Number, last step, points, hammer test, specimen."""
-_SECONDS = ("seconds", "setup_seconds", "validation_seconds")
 
 
 def fit_points(
@@ -36,31 +35,29 @@ def fit_points(
     try:
         # One thread: sums in another order would differ in the last bit.
         with threadpool_limits(1):
-            return FitUpdated(number, last_step, _facts(used, damping, specimen, progress))
+            return FitUpdated(number, last_step, _result(used, damping, specimen, progress))
     except (FittingError, ValidationError, ValueError, ArithmeticError) as error:
         # Data may be such that no fit is possible: said, and the measurement goes on.
-        return FitUpdated(number, last_step, {}, " ".join(str(error).split()))
+        return FitUpdated(number, last_step, None, " ".join(str(error).split()))
 
 
-def _facts(
+def _result(
     used: list[PointMeasured], damping: DampingFound | None, specimen: Specimen, progress: Progress
-) -> dict[str, object]:
-    modes = accepted_modes(damping.facts_json) if damping is not None else None
+) -> IdentificationResult:
+    modes = accepted_modes(damping.result) if damping is not None else None
     sweep = sweep_of(used)
     found = identify(sweep, specimen, progress=progress, hammer=modes)
-    hammer = {"hammer": bare_plate_facts(found.bare, specimen)} if found.bare is not None else {}
-    facts = identification_facts(found, sweep)
-    facts["warnings"] += uncalibrated(used)
-    kept = {key: value for key, value in facts.items() if key not in _SECONDS}
-    return dict(to_jsonable({**kept, **hammer, **_temperature(used)}))
+    result = identification_from(found, sweep, specimen).untimed
+    return _with_temperature(result.but(warnings=(*result.warnings, *uncalibrated(used))), used)
 
 
-def _temperature(used: list[PointMeasured]) -> dict[str, object]:
+def _with_temperature(result: IdentificationResult, used: list[PointMeasured]) -> IdentificationResult:
     """At which the law holds, where a sensor was there."""
     known = [p.temperature_c for p in used if p.temperature_c is not None]
     if not known:
-        return {}
-    return {"temperature_c": sum(known) / len(known), "temperature_range_c": [min(known), max(known)]}
+        return result
+    mean, ends = sum(known) / len(known), (min(known), max(known))
+    return result.but(temperature_c=mean, temperature_range_c=ends)
 
 
 class LiveFit:

@@ -1,9 +1,28 @@
 """Derived events: what follows from the raw ones. Computed live, recorded, and computed again on replay."""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Annotated, Any
 
+from pydantic import Field, GetCoreSchemaHandler
+from pydantic_core import CoreSchema, core_schema
+
+from instrument.facts.damping import DampingResult
+from instrument.facts.diagnosis import DiagnosisResult
+from instrument.facts.identification import IdentificationResult
+from instrument.facts.result import Result
 from instrument.stream.event import Derived
+
+_KEY = "facts_json"
+"""Of a result in a line."""
+
+
+class _OrNothing:
+    """Annotates a result that may lack: a line has an object without keys then."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        empty = core_schema.typed_dict_schema({}, extra_behavior="forbid")
+        nothing = core_schema.no_info_after_validator_function(lambda _: None, empty)
+        return core_schema.union_schema([handler(source), nothing], mode="left_to_right")
 
 
 @dataclass(frozen=True)
@@ -178,28 +197,45 @@ class HitRevised(Derived):
 
 @dataclass(frozen=True)
 class DampingFound(Derived):
-    """Natural frequencies and ratios of the accepted hits: the JSON of `viscorig damping`."""
+    """Natural frequencies and ratios of the accepted hits: the result of `viscorig damping`."""
 
-    facts_json: dict[str, Any]
+    result: Annotated[DampingResult, Field(validation_alias=_KEY)]
+
+    def facts(self) -> dict[str, Any]:
+        """The result under the key it has in every line."""
+        return {_KEY: self.result.as_json()}
 
 
 @dataclass(frozen=True)
 class FitUpdated(Derived):
-    """The live identification's result: the JSON of `viscorig identify` without its seconds."""
+    """The live identification's result: that of `viscorig identify` without its seconds."""
 
     number: int
     last_step: int
-    facts_json: dict[str, Any]
-    """Empty where no fit was possible; `message` says why."""
+    result: Annotated[IdentificationResult | None, _OrNothing(), Field(validation_alias=_KEY)]
+    """None where no fit was possible; `message` says why."""
     message: str = ""
+
+    def facts(self) -> dict[str, Any]:
+        """The result under the key it has in every line."""
+        return _with_result(self.number, self.last_step, self.result, self.message)
 
 
 @dataclass(frozen=True)
 class DiagnosisFound(Derived):
-    """What the sweep's residual shows: the JSON of `viscorig diagnose` without its seconds."""
+    """What the sweep's residual shows: the result of `viscorig diagnose` without its seconds."""
 
     number: int
     last_step: int
-    facts_json: dict[str, Any]
-    """Empty where no diagnosis was possible; `message` says why."""
+    result: Annotated[DiagnosisResult | None, _OrNothing(), Field(validation_alias=_KEY)]
+    """None where no diagnosis was possible; `message` says why."""
     message: str = ""
+
+    def facts(self) -> dict[str, Any]:
+        """The result under the key it has in every line."""
+        return _with_result(self.number, self.last_step, self.result, self.message)
+
+
+def _with_result(number: int, last_step: int, result: Result | None, message: str) -> dict[str, Any]:
+    found = result.as_json() if result is not None else {}
+    return {"number": number, "last_step": last_step, _KEY: found, "message": message}

@@ -5,8 +5,14 @@ computed again on replay. Arrays of samples travel beside the JSON, never in it.
 """
 
 import json
-from dataclasses import asdict, dataclass, fields
-from typing import Any, ClassVar, Self
+import re
+from dataclasses import asdict, dataclass
+from functools import cache
+from typing import Any, ClassVar
+
+from pydantic import TypeAdapter
+
+_HEAD = re.compile(r'\{"event": ?"(\w+)"')
 
 
 @dataclass(frozen=True)
@@ -25,12 +31,6 @@ class Event:
         """Its fields, as JSON knows them."""
         return asdict(self)
 
-    @classmethod
-    def of_facts(cls, facts: dict[str, Any]) -> Self:
-        """The event of these fields; unknown ones, of a later version, are dropped."""
-        names = {f.name for f in fields(cls)}
-        return cls(**{key: _tuples(value) for key, value in facts.items() if key in names})
-
 
 @dataclass(frozen=True)
 class Derived(Event):
@@ -45,13 +45,17 @@ def to_line(event: Event) -> str:
 
 
 def from_line(line: str) -> Event:
-    """The event of a line. Raises `ValueError` for what is none."""
-    facts = json.loads(line)
-    kind = Event.known.get(facts.pop("event", ""))
-    if kind is None:
+    """The event of a line. Raises `ValueError` for what is none, or not as its kind declares its fields.
+
+    Fields that are not known, of a later version, are dropped.
+    """
+    head = _HEAD.match(line)
+    if head is None or head[1] not in Event.known:
         raise ValueError(f"no event of this name: {line[:80]}")
-    return kind.of_facts(facts)
+    event: Event = _adapter(head[1]).validate_json(line, strict=True)
+    return event
 
 
-def _tuples(value: Any) -> Any:
-    return tuple(_tuples(v) for v in value) if isinstance(value, list) else value
+@cache
+def _adapter(name: str) -> TypeAdapter[Any]:
+    return TypeAdapter(Event.known[name])

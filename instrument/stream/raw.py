@@ -1,10 +1,11 @@
 """Raw events: what the runner did and what the instruments gave."""
 
 from dataclasses import dataclass, field, fields
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import ConfigDict
 
 from instrument.stream.event import Event
 from instrument.stream.scaling import volts_of
@@ -40,6 +41,8 @@ class AcquisitionBegan(Event):
 @dataclass(frozen=True)
 class BlockAcquired(Event):
     """Samples in a row from every channel."""
+
+    __pydantic_config__: ClassVar[ConfigDict] = ConfigDict(arbitrary_types_allowed=True)
 
     first_sample: int
     samples: int

@@ -48,18 +48,19 @@ def run_seed(folder: Path, seed: int, effects: str = "") -> Finished:
 def outcome(finished: Finished) -> Outcome:
     """Against the plant's law."""
     assert finished.fit is not None
-    law = {row["frequency_hz"]: row for row in finished.fit.facts_json["law"]}
+    assert finished.fit.result is not None
+    law = {row.frequency_hz: row for row in finished.fit.result.law}
     rows = [law[f] for f in AT_HZ]
     G = ZN1.modulus(2 * np.pi * np.array(AT_HZ))
-    storage = np.array([r["storage_modulus_pa"] for r in rows])
-    loss = np.array([r["loss_factor"] for r in rows])
+    storage = np.array([r.storage_modulus_pa for r in rows])
+    loss = np.array([r.loss_factor for r in rows])
     storage_error = storage - G.real
     loss_error = loss - G.imag / G.real
     return Outcome(
         100 * storage_error / G.real,
         100 * loss_error / (G.imag / G.real),
-        storage_error / np.array([r["storage_modulus_standard_error_pa"] for r in rows]),
-        loss_error / np.array([r["loss_factor_standard_error"] for r in rows]),
+        storage_error / np.array([r.storage_modulus_standard_error_pa for r in rows]),
+        loss_error / np.array([r.loss_factor_standard_error for r in rows]),
     )
 
 

@@ -43,7 +43,7 @@ from instrument.session.configuration import read_whole_experiment
 from instrument.stream.derived import FitUpdated
 
 def no_fit(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, {}, "not fitted")
+    return FitUpdated(number, last_step, None, "not fitted")
 
 if __name__ == "__main__":
     experiment = read_whole_experiment(Path("experiment.toml"))

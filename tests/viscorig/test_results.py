@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 import viscorig as vr
+from instrument.facts.damping import DampingResult
+from instrument.facts.modes import ModesResult
 
 
 @pytest.fixture(scope="module")
@@ -37,7 +39,7 @@ def test_what_was_found_cannot_be_changed_by_accident(found):
     found.parameters["g0_pa"] = 0.0
     assert found.parameters["g0_pa"] > 0
     with pytest.raises(AttributeError):
-        found.facts = {}
+        found.result = None
 
 
 def test_a_diagnosis_says_what_it_found(diagnosis):
@@ -60,7 +62,7 @@ def test_html_of_a_name_stays_text(plate):
         def lines(self):
             return ["<b>x</b> & y"]
 
-    assert "&lt;b&gt;x&lt;/b&gt; &amp; y" in Named({"modes": []})._repr_html_()
+    assert "&lt;b&gt;x&lt;/b&gt; &amp; y" in Named(ModesResult(modes=()))._repr_html_()
 
 
 def test_everything_becomes_pandas(results):
@@ -121,7 +123,7 @@ def test_damping_is_drawn_method_by_method():
         "frequency_hz": 17.7, "damping_ratio": 0.003, "accepted": True, "why": "half power refused",
         "rational_fit": method, "half_power": None, "lscf": method,
     }  # fmt: skip
-    found = vr.Damping({"modes": [mode], "hits": [], "warnings": ["one hit"]})
+    found = vr.Damping(DampingResult(modes=[mode], hits=[], warnings=["one hit"]))
     assert np.isnan(found.to_numpy()["half_power_ratio"][0])
     assert found.lines() == ["1 modes of 1 accepted", "one hit"]
     names = [text.get_text() for text in found.plot().get_legend().get_texts()]

@@ -25,12 +25,12 @@ def contents(session_path):
 
 def test_a_session_holds_what_was_recorded(session, contents):
     assert session.specimen.model == contents.specimen
-    assert session.hammer.as_dict() == contents.damping.facts_json
-    assert session.identification.as_dict() == contents.fit.facts_json
+    assert session.hammer.as_dict() == contents.damping.result.as_json()
+    assert session.identification.as_dict() == contents.fit.result.as_json()
     assert session.diagnosis is None
     assert len(session.sweep) == len(contents.points)
     assert np.array_equal(session.sweep.velocity_m_s, [p.point.velocity_m_s for p in contents.points])
-    assert session.as_dict()["identify"] == contents.fit.facts_json
+    assert session.as_dict()["identify"] == contents.fit.result.as_json()
     assert session.lines()[0] == "session zn1-20260401T080000Z"
     assert session.plot().get_ylabel() == "Velocity / (m/s)"
 

@@ -4,10 +4,10 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
 from gui.pages.diagnosis.ranking import WORDS, Decisions, Row, Standing, about, group_words, ranked
-from gui.rediagnosis import Facts
 from gui.tables import Cell, Table
 from gui.theme import Role
 from gui.widgets import button
+from instrument.facts.diagnosis import DiagnosisResult
 
 _COLUMNS = {
     "effect": "Missing effect that was fitted together with the law",
@@ -62,11 +62,11 @@ class Candidates(QWidget):
         self._able = False
         self._show_buttons()
 
-    def show_candidates(self, facts: Facts) -> None:
+    def show_candidates(self, found: DiagnosisResult) -> None:
         """Of a whole search; the words on them stay."""
         chosen = self._chosen
-        self._rows = ranked(facts)
-        self.groups.setText(group_words(facts))
+        self._rows = ranked(found)
+        self.groups.setText(group_words(found))
         self.groups.setVisible(bool(self.groups.text()))
         self._show_rows(chosen)
 

@@ -6,9 +6,9 @@ from PySide6.QtWidgets import QLabel, QSplitter, QVBoxLayout, QWidget
 from gui.pages.diagnosis.stages import Compared, compared, laws, references_hz
 from gui.pages.law.curve import At
 from gui.pages.law.plots import LawLine, LawPlots
-from gui.rediagnosis import Facts
 from gui.tables import Cell, Table
 from gui.theme import Role
+from instrument.facts.diagnosis import DiagnosisResult
 from instrument.report.numbers import format_number, with_error
 from instrument.results.diagnosis_words import UNKNOWN, with_verdict
 
@@ -43,9 +43,9 @@ class HeldOut(QWidget):
         said.setEnabled(False)
         column.addWidget(said)
 
-    def show_diagnosis(self, facts: Facts) -> None:
+    def show_diagnosis(self, found: DiagnosisResult) -> None:
         """Before and after."""
-        rows = compared(facts)
+        rows = compared(found)
         percents = [
             v for r in rows if r.unit == "% rms" for v in (r.before, r.after, r.noise) if v is not None
         ]
@@ -70,16 +70,16 @@ class LawChange(QWidget):
         column.addWidget(self.doubt)
         column.addWidget(split, 1)
 
-    def show_diagnosis(self, facts: Facts) -> None:
+    def show_diagnosis(self, found: DiagnosisResult) -> None:
         """Before and after."""
-        before, after = laws(facts)
-        self.doubt.setVisible(facts["verdict"] == "unknown")
-        lines = [LawLine(with_verdict("before", facts), before, "model", dashed=True)]
-        if facts["equivalent"]:
-            lines.append(LawLine(f"after: with {' and '.join(facts['equivalent'])}", after, "data"))
+        before, after = laws(found)
+        self.doubt.setVisible(found.verdict == "unknown")
+        lines = [LawLine(with_verdict("before", found), before, "model", dashed=True)]
+        if found.equivalent:
+            lines.append(LawLine(f"after: with {' and '.join(found.equivalent)}", after, "data"))
         self.plots.show_lines(lines)
         rows = []
-        for f in references_hz(facts):
+        for f in references_hz(found):
             b, a = before.at(f), after.at(f)
             assert b is not None
             assert a is not None

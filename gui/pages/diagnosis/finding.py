@@ -42,15 +42,14 @@ class Finding(QWidget):
 
     def show_diagnosis(self, shown: Shown) -> None:
         """In words."""
-        facts = shown.facts
         accepted = shown.asked is not None and shown.asked.accept is not None
-        role, meaning = _BY_HAND if accepted else _MEANINGS[facts["verdict"]]
+        role, meaning = _BY_HAND if accepted else _MEANINGS[shown.found.verdict]
         self.verdict.say(headline(shown), role, bold=True)
         self.verdict.setToolTip(meaning)
         made_here = shown.asked is not None
         said = f"● {shown.origin}" if made_here else shown.origin
         self.origin.say(said, "fair" if made_here else "faint", bold=made_here)
-        self.next.say(facts["next_measurement"])
+        self.next.say(shown.found.next_measurement)
 
     def show_none(self, said: str) -> None:
         """There is no diagnosis."""
@@ -62,7 +61,7 @@ class Finding(QWidget):
 
 def headline(shown: Shown) -> str:
     """The verdict, or what a person decided: then the data were not asked."""
-    said = verdict_line(shown.facts).removeprefix("verdict: ").replace("+-", "±")
+    said = verdict_line(shown.found).removeprefix("verdict: ").replace("+-", "±")
     if shown.asked is not None and shown.asked.accept is not None:
         kind, _, rest = said.partition(": ")
         if kind == "none":

@@ -24,9 +24,10 @@ from gui.pages.diagnosis.candidates import Candidates
 from gui.pages.diagnosis.comparison import HeldOut, LawChange
 from gui.pages.diagnosis.finding import Finding
 from gui.pages.diagnosis.residual_plots import ResidualPlots
-from gui.rediagnosis import Asked, Facts, Shown
+from gui.rediagnosis import Asked, Shown
 from gui.state import SessionState
 from gui.widgets import button, hint
+from instrument.facts.diagnosis import DiagnosisResult
 
 _PERCENT = 100
 _HERE = (
@@ -57,7 +58,7 @@ class DiagnosisPage(Page):
         self.bar, self.cancel = QProgressBar(), button("Cancel", "End the computation; what is shown stays")
         self._shown: Shown | None = None
         self._specimen_folder = ""
-        self._facts_of: dict[QWidget, Facts] = {}
+        self._found_of: dict[QWidget, DiagnosisResult] = {}
         self._arrange()
         self._connect()
 
@@ -88,9 +89,9 @@ class DiagnosisPage(Page):
             heading, text = self._why_nothing()
             self.finding.show_none(heading)
             self.empty.setText(text)
-        elif before is None or shown.facts is not before.facts:
+        elif before is None or shown.found is not before.found:
             self.finding.show_diagnosis(shown)
-            self.candidates.show_candidates(rediagnosis.ranking(self.controller.state) or shown.facts)
+            self.candidates.show_candidates(rediagnosis.ranking(self.controller.state) or shown.found)
             self.story.setPlainText("\n".join(_story(shown)))
             self._show_view()
 
@@ -100,9 +101,9 @@ class DiagnosisPage(Page):
             return
         for view in (self.residual, self.held_out, self.law):
             seen = view is self.views.currentWidget()
-            if seen and self._facts_of.get(view) is not self._shown.facts:
-                self._facts_of[view] = self._shown.facts
-                view.show_diagnosis(self._shown.facts)
+            if seen and self._found_of.get(view) is not self._shown.found:
+                self._found_of[view] = self._shown.found
+                view.show_diagnosis(self._shown.found)
 
     def _show_controls(self, shown: Shown | None) -> None:
         running, session = self.controller.rediagnosis.running, self._session
@@ -255,9 +256,9 @@ class DiagnosisPage(Page):
 
 def _story(shown: Shown) -> list[str]:
     """The explanation, what was set aside, what is to be noted."""
-    facts = shown.facts
-    said = list(facts["explanation"])
-    if facts["set_aside_hz"]:
-        listed = ", ".join(f"{f:.4g}" for f in facts["set_aside_hz"])
+    found = shown.found
+    said = list(found.explanation)
+    if found.set_aside_hz:
+        listed = ", ".join(f"{f:.4g}" for f in found.set_aside_hz)
         said.append(f"Set aside for hum: {listed} Hz.")
-    return said + [f"Note: {text}." for text in facts["warnings"]]
+    return said + [f"Note: {text}." for text in found.warnings]

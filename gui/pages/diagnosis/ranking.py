@@ -3,13 +3,13 @@
 from dataclasses import dataclass
 from inspect import getdoc, getmodule
 from itertools import product
-from typing import Any, Literal
+from typing import Literal
 
 from fitting.effects import CATALOGUE
 from gui.rediagnosis import effects_of
+from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_words import log_odds, parameter_words, probability_words
 
-Facts = dict[str, Any]
 Standing = Literal["found", "equal", "none", "other", "not fitted"]
 WORDS: dict[Standing, str] = {
     "found": "found",
@@ -41,36 +41,36 @@ class Row:
         return f"ln odds {self.gain:+.1f} over the fit without any effect"
 
 
-def ranked(facts: Facts) -> list[Row]:
+def ranked(found: DiagnosisResult) -> list[Row]:
     """Best first; then what the catalogue holds beside them, so that it can be accepted too."""
     rows = [
         Row(
-            c["name"],
-            _standing(c["name"], facts),
+            c.name,
+            _standing(c.name, found),
             gain,
-            probability_words(c, facts).replace("-", "–"),
-            c["chi2_per_dof"],
-            tuple(parameter_words(key, p).replace("+-", "±") for key, p in c["parameters"].items()),
+            probability_words(c, found).replace("-", "–"),
+            c.chi2_per_dof,
+            tuple(parameter_words(key, p).replace("+-", "±") for key, p in c.parameters.items()),
         )
-        for c, gain in zip(facts["candidates"], log_odds(facts), strict=True)
+        for c, gain in zip(found.candidates, log_odds(found), strict=True)
     ]
     single = {row.name for row in rows}
     return rows + [Row(name, "not fitted") for name in sorted(CATALOGUE) if name not in single]
 
 
-def _standing(name: str, facts: Facts) -> Standing:
+def _standing(name: str, found: DiagnosisResult) -> Standing:
     if name == "none":
         return "none"
-    together, groups = set(effects_of([name])), facts["equivalent"]
+    together, groups = set(effects_of([name])), found.equivalent
     if groups and together == set(groups):
         return "found"
     equal = groups and any(together == set(names) for names in product(*groups.values()))
     return "equal" if equal else "other"
 
 
-def group_words(facts: Facts) -> str:
+def group_words(found: DiagnosisResult) -> str:
     """Which effects these data cannot tell apart; empty where there are none."""
-    groups = [group for group in facts["equivalent"].values() if len(group) > 1]
+    groups = [group for group in found.equivalent.values() if len(group) > 1]
     return "\n".join(f"One group, not to be told apart by these data: {', '.join(g)}." for g in groups)
 
 

@@ -1,14 +1,16 @@
 """What a fit leaves of every point, prepared for drawing. No Qt."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
 from fitting.arrays import Array
 from gui.pages.law.curve import together
+from instrument.facts.diagnosis import STAGES, DiagnosisResult, PointLeft, StageName
+from instrument.facts.result import Result
 
-Facts = dict[str, Any]
 Quantity = Literal["both", "real", "imaginary", "amplitude", "whitened"]
 NAMES: dict[Quantity, str] = {
     "both": "real and imaginary",
@@ -68,25 +70,24 @@ class Panel:
         return max(sizes, default=1.0) or 1.0
 
 
-def quantities(facts: Facts) -> tuple[Quantity, ...]:
+def quantities(found: DiagnosisResult) -> tuple[Quantity, ...]:
     """What these data have: amplitudes alone have no parts."""
-    points = facts["points"]
-    has_phase = bool(points) and "re_percent" in points[0]["before"]
+    has_phase = bool(found.points) and found.points[0].before.has_phase
     return ("both", "real", "imaginary", "amplitude", "whitened") if has_phase else ("amplitude", "whitened")
 
 
-def segments(facts: Facts) -> tuple[int, ...]:
+def segments(found: DiagnosisResult) -> tuple[int, ...]:
     """Numbers of them."""
-    return tuple(sorted({int(p["segment"]) for p in facts["points"]}))
+    return tuple(sorted({p.segment for p in found.points}))
 
 
-def panel(facts: Facts, segment: int, stage: str, quantity: Quantity) -> Panel:
+def panel(found: DiagnosisResult, segment: int, stage: StageName, quantity: Quantity) -> Panel:
     """Points ascending in frequency, no sentinel far off: it would leave no room for the others."""
-    points = together([p for p in facts["points"] if p["segment"] == segment])
+    points = together([p for p in found.points if p.segment == segment])
     f = _column(points, "frequency_hz")
-    left = [p[stage] for p in points]
+    left = [p.stage(stage) for p in points]
     if quantity == "whitened":
-        parts = np.array([p["whitened"] for p in left], dtype=float).T
+        parts = np.array([p.whitened for p in left], dtype=float).T
         names = _WHITENED if len(parts) > 1 else ("amplitude",)
         series = tuple(Series(name, f, part) for name, part in zip(names, parts, strict=True))
         return Panel(series, (Noise(f, np.full(len(f), TWO_STD)),))
@@ -94,22 +95,21 @@ def panel(facts: Facts, segment: int, stage: str, quantity: Quantity) -> Panel:
     return Panel(series, _noise(points))
 
 
-def limits(facts: Facts, segment: int, quantity: Quantity) -> float:
+def limits(found: DiagnosisResult, segment: int, quantity: Quantity) -> float:
     """Height of the axis that before and after share."""
-    return max(panel(facts, segment, stage, quantity).highest for stage in ("before", "after"))
+    return max(panel(found, segment, stage, quantity).highest for stage in STAGES)
 
 
-def _noise(points: list[Facts]) -> tuple[Noise, ...]:
+def _noise(points: Sequence[PointLeft]) -> tuple[Noise, ...]:
     """A band for each pass and level: between them the noise jumps."""
     found = []
-    for alike in sorted({(p["sweep"], p["level_m_s2"]) for p in points}):
-        mine = [p for p in points if (p["sweep"], p["level_m_s2"]) == alike]
+    for alike in sorted({(p.sweep, p.level_m_s2) for p in points}):
+        mine = [p for p in points if (p.sweep, p.level_m_s2) == alike]
         height = TWO_STD * _column(mine, "noise_percent")
         if np.isfinite(height).all():
             found.append(Noise(_column(mine, "frequency_hz"), height))
     return tuple(found)
 
 
-def _column(rows: list[Facts], key: str) -> Array:
-    """NaN for null."""
-    return np.array([row[key] for row in rows], dtype=float)
+def _column(rows: Sequence[Result], key: str) -> Array:
+    return np.array([getattr(row, key) for row in rows], dtype=float)

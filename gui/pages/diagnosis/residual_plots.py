@@ -8,12 +8,11 @@ from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QLabel, QScro
 from gui.pages.diagnosis.residual import NAMES, Panel, limits, panel, quantities, segments
 from gui.plots import Axis, Plot
 from gui.plots.plot import Symbol
-from gui.rediagnosis import Facts
 from gui.theme import Role, current_theme
+from instrument.facts.diagnosis import STAGES, DiagnosisResult, StageName
 
 _ROOM = 1.12
 _LEAST_HEIGHT_PX = 100
-_STAGES = ("before", "after")
 _LOOKS: dict[str, tuple[Role, Symbol]] = {
     "real part": ("data", "o"),
     "imaginary part": ("third", "s"),
@@ -37,10 +36,10 @@ class ResidualPlots(QWidget):
             "Predicted over measured, less one: real part is amplitude, imaginary part phase to first order. "
             "Whitened: in units of noise and model error, as the fit weighs it."
         )
-        self.plots: dict[tuple[int, str], Plot] = {}
-        self._facts: Facts | None = None
+        self.plots: dict[tuple[int, StageName], Plot] = {}
+        self._found: DiagnosisResult | None = None
         self._numbers: list[int] = []
-        self._waiting: list[tuple[int, str]] = []
+        self._waiting: list[tuple[int, StageName]] = []
         self._timer = QTimer(self)
         self._timer.timeout.connect(self._draw_next)
         self._before, self._after = QLabel(), QLabel()
@@ -52,11 +51,11 @@ class ResidualPlots(QWidget):
         self.quantity.currentIndexChanged.connect(self._draw)
         self.segment.currentIndexChanged.connect(self._draw)
 
-    def show_diagnosis(self, facts: Facts) -> None:
+    def show_diagnosis(self, found: DiagnosisResult) -> None:
         """Draw what it leaves."""
-        self._facts = facts
-        _offer(self.quantity, {NAMES[q]: q for q in quantities(facts)})
-        numbers = segments(facts)
+        self._found = found
+        _offer(self.quantity, {NAMES[q]: q for q in quantities(found)})
+        numbers = segments(found)
         every = {"all segments": _ALL} if len(numbers) > 1 else {}
         _offer(self.segment, {**every, **{f"segment {n}": n for n in numbers}})
         self._draw()
@@ -73,30 +72,30 @@ class ResidualPlots(QWidget):
             self._draw()
 
     def _draw(self) -> None:
-        facts, chosen = self._facts, self.segment.currentData()
-        if facts is None or chosen is None:
+        found, chosen = self._found, self.segment.currentData()
+        if found is None or chosen is None:
             return
-        self._numbers = [n for n in segments(facts) if chosen in (_ALL, n)]
+        self._numbers = [n for n in segments(found) if chosen in (_ALL, n)]
         for (n, _), plot in self.plots.items():
             plot.setVisible(n in self._numbers)
-        for label, stage in ((self._before, "before"), (self._after, "after")):
-            label.setText(_title(facts, stage))
+        for label, stage in zip((self._before, self._after), STAGES, strict=True):
+            label.setText(_title(found, stage))
         # One plot a turn: the window stays quick.
-        self._waiting = [(n, stage) for n in self._numbers for stage in _STAGES]
+        self._waiting = [(n, stage) for n in self._numbers for stage in STAGES]
         self._timer.start()
 
     def _draw_next(self) -> None:
         quantity = self.quantity.currentData()
-        if not self._waiting or self._facts is None:
+        if not self._waiting or self._found is None:
             self._timer.stop()
             return
         number, stage = self._waiting.pop(0)
         plot = self._plot(number, stage)
         titled, unit = number == self._numbers[-1], "" if quantity == "whitened" else "%"
         plot.show_axes(Axis("Frequency", "Hz", titled=titled), Axis(f"Segment {number}", unit))
-        shown = panel(self._facts, number, stage, quantity)
+        shown = panel(self._found, number, stage, quantity)
         _draw_panel(plot, shown)
-        height = _ROOM * limits(self._facts, number, quantity)
+        height = _ROOM * limits(self._found, number, quantity)
         plot.setRange(xRange=shown.range_hz, yRange=(-height, height), padding=0)
         if number == self._numbers[0]:
             # Above the points: a legend among them would hide some.
@@ -104,7 +103,7 @@ class ResidualPlots(QWidget):
         else:
             plot.getPlotItem().setTitle(None)
 
-    def _plot(self, number: int, stage: str) -> Plot:
+    def _plot(self, number: int, stage: StageName) -> Plot:
         """Before and after are linked."""
         if (number, stage) not in self.plots:
             plot = Plot(Axis("Frequency", "Hz"), Axis(f"Segment {number}"), legend=False)
@@ -112,7 +111,7 @@ class ResidualPlots(QWidget):
             plot.setToolTip(f"Segment {number}, {stage}")
             if stage == "after":
                 _Twins(self.plots[number, "before"], plot)
-            self._grid.addWidget(plot, number, _STAGES.index(stage))
+            self._grid.addWidget(plot, number, STAGES.index(stage))
             self.plots[number, stage] = plot
         return self.plots[number, stage]
 
@@ -180,15 +179,14 @@ def _name_series(plot: Plot) -> None:
     plot.getPlotItem().setTitle("&nbsp;&nbsp; ".join(said), color=theme.text, size=size)
 
 
-def _title(facts: Facts, stage: str) -> str:
-    accepted = " and ".join(facts["equivalent"]) or "any effect"
+def _title(found: DiagnosisResult, stage: StageName) -> str:
+    accepted = " and ".join(found.equivalent) or "any effect"
     said = f"before: without {accepted}" if stage == "before" else f"after: with {accepted}"
-    if stage == "after" and not facts["equivalent"]:
+    if stage == "after" and not found.equivalent:
         said = "after: the same, no effect is accepted"
-    found = facts[stage]
-    chi2 = found["chi2_per_dof"]
+    chi2, rms = found.stage(stage).chi2_per_dof, found.stage(stage).rms_percent
     noise = "" if chi2 is None else f", chi² per degree {chi2:.3g}"
-    return f"<b>{said}</b><br>{found['rms_percent']:.2g} % rms in amplitude{noise}"
+    return f"<b>{said}</b><br>{rms:.2g} % rms in amplitude{noise}"
 
 
 def _offer(box: QComboBox, choices: dict[str, object]) -> None:

@@ -2,18 +2,17 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 from gui.pages.hammer.choice import Blow, blow_of
 from gui.pages.hammer.traces import Surroundings
 from instrument.errors import BadInput
+from instrument.facts.damping import DampingResult
 from instrument.impact.damping import Damping, damping_of_hits
-from instrument.impact.facts import damping_facts
 from instrument.impact.judge import Judged
+from instrument.impact.result import damping_from
 from instrument.impact.scatter import Scatter, scatter_over_hits
 from instrument.impact.spectra import Spectra, rolloff_hz, spectra
 from instrument.session.contents import RecordedHit
-from instrument.stream.jsonable import to_jsonable
 
 Hits = tuple[RecordedHit, ...]
 Look = Callable[[], None]
@@ -61,8 +60,8 @@ class Modes:
     scatter: tuple[Scatter | None, ...]
     around: tuple[Surroundings, ...]
     """For drawing."""
-    facts: dict[str, Any]
-    """As the run itself would record them."""
+    result: DampingResult | None
+    """As the run itself would record it."""
     why: str = ""
 
 
@@ -98,9 +97,9 @@ def modes_of(averaged: Averaged, band_hz: tuple[float, float], look: Look) -> Mo
     try:
         found = damping_of_hits(judged, band_hz=band_hz)
     except BadInput as error:
-        return Modes(averaged.hits, None, (), (), {}, str(error))
+        return Modes(averaged.hits, None, (), (), None, str(error))
     look()
     scatter = scatter_over_hits(found)
     look()
     around = tuple(Surroundings.of(found, mode) for mode in found.modes)
-    return Modes(averaged.hits, found, scatter, around, to_jsonable(damping_facts(found)))
+    return Modes(averaged.hits, found, scatter, around, damping_from(found))

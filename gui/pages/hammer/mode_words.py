@@ -1,7 +1,7 @@
 """Rows of the damping table, in words."""
 
 from dataclasses import dataclass
-from typing import Any
+from math import isnan
 
 import numpy as np
 
@@ -9,10 +9,10 @@ from fitting.arrays import Array
 from fitting.modal.frf import Refusal
 from gui.pages.hammer.findings import Modes
 from gui.tables import Cell, Row
+from instrument.facts.damping import METHODS, DampingResult, Method, ModeFound, RatioFound
 from instrument.impact.damping import Mode
 from instrument.impact.scatter import Scatter
 
-METHODS = ("rational_fit", "half_power", "lscf")
 _ADOPTED = 0
 """Of these."""
 _MOST_DIGITS = 5
@@ -45,15 +45,18 @@ class ModeRow:
     cells: Row
 
 
-def mode_rows(facts: dict[str, Any], modes: Modes | None, expected_hz: Array | None) -> list[ModeRow]:
-    """Of the facts; what only the computation here knows is added where it has the same mode."""
-    return [_mode_row(k + 1, mode, modes, expected_hz) for k, mode in enumerate(facts.get("modes", ()))]
+def mode_rows(result: DampingResult | None, modes: Modes | None, expected_hz: Array | None) -> list[ModeRow]:
+    """Of a result; what only the computation here knows is added where it has the same mode."""
+    found = result.modes if result is not None else ()
+    return [_mode_row(k + 1, mode, modes, expected_hz) for k, mode in enumerate(found)]
 
 
-def advice_of(facts: dict[str, Any]) -> str:
+def advice_of(result: DampingResult | None) -> str:
     """What the test teaches for the next one, and what was set right; the hit list has the rest."""
-    told = {f"{hit['source']} left out: {hit['why']}" for hit in facts.get("hits", ())}
-    return "; ".join(warning for warning in facts.get("warnings", ()) if warning not in told)
+    if result is None:
+        return ""
+    told = {f"{hit.source} left out: {hit.why}" for hit in result.hits}
+    return "; ".join(warning for warning in result.warnings if warning not in told)
 
 
 def number_of(modes: Modes, frequency_hz: float) -> int | None:
@@ -62,8 +65,8 @@ def number_of(modes: Modes, frequency_hz: float) -> int | None:
     return near(np.array([m.frequency_hz for m in found]), frequency_hz)
 
 
-def _mode_row(number: int, mode: dict[str, Any], modes: Modes | None, expected_hz: Array | None) -> ModeRow:
-    f, lines, why = mode["frequency_hz"], mode["lines_in_bandwidth"], mode["why"]
+def _mode_row(number: int, mode: ModeFound, modes: Modes | None, expected_hz: Array | None) -> ModeRow:
+    f, lines, why = mode.frequency_hz, mode.lines_in_bandwidth, mode.why
     k = number_of(modes, f) if modes is not None else None
     found = modes.found.modes[k] if modes is not None and modes.found is not None and k is not None else None
     scatter = modes.scatter[k] if modes is not None and k is not None else None
@@ -74,14 +77,20 @@ def _mode_row(number: int, mode: dict[str, Any], modes: Modes | None, expected_h
             Cell(f"{f:.3f}", f"mode {number} of those found", edge="fair" if why else None),
             Cell(_expected(f, expected_hz), _expected_tip(f, expected_hz)),
             *(
-                Cell(_percent(mode[method]), _method_tip(mode[method], method, found), bold=k == _ADOPTED)
+                Cell(
+                    _percent(mode.by(method)), _method_tip(mode.by(method), method, found), bold=k == _ADOPTED
+                )
                 for k, method in enumerate(METHODS)
             ),
             Cell(over_hits, _scatter_tip(scatter)),
-            Cell("–" if lines is None else f"{lines:.1f}"),
+            Cell("–" if isnan(lines) else f"{lines:.1f}"),
             Cell(why, why.replace("; ", "\n"), left=True),
         ),
     )
+
+
+def _method_cell(estimate: RatioFound | None, method: Method, found: Mode | None) -> Cell:
+    return Cell(_percent(estimate), _method_tip(estimate, method, found), bold=method == METHODS[_ADOPTED])
 
 
 def _scatter_tip(scatter: Scatter | None) -> str:
@@ -91,14 +100,13 @@ def _scatter_tip(scatter: Scatter | None) -> str:
     return f"{scatter.hits} hits, each alone: ratio {ratio}, frequency {hertz} (standard deviations)"
 
 
-def agree(recorded: dict[str, Any], computed: dict[str, Any]) -> bool:
+def agree(recorded: DampingResult, computed: DampingResult) -> bool:
     """Whether two results of the same hits have the same adopted modes."""
-    key = "frequency_hz", "damping_ratio"
-    a, b = ([tuple(m[k] for k in key) for m in facts.get("modes", ())] for facts in (recorded, computed))
     same = all(
-        _close(x, y) for one, other in zip(a, b, strict=False) for x, y in zip(one, other, strict=True)
+        _close(a.frequency_hz, b.frequency_hz) and _close(a.damping_ratio, b.damping_ratio)
+        for a, b in zip(recorded.modes, computed.modes, strict=False)
     )
-    return len(a) == len(b) and same
+    return len(recorded.modes) == len(computed.modes) and same
 
 
 def near(frequencies_hz: Array, frequency_hz: float) -> int | None:
@@ -109,17 +117,17 @@ def near(frequencies_hz: Array, frequency_hz: float) -> int | None:
     return k if abs(frequencies_hz[k] / frequency_hz - 1) < _SAME else None
 
 
-def _close(x: float | None, y: float | None) -> bool:
-    if x is None or y is None:
-        return x is y
+def _close(x: float, y: float) -> bool:
+    if isnan(x) or isnan(y):
+        return isnan(x) and isnan(y)
     return abs(x - y) <= _AGREE * abs(y)
 
 
-def _percent(estimate: dict[str, Any] | None) -> str:
+def _percent(estimate: RatioFound | None) -> str:
     if estimate is None:
         return "refused"
-    ratio, error = 100 * estimate["ratio"], estimate["standard_error"]
-    if error is None:
+    ratio, error = 100 * estimate.ratio, estimate.standard_error
+    if isnan(error):
         return f"{ratio:.4f}"
     return f"{ratio:.{_digits(100 * error)}f} ± {_size(100 * error)}"
 
@@ -135,11 +143,11 @@ def _digits(error: float) -> int:
     return _MOST_DIGITS if error <= 0 else int(np.clip(-np.floor(np.log10(error)), 1, _MOST_DIGITS))
 
 
-def _method_tip(estimate: dict[str, Any] | None, method: str, found: Mode | None) -> str:
+def _method_tip(estimate: RatioFound | None, method: Method, found: Mode | None) -> str:
     if estimate is not None:
-        error = estimate["standard_error"]
-        known = f" ± {100 * error:.2g}" if error is not None else ", no standard error"
-        return f"{100 * estimate['ratio']:.6g}{known} % of critical damping"
+        error = estimate.standard_error
+        known = ", no standard error" if isnan(error) else f" ± {100 * error:.2g}"
+        return f"{100 * estimate.ratio:.6g}{known} % of critical damping"
     value = getattr(found, method) if found is not None else None
     return f"refused: {value.why}" if isinstance(value, Refusal) else "refused: see the flags"
 

@@ -148,8 +148,9 @@ class HammerPage(Page):
         """From the record where the hits count as recorded; else as computed here."""
         assert self._picture is not None
         recorded = None if self._is_what_if else self._picture.contents.damping
-        computed = self._modes.facts if self._modes is not None else {}
-        facts = recorded.facts_json if recorded is not None else computed
+        computed = self._modes.result if self._modes is not None else None
+        result = recorded.result if recorded is not None else computed
+        differs = recorded is not None and computed is not None and not agree(recorded.result, computed)
         self.modes.say(
             source_of(
                 self._hits,
@@ -158,11 +159,11 @@ class HammerPage(Page):
                 live=self._engine is not None,
                 busy=self.bench.busy,
                 failure=self._failure or (self._modes.why if self._modes is not None else ""),
-                differs=bool(recorded and computed) and not agree(facts, computed),
+                differs=differs,
             ),
             what_if=self._is_what_if,
         )
-        self.modes.show_rows(mode_rows(facts, self._modes, self._expected_hz), advice_of(facts))
+        self.modes.show_rows(mode_rows(result, self._modes, self._expected_hz), advice_of(result))
 
     def _show_hit(self) -> None:
         if self._averaged is not None:

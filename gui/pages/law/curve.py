@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from functools import cached_property
-from typing import Any
+from typing import TypeVar
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -12,8 +12,11 @@ from fitting.arrays import Array
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from fitting.laws import CoreLaw
 from fitting.sweep import segments_by_gap
+from instrument.facts.diagnosis import PointLeft
+from instrument.facts.identification import PointFitted
+from instrument.facts.rows import LawRow
 
-Facts = dict[str, Any]
+P = TypeVar("P", PointFitted, PointLeft)
 
 _SAME = 1e-9
 
@@ -39,18 +42,14 @@ class LawCurve:
     loss_error: Array
 
     @classmethod
-    def of(cls, rows: Sequence[Facts]) -> "LawCurve":
-        """From `law` of the JSON of `identify`, or of a stage of `diagnose`."""
-
-        def column(key: str) -> Array:
-            return np.array([row[key] for row in rows], dtype=float)
-
+    def of(cls, rows: Sequence[LawRow]) -> "LawCurve":
+        """From the law of an identification, or of a diagnosis's stage."""
         return cls(
-            column("frequency_hz"),
-            1e-6 * column("storage_modulus_pa"),
-            1e-6 * column("storage_modulus_standard_error_pa"),
-            column("loss_factor"),
-            column("loss_factor_standard_error"),
+            np.array([row.frequency_hz for row in rows], dtype=float),
+            1e-6 * np.array([row.storage_modulus_pa for row in rows], dtype=float),
+            1e-6 * np.array([row.storage_modulus_standard_error_pa for row in rows], dtype=float),
+            np.array([row.loss_factor for row in rows], dtype=float),
+            np.array([row.loss_factor_standard_error for row in rows], dtype=float),
         )
 
     @classmethod
@@ -92,24 +91,24 @@ def joined(curves: Sequence[LawCurve]) -> LawCurve:
     )
 
 
-def resonances_hz(points: Sequence[Facts]) -> dict[int, float]:
-    """Segment to the frequency of its largest measured response; `points` of the JSON of `identify`.
+def resonances_hz(points: Sequence[PointFitted]) -> dict[int, float]:
+    """Segment to the frequency of its largest measured response; `points` of an identification.
 
     A sentinel far off its segment's other points is not asked; a segment without a peak in it has none.
     """
     found = {}
-    for number in sorted({int(p["segment"]) for p in points}):
-        near = together([p for p in points if p["segment"] == number])
-        peak = max(near, key=lambda p: float(p["measured_m_s"]))
-        if near[0]["frequency_hz"] < peak["frequency_hz"] < near[-1]["frequency_hz"]:
-            found[number] = float(peak["frequency_hz"])
+    for number in sorted({p.segment for p in points}):
+        near = together([p for p in points if p.segment == number])
+        peak = max(near, key=lambda p: p.measured_m_s)
+        if near[0].frequency_hz < peak.frequency_hz < near[-1].frequency_hz:
+            found[number] = peak.frequency_hz
     return found
 
 
-def together(points: list[Facts]) -> list[Facts]:
+def together(points: Sequence[P]) -> list[P]:
     """Of one segment: the largest cluster, ascending in frequency; a sentinel far off is left out."""
-    points = sorted(points, key=lambda p: float(p["frequency_hz"]))
-    cluster = segments_by_gap(np.array([p["frequency_hz"] for p in points], dtype=float))
+    points = sorted(points, key=lambda p: p.frequency_hz)
+    cluster = segments_by_gap(np.array([p.frequency_hz for p in points], dtype=float))
     largest = np.bincount(cluster).argmax()
     return [p for p, c in zip(points, cluster, strict=True) if c == largest]
 

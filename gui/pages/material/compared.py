@@ -38,17 +38,15 @@ def recorded_laws(path: Path) -> list[Compared]:
     """What a session's own fit gave, and what its diagnosis made of it. Raises `BadInput`."""
     with SessionFile(path) as session:
         contents = contents_of(session, with_hits=False)
-    fit, diagnosis = contents.fit, contents.diagnosis
-    if fit is None or not fit.facts_json:
+    fit = contents.fit.result if contents.fit is not None else None
+    diagnosis = contents.diagnosis.result if contents.diagnosis is not None else None
+    if fit is None:
         raise BadInput(f"{path}: no law was fitted in this session, expected one with a finished fit")
-    count = len(fit.facts_json["points"])
-    facts = diagnosis.facts_json if diagnosis is not None else {}
-    doubt = f", {UNKNOWN}" if facts.get("verdict") == "unknown" else ""
-    note = f"{path}: its own fit, {count} points{doubt}"
-    found = [Compared(f"{path.stem}{doubt}", LawCurve.of(fit.facts_json["law"]), note)]
-    accepted = list(diagnosis.facts_json.get("equivalent", ())) if diagnosis is not None else []
-    if diagnosis is not None and accepted:
-        effects = " and ".join(accepted)
-        law = LawCurve.of(diagnosis.facts_json["after"]["law"])
+    doubt = f", {UNKNOWN}" if diagnosis is not None and diagnosis.verdict == "unknown" else ""
+    note = f"{path}: its own fit, {len(fit.points)} points{doubt}"
+    found = [Compared(f"{path.stem}{doubt}", LawCurve.of(fit.law), note)]
+    if diagnosis is not None and diagnosis.equivalent:
+        effects = " and ".join(diagnosis.equivalent)
+        law = LawCurve.of(diagnosis.after.law)
         found.append(Compared(f"{path.stem}, diagnosed", law, f"{path}: its diagnosis, with {effects}"))
     return found

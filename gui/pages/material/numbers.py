@@ -1,18 +1,18 @@
 """The fit's numbers in rows and words. No Qt."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from math import isnan
 
 import numpy as np
 
 from fitting.identification.uncertainty import limits_reached
 from fitting.laws import CoreLaw
 from gui.pages.law.curve import At, LawCurve, places_hz, resonances_hz
+from instrument.facts.diagnosis import StageFitted
+from instrument.facts.identification import IdentificationResult
 from instrument.report.numbers import format_number, with_error
 from instrument.stream.derived import FitUpdated
-
-Facts = dict[str, Any]
 
 _NOT_FIXED = 1.0
 """Relative standard error beyond which a parameter is not fixed."""
@@ -42,37 +42,38 @@ class Parameter:
     with_effects: str
 
 
-def places(facts: Facts | None, fitted: LawCurve | None, after: LawCurve | None) -> list[Place]:
+def places(fit: IdentificationResult | None, fitted: LawCurve | None, after: LawCurve | None) -> list[Place]:
     """The reference frequencies and the resonances, as far as they were measured."""
     known = fitted or after
     if known is None:
         return []
-    resonances = resonances_hz(facts["points"]) if facts is not None else {}
+    resonances = resonances_hz(fit.points) if fit is not None else {}
     return [
         Place(f, where, fitted.at(f) if fitted else None, after.at(f) if after else None)
         for f, where in places_hz(resonances, known)
     ]
 
 
-def parameters(facts: Facts, start: CoreLaw | None, after: Facts | None) -> list[Parameter]:
+def parameters(
+    fit: IdentificationResult, start: CoreLaw | None, after: StageFitted | None
+) -> list[Parameter]:
     """With errors and remarks; `start` is the specimen's law, `after` the stage of a diagnosis."""
-    reached = _limits_reached(facts["parameters"], start)
+    reached = _limits_reached(fit.parameters, start)
     rows = []
-    for key, value in facts["parameters"].items():
-        error = facts["standard_errors"][key]
+    for key, value in fit.parameters.items():
+        error = fit.standard_errors[key]
         label, scale = labelled(key)
-        known = error is not None and np.isfinite(error) and value
-        relative = error / abs(value) if known else None
+        relative = error / abs(value) if not isnan(error) and value else None
         with_effects = "–"
-        if after is not None and key in after["parameters"]:
-            with_effects = with_error(after["parameters"][key], after["standard_errors"][key], scale)
+        if after is not None and key in after.parameters:
+            with_effects = with_error(after.parameters[key], after.standard_errors[key], scale)
         rows.append(
             Parameter(
                 key,
                 label,
                 with_error(value, error, scale),
                 f"{100 * relative:.2g}" if relative is not None else "–",
-                _remark(key, relative, reached, facts["correlations"]),
+                _remark(key, relative, reached, fit.correlations.get(key, {})),
                 with_effects,
             )
         )
@@ -87,7 +88,9 @@ def labelled(key: str) -> tuple[str, float]:
     return key, 1.0
 
 
-def _remark(key: str, relative: float | None, reached: dict[str, str], correlations: Facts) -> str:
+def _remark(
+    key: str, relative: float | None, reached: dict[str, str], correlations: Mapping[str, float]
+) -> str:
     """Whether the data fix it."""
     if key in reached:
         return f"at its {reached[key]} limit"
@@ -97,23 +100,22 @@ def _remark(key: str, relative: float | None, reached: dict[str, str], correlati
         return "not fixed by these data"
     partners = [
         labelled(other)[0].split(" / ")[0]
-        for other, c in correlations.get(key, {}).items()
-        if other != key and c is not None and abs(c) > _STRONG
+        for other, c in correlations.items()
+        if other != key and abs(c) > _STRONG
     ]
     return f"fixed only together with {', '.join(partners)}" if partners else ""
 
 
-def _limits_reached(values: dict[str, float], start: CoreLaw | None) -> dict[str, str]:
+def _limits_reached(values: Mapping[str, float], start: CoreLaw | None) -> dict[str, str]:
     if start is None or start.names != list(values):
         return {}
     return limits_reached(start.with_values(np.array(list(values.values()))))
 
 
-def correlation_rows(facts: Facts) -> tuple[list[str], list[list[float]]]:
+def correlation_rows(fit: IdentificationResult) -> tuple[list[str], list[list[float]]]:
     """Names, and the matrix; NaN for a parameter at a limit."""
-    names = list(facts["correlations"])
-    matrix = [[facts["correlations"][a][b] for b in names] for a in names]
-    return names, [[float("nan") if c is None else float(c) for c in row] for row in matrix]
+    names = list(fit.correlations)
+    return names, [[fit.correlations[a][b] for b in names] for a in names]
 
 
 def _short(value: float) -> str:
@@ -126,17 +128,17 @@ def headline(fits: Sequence[FitUpdated], running: int | None) -> str:
     goes_on = f"fit {running} is being computed" if running is not None else ""
     if latest is None:
         return goes_on
-    f = latest.facts_json
-    if not f:
+    f = latest.result
+    if f is None:
         return "; ".join(filter(None, [f"fit {latest.number}: not yet: {latest.message}", goes_on]))
     said = [
-        f"{f['law_kind']} law, fit {latest.number} of {len(f['points'])} points",
-        f"rms {format_number(f['rms_percent'], 3)} %",
+        f"{f.law_kind} law, fit {latest.number} of {len(f.points)} points",
+        f"rms {format_number(f.rms_percent, 3)} %",
     ]
-    if f["chi2_per_dof"] is not None:
-        said.append(f"chi² per degree {_short(f['chi2_per_dof'])}")
-    if f["held_out_rms_percent"] is not None:
-        said.append(f"held out {format_number(f['held_out_rms_percent'], 3)} %")
-    if "temperature_c" in f:
-        said.append(f"at {f['temperature_c']:.1f} °C")
+    if f.chi2_per_dof is not None:
+        said.append(f"chi² per degree {_short(f.chi2_per_dof)}")
+    if f.held_out_rms_percent is not None:
+        said.append(f"held out {format_number(f.held_out_rms_percent, 3)} %")
+    if f.temperature_c is not None:
+        said.append(f"at {f.temperature_c:.1f} °C")
     return ", ".join(said) + (f"; {goes_on}" if goes_on else "")

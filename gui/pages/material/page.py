@@ -12,8 +12,9 @@ from gui.pages.law.plots import LawLine, LawPlots
 from gui.pages.material.comparison import Comparison
 from gui.pages.material.numbers import headline, parameters, places
 from gui.pages.material.tables import Correlations, Parameters, Places
-from gui.rediagnosis import Facts, Shown
+from gui.rediagnosis import Shown
 from gui.state import SessionState
+from instrument.facts.identification import IdentificationResult
 from instrument.results.diagnosis_words import UNKNOWN
 from instrument.stream.derived import FitUpdated
 
@@ -74,18 +75,18 @@ class MaterialPage(Page):
         self.said.setText(self._headline(state))
         self._draw_lines()
         fit, shown = self._latest, self._diagnosed
-        after = shown.facts["after"] if shown is not None else None
+        after = shown.found.after if shown is not None else None
         fitted = self._curve(fit) if fit is not None else None
-        facts = fit.facts_json if fit is not None else None
-        rows = places(facts, fitted, LawCurve.of(after["law"]) if after is not None else None)
+        result = fit.result if fit is not None else None
+        rows = places(result, fitted, LawCurve.of(after.law) if after is not None else None)
         self.places.show_places(rows, with_effects=after is not None)
         start = state.contents.specimen.core if state is not None else None
         law = start.law if start is not None else None
         self.parameters.show_parameters(
-            parameters(facts, law, after) if facts is not None else [], with_effects=after is not None
+            parameters(result, law, after) if result is not None else [], with_effects=after is not None
         )
-        self.correlations.show_fit(facts)
-        self._show_notes(facts, shown)
+        self.correlations.show_fit(result)
+        self._show_notes(result, shown)
 
     def _draw_lines(self) -> None:
         fits = self._fits
@@ -99,10 +100,10 @@ class MaterialPage(Page):
         lines += _diagnosed_lines(self._diagnosed) + self.comparison.lines
         self.plots.show_lines(lines, self._resonances)
 
-    def _show_notes(self, facts: Facts | None, shown: Shown | None) -> None:
-        notes = list(facts["warnings"]) if facts is not None else []
+    def _show_notes(self, result: IdentificationResult | None, shown: Shown | None) -> None:
+        notes = list(result.warnings) if result is not None else []
         if shown is not None:
-            notes += shown.facts["warnings"]
+            notes += shown.found.warnings
         if self._is_unknown:
             notes.insert(
                 0, f"{UNKNOWN}: nothing explains what the fit leaves, the law may be far off its band"
@@ -122,7 +123,7 @@ class MaterialPage(Page):
     def _fits(self) -> list[FitUpdated]:
         """Those that gave a law."""
         state = self.controller.state
-        return [fit for fit in state.fits if fit.facts_json] if state is not None else []
+        return [fit for fit in state.fits if fit.result is not None] if state is not None else []
 
     @property
     def _latest(self) -> FitUpdated | None:
@@ -133,22 +134,23 @@ class MaterialPage(Page):
     def _diagnosed(self) -> Shown | None:
         """The diagnosis shown, where an effect is accepted."""
         shown = self.controller.rediagnosis.shown(self.controller.state)
-        return shown if shown is not None and shown.facts["equivalent"] else None
+        return shown if shown is not None and shown.found.equivalent else None
 
     @property
     def _is_unknown(self) -> bool:
         """Whether the diagnosis shown found no explanation."""
         shown = self.controller.rediagnosis.shown(self.controller.state)
-        return shown is not None and shown.facts["verdict"] == "unknown"
+        return shown is not None and shown.found.verdict == "unknown"
 
     @property
     def _resonances(self) -> list[float]:
         latest = self._latest
-        return list(resonances_hz(latest.facts_json["points"]).values()) if latest is not None else []
+        points = latest.result.points if latest is not None and latest.result is not None else ()
+        return list(resonances_hz(points).values())
 
     def _curve(self, fit: FitUpdated) -> LawCurve:
         if fit.number not in self._curves:
-            self._curves[fit.number] = LawCurve.of(fit.facts_json["law"])
+            self._curves[fit.number] = LawCurve.of(fit.result.law if fit.result is not None else ())
         return self._curves[fit.number]
 
     def _arrange(self) -> None:
@@ -189,8 +191,8 @@ def _diagnosed_lines(shown: Shown | None) -> list[LawLine]:
     if shown is None:
         return []
     by_hand = ", by hand" if shown.asked is not None and shown.asked.by_hand else ""
-    before, after = (LawCurve.of(shown.facts[stage]["law"]) for stage in ("before", "after"))
-    effects = " and ".join(shown.facts["equivalent"])
+    before, after = (LawCurve.of(stage.law) for stage in shown.found.stages)
+    effects = " and ".join(shown.found.equivalent)
     return [
         LawLine("diagnosis: without effect", before, "model", dashed=True, width=1.5),
         LawLine(f"diagnosis: with {effects}{by_hand}", after, "data"),

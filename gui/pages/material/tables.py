@@ -5,10 +5,11 @@ from math import isfinite
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from gui.pages.law.curve import At
-from gui.pages.material.numbers import Facts, Parameter, Place, correlation_rows, labelled
+from gui.pages.material.numbers import Parameter, Place, correlation_rows, labelled
 from gui.tables import Cell, Table
 from gui.theme import Role
 from gui.widgets import hint
+from instrument.facts.identification import IdentificationResult
 from instrument.report.numbers import with_error
 
 _PLACES = {
@@ -72,9 +73,9 @@ class Correlations(QWidget):
         column.addWidget(self.table, 1)
         column.addWidget(hint(_CORRELATIONS_SAID))
 
-    def show_fit(self, facts: Facts | None) -> None:
+    def show_fit(self, fit: IdentificationResult | None) -> None:
         """Its correlations; none without a fit."""
-        names, matrix = correlation_rows(facts) if facts is not None else ([], [])
+        names, matrix = correlation_rows(fit) if fit is not None else ([], [])
         short = [labelled(name)[0].split(" / ")[0] for name in names]
         self.table.show_rows(
             [

@@ -1,6 +1,6 @@
 """The fitted model as it is drawn through the points. No Qt."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Self
 
@@ -8,6 +8,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from gui.pages.sweep.points import Index, Points
+from instrument.facts.identification import PointFitted
 from instrument.session.contents import SegmentRun
 
 Region = tuple[int, float, float]
@@ -93,16 +94,15 @@ def joined(stretches: list[Array]) -> Array:
     return np.concatenate([part for s in stretches for part in (s, gap)][:-1]) if stretches else np.zeros(0)
 
 
-def predictions(points: Points, facts: dict[str, Any], last_step: int) -> tuple[Index, Array]:
-    """What a fit's own facts say: number of each point it took, and its amplitude predicted in m/s.
+def predictions(points: Points, rows: Sequence[PointFitted], last_step: int) -> tuple[Index, Array]:
+    """What a fit's own rows say: number of each point it took, and its amplitude predicted in m/s.
 
-    Empty where the facts do not belong to these points.
+    Empty where the rows do not belong to these points.
     """
     taken = [k for k, t in enumerate(points.timed) if t.point.step <= last_step]
-    rows = facts.get("points", ())
     fits = len(rows) == len(taken) and all(
-        row["frequency_hz"] == points.timed[k].point.frequency_hz for k, row in zip(taken, rows, strict=True)
+        row.frequency_hz == points.timed[k].point.frequency_hz for k, row in zip(taken, rows, strict=True)
     )
     if not fits:
         return np.zeros(0, dtype=np.intp), np.zeros(0)
-    return np.array(taken, dtype=np.intp), np.array([row["predicted_m_s"] for row in rows], dtype=float)
+    return np.array(taken, dtype=np.intp), np.array([row.predicted_m_s for row in rows], dtype=float)

@@ -55,7 +55,7 @@ class ModelCurve(QObject):
         """
         contents = state.contents if state is not None else None
         fit = contents.fit if contents is not None and contents.fit is not None else None
-        if fit is not None and not fit.facts_json:
+        if fit is not None and fit.result is None:
             fit = None
         regions = regions_of(contents.segments) if contents is not None else []
         if fit == self.fit and regions == self._regions:
@@ -79,17 +79,18 @@ class ModelCurve(QObject):
 
     def _start(self) -> None:
         assert self.fit is not None
+        assert self.fit.result is not None
         assert self._contents is not None
         folder = Path(self._folder.path())
         specimen, fit = folder / "specimen.toml", folder / "fit.json"
         specimen.write_text(specimen_toml(self._contents), encoding="utf-8")
-        fit.write_text(json.dumps(self.fit.facts_json), encoding="utf-8")
+        fit.write_text(json.dumps(self.fit.result.as_json()), encoding="utf-8")
         frequencies = ",".join(repr(float(f)) for one in grid(self._regions) for f in one)
         asked = ["predict", str(specimen), "--fit", str(fit), "--frequencies", frequencies]
         damping = self._contents.damping
-        if damping is not None and "hammer" in self.fit.facts_json:
+        if damping is not None and self.fit.result.hammer is not None:
             hammer = folder / "hammer.json"
-            hammer.write_text(json.dumps(damping.facts_json), encoding="utf-8")
+            hammer.write_text(json.dumps(damping.result.as_json()), encoding="utf-8")
             asked += ["--hammer", str(hammer)]
         self._command = Command(asked, self)
         self._command.done.connect(self._done)

@@ -132,8 +132,8 @@ class SweepPage(Page):
         """Points, fits or regions are others."""
         points = self.seen.points.up_to(state.contents.points, state.limits)
         fit = state.contents.fit
-        facts = fit.facts_json if fit is not None else {}
-        predicted = Predicted(*predictions(points, facts, fit.last_step)) if fit is not None else Predicted()
+        rows = fit.result.points if fit is not None and fit.result is not None else ()
+        predicted = Predicted(*predictions(points, rows, fit.last_step)) if fit is not None else Predicted()
         self.seen = self.seen.but(
             points=points,
             regions=regions,
@@ -212,9 +212,9 @@ class SweepPage(Page):
         fit = state.contents.fit
         if fit is None:
             return "fitting ..." if state.fit_running is not None else "no fit yet"
-        if not fit.facts_json:
+        if fit.result is None:
             return f"fit {fit.number}: {fit.message}"
-        count, rms = len(fit.facts_json["points"]), fit.facts_json["rms_percent"]
+        count, rms = len(fit.result.points), fit.result.rms_percent
         said = f"fit of {count} points, rms {rms:.2g} %"
         if self.model.failure:
             return f"{said}; no curve: {self.model.failure}"

@@ -3,6 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from itertools import product
+from math import isnan
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,8 @@ from numpy.typing import ArrayLike
 
 from fitting.arrays import Array
 from instrument.campaign.plates.cases import PlateCase
+from instrument.facts.diagnosis import DiagnosisResult
+from instrument.facts.rows import LawRow
 from instrument.stream.jsonable import to_jsonable
 
 Facts = Mapping[str, Any]
@@ -42,17 +45,16 @@ class Band:
         return Band(*(tuple(v.tolist()) for v in found))
 
 
-def band_from(rows: Sequence[Facts]) -> Band:
-    """Of `law` in the JSON of `identify`, or of a stage of `diagnose`."""
-    keys = (
-        "frequency_hz",
-        "storage_modulus_pa",
-        "loss_factor",
-        "storage_modulus_standard_error_pa",
-        "loss_factor_standard_error",
+def band_from(rows: Sequence[LawRow]) -> Band:
+    """Of an identification's law, or of a diagnosis's stage."""
+    known = sorted(rows, key=lambda row: row.frequency_hz)
+    return Band(
+        tuple(row.frequency_hz for row in known),
+        tuple(row.storage_modulus_pa for row in known),
+        tuple(row.loss_factor for row in known),
+        tuple(row.storage_modulus_standard_error_pa for row in known),
+        tuple(row.loss_factor_standard_error for row in known),
     )
-    known = sorted(rows, key=lambda row: float(row["frequency_hz"]))
-    return Band(*(tuple(_number(row[key]) for row in known) for key in keys))
 
 
 def _number(value: float | None) -> float:
@@ -79,19 +81,16 @@ class Answer:
         return self.equivalent.get(name, (name,))
 
 
-def answer_from(facts: Facts) -> Answer:
-    """Of the JSON of `diagnose`."""
-    candidates = facts.get("candidates", ())
+def answer_from(found: DiagnosisResult) -> Answer:
+    """Of a diagnosis."""
     return Answer(
-        verdict=str(facts["verdict"]),
-        effects=tuple(str(e["name"]) for e in facts["effects"]),
-        equivalent={str(k): tuple(v) for k, v in facts.get("equivalent", {}).items()},
-        probabilities={
-            str(c["name"]): float(c["probability"]) for c in candidates if c.get("probability") is not None
-        },
-        before=band_from(facts["before"]["law"]) if facts.get("before") else None,
-        after=band_from(facts["after"]["law"]) if facts.get("after") else None,
-        seconds=_number(facts.get("seconds")),
+        verdict=found.verdict,
+        effects=tuple(e.name for e in found.effects),
+        equivalent=dict(found.equivalent),
+        probabilities={c.name: c.probability for c in found.candidates if not isnan(c.probability)},
+        before=band_from(found.before.law),
+        after=band_from(found.after.law),
+        seconds=_number(found.seconds),
     )
 
 

@@ -12,7 +12,7 @@ from instrument.campaign.plates.cases import PlateCase
 from instrument.campaign.plates.geometry import plate_named
 from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
 from instrument.models.diagnosis import diagnose
-from instrument.results.diagnosis_facts import diagnosis_facts
+from instrument.results.diagnosis_from import diagnosis_from
 
 _SEED, _MIDDLE_HZ, _RATIO = 7, 100.0, 2e-3
 
@@ -30,7 +30,7 @@ def diagnosed_without_the_truth(case: PlateCase) -> Answer:
 def _diagnosed(case: PlateCase, without: Collection[str] = ()) -> Answer:
     like = None if case.exact else models_of(case.truth.plate.name)
     found = diagnose(case.sweep, case.specimen, hammer=case.hammer, without=without, like=like)
-    return answer_from(diagnosis_facts(found, case.sweep))
+    return answer_from(diagnosis_from(found, case.sweep))
 
 
 @lru_cache

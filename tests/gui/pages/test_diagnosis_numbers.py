@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from diagnosis_cases import AFTER, BEFORE, facts
+from diagnosis_cases import AFTER, BEFORE, diagnosis
 
 from fitting.effects import CATALOGUE
 from gui.pages.diagnosis.ranking import Decisions, about, group_words, ranked
@@ -8,27 +8,27 @@ from gui.pages.diagnosis.residual import limits, panel, quantities, segments
 from gui.pages.diagnosis.stages import compared
 
 
-def standing(diagnosis):
-    return {row.name: row.standing for row in ranked(diagnosis)}
+def standing(found):
+    return {row.name: row.standing for row in ranked(found)}
 
 
 def test_candidates_stand_as_the_verdict_says():
-    found = standing(facts(verdict="ambiguous"))
+    found = standing(diagnosis(verdict="ambiguous"))
     assert found["added_mass"] == "found"
     assert found["spot_offset"] == "equal"
     assert found["none"] == "none"
     assert found["clamp_compliance"] == "not fitted"
     assert set(CATALOGUE) <= set(found)
-    assert standing(facts())["spot_offset"] == "other"
+    assert standing(diagnosis())["spot_offset"] == "other"
 
 
 def test_a_group_is_named_whole():
-    assert "added_mass, spot_offset" in group_words(facts(verdict="ambiguous"))
-    assert group_words(facts()) == ""
+    assert "added_mass, spot_offset" in group_words(diagnosis(verdict="ambiguous"))
+    assert group_words(diagnosis()) == ""
 
 
 def test_evidence_is_what_is_gained_over_no_effect():
-    rows = {row.name: row for row in ranked(facts())}
+    rows = {row.name: row for row in ranked(diagnosis())}
     assert rows["added_mass"].gain == pytest.approx(200.0)
     assert rows["added_mass"].gain_words == "ln odds +200.0 over the fit without any effect"
     assert rows["added_mass"].probability == "82.0 %"
@@ -55,8 +55,8 @@ def test_what_is_accepted_is_not_declined():
     assert not words.any
 
 
-def test_residuals_are_those_of_the_facts():
-    found = facts()
+def test_residuals_are_those_of_the_result():
+    found = diagnosis()
     assert segments(found) == (1, 2, 3)
     real, imaginary = panel(found, 1, "before", "both").series
     assert real.values == pytest.approx(np.full(10, 100 * BEFORE.real))
@@ -66,26 +66,26 @@ def test_residuals_are_those_of_the_facts():
 
 
 def test_before_and_after_share_their_limits():
-    found = facts()
+    found = diagnosis()
     assert limits(found, 1, "both") == pytest.approx(100 * BEFORE.real)
     assert limits(found, 1, "whitened") == panel(found, 1, "before", "whitened").highest
 
 
 def test_amplitudes_alone_have_no_parts():
-    found = facts(phase=False)
+    found = diagnosis(phase=False)
     assert quantities(found) == ("amplitude", "whitened")
     (series,) = panel(found, 2, "before", "whitened").series
     assert series.name == "amplitude"
 
 
 def test_held_out_segments_come_first_beside_noise_alone():
-    rows = compared(facts())
+    rows = compared(diagnosis())
     assert [row.held_out for row in rows] == [True] * 3 + [False] * 3
     assert rows[0].before == pytest.approx(100 * abs(BEFORE))
     assert rows[0].noise == pytest.approx(0.1)
-    assert compared(facts(one_by_one=3.0))[0].after == 3.0
+    assert compared(diagnosis(one_by_one=3.0))[0].after == 3.0
 
 
 def test_all_points_are_inside_the_range():
-    low, high = panel(facts(), 1, "before", "both").range_hz
+    low, high = panel(diagnosis(), 1, "before", "both").range_hz
     assert (low, high) == pytest.approx((18 - 0.16, 22 + 0.16))

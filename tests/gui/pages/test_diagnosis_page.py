@@ -1,6 +1,6 @@
 import pytest
 from diagnosed_session import diagnosed_session
-from diagnosis_cases import facts
+from diagnosis_cases import diagnosis
 from PySide6.QtCore import Qt
 
 from gui.pages.diagnosis import DiagnosisPage
@@ -9,7 +9,7 @@ from gui.rediagnosis import Asked, Shown
 
 LEFT = Qt.MouseButton.LeftButton
 LONG_MS = 300_000
-AMBIGUOUS = facts(verdict="ambiguous")
+AMBIGUOUS = diagnosis(verdict="ambiguous")
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +48,7 @@ def select(qtbot, page, name):
 def test_the_verdict_is_what_was_recorded(page):
     assert page.finding.verdict.said.startswith("Ambiguous: added_mass (mass 0.008 ± 0.0001 kg")
     assert page.finding.origin.said == "recorded with the session"
-    assert page.finding.next.text.endswith(AMBIGUOUS["next_measurement"])
+    assert page.finding.next.text.endswith(AMBIGUOUS.next_measurement)
     assert "a mass of 8 g" in page.story.toPlainText()
     assert not page.empty.isVisible()
 
@@ -130,7 +130,7 @@ def test_an_effect_accepted_by_hand_is_fitted_and_the_material_follows(qtbot, wi
 
 
 def test_no_effect_by_hand_is_not_called_noise(window, page):
-    nothing = {**facts(verdict="none"), "effects": [], "equivalent": {}}
+    nothing = diagnosis(verdict="none").but(effects=(), equivalent={})
     rediagnosis = window.controller.rediagnosis
     rediagnosis.found = Shown(nothing, "by hand", Asked(window.controller.recorded.path, accept=()))
     rediagnosis.changed.emit()

@@ -1,4 +1,3 @@
-import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -19,13 +18,12 @@ from gui.pages.hammer.words import hit_rows
 from instrument.engine import Engine, Order
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.impact.damping import damping_of_hits
-from instrument.impact.facts import damping_facts
+from instrument.impact.result import damping_from
 from instrument.interchange.found import Found
 from instrument.session.configuration import read_whole_experiment
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import DampingFound, HitRevised
-from instrument.stream.jsonable import to_jsonable
 
 LEFT = Qt.MouseButton.LeftButton
 BAND_HZ = (10.0, 550.0)
@@ -76,7 +74,7 @@ def only(hits, numbers):
 def by_command(hits, numbers):
     """What `viscorig damping` would say of these hits."""
     judged = [h.judged() for h in only(hits, numbers)]
-    return to_jsonable(damping_facts(damping_of_hits(judged, band_hz=BAND_HZ)))
+    return damping_from(damping_of_hits(judged, band_hz=BAND_HZ))
 
 
 def numbers(page, column):
@@ -111,13 +109,13 @@ def test_an_experiment_without_a_hammer_test_says_so(qtbot, window, tmp_path):
 
 def test_the_table_shows_what_was_recorded(finished, opened):
     page = finished
-    recorded = opened.controller.state.contents.damping.facts_json["modes"]
+    recorded = opened.controller.state.contents.damping.result.modes
     assert page.modes.source.text() == "As recorded: hits 1, 3 of 3."
-    assert numbers(page, 0) == [round(m["frequency_hz"], 3) for m in recorded]
+    assert numbers(page, 0) == [round(m.frequency_hz, 3) for m in recorded]
     for column, method in ((2, "rational_fit"), (3, "half_power"), (4, "lscf")):
         for shown, mode in zip(numbers(page, column), recorded, strict=True):
-            estimate = mode[method]
-            assert shown == (estimate and pytest.approx(100 * estimate["ratio"], abs=1e-3))
+            estimate = mode.by(method)
+            assert shown == (estimate and pytest.approx(100 * estimate.ratio, abs=1e-3))
     assert None in numbers(page, 3)
     assert "refused: " in page.modes.table.cell(0, 3).tip
     assert numbers(page, 1) == pytest.approx(numbers(page, 0), rel=2e-3)
@@ -151,7 +149,7 @@ def test_a_hit_rejected_is_a_what_if_and_the_file_stays(qtbot, page, opened, ses
     computed(qtbot, page, [3])
     assert page.modes.source.text() == "What if, not recorded: hits 3 of 3."
     assert "what if" in page.hits.table.texts(3)[0]
-    assert page._modes.facts == by_command(hits, [3])
+    assert page._modes.result.as_json() == by_command(hits, [3]).as_json()
     assert session_path.read_bytes() == before
     assert [h.accepted for h in opened.controller.state.contents.hits] == [True, False, True]
     qtbot.mouseClick(page.modes.back, LEFT)
@@ -257,7 +255,7 @@ def test_a_word_about_a_hit_goes_to_the_run(qtbot, window, live):
     assert page.hits.table.texts(4)[0] == "rejected by the operator"
     computed(qtbot, page, [2, 3])
     assert page.modes.source.text().startswith("Preliminary: hits 2, 3 of 3.")
-    preliminary = page._modes.facts["modes"]
+    preliminary = page._modes.result.as_json()["modes"]
     qtbot.mouseClick(page.hits.use, LEFT)
     qtbot.waitUntil(lambda: not window.controller.running, timeout=PATIENCE_MS)
     qtbot.waitUntil(lambda: page.modes.source.text() == "As recorded: hits 2, 3 of 3.", timeout=PATIENCE_MS)
@@ -265,7 +263,7 @@ def test_a_word_about_a_hit_goes_to_the_run(qtbot, window, live):
         events = list(file.events(with_samples=False))
     assert HitRevised(1, accepted=False) in events
     (found,) = [e for e in events if isinstance(e, DampingFound)]
-    assert found.facts_json["modes"] == preliminary
+    assert found.result.as_json()["modes"] == preliminary
 
 
 # Without the window
@@ -284,7 +282,7 @@ def test_scatter_needs_two_hits(hits):
     one = Sight().average(only(hits, [1]), lambda: None)
     two = Sight().average(hits, lambda: None)
     texts = [
-        mode_rows(m.facts, m, None)[0].cells[5].text
+        mode_rows(m.result, m, None)[0].cells[5].text
         for m in (modes_of(a, BAND_HZ, lambda: None) for a in (one, two))
     ]
     assert texts[0] == "–"
@@ -314,9 +312,9 @@ def test_a_hit_whose_samples_are_lost_is_listed_and_not_averaged(hits):
 
 
 def test_refusals_and_flags_are_said(hits):
-    facts = by_command(hits, [1, 3])
-    mode = {**facts["modes"][0], "half_power": None, "why": "half power refused: too short; LSCF differs"}
-    row = mode_rows(json.loads(json.dumps({"modes": [mode]})), None, None)[0]
+    found = by_command(hits, [1, 3])
+    mode = found.modes[0].but(half_power=None, why="half power refused: too short; LSCF differs")
+    row = mode_rows(found.but(modes=(mode,)), None, None)[0]
     assert row.cells[3].text == "refused"
     assert "half power refused" in row.cells[7].text
     assert row.cells[5].text == "..."

@@ -3,6 +3,8 @@ import pytest
 from conftest import TABLE_4
 
 from gui.pages.law.curve import LawCurve, joined, places_hz, resonances_hz
+from instrument.facts.identification import PointFitted
+from instrument.facts.rows import LawRow
 
 
 def curve(low=14.0, high=310.0, count=41):
@@ -10,21 +12,21 @@ def curve(low=14.0, high=310.0, count=41):
 
 
 def rows(c):
-    keys = ("storage_modulus_pa", "storage_modulus_standard_error_pa")
     return [
-        {
-            "frequency_hz": f,
-            keys[0]: 1e6 * G,
-            keys[1]: None,
-            "loss_factor": eta,
-            "loss_factor_standard_error": 0.01,
-        }
+        LawRow(
+            frequency_hz=f,
+            storage_modulus_pa=1e6 * G,
+            loss_factor=eta,
+            storage_modulus_standard_error_pa=np.nan,
+            loss_factor_standard_error=0.01,
+        )
         for f, G, eta in zip(c.frequency_hz, c.storage_mpa, c.loss, strict=True)
     ]
 
 
 def point(frequency_hz, measured_m_s, segment=1):
-    return {"frequency_hz": frequency_hz, "measured_m_s": measured_m_s, "segment": segment}
+    said = {"measured_m_s": measured_m_s, "predicted_m_s": measured_m_s, "difference_percent": 0.0}
+    return PointFitted(frequency_hz=frequency_hz, segment=segment, **said)
 
 
 def test_between_rows_the_law_is_met():

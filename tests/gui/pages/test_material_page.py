@@ -5,6 +5,7 @@ import pytest
 from diagnosed_session import diagnosed_session
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
+from result_cases import identification
 
 from gui.pages.material import MaterialPage, comparison
 from gui.pages.material.compared import PAPER
@@ -29,7 +30,7 @@ def page(qtbot, window, diagnosed_path):
 
 
 def fit_of(page):
-    return page.controller.state.contents.fit.facts_json
+    return page.controller.state.contents.fit.result
 
 
 def drop(widget, path):
@@ -49,9 +50,9 @@ def test_the_latest_fit_stands_before_earlier_ones_and_beside_the_diagnosis(page
 
 
 def test_curves_and_bands_are_the_fits_own(page):
-    law = fit_of(page)["law"]
-    G = 1e-6 * np.array([row["storage_modulus_pa"] for row in law])
-    error = 1e-6 * np.array([row["storage_modulus_standard_error_pa"] for row in law])
+    law = fit_of(page).law
+    G = 1e-6 * np.array([row.storage_modulus_pa for row in law])
+    error = 1e-6 * np.array([row.storage_modulus_standard_error_pa for row in law])
     columns = page.plots.storage.columns()
     axis = "Storage modulus G' (MPa)"
     assert columns[f"identified: {axis}"] == pytest.approx(G)
@@ -59,8 +60,8 @@ def test_curves_and_bands_are_the_fits_own(page):
 
 
 def test_the_width_of_the_bands_is_chosen(qtbot, page):
-    eta = np.array([row["loss_factor"] for row in fit_of(page)["law"]])
-    error = np.array([row["loss_factor_standard_error"] for row in fit_of(page)["law"]])
+    eta = np.array([row.loss_factor for row in fit_of(page).law])
+    error = np.array([row.loss_factor_standard_error for row in fit_of(page).law])
     qtbot.keyClick(page.plots.bands, Qt.Key.Key_Down)
     low = page.plots.loss.columns()["identified, band low: Loss factor η"]
     assert low == pytest.approx(eta - 1.96 * error)
@@ -71,9 +72,9 @@ def test_numbers_stand_at_the_references_and_the_resonances(page):
     assert {"20", "100"} < set(page.places.texts(0))
     assert "resonance 1" in page.places.texts(1)
     row = page.places.texts(0).index("100")
-    at_100 = next(r for r in fit_of(page)["law"] if r["frequency_hz"] == 100.0)
+    at_100 = next(r for r in fit_of(page).law if r.frequency_hz == 100.0)
     assert float(page.places.cell(row, 2).text.split(" ± ")[0]) == pytest.approx(
-        1e-6 * at_100["storage_modulus_pa"], rel=1e-2
+        1e-6 * at_100.storage_modulus_pa, rel=1e-2
     )
 
 
@@ -82,7 +83,7 @@ def test_parameters_and_correlations_are_the_fits_own(page):
     found = page.correlations.table
     assert found.cell(0, 1).text == "+1.000"
     assert float(found.cell(1, 3).text) == pytest.approx(
-        fit_of(page)["correlations"]["ginf_pa"]["tau_s"], abs=6e-4
+        fit_of(page).correlations["ginf_pa"]["tau_s"], abs=6e-4
     )
     assert found.cell(1, 3).fill == "model"
 
@@ -95,13 +96,11 @@ def test_a_parameter_at_its_limit_or_loose_is_named(zn1):
     law = zn1.core.law
     values = dict(zip(law.names, law.values.tolist(), strict=True))
     values["ginf_pa"] = law.limits[1].upper
-    facts = {
-        "parameters": values,
-        "standard_errors": {"g0_pa": 1.0, "ginf_pa": None, "tau_s": 2 * values["tau_s"], "alpha": 0.001},
-        "correlations": {n: {m: float(n == m) for m in values} for n in values},
-    }
-    facts["correlations"]["g0_pa"]["alpha"] = -0.995
-    said = [row.remark for row in parameters(facts, law, None)]
+    errors = {"g0_pa": 1.0, "ginf_pa": None, "tau_s": 2 * values["tau_s"], "alpha": 0.001}
+    correlations = {n: {m: float(n == m) for m in values} for n in values}
+    correlations["g0_pa"]["alpha"] = -0.995
+    fit = identification(parameters=values, standard_errors=errors, correlations=correlations)
+    said = [row.remark for row in parameters(fit, law, None)]
     assert said == ["fixed only together with alpha", "at its upper limit", "not fixed by these data", ""]
 
 

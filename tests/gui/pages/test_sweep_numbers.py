@@ -17,6 +17,7 @@ from gui.pages.sweep.record_lines import record_lines
 from gui.pages.sweep.seen import Seen, Way
 from gui.pages.sweep.segments import standings
 from gui.state import SessionState
+from instrument.facts.identification import PointFitted
 from instrument.interchange.found import Found
 from instrument.session.contents import SegmentRun, TimedPoint
 from instrument.stepped_sine.settings import SweepSettings
@@ -148,11 +149,12 @@ def test_the_model_has_as_many_turns_as_the_points():
 
 def test_a_fits_predictions_are_taken_only_where_they_belong_to_the_points():
     points = of(point(1, 20.0), point(2, 21.0), point(3, 22.0))
-    facts = {"points": [{"frequency_hz": f, "predicted_m_s": v} for f, v in ((20.0, 0.1), (21.0, 0.2))]}
-    index, predicted = predictions(points, facts, 2)
+    rest = {"segment": 1, "measured_m_s": 0.1, "difference_percent": 0.0}
+    rows = [PointFitted(frequency_hz=f, predicted_m_s=v, **rest) for f, v in ((20.0, 0.1), (21.0, 0.2))]
+    index, predicted = predictions(points, rows, 2)
     assert (index.tolist(), predicted.tolist()) == ([0, 1], [0.1, 0.2])
-    assert not predictions(points, facts, 3)[0].size
-    assert not predictions(of(point(1, 20.5), point(2, 21.0)), facts, 2)[0].size
+    assert not predictions(points, rows, 3)[0].size
+    assert not predictions(of(point(1, 20.5), point(2, 21.0)), rows, 2)[0].size
 
 
 def test_every_region_is_drawn_once_with_gaps_between():

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import pyuff
 from conftest import DATA
-from diagnosis_cases import facts
+from diagnosis_cases import diagnosis
 from session_cases import RATE, whole_session
 
 import instrument.cli.diagnose as command
@@ -37,7 +37,7 @@ def given(monkeypatch):
         seen.update(sweep=sweep, specimen=specimen, hammer=hammer, without=without, accept=accept, **how)
 
     monkeypatch.setattr(command, "diagnose_sweep", stub)
-    monkeypatch.setattr(command, "diagnosis_facts", lambda found, sweep: facts())
+    monkeypatch.setattr(command, "diagnosis_from", lambda found, sweep: diagnosis())
     return seen
 
 
@@ -214,7 +214,7 @@ def test_a_session_without_a_diagnosis_has_no_section_of_it(contents):
 
 
 def test_the_report_tells_the_recorded_diagnosis(contents):
-    contents.diagnosis = DiagnosisFound(1, 9, facts())
+    contents.diagnosis = DiagnosisFound(1, 9, diagnosis())
     (section,) = diagnosis_sections(contents)
     kinds = [b.kind for b in section.blocks]
     assert kinds.count("picture") == kinds.count("table") == 3
@@ -224,6 +224,6 @@ def test_the_report_tells_the_recorded_diagnosis(contents):
 
 
 def test_the_report_says_why_there_is_none(contents):
-    contents.diagnosis = DiagnosisFound(1, 9, {}, "too few points")
+    contents.diagnosis = DiagnosisFound(1, 9, None, "too few points")
     (section,) = diagnosis_sections(contents)
     assert "too few points" in section.blocks[0].text

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from result_cases import identification
 
 from drivers.shaker.modbus_driver import ModbusTcpOptions
 from instrument.check.work import Work
@@ -35,7 +36,7 @@ MESSAGES = (
     HoldWanted(),
     Answered("content"),
     Decided("rejected", 3),
-    Happened(FitUpdated(1, 7, {"points": [1, 2], "rms_percent": 0.1 + 0.2}, "a message")),
+    Happened(FitUpdated(1, 7, identification(rms_percent=0.1 + 0.2), "a message")),
     Happened(StepBegan(1, "step", 1, 1, 100.0, None, 0.5, 8.0)),
     BlocksDropped(7),
     Progressed("forecasting", 0.5),

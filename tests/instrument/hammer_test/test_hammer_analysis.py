@@ -108,9 +108,9 @@ def test_enough_good_hits_end_the_test_with_the_modes():
     assert analysis.complete
     (found,) = analysis.ended(HammerTestEnded())
     assert isinstance(found, DampingFound)
-    modes = found.facts_json["modes"]
-    assert [m["frequency_hz"] for m in modes] == pytest.approx([17.7, 59.8], rel=2e-3)
-    assert [m["damping_ratio"] for m in modes] == pytest.approx([0.01, 0.006], rel=0.02)
+    modes = found.result.modes
+    assert [m.frequency_hz for m in modes] == pytest.approx([17.7, 59.8], rel=2e-3)
+    assert [m.damping_ratio for m in modes] == pytest.approx([0.01, 0.006], rel=0.02)
 
 
 def test_without_a_good_hit_there_are_no_modes():

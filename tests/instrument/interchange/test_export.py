@@ -96,10 +96,10 @@ def test_a_title_with_line_breaks_stays_in_its_comment(contents, tmp_path):
 def test_hits_as_csv_give_the_same_damping(capsys, contents, exported):
     hits = [exported / f"{NAME}-hit-{k:02d}.csv" for k in (1, 3)]
     found = facts(capsys, "damping", *hits, "--band", "10:550")["modes"]
-    recorded = contents.damping.facts_json["modes"]
+    recorded = contents.damping.result.modes
     for a, b in zip(found, recorded, strict=True):
-        assert a["frequency_hz"] == pytest.approx(b["frequency_hz"], rel=1e-12)
-        assert a["damping_ratio"] == pytest.approx(b["damping_ratio"], rel=1e-9)
+        assert a["frequency_hz"] == pytest.approx(b.frequency_hz, rel=1e-12)
+        assert a["damping_ratio"] == pytest.approx(b.damping_ratio, rel=1e-9)
 
 
 def test_each_hit_has_a_file_and_a_rejected_one_says_so(contents, exported):
@@ -149,10 +149,10 @@ def test_uff_hammer_has_an_frf_and_its_coherence(exported):
 def test_uff_hits_give_the_same_damping(capsys, contents, exported):
     found = facts(capsys, "damping", exported / f"{NAME}-hits.uff", "--band", "10:550")
     assert len(found["hits"]) == 2
-    for a, b in zip(found["modes"], contents.damping.facts_json["modes"], strict=True):
+    for a, b in zip(found["modes"], contents.damping.result.modes, strict=True):
         # The header keeps six digits of the sampling interval.
-        assert a["frequency_hz"] == pytest.approx(b["frequency_hz"], rel=1e-5)
-        assert a["damping_ratio"] == pytest.approx(b["damping_ratio"], rel=1e-4)
+        assert a["frequency_hz"] == pytest.approx(b.frequency_hz, rel=1e-5)
+        assert a["damping_ratio"] == pytest.approx(b.damping_ratio, rel=1e-4)
 
 
 def test_uff_says_what_it_leaves_out(contents, tmp_path):

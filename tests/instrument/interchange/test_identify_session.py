@@ -38,9 +38,9 @@ def test_the_law_behind_the_session_is_found(capsys, session_path):
 def test_it_is_what_the_live_fit_had(capsys, session_path):
     found = facts(capsys, "identify", session_path)
     with SessionFile(session_path) as file:
-        live = contents_of(file, with_hits=False).fit.facts_json
-    assert found["parameters"] == pytest.approx(live["parameters"], rel=1e-8)
-    assert found["rms_percent"] == pytest.approx(live["rms_percent"], rel=1e-6)
+        live = contents_of(file, with_hits=False).fit.result
+    assert found["parameters"] == pytest.approx(live.parameters, rel=1e-8)
+    assert found["rms_percent"] == pytest.approx(live.rms_percent, rel=1e-6)
 
 
 def test_the_hammer_test_can_be_left_out(capsys, session_path):
@@ -53,8 +53,10 @@ def test_a_hammer_test_beyond_use_is_refused_and_can_be_left_out(capsys, tmp_pat
     synthetic = SyntheticSession(configuration())
     synthetic.begin()
     synthetic.hammer()
-    (found,) = (e for e in synthetic.events if isinstance(e, DampingFound))
-    found.facts_json["modes"][0]["damping_ratio"] = 0.25
+    (at,) = (k for k, e in enumerate(synthetic.events) if isinstance(e, DampingFound))
+    first, *rest = synthetic.events[at].result.modes
+    wrong = synthetic.events[at].result.but(modes=(first.but(damping_ratio=0.25), *rest))
+    synthetic.events[at] = DampingFound(wrong)
     synthetic.sweep(segments=(1, 2))
     path = synthetic.save(tmp_path)
     status, _, err = call(capsys, "identify", path)
@@ -65,7 +67,7 @@ def test_a_hammer_test_beyond_use_is_refused_and_can_be_left_out(capsys, tmp_pat
 
 def test_another_hammer_test_can_take_its_place(capsys, session_path, tmp_path):
     with SessionFile(session_path) as file:
-        damping = contents_of(file, with_hits=False).damping.facts_json
+        damping = contents_of(file, with_hits=False).damping.result.as_json()
     for mode in damping["modes"]:
         mode["frequency_hz"] *= 1.01
     path = tmp_path / "other.json"

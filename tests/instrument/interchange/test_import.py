@@ -64,7 +64,7 @@ def test_it_identifies_to_the_same_law(capsys, contents, exported, tmp_path):
     specimen = exported / f"{NAME}-specimen.toml"
     assert run(["identify", str(tmp_path / "a.csv"), "--specimen", str(specimen), "--json", "-"]) == 0
     found = json.loads(capsys.readouterr().out)
-    live = contents.fit.facts_json
+    live = contents.fit.result.as_json()
     at_100 = (next(r for r in facts["law"] if r["frequency_hz"] == 100.0) for facts in (found, live))
     a, b = (r["storage_modulus_pa"] for r in at_100)
     assert a == pytest.approx(b, rel=2e-3)

@@ -10,6 +10,7 @@ from conftest import DATA, TABLE_4
 from fitting.direct import displacement_direct
 from fitting.nuisances import Nuisance, Nuisances
 from instrument.errors import BadInput
+from instrument.facts.identification import IdentificationResult, Posterior
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.models.fitted_plate import FittedPlate
@@ -18,8 +19,7 @@ from instrument.models.specimen_models import Models
 from instrument.paper_case import case_file
 from instrument.results.fit_file import found_law
 from instrument.results.fitted_response import fitted_response
-from instrument.results.identification_facts import identification_facts
-from instrument.stream.jsonable import to_jsonable
+from instrument.results.identification_from import identification_from
 
 F = np.array([17.0, 19.3, 95.0, 101.0, 280.0])
 
@@ -29,22 +29,25 @@ def identified():
     specimen = replace(read_specimen(case_file("zn1.toml")), exact=False)
     sweep = read_sweep(DATA / "practice-005.csv").sweep(9.81)
     found = identify(sweep, specimen)
-    return specimen, sweep, found, to_jsonable(identification_facts(found, sweep))
+    return specimen, sweep, found, identification_from(found, sweep, specimen)
 
 
 def test_it_predicts_what_was_fitted(identified):
-    specimen, sweep, found, facts = identified
-    assert max(abs(one["pull"]) for one in facts["adjusted"]) > 3
+    specimen, sweep, found, result = identified
+    assert max(abs(one.pull) for one in result.adjusted) > 3
     f, which = np.unique(sweep.frequency_hz, return_inverse=True)
-    response = fitted_response(specimen, found_law(json.loads(json.dumps(facts))), f)
+    response = fitted_response(
+        specimen, found_law(IdentificationResult.model_validate_json(json.dumps(result.as_json()))), f
+    )
     at = np.abs(response.velocity_m_s)[which.ravel()]
     np.testing.assert_allclose(at, found.result.predicted_m_s, rtol=1e-4)
     assert (response.amplitude_standard_error_m_s < 0.02 * np.abs(response.velocity_m_s)).all()
 
 
 def test_the_stated_plate_alone_would_be_off(identified):
-    specimen, _, _, facts = identified
-    response = [fitted_response(specimen, found_law({**facts, **m}), F) for m in ({}, {"adjusted": []})]
+    specimen, _, _, result = identified
+    as_stated = result.but(adjusted=())
+    response = [fitted_response(specimen, found_law(one), F) for one in (result, as_stated)]
     off = np.abs(response[1].velocity_m_s / response[0].velocity_m_s - 1)
     assert off.max() > 0.02
 
@@ -71,11 +74,11 @@ def test_the_moved_plate_is_that_of_the_moved_specimen(coarse):
 
 
 def test_a_posterior_that_is_none_is_refused(identified):
-    *_, facts = identified
+    *_, result = identified
     with pytest.raises(ValueError, match="lower triangle"):
-        found_law({**facts, "posterior": {"names": ["a", "b"], "rows": [[1.0]]}})
+        found_law(result.but(posterior=Posterior(names=("a", "b"), rows=((1.0,),))))
     with pytest.raises(ValueError, match="no stated number is called"):
-        found_law({**facts, "adjusted": [{"name": "colour", "stated": 1, "tolerance": 1, "found": 1}]})
-    one = {"name": "core_thickness", "stated": 0.5, "tolerance": 0.015, "found": -1.0}
+        found_law(result.but(adjusted=(result.adjusted[0].but(name="colour"),)))
+    one = result.adjusted[0].but(name="core_thickness", stated=0.5, tolerance=0.015, found=-1.0)
     with pytest.raises(BadInput, match="core_thickness is -1, expected more than 0"):
-        fitted_response(identified[0], found_law({**facts, "adjusted": [one]}), F)
+        fitted_response(identified[0], found_law(result.but(adjusted=(one,))), F)

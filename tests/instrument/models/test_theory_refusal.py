@@ -17,7 +17,7 @@ from instrument.models.identification import _checked, identify
 from instrument.models.specimen_models import Models
 from instrument.models.theory import theory_remark
 from instrument.paper_case import case_file
-from instrument.results.identification_facts import identification_facts
+from instrument.results.identification_from import identification_from
 
 F = np.concatenate([np.linspace(a, b, 12) for a, b in ((14, 24), (80, 110), (230, 290))])
 SEGMENT = np.repeat([1, 2, 3], 12)
@@ -72,11 +72,11 @@ def test_diagnose_refuses_the_law_it_ends_with(coarse):
 def test_a_usual_core_is_identified_and_its_error_stated(coarse):
     sweep = sweep_of(coarse.with_law(TABLE_4))
     found = identify(sweep, coarse)
-    rows = identification_facts(found, sweep)["theory_error"]
+    rows = identification_from(found, sweep, coarse).theory_error
     assert len(rows) == 10
-    assert set(rows[0]) == {"frequency_hz", "frequency_error", "loss_factor_error"}
-    assert (rows[0]["frequency_hz"], rows[-1]["frequency_hz"]) == (pytest.approx(14), pytest.approx(290))
-    assert all(0 < r["frequency_error"] < 1e-3 for r in rows)
+    assert set(rows[0].as_json()) == {"frequency_hz", "frequency_error", "loss_factor_error"}
+    assert (rows[0].frequency_hz, rows[-1].frequency_hz) == (pytest.approx(14), pytest.approx(290))
+    assert all(0 < r.frequency_error < 1e-3 for r in rows)
 
 
 def test_predict_notes_it(capsys, tmp_path):

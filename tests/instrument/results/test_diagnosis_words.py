@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from diagnosis_cases import facts
+from diagnosis_cases import diagnosis
 
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
@@ -22,28 +22,32 @@ from instrument.results.diagnosis_words import log_odds, probability_words, resa
     ],
 )
 def test_a_probability(p, said):
-    assert probability_words({"probability": p}, {}) == said
+    candidate = diagnosis().candidates[0].but(probability=p)
+    assert probability_words(candidate, diagnosis()) == said
 
 
 def test_nothing_was_weighed_by_hand_nor_before_there_were_probabilities():
-    assert probability_words({"probability": 1.0}, {"by_hand": True}) == "-"
-    assert probability_words({}, {}) == "-"
+    found = diagnosis()
+    first = found.candidates[0]
+    assert probability_words(first, found.but(by_hand=True)) == "-"
+    assert probability_words(first.without("probability"), found) == "-"
 
 
 def test_a_law_of_an_unknown_cause_says_so():
-    assert with_verdict("the law", {"verdict": "unknown"}) == "the law (verdict unknown)"
-    assert with_verdict("the law", {"verdict": "effect"}) == "the law"
+    assert with_verdict("the law", diagnosis(verdict="unknown")) == "the law (verdict unknown)"
+    assert with_verdict("the law", diagnosis()) == "the law"
 
 
 def test_odds_are_against_none():
-    costs = [{"name": "a", "delta_bic": 0.0}, {"name": "none", "delta_bic": 8.0}]
-    assert log_odds({"candidates": costs}) == [4.0, 0.0]
-    assert log_odds({"candidates": costs[:1]}) == [None]
+    found = diagnosis()
+    costs = found.candidates[0], found.candidates[-1].but(delta_bic=8.0)
+    assert log_odds(found.but(candidates=costs)) == [4.0, 0.0]
+    assert log_odds(found.but(candidates=costs[:1])) == [None]
 
 
 def test_resampling_is_said_where_it_was_done():
-    assert resampling_words({"p_value": None}) == ""
-    said = resampling_words({"p_value": 0.05, "nested_held_out_rms_percent": 2.345})
+    assert resampling_words(diagnosis()) == ""
+    said = resampling_words(diagnosis().but(p_value=0.05, nested_held_out_rms_percent=2.345))
     assert said == (
         "sweeps without any effect gain as much in 5 % of cases; "
         "data left out, the whole search repeated without them: 2.3 % rms"
@@ -51,15 +55,15 @@ def test_resampling_is_said_where_it_was_done():
 
 
 def test_every_law_of_an_unknown_cause_is_marked(capsys):
-    found = {**facts(), "verdict": "unknown", "equivalent": {}}
+    found = diagnosis(verdict="unknown").but(equivalent={})
     print_diagnosis(Output(None), found)
     assert "the core's law, +- one standard error (verdict unknown)" in capsys.readouterr().out
     assert law_figure(found).axes[0].get_title(loc="left").endswith("(verdict unknown)")
-    assert "verdict unknown" not in law_figure(facts()).axes[0].get_title(loc="left")
+    assert "verdict unknown" not in law_figure(diagnosis()).axes[0].get_title(loc="left")
 
 
 def test_candidates_are_printed_with_their_probability(capsys):
-    print_diagnosis(Output(None), facts())
+    print_diagnosis(Output(None), diagnosis())
     said = capsys.readouterr().out
     assert "probability" in said
     assert "82.0 %" in said

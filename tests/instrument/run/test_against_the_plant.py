@@ -20,7 +20,7 @@ RATIOS = np.array([0.29, 0.13, 0.18, 0.21, 0.11, 0.07, 0.09, 0.04]) / 100
 
 
 def no_fit(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, {}, "not fitted")
+    return FitUpdated(number, last_step, None, "not fitted")
 
 
 @pytest.fixture(scope="module")
@@ -99,12 +99,12 @@ def test_gain_and_delay_are_calibrated_in_place(quiet_run):
 
 
 def test_the_hammer_gives_the_papers_eight_ratios_and_the_plants_frequencies(demo_run):
-    modes = [m for m in demo_run.damping.facts_json["modes"] if m["accepted"]]
+    modes = demo_run.damping.result.accepted
     frequency_hz, ratio = StruckPlate((0.285, 0.025), (0.270, 0.170), 0.6e-3).modes()
-    assert [m["frequency_hz"] for m in modes] == pytest.approx(frequency_hz, rel=5e-4)
-    assert [m["damping_ratio"] for m in modes] == pytest.approx(ratio, rel=0.03)
-    assert [m["damping_ratio"] for m in modes] == pytest.approx(RATIOS, rel=0.03)
-    assert sum(m["half_power"] is not None for m in modes) == 8
+    assert [m.frequency_hz for m in modes] == pytest.approx(frequency_hz, rel=5e-4)
+    assert [m.damping_ratio for m in modes] == pytest.approx(ratio, rel=0.03)
+    assert [m.damping_ratio for m in modes] == pytest.approx(RATIOS, rel=0.03)
+    assert sum(m.half_power is not None for m in modes) == 8
 
 
 def test_a_double_hit_is_told_from_a_good_one(demo_run):
@@ -115,14 +115,14 @@ def test_a_double_hit_is_told_from_a_good_one(demo_run):
 
 
 def test_the_law_is_the_plants_within_its_band(demo_run):
-    law = {row["frequency_hz"]: row for row in demo_run.fit.facts_json["law"]}
+    law = {row.frequency_hz: row for row in demo_run.fit.result.law}
     for f in (20.0, 100.0, 280.0):
         G = complex(ShakenPlate(Effects()).plate.core_law.modulus(2 * np.pi * f))
-        storage, loss = law[f]["storage_modulus_pa"], law[f]["loss_factor"]
+        storage, loss = law[f].storage_modulus_pa, law[f].loss_factor
         assert storage == pytest.approx(G.real, rel=0.02)
         assert loss == pytest.approx(G.imag / G.real, rel=0.03)
-        assert abs(storage - G.real) < 1.96 * law[f]["storage_modulus_standard_error_pa"]
-        assert abs(loss - G.imag / G.real) < 1.96 * law[f]["loss_factor_standard_error"]
+        assert abs(storage - G.real) < 1.96 * law[f].storage_modulus_standard_error_pa
+        assert abs(loss - G.imag / G.real) < 1.96 * law[f].loss_factor_standard_error
 
 
 @pytest.mark.long

@@ -23,7 +23,7 @@ HEARTBEAT_S = 2.0
 
 def no_fit(number, last_step, points, damping, specimen):
     """The formula plate is nobody's plate: a fit of it means nothing."""
-    return FitUpdated(number, last_step, {"points": sum(p.step <= last_step for p in points)}, "not fitted")
+    return FitUpdated(number, last_step, None, f"{sum(p.step <= last_step for p in points)} points")
 
 
 def run(experiment, folder, parts, **options):

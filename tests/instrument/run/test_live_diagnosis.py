@@ -6,15 +6,17 @@ import signal
 import threading
 
 import pytest
-from diagnosis_cases import facts
+from diagnosis_cases import diagnosis
 from formula_rig import formula_rig
+from result_cases import identification
 from run_at_point import RunAtPoint
 
 from fitting.effects import CATALOGUE
 from instrument.cli.output import Output
-from instrument.cli.print_run import print_finished, run_facts
+from instrument.cli.print_run import print_finished, run_result
 from instrument.cli.watching import said_of
 from instrument.errors import BadInput, RigStopped, StoppedByUser
+from instrument.facts.damping import DampingResult, ModeFound
 from instrument.run.control import Control
 from instrument.run.experiment import run_experiment
 from instrument.run.live_diagnosis import apart, diagnose_points
@@ -27,21 +29,26 @@ from instrument.stream.raw import DiagnosisStarted, SessionEnded
 
 
 def no_law(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, {}, "no law")
+    return FitUpdated(number, last_step, None, "no law")
 
 
 def a_law(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, {"points": []})
+    return FitUpdated(number, last_step, identification())
 
 
 def times(number, last_step, points, times_s, damping, specimen):
     """Says what it was given."""
     given = {"times_s": list(times_s), "points": sum(p.step <= last_step for p in points)}
-    return DiagnosisFound(number, last_step, given)
+    return DiagnosisFound(number, last_step, None, json.dumps(given))
+
+
+def told(found):
+    """What it was given."""
+    return json.loads(found.message)
 
 
 def whole(number, last_step, points, times_s, damping, specimen):
-    return DiagnosisFound(number, last_step, facts())
+    return DiagnosisFound(number, last_step, diagnosis())
 
 
 def refused(*_):
@@ -65,12 +72,12 @@ def test_it_is_made_once_of_the_whole_sweep_and_recorded_before_the_end(finished
     assert [type(e) for e in events] == [DiagnosisStarted, DiagnosisFound]
     assert events[1] == finished.diagnosis
     assert events[1].last_step == events[0].last_step == max(p.step for p in finished.points)
-    assert events[1].facts_json["points"] == len(finished.points)
+    assert told(events[1])["points"] == len(finished.points)
     assert isinstance(events_of(finished.session)[-1], SessionEnded)
 
 
 def test_points_come_with_times_of_the_sample_counter(finished):
-    t = finished.diagnosis.facts_json["times_s"]
+    t = told(finished.diagnosis)["times_s"]
     samples = [p.sample for p in finished.points]
     assert [b - t[0] for b in t] == pytest.approx([(n - samples[0]) / 8192.0 for n in samples], abs=1e-9)
 
@@ -85,7 +92,7 @@ def test_a_replay_computes_it_again_and_compares(finished):
 def test_a_replay_notices_another_diagnosis(finished):
     def another(*given):
         found = times(*given)
-        return DiagnosisFound(found.number, found.last_step, {**found.facts_json, "points": -1})
+        return DiagnosisFound(found.number, found.last_step, None, "another")
 
     with SessionFile(finished.session) as file:
         again = replay(file, fit=a_law, diagnose=another)
@@ -116,7 +123,7 @@ def test_a_sweep_that_is_stopped_is_not_diagnosed_and_its_resumed_whole_is(tmp_p
             )
         (folder,) = tmp_path.glob("*.running")
         finished = run_experiment(experiment, tmp_path, ("sweep",), resume=folder, fit=a_law, diagnose=times)
-    t = finished.diagnosis.facts_json["times_s"]
+    t = told(finished.diagnosis)["times_s"]
     assert len(t) == len(finished.points) == 15
     assert t == sorted(t)
     with SessionFile(finished.session) as file:
@@ -131,10 +138,10 @@ def test_why_none_was_possible_is_the_result(finished):
     """A third of critical damping on a bare plate: something else was hit."""
     with SessionFile(finished.session) as file:
         specimen = file.configuration.the_specimen()
-    damping = DampingFound({"modes": [{"frequency_hz": 17.7, "damping_ratio": 0.33, "accepted": True}]})
+    damping = DampingFound(DampingResult(modes=[ModeFound(frequency_hz=17.7, damping_ratio=0.33)]))
     points = list(finished.points)
     found = diagnose_points(1, points[-1].step, points, [0.0] * len(points), damping, specimen)
-    assert found.facts_json == {}
+    assert found.result is None
     assert "damping_ratio" in found.message
     assert "\n" not in found.message
 
@@ -169,30 +176,16 @@ def test_ctrl_c_does_not_wait_for_it_and_keeps_the_session(tmp_path):
 
 def test_a_person_sees_the_verdict_as_it_comes_and_the_reasons_at_the_end(tmp_path, capsys):
     with formula_rig(tmp_path) as (_, experiment):
-        finished = run_experiment(experiment, tmp_path, ("sweep",), fit=a_law_to_print, diagnose=whole)
+        finished = run_experiment(experiment, tmp_path, ("sweep",), fit=a_law, diagnose=whole)
     assert said_of(DiagnosisStarted(1, 9)) == "tracing what the fit cannot explain"
     assert said_of(finished.diagnosis).startswith("verdict: effect")
-    assert said_of(DiagnosisFound(1, 9, {}, "too few")) == "no diagnosis: too few"
-    json.dumps(run_facts(finished), allow_nan=False)
-    assert run_facts(finished)["diagnose"]["verdict"] == "effect"
+    assert said_of(DiagnosisFound(1, 9, None, "too few")) == "no diagnosis: too few"
+    json.dumps(run_result(finished).as_json(), allow_nan=False)
+    assert run_result(finished).diagnose.verdict == "effect"
     print_finished(Output(None), finished)
     said = capsys.readouterr().out
     assert "a mass of 8 g" in said
     assert "what the fit leaves" in said
-
-
-def a_law_to_print(number, last_step, points, damping, specimen):
-    law = [
-        {
-            "frequency_hz": 100.0,
-            "storage_modulus_pa": 4e5,
-            "storage_modulus_standard_error_pa": 1e3,
-            "loss_factor": 0.9,
-            "loss_factor_standard_error": 0.01,
-        }
-    ]
-    one = {"law": law, "chi2_per_dof": None, "held_out_rms_percent": None, "rms_percent": 1.0, "warnings": []}
-    return FitUpdated(number, last_step, {**one, "points": []})
 
 
 def test_a_demonstration_hides_what_is_asked_for():

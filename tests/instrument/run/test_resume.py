@@ -28,7 +28,7 @@ range = "5mm/s/V"
 
 
 def no_fit(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, {"points": sum(p.step <= last_step for p in points)}, "not fitted")
+    return FitUpdated(number, last_step, None, f"{sum(p.step <= last_step for p in points)} points")
 
 
 def run(experiment, folder, **options):

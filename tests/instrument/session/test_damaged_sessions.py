@@ -13,7 +13,7 @@ from instrument.stream.derived import FitUpdated
 
 
 def no_fit(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, {"points": sum(p.step <= last_step for p in points)}, "not fitted")
+    return FitUpdated(number, last_step, None, f"{sum(p.step <= last_step for p in points)} points")
 
 
 @pytest.fixture(scope="module")

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from diagnosis_cases import AFTER, BEFORE, facts
+from diagnosis_cases import AFTER, BEFORE, diagnosis
 
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
@@ -14,8 +14,14 @@ from instrument.results.diagnosis_words import verdict_line
 
 
 @pytest.fixture(scope="module")
-def found():
-    return facts()
+def result():
+    return diagnosis()
+
+
+@pytest.fixture(scope="module")
+def found(result):
+    """As JSON has it."""
+    return result.as_json()
 
 
 def test_every_key_that_others_rely_on_is_there(found):
@@ -57,7 +63,7 @@ def test_parameters_of_two_effects_together_cannot_be_mistaken(found):
 
 
 def test_the_held_out_error_is_that_of_single_points_where_there_are_few():
-    before = facts(one_by_one=7.5)["before"]
+    before = diagnosis(one_by_one=7.5).as_json()["before"]
     assert before["held_out"] == []
     assert before["held_out_rms_percent"] == before["leave_one_out_rms_percent"] == 7.5
 
@@ -81,14 +87,14 @@ def test_points_with_hum_are_named_and_not_among_the_others(found):
 
 
 def test_amplitudes_leave_a_difference_in_amplitude_alone():
-    point = facts(phase=False)["points"][0]
+    point = diagnosis(phase=False).as_json()["points"][0]
     assert set(point["before"]) == {"amplitude_percent", "whitened"}
     assert len(point["before"]["whitened"]) == 1
 
 
 @pytest.mark.parametrize("how", [{}, {"phase": False}, {"verdict": "ambiguous"}, {"one_by_one": 7.5}])
 def test_a_person_reads_verdict_reasons_and_numbers(capsys, how):
-    print_diagnosis(Output(None), facts(**how))
+    print_diagnosis(Output(None), diagnosis(**how))
     said = capsys.readouterr().out
     assert said.startswith(f"verdict: {how.get('verdict', 'effect')}")
     for words in (
@@ -105,22 +111,22 @@ def test_a_person_reads_verdict_reasons_and_numbers(capsys, how):
     assert ("each point from the others" in said) == ("one_by_one" in how)
 
 
-def test_what_channels_show_is_not_said_to_be_the_verdict(found):
-    channel = [e for e in found["effects"] if e["name"] == "mains_hum"]
-    line = verdict_line({**found, "verdict": "none", "effects": channel, "equivalent": {}})
+def test_what_channels_show_is_not_said_to_be_the_verdict(result):
+    channel = [e for e in result.effects if e.name == "mains_hum"]
+    line = verdict_line(result.but(verdict="none", effects=channel, equivalent={}))
     assert line.startswith("verdict: none: nothing beyond noise; the channels by themselves show mains_hum (")
 
 
-def test_what_someone_decided_is_not_said_to_be_the_data_s_word(found):
-    declined = {**found, "verdict": "none", "effects": [], "equivalent": {}, "by_hand": True}
+def test_what_someone_decided_is_not_said_to_be_the_data_s_word(result):
+    declined = result.but(verdict="none", effects=(), equivalent={}, by_hand=True)
     assert verdict_line(declined) == "verdict: by your word: no effect accepted"
-    accepted = verdict_line({**found, "by_hand": True})
+    accepted = verdict_line(result.but(by_hand=True))
     assert accepted.startswith("verdict: by your word: ")
 
 
 @pytest.mark.parametrize("phase", [True, False])
 def test_figures_are_saved(tmp_path, phase):
-    paths = save_diagnosis_figures(facts(phase=phase), tmp_path / "new")
+    paths = save_diagnosis_figures(diagnosis(phase=phase), tmp_path / "new")
     assert [p.name for p in paths] == [
         "diagnosis-residual.png",
         "diagnosis-evidence.png",
@@ -129,14 +135,14 @@ def test_figures_are_saved(tmp_path, phase):
     assert all(p.stat().st_size > 5000 for p in paths)
 
 
-def test_figures_into_a_file_are_refused_in_a_line(tmp_path, found):
+def test_figures_into_a_file_are_refused_in_a_line(tmp_path, result):
     (tmp_path / "taken").write_text("")
     with pytest.raises(BadInput, match="taken"):
-        save_diagnosis_figures(found, tmp_path / "taken")
+        save_diagnosis_figures(result, tmp_path / "taken")
 
 
-def test_the_residual_is_drawn_before_and_after_on_one_scale(found):
-    axes = residual_figure(found).axes
+def test_the_residual_is_drawn_before_and_after_on_one_scale(result):
+    axes = residual_figure(result).axes
     assert len(axes) == 6
     for left, right in zip(axes[::2], axes[1::2], strict=True):
         assert left.get_ylim() == right.get_ylim()
@@ -144,24 +150,25 @@ def test_the_residual_is_drawn_before_and_after_on_one_scale(found):
     assert "10" in axes[0].get_title()
 
 
-def test_a_sentinel_far_off_does_not_stretch_its_segment(found):
-    away = {**found["points"][-1], "frequency_hz": 20.0}
-    axes = residual_figure({**found, "points": [*found["points"], away]}).axes
+def test_a_sentinel_far_off_does_not_stretch_its_segment(result):
+    away = result.points[-1].but(frequency_hz=20.0)
+    axes = residual_figure(result.but(points=(*result.points, away))).axes
     assert axes[4].get_xlim()[0] > 200
 
 
-def test_evidence_stands_above_no_effect(found):
-    (ax,) = evidence_figure(found).axes
+def test_evidence_stands_above_no_effect(result):
+    (ax,) = evidence_figure(result).axes
     assert [bar.get_width() for bar in ax.patches] == [200.0, 198.25, 197.0, 0.0]
     assert [text.get_text().split(",")[0] for text in ax.texts] == ["82.0 %", "14.0 %", "4.0 %", "< 0.1 %"]
 
 
-def test_of_two_effects_together_one_alone_is_neither_accepted_nor_its_equal(found):
+def test_of_two_effects_together_one_alone_is_neither_accepted_nor_its_equal(result):
     """Green, orange and blue: a pair, the pair with one exchanged for its equal, anything else."""
     pair = {"added_mass": ["added_mass", "gain_error"], "spot_offset": ["spot_offset"]}
     names = ("added_mass + spot_offset", "gain_error + spot_offset", "added_mass", "spot_offset", "none")
-    candidates = [{"name": n, "delta_bic": float(k), "chi2_per_dof": None} for k, n in enumerate(names)]
-    (ax,) = evidence_figure({**found, "equivalent": pair, "candidates": candidates}).axes
+    one = result.candidates[0]
+    candidates = [one.but(name=n, delta_bic=float(k), chi2_per_dof=None) for k, n in enumerate(names)]
+    (ax,) = evidence_figure(result.but(equivalent=pair, candidates=candidates)).axes
     first, second, third, fourth, _ = (bar.get_facecolor() for bar in ax.patches)
     assert len({first, second, third}) == 3
     assert third == fourth

@@ -1,11 +1,10 @@
-"""The budget of a law's uncertainty as JSON holds it."""
-
-from typing import Any
+"""The budget of a law's uncertainty, read off its fit."""
 
 import numpy as np
 
 from fitting.diagnosis.budget import Budget, budget_of
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
+from instrument.facts.budget import BudgetRow, BudgetSource
 from instrument.models.identification import Identified
 
 
@@ -19,22 +18,22 @@ def budget(found: Identified) -> Budget | None:
     return budget_of(found.joint.begun, np.array(at))
 
 
-def budget_facts(b: Budget) -> list[dict[str, Any]]:
+def budget_from(b: Budget) -> tuple[BudgetRow, ...]:
     """A row a frequency: standard uncertainties by source, largest for G' first."""
     by_storage, by_loss = b.total(b.storage_relative), b.total(b.loss_factor)
-    return [
-        {
-            "frequency_hz": f,
-            "storage_modulus_standard_error_percent": 100 * by_storage[k],
-            "loss_factor_standard_error": by_loss[k],
-            "sources": [
-                {
-                    "source": name,
-                    "storage_modulus_percent": 100 * part[k],
-                    "loss_factor": b.loss_factor[name][k],
-                }
+    return tuple(
+        BudgetRow(
+            frequency_hz=float(f),
+            storage_modulus_standard_error_percent=100 * float(by_storage[k]),
+            loss_factor_standard_error=float(by_loss[k]),
+            sources=tuple(
+                BudgetSource(
+                    source=name,
+                    storage_modulus_percent=100 * float(part[k]),
+                    loss_factor=float(b.loss_factor[name][k]),
+                )
                 for name, part in sorted(b.storage_relative.items(), key=lambda item: -item[1][k])
-            ],
-        }
+            ),
+        )
         for k, f in enumerate(b.frequency_hz)
-    ]
+    )

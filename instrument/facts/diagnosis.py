@@ -1,0 +1,154 @@
+"""The result of `viscorig diagnose`, and of the diagnosis a run ends with."""
+
+from collections.abc import Mapping
+from math import nan
+from typing import Literal
+
+from instrument.facts.number import MaybeNumber, Number
+from instrument.facts.result import Result
+from instrument.facts.rows import AdjustedNumber, HeldOut, LawRow, StretchSetAside
+
+Verdict = Literal["none", "effect", "ambiguous", "unknown"]
+StageName = Literal["before", "after"]
+STAGES: tuple[StageName, ...] = ("before", "after")
+
+
+class EffectParameter(Result):
+    """Of an effect, in `unit`."""
+
+    value: Number
+    standard_error: Number
+    """NaN where the data do not fix it, or it sits at a limit."""
+    unit: str
+
+
+class EffectFound(Result):
+    """An accepted effect, or what a channel shows by itself."""
+
+    name: str
+    parameters: Mapping[str, EffectParameter]
+    probability: Number = nan
+    """That it is there, alone or beside another."""
+
+
+class CandidateFitted(Result):
+    """One effect, or two together, fitted with the law."""
+
+    name: str
+    """`none`, an effect's name, or two joined by " + "."""
+    delta_bic: Number
+    """To the best one."""
+    probability: Number = nan
+    """One of all that were tried being right."""
+    chi2_per_dof: MaybeNumber = None
+    parameters: Mapping[str, EffectParameter]
+    """Of two effects together, each key with its effect's name before it."""
+    law: tuple[LawRow, ...] = ()
+    """At a few frequencies, its own."""
+    checks: Mapping[str, Number] = {}
+    """Tail probabilities of posterior predictive checks, by what was looked at."""
+
+
+class StageFitted(Result):
+    """The fit without any effect, or with the effects accepted."""
+
+    rms_percent: Number
+    max_percent: Number
+    chi2_per_dof: MaybeNumber = None
+    held_out: tuple[HeldOut, ...] = ()
+    held_out_rms_percent: MaybeNumber = None
+    """The error on data not seen, whichever way it was found."""
+    leave_one_out_rms_percent: MaybeNumber = None
+    law_kind: str = ""
+    parameters: Mapping[str, Number] = {}
+    standard_errors: Mapping[str, Number] = {}
+    law: tuple[LawRow, ...]
+    structure: tuple[str, ...] = ()
+    """Tests that find the residuals not random, in words."""
+    adjusted: tuple[AdjustedNumber, ...] = ()
+
+
+class Residual(Result):
+    """Of one point: 100 (predicted / measured - 1)."""
+
+    amplitude_percent: Number
+    re_percent: Number = nan
+    """Amplitude to first order; not given where phase was not kept."""
+    im_percent: Number = nan
+    """Phase to first order; not given where phase was not kept."""
+    whitened: tuple[Number, ...] = ()
+    """In units of noise and model error, a number a part."""
+
+    @property
+    def has_phase(self) -> bool:
+        """Whether there are parts besides the amplitude."""
+        return "re_percent" in self.model_fields_set
+
+
+class PointLeft(Result):
+    """What either fit leaves of one point."""
+
+    frequency_hz: Number
+    segment: int
+    sweep: int
+    level_m_s2: Number
+    noise_percent: Number
+    before: Residual
+    after: Residual
+
+    def stage(self, name: StageName) -> Residual:
+        """Of one fit."""
+        return self.before if name == "before" else self.after
+
+
+class DiagnosisResult(Result):
+    """What the specimen's law cannot explain, traced to an effect."""
+
+    verdict: Verdict
+    effects: tuple[EffectFound, ...]
+    """Accepted ones, the best one of an ambiguous group, and what the channels show by themselves."""
+    equivalent: Mapping[str, tuple[str, ...]]
+    """Accepted name to the names that these data cannot tell from it, itself included."""
+    candidates: tuple[CandidateFitted, ...]
+    """Best first; `none` among them."""
+    before: StageFitted
+    after: StageFitted
+    """The same as `before` where nothing is accepted."""
+    adjusted: tuple[AdjustedNumber, ...] = ()
+    p_value: MaybeNumber = None
+    """Chance that data without any effect gain as much; None where not asked for."""
+    nested_held_out_rms_percent: MaybeNumber = None
+    """Held out with the selection repeated."""
+    next_measurement: str = ""
+    explanation: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
+    by_hand: bool = False
+    """Accepted or declined on someone's word."""
+    points: tuple[PointLeft, ...]
+    set_aside_hz: tuple[Number, ...] = ()
+    """Points that carry hum."""
+    seconds: MaybeNumber = None
+    """A run does not say."""
+    setup_seconds: MaybeNumber = None
+    files: tuple[str, ...] | None = None
+    """Of several under one law."""
+    set_aside: tuple[StretchSetAside, ...] | None = None
+    """Of several files, what takes no part."""
+    session: str | None = None
+    """Whose points these are; None for a sweep's file."""
+    reads: str | None = None
+    """What the session's laser sees: `absolute` or `relative` velocity."""
+
+    @property
+    def stages(self) -> tuple[StageFitted, StageFitted]:
+        """Before and after."""
+        return self.before, self.after
+
+    def stage(self, name: StageName) -> StageFitted:
+        """One of the two."""
+        return self.before if name == "before" else self.after
+
+    @property
+    def untimed(self) -> "DiagnosisResult":
+        """Without how long it took: the same whenever it is computed again."""
+        return self.without("seconds", "setup_seconds")

@@ -1,0 +1,125 @@
+"""An identification's result, read off its fit."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from fitting.arrays import Array
+from fitting.bent_law import BentLaw
+from fitting.identification.bare_plate import BarePlateFit
+from fitting.identification.fit import Fit
+from fitting.identification.result import Identification
+from fitting.laws import CoreLaw
+from fitting.specimen import Specimen
+from fitting.sweep import Sweep
+from fitting.theory_error import TheoryError
+from instrument.facts.identification import (
+    BareMode,
+    BarePlate,
+    Bend,
+    IdentificationResult,
+    PointFitted,
+    Posterior,
+    TheoryErrorRow,
+)
+from instrument.models.identification import Identified
+from instrument.results.rows_from import adjusted_from, held_out_from, law_rows_from
+
+
+def identification_from(
+    found: Identified, sweep: Sweep, specimen: Specimen | None = None
+) -> IdentificationResult:
+    """The result of `identify` on `sweep`; `specimen` as stated, where a hammer test may have taken part."""
+    r = found.result
+    names, v = r.law.names, r.validation
+    result = IdentificationResult(
+        method=r.method,
+        law_kind=r.law.kind,
+        parameters=_named(names, r.law.values),
+        standard_errors=r.standard_errors,
+        correlations={
+            a: _named(names, row) for a, row in zip(names, r.uncertainty.correlations, strict=True)
+        },
+        points=_points(r, sweep),
+        rms_percent=r.rms_percent,
+        max_percent=r.max_percent,
+        chi2_per_dof=r.uncertainty.chi2_per_dof if r.chi2_means_something else None,
+        noise=r.noise.source,
+        leave_one_out_rms_percent=v.leave_one_out_rms_percent,
+        held_out=held_out_from(v),
+        held_out_rms_percent=v.held_out_rms_percent,
+        iterations=int(r.fit.iterations),
+        evaluations=int(r.fit.evaluations),
+        seconds=found.seconds,
+        setup_seconds=found.setup_seconds,
+        validation_seconds=found.validation_seconds,
+        converged=bool(r.fit.converged),
+        criterion_met=r.fit.criterion_met,
+        warnings=r.warnings,
+        law=law_rows_from(r.band),
+        adjusted=adjusted_from(r.fit.adjusted),
+        bend=_bend(r.fit.law),
+        posterior=_posterior(r.fit),
+        theory_error=_theory(found.theory),
+    )
+    if found.bare is None or specimen is None:
+        return result
+    return result.but(hammer=_bare_plate(found.bare, specimen))
+
+
+def _bare_plate(bare: BarePlateFit, specimen: Specimen) -> BarePlate:
+    young = specimen.substrate.young_pa * bare.young_scale
+    return BarePlate(
+        substrate_young_pa=young,
+        substrate_young_standard_error_pa=young * bare.standard_error,
+        substrate_young_over_stated=bare.young_scale,
+        clamp_percent_of_mode_1=bare.clamp_percent,
+        modes=tuple(
+            BareMode(measured_hz=m, fitted_hz=f)
+            for m, f in zip(bare.measured_hz.tolist(), bare.fitted_hz.tolist(), strict=True)
+        ),
+        left_out_hz=tuple(bare.left_out_hz),
+        modal_ratios=tuple(bare.ratios),
+    )
+
+
+def _named(names: Sequence[str], values: Array) -> dict[str, float]:
+    return dict(zip(names, values.tolist(), strict=True))
+
+
+def _points(r: Identification, sweep: Sweep) -> tuple[PointFitted, ...]:
+    columns = (sweep.frequency_hz, sweep.segment, r.measured_m_s, r.predicted_m_s, r.difference_percent)
+    return tuple(
+        PointFitted(
+            frequency_hz=f,
+            segment=segment,
+            measured_m_s=measured,
+            predicted_m_s=predicted,
+            difference_percent=difference,
+        )
+        for f, segment, measured, predicted, difference in zip(*(c.tolist() for c in columns), strict=True)
+    )
+
+
+def _bend(law: CoreLaw) -> Bend | None:
+    if not isinstance(law, BentLaw):
+        return None
+    return Bend(knots_hz=tuple(law.knots_hz), whitened=tuple(np.log(law.bend).tolist()))
+
+
+def _posterior(fit: Fit) -> Posterior | None:
+    C = fit.posterior
+    if C is None or not np.isfinite(C).all():
+        return None
+    names = (*fit.law.names, *(one.name for one in fit.adjusted))
+    return Posterior(names=names, rows=tuple(tuple(C[k, : k + 1].tolist()) for k in range(len(names))))
+
+
+def _theory(theory: TheoryError | None) -> tuple[TheoryErrorRow, ...] | None:
+    if theory is None:
+        return None
+    columns = (theory.frequency_hz, theory.frequency_error, theory.loss_factor_error)
+    return tuple(
+        TheoryErrorRow(frequency_hz=f, frequency_error=off, loss_factor_error=loss)
+        for f, off, loss in zip(*(c.tolist() for c in columns), strict=True)
+    )
