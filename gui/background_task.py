@@ -19,6 +19,7 @@ from PySide6.QtCore import QObject, QProcess, QProcessEnvironment, Qt, Signal
 from drivers.errors import DriverError
 from fitting.errors import FittingError
 from instrument.errors import BadInput
+from instrument.facts.result import Result
 from instrument.models.background import VARIABLE as BACKGROUND
 from instrument.progress import LINES
 
@@ -104,19 +105,20 @@ class BackgroundTask(QObject, Generic[T]):
 
 
 class Command(QObject):
-    """A `viscorig` command in a process of its own; its JSON is the result.
+    """A `viscorig` command in a process of its own; what it writes as JSON, a `result`, goes with `done`.
 
     So the window has the same numbers as the command line. One of `done`, `failed`, `cancelled` comes.
     `progressed` tells what is being worked at and the fraction of it that is done.
     """
 
-    done = Signal(dict)
+    done = Signal(object)
     failed = Signal(str)
     cancelled = Signal()
     progressed = Signal(str, float)
 
-    def __init__(self, arguments: list[str], parent: QObject | None = None) -> None:
+    def __init__(self, arguments: list[str], result: type[Result], parent: QObject | None = None) -> None:
         super().__init__(parent)
+        self._result = result
         self._unwanted = False
         self.over = False
         self._process = QProcess(self)
@@ -177,7 +179,7 @@ class Command(QObject):
             self.failed.emit(self._said[-1].removeprefix("viscorig: ") if self._said else "it failed")
             return
         try:
-            found = json.loads(bytes(self._process.readAllStandardOutput().data()))
+            found = self._result.model_validate_json(bytes(self._process.readAllStandardOutput().data()))
         except ValueError:
             self.failed.emit("it gave no result")
             return

@@ -2,7 +2,6 @@
 
 from functools import partial
 from pathlib import Path
-from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QAction
@@ -11,6 +10,7 @@ from PySide6.QtWidgets import QWidget
 from gui.asking import ask_folder, ask_save
 from gui.background_task import Command
 from gui.controller import AppController
+from instrument.facts.written import ExportResult, ReportResult
 
 
 class Export(QObject):
@@ -42,13 +42,13 @@ class Export(QObject):
         ask_folder(self._window, "Export data to", str(session.parent), then)
 
     def _report(self, session: Path, to: Path) -> None:
-        self._run(["report", str(session), "--out", str(to)])
+        self._run(["report", str(session), "--out", str(to)], ReportResult)
 
     def _data(self, session: Path, kind: str, folder: Path) -> None:
-        self._run(["export", str(session), "--to", kind, "--out", str(folder)])
+        self._run(["export", str(session), "--to", kind, "--out", str(folder)], ExportResult)
 
-    def _run(self, arguments: list[str]) -> None:
-        command = Command(arguments, self)
+    def _run(self, arguments: list[str], result: type[ExportResult] | type[ReportResult]) -> None:
+        command = Command(arguments, result, self)
         command.done.connect(self._written)
         command.failed.connect(self._not_written)
         self.began.emit(arguments[0])
@@ -63,9 +63,9 @@ class Export(QObject):
         if isinstance(command, Command):
             command.deleteLater()
 
-    def _written(self, facts: dict[str, Any]) -> None:
+    def _written(self, found: ExportResult | ReportResult) -> None:
         self._forget()
-        files = [facts["report"]] if "report" in facts else facts["files"]
+        files = (found.report,) if isinstance(found, ReportResult) else found.files
         self.done.emit(f"wrote {', '.join(files)}")
 
     @property

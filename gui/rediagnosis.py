@@ -6,7 +6,6 @@ Nothing of it is recorded. Pages show it in place of the session's own until it 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
@@ -103,7 +102,7 @@ class Rediagnosis(QObject):
         """Make it; whatever was being made is let go of."""
         self._drop()
         self._asked = asked
-        self._command = Command(asked.arguments, self)
+        self._command = Command(asked.arguments, DiagnosisResult, self)
         self._command.done.connect(self._done)
         self._command.failed.connect(self._failed)
         self._command.progressed.connect(self.progressed)
@@ -127,10 +126,9 @@ class Rediagnosis(QObject):
         """Let go of everything."""
         self._drop()
 
-    def _done(self, told: dict[str, Any]) -> None:
+    def _done(self, found: DiagnosisResult) -> None:
         assert self._asked is not None
         self._let_go()
-        found = DiagnosisResult.model_validate(told)
         self.found = Shown(found, _origin(self._asked), self._asked)
         if self._asked.accept is None:
             self._searched[self._asked.data] = found

@@ -1,7 +1,5 @@
 """Play, pause, jump, speed, compare: at the foot of the window while a recording is shown."""
 
-from typing import Any
-
 from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import (
@@ -17,6 +15,7 @@ from PySide6.QtWidgets import (
 from gui.feeds.recorded import RecordedFeed
 from gui.top_bar import duration
 from gui.widgets import button, tool
+from instrument.facts.run import ReplayResult
 
 _STEPS = 10_000
 _VERIFY = "Verify"
@@ -156,10 +155,10 @@ class ReplayBar(QFrame):
             self._feed.compare()
             self._say("Cancel", "computing again ...")
 
-    def _compared(self, facts: dict[str, Any]) -> None:
-        same = facts["equal_to_recorded"]
-        self._say(_VERIFY, f"{facts['derived_events']} events {'equal' if same else 'NOT all equal'}")
-        self.verdict.setToolTip("\n".join(facts["differences"]))
+    def _compared(self, found: ReplayResult) -> None:
+        same = found.equal_to_recorded
+        self._say(_VERIFY, f"{found.derived_events} events {'equal' if same else 'NOT all equal'}")
+        self.verdict.setToolTip("\n".join(found.differences))
 
     def _not_compared(self, message: str) -> None:
         self._say(_VERIFY, message)

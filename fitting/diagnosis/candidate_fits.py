@@ -102,7 +102,7 @@ class CandidateFits:
         there = [self._beside(bare, c.effect) for c in self.candidates[name]]
         for candidate, from_there in zip(self.candidates[name], there, strict=True):
             able = from_there.is_open or from_there.promise > SEARCH.able * (bare.chi2 - best.chi2)
-            candidate.learn({"near": from_there.near if able else candidate.briefly()})
+            candidate.learn(Known(near=from_there.near if able else candidate.briefly()))
         return Begun(name, [f for c in self.candidates[name] for f in c.near], self.state(name))
 
     def plain(self, one: tuple[str, State]) -> State:

@@ -1,8 +1,8 @@
 """One effect beside a fit so far: a first look by one linear step, rough fits, then a fit to the end."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -19,10 +19,7 @@ from fitting.laws import CoreLaw
 
 Start = tuple[float, Array]
 """The chi-square that a start may gain, and its unknowns; zero where a linear step cannot tell."""
-Known = dict[str, Any]
-"""What a contender has found so far, by the name of the property."""
 
-_FOUND = ("starts", "near", "elsewhere", "plain", "far")
 _ROUNDS = 3
 _FAR = 0.02
 
@@ -69,6 +66,17 @@ def _moves(response: Response, law: CoreLaw, known: Array, starts: Sequence[Arra
         return np.array([response.velocity(law, np.concatenate([known, u])) - v for u in starts])
 
 
+@dataclass
+class Known:
+    """What a contender has found so far; None where nobody has asked."""
+
+    starts: Sequence[Start] | None = None
+    near: list[Fitted] | None = None
+    elsewhere: list[Fitted] | None = None
+    plain: list[Fitted] | None = None
+    far: list[Fitted] | None = None
+
+
 class CandidateFit:
     """Fits of the data with one more effect, as far as anyone asked for them."""
 
@@ -83,23 +91,24 @@ class CandidateFit:
         """`starts` as `look` gives them, where they are known."""
         self.problem, self.evidence, self.before = problem, evidence, before
         self.effect = effect
-        self._looked = starts
+        self._known = Known(starts)
 
     @property
     def known(self) -> Known:
         """What has been asked for so far."""
-        return {name: getattr(self, name) for name in _FOUND if name in self.__dict__}
+        return replace(self._known)
 
     def learn(self, known: Known) -> None:
         """What the same contender has found elsewhere."""
-        self.__dict__.update(known)
+        found = {field.name: getattr(known, field.name) for field in fields(known)}
+        self._known = replace(self._known, **{k: v for k, v in found.items() if v is not None})
 
-    @cached_property
+    @property
     def starts(self) -> Sequence[Start]:
         """As `look` gives them."""
-        if self._looked is not None:
-            return self._looked
-        return look(self.problem, self.evidence, self.before, self.effect)
+        if self._known.starts is None:
+            self._known.starts = look(self.problem, self.evidence, self.before, self.effect)
+        return self._known.starts
 
     @cached_property
     def _response(self) -> Response:
@@ -115,17 +124,16 @@ class CandidateFit:
         start = np.concatenate([known, u])
         return refit(self._response, evidence, law, start, tolerance=ROUGH, brief=brief)
 
-    @cached_property
+    @property
     def near(self) -> list[Fitted]:
         """Rough fits from the law so far and the starts that promise most; best first."""
-        starts = self.starts[: self._first]
-        return self._from(
-            [
-                s
-                for k, s in enumerate(starts)
-                if not k or self._is_told_nothing(s) or s[0] > self._least_promise
+        if self._known.near is None:
+            starts = enumerate(self.starts[: self._first])
+            promising = [
+                s for k, s in starts if not k or self._is_told_nothing(s) or s[0] > self._least_promise
             ]
-        )
+            self._known.near = self._from(promising)
+        return self._known.near
 
     @property
     def promise(self) -> float:
@@ -142,10 +150,12 @@ class CandidateFit:
         """A few steps from the best start: where the effect cannot be what is looked for."""
         return [self._rough(self.before.law, u, self.evidence, brief=True) for _, u in self.starts[:1]]
 
-    @cached_property
+    @property
     def elsewhere(self) -> list[Fitted]:
         """The same from some more starts of an effect whose place is to be found: valleys are many."""
-        return self._from(self.starts[self._first : self._first + self._more])
+        if self._known.elsewhere is None:
+            self._known.elsewhere = self._from(self.starts[self._first : self._first + self._more])
+        return self._known.elsewhere
 
     @cached_property
     def everywhere(self) -> list[Fitted]:
@@ -180,11 +190,12 @@ class CandidateFit:
                 return brief
         return self._rough(self.before.law, u, self.evidence)
 
-    @cached_property
+    @property
     def plain(self) -> list[Fitted]:
         """Rough fits in wide valleys from the first start, from the law so far and the stated one."""
-        u = self.effect.starts(self.problem.plate, self.problem.points)[0]
-        return self._wide(u)
+        if self._known.plain is None:
+            self._known.plain = self._wide(self.effect.starts(self.problem.plate, self.problem.points)[0])
+        return self._known.plain
 
     @cached_property
     def quick(self) -> list[Fitted]:
@@ -195,14 +206,16 @@ class CandidateFit:
         wide = min(rough, key=_chi2)
         return [refit(self._response, self.evidence, wide.law, wide.u, tolerance=ROUGH)]
 
-    @cached_property
+    @property
     def far(self) -> list[Fitted]:
         """Those of `plain`, and from the start that promises most.
 
         A linear step from a wrong law may lead astray.
         """
-        begun = [f for _, u in self.starts[:1] for f in self._wide(u)]
-        return sorted([*self.plain, *begun], key=_chi2)
+        if self._known.far is None:
+            begun = [f for _, u in self.starts[:1] for f in self._wide(u)]
+            self._known.far = sorted([*self.plain, *begun], key=_chi2)
+        return self._known.far
 
     def _wide(self, u: Array) -> list[Fitted]:
         blunt = self.evidence.blunt()

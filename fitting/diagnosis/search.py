@@ -123,7 +123,7 @@ class Search:
             names, self.executor.each(work.plain, [(n, work.state(n)) for n in names]), strict=True
         ):
             work.learn(name, state)
-            chi2.append(min(f.chi2 for f in state[0]["plain"]))
+            chi2.append(min(f.chi2 for f in work.candidates[name][0].plain))
         return [names[k] for k in np.argsort(chi2)]
 
     def told(self, effects: Sequence[Effect]) -> ScoredFit:

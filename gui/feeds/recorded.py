@@ -2,7 +2,6 @@
 
 from pathlib import Path
 from time import monotonic
-from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
@@ -10,6 +9,7 @@ from gui.background_task import Command
 from gui.feeds.feed import Feed, Turn
 from gui.feeds.reader import Failed, Item, Jumped, Loaded, Read, Reader
 from gui.feeds.session_index import SessionIndex
+from instrument.facts.run import ReplayResult
 
 
 class RecordedFeed(Feed):
@@ -29,7 +29,7 @@ class RecordedFeed(Feed):
 
     loaded = Signal()
     moved = Signal()
-    compared = Signal(dict)
+    compared = Signal(object)
     comparison_failed = Signal(str)
 
     def __init__(self, path: Path, parent: QObject | None = None) -> None:
@@ -40,7 +40,7 @@ class RecordedFeed(Feed):
         self.playing = False
         self.speed: float | None = 1.0
         """Times as fast as it was; None as fast as it goes."""
-        self.comparison: dict[str, Any] | None = None
+        self.comparison: ReplayResult | None = None
         self._comparing: Command | None = None
         self._jumping_to: float | None = None
         self._looked = monotonic()
@@ -97,7 +97,7 @@ class RecordedFeed(Feed):
         """Compute every derived event again, in a process of its own."""
         if self._comparing is not None and not self._comparing.over:
             return
-        self._comparing = Command(["replay", str(self.path)], self)
+        self._comparing = Command(["replay", str(self.path)], ReplayResult, self)
         self._comparing.done.connect(self._found_equal)
         self._comparing.failed.connect(self.comparison_failed)
         self._comparing.start()
@@ -158,6 +158,6 @@ class RecordedFeed(Feed):
     def _go(self, to_s: float) -> None:
         self.position_s = max(self.position_s, to_s)
 
-    def _found_equal(self, facts: dict[str, Any]) -> None:
-        self.comparison = facts
-        self.compared.emit(facts)
+    def _found_equal(self, found: ReplayResult) -> None:
+        self.comparison = found
+        self.compared.emit(found)

@@ -3,7 +3,6 @@
 import tomllib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -20,13 +19,14 @@ from instrument.check.forecast import (
     with_next_coarser,
 )
 from instrument.errors import BadInput
+from instrument.facts.check import CheckResult, SegmentForecast
 from instrument.files.devices import ranges_of
 from instrument.files.experiment_file import experiment_faults, read_experiment
 from instrument.files.rig_file import RigDocument
 from instrument.files.specimen_file import read_specimen
 from instrument.files.toml import document_faults
 from instrument.models.theory import theory_remark
-from instrument.models.tolerance_words import tolerance_facts
+from instrument.models.tolerance_words import tolerances_used
 from instrument.session.configuration import Experiment, read_whole_experiment
 from instrument.session.setup import hammer_settings, setup_of
 from instrument.stepped_sine.plan import PlannedSegment
@@ -34,22 +34,6 @@ from instrument.stepped_sine.settings import SweepSettings
 
 _HIT_AND_RING_S = 3.0
 """A person's time for a hit, beside its record."""
-
-
-@dataclass(frozen=True)
-class SegmentForecast:
-    """What a segment will look like."""
-
-    segment: int
-    low_hz: float
-    high_hz: float
-    steps: int
-    range_name: str
-    velocity_m_s: float
-    """Largest at the pickup, as the laser sees it."""
-    travel_m: float
-    """Largest of the base."""
-    seconds: float
 
 
 @dataclass(frozen=True)
@@ -63,17 +47,18 @@ class DryRun:
     specimen: Specimen
     warnings: tuple[str, ...]
 
-    def facts(self) -> dict[str, Any]:
-        """As JSON."""
-        return {
-            "segments": [vars(s) for s in self.segments],
-            "modes_hz": self.mode_hz,
-            "hammer_record_s": self.hammer_record_s,
-            "seconds": self.seconds,
-            "exact": self.specimen.exact,
-            "tolerances": tolerance_facts(self.specimen),
-            "warnings": self.warnings,
-        }
+    @property
+    def result(self) -> CheckResult:
+        """That of `viscorig check`."""
+        return CheckResult(
+            segments=self.segments,
+            modes_hz=self.mode_hz,
+            hammer_record_s=self.hammer_record_s,
+            seconds=self.seconds,
+            exact=self.specimen.exact,
+            tolerances=tolerances_used(self.specimen),
+            warnings=self.warnings,
+        )
 
 
 def all_faults(path: Path) -> list[str]:

@@ -1,5 +1,6 @@
 """`viscorig bench`: the performance table, or how often a diagnosis is right."""
 
+from dataclasses import asdict
 from pathlib import Path
 
 import click
@@ -13,6 +14,7 @@ from instrument.campaign.run import jobs_of, run_campaign, write_summary
 from instrument.cli.options import json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
+from instrument.facts.bench import BenchResult, BenchRow
 from instrument.progress import bar
 
 
@@ -105,4 +107,4 @@ def _times(out: Output) -> None:
         for r in rows
     ]
     out.table("", ["what", "seconds", "times faster", "than", "max relative error"], table)
-    out.result({"rows": [r.__dict__ for r in rows]})
+    out.result(BenchResult(rows=tuple(BenchRow(**asdict(row)) for row in rows)))

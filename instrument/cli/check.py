@@ -50,4 +50,4 @@ def check(experiment: Path, json_path: str | None) -> None:
     out.say("tolerances: " + ", ".join(" ".join(row) for row in tolerance_rows(run.specimen)))
     for warning in run.warnings:
         out.say(f"warning: {warning}")
-    out.result(run.facts())
+    out.result(run.result)

@@ -6,6 +6,7 @@ import click
 
 from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
+from instrument.facts.written import ExportResult
 from instrument.interchange.exporting import FORMATS, Format, export_session
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
@@ -38,4 +39,5 @@ def export(session: Path, to: Format, folder: Path, json_path: str | None) -> No
         out.say(f"wrote {path}")
     for note in written.notes:
         out.say(f"note: {note}")
-    out.result({"files": [str(path) for path in written.files], "notes": list(written.notes)})
+    files = tuple(str(path) for path in written.files)
+    out.result(ExportResult(files=files, notes=tuple(written.notes)))

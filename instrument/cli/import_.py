@@ -6,6 +6,7 @@ import click
 
 from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
+from instrument.facts.written import ImportResult
 from instrument.interchange.importing import import_file
 
 
@@ -29,4 +30,5 @@ def import_(file: Path, out: Path | None, json_path: str | None) -> None:
         output.say(line)
     for path in imported.files:
         output.say(f"wrote {path}")
-    output.result({"files": [str(path) for path in imported.files], "found": list(imported.said)})
+    files = tuple(str(path) for path in imported.files)
+    output.result(ImportResult(files=files, found=tuple(imported.said)))

@@ -7,6 +7,7 @@ import click
 from instrument.cli.options import json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
+from instrument.facts.written import RecoverResult
 from instrument.session.journal import CONFIGURATION, Journal
 from instrument.session.storage import SessionFile, part_events, write_session
 from instrument.stream.derived import HitJudged
@@ -43,7 +44,7 @@ def recover(folder: Path, json_path: str | None) -> None:
     hits = sum(isinstance(e, HitJudged) for entry in entries for e in part_events(folder / entry.file))
     out.say(f"{hits} hits and {len(steps)} completed steps in {len(entries)} parts, all whole: {path}")
     out.say(f"to go on: viscorig run EXPERIMENT.toml --resume {folder}")
-    out.result({"session": str(path), "parts": len(entries), "hits": hits, "steps": steps})
+    out.result(RecoverResult(session=str(path), parts=len(entries), hits=hits, steps=tuple(steps)))
 
 
 def _of_run(folder: Path) -> Path:

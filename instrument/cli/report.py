@@ -7,6 +7,7 @@ import click
 from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
+from instrument.facts.written import ReportResult
 from instrument.progress import bar
 from instrument.report.page import report_page
 from instrument.session.contents import contents_of
@@ -36,4 +37,4 @@ def report(session: Path, out: Path | None, json_path: str | None) -> None:
     except OSError as error:
         raise BadInput(f"{page}: {error.strerror or error}") from None
     output.say(f"wrote {page}")
-    output.result({"report": str(page)})
+    output.result(ReportResult(report=str(page)))

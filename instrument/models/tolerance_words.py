@@ -1,9 +1,8 @@
 """The tolerances that a specimen's numbers are taken with: named in its file, typical, or none at all."""
 
-from typing import Any
-
 from fitting.specimen import Specimen
 from fitting.tolerances import STATED, tolerance
+from instrument.facts.check import ToleranceUsed
 
 _UNITS = {"1": ("percent", "%", 1e2), "m": ("mm", "mm", 1e3), "s": ("us", "µs", 1e6)}
 """Ending of the file's key, unit for people, factor."""
@@ -25,18 +24,18 @@ def not_named(specimen: Specimen) -> list[str]:
     return [] if specimen.exact else [name for name in asked(specimen) if name not in specimen.tolerances]
 
 
-def tolerance_facts(specimen: Specimen) -> list[dict[str, Any]]:
+def tolerances_used(specimen: Specimen) -> tuple[ToleranceUsed, ...]:
     """Every tolerance under the file's key; empty for an exact specimen."""
     if specimen.exact:
-        return []
-    return [
-        {
-            "name": f"{name}_{_UNITS[STATED[name].unit][0]}",
-            "value": tolerance(specimen, name) * _UNITS[STATED[name].unit][2],
-            "source": "named" if name in specimen.tolerances else "typical",
-        }
+        return ()
+    return tuple(
+        ToleranceUsed(
+            name=f"{name}_{_UNITS[STATED[name].unit][0]}",
+            value=tolerance(specimen, name) * _UNITS[STATED[name].unit][2],
+            source="named" if name in specimen.tolerances else "typical",
+        )
         for name in asked(specimen)
-    ]
+    )
 
 
 def tolerance_rows(specimen: Specimen) -> list[tuple[str, str]]:

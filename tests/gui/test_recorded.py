@@ -111,7 +111,7 @@ def test_comparison_says_equal(qtbot, opened):
     with qtbot.waitSignal(feed.compared, timeout=60_000):
         opened.replay.verify.click()
         assert feed.comparing
-    assert feed.comparison["equal_to_recorded"]
+    assert feed.comparison.equal_to_recorded
     assert "equal" in opened.replay.verdict.text()
 
 

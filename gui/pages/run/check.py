@@ -1,5 +1,6 @@
 """The dry run: what is wrong with an experiment, or what it is going to look like."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ from gui.tables import Cell, Table
 from gui.theme import current_theme
 from gui.top_bar import duration
 from gui.widgets import hint
+from instrument.facts.check import CheckResult, SegmentForecast
 
 _COLUMNS = {
     "segment": "Its number",
@@ -33,12 +35,12 @@ class Check(QObject):
     Signals
     -------
     passed
-        The facts of `viscorig check`.
+        What `viscorig check` says.
     objected
         What is wrong, a line each.
     """
 
-    passed = Signal(dict)
+    passed = Signal(object)
     objected = Signal(list)
 
     def __init__(self, parent: QObject | None = None) -> None:
@@ -53,7 +55,7 @@ class Check(QObject):
     def start(self, experiment: Path) -> None:
         """Of these files, as they are on the disk."""
         self.cancel()
-        self._command = Command(["check", str(experiment)], self)
+        self._command = Command(["check", str(experiment)], CheckResult, self)
         self._command.done.connect(self.passed)
         self._command.failed.connect(self._failed)
         self._command.start()
@@ -99,16 +101,16 @@ class CheckPane(QWidget):
         self.table.hide()
         self.warnings.clear()
 
-    def show_facts(self, facts: dict[str, Any]) -> None:
+    def show_result(self, found: CheckResult) -> None:
         """All is well."""
-        said = [f"Nothing is wrong. About {duration(facts['seconds'])} in all."]
-        if facts["hammer_record_s"] is not None:
-            said.append(f"Hammer: records of {facts['hammer_record_s']:g} s.")
-        said.append("Modes expected at " + ", ".join(f"{f:.4g}" for f in facts["modes_hz"]) + " Hz.")
+        said = [f"Nothing is wrong. About {duration(found.seconds)} in all."]
+        if found.hammer_record_s is not None:
+            said.append(f"Hammer: records of {found.hammer_record_s:g} s.")
+        said.append("Modes expected at " + ", ".join(f"{f:.4g}" for f in found.modes_hz) + " Hz.")
         self._say(" ".join(said))
-        self.table.show_rows([_row(segment) for segment in facts["segments"]])
-        self.table.setVisible(bool(facts["segments"]))
-        self._warn(facts["warnings"], "fair", "\u26a0")
+        self.table.show_rows([_row(segment) for segment in found.segments])
+        self.table.setVisible(bool(found.segments))
+        self._warn(found.warnings, "fair", "\u26a0")
 
     def show_objections(self, objections: list[str]) -> None:
         """It cannot be run."""
@@ -121,23 +123,23 @@ class CheckPane(QWidget):
         self.summary.setEnabled(not faint)
         self.summary.setText(text)
 
-    def _warn(self, lines: list[str], role: Any, sign: str) -> None:
+    def _warn(self, lines: Sequence[str], role: Any, sign: str) -> None:
         color = current_theme().color(role).name()
         self.warnings.setText(
             "<br>".join(f"<span style='color:{color}'>{sign}</span> {_escaped(line)}" for line in lines)
         )
 
 
-def _row(s: dict[str, Any]) -> list[Cell]:
+def _row(s: SegmentForecast) -> list[Cell]:
     numbers = (
-        f"{s['segment']}",
-        f"{s['low_hz']:.4g}",
-        f"{s['high_hz']:.4g}",
-        f"{s['steps']}",
-        f"{1e3 * s['velocity_m_s']:.3g}",
-        s["range_name"],
-        f"{1e3 * s['travel_m']:.3g}",
-        duration(s["seconds"]),
+        f"{s.segment}",
+        f"{s.low_hz:.4g}",
+        f"{s.high_hz:.4g}",
+        f"{s.steps}",
+        f"{1e3 * s.velocity_m_s:.3g}",
+        s.range_name,
+        f"{1e3 * s.travel_m:.3g}",
+        duration(s.seconds),
     )
     return [Cell(text) for text in numbers]
 

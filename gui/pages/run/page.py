@@ -2,7 +2,7 @@
 
 from functools import partial
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QMenu, QSplitter, QTabWidget, QVBoxLayout, QWidget
@@ -19,6 +19,7 @@ from gui.pages.run.start_panel import StartPanel
 from gui.state import SessionState
 from gui.widgets import button
 from instrument.engine.messages import Ended
+from instrument.facts.check import CheckResult
 
 _FORMATS = (("csv", "CSV..."), ("uff", "Universal file..."), ("mat", "MATLAB..."))
 
@@ -38,7 +39,7 @@ class RunPage(Page):
         self.report_button = button("Report...", "One self-contained page of the session")
         self.export_button = button("Export", "The session's data for other programs")
         self._next: Literal["", "check", "start"] = ""
-        self._facts: dict[str, Any] | None = None
+        self._forecast: CheckResult | None = None
         """Of the experiment as it is on the disk; None where it is not known."""
         self._looking: BackgroundTask[list[Path]] | None = None
         self._arrange()
@@ -86,7 +87,7 @@ class RunPage(Page):
 
     def _look_into(self, path: Path) -> None:
         """A dry run, unless there was one of these files."""
-        if self._facts is None:
+        if self._forecast is None:
             self.checked.wait()
             self.check.start(path)
         if not self.controller.starting:
@@ -117,13 +118,13 @@ class RunPage(Page):
         self.controller.refused.emit(message)
 
     def _forget_check(self) -> None:
-        self._facts = None
+        self._forecast = None
         self.check.cancel()
         self.checked.clear()
 
-    def _passed(self, facts: dict[str, Any]) -> None:
-        self._facts = facts
-        self.checked.show_facts(facts)
+    def _passed(self, found: CheckResult) -> None:
+        self._forecast = found
+        self.checked.show_result(found)
 
     def _objected(self, lines: list[str]) -> None:
         self.checked.show_objections(lines)

@@ -2,13 +2,14 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import Self
 
 import numpy as np
 
 from fitting.arrays import Array, Complex
 from gui.pages.sweep.points import Index, Points
 from instrument.facts.identification import PointFitted
+from instrument.facts.prediction import PredictionResult
 from instrument.session.contents import SegmentRun
 
 Region = tuple[int, float, float]
@@ -49,23 +50,17 @@ class Curve:
     stretches: tuple[Stretch, ...]
 
     @classmethod
-    def of(cls, found: dict[str, Any], acceleration_m_s2: float, regions: list[Region]) -> Self:
-        """From the JSON of `viscorig predict --fit` at the frequencies of `grid`."""
-        rows, begin, stretches = found["points"], 0, []
+    def of(cls, found: PredictionResult, acceleration_m_s2: float, regions: list[Region]) -> Self:
+        """From what `viscorig predict --fit` says at the frequencies of `grid`."""
+        begin, stretches = 0, []
         for (segment, _, _), f in zip(regions, grid(regions), strict=True):
-            mine = rows[begin : begin + len(f)]
+            mine = found.points[begin : begin + len(f)]
             begin += len(f)
-            re, im, std, turn = (
-                np.array([p[key] for p in mine], dtype=float)  # null becomes NaN
-                for key in (
-                    "velocity_re_m_s",
-                    "velocity_im_m_s",
-                    "velocity_standard_error_m_s",
-                    "phase_standard_error_rad",
-                )
-            )
+            v = np.array([complex(p.velocity_re_m_s, p.velocity_im_m_s) for p in mine], dtype=np.complex128)
+            std = np.array([p.velocity_standard_error_m_s for p in mine], dtype=float)
+            turn = np.array([p.phase_standard_error_rad for p in mine], dtype=float)
             a = acceleration_m_s2
-            stretches.append(Stretch(segment, f, (re + 1j * im) / a, std / a, np.degrees(turn)))
+            stretches.append(Stretch(segment, f, v / a, std / a, np.degrees(turn)))
         return cls(tuple(stretches))
 
     def of_segments(self, segment: int | None) -> Iterator[Stretch]:

@@ -2,13 +2,13 @@
 
 import json
 from pathlib import Path
-from typing import Any
 
 from PySide6.QtCore import QObject, QTemporaryDir, QTimer, Signal
 
 from gui.background_task import Command
 from gui.pages.sweep.curve import Curve, Region, grid, regions_of
 from gui.state import SessionState
+from instrument.facts.prediction import PredictionResult
 from instrument.interchange.specimen_toml import specimen_toml
 from instrument.session.contents import Contents
 from instrument.stream.derived import FitUpdated
@@ -92,12 +92,12 @@ class ModelCurve(QObject):
             hammer = folder / "hammer.json"
             hammer.write_text(json.dumps(damping.result.as_json()), encoding="utf-8")
             asked += ["--hammer", str(hammer)]
-        self._command = Command(asked, self)
+        self._command = Command(asked, PredictionResult, self)
         self._command.done.connect(self._done)
         self._command.failed.connect(self._failed)
         self._command.start()
 
-    def _done(self, found: dict[str, Any]) -> None:
+    def _done(self, found: PredictionResult) -> None:
         assert self._contents is not None
         acceleration = self._contents.specimen.base_acceleration_m_s2
         self.curve = Curve.of(found, acceleration, self._regions)

@@ -10,7 +10,7 @@ from fitting.noise import noise_of, scatter_over_stated
 from fitting.tolerances import STATED
 from instrument.files.sweep_file import read_sweep
 from instrument.models.remarks import remarks_on_noise, remarks_on_tolerances
-from instrument.models.tolerance_words import asked, tolerance_facts, tolerance_rows
+from instrument.models.tolerance_words import asked, tolerance_rows, tolerances_used
 
 
 def practice(times=None):
@@ -55,8 +55,8 @@ def test_they_are_listed(zn1):
     assert rows["core thickness"] == "1 %"
     assert rows["pickup"] == "1 mm"
     assert rows["delay"] == "2 µs (typical)"
-    facts = {one["name"]: (one["value"], one["source"]) for one in tolerance_facts(specimen)}
-    assert facts["core_thickness_percent"] == (pytest.approx(1.0), "named")
-    assert facts["delay_us"] == (pytest.approx(2.0), "typical")
+    used = {one.name: (one.value, one.source) for one in tolerances_used(specimen)}
+    assert used["core_thickness_percent"] == (pytest.approx(1.0), "named")
+    assert used["delay_us"] == (pytest.approx(2.0), "typical")
     assert tolerance_rows(zn1) == [("all stated numbers", "exact")]
     assert not any(name.startswith(("core", "constraining")) for name in asked(specimen.bare))

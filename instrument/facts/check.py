@@ -1,0 +1,44 @@
+"""The result of `viscorig check`."""
+
+from typing import Literal
+
+from instrument.facts.number import MaybeNumber, Number
+from instrument.facts.result import Result
+
+
+class SegmentForecast(Result):
+    """What a segment will look like."""
+
+    segment: int
+    low_hz: Number
+    high_hz: Number
+    steps: int
+    range_name: str
+    velocity_m_s: Number
+    """Largest at the pickup, as the laser sees it."""
+    travel_m: Number
+    """Largest of the base."""
+    seconds: Number
+
+
+class ToleranceUsed(Result):
+    """A tolerance under the key it has in a specimen's file, which ends with its unit."""
+
+    name: str
+    value: Number
+    source: Literal["named", "typical"]
+
+
+class CheckResult(Result):
+    """A run that was not made."""
+
+    segments: tuple[SegmentForecast, ...]
+    modes_hz: tuple[Number, ...]
+    hammer_record_s: MaybeNumber = None
+    """None without a hammer test."""
+    seconds: Number
+    """In all."""
+    exact: bool = False
+    """Whether everything stated is taken as exact."""
+    tolerances: tuple[ToleranceUsed, ...] = ()
+    warnings: tuple[str, ...] = ()

@@ -1,0 +1,56 @@
+"""The JSON schemas of every command's result, as files: `python -m instrument.facts.schema docs/schema`."""
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+from instrument.facts.bench import BenchResult
+from instrument.facts.check import CheckResult
+from instrument.facts.damping import DampingResult
+from instrument.facts.diagnosis import DiagnosisResult
+from instrument.facts.identification import IdentificationResult
+from instrument.facts.modal import ModalResult
+from instrument.facts.modes import ModesResult
+from instrument.facts.prediction import PredictionResult
+from instrument.facts.result import Result
+from instrument.facts.run import ReplayResult, RunResult
+from instrument.facts.written import ExportResult, ImportResult, RecoverResult, ReportResult
+
+RESULTS: dict[str, type[Result]] = {
+    "bench": BenchResult,
+    "check": CheckResult,
+    "damping": DampingResult,
+    "diagnose": DiagnosisResult,
+    "export": ExportResult,
+    "identify": IdentificationResult,
+    "identify-modes": ModalResult,
+    "import": ImportResult,
+    "modes": ModesResult,
+    "predict": PredictionResult,
+    "recover": RecoverResult,
+    "replay": ReplayResult,
+    "report": ReportResult,
+    "run": RunResult,
+}
+"""By command; `hammer`, `sweep` and `demo` say what `run` says, `identify` on tables of modes what is under its name."""
+_DIALECT = "https://json-schema.org/draft/2020-12/schema"
+
+
+def schema_of(command: str) -> dict[str, Any]:
+    """Of what a command writes with `--json`."""
+    return {"$schema": _DIALECT, **RESULTS[command].model_json_schema(mode="serialization")}
+
+
+def write_schemas(folder: Path) -> list[Path]:
+    """A file a command."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for command in RESULTS:
+        text = json.dumps(schema_of(command), indent=1, ensure_ascii=False) + "\n"
+        (folder / f"{command}.json").write_text(text, encoding="utf-8")
+    return [folder / f"{command}.json" for command in RESULTS]
+
+
+if __name__ == "__main__":
+    for path in write_schemas(Path(sys.argv[1] if len(sys.argv) > 1 else "docs/schema")):
+        print(path)

@@ -1,0 +1,35 @@
+"""The results of commands that write files: `viscorig export`, `import`, `report`, `recover`."""
+
+from instrument.facts.result import Result
+
+
+class ExportResult(Result):
+    """A session as files for other programs."""
+
+    files: tuple[str, ...]
+    notes: tuple[str, ...] = ()
+    """What was left out."""
+
+
+class ImportResult(Result):
+    """A file of another program as files of ours."""
+
+    files: tuple[str, ...]
+    found: tuple[str, ...] = ()
+    """What was in it, a line each."""
+
+
+class ReportResult(Result):
+    """A session's page."""
+
+    report: str
+
+
+class RecoverResult(Result):
+    """A session put together from a run that was killed."""
+
+    session: str
+    parts: int
+    hits: int
+    steps: tuple[int, ...]
+    """Numbers of those that are complete."""
