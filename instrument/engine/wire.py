@@ -50,11 +50,7 @@ def read(file: IO[bytes]) -> Message | None:
     head, samples = (file.read(size) for size in sizes)
     if (len(head), len(samples)) != sizes:
         return None
-    try:
-        return _message(head.decode(), samples)
-    except TypeError as error:
-        # An event that lacks a field.
-        raise ValueError(str(error)) from None
+    return _message(head.decode(), samples)
 
 
 def _message(text: str, samples: bytes) -> Message:

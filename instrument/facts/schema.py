@@ -1,6 +1,7 @@
 """The JSON schemas of every command's result, as files: `python -m instrument.facts.schema docs/schema`."""
 
 import json
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -33,7 +34,7 @@ RESULTS: dict[str, type[Result]] = {
     "report": ReportResult,
     "run": RunResult,
 }
-"""By command; `hammer`, `sweep` and `demo` say what `run` says, `identify` on tables of modes what is under its name."""
+"""By command; `hammer`, `sweep`, `demo` say what `run` does; `identify-modes` is of tables of modes."""
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 
@@ -46,8 +47,10 @@ def write_schemas(folder: Path) -> list[Path]:
     """A file a command."""
     folder.mkdir(parents=True, exist_ok=True)
     for command in RESULTS:
-        text = json.dumps(schema_of(command), indent=1, ensure_ascii=False) + "\n"
-        (folder / f"{command}.json").write_text(text, encoding="utf-8")
+        text = json.dumps(schema_of(command), indent=1, ensure_ascii=False, allow_nan=False)
+        # What is NaN or None in a model is null in its JSON.
+        said = re.sub(r"\b(NaN|None)\b", "null", text)
+        (folder / f"{command}.json").write_text(said + "\n", encoding="utf-8")
     return [folder / f"{command}.json" for command in RESULTS]
 
 

@@ -143,8 +143,9 @@ class Analysis:
             self.hammer = HammerAnalysis(self._setup.hammer, self._scaling(), event.sample_rate_hz)
 
     def _begin(self, began: StepBegan) -> StepAnalysis:
-        assert self._acquisition is not None
-        assert self._range is not None
+        if self._acquisition is None or self._range is None:
+            # No run does that; a recording of which something is lost may.
+            raise ValueError(f"step {began.step} begins before an acquisition and the vibrometer's range")
         return StepAnalysis(
             began,
             self._setup.sweep,

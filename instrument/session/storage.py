@@ -23,13 +23,15 @@ from typing import Any
 
 import h5py
 import numpy as np
+from pydantic import ValidationError
 
 from instrument.errors import BadInput
 from instrument.files.point_columns import stored
+from instrument.files.toml import one_line
 from instrument.session.configuration import Configuration
 from instrument.stream.derived import CalibrationFound, PointMeasured
 from instrument.stream.event import Event, from_line, to_line
-from instrument.stream.raw import AcquisitionBegan, BlockAcquired
+from instrument.stream.raw import BlockAcquired
 
 FORMAT = "viscorig session"
 LAYOUT_VERSION = 1
@@ -110,10 +112,10 @@ class SessionFile:
         return self
 
     def __exit__(self, kind: object, error: BaseException | None, *_: object) -> None:
-        """Whatever a damaged file makes go wrong while it is open is said as such."""
+        """Numbers and names that no run writes are said as such, whatever they make go wrong."""
         self._file.close()
-        if isinstance(error, _DAMAGE) and not isinstance(error, BadInput):
-            said = " ".join(str(error).split())[:100] or type(error).__name__
+        if isinstance(error, _BY_WRONG_VALUES):
+            said = " ".join(str(error).split())[:_LONGEST] or type(error).__name__
             raise BadInput(f"{self.path}: damaged: {said}") from error
 
     @property
@@ -138,32 +140,22 @@ class SessionFile:
         """The events of one part, counted from 0. Raises `BadInput` where it is damaged."""
         try:
             for event in _events(self._file["parts"][self._part_names[number]], with_samples):
-                _refuse_nonsense(event)
+                if isinstance(event, PointMeasured) and not abs(event.base_m_s2) > 0:
+                    raise ValueError(f"point of step {event.step}: nothing at the base")
                 yield event
-        except _DAMAGE as error:
-            raise BadInput(f"{self.path}: damaged: {str(error).splitlines()[0][:100]}") from None
+        except ValidationError as error:
+            raise BadInput(f"{self.path}: damaged: {one_line(error)}") from None
+        except (OSError, RuntimeError, ValueError) as error:
+            raise BadInput(f"{self.path}: damaged: {str(error).splitlines()[0][:_LONGEST]}") from None
 
     @cached_property
     def _part_names(self) -> list[str]:
         return sorted(self._file["parts"])
 
 
-_DAMAGE = (
-    OSError, KeyError, ValueError, TypeError, AttributeError, IndexError, AssertionError, RecursionError,
-    ArithmeticError,
-)  # fmt: skip
-
-
-def _refuse_nonsense(event: Event) -> None:
-    """Numbers that a run never writes and everything after it relies on. Raises `ValueError`."""
-    if isinstance(event, PointMeasured) and not (event.frequency_hz > 0 and abs(event.base_m_s2) > 0):
-        raise ValueError(
-            f"point of step {event.step}: frequency {event.frequency_hz}, base {event.base_m_s2}"
-        )
-    if isinstance(event, AcquisitionBegan) and not event.sample_rate_hz > 0:
-        raise ValueError(f"sample rate {event.sample_rate_hz}")
-    if isinstance(event, BlockAcquired) and event.counts.size and event.counts.ndim != 2:
-        raise ValueError("samples of one dimension")
+_BY_WRONG_VALUES = (OSError, ValueError, LookupError, ArithmeticError)
+_LONGEST = 100
+"""Of what is said of damage, in characters."""
 
 
 def part_events(path: Path) -> list[Event]:
@@ -214,9 +206,9 @@ def _write_events(group: Any, events: list[Event]) -> None:
 
 
 def _events(group: Any, with_samples: bool) -> Iterator[Event]:
-    samples = group["samples"][()] if with_samples and "samples" in group else None
+    samples = _array(group, "samples", 2) if with_samples and "samples" in group else None
     at = 0
-    for line in group["events"][()]:
+    for line in _array(group, "events", 1):
         event = from_line(_text(line))
         if isinstance(event, BlockAcquired) and samples is not None:
             counts = samples[:, at : at + event.samples]
@@ -224,6 +216,14 @@ def _events(group: Any, with_samples: bool) -> Iterator[Event]:
             facts = {**event.facts(), "counts": counts}
             event = BlockAcquired(**facts)
         yield event
+
+
+def _array(group: Any, name: str, dimensions: int) -> Any:
+    """What a data set holds. Raises `ValueError` where there is none of this shape."""
+    found = group.get(name) if isinstance(group, h5py.Group) else None
+    if not isinstance(found, h5py.Dataset) or found.ndim != dimensions:
+        raise ValueError(f"{name}: expected a data set with {dimensions} dimension{'s'[: dimensions - 1]}")
+    return found[()]
 
 
 def _write_points(file: Any, points: list[PointMeasured]) -> None:

@@ -10,7 +10,7 @@ from instrument.facts.damping import DampingResult
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.result import Result
-from instrument.stream.event import Derived
+from instrument.stream.event import Derived, Positive
 
 _KEY = "facts_json"
 """Of a result in a line."""
@@ -84,7 +84,7 @@ class PointMeasured(Derived):
     purpose: str
     segment: int
     sweep: int
-    frequency_hz: float
+    frequency_hz: Positive
     level_m_s2: float
     sample: int
     """First of the dwell."""

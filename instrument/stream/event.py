@@ -8,9 +8,11 @@ import json
 import re
 from dataclasses import asdict, dataclass
 from functools import cache
-from typing import Any, ClassVar
+from typing import Annotated, Any, ClassVar
 
-from pydantic import TypeAdapter
+from pydantic import Field, TypeAdapter
+
+Positive = Annotated[float, Field(gt=0)]
 
 _HEAD = re.compile(r'\{"event": ?"(\w+)"')
 

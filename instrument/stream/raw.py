@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ConfigDict
 
-from instrument.stream.event import Event
+from instrument.stream.event import Event, Positive
 from instrument.stream.scaling import volts_of
 
 Part = Literal["hammer", "calibration", "sweep"]
@@ -33,7 +33,7 @@ class AcquisitionBegan(Event):
 
     number: int
     part: Part
-    sample_rate_hz: float
+    sample_rate_hz: Positive
     channels: tuple[str, ...]
     """What each measures: base, velocity, force, response, temperature."""
 
@@ -103,7 +103,7 @@ class StepBegan(Event):
     purpose: Purpose
     segment: int
     sweep: int
-    frequency_hz: float
+    frequency_hz: Positive
     level_m_s2: float | None
     """Base acceleration asked for; None where the drive itself is (a loop check)."""
     drive_v: float

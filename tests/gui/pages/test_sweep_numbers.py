@@ -22,6 +22,7 @@ from instrument.interchange.found import Found
 from instrument.session.contents import SegmentRun, TimedPoint
 from instrument.stepped_sine.settings import SweepSettings
 from instrument.stream.derived import SentinelCompared, StepSettled
+from instrument.stream.event import Positive
 from instrument.stream.raw import SegmentBegan, SegmentEnded, SessionBegan, SessionEnded
 
 SETTINGS = SweepSettings()
@@ -217,7 +218,7 @@ def test_drift_begins_with_the_first_sentinel_at_zero():
 def test_the_record_tells_every_field_of_a_point():
     numbers = {
         name: 0.5 + 0.001 * k
-        for k, name in enumerate(f.name for f in fields(point()) if f.type in (float, "float"))
+        for k, name in enumerate(f.name for f in fields(point()) if f.type in (float, Positive))
     }
     one = point(31, **numbers, signal_level=0.77, temperature_c=21.25, remarks=WEAK, segment=4, sweep=3)
     seen = Seen(of(one))

@@ -86,6 +86,14 @@ def test_parts_without_phase_are_not_told():
     assert diagnosis().points[0].before.has_phase
 
 
+def test_what_is_called_with_in_json_comes_back():
+    table = {"source": "dma.csv", "kind": "shear", "poisson": None, "rows": 3, "rows_in_band": 0}
+    found = identification(**{"with": {**table, "temperatures": []}})
+    assert found.beside.rows == 3
+    assert found.but(warnings=("one",)).as_json()["with"] == {**table, "temperatures": []}
+    assert IdentificationResult.model_validate(found.as_json()) == found
+
+
 def test_a_hammer_test_may_be_written_by_hand():
     found = DampingResult.model_validate({"modes": [{"frequency_hz": 17.7, "damping_ratio": 0.003}]})
     assert [mode.frequency_hz for mode in found.accepted] == [17.7]
