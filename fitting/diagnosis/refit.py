@@ -132,7 +132,7 @@ def refit(
 
     `brief` where little is to be gained.
     """
-    problem = _Problem(response, evidence, law, u, points)
+    problem = JointProblem(response, evidence, law, u, points)
     lower, upper = problem.limits
     found = least_squares(
         problem.residuals,
@@ -167,7 +167,7 @@ def posterior(response: Response, evidence: Evidence, fitted: Fitted) -> Array:
     moved = np.flatnonzero(np.abs(fitted.z) > 1)
     if not len(moved) or not fitted.noise_known:
         return C
-    problem = _Problem(response, evidence, fitted.law, fitted.u, None)
+    problem = JointProblem(response, evidence, fitted.law, fitted.u, None)
     x, (lower, upper) = problem.start, problem.limits
     n = len(fitted.law.names)
     for k in n + moved:
@@ -183,12 +183,14 @@ def posterior(response: Response, evidence: Evidence, fitted: Fitted) -> Array:
 
 def kept(response: Response, evidence: Evidence, law: CoreLaw, u: Array) -> Fitted:
     """As `refit`, nothing moved."""
-    problem = _Problem(response, evidence, law, u, None)
+    problem = JointProblem(response, evidence, law, u, None)
     lower, upper = problem.limits
     return problem.fitted(np.clip(problem.start, lower, upper))
 
 
-class _Problem:
+class JointProblem:
+    """Residuals of everything that is known, and their Jacobian, at a law and unknowns in one vector `x`."""
+
     def __init__(
         self,
         response: Response,
@@ -218,10 +220,12 @@ class _Problem:
 
     @property
     def start(self) -> Array:
+        """Log parameters of the law, then the free unknowns. Shape (unknowns,)."""
         return np.concatenate([np.log(self.law.values), self._to_inner(self.u)[self.free]])
 
     @property
     def limits(self) -> tuple[Array, Array]:
+        """Of `x`, lower and upper. Shape (unknowns,) each."""
         low, high = self.law.log_limits
         stated = self.response.parameters[: self._z]
         found = [
@@ -237,9 +241,11 @@ class _Problem:
         return self.law.with_logs(x[: self._n]), self._to_outer(t)
 
     def residuals(self, x: Array) -> Array:
+        """Whitened, as `Fitted.residuals`."""
         return self._both(x)[0]
 
     def jacobian(self, x: Array) -> Array:
+        """Of `residuals`. Shape (residuals, unknowns)."""
         return self._both(x)[1]
 
     def _both(self, x: Array) -> tuple[Array, Array, Complex]:
@@ -300,6 +306,7 @@ class _Problem:
         return np.log(law.values[self._n - law.bend_count :]), J
 
     def fitted(self, x: Array) -> Fitted:
+        """As a fit that ended there."""
         r, J, v = self._both(x)
         law, u = self._split(x)
         return Fitted(

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from fitting.depth.posterior import SAMPLES
 from fitting.errors import OutsideModel
 from fitting.pointwise import phase_is_kept
 from fitting.specimen import Specimen
@@ -15,6 +16,7 @@ from instrument.cli.output import Output
 from instrument.cli.print_beside import print_beside
 from instrument.cli.print_budget import print_budget
 from instrument.cli.print_identification import print_bare_plate, print_identification
+from instrument.cli.print_uncertainty import print_in_depth
 from instrument.cli.reading import read_each, reading_options, together
 from instrument.facts.beside import BesideTable
 from instrument.facts.budget import BudgetRow
@@ -34,6 +36,7 @@ from instrument.results.identification_from import identification_from
 from instrument.results.pointwise_figures import save_pointwise_figure
 from instrument.results.pointwise_from import with_second_look
 from instrument.results.together_from import identified_together_from
+from instrument.results.uncertainty_facts import Depth, in_depth, in_depth_facts
 
 
 @click.command()
@@ -70,6 +73,21 @@ from instrument.results.together_from import identified_together_from
     is_flag=True,
     help="Also the uncertainty of G' and eta by source: noise, model error, every tolerance.",
 )
+@click.option(
+    "--uncertainty",
+    "depths",
+    type=click.Choice(["profile", "posterior", "bootstrap"]),
+    multiple=True,
+    help="Also intervals by profile likelihood, by sampling the posterior (extra 'posterior') or by "
+    "bootstrap, beside the linear errors; may be given more than once.",
+)
+@click.option(
+    "--samples",
+    type=click.IntRange(2_000, 10_000_000),
+    default=SAMPLES,
+    show_default=True,
+    help="With --uncertainty posterior: how many.",
+)
 @figures_option("With --pointwise or --with: save the law beside them as PNG.")
 @json_option
 def identify(
@@ -82,6 +100,8 @@ def identify(
     pointwise: bool,
     dma: Path | None,
     with_budget: bool,
+    depths: tuple[Depth, ...],
+    samples: int,
     figures: Path | None,
     json_path: str | None,
 ) -> None:
@@ -109,6 +129,8 @@ def identify(
             raise click.UsageError(
                 "--pointwise, --method, --no-viscous-damping, --with, --budget: expected one plate's data"
             )
+        if depths:
+            raise click.UsageError("--uncertainty with several files: expected one plate's data")
         _identify_together(out, files)
         return
     given = every[0]
@@ -127,6 +149,9 @@ def identify(
         print_bare_plate(out, found.bare, read)
     if with_budget:
         result = result.but(budget=_budget(out, found))
+    if depths:
+        looked = [one for d in dict.fromkeys(depths) for one in _in_depth(out, found, d, samples)]
+        result = result.but(uncertainty=tuple(looked))
     if pointwise:
         bands = pointwise_of(found, given.sweep)
         out.say(bands.words)
@@ -147,6 +172,15 @@ def _budget(out: Output, found: Identified) -> tuple[BudgetRow, ...] | None:
     rows = budget_from(by_source)
     print_budget(out, rows)
     return rows
+
+
+def _in_depth(out: Output, found: Identified, method: Depth, samples: int) -> list[dict[str, Any]]:
+    looked = in_depth(found, method, samples, bar)
+    if looked is None:
+        out.say(f"no {method}: these data give no uncertainty, or the method none of its own")
+        return []
+    print_in_depth(out, looked)
+    return in_depth_facts(looked)
 
 
 def _table(dma: Path | None, specimen: Specimen) -> DmaTable | None:

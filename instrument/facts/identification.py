@@ -1,6 +1,7 @@
 """The result of `viscorig identify`, and of the live identification of a run."""
 
 from collections.abc import Mapping
+from typing import Any
 
 from pydantic import Field
 
@@ -110,6 +111,8 @@ class IdentificationResult(Result):
     """Where a hammer test took part."""
     budget: tuple[BudgetRow, ...] | None = None
     """By source, where it was asked for; None too where these data give no uncertainty."""
+    uncertainty: tuple[Mapping[str, Any], ...] | None = None
+    """By profile, posterior or bootstrap, an item each, where it was asked for (docs/uncertainty.md)."""
     pointwise: tuple[BandFound, ...] | None = None
     """Where it was asked for."""
     kramers_kronig: CausalityTest | None = None

@@ -10,6 +10,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.moved_plate import moved_plate
 from fitting.nuisances import Nuisances
 from fitting.plate import Mesh
 from fitting.reduced import ReducedPlate
@@ -72,20 +73,3 @@ class FittedPlate:
         for k, d in self.nuisances.by_reading(velocity, 2 * np.pi * frequency_hz, self.z).items():
             found[k] = d
         return found
-
-
-def moved_plate(
-    reduced: ReducedPlate, nuisances: Nuisances, plate: EnrichedReducedPlate, z: Array
-) -> ReducedPlate:
-    """A reduced plate with its stated numbers moved; `plate` has the same columns."""
-    change = nuisances.change(plate, z)
-    damping = change.damping[reduced.mode] if np.ndim(change.damping) else change.damping
-    return replace(
-        reduced,
-        M=reduced.M + change.M,
-        K_0=reduced.K_0 + change.K,
-        K_1=reduced.K_1 + change.K_1,
-        load=reduced.load + change.load,
-        observe=reduced.observe + change.observe,
-        d=reduced.d * damping,
-    )

@@ -14,11 +14,11 @@ from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.response import Response
 from fitting.errors import OutsideModel, TooFewPoints
 from fitting.kramers_kronig import KramersKronig, kramers_kronig
+from fitting.moved_plate import moved_plate
 from fitting.pointwise import PointwiseLaw, phase_is_kept, pointwise_law, velocity_of_sweep
 from fitting.pointwise_roots import VelocityOf
 from fitting.rational import RationalSweep, rational_sweep
 from fitting.sweep import Sweep
-from instrument.models.fitted_plate import moved_plate
 from instrument.models.identification import Identified, Joint
 
 

@@ -8,11 +8,11 @@ from fitting.arrays import Array
 from fitting.damping import viscous_damping
 from fitting.direct import displacement_direct
 from fitting.errors import OutsideModel
+from fitting.moved_plate import moved_plate
 from fitting.plate import Plate
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.models.cache import cached
-from instrument.models.fitted_plate import moved_plate
 from instrument.models.set_up import check_like, set_up
 from instrument.progress import Progress, quiet
 

@@ -1,0 +1,1 @@
+"""How well a law is known beyond the linear errors: profiles, a sampled posterior, a bootstrap."""

@@ -1,0 +1,115 @@
+"""Residuals of the joint fit at many unknowns at once.
+
+About where the fit ended the plate is moved to its stated numbers as found, and its response stays exact in
+the law. What stated numbers change beyond that is taken to first order: as the change of the modulus that
+does the same to the response, since both move the same poles, and the rest of it added. The channel's gain
+and delay are exact; the hammer test is linear.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from fitting.arrays import Array, Complex
+from fitting.depth.task import DepthTask
+from fitting.moved_plate import moved_plate
+from fitting.rational import RationalSweep, rational_sweep
+from fitting.reduced import ReducedPlate
+
+_BLOCK = 64
+_DEAF = 0.05
+"""Relative change of the response by one of the modulus, below which none stands in for a stated number."""
+
+
+@dataclass(frozen=True)
+class ManyResiduals:
+    """Of one task; `reduced` is the plate as stated."""
+
+    task: DepthTask
+    reduced: ReducedPlate
+
+    @cached_property
+    def _plate(self) -> RationalSweep:
+        problem, z = self.task.begun.problem, self.task.begun.none.z
+        plate = self.reduced
+        if len(z):
+            plate = moved_plate(plate, problem.nuisances, problem.plate, z)
+        return rational_sweep(plate, problem.sweep.omega)
+
+    @cached_property
+    def _stated(self) -> tuple[Complex, Complex]:
+        """The modulus that stands in for a stated number's step, and the rest. Shape (stated, points)."""
+        problem, none = self.task.begun.problem, self.task.begun.none
+        n, omega = len(none.law.names), problem.sweep.omega
+        _, dv = self.task.problem.response.with_derivatives(none.law, none.u)
+        by = dv[n : n + none.stated].copy()
+        for k in problem.nuisances.by_reading(none.velocity_m_s, omega, none.z):
+            by[k] = 0.0
+        by = by / self._channel(none.z[None])[0] / (1j * omega * problem.points.acceleration_m_s2)
+        G = none.law.modulus(omega)
+        x, slope = self._plate.with_derivative(G)
+        deaf = _DEAF * np.abs(x / G)
+        instead = by * np.conj(slope) / (np.abs(slope) ** 2 + deaf**2)
+        return instead, by - instead * slope
+
+    @cached_property
+    def by_modulus(self) -> Complex:
+        """Derivative of what is read to the modulus at the fit. Shape (points,)."""
+        none, points = self.task.begun.none, self.task.begun.problem.points
+        _, slope = self._plate.with_derivative(none.law.modulus(points.omega))
+        read = self._channel(none.z[None])[0]
+        return np.asarray(1j * points.omega * points.acceleration_m_s2 * slope * read)
+
+    def _channel(self, z: Array) -> Complex:
+        """What the velocity channel makes of a velocity. Shapes (any, stated) to (any, points)."""
+        problem = self.task.begun.problem
+        omega = problem.sweep.omega
+        one = np.ones(len(omega), complex)
+        if not problem.nuisances.each:
+            return np.ones((len(z), 1), complex)
+        places = {n.name: (k, n.sigma) for k, n in enumerate(problem.nuisances.each)}
+        if not {"gain", "delay"} & set(places):
+            return np.array([one] * len(z))
+
+        def by(name: str) -> Array:
+            k, sigma = places.get(name, (0, 0.0))
+            return sigma * z[:, k, None]
+
+        return np.asarray((1 + by("gain")) * np.exp(-1j * omega * by("delay")))
+
+    def velocity(self, X: Array) -> Complex:
+        """As read. Shapes (any, kept) to (any, points)."""
+        begun = self.task.begun
+        points, none = begun.problem.points, begun.none
+        whole = self.task.full(X)
+        n, omega = len(none.law.names), points.omega
+        G = np.array([none.law.with_logs(row).modulus(omega) for row in whole[:, :n]])
+        instead, rest = self._stated
+        off = whole[:, n : n + none.stated] - none.z
+        x = self._plate.displacement(G + off @ instead) + off @ rest
+        v = 1j * omega * points.acceleration_m_s2 * x
+        if points.reads == "absolute":
+            v = v + points.acceleration_m_s2 / (1j * omega)
+        return np.asarray(v * self._channel(whole[:, n : n + none.stated]))
+
+    def __call__(self, X: Array) -> Array:
+        """Rows as `DepthTask.residuals` has them. Shapes (any, kept) to (any, rows)."""
+        return np.concatenate([self._block(X[k : k + _BLOCK]) for k in range(0, len(X), _BLOCK)])
+
+    def _block(self, X: Array) -> Array:
+        task, evidence = self.task, self.task.begun.evidence
+        v = self.velocity(X)
+        off = (v if evidence.has_phase else np.abs(v)) - evidence.measured_m_s
+        parts = off / evidence.sigma_m_s
+        stacked = np.concatenate([parts.real, parts.imag], axis=1) if evidence.has_phase else parts.real
+        count = evidence.count
+        readings = evidence.whitening(stacked.T).T / task.worth[:count]
+        at, J = self._others
+        return np.hstack([readings, at + (X - task.mode) @ J.T])
+
+    @cached_property
+    def _others(self) -> tuple[Array, Array]:
+        """Rows that are linear, at the fit, and their Jacobian."""
+        count = self.task.begun.evidence.count
+        return self.task.residuals(self.task.mode)[count:], self.task.jacobian(self.task.mode)[count:]

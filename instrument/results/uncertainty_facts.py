@@ -1,0 +1,84 @@
+"""A deeper look at an identification's uncertainty: by profile, posterior or bootstrap."""
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from threadpoolctl import threadpool_limits
+
+from fitting.depth.bootstrap import bootstrap
+from fitting.depth.intervals import Intervals
+from fitting.depth.many import ManyResiduals
+from fitting.depth.posterior import SAMPLES, Posterior, sample
+from fitting.depth.profile import profile
+from fitting.depth.quantities import Quantities
+from fitting.depth.task import DepthTask
+from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
+from instrument.models.identification import Identified
+from instrument.progress import Progress, quiet
+
+Depth = Literal["profile", "posterior", "bootstrap"]
+
+
+@dataclass(frozen=True)
+class InDepth:
+    """What one method gave."""
+
+    intervals: tuple[Intervals, ...]
+    """The bootstrap's are two: of points and of segments."""
+    posterior: Posterior | None = None
+
+
+def in_depth(
+    found: Identified, method: Depth, samples: int = SAMPLES, progress: Progress = quiet
+) -> InDepth | None:
+    """At the band's ends and reference frequencies inside; None for the paper's method, or without errors."""
+    if found.joint is None or np.isnan(found.result.uncertainty.covariance).any():
+        return None
+    f = found.result.band.frequency_hz
+    low, high = float(f[0]), float(f[-1])
+    at = sorted({low, high, *(r for r in REFERENCE_FREQUENCIES_HZ if low < r < high)})
+    quantities = Quantities(DepthTask.of(found.joint.begun), np.array(at))
+    with threadpool_limits(1, "blas"), progress(f"uncertainty by {method}") as report:
+        if method == "profile":
+            return InDepth((profile(quantities, report),))
+        many = ManyResiduals(quantities.task, found.joint.reduced)
+        if method == "bootstrap":
+            return InDepth((bootstrap(quantities, many), bootstrap(quantities, many, "segments")))
+        drawn = sample(quantities, many, samples, report=report)
+        return InDepth((drawn.intervals,), drawn)
+
+
+def in_depth_facts(looked: InDepth) -> list[dict[str, Any]]:
+    """As JSON holds it, an item a method."""
+    found = [_intervals(i) for i in looked.intervals]
+    p = looked.posterior
+    if p is not None:
+        found[0] |= {
+            "samples": p.samples,
+            "seconds": p.seconds,
+            "full_evaluations_in_that_time": p.seconds / p.one_evaluation_s,
+            "acceptance": p.acceptance,
+            "effective_samples": dict(zip(p.intervals.names, p.effective.tolist(), strict=True)),
+            "r_hat": dict(zip(p.intervals.names, p.r_hat.tolist(), strict=True)),
+            "checked_in_full": p.checked,
+            "weights_effective_share": p.weight_share,
+            "weights_log_standard_deviation": p.log_error,
+        }
+    return found
+
+
+def _intervals(i: Intervals) -> dict[str, Any]:
+    quantities = [
+        {
+            "quantity": name,
+            "value": i.found[k],
+            **{
+                f"{what}_{level}_percent": bounds[level][k].tolist()
+                for what, bounds in (("interval", i.bounds), ("linear", i.linear))
+                for level in sorted(bounds)
+            },
+        }
+        for k, name in enumerate(i.names)
+    ]
+    return {"method": i.method, "quantities": quantities, "advice": i.advice}

@@ -1,0 +1,92 @@
+"""Profile, posterior and bootstrap of one sweep: against each other and against the response in full."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from conftest import DATA
+from threadpoolctl import threadpool_limits
+
+from fitting.depth.bootstrap import bootstrap
+from fitting.depth.chains import r_hat
+from fitting.depth.intervals import Intervals
+from fitting.depth.many import ManyResiduals
+from fitting.depth.posterior import sample
+from fitting.depth.profile import profile
+from fitting.depth.quantities import Quantities
+from fitting.depth.task import DepthTask
+from instrument.files.sweep_file import read_sweep
+from instrument.models.identification import identify
+
+AT = np.array([20.0, 100.0, 280.0])
+
+
+@pytest.fixture(scope="module")
+def found(coarse):
+    whole = read_sweep(DATA / "practice-005.csv").sweep(coarse.base_acceleration_m_s2)
+    sweep = whole.take(np.arange(len(whole)) % 8 == 0)
+    with threadpool_limits(1, "blas"):
+        return identify(sweep, replace(coarse, exact=False))
+
+
+@pytest.fixture(scope="module")
+def quantities(found):
+    return Quantities(DepthTask.of(found.joint.begun), AT)
+
+
+@pytest.fixture(scope="module")
+def many(found, quantities):
+    return ManyResiduals(quantities.task, found.joint.reduced)
+
+
+def test_gradients_are_those_of_the_quantities(quantities):
+    x, h = quantities.task.mode, 1e-6
+    slopes = quantities.gradient(x)
+    for k in range(len(x)):
+        up, down = x.copy(), x.copy()
+        up[k], down[k] = x[k] + h, x[k] - h
+        numeric = (quantities.logs(up) - quantities.logs(down)) / (2 * h)
+        np.testing.assert_allclose(slopes[:, k], numeric, atol=1e-6)
+
+
+def test_many_residuals_are_those_in_full_near_the_fit(quantities, many):
+    task = quantities.task
+    rng = np.random.default_rng(3)
+    X = task.mode + 0.3 * rng.standard_normal((8, task.root.shape[1])) @ task.root.T
+    at = task.residuals(task.mode)
+    full = np.array([task.residuals(x) for x in X])
+    off = np.linalg.norm(many(X) - full, axis=1) / np.linalg.norm(full - at, axis=1)
+    assert np.median(off) < 0.15
+
+
+def test_methods_agree_on_what_the_sweep_knows_well(quantities, many):
+    with threadpool_limits(1, "blas"):
+        by_profile = profile(quantities)
+        drawn = sample(quantities, many, 8_000)
+        resampled = bootstrap(quantities, many)
+    assert drawn.r_hat.max() < 1.1
+    assert drawn.effective.min() > 400
+    assert drawn.weight_share > 0.3
+    for one in (by_profile, drawn.intervals, resampled):
+        assert np.all(np.abs(one.off()[-6:]) < 0.35), one.advice
+
+
+def test_a_posterior_of_one_seed_is_the_same_again(quantities, many):
+    first, again = (sample(quantities, many, 2_000, seed=5) for _ in range(2))
+    np.testing.assert_array_equal(first.intervals.bounds[68], again.intervals.bounds[68])
+
+
+def test_chains_that_disagree_are_seen():
+    rng = np.random.default_rng(0)
+    alike = rng.standard_normal((8, 200))
+    assert r_hat(alike) < 1.02
+    assert r_hat(alike + np.arange(8)[:, None]) > 1.5
+
+
+def test_advice_names_what_differs():
+    linear = {68: np.array([[0.9, 1.1], [1.9, 2.1]]), 95: np.array([[0.8, 1.2], [1.8, 2.2]])}
+    own = {68: np.array([[0.9, 1.1], [1.9, 2.3]]), 95: linear[95]}
+    one = Intervals("profile", ("a", "b"), np.array([1.0, 2.0]), linear, own)
+    assert one.advice == "take the interval by profile, not the linear error, for b (upper +200 %)"
+    same = replace(one, bounds=linear)
+    assert "agree within 20 %" in same.advice
