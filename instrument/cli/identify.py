@@ -10,7 +10,9 @@ from fitting.depth.posterior import SAMPLES
 from fitting.errors import OutsideModel
 from fitting.pointwise import phase_is_kept
 from fitting.specimen import Specimen
+from fitting.temperature.shifts import Kind
 from instrument.cli.identify_modes import identify_modes
+from instrument.cli.identify_shifted import identify_shifted
 from instrument.cli.options import figures_option, file_arguments, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_beside import print_beside
@@ -88,7 +90,21 @@ from instrument.results.uncertainty_facts import Depth, in_depth, in_depth_facts
     show_default=True,
     help="With --uncertainty posterior: how many.",
 )
-@figures_option("With --pointwise or --with: save the law beside them as PNG.")
+@click.option(
+    "--shift",
+    type=click.Choice(["wlf", "arrhenius", "free"]),
+    help="Files are of one plate at several temperatures (column temperature_c): one law in reduced "
+    "frequency, shifted so.",
+)
+@click.option(
+    "--reference-c",
+    type=float,
+    help="With --shift: the temperature of the law; the middle one otherwise.",
+)
+@click.option(
+    "--vertical", is_flag=True, help="With --shift: the modulus of a temperature may be off by a factor."
+)
+@figures_option("With --pointwise, --with or --shift: save figures as PNG.")
 @json_option
 def identify(
     data: tuple[Path, ...],
@@ -102,6 +118,9 @@ def identify(
     with_budget: bool,
     depths: tuple[Depth, ...],
     samples: int,
+    shift: Kind | None,
+    reference_c: float | None,
+    vertical: bool,
     figures: Path | None,
     json_path: str | None,
 ) -> None:
@@ -112,8 +131,12 @@ def identify(
     """
     if pointwise and method == "paper":
         raise click.UsageError("--pointwise and --method paper: expected the direct method")
-    if figures is not None and not pointwise and dma is None:
-        raise click.UsageError("--figures shows the law band by band, expected --pointwise or --with")
+    if figures is not None and not pointwise and dma is None and shift is None:
+        raise click.UsageError(
+            "--figures shows the law band by band, expected --pointwise, --with or --shift"
+        )
+    if shift is None and (reference_c is not None or vertical):
+        raise click.UsageError("--reference-c and --vertical: expected --shift with them")
     out = Output(json_path)
     if specimen and all(path.suffix.lower() == ".csv" and is_modal_table(path) for path in data):
         if pointwise or method == "paper" or hammer is not None or dma is not None or with_budget:
@@ -123,6 +146,11 @@ def identify(
         identify_modes(out, data, specimen)
         return
     every = read_each(out, data, specimen, hammer, no_hammer=no_hammer)
+    if shift is not None:
+        if pointwise or method == "paper" or no_viscous_damping or dma is not None or with_budget or depths:
+            raise click.UsageError("--shift goes with --reference-c, --vertical and --figures alone")
+        identify_shifted(out, data, every, shift, reference_c, figures, vertical=vertical)
+        return
     files = together(every, data)
     if files is not None:
         if pointwise or method == "paper" or no_viscous_damping or dma is not None or with_budget:

@@ -25,6 +25,18 @@ class SweepFile:
     columns: dict[str, Array]
     unknown: dict[str, list[str]]
 
+    @property
+    def temperature_c(self) -> float | None:
+        """Mean of the column of that name, where there is one. Raises `BadInput`."""
+        cells = [c for c in self.unknown.get("temperature_c", []) if c.strip()]
+        try:
+            values = np.array([float(c) for c in cells])
+        except ValueError:
+            values = np.array([np.nan])
+        if not np.all(np.isfinite(values) & (values > -273.15)):
+            raise BadInput(f"{self.path}: column temperature_c: expected numbers in degrees Celsius")
+        return float(values.mean()) if len(values) else None
+
     def sweep(self, acceleration_m_s2: float) -> Sweep:
         """The sweep, its levels multiples of `acceleration_m_s2`."""
         c = self.columns

@@ -42,7 +42,7 @@ class Given:
     remark: str = ""
     """For people, where a file leaves something to say."""
     temperature_c: float | None = None
-    """Mean over a session's points, where it was measured."""
+    """Mean over the points of a session or a column, where it was measured."""
 
     @property
     def plate(self) -> Specimen:
@@ -83,7 +83,8 @@ def _of_sweep(data: Path, specimen: Path | None) -> Given:
     if is_frf_csv(data):
         said = "an FRF: taken as the pickup over the base's acceleration"
         return Given(read, sweep_of_frf_csv(data, level), None, remark=said)
-    return Given(read, read_sweep(data).sweep(level), None)
+    file = read_sweep(data)
+    return Given(read, file.sweep(level), None, temperature_c=file.temperature_c)
 
 
 def _of_session(data: Path, specimen: Path | None, *, own_hammer: bool) -> Given:

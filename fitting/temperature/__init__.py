@@ -1,0 +1,1 @@
+"""One law in reduced frequency from sweeps at several temperatures."""

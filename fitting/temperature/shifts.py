@@ -1,0 +1,109 @@
+"""How far a temperature shifts a law along the frequency: reduced frequency = a_T frequency.
+
+Ferry, Viscoelastic Properties of Polymers, 3rd ed. 1980, chapter 11; ISO 10112, ASTM E756.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from fitting.arrays import Array
+
+Kind = Literal["wlf", "arrhenius", "free"]
+GAS_J_MOL_K = 8.314462618
+_ZERO_K = 273.15
+_LN10 = float(np.log(10.0))
+
+
+@dataclass(frozen=True)
+class Shift:
+    """A form of ln a_T; its parameters are fitted as they stand in `names`."""
+
+    kind: Kind
+    temperature_c: Array
+    """Of each sweep."""
+    reference_c: float
+
+    @property
+    def names(self) -> list[str]:
+        """Of the parameters; a free factor for each temperature but the one at the reference."""
+        if self.kind == "wlf":
+            return ["c1", "c2_k"]
+        if self.kind == "arrhenius":
+            return ["activation_energy_j_mol"]
+        return [f"ln_shift at {t:g} degC" for t in self._moved]
+
+    @property
+    def _temperatures(self) -> Array:
+        return np.unique(self.temperature_c)
+
+    @property
+    def _moved(self) -> list[float]:
+        nearest = self._temperatures[np.argmin(np.abs(self._temperatures - self.reference_c))]
+        return [float(t) for t in self._temperatures if t != nearest]
+
+    @property
+    def scales(self) -> Array:
+        """What a parameter is measured in inside the fit. Shape (parameters,)."""
+        if self.kind == "wlf":
+            return np.array([10.0, 100.0])
+        return np.array([1e5]) if self.kind == "arrhenius" else np.ones(len(self._moved))
+
+    @property
+    def lowest(self) -> Array:
+        """Limits below; of WLF C2 keeps every temperature above the pole. Shape (parameters,)."""
+        if self.kind == "wlf":
+            return np.array([1e-3, max(1.0, 1.0 + self.reference_c - float(self.temperature_c.min()))])
+        return np.array([1.0]) if self.kind == "arrhenius" else np.full(len(self._moved), -60.0)
+
+    @property
+    def highest(self) -> Array:
+        """Limits above. Shape (parameters,)."""
+        if self.kind == "wlf":
+            return np.array([1e3, 1e5])
+        return np.array([2e6]) if self.kind == "arrhenius" else np.full(len(self._moved), 60.0)
+
+    def log_shift(self, p: Array, temperature_c: Array | None = None) -> Array:
+        """Ln a_T at the sweeps' temperatures, or others for a form that has a formula."""
+        T = self.temperature_c if temperature_c is None else np.asarray(temperature_c, float)
+        if self.kind == "wlf":
+            off = T - self.reference_c
+            # log10 a_T = -C1 (T - T_0) / (C2 + T - T_0)
+            return np.asarray(-_LN10 * p[0] * off / (p[1] + off))
+        if self.kind == "arrhenius":
+            # ln a_T = E_a / R (1/T - 1/T_0)
+            inverse = 1 / (T + _ZERO_K) - 1 / (self.reference_c + _ZERO_K)
+            return np.asarray(p[0] / GAS_J_MOL_K * inverse)
+        known = {t: float(v) for t, v in zip(self._moved, p, strict=True)}
+        if temperature_c is None:
+            return np.array([known.get(float(t), 0.0) for t in T])
+        at = self._temperatures
+        return np.asarray(np.interp(T, at, [known.get(float(t), 0.0) for t in at]))
+
+    def slope(self, p: Array) -> Array:
+        """Derivatives of `log_shift` to the parameters. Shape (sweeps, parameters)."""
+        found = []
+        for k, size in enumerate(self.scales):
+            h = 1e-5 * size
+            up, down = p.copy(), p.copy()
+            up[k], down[k] = p[k] + h, p[k] - h
+            found.append((self.log_shift(up) - self.log_shift(down)) / (2 * h))
+        return np.array(found).T.reshape(len(self.temperature_c), len(p))
+
+    def near(self, log_shift: Array) -> Array:
+        """The parameters nearest to some factors, to start from."""
+        if self.kind == "free":
+            return np.array([np.mean(log_shift[self.temperature_c == t]) for t in self._moved])
+        starts = [[8.0, 100.0], [17.0, 60.0]] if self.kind == "wlf" else [[5e4]]
+        low, high, s = self.lowest, self.highest, self.scales
+        fits = [
+            least_squares(
+                lambda q: self.log_shift(q * s) - log_shift,
+                np.clip(np.array(start), low * 1.01, high * 0.99) / s,
+                bounds=(low / s, high / s),
+            )
+            for start in starts
+        ]
+        return np.asarray(min(fits, key=lambda f: f.cost).x * s)

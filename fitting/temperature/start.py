@@ -1,0 +1,73 @@
+"""Where the joint fit starts: shift factors and one law from the laws of each temperature by itself."""
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+from scipy.optimize import least_squares
+
+from fitting.arrays import Array
+from fitting.laws import CoreLaw
+
+_POINTS = 15
+_STORAGE, _LOSS = 0.02, 0.04
+"""What a curve is worth, relative, of G' and of eta."""
+_FAR = np.linspace(-18.0, 18.0, 361)
+"""Ln a_T between neighbouring temperatures that are looked at."""
+
+
+def start_of(
+    laws: Sequence[CoreLaw], bands_hz: Sequence[tuple[float, float]], temperature_c: Array, reference_c: float
+) -> tuple[CoreLaw, Array]:
+    """A law at the reference and ln a_T of every sweep, from curves alone."""
+    omegas = [2 * np.pi * np.geomspace(low, high, _POINTS) for low, high in bands_hz]
+    curves = [_curve(law, w) for law, w in zip(laws, omegas, strict=True)]
+    order = np.argsort(temperature_c)
+    shift = np.zeros(len(laws))
+    for before, k in pairwise(order):
+        # Both ways: neither law is known beyond its own band.
+        off = [
+            np.sum((_curve(laws[before], omegas[k] * np.exp(s)) - curves[k]) ** 2)
+            + np.sum((_curve(laws[k], omegas[before] * np.exp(-s)) - curves[before]) ** 2)
+            for s in _FAR
+        ]
+        shift[k] = shift[before] + _FAR[int(np.argmin(off))]
+    nearest = int(np.argmin(np.abs(temperature_c - reference_c)))
+    shift -= shift[nearest]
+    return _one_law(laws, omegas, curves, shift, nearest)
+
+
+def _curve(law: CoreLaw, omega: Array) -> Array:
+    storage, eta = law.storage_and_loss(omega)
+    return np.concatenate([np.log(storage) / _STORAGE, np.log(np.maximum(eta, 1e-9)) / _LOSS])
+
+
+def _one_law(
+    laws: Sequence[CoreLaw], omegas: list[Array], curves: list[Array], shift: Array, nearest: int
+) -> tuple[CoreLaw, Array]:
+    free = np.arange(len(laws)) != nearest
+    plain = [law.plain for law in laws]
+    n = len(plain[0].names)
+    low, high = plain[0].log_limits
+    wide = np.full(int(free.sum()), 60.0)
+
+    def residuals(x: Array) -> Array:
+        law, s = plain[0].with_logs(x[:n]), np.zeros(len(laws))
+        s[free] = x[n:]
+        found = [_curve(law, w * np.exp(a)) - c for w, a, c in zip(omegas, s, curves, strict=True)]
+        return np.concatenate(found)
+
+    fits = [
+        least_squares(
+            residuals,
+            np.clip(np.append(np.log(law.values), shift[free]), np.append(low, -wide), np.append(high, wide)),
+            bounds=(np.append(low, -wide), np.append(high, wide)),
+            loss="soft_l1",
+            max_nfev=200,
+        )
+        for law in plain[nearest : nearest + 1] + plain
+    ]
+    best = min(fits, key=lambda f: float(f.cost))
+    found = np.zeros(len(laws))
+    found[free] = best.x[n:]
+    return plain[0].with_logs(best.x[:n]), found

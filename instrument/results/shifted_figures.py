@@ -1,0 +1,86 @@
+"""Figures of one law over several temperatures: nomogram, wicket plot, Cole-Cole, shift factors."""
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from instrument.models.temperatures import Shifted
+from instrument.results.drawing import MODEL, WIDTH_IN, label, legend, panels
+
+_POINTS = 40
+_HEIGHT_IN = 8.0
+
+
+def save_shifted_figures(found: Shifted, folder: Path) -> list[Path]:
+    """`nomogram.png` (ISO 10112, ASTM E756) and `simplicity.png`."""
+    folder.mkdir(parents=True, exist_ok=True)
+    figure, ((ax,),) = panels(1, 1, 6.5)
+    _nomogram(ax, found)
+    paths = [folder / "nomogram.png", folder / "simplicity.png"]
+    figure.savefig(paths[0], dpi=150)
+    figure = Figure(figsize=(WIDTH_IN, _HEIGHT_IN), layout="constrained")
+    (wicket, cole), (shifts, curves) = figure.subplots(2, 2)
+    _each_alone(wicket, cole, curves, found)
+    _shift_factors(shifts, found)
+    figure.savefig(paths[1], dpi=150)
+    return paths
+
+
+def _nomogram(ax: Axes, found: Shifted) -> None:
+    """G' and eta over reduced frequency; the frequency on the right, read along a temperature's diagonal."""
+    b, fit = found.band, found.fit
+    ax.loglog(b.frequency_hz, b.storage_modulus_pa, color="#0b63a5", label="G' / Pa")
+    ax.loglog(b.frequency_hz, b.loss_factor, color=MODEL, label="eta")
+    label(ax, x=f"reduced frequency f a_T / Hz (reference {fit.shift.reference_c:g} °C)", y="G' / Pa, eta")
+    right = ax.twinx()
+    f = np.array([b.frequency_hz[0], b.frequency_hz[-1]])
+    lows = [(x.problem.sweep.frequency_hz.min(), x.problem.sweep.frequency_hz.max()) for x in found.begun]
+    low, high = min(x[0] for x in lows) / 3, max(x[1] for x in lows) * 3
+    done = set()
+    for T, log_a in zip(fit.shift.temperature_c.tolist(), fit.log_shift.tolist(), strict=True):
+        if T in done:
+            continue
+        done.add(T)
+        reduced = np.array([low, high]) * np.exp(log_a)
+        right.loglog(reduced, [low, high], color="0.6", lw=0.8)
+        at = float(np.clip(reduced[1], f[0], f[1]))
+        right.annotate(f"{T:g} °C", (at, at / np.exp(log_a)), fontsize=8, color="0.3")
+    right.set_ylim(low, high)
+    ax.set_xlim(f[0], f[1])
+    right.set_ylabel("frequency / Hz", fontsize=9)
+    legend(ax)
+
+
+def _each_alone(wicket: Axes, cole: Axes, curves: Axes, found: Shifted) -> None:
+    T = found.fit.shift.temperature_c
+    span = max(float(np.ptp(T)), 1e-9)
+    for k, b in enumerate(found.begun):
+        f = b.problem.sweep.frequency_hz
+        at = np.geomspace(f.min(), f.max(), _POINTS)
+        storage, eta = b.none.law.storage_and_loss(2 * np.pi * at)
+        storage = storage / np.exp(found.fit.log_vertical[k])
+        color = colormaps["viridis"](0.9 * (T[k] - T.min()) / span)
+        name = f"{T[k]:g} °C"
+        wicket.loglog(storage, eta, color=color, label=name)
+        cole.plot(storage / 1e6, storage * eta / 1e6, color=color)
+        curves.loglog(at * np.exp(found.fit.log_shift[k]), storage, color=color)
+    one = found.band
+    wicket.loglog(one.storage_modulus_pa, one.loss_factor, "k--", lw=0.8, label="one law")
+    cole.plot(one.storage_modulus_pa / 1e6, one.storage_modulus_pa * one.loss_factor / 1e6, "k--", lw=0.8)
+    curves.loglog(one.frequency_hz, one.storage_modulus_pa, "k--", lw=0.8)
+    label(wicket, x="G' / Pa", y="eta", title="wicket plot")
+    label(cole, x="G' / MPa", y="G'' / MPa", title="Cole-Cole")
+    label(curves, x="reduced frequency / Hz", y="G' / Pa", title="each temperature alone, shifted")
+    legend(wicket)
+
+
+def _shift_factors(ax: Axes, found: Shifted) -> None:
+    fit = found.fit
+    T, ten = fit.shift.temperature_c, np.log(10)
+    ax.errorbar(T, fit.log_shift / ten, 1.96 * fit.log_shift_errors / ten, fmt="o", ms=4, capsize=3)
+    wide = np.linspace(T.min(), T.max(), 100)
+    ax.plot(wide, fit.shift.log_shift(fit.parameters, wide) / ten, color=MODEL, lw=0.8)
+    label(ax, x="temperature / °C", y="log10 a_T", title=f"shift factors: {fit.shift.kind}")

@@ -1,0 +1,118 @@
+"""One law over five temperatures: shifts and law as they were made, and no law where there is none."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from temperature_cases import LAW, NOISE, REFERENCE, OneProcess, T, TwoProcesses, arrhenius, sweeps, wlf
+
+from fitting.temperature.shifts import Shift
+from instrument.cli.main import run
+from instrument.errors import BadInput
+from instrument.files.specimen_file import read_specimen
+from instrument.models.temperatures import identify_shifted
+from instrument.paper_case import case_file
+
+FORMS = {"wlf": wlf(), "arrhenius": arrhenius()}
+
+
+@pytest.fixture(scope="module")
+def plate(coarse):
+    return replace(coarse, exact=False)
+
+
+@pytest.mark.parametrize("kind", FORMS)
+def test_factors_lie_in_their_intervals_and_the_law_is_known_two_decades_further(plate, kind):
+    truth = FORMS[kind]
+    inside = []
+    for seed in range(5):
+        found = identify_shifted(sweeps(plate, [OneProcess(a) for a in truth], seed), plate, kind, REFERENCE)
+        moved = T != REFERENCE
+        off = (found.fit.log_shift - truth)[moved] / found.fit.log_shift_errors[moved]
+        inside += (np.abs(off) < 1.96).tolist()
+        assert found.verdict.simple
+    assert np.mean(inside) >= 0.9
+    f = found.band.frequency_hz
+    G = LAW.modulus(2 * np.pi * f)
+    assert np.log10(f[-1] / f[0]) > np.log10(300 / 14) + 2.0
+    law = found.band.storage_modulus_pa * (1 + 1j * found.band.loss_factor)
+    np.testing.assert_allclose(law, G, rtol=0.01)
+
+
+def test_free_factors_are_those_of_the_form_that_made_them(plate):
+    truth = wlf()
+    found = identify_shifted(sweeps(plate, [OneProcess(a) for a in truth]), plate, "free", REFERENCE)
+    assert np.all(np.abs(found.fit.log_shift - truth) < 3.5 * found.fit.log_shift_errors + 1e-9)
+
+
+def test_a_vertical_shift_is_found_beside_the_horizontal_one(coarse):
+    class Taller(OneProcess):
+        def modulus(self, omega):
+            return 1.05 * super().modulus(omega)
+
+    laws = [Taller(a) if k == 4 else OneProcess(a) for k, a in enumerate(wlf())]
+    found = identify_shifted(sweeps(coarse, laws), coarse, "wlf", REFERENCE, vertical=True)
+    off = found.fit.log_vertical[4] - np.log(1.05)
+    assert abs(off) < 3 * found.fit.log_vertical_errors[4]
+
+
+def test_two_processes_of_different_activation_are_refused(plate):
+    laws = [TwoProcesses(a, b) for a, b in zip(arrhenius(4e4), arrhenius(1.6e5), strict=True)]
+    found = identify_shifted(sweeps(plate, laws), plate, "free", REFERENCE)
+    assert found.verdict.simple is False
+    assert "not thermorheologically simple" in found.verdict.words
+
+
+def test_too_few_temperatures_for_a_form_are_refused(plate):
+    some = sweeps(plate, [OneProcess(a) for a in wlf()])[:2]
+    with pytest.raises(BadInput, match="wlf: 2 temperatures, expected 3"):
+        identify_shifted(some, plate, "wlf")
+
+
+@pytest.mark.parametrize("kind", ["wlf", "arrhenius", "free"])
+def test_a_form_finds_its_own_parameters(kind):
+    shift = Shift(kind, T, REFERENCE)
+    truth = arrhenius() if kind == "arrhenius" else wlf()
+    np.testing.assert_allclose(shift.log_shift(shift.near(truth)), truth, atol=1e-5)
+
+
+def write(folder, plate, laws):
+    paths = []
+    for one in sweeps(plate, laws, points=40, noise=NOISE):
+        s = one.sweep
+        rows = [
+            f"{f!r},{v.real!r},{v.imag!r},{e!r},{one.temperature_c}"
+            for f, v, e in zip(
+                s.frequency_hz.tolist(), s.velocity_m_s.tolist(), s.std_m_s.tolist(), strict=True
+            )
+        ]
+        head = "frequency_hz,velocity_re_m_s,velocity_im_m_s,velocity_std_m_s,temperature_c"
+        path = folder / one.name
+        path.write_text("\n".join([head, *rows, ""]))
+        paths.append(str(path))
+    return paths
+
+
+@pytest.fixture
+def given(tmp_path):
+    text = case_file("zn1.toml").read_text()
+    path = tmp_path / "plate.toml"
+    path.write_text(text + "\n[mesh]\nelements_x = 10\nelements_y = 10\n")
+    return path
+
+
+def test_the_command_fits_draws_and_says_so(tmp_path, given, capsys):
+    paths = write(tmp_path, read_specimen(given), [OneProcess(a) for a in wlf()])
+    figures = tmp_path / "figures"
+    status = run(["identify", *paths, "--specimen", str(given), "--shift", "wlf", "--figures", str(figures)])
+    said = capsys.readouterr()
+    assert status == 0, said.err
+    assert "thermorheologically simple as far as" in said.out
+    assert {p.name for p in figures.iterdir()} == {"nomogram.png", "simplicity.png"}
+
+
+def test_the_command_refuses_in_one_line(tmp_path, given, capsys):
+    laws = [TwoProcesses(a, b) for a, b in zip(arrhenius(4e4), arrhenius(1.6e5), strict=True)]
+    paths = write(tmp_path, read_specimen(given), laws)
+    assert run(["identify", *paths, "--specimen", str(given), "--shift", "free"]) == 2
+    assert "not thermorheologically simple" in capsys.readouterr().err
