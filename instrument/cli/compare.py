@@ -2,6 +2,7 @@
 
 from itertools import combinations
 from pathlib import Path
+from typing import Any
 
 import click
 import numpy as np
@@ -11,6 +12,7 @@ from instrument.cli.output import Output
 from instrument.material.comparing import LEVEL, Comparison, comparison_facts
 from instrument.material.comparing import compare as compare_laws
 from instrument.material.found_law import read_law
+from instrument.material.spread import spread_facts, spread_of
 from instrument.progress import bar
 
 _SAYS = {True: "differ", False: "agree", None: "cannot be told"}
@@ -18,8 +20,14 @@ _SAYS = {True: "differ", False: "agree", None: "cannot be told"}
 
 @click.command()
 @click.argument("files", type=click.Path(path_type=Path), nargs=-1, required=True)
+@click.option(
+    "--spread",
+    "with_spread",
+    is_flag=True,
+    help="Also the spread between specimens, told from the uncertainty of each: three laws or more.",
+)
 @json_option
-def compare(files: tuple[Path, ...], json_path: str | None) -> None:
+def compare(files: tuple[Path, ...], with_spread: bool, json_path: str | None) -> None:
     """Where the laws in FILES differ beyond their joint uncertainties: two or more, each with each.
 
     FILES are sessions (.h5) or the JSON of `identify` or `diagnose`. Laws are compared on the band that both
@@ -43,7 +51,12 @@ def compare(files: tuple[Path, ...], json_path: str | None) -> None:
             if ranges:
                 out.say(f"{a} and {b}: {what} differs beyond 1.96 joint standard errors at {ranges}")
     facts = [{**comparison_facts(c), "a": a, "b": b} for (a, b), c in zip(pairs, found, strict=True)]
-    out.result({"pairs": facts})
+    said: dict[str, Any] = {"pairs": facts}
+    if with_spread:
+        spread = spread_of(laws)
+        out.say(spread.words)
+        said["spread"] = spread_facts(spread)
+    out.result(said)
 
 
 def _names(files: tuple[Path, ...]) -> list[str]:

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from instrument.models.temperatures import Shifted
-from instrument.results.drawing import MODEL, WIDTH_IN, label, legend, panels
+from instrument.results.drawing import DATA, MODEL, WIDTH_IN, label, legend, panels
 
 _POINTS = 40
 _HEIGHT_IN = 8.0
@@ -32,9 +32,9 @@ def save_shifted_figures(found: Shifted, folder: Path) -> list[Path]:
 def _nomogram(ax: Axes, found: Shifted) -> None:
     """G' and eta over reduced frequency; the frequency on the right, read along a temperature's diagonal."""
     b, fit = found.band, found.fit
-    ax.loglog(b.frequency_hz, b.storage_modulus_pa, color="#0b63a5", label="G' / Pa")
+    ax.loglog(b.frequency_hz, b.storage_modulus_pa / 1e6, color=DATA, label="G' / MPa")
     ax.loglog(b.frequency_hz, b.loss_factor, color=MODEL, label="eta")
-    label(ax, x=f"reduced frequency f a_T / Hz (reference {fit.shift.reference_c:g} °C)", y="G' / Pa, eta")
+    label(ax, x=f"reduced frequency f a_T / Hz (reference {fit.shift.reference_c:g} °C)", y="G' / MPa, eta")
     right = ax.twinx()
     f = np.array([b.frequency_hz[0], b.frequency_hz[-1]])
     lows = [(x.problem.sweep.frequency_hz.min(), x.problem.sweep.frequency_hz.max()) for x in found.begun]
@@ -46,7 +46,7 @@ def _nomogram(ax: Axes, found: Shifted) -> None:
         done.add(T)
         reduced = np.array([low, high]) * np.exp(log_a)
         right.loglog(reduced, [low, high], color="0.6", lw=0.8)
-        at = float(np.clip(reduced[1], f[0], f[1]))
+        at = float(np.clip(0.8 * reduced[1], f[0], 0.8 * f[1]))
         right.annotate(f"{T:g} °C", (at, at / np.exp(log_a)), fontsize=8, color="0.3")
     right.set_ylim(low, high)
     ax.set_xlim(f[0], f[1])

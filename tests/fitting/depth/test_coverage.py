@@ -78,10 +78,10 @@ def shares(ready, seeds, samples):
 
 
 def test_a_few_specimens_lie_inside_about_as_often_as_said(ready):
-    found = shares(ready, 24, 2_000)
-    # Quantities of one specimen go together: about 60 independent looks.
-    assert np.all(np.abs(found[:, 0] - 0.68) < 0.18), found
-    assert np.all(found[:, 1] > 0.85), found
+    found = shares(ready, 16, 2_000)
+    # Quantities of one specimen go together: about 40 independent looks.
+    assert np.all(np.abs(found[:, 0] - 0.68) < 0.22), found
+    assert np.all(found[:, 1] > 0.8), found
 
 
 @pytest.mark.long

@@ -1,0 +1,157 @@
+"""Between specimens: each one's law around a common one, the spread told from what is not known of each.
+
+    y_i = mu + d_i + e_i,   d_i ~ N(0, tau^2),   e_i ~ N(0, s_i^2)
+
+y_i is ln G' or ln eta of specimen i at one frequency, s_i its own standard error: no form of the spread over
+frequency is asked for. tau is found by restricted maximum likelihood (Patterson and Thompson, Biometrika 58,
+1971), its interval by the profile.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from fitting.arrays import Array
+from instrument.errors import BadInput
+from instrument.material.comparing import RESOLUTION, covariance_of
+from instrument.material.found_law import MaterialLaw
+
+FEWEST = 3
+_FREQUENCIES = 7
+_SIZES = np.geomspace(3e-4, 2.0, 121)
+_RISE = 3.841459
+"""Of twice the log likelihood at the ends of a 95 % interval."""
+
+
+@dataclass(frozen=True)
+class Size:
+    """A spread, relative standard deviation, and its 95 % interval; zero where none is needed."""
+
+    value: float
+    lower: float
+    upper: float
+
+
+@dataclass(frozen=True)
+class Spread:
+    """Of several specimens over their common band. Arrays have shape (frequencies,)."""
+
+    names: tuple[str, ...]
+    frequency_hz: Array
+    storage_modulus_pa: Array
+    """Of the common law."""
+    loss_factor: Array
+    storage_error: Array
+    """Of the common law, relative: how well the mean of all such specimens is known."""
+    loss_factor_error: Array
+    storage: tuple[Size, ...]
+    loss: tuple[Size, ...]
+    """Of G' and of eta at every frequency."""
+
+    @property
+    def words(self) -> str:
+        """One line that a data sheet could have, of the band's middle."""
+        k = len(self.frequency_hz) // 2
+        said = [
+            f"{what} {100 * s.value:.2g} % (95 %: {100 * s.lower:.2g} to {100 * s.upper:.2g} %)"
+            for what, s in (("G'", self.storage[k]), ("loss factor", self.loss[k]))
+        ]
+        return (
+            f"spread between {len(self.names)} specimens at {self.frequency_hz[k]:.4g} Hz, standard "
+            f"deviation: {', '.join(said)}"
+        )
+
+
+def spread_of(laws: Sequence[MaterialLaw]) -> Spread:
+    """By restricted maximum likelihood. Raises `BadInput`."""
+    if len(laws) < FEWEST:
+        raise BadInput(f"{len(laws)} laws, expected {FEWEST} or more to tell a spread from")
+    low, high = max(law.band_hz[0] for law in laws), min(law.band_hz[1] for law in laws)
+    if not low < high:
+        raise BadInput("the laws have no band in common, expected sweeps that overlap")
+    f = np.geomspace(low, high, _FREQUENCIES)
+    curves, each = [], []
+    for law in laws:
+        G = law.modulus(2 * np.pi * f)
+        eta = G.imag / G.real
+        if np.any(eta <= 0):
+            raise BadInput(f"{law.source}: loss factor {eta.min():.3g}, expected above zero")
+        size = np.concatenate([np.ones(len(f)), 1 / eta])
+        error = np.hypot(np.sqrt(np.diag(covariance_of(law, f))) * size, RESOLUTION)
+        if not np.all(np.isfinite(error)):
+            raise BadInput(f"{law.source}: no standard errors, expected a law that says how well it is known")
+        curves.append(np.concatenate([np.log(G.real), np.log(eta)]))
+        each.append(error)
+    found = [_one(y, e) for y, e in zip(np.array(curves).T, np.array(each).T, strict=True)]
+    n = len(f)
+    mean, known = (np.array([one[k] for one in found], dtype=float) for k in (1, 2))
+    sizes = tuple(one[0] for one in found)
+    names = tuple(law.source for law in laws)
+    return Spread(names, f, np.exp(mean[:n]), np.exp(mean[n:]), known[:n], known[n:], sizes[:n], sizes[n:])
+
+
+def _one(y: Array, error: Array) -> tuple[Size, float, float]:
+    """The spread of one quantity at one frequency; the common value and its standard error."""
+    profile = np.array([_restricted(y, error, tau)[0] for tau in _SIZES])
+    size = _size(profile)
+    _, mean, known = _restricted(y, error, size.value)
+    return size, mean, known
+
+
+def _restricted(y: Array, error: Array, tau: float) -> tuple[float, float, float]:
+    """Twice the restricted log likelihood, the common value and its standard error."""
+    w = 1 / (error**2 + tau**2)
+    mean = float(np.sum(w * y) / np.sum(w))
+    twice = float(np.sum(np.log(w)) - np.log(np.sum(w)) - np.sum(w * (y - mean) ** 2))
+    return twice, mean, float(1 / np.sqrt(np.sum(w)))
+
+
+def _size(profile: Array) -> Size:
+    """The best size and where the profile has fallen to the interval's ends."""
+    best = int(np.argmax(profile))
+    logs = np.log(_SIZES)
+    value = 0.0
+    if best > 0:
+        value = float(_SIZES[best])
+        if best < len(_SIZES) - 1:
+            below, at, above = profile[best - 1 : best + 2]
+            curvature = below - 2 * at + above
+            if curvature < 0:
+                value = float(np.exp(logs[best] + (logs[1] - logs[0]) * (below - above) / (2 * curvature)))
+    inside = np.flatnonzero(profile >= profile.max() - _RISE)
+    first, last = int(inside[0]), int(inside[-1])
+    level = profile.max() - _RISE
+    lower = 0.0
+    if first > 0:
+        lower = float(np.exp(np.interp(level, profile[first - 1 : first + 1], logs[first - 1 : first + 1])))
+    upper = float(_SIZES[-1])
+    if last < len(_SIZES) - 1:
+        upper = float(np.exp(np.interp(level, profile[last : last + 2][::-1], logs[last : last + 2][::-1])))
+    return Size(value, lower, upper)
+
+
+def spread_facts(found: Spread) -> dict[str, Any]:
+    """As JSON has it, a row a frequency."""
+    return {
+        "specimens": list(found.names),
+        "frequencies": [
+            {
+                "frequency_hz": float(f),
+                "storage_modulus_pa": float(found.storage_modulus_pa[k]),
+                "storage_modulus_standard_error_pa": float(
+                    found.storage_modulus_pa[k] * found.storage_error[k]
+                ),
+                "storage_modulus_spread": _said(found.storage[k]),
+                "loss_factor": float(found.loss_factor[k]),
+                "loss_factor_standard_error": float(found.loss_factor[k] * found.loss_factor_error[k]),
+                "loss_factor_spread": _said(found.loss[k]),
+            }
+            for k, f in enumerate(found.frequency_hz)
+        ],
+    }
+
+
+def _said(s: Size) -> dict[str, Any]:
+    return {"percent": 100 * s.value, "interval_95_percent": [100 * s.lower, 100 * s.upper]}

@@ -1,0 +1,62 @@
+"""A spread between specimens is told from what is not known of each; where there is none, none is found."""
+
+import json
+
+import numpy as np
+import pytest
+from conftest import TABLE_4
+from found_law_cases import ERRORS, facts
+
+from instrument.cli.main import run
+from instrument.errors import BadInput
+from instrument.material.found_law import read_law
+from instrument.material.spread import spread_of
+
+
+def specimens(folder, spread, seed, count=12):
+    """Laws whose modulus as a whole differs by `spread`, each known to `ERRORS` and off by them."""
+    rng, paths = np.random.default_rng(seed), []
+    for k in range(count):
+        own = np.exp(ERRORS * rng.standard_normal(4)) * TABLE_4.values
+        level = np.exp(spread * rng.standard_normal())
+        own[:2] *= level
+        path = folder / f"{seed}-{k}.json"
+        path.write_text(json.dumps(facts(TABLE_4.with_values(own))), encoding="utf-8")
+        paths.append(path)
+    return paths
+
+
+def test_four_percent_between_twelve_specimens_lie_in_the_interval(tmp_path):
+    found = [spread_of([read_law(p) for p in specimens(tmp_path, 0.04, seed)]) for seed in range(12)]
+    inside = [s.lower < 0.04 < s.upper for one in found for s in one.storage]
+    assert np.mean(inside) > 0.88
+    assert np.mean([s.value for one in found for s in one.storage]) == pytest.approx(0.04, rel=0.25)
+
+
+def test_specimens_that_are_alike_have_next_to_no_spread(tmp_path):
+    found = [spread_of([read_law(p) for p in specimens(tmp_path, 0.0, seed)]) for seed in range(12)]
+    assert np.median([s.value for one in found for s in one.storage]) < 0.01
+    assert np.mean([s.lower == 0 for one in found for s in one.storage]) > 0.88
+    assert np.median([s.value for one in found for s in one.loss]) < 0.01
+
+
+def test_the_common_law_is_between_them_all(tmp_path):
+    found = spread_of([read_law(p) for p in specimens(tmp_path, 0.04, 3)])
+    storage, eta = TABLE_4.storage_and_loss(2 * np.pi * found.frequency_hz)
+    assert np.all(np.abs(np.log(found.storage_modulus_pa / storage)) < 4 * found.storage_error)
+    assert np.all(np.abs(np.log(found.loss_factor / eta)) < 4 * found.loss_factor_error)
+
+
+def test_two_laws_tell_no_spread(tmp_path):
+    with pytest.raises(BadInput, match="2 laws, expected 3"):
+        spread_of([read_law(p) for p in specimens(tmp_path, 0.04, 0, 2)])
+
+
+def test_the_command_says_the_spread(tmp_path, capsys):
+    paths = [str(p) for p in specimens(tmp_path, 0.04, 1)]
+    out = tmp_path / "spread.json"
+    assert run(["compare", "--spread", *paths, "--json", str(out)]) == 0
+    assert "spread between 12 specimens" in capsys.readouterr().out
+    said = json.loads(out.read_text())["spread"]
+    low, high = said["frequencies"][3]["storage_modulus_spread"]["interval_95_percent"]
+    assert low < 4 < high
