@@ -21,7 +21,7 @@ _LOOKS = (1.0, 2.1)
 _FURTHER = 3
 """Looks more, where chi-square has not risen far enough."""
 _STRETCH = 3.0
-_MOST_EVALUATIONS = 8
+_MOST_EVALUATIONS = 40
 Report = Callable[[float], None]
 
 
@@ -91,7 +91,7 @@ def _held(quantities: Quantities, k: int, to: float, start: Array, error: float)
         jac=jacobian,
         bounds=(low, high),
         x_scale="jac",
-        ftol=1e-5,
+        ftol=1e-6,
         xtol=1e-7,
         max_nfev=_MOST_EVALUATIONS,
     ).x
