@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from instrument.models.temperatures import AtTemperature, Shifted
-from instrument.results.identification_facts import law_facts
+from instrument.results.rows_from import law_rows_from
 
 
 def shifted_facts(found: Shifted, sweeps: Sequence[AtTemperature]) -> dict[str, Any]:
@@ -33,7 +33,7 @@ def shifted_facts(found: Shifted, sweeps: Sequence[AtTemperature]) -> dict[str, 
         "law_kind": law.kind,
         "parameters": dict(zip(law.names, law.values.tolist(), strict=True)),
         "standard_errors": dict(zip(law.names, errors.tolist(), strict=True)),
-        "law": law_facts(found.band),
+        "law": [row.as_json() for row in law_rows_from(found.band)],
         "simple": verdict.simple,
         "p_value": verdict.p_value,
         "chi2": fit.chi2,

@@ -77,6 +77,7 @@ def shares(ready, seeds, samples):
         return np.nanmean([inside(ready, seed, samples) for seed in range(seeds)], axis=(0, 3))
 
 
+@pytest.mark.long
 def test_a_few_specimens_lie_inside_about_as_often_as_said(ready):
     found = shares(ready, 16, 2_000)
     # Quantities of one specimen go together: about 40 independent looks.
