@@ -1,9 +1,9 @@
 """The vibrating beam standard's formulas: a layer's modulus and loss factor from single modes (ASTM E756-05).
 
 Each says by itself where it is not to be trusted: differences of nearly equal numbers, too stiff a layer.
-The limits are ours, set where 1 % of a frequency ratio moves the modulus by a fifth or more; the standard's own
-wording was not at hand. Lengths are free lengths of clamped-free beams; frequencies of the bare and the treated beam are of
-the same mode.
+The limits are ours, set where 1 % of a frequency ratio moves the modulus by a fifth or more; the standard's
+own wording was not at hand. Lengths are free lengths of clamped-free beams; frequencies of the bare and the
+treated beam are of the same mode.
 """
 
 from dataclasses import dataclass
@@ -109,7 +109,7 @@ def _objections(alpha: float, least: float, ratio: float, mode: int) -> tuple[st
     if mode < FIRST_MODE:
         said.append("the standard leaves the first mode out")
     if alpha < least:
-        said.append(f"(f/f_n)^2 (1 + D T) = {alpha:.3g}, below {least:g} it is a difference of nearly equal numbers")
+        said.append(f"(f/f_n)^2 (1 + D T) = {alpha:.3g}, near one; expected {least:g} or more")
     if not 0 < ratio < LARGEST_MODULUS_RATIO:
         said.append(f"modulus over the beam's {ratio:.3g}, expected between 0 and {LARGEST_MODULUS_RATIO:g}")
     return tuple(said)

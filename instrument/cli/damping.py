@@ -14,6 +14,7 @@ from instrument.impact.judge import judge
 from instrument.impact.record import Hit
 from instrument.impact.result import damping_from
 from instrument.impact.spectra import Estimator
+from instrument.results.error_words import ratio_words
 
 _HIGHEST_RATE = 1e8
 
@@ -142,4 +143,4 @@ def _print(out: Output, found: Damping) -> None:
 def _percent(e: Estimate | Refusal) -> str:
     if isinstance(e, Refusal):
         return "refused"
-    return f"{100 * e.ratio:.4f} +- {100 * e.standard_error:.1g}"
+    return ratio_words(e.ratio, e.standard_error)

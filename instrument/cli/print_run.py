@@ -9,6 +9,7 @@ from instrument.cli.print_diagnosis import print_before_after, print_story
 from instrument.facts.damping import METHODS, RatioFound
 from instrument.facts.rows import LawRow
 from instrument.facts.run import RunResult
+from instrument.results.error_words import ratio_words
 from instrument.run.experiment import Finished
 from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated, PointMeasured
 
@@ -112,4 +113,4 @@ def _near(law: Sequence[LawRow], wanted: tuple[float, ...]) -> list[int]:
 
 
 def _percent(e: RatioFound | None) -> str:
-    return f"{100 * e.ratio:.4f} +- {100 * e.standard_error:.1g}" if e else "refused"
+    return ratio_words(e.ratio, e.standard_error) if e else "refused"

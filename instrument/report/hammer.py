@@ -14,6 +14,7 @@ from instrument.report.blocks import Block, Section, Sentence, Table
 from instrument.report.numbers import format_number
 from instrument.report.picture import picture
 from instrument.results.drawing import DATA, MARK, label, panels
+from instrument.results.error_words import ratio_words
 from instrument.session.contents import Contents
 
 _WITHOUT_MODES_HZ = 1250.0
@@ -72,7 +73,7 @@ def _modes(result: DampingResult) -> Table:
 
 
 def _percent(e: RatioFound | None) -> str:
-    return f"{100 * e.ratio:.4f} ± {100 * e.standard_error:.1g}" if e else "refused"
+    return ratio_words(e.ratio, e.standard_error, "±") if e else "refused"
 
 
 def _agreement(contents: Contents, result: DampingResult) -> Sentence:

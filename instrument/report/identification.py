@@ -11,13 +11,17 @@ from instrument.report.measured import segments_of
 from instrument.report.numbers import format_number, with_error
 from instrument.report.picture import picture
 from instrument.results.adjusted_words import COLUMNS, adjusted_rows
-from instrument.results.diagnosis_words import UNKNOWN
+from instrument.results.diagnosis_words import UNKNOWN, law_at, verdict_line
 from instrument.results.error_words import is_below_floor, percent_words
 from instrument.session.contents import Contents
 
 _SAME = 1e-6
 """Relative difference to the run's own fit that is rounding."""
 _ROWS = 9
+_BEFORE = (
+    "This is the law before the diagnosis, which found an effect that the model lacked: the law to use is "
+    "the one after it, at the head of the page and in the section Diagnosis."
+)
 
 
 def identification_section(contents: Contents, fitted: Fitted) -> Section:
@@ -47,8 +51,19 @@ def identification_section(contents: Contents, fitted: Fitted) -> Section:
     return Section(title, tuple(blocks))
 
 
-def result_in_short(fitted: Fitted) -> str:
-    """The law at the reference frequencies and what is left, in a line."""
+def result_in_short(contents: Contents, fitted: Fitted) -> str:
+    """The law that the session ended with, at the reference frequencies, and what is left, in a line."""
+    diagnosed = contents.diagnosis.result if contents.diagnosis is not None else None
+    if diagnosed is not None:
+        known = [law_at(diagnosed.after.law, f) for f in REFERENCE_FREQUENCIES_HZ]
+        said = [
+            f"{row.frequency_hz:.4g} Hz: G' "
+            f"{with_error(row.storage_modulus_pa, row.storage_modulus_standard_error_pa, 1e-6)} MPa, "
+            f"η {with_error(row.loss_factor, row.loss_factor_standard_error)}"
+            for row in known
+            if row is not None
+        ]
+        return "; ".join([*said, f"rms {diagnosed.after.rms_percent:.3g} %", verdict_line(diagnosed)])
     if fitted.fit is None:
         return f"no law identified: {fitted.why}"
     r = fitted.fit.identified.result
@@ -112,9 +127,11 @@ def _hammer(fit: SessionFit) -> str:
 
 def _doubt(contents: Contents) -> list[Block]:
     found = contents.diagnosis.result if contents.diagnosis is not None else None
-    if found is None or found.verdict != "unknown":
+    if found is None or found.verdict == "none":
         return []
-    return [Sentence(f"Diagnosis: {UNKNOWN}. The law may be far off its band.", "warning")]
+    if found.verdict == "unknown":
+        return [Sentence(f"Diagnosis: {UNKNOWN}. The law may be far off its band.", "warning")]
+    return [Sentence(_BEFORE, "warning")]
 
 
 def _banded(r: Identification) -> str:

@@ -33,7 +33,7 @@ def report_page(contents: Contents, progress: Progress = quiet) -> str:
         ("date", c.created_utc.replace("T", " ").replace("+00:00", " UTC")),
         ("session", c.name),
         ("specimen file", c.experiment.specimen),
-        ("result", result_in_short(fitted)),
+        ("result", result_in_short(contents, fitted)),
     ]
     return html_page(c.experiment.title or c.name, header, sections)
 

@@ -1,7 +1,7 @@
 """Short sentences on a diagnosis."""
 
 from collections.abc import Mapping, Sequence
-from math import isnan
+from math import isnan, nan
 
 from instrument.facts.diagnosis import CandidateFitted, DiagnosisResult, EffectFound, EffectParameter
 from instrument.facts.rows import LawRow
@@ -22,6 +22,8 @@ def verdict_line(found: DiagnosisResult) -> str:
     said = _SAID.get(found.verdict) or " and ".join(_sized(e) for e in accepted)
     if found.by_hand and not accepted:
         said = "no effect accepted"
+    elif found.verdict == "none":
+        said += _weighed(found)
     parts = [f"verdict: {'by your word' if found.by_hand else found.verdict}: {said}"]
     for name, group in groups.items():
         others = ["no effect" if n == "none" else n for n in group if n != name]
@@ -30,6 +32,12 @@ def verdict_line(found: DiagnosisResult) -> str:
     if channels:
         parts.append(f"the channels by themselves show {' and '.join(_sized(e) for e in channels)}")
     return "; ".join(parts)
+
+
+def _weighed(found: DiagnosisResult) -> str:
+    """How sure it is that there is nothing, where that was weighed."""
+    p = next((c.probability for c in found.candidates if c.name == "none"), nan)
+    return "" if isnan(p) else f" that these data can name ({100 * p:.0f} % for no effect)"
 
 
 def with_verdict(title: str, found: DiagnosisResult) -> str:

@@ -14,6 +14,13 @@ def percent_words(error: float, value: float) -> str:
     return f"below {FLOOR_PERCENT:g}" if percent < FLOOR_PERCENT else f"{percent:.2g}"
 
 
+def ratio_words(ratio: float, error: float, sign: str = "+-") -> str:
+    """A damping ratio in percent with its error; the floor where the error is below it."""
+    least = FLOOR_PERCENT / 100 * abs(ratio)
+    said = f"<{100 * least:.1g}" if error < least else f"{100 * error:.1g}"
+    return f"{100 * ratio:.4f} {sign} {said}"
+
+
 def is_below_floor(error: float, value: float) -> bool:
     """Whether nobody means it."""
     return 100 * error < FLOOR_PERCENT * abs(value)

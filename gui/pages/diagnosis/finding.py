@@ -63,10 +63,7 @@ def headline(shown: Shown) -> str:
     """The verdict, or what a person decided: then the data were not asked."""
     said = verdict_line(shown.found).removeprefix("verdict: ").replace("+-", "±")
     if shown.asked is not None and shown.asked.accept is not None:
-        kind, _, rest = said.partition(": ")
-        if kind == "none":
-            rest = rest.replace("nothing beyond noise", "no effect accepted", 1)
-        said = f"by hand: {rest}"
+        said = f"by hand: {said.partition(': ')[2]}"
     return f"{said[0].upper()}{said[1:]}"
 
 

@@ -130,7 +130,7 @@ def test_an_effect_accepted_by_hand_is_fitted_and_the_material_follows(qtbot, wi
 
 
 def test_no_effect_by_hand_is_not_called_noise(window, page):
-    nothing = diagnosis(verdict="none").but(effects=(), equivalent={})
+    nothing = diagnosis(verdict="none").but(effects=(), equivalent={}, by_hand=True)
     rediagnosis = window.controller.rediagnosis
     rediagnosis.found = Shown(nothing, "by hand", Asked(window.controller.recorded.path, accept=()))
     rediagnosis.changed.emit()

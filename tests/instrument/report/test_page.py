@@ -7,10 +7,13 @@ from html.parser import HTMLParser
 from xml.etree import ElementTree
 
 import pytest
+from diagnosed_session import diagnosed_session
+from diagnosis_cases import diagnosis
 from session_cases import GAIN, SyntheticSession, configuration, whole_session
 
 from instrument.cli.main import run
 from instrument.report.page import report_page
+from instrument.results.diagnosis_words import law_at, verdict_line
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import LimitWarned
@@ -186,6 +189,16 @@ def test_the_head_has_the_result_in_short(page):
     head = text_of("<body>" + page[page.index("<header>") : page.index("</header>")])
     assert "operator A. Tester" in head
     assert "100 Hz: G' 0.4" in head
+
+
+def test_the_result_is_the_law_after_the_diagnosis(tmp_path):
+    found = diagnosis()
+    page = page_of(diagnosed_session(tmp_path, diagnosis=found))
+    head = text_of("<body>" + page[page.index("<header>") : page.index("</header>")])
+    row = law_at(found.after.law, 100.0)
+    assert f"100 Hz: G' {1e-6 * row.storage_modulus_pa:.2g}" in head
+    assert verdict_line(found) in head
+    assert "the law before the diagnosis" in section(page, "Identification of the core")
 
 
 # Sessions with something missing

@@ -114,7 +114,8 @@ def test_a_person_reads_verdict_reasons_and_numbers(capsys, how):
 def test_what_channels_show_is_not_said_to_be_the_verdict(result):
     channel = [e for e in result.effects if e.name == "mains_hum"]
     line = verdict_line(result.but(verdict="none", effects=channel, equivalent={}))
-    assert line.startswith("verdict: none: nothing beyond noise; the channels by themselves show mains_hum (")
+    assert line.startswith("verdict: none: nothing beyond noise that these data can name (")
+    assert "% for no effect); the channels by themselves show mains_hum (" in line
 
 
 def test_what_someone_decided_is_not_said_to_be_the_data_s_word(result):
