@@ -16,7 +16,7 @@ _EDGE_WIDTH = 0.63 / 2
 
 
 @dataclass(frozen=True)
-class Sensor:
+class CarriedSensor:
     """The accelerometer on the bare plate: a gram at the tip takes half a percent off mode 1."""
 
     mass_kg: float
@@ -24,7 +24,7 @@ class Sensor:
     y_m: float
 
 
-def bare_modes(plate: Plate, count: int, sensor: Sensor | None = None) -> tuple[RealModes, Array]:
+def bare_modes(plate: Plate, count: int, sensor: CarriedSensor | None = None) -> tuple[RealModes, Array]:
     """The bare plate's modes as plate theory has them, the sensor on it, and their `edge_softening`."""
     modes = real_modes(plate, 0.0, count)
     if sensor is not None:
@@ -32,7 +32,7 @@ def bare_modes(plate: Plate, count: int, sensor: Sensor | None = None) -> tuple[
     return modes, edge_softening(plate, modes)
 
 
-def loaded_modes(plate: Plate, modes: RealModes, sensor: Sensor) -> RealModes:
+def loaded_modes(plate: Plate, modes: RealModes, sensor: CarriedSensor) -> RealModes:
     """The modes with the sensor on the plate, as many: in the span of the unloaded ones and of its own push.
 
     (K - omega^2 (M + m w^T w)) x = 0, w reading the deflection under the sensor.

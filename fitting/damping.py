@@ -19,7 +19,7 @@ _SPARE = 3
 
 
 @dataclass(frozen=True)
-class ViscousDamping:
+class LowRankDamping:
     """C_1 = U diag(d) U^T, constant and real, of rank `len(d)`."""
 
     U: Array
@@ -29,22 +29,22 @@ class ViscousDamping:
     mode: NDArray[np.intp]
     """Which of the stated ratios each has, from 0. Shape (modes,)."""
 
-    def projected(self, P: sp.csc_array) -> "ViscousDamping":
+    def projected(self, P: sp.csc_array) -> "LowRankDamping":
         """The same damping in the subspace of P, modes outside it dropped."""
         U = np.asarray(P.T @ self.U)
         inside = np.linalg.norm(U, axis=0) > 1e-6 * np.linalg.norm(self.U, axis=0)
-        return ViscousDamping(U[:, inside], self.d[inside], self.mode[inside])
+        return LowRankDamping(U[:, inside], self.d[inside], self.mode[inside])
 
 
-def viscous_damping(plate: Plate) -> ViscousDamping:
+def viscous_damping(plate: Plate) -> LowRankDamping:
     """C_1 = M Phi diag(2 zeta_r omega_r) Phi^T M, each ratio with the mode that has its bare mode's shape."""
     ratios = np.array(plate.specimen.modal_ratios)
     if not ratios.any():
-        return ViscousDamping(np.empty((plate.size, 0)), np.empty(0), np.empty(0, dtype=np.intp))
+        return LowRankDamping(np.empty((plate.size, 0)), np.empty(0), np.empty(0, dtype=np.intp))
     modes = real_modes(plate, REFERENCE_MODULUS_PA, len(ratios) + _SPARE)
     damped = np.flatnonzero(ratios)
     its = paired_modes(plate, modes, len(ratios))[damped]
-    return ViscousDamping(plate.M @ modes.shapes[:, its], 2 * ratios[damped] * modes.omega[its], damped)
+    return LowRankDamping(plate.M @ modes.shapes[:, its], 2 * ratios[damped] * modes.omega[its], damped)
 
 
 def paired_modes(plate: Plate, modes: RealModes, count: int) -> NDArray[np.intp]:

@@ -6,13 +6,13 @@ import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array, Complex
-from fitting.damping import ViscousDamping
+from fitting.damping import LowRankDamping
 from fitting.linear import factorise
 from fitting.plate import Plate
 
 
 def direct_solver(
-    A: sp.sparray, omega: float, damping: ViscousDamping
+    A: sp.sparray, omega: float, damping: LowRankDamping
 ) -> Callable[[Complex | Array], Complex]:
     """Solver of (A + i omega C_1) X = loads, factorised once; A = -omega^2 M + K_0 + G K_1. Loads (n, k).
 
@@ -29,12 +29,12 @@ def direct_solver(
     return damped
 
 
-def solve_direct(A: sp.sparray, omega: float, damping: ViscousDamping, loads: Array) -> Complex:
+def solve_direct(A: sp.sparray, omega: float, damping: LowRankDamping, loads: Array) -> Complex:
     """X of (A + i omega C_1) X = loads. Shape of `loads`, (n, k)."""
     return direct_solver(A, omega, damping)(loads)
 
 
-def displacement_direct(plate: Plate, damping: ViscousDamping, omega: Array, G: Complex) -> Complex:
+def displacement_direct(plate: Plate, damping: LowRankDamping, omega: Array, G: Complex) -> Complex:
     """Relative displacement at the pickup for a base acceleration of 1 m/s^2, in m. Shape of `omega`."""
     load = plate.base_load[:, None]
     return np.array(

@@ -35,7 +35,7 @@ _STEPS = 12
 
 
 @dataclass(frozen=True)
-class Layer:
+class ElasticLayer:
     """One layer. The three switches rule out, one by one, what a plate theory leaves out.
 
     Attributes
@@ -60,7 +60,7 @@ class Layer:
 
 
 def exact_lambda(
-    layers: tuple[Layer, ...], k: ArrayLike, order: int = ORDER, tolerance: float = TOLERANCE
+    layers: tuple[ElasticLayer, ...], k: ArrayLike, order: int = ORDER, tolerance: float = TOLERANCE
 ) -> Complex:
     """omega^2 of the lowest bending branch, the moduli held fixed.
 
@@ -125,7 +125,7 @@ def lowest(K: Complex, M: Array, tolerance: float = TOLERANCE) -> tuple[Complex,
     return value, x
 
 
-def _stiffnesses(layer: Layer, kappa: Array) -> Complex:
+def _stiffnesses(layer: ElasticLayer, kappa: Array) -> Complex:
     """C_11, C_33, C_13 and C_55 with its powers of kappa, in the order of `_layer_forms`. Shape (6, n)."""
     G = np.broadcast_to(np.asarray(layer.shear_pa, dtype=complex), kappa.shape)
     nu = layer.poisson

@@ -8,7 +8,7 @@ import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
-from fitting.damping import ViscousDamping
+from fitting.damping import LowRankDamping
 from fitting.element import DOFS
 from fitting.linear import Chain, with_damping
 from fitting.plate import Plate
@@ -51,7 +51,7 @@ class HalfPlate:
         return np.asarray(self.blocks(self.plate.K_1))
 
     def solver(
-        self, omega: float, G: complex, damping: ViscousDamping
+        self, omega: float, G: complex, damping: LowRankDamping
     ) -> Callable[[Array | Complex], Complex]:
         """Solver of A X = loads, (half, m), at a frequency and modulus; `damping` is on these motions."""
         A = G * self.K_1

@@ -39,7 +39,7 @@ _STANDS_OUT = 1.5
 
 
 @dataclass(frozen=True)
-class MainsHum:
+class HumSeen:
     """Hum as the readings show it."""
 
     mains_hz: float
@@ -95,7 +95,7 @@ class _Channels:
         return bool(np.sum(left**2) < np.sum(np.abs(self.response.relative[points]) ** 2) / 2)
 
 
-def mains_hum(sweep: Sweep, noise: Noise) -> MainsHum | None:
+def mains_hum(sweep: Sweep, noise: Noise) -> HumSeen | None:
     """Hum in the velocity or the reference channel, or None. `noise` says how it goes from point to point."""
     f = sweep.frequency_hz
     aside = np.zeros(len(f), dtype=bool)
@@ -116,7 +116,7 @@ def mains_hum(sweep: Sweep, noise: Noise) -> MainsHum | None:
         aside = aside | more
         now = _channels(sweep, noise, aside)
         more = reach & (now.worse("chance") < _ONCE_FOUND)
-    return MainsHum(
+    return HumSeen(
         mains_hz=mains,
         multiples=tuple(int(line / mains) for line in lines),
         points=aside,

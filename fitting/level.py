@@ -18,7 +18,7 @@ _MEDIAN_TO_MEAN = np.sqrt(np.pi / 2)
 
 
 @dataclass(frozen=True)
-class LevelError:
+class LevelOff:
     """The reference channel is off the command.
 
     Either the base moved so, which the ratio of the channels takes out, or the channel's sensitivity is
@@ -37,14 +37,14 @@ class LevelError:
         return 100 * (self.factor - 1)
 
 
-def level_error(sweep: Sweep) -> LevelError | None:
+def level_error(sweep: Sweep) -> LevelOff | None:
     """None without a reference channel, or where it is within 1 % or its own scatter of the command."""
     if sweep.base_m_s2 is None or len(sweep) < _FEWEST:
         return None
     ratio = np.abs(sweep.base_m_s2) / sweep.commanded_m_s2
     factor = float(np.median(ratio))
     scatter = _MAD_TO_STD * float(np.median(np.abs(ratio - factor)))
-    found = LevelError(
+    found = LevelOff(
         factor=factor,
         standard_error=float(_MEDIAN_TO_MEAN * scatter / np.sqrt(len(ratio))),
         segment_percent={

@@ -22,7 +22,7 @@ from fitting.errors import TooFewPoints
 from fitting.identification.model import velocity
 from fitting.laws import CoreLaw
 from fitting.noise import Noise
-from fitting.pointwise_roots import APART, BandProblem, Root, VelocityOf, nearest_root
+from fitting.pointwise_roots import APART, BandMinima, BandProblem, VelocityOf, nearest_root
 from fitting.rational import RationalSweep
 from fitting.specimen import Reading
 from fitting.sweep import Sweep
@@ -160,7 +160,7 @@ def pointwise_law(
 
 
 def _found(
-    problem: BandProblem, root: Root, law: CoreLaw, omega: Array, dv: Complex, *, noise_is_known: bool
+    problem: BandProblem, root: BandMinima, law: CoreLaw, omega: Array, dv: Complex, *, noise_is_known: bool
 ) -> PointwiseLaw:
     """The modulus and its errors at the roots, and which of them to believe."""
     J = problem.sensitivity(root.u)

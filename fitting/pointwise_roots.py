@@ -70,7 +70,7 @@ class BandProblem:
 
 
 @dataclass(frozen=True)
-class Root:
+class BandMinima:
     """A minimum in each band. Shape (bands,) each."""
 
     u: Complex
@@ -81,7 +81,7 @@ class Root:
     is_alone: NDArray[np.bool_]
 
 
-def nearest_root(problem: BandProblem) -> Root:
+def nearest_root(problem: BandProblem) -> BandMinima:
     """The root nearest to the law and whether it is the only one that near.
 
     Newton's method from the law itself finds some root; starts around the law, as far out as that
@@ -109,10 +109,10 @@ def nearest_root(problem: BandProblem) -> Root:
     # A root that gives energy back is no rival: no core is so.
     passive = np.sin(angle) > -APART * error
     rival = fits & passive & near & (apart > 0.05 * its_error + 1e-9)
-    return Root(best, chi2[nearest], its_error, fits[nearest], ~rival.any(axis=0))
+    return BandMinima(best, chi2[nearest], its_error, fits[nearest], ~rival.any(axis=0))
 
 
-def _newton(problem: BandProblem, u: Complex) -> Root:
+def _newton(problem: BandProblem, u: Complex) -> BandMinima:
     """Gauss-Newton in every band at once; a step that makes things worse is cut."""
     with np.errstate(all="ignore"):
         chi2, step, error = problem.look(u)
@@ -132,4 +132,4 @@ def _newton(problem: BandProblem, u: Complex) -> Root:
             )
             damping = np.where(better, np.minimum(1, 4 * damping), damping / 4)
         converged = np.abs(step) <= _CONVERGED * error
-    return Root(u, chi2, error, converged, np.ones(problem.count, bool))
+    return BandMinima(u, chi2, error, converged, np.ones(problem.count, bool))

@@ -15,7 +15,7 @@ from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array, Complex
 from fitting.assembly import Assembly
-from fitting.damping import ViscousDamping
+from fitting.damping import LowRankDamping
 from fitting.domain import Domain
 from fitting.element import THETA_X, THETA_Y, W
 from fitting.half_plate import HalfPlate
@@ -115,7 +115,7 @@ class ReducedPlate:
 
 def reduce_plate(
     plate: Plate,
-    damping: ViscousDamping,
+    damping: LowRankDamping,
     domain: Domain,
     progress: Callable[[float], None] = lambda fraction: None,
 ) -> ReducedPlate:
@@ -146,7 +146,7 @@ _GIVEN, _M, _K_0, _LOSS, _K_1, _DAMPED = range(6)
 class _Builder:
     """The growing basis and its products, all in the subspace even in y."""
 
-    def __init__(self, plate: Plate, damping: ViscousDamping, domain: Domain) -> None:
+    def __init__(self, plate: Plate, damping: LowRankDamping, domain: Domain) -> None:
         half = HalfPlate(plate, odd=False)
         self.plate, self.half, self.domain = plate, half, domain
         self.damping = damping.projected(half.P)

@@ -38,7 +38,7 @@ class Core:
     law: CoreLaw
 
 
-class Stated(Protocol):
+class StatedSpecimen(Protocol):
     """What every specimen says, plate or not."""
 
     @property

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 
 from fitting.arrays import Array, Complex
 from fitting.errors import OutsideModel
-from fitting.exact_layers import Layer, exact_lambda
+from fitting.exact_layers import ElasticLayer, exact_lambda
 from fitting.laws import CoreLaw
 from fitting.layer_theory import layerwise_lambda, wavenumber
 from fitting.specimen import Face, Specimen
@@ -157,15 +157,15 @@ def remaining_error(specimen: Specimen, error: TheoryError) -> tuple[Array, Arra
     )
 
 
-def stack(specimen: Specimen, G: ArrayLike = 0.0) -> tuple[Layer, ...]:
+def stack(specimen: Specimen, G: ArrayLike = 0.0) -> tuple[ElasticLayer, ...]:
     """The specimen's layers from the substrate upwards, the core with modulus `G` in Pa."""
     b, c, v = specimen.substrate, specimen.constraining, specimen.core
     if v is None or c is None:
         return (_elastic(b),)
-    return (_elastic(b), Layer(v.thickness_m, G, v.poisson, v.density_kg_m3), _elastic(c))
+    return (_elastic(b), ElasticLayer(v.thickness_m, G, v.poisson, v.density_kg_m3), _elastic(c))
 
 
-def held_stack(specimen: Specimen, G: ArrayLike = 0.0) -> tuple[Layer, ...]:
+def held_stack(specimen: Specimen, G: ArrayLike = 0.0) -> tuple[ElasticLayer, ...]:
     """The same layers with all assumptions held but that of a linear core."""
     last = len(stack(specimen, G)) - 1
     return tuple(
@@ -174,9 +174,9 @@ def held_stack(specimen: Specimen, G: ArrayLike = 0.0) -> tuple[Layer, ...]:
     )
 
 
-def _elastic(face: Face) -> Layer:
+def _elastic(face: Face) -> ElasticLayer:
     shear = face.young_pa * (1 + 1j * face.loss_factor) / (2 * (1 + face.poisson))
-    return Layer(face.thickness_m, shear, face.poisson, face.density_kg_m3)
+    return ElasticLayer(face.thickness_m, shear, face.poisson, face.density_kg_m3)
 
 
 def _errors(theory: Complex, exact: Complex) -> tuple[Array, Array]:
@@ -196,7 +196,7 @@ def _worst_assumption(specimen: Specimen, k: Array, G: Complex) -> Assumption:
     layers = stack(specimen, G)
     exact = exact_lambda(layers, k, _QUICK_ORDER)
 
-    def made_by(held: tuple[Layer, ...]) -> float:
+    def made_by(held: tuple[ElasticLayer, ...]) -> float:
         return float(_excess(*_errors(exact_lambda(held, k, _QUICK_ORDER), exact))[0])
 
     faces = {0, len(layers) - 1}

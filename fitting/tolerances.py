@@ -16,7 +16,7 @@ Unit = Literal["1", "m", "s"]
 
 
 @dataclass(frozen=True)
-class Stated:
+class StatedNumber:
     """One kind of stated number."""
 
     name: str
@@ -28,27 +28,29 @@ class Stated:
 
 
 _STATED = (
-    Stated("substrate_young", "1", 0.01, "rolled sheet from one data sheet to another"),
-    Stated("substrate_thickness", "1", 0.005, "a micrometer at several places of a sheet"),
-    Stated("substrate_density", "1", 0.005, "plate weighed, sides by caliper"),
-    Stated("substrate_poisson", "1", 0.02, "data sheets of metals"),
-    Stated("constraining_young", "1", 0.01, "as the substrate's"),
-    Stated("constraining_thickness", "1", 0.015, "a foil: a micrometer's few micrometres"),
-    Stated("constraining_density", "1", 0.005, "as the substrate's"),
-    Stated("constraining_poisson", "1", 0.02, "as the substrate's"),
-    Stated("core_thickness", "1", 0.03, "the difference of two thicknesses, or a data sheet"),
-    Stated("core_density", "1", 0.02, "data sheets of polymers"),
-    Stated("core_poisson", "1", 0.01, "rubbery: between 0.48 and 0.5"),
-    Stated("length", "m", 3e-4, "where the clamp's edge bites"),
-    Stated("width", "m", 1e-4, "a caliper"),
-    Stated("pickup", "m", 3e-4, "a laser's spot of half a millimetre, placed by a rule; each coordinate"),
-    Stated("damping", "1", 0.1, "a bare plate's ratios from one mounting to the next; each mode"),
-    Stated("gain", "1", 0.003, "two calibrated channels"),
-    Stated("delay", "s", 2e-6, "decoder against accelerometer, a known delay taken out"),
-    Stated("mass", "1", 0.02, "what sits on the plate, on a letter balance"),
-    Stated("area", "1", 0.01, "a disc's diameters by caliper"),
+    StatedNumber("substrate_young", "1", 0.01, "rolled sheet from one data sheet to another"),
+    StatedNumber("substrate_thickness", "1", 0.005, "a micrometer at several places of a sheet"),
+    StatedNumber("substrate_density", "1", 0.005, "plate weighed, sides by caliper"),
+    StatedNumber("substrate_poisson", "1", 0.02, "data sheets of metals"),
+    StatedNumber("constraining_young", "1", 0.01, "as the substrate's"),
+    StatedNumber("constraining_thickness", "1", 0.015, "a foil: a micrometer's few micrometres"),
+    StatedNumber("constraining_density", "1", 0.005, "as the substrate's"),
+    StatedNumber("constraining_poisson", "1", 0.02, "as the substrate's"),
+    StatedNumber("core_thickness", "1", 0.03, "the difference of two thicknesses, or a data sheet"),
+    StatedNumber("core_density", "1", 0.02, "data sheets of polymers"),
+    StatedNumber("core_poisson", "1", 0.01, "rubbery: between 0.48 and 0.5"),
+    StatedNumber("length", "m", 3e-4, "where the clamp's edge bites"),
+    StatedNumber("width", "m", 1e-4, "a caliper"),
+    StatedNumber(
+        "pickup", "m", 3e-4, "a laser's spot of half a millimetre, placed by a rule; each coordinate"
+    ),
+    StatedNumber("damping", "1", 0.1, "a bare plate's ratios from one mounting to the next; each mode"),
+    StatedNumber("gain", "1", 0.003, "two calibrated channels"),
+    StatedNumber("delay", "s", 2e-6, "decoder against accelerometer, a known delay taken out"),
+    StatedNumber("mass", "1", 0.02, "what sits on the plate, on a letter balance"),
+    StatedNumber("area", "1", 0.01, "a disc's diameters by caliper"),
 )
-STATED: dict[str, Stated] = {s.name: s for s in _STATED}
+STATED: dict[str, StatedNumber] = {s.name: s for s in _STATED}
 """Every kind of stated number by its name, in the order in which results list them."""
 
 PLATE = tuple(s.name for s in _STATED[:13])

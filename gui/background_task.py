@@ -1,8 +1,8 @@
 """Long work off the main thread, with progress, and cancelled where nobody wants it any more.
 
 Reading files goes to a thread (`BackgroundTask`). What needs the processor for long, a fit or a diagnosis,
-goes to a process (`Command`): the interpreter lets one thread compute at a time, and the window has to be
-that one.
+goes to a process (`BackgroundCommand`): the interpreter lets one thread compute at a time, and the window has
+to be that one.
 
 Connect bound methods of objects that live in the main thread, and nothing else: a plain function would be
 called in the thread that does the work.
@@ -104,7 +104,7 @@ class BackgroundTask(QObject, Generic[T]):
             self.done.emit(result)
 
 
-class Command(QObject):
+class BackgroundCommand(QObject):
     """A `viscorig` command in a process of its own; what it writes as JSON, a `result`, goes with `done`.
 
     So the window has the same numbers as the command line. One of `done`, `failed`, `cancelled` comes.

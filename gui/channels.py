@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QLabel, QWidget
 
 from gui.feeds.feed import Feed
 from gui.state.readings import FRESH_S, ChannelNow, Readings
-from gui.tables import Cell, Table
+from gui.tables import Cell, ReadTable
 from gui.theme import Role, current_theme
 
 _CLIPPED_S = 3.0
@@ -59,7 +59,7 @@ class ClipLights(QLabel):
         self.setToolTip("\n".join(f"{name}: {words}" for name, words in self.said.items()))
 
 
-class ChannelTable(Table):
+class ChannelTable(ReadTable):
     """Every channel with its numbers."""
 
     def __init__(self, parent: QWidget | None = None) -> None:

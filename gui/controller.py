@@ -246,7 +246,7 @@ class AppController(QObject):
 
     def _read_beside(self, path: Path) -> None:
         self.busy.emit(path.name)
-        work = _Reading(path, self)
+        work = _ForeignReading(path, self)
         self._reading[path] = work
         work.done.connect(self._read)
         work.failed.connect(self._not_read)
@@ -254,7 +254,7 @@ class AppController(QObject):
 
     def _read(self, found: object) -> None:
         work = self.sender()
-        assert isinstance(work, _Reading)
+        assert isinstance(work, _ForeignReading)
         assert isinstance(found, Found)
         self._forget(work)
         self.beside[work.path] = found
@@ -265,11 +265,11 @@ class AppController(QObject):
 
     def _not_read(self, message: str) -> None:
         work = self.sender()
-        assert isinstance(work, _Reading)
+        assert isinstance(work, _ForeignReading)
         self._forget(work)
         self.refused.emit(message)
 
-    def _forget(self, work: "_Reading") -> None:
+    def _forget(self, work: "_ForeignReading") -> None:
         self._reading.pop(work.path, None)
         self.busy.emit("")
         work.deleteLater()
@@ -286,7 +286,7 @@ class _Starting(BackgroundTask[Configuration]):
         return read_whole_experiment(self.order.experiment).configuration(self.order.experiment.stem, "")
 
 
-class _Reading(BackgroundTask[Found]):
+class _ForeignReading(BackgroundTask[Found]):
     """Of another program's file."""
 
     def __init__(self, path: Path, parent: QObject) -> None:

@@ -8,7 +8,7 @@ from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QWidget
 
 from gui.asking import ask_folder, ask_save
-from gui.background_task import Command
+from gui.background_task import BackgroundCommand
 from gui.controller import AppController
 from instrument.facts.written import ExportResult, ReportResult
 
@@ -48,7 +48,7 @@ class Export(QObject):
         self._run(["export", str(session), "--to", kind, "--out", str(folder)], ExportResult)
 
     def _run(self, arguments: list[str], result: type[ExportResult] | type[ReportResult]) -> None:
-        command = Command(arguments, result, self)
+        command = BackgroundCommand(arguments, result, self)
         command.done.connect(self._written)
         command.failed.connect(self._not_written)
         self.began.emit(arguments[0])
@@ -60,7 +60,7 @@ class Export(QObject):
 
     def _forget(self) -> None:
         command = self.sender()
-        if isinstance(command, Command):
+        if isinstance(command, BackgroundCommand):
             command.deleteLater()
 
     def _written(self, found: ExportResult | ReportResult) -> None:

@@ -9,13 +9,13 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
-from gui.background_task import Command
+from gui.background_task import BackgroundCommand
 from gui.state import SessionState
 from instrument.facts.diagnosis import DiagnosisResult
 
 
 @dataclass(frozen=True)
-class Asked:
+class DiagnosisAsked:
     """What is to be diagnosed, and how."""
 
     data: Path
@@ -43,13 +43,13 @@ class Asked:
 
 
 @dataclass(frozen=True)
-class Shown:
+class ShownDiagnosis:
     """A diagnosis as pages show it."""
 
     found: DiagnosisResult
     origin: str
     """Where it comes from, for people."""
-    asked: Asked | None = None
+    asked: DiagnosisAsked | None = None
     """None for the recorded one."""
 
 
@@ -72,23 +72,23 @@ class Rediagnosis(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self.found: Shown | None = None
+        self.found: ShownDiagnosis | None = None
         self._searched: dict[Path, DiagnosisResult] = {}
         """The last whole search of each file made here."""
-        self._asked: Asked | None = None
-        self._command: Command | None = None
+        self._asked: DiagnosisAsked | None = None
+        self._command: BackgroundCommand | None = None
 
     @property
     def running(self) -> bool:
         """Whether one is being made."""
         return self._command is not None
 
-    def shown(self, state: SessionState | None) -> Shown | None:
+    def shown(self, state: SessionState | None) -> ShownDiagnosis | None:
         """What pages show: the one made here, else the session's own; None where there is neither."""
         if self.found is not None:
             return self.found
         own = _recorded(state)
-        return Shown(own, "recorded with the session") if own is not None else None
+        return ShownDiagnosis(own, "recorded with the session") if own is not None else None
 
     def ranking(self, state: SessionState | None) -> DiagnosisResult | None:
         """The last whole search of what is shown: an effect fitted by hand has no others beside it."""
@@ -98,11 +98,11 @@ class Rediagnosis(QObject):
         own = _recorded(state) if shown.asked.specimen is None else None
         return self._searched.get(shown.asked.data) or own or shown.found
 
-    def start(self, asked: Asked) -> None:
+    def start(self, asked: DiagnosisAsked) -> None:
         """Make it; whatever was being made is let go of."""
         self._drop()
         self._asked = asked
-        self._command = Command(asked.arguments, DiagnosisResult, self)
+        self._command = BackgroundCommand(asked.arguments, DiagnosisResult, self)
         self._command.done.connect(self._done)
         self._command.failed.connect(self._failed)
         self._command.progressed.connect(self.progressed)
@@ -129,7 +129,7 @@ class Rediagnosis(QObject):
     def _done(self, found: DiagnosisResult) -> None:
         assert self._asked is not None
         self._let_go()
-        self.found = Shown(found, _origin(self._asked), self._asked)
+        self.found = ShownDiagnosis(found, _origin(self._asked), self._asked)
         if self._asked.accept is None:
             self._searched[self._asked.data] = found
         self.changed.emit()
@@ -144,7 +144,7 @@ class Rediagnosis(QObject):
         if command is not None:
             command.close()
 
-    def _let_go(self) -> Command | None:
+    def _let_go(self) -> BackgroundCommand | None:
         command, self._command = self._command, None
         if command is not None:
             command.disconnect(self)
@@ -158,7 +158,7 @@ def _recorded(state: SessionState | None) -> DiagnosisResult | None:
     return own.result if own is not None else None
 
 
-def _origin(asked: Asked) -> str:
+def _origin(asked: DiagnosisAsked) -> str:
     if not asked.by_hand:
         return f"made here of {asked.data.name}, not recorded"
     return "by hand, not recorded" if asked.specimen is None else f"{asked.data.name}: by hand, not recorded"

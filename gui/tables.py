@@ -52,7 +52,7 @@ class Cell:
 Row = Sequence[Cell]
 
 
-class Table(QTableView):
+class ReadTable(QTableView):
     """Rows that are read; one of them can be selected where `selects`.
 
     Parameters
@@ -141,7 +141,7 @@ class Table(QTableView):
 class _Rows(QAbstractTableModel):
     """What a table shows."""
 
-    def __init__(self, columns: dict[str, str], parent: Table) -> None:
+    def __init__(self, columns: dict[str, str], parent: ReadTable) -> None:
         super().__init__(parent)
         self.columns = columns
         self.rows: Sequence[Row] = ()
@@ -191,7 +191,7 @@ class _Rows(QAbstractTableModel):
 class _Delegate(QStyledItemDelegate):
     """Paints bars and stripes in the colours of the moment."""
 
-    def __init__(self, table: Table) -> None:
+    def __init__(self, table: ReadTable) -> None:
         super().__init__(table)
         self._table = table
 

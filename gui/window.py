@@ -17,7 +17,7 @@ from PySide6.QtWidgets import QMessageBox, QTabWidget, QVBoxLayout, QWidget
 
 from fitting.plugins import told
 from gui.asking import ask_open_many, ask_word
-from gui.background_task import BackgroundTask, Command
+from gui.background_task import BackgroundCommand, BackgroundTask
 from gui.controller import SESSION_ENDINGS, AppController
 from gui.log_pane import LogPane
 from gui.menus import Menus
@@ -140,7 +140,7 @@ class Window(Shell):
         )
         for work in self.findChildren(BackgroundTask):
             work.close()
-        for command in self.findChildren(Command):
+        for command in self.findChildren(BackgroundCommand):
             command.close()
         self.controller.close()
         self._guard.release()

@@ -19,7 +19,7 @@ from PySide6.QtCore import QSettings
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QApplication
 
-from gui.background_task import BackgroundTask, Command
+from gui.background_task import BackgroundCommand, BackgroundTask
 from gui.pages.run import RunPage
 from gui.settings import Settings
 from gui.theme import Appearance
@@ -86,7 +86,7 @@ def _rest(window: Window) -> None:
 
     def rested() -> bool:
         nonlocal last
-        works = (*window.findChildren(BackgroundTask), *window.findChildren(Command))
+        works = (*window.findChildren(BackgroundTask), *window.findChildren(BackgroundCommand))
         if not all(work.over for work in works):
             last = time.monotonic()
         return time.monotonic() - last > _LOOKS_S

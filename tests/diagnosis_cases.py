@@ -3,7 +3,7 @@
 import numpy as np
 from conftest import TABLE_4
 
-from fitting.diagnosis.result import Candidate, Diagnosis, Estimate, FoundEffect, Stage
+from fitting.diagnosis.result import Candidate, Diagnosis, FoundEffect, ParameterEstimate, Stage
 from fitting.identification.result import law_band
 from fitting.identification.uncertainty import Uncertainty
 from fitting.identification.validation import HeldOutSegment, Validation
@@ -11,9 +11,11 @@ from fitting.sweep import Sweep
 from instrument.models.diagnosis import Diagnosed
 from instrument.results.diagnosis_from import diagnosis_from
 
-MASS = FoundEffect("added_mass", {"mass": Estimate(0.008, 1e-4, "kg"), "x": Estimate(0.25, np.nan, "m")})
-SPOT = FoundEffect("spot_offset", {"dx": Estimate(0.004, 2e-5, "m")})
-HUM = FoundEffect("mains_hum", {"amplitude": Estimate(1e-4, 1e-5, "m/s")})
+MASS = FoundEffect(
+    "added_mass", {"mass": ParameterEstimate(0.008, 1e-4, "kg"), "x": ParameterEstimate(0.25, np.nan, "m")}
+)
+SPOT = FoundEffect("spot_offset", {"dx": ParameterEstimate(0.004, 2e-5, "m")})
+HUM = FoundEffect("mains_hum", {"amplitude": ParameterEstimate(1e-4, 1e-5, "m/s")})
 BEFORE, AFTER = 0.1 + 0.05j, 0.001 - 0.002j
 """Predicted over measured, less one."""
 

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from drivers.simulated.drive import DrivePiece
 from drivers.simulated.rig import SimulatedRig
-from drivers.simulated.sensors import Sensor
+from drivers.simulated.sensors import SimulatedSensor
 from drivers.simulated.world import Laser, Wiring, World
 from instrument.session.configuration import Experiment, read_whole_experiment
 from instrument.simulated_case import case_file
@@ -103,10 +103,10 @@ class FormulaBare:
 def formula_rig(folder: Path, *, sweep: str = SWEEP, hammer: bool = False, virtual: bool = True, **options):
     """The rig and an experiment on it."""
     inputs = {
-        1: Sensor("base_acceleration", 0.01, 1e-5, 10.0),
-        2: Sensor("laser", 1.0, 1e-3, 10.0),
-        3: Sensor("force", 0.02, 1e-5, 10.0),
-        4: Sensor("response_acceleration", 0.005, 1e-5, 10.0),
+        1: SimulatedSensor("base_acceleration", 0.01, 1e-5, 10.0),
+        2: SimulatedSensor("laser", 1.0, 1e-3, 10.0),
+        3: SimulatedSensor("force", 0.02, 1e-5, 10.0),
+        4: SimulatedSensor("response_acceleration", 0.005, 1e-5, 10.0),
     }
     world = World(
         {"damped": FormulaPlate(), "bare": FormulaBare()}, Wiring(inputs), Laser(5e-3, 10.0, 1.1e-3), virtual

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from instrument.impact.record import Channel, Hit
+from instrument.impact.record import Hit, ResponseChannel
 
 TABLE_3 = np.array([0.29, 0.13, 0.18, 0.21, 0.11, 0.07, 0.09, 0.04]) / 100
 BARE_HZ = np.array([17.714, 59.845, 110.122, 201.879, 275.142, 316.218, 411.675, 438.027])
@@ -31,7 +31,7 @@ def clean_hit(
 
 
 def hit_of(force, response, source="hit", motion="acceleration", rate=RATE):
-    return Hit(source, rate, force, (Channel("acceleration_m_s2", motion, response),))
+    return Hit(source, rate, force, (ResponseChannel("acceleration_m_s2", motion, response),))
 
 
 def noisy_hits(clean, rng, count=3, noise=0.002):

@@ -18,8 +18,8 @@ from instrument.files.records import Named, read_records
 from instrument.files.toml import one_line
 from instrument.impact.damping import damping_of_frfs, damping_of_hits
 from instrument.impact.judge import judge
-from instrument.impact.record import Channel
 from instrument.impact.record import Hit as Record
+from instrument.impact.record import ResponseChannel
 from instrument.impact.result import damping_from
 from instrument.impact.spectra import Estimator
 from viscorig.checked import numbers
@@ -51,7 +51,7 @@ class Hit:
         """As records are read from files. Raises `BadInput` without a motion, or where lengths differ."""
         force = numbers(f"{self.name}: force_n", self.force_n, float)
         channels = tuple(
-            Channel(column, motion, numbers(f"{self.name}: {column}", samples, float, len(force)))
+            ResponseChannel(column, motion, numbers(f"{self.name}: {column}", samples, float, len(force)))
             for column, motion in MOTIONS.items()
             if (samples := getattr(self, column)) is not None
         )

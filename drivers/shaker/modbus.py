@@ -9,8 +9,8 @@ from drivers.errors import DriverError, Garbled, Refused, TimedOut
 from drivers.shaker.interface import Alarm, Echo, ShakerStatus
 from drivers.shaker.modbus_line import ModbusLine
 from drivers.shaker.protocol import (
-    Command,
     Identity,
+    SineCommand,
     Value,
     decode_echo,
     decode_identity,
@@ -21,7 +21,7 @@ from drivers.shaker.protocol import (
     heartbeat_timeout_objection,
     next_sequence,
 )
-from drivers.shaker.register_map import COMMAND, DEFAULT, ECHO, IDENTITY, STATUS, Control, RegisterMap
+from drivers.shaker.register_map import COMMAND, DEFAULT, ECHO, IDENTITY, STATUS, ControlBits, RegisterMap
 
 ECHO_TIMEOUT_S = 1.0
 """How long a command may take to be taken by the device."""
@@ -93,7 +93,7 @@ class ModbusShaker:
         why = _forbids_start(self.status())
         if why:
             raise Refused(f"shaker at {self._line.where} does not start: {why}")
-        self._control(Control.RUN)
+        self._control(ControlBits.RUN)
 
     def command(self, frequency_hz: float, drive_v: float, ramp_v_s: float) -> Echo:
         """A new sine, phase continuous; the amplitude goes there at `ramp_v_s`.
@@ -110,7 +110,9 @@ class ModbusShaker:
         with self._commanding:
             sequence = self._next_sequence()
             with self._naming():
-                words = encode_command(self._registers, Command(frequency_hz, drive_v, ramp_v_s, sequence))
+                words = encode_command(
+                    self._registers, SineCommand(frequency_hz, drive_v, ramp_v_s, sequence)
+                )
             (span,) = self._registers.spans(COMMAND)
             try:
                 self._line.write("command", span.address, words)
@@ -120,7 +122,7 @@ class ModbusShaker:
 
     def stop(self) -> None:
         """Ramp to zero and disallow output. Works in any state, also twice."""
-        self._control(Control(0))
+        self._control(ControlBits(0))
 
     def beat(self) -> None:
         """The heartbeat: a number that differs from the one before."""
@@ -141,7 +143,7 @@ class ModbusShaker:
         if self.status().alarm is Alarm.NONE:
             return
         try:
-            self._control(Control.RESET_ALARM)
+            self._control(ControlBits.RESET_ALARM)
         except Refused as refusal:
             raise self._explained(refusal) from refusal
 
@@ -191,7 +193,7 @@ class ModbusShaker:
         with self._naming():
             return decode_echo(values)
 
-    def _control(self, word: Control) -> None:
+    def _control(self, word: ControlBits) -> None:
         self._write("control", int(word))
 
     def _write(self, name: str, value: Value) -> None:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from drivers.errors import Garbled, Refused
 from drivers.shaker.interface import Alarm, Echo, ShakerStatus
-from drivers.shaker.register_map import COMMAND, MAP_VERSION, Register, RegisterMap, Span, StatusBit
+from drivers.shaker.register_map import COMMAND, MAP_VERSION, Register, RegisterMap, RegisterRun, StatusBit
 
 Value = int | float | str
 
@@ -25,7 +25,7 @@ _FORMATS = {"uint16": ">H", "uint32": ">I", "uint64": ">Q", "float32": ">f"}
 
 
 @dataclass(frozen=True)
-class Command:
+class SineCommand:
     """A sine asked for."""
 
     frequency_hz: float
@@ -82,12 +82,12 @@ def decode(register: Register, words: Sequence[int]) -> Value:
     return value
 
 
-def encode_span(registers: RegisterMap, span: Span, values: Mapping[str, Value]) -> list[int]:
+def encode_span(registers: RegisterMap, span: RegisterRun, values: Mapping[str, Value]) -> list[int]:
     """Several quantities in a row."""
     return [word for name in span.names for word in encode(registers[name], values[name])]
 
 
-def decode_span(registers: RegisterMap, span: Span, words: Sequence[int]) -> dict[str, Value]:
+def decode_span(registers: RegisterMap, span: RegisterRun, words: Sequence[int]) -> dict[str, Value]:
     """Several quantities in a row; raises `Garbled` as `decode` does."""
     if len(words) != span.width:
         raise Garbled(f"{span.width} registers from {span.address} expected, {len(words)} came")
@@ -95,7 +95,7 @@ def decode_span(registers: RegisterMap, span: Span, words: Sequence[int]) -> dic
     return {n: decode(registers[n], words[k : k + registers[n].width]) for n, k in offsets.items()}
 
 
-def encode_command(registers: RegisterMap, command: Command) -> list[int]:
+def encode_command(registers: RegisterMap, command: SineCommand) -> list[int]:
     """The command block, written whole.
 
     Raises
@@ -111,12 +111,12 @@ def encode_command(registers: RegisterMap, command: Command) -> list[int]:
     return encode_span(registers, span, dict(zip(COMMAND, values, strict=True)))
 
 
-def decode_command(registers: RegisterMap, words: Sequence[int]) -> Command:
+def decode_command(registers: RegisterMap, words: Sequence[int]) -> SineCommand:
     """What the device is asked; raises `Garbled` where no sine can follow from it."""
     (span,) = registers.spans(COMMAND)
     values = decode_span(registers, span, words)
     frequency, drive, ramp, sequence = (values[name] for name in COMMAND)
-    command = Command(float(frequency), float(drive), float(ramp), int(sequence))
+    command = SineCommand(float(frequency), float(drive), float(ramp), int(sequence))
     objection = _objection(command)
     if objection:
         raise Garbled(f"command: {objection}")
@@ -205,7 +205,7 @@ def heartbeat_timeout_objection(timeout_s: float) -> str | None:
     return _outside("heartbeat_timeout_s", timeout_s, *HEARTBEAT_TIMEOUT_S)
 
 
-def _objection(command: Command) -> str | None:
+def _objection(command: SineCommand) -> str | None:
     return (
         _outside("frequency_hz", command.frequency_hz, *FREQUENCY_HZ)
         or _outside("drive_v", command.drive_v, 0.0, HIGHEST_DRIVE_V)

@@ -17,7 +17,7 @@ Kind = Literal["uint16", "uint32", "uint64", "float32", "string"]
 _WIDTH: dict[Kind, int] = {"uint16": 1, "uint32": 2, "uint64": 4, "float32": 2}
 
 
-class Control(IntFlag):
+class ControlBits(IntFlag):
     """Bits of the control word. A word without RUN stops."""
 
     RUN = 1
@@ -59,7 +59,7 @@ class Register:
 
 
 @dataclass(frozen=True)
-class Span:
+class RegisterRun:
     """Registers in a row that one transaction carries."""
 
     address: int
@@ -116,15 +116,15 @@ class RegisterMap:
         moved = (replace(r, address=addresses.get(r.name, r.address)) for r in self.registers)
         return RegisterMap(tuple(moved))
 
-    def spans(self, names: tuple[str, ...]) -> tuple[Span, ...]:
+    def spans(self, names: tuple[str, ...]) -> tuple[RegisterRun, ...]:
         """The fewest transactions that carry these and nothing else, lowest address first."""
-        found: list[Span] = []
+        found: list[RegisterRun] = []
         for r in sorted((self[name] for name in names), key=lambda r: r.address):
             last = found[-1] if found else None
             if last and last.address + last.width == r.address and last.width + r.width <= MAX_SPAN:
-                found[-1] = Span(last.address, (*last.names, r.name), last.width + r.width)
+                found[-1] = RegisterRun(last.address, (*last.names, r.name), last.width + r.width)
             else:
-                found.append(Span(r.address, (r.name,), r.width))
+                found.append(RegisterRun(r.address, (r.name,), r.width))
         return tuple(found)
 
     def _refuse_out_of_range(self) -> None:

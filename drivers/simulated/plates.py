@@ -43,7 +43,7 @@ class DampedPlate:
         return np.asarray(AMBIENT_C + drift.kelvin * (1 - np.exp(-t / drift.time_constant_s)))
 
 
-class BarePlate:
+class SimulatedBarePlate:
     """The plate before its treatment, struck by a hammer that now and then bounces."""
 
     def __init__(self, effects: Effects, *, sensor_mass_kg: float, double_hit_every: int, seed: int) -> None:

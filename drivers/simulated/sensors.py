@@ -16,7 +16,7 @@ _THIRD_HARMONIC = 0.3
 
 
 @dataclass(frozen=True)
-class Sensor:
+class SimulatedSensor:
     """What hangs on an input."""
 
     quantity: str
@@ -40,7 +40,9 @@ class Converted:
 class Input:
     """One input of the front-end: its own noise, the same whatever the blocks are cut into."""
 
-    def __init__(self, sensor: Sensor, full_scale_v: float, range_v: float, seed: tuple[int, ...]) -> None:
+    def __init__(
+        self, sensor: SimulatedSensor, full_scale_v: float, range_v: float, seed: tuple[int, ...]
+    ) -> None:
         self.sensor = sensor
         self._full_scale_v, self._range_v = full_scale_v, range_v
         self._random = np.random.default_rng(seed)

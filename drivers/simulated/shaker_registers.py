@@ -16,7 +16,7 @@ from drivers.shaker.protocol import (
     encode_identity,
     encode_status,
 )
-from drivers.shaker.register_map import COMMAND, Control, Register, RegisterMap
+from drivers.shaker.register_map import COMMAND, ControlBits, Register, RegisterMap
 from drivers.simulated.shaker_device import ShakerDevice
 
 Clock = Callable[[], tuple[int, float]]
@@ -44,7 +44,7 @@ class DeviceRegisters:
             **encode_status(status),
             **encode_echo(self._echo),
             **encode_identity(self._device.identity),
-            "control": int(Control.RUN if status.running else Control(0)),
+            "control": int(ControlBits.RUN if status.running else ControlBits(0)),
             "heartbeat": self._heartbeat,
             "heartbeat_timeout_s": self._device.heartbeat_timeout_s,
         }
@@ -99,11 +99,11 @@ class DeviceRegisters:
     def _control(self, word: int) -> None:
         now_s, wall_s = self._clock()[1], self._wall()
         match word:
-            case Control.RUN:
+            case ControlBits.RUN:
                 self._device.start(now_s, wall_s)
             case 0:
                 self._device.stop(now_s, wall_s)
-            case Control.RESET_ALARM:
+            case ControlBits.RESET_ALARM:
                 self._device.stop(now_s, wall_s)
                 self._device.reset_alarm(now_s, wall_s)
             case _:

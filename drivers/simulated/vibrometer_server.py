@@ -20,7 +20,7 @@ from drivers.errors import Garbled
 from drivers.vibrometer import polytec
 from drivers.vibrometer.interface import Range
 from drivers.vibrometer.models import MODELS, Model
-from drivers.vibrometer.polytec import Command
+from drivers.vibrometer.polytec import PolytecCommand
 
 DECODER = 1
 """Index of the velocity decoder; index 0 is an empty slot, as in many real controllers."""
@@ -172,7 +172,7 @@ class VibrometerServer:
             return ("OK" if accepted else "Error") if self._acknowledge else None
         return self._value(command) or polytec.NOT_AVAILABLE
 
-    def _set(self, command: Command) -> bool:
+    def _set(self, command: PolytecCommand) -> bool:
         place, value = (command.device.lower(), command.index, command.item.lower()), command.value or ""
         if place == ("velodec", DECODER, "range"):
             return self._set_range(value)
@@ -200,7 +200,7 @@ class VibrometerServer:
                 self.head.on_range(found)
         return True
 
-    def _value(self, command: Command) -> str | None:
+    def _value(self, command: PolytecCommand) -> str | None:
         head, model = self.head, self._model
         asked = (command.verb, command.device.lower(), command.index, command.item.lower())
         texts: dict[tuple[str, str, int, str], Callable[[], str]] = {

@@ -17,16 +17,16 @@ from drivers.errors import Refused
 from drivers.front_end.lan_xi_documents import HEADROOM
 from drivers.simulated.drive import DrivePiece
 from drivers.simulated.lan_xi_measurement import Acquired
-from drivers.simulated.sensors import Converted, Input, Sensor, hum
+from drivers.simulated.sensors import Converted, Input, SimulatedSensor, hum
 
 _UNATTENDED_S = 0.1
 """Nobody asking for samples for so long, a shaker on its way to rest goes there by itself."""
 _TICK_S = 0.01
-_NOTHING = Sensor("nothing", 0.0, 5e-6, 10.0)
+_NOTHING = SimulatedSensor("nothing", 0.0, 5e-6, 10.0)
 """An input with nothing on it."""
 
 
-class Plate(Protocol):
+class MountedPlate(Protocol):
     """What is mounted: driven, and asked what it does at uniform times."""
 
     def drive(self, piece: DrivePiece) -> None:
@@ -42,7 +42,7 @@ class Plate(Protocol):
 class Wiring:
     """What is on the inputs, and how well."""
 
-    inputs: dict[int, Sensor]
+    inputs: dict[int, SimulatedSensor]
     """By number."""
     skew_samples: float = 0.0
     """By which each input is sampled before its left neighbour."""
@@ -70,7 +70,7 @@ class Laser:
 class World:
     """Everything physical about the rig."""
 
-    plates: dict[str, Plate]
+    plates: dict[str, MountedPlate]
     """By name: damped, bare."""
     wiring: Wiring
     laser: Laser
@@ -197,7 +197,7 @@ class World:
 
     # Samples
 
-    def _on(self, number: int) -> Sensor:
+    def _on(self, number: int) -> SimulatedSensor:
         return self.wiring.inputs.get(number, _NOTHING)
 
     def _make(self, count: int) -> Acquired:

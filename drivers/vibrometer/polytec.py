@@ -39,7 +39,7 @@ _REFUSALS = ("error", "not available", "not installed", "invalid", "unknown")
 
 
 @dataclass(frozen=True)
-class Command:
+class PolytecCommand:
     """One line to the device."""
 
     verb: str
@@ -55,22 +55,22 @@ class Command:
         return ",".join(words if self.value is None else [*words, self.value])
 
 
-def info(device: str, index: int, item: str) -> Command:
+def info(device: str, index: int, item: str) -> PolytecCommand:
     """Ask for an identity or for what there is to choose from."""
-    return Command("GetDevInfo", device, index, item)
+    return PolytecCommand("GetDevInfo", device, index, item)
 
 
-def get(device: str, index: int, item: str) -> Command:
+def get(device: str, index: int, item: str) -> PolytecCommand:
     """Ask for the present value."""
-    return Command("Get", device, index, item)
+    return PolytecCommand("Get", device, index, item)
 
 
-def put(device: str, index: int, item: str, value: str) -> Command:
+def put(device: str, index: int, item: str, value: str) -> PolytecCommand:
     """Change a value."""
-    return Command("Set", device, index, item, value)
+    return PolytecCommand("Set", device, index, item, value)
 
 
-def encode(command: Command) -> bytes:
+def encode(command: PolytecCommand) -> bytes:
     """The line as sent."""
     return f"{command}\r\n".encode("ascii")
 
@@ -80,14 +80,14 @@ def decode(line: bytes) -> str:
     return line.decode("utf-8", errors="replace").strip()
 
 
-def parse_command(text: str) -> Command:
+def parse_command(text: str) -> PolytecCommand:
     """A line as the device reads it: case and blanks do not matter. Raises `Garbled`."""
     words = [word.strip() for word in text.split(",", maxsplit=4)]
     verb = next((v for v in _VERBS if words[0].lower() == v.lower()), None)
     wanted = 5 if verb == "Set" else 4
     if verb is None or len(words) != wanted or not words[2].isdecimal():
         raise Garbled(f"{text!r}: expected GetDevInfo, Get or Set, a device, an index, an item")
-    return Command(verb, words[1], int(words[2]), words[3], words[4] if verb == "Set" else None)
+    return PolytecCommand(verb, words[1], int(words[2]), words[3], words[4] if verb == "Set" else None)
 
 
 def parse_text(reply: str) -> str:

@@ -157,7 +157,7 @@ class PolytecVibrometer:
             "name the model in the rig file"
         )
 
-    def _ask(self, command: polytec.Command, parse: Callable[[str], T]) -> T:
+    def _ask(self, command: polytec.PolytecCommand, parse: Callable[[str], T]) -> T:
         """The answer, asked for again where it is missing or makes no sense."""
 
         def attempt() -> T:
@@ -165,7 +165,7 @@ class PolytecVibrometer:
 
         return self._try(command, attempt)
 
-    def _set(self, command: polytec.Command) -> None:
+    def _set(self, command: polytec.PolytecCommand) -> None:
         def attempt() -> None:
             # Without an acknowledge the setting may have been taken all the same: reading it back decides.
             with suppress(TimedOut, Garbled):
@@ -173,7 +173,7 @@ class PolytecVibrometer:
 
         self._try(command, attempt)
 
-    def _try(self, command: polytec.Command, attempt: Callable[[], T]) -> T:
+    def _try(self, command: polytec.PolytecCommand, attempt: Callable[[], T]) -> T:
         with self._lock:
             if self._closed:
                 raise Unreachable(f"{self._me}: {command}: the driver was closed")
@@ -210,7 +210,7 @@ class PolytecVibrometer:
                     ) from error
                 time.sleep(_REOPEN_S)
 
-    def _exchange(self, command: polytec.Command) -> str:
+    def _exchange(self, command: polytec.PolytecCommand) -> str:
         """One line out, one line in. Whatever lay in the line before is no answer to this."""
         port = self._open_port()
         self._received.clear()

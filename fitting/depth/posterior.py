@@ -89,7 +89,7 @@ def sample(
     at = np.clip(at, 0.5 * (mean + low), 0.5 * (mean + high))
     done = 0
     for count in (burn, burn, steps):
-        moves = [(emcee.moves.MHMove(_Step(mean, _WIDER * root, b)), share) for b, share in _STEPS]
+        moves = [(emcee.moves.MHMove(_WalkerStep(mean, _WIDER * root, b)), share) for b, share in _STEPS]
         sampler = emcee.EnsembleSampler(walkers, dimension, log_density, moves=moves, vectorize=True)
         sampler.random_state = np.random.RandomState(int(rng.integers(2**31))).get_state()
         for _ in sampler.sample(at, iterations=count, skip_initial_state_check=True):
@@ -124,7 +124,7 @@ def sample(
 
 
 @dataclass(frozen=True)
-class _Step:
+class _WalkerStep:
     """X' = m + sqrt(1 - b^2) (x - m) + b root xi, reversible for the Gaussian about m."""
 
     mode: Array

@@ -14,7 +14,7 @@ from fitting.diagnosis.candidates import polished
 from fitting.diagnosis.evidence import BareModes, Evidence
 from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import ROUGH, Fitted, refit
+from fitting.diagnosis.refit import ROUGH, Refitted, refit
 from fitting.diagnosis.responses import response_of
 from fitting.identification.direct import fit_direct
 from fitting.identification.fit import Fit
@@ -38,7 +38,7 @@ class Begun:
     problem: DiagnosisProblem
     """Its grids made for the law found."""
     evidence: Evidence
-    none: Fitted
+    none: Refitted
     first: Fit
     """By the law alone, the plate as stated: how the start was found."""
 

@@ -11,7 +11,7 @@ from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.prediction import held_out
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import ROUGH, Fitted, kept, refit
+from fitting.diagnosis.refit import ROUGH, Refitted, kept, refit
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
@@ -24,11 +24,11 @@ State = list[Known]
 
 
 @dataclass(frozen=True)
-class Begun:
+class FirstLook:
     """A first look at an effect."""
 
     name: str
-    fits: list[Fitted]
+    fits: list[Refitted]
     state: State
 
 
@@ -36,7 +36,7 @@ class CandidateFits:
     """Fits of one set of data with one or two effects more than `none`."""
 
     def __init__(
-        self, problem: DiagnosisProblem, evidence: Evidence, none: Fitted, effects: Sequence[Effect]
+        self, problem: DiagnosisProblem, evidence: Evidence, none: Refitted, effects: Sequence[Effect]
     ) -> None:
         self.problem, self.evidence, self.none = problem, evidence, none
         self.effects = {e.name: e for e in effects}
@@ -58,11 +58,11 @@ class CandidateFits:
         for candidate, known in zip(self.candidates[name], state, strict=True):
             candidate.learn(known)
 
-    def held_out(self, fitted: Fitted) -> Validation:
+    def held_out(self, fitted: Refitted) -> Validation:
         """What a fit says of data it has not seen."""
         return held_out(self.problem, self.evidence, fitted)
 
-    def other_laws(self, effect: Effect) -> list[Fitted]:
+    def other_laws(self, effect: Effect) -> list[Refitted]:
         """Fits with each of the laws that an effect has in the place of the stated one."""
         response = response_of(self.problem, [*self.none.effects, effect])
         coarse = response_of(self.problem, [*self.none.effects, effect], self.problem.coarse)
@@ -83,27 +83,27 @@ class CandidateFits:
         """Chi-square that an effect may gain by one linear step."""
         return max((c.promise for c in self.candidates[name]), default=0.0)
 
-    def begun(self, one: tuple[str, State]) -> "Begun":
+    def begun(self, one: tuple[str, State]) -> "FirstLook":
         """An effect's rough fits near by, or its other laws in the place of the stated one."""
         name, state = one
         if self.effects[name].laws(self.none.law, self.problem.points):
-            return Begun(name, self.other_laws(self.effects[name]), [])
+            return FirstLook(name, self.other_laws(self.effects[name]), [])
         self.learn(name, state)
         fits = [f for candidate in self.candidates[name] for f in candidate.near]
-        return Begun(name, fits, self.state(name))
+        return FirstLook(name, fits, self.state(name))
 
-    def beside_the_best(self, one: tuple[str, State, Fitted]) -> "Begun":
+    def beside_the_best(self, one: tuple[str, State, Refitted]) -> "FirstLook":
         """The same, where another effect explains everything: from its law, if it can do the same there."""
         name, state, best = one
         if self.effects[name].laws(self.none.law, self.problem.points):
-            return Begun(name, self.other_laws(self.effects[name]), [])
+            return FirstLook(name, self.other_laws(self.effects[name]), [])
         self.learn(name, state)
         bare = kept(response_of(self.problem, ()), self.evidence, best.law, best.z)
         there = [self._beside(bare, c.effect) for c in self.candidates[name]]
         for candidate, from_there in zip(self.candidates[name], there, strict=True):
             able = from_there.is_open or from_there.promise > SEARCH.able * (bare.chi2 - best.chi2)
             candidate.learn(Known(near=from_there.near if able else candidate.briefly()))
-        return Begun(name, [f for c in self.candidates[name] for f in c.near], self.state(name))
+        return FirstLook(name, [f for c in self.candidates[name] for f in c.near], self.state(name))
 
     def plain(self, one: tuple[str, State]) -> State:
         """Fits of the first variant from plain starts."""
@@ -112,17 +112,17 @@ class CandidateFits:
         _ = self.candidates[name][0].plain
         return self.state(name)
 
-    def best_near(self, name: str) -> list[tuple[Form, Fitted]]:
+    def best_near(self, name: str) -> list[tuple[Form, Refitted]]:
         """The best of an effect's rough fits, or none."""
         fits = [((name, k), f) for k, c in enumerate(self.candidates[name]) for f in c.near]
         return sorted(fits, key=lambda one: one[1].chi2)[:1]
 
-    def finished(self, one: tuple[Form, Fitted]) -> Fitted:
+    def finished(self, one: tuple[Form, Refitted]) -> Refitted:
         """A rough fit followed to the end."""
         (name, number), rough = one
         return self.candidates[name][number].finished(rough)
 
-    def thorough(self, one: tuple[str, State, bool]) -> list[Fitted]:
+    def thorough(self, one: tuple[str, State, bool]) -> list[Refitted]:
         """Further starts, the best of them followed to the end, but for the one that has been.
 
         With far ones, where the law so far is no place to begin.
@@ -136,43 +136,43 @@ class CandidateFits:
         far = _best_first([(c, f) for c in candidates for f in c.far])[: SEARCH.finished] if astray else []
         return [c.finished(f) for c, f in [*near, *far]]
 
-    def everywhere(self, one: tuple[str, State]) -> list[Fitted]:
+    def everywhere(self, one: tuple[str, State]) -> list[Refitted]:
         """From starts not followed so far; the best to the end."""
         name, state = one
         self.learn(name, state)
         fits = [(c, f) for c in self.candidates[name] for f in [*c.elsewhere, *c.everywhere]]
         return [c.finished(f) for c, f in _best_first(fits)[: SEARCH.finished]]
 
-    def look(self, one: tuple[Fitted, Form]) -> list[Start]:
+    def look(self, one: tuple[Refitted, Form]) -> list[Start]:
         """Starts of a second effect beside a fit."""
         before, form = one
         return look(self.problem, self.evidence, before, self.form(form))
 
-    def second(self, one: tuple[Fitted, Form, list[Start]]) -> Fitted | None:
+    def second(self, one: tuple[Refitted, Form, list[Start]]) -> Refitted | None:
         """A second effect beside a fit, from the starts that a look has found."""
         before, form, starts = one
         candidate = self._beside(before, self.form(form), starts)
         return candidate.finished(candidate.near[0]) if candidate.near else None
 
-    def alone(self, one: tuple[Fitted, Effect]) -> Fitted:
+    def alone(self, one: tuple[Refitted, Effect]) -> Refitted:
         """One effect of a pair as the pair has it, law and all, the other one taken away."""
         pair, effect = one
         response = response_of(self.problem, [effect])
         u = np.concatenate([pair.z, pair.of(effect)])
         return kept(response, self.evidence, pair.law, u)
 
-    def roughly(self, one: tuple[str, State, Form]) -> list[Fitted]:
+    def roughly(self, one: tuple[str, State, Form]) -> list[Refitted]:
         """A second effect beside another in wide valleys, then roughly."""
         name, state, form = one
         self.learn(name, state)
         before = self.candidates[name][0].plain[0]
         return self._beside(before, self.form(form)).quick
 
-    def ended(self, rough: Fitted) -> Fitted:
+    def ended(self, rough: Refitted) -> Refitted:
         """A rough fit followed to the end."""
         return polished(self.problem, rough.effects, self.evidence, rough.law, rough.u)
 
-    def together(self, one: tuple[Fitted, dict[str, State]]) -> list[Fitted]:
+    def together(self, one: tuple[Refitted, dict[str, State]]) -> list[Refitted]:
         """A pair again, each of its effects beside the other fitted alone, in wide valleys."""
         pair, states = one
         for name, state in states.items():
@@ -185,9 +185,9 @@ class CandidateFits:
                 found += [c.finished(f) for c in [self._beside(rough, second)] for f in c.far[:1]]
         return found
 
-    def _beside(self, before: Fitted, effect: Effect, starts: list[Start] | None = None) -> CandidateFit:
+    def _beside(self, before: Refitted, effect: Effect, starts: list[Start] | None = None) -> CandidateFit:
         return CandidateFit(self.problem, self.evidence, before, effect, starts)
 
 
-def _best_first(fits: list[tuple[CandidateFit, Fitted]]) -> list[tuple[CandidateFit, Fitted]]:
+def _best_first(fits: list[tuple[CandidateFit, Refitted]]) -> list[tuple[CandidateFit, Refitted]]:
     return sorted(fits, key=lambda one: one[1].chi2)

@@ -10,8 +10,8 @@ from fitting.arrays import Array, Complex
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import ROUGH, Fitted, refit
-from fitting.diagnosis.response import Response
+from fitting.diagnosis.refit import ROUGH, Refitted, refit
+from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
@@ -24,7 +24,7 @@ _ROUNDS = 3
 _FAR = 0.02
 
 
-def look(problem: DiagnosisProblem, evidence: Evidence, before: Fitted, effect: Effect) -> list[Start]:
+def look(problem: DiagnosisProblem, evidence: Evidence, before: Refitted, effect: Effect) -> list[Start]:
     """Starts of an effect, scaled by a linear step, with the chi-square each may gain; best first."""
     response = response_of(problem, [*before.effects, effect], problem.coarse)
     plain = response_of(problem, before.effects, problem.coarse)
@@ -56,7 +56,9 @@ def look(problem: DiagnosisProblem, evidence: Evidence, before: Fitted, effect: 
     return sorted(found, key=lambda f: -f[0])
 
 
-def _moves(response: Response, law: CoreLaw, known: Array, starts: Sequence[Array], v: Complex) -> Complex:
+def _moves(
+    response: SweepResponse, law: CoreLaw, known: Array, starts: Sequence[Array], v: Complex
+) -> Complex:
     """How the phasors move from `v` as the last effect comes in from each start. Shape (starts, points)."""
     effect = response.effects[-1]
     if has_place(effect) and type(effect).change is not Effect.change:
@@ -71,10 +73,10 @@ class Known:
     """What a contender has found so far; None where nobody has asked."""
 
     starts: Sequence[Start] | None = None
-    near: list[Fitted] | None = None
-    elsewhere: list[Fitted] | None = None
-    plain: list[Fitted] | None = None
-    far: list[Fitted] | None = None
+    near: list[Refitted] | None = None
+    elsewhere: list[Refitted] | None = None
+    plain: list[Refitted] | None = None
+    far: list[Refitted] | None = None
 
 
 class CandidateFit:
@@ -84,7 +86,7 @@ class CandidateFit:
         self,
         problem: DiagnosisProblem,
         evidence: Evidence,
-        before: Fitted,
+        before: Refitted,
         effect: Effect,
         starts: Sequence[Start] | None = None,
     ) -> None:
@@ -111,12 +113,12 @@ class CandidateFit:
         return self._known.starts
 
     @cached_property
-    def _response(self) -> Response:
+    def _response(self) -> SweepResponse:
         return response_of(self.problem, [*self.before.effects, self.effect], self.problem.coarse)
 
     def _rough(
         self, law: CoreLaw, u: Array, evidence: Evidence, *, as_stated: bool = False, brief: bool = False
-    ) -> Fitted:
+    ) -> Refitted:
         known = self.before.u.copy()
         if as_stated:
             # Without the effect the stated numbers may have been moved to do its work.
@@ -125,7 +127,7 @@ class CandidateFit:
         return refit(self._response, evidence, law, start, tolerance=ROUGH, brief=brief)
 
     @property
-    def near(self) -> list[Fitted]:
+    def near(self) -> list[Refitted]:
         """Rough fits from the law so far and the starts that promise most; best first."""
         if self._known.near is None:
             starts = enumerate(self.starts[: self._first])
@@ -146,19 +148,19 @@ class CandidateFit:
         starts = self.starts[:1] if has_place(self.effect) else self.starts
         return any(promise == 0 for promise, _ in starts)
 
-    def briefly(self) -> list[Fitted]:
+    def briefly(self) -> list[Refitted]:
         """A few steps from the best start: where the effect cannot be what is looked for."""
         return [self._rough(self.before.law, u, self.evidence, brief=True) for _, u in self.starts[:1]]
 
     @property
-    def elsewhere(self) -> list[Fitted]:
+    def elsewhere(self) -> list[Refitted]:
         """The same from some more starts of an effect whose place is to be found: valleys are many."""
         if self._known.elsewhere is None:
             self._known.elsewhere = self._from(self.starts[self._first : self._first + self._more])
         return self._known.elsewhere
 
     @cached_property
-    def everywhere(self) -> list[Fitted]:
+    def everywhere(self) -> list[Refitted]:
         """The same from those that are left."""
         followed = self._first + self._more
         return self._from(self.starts[followed : followed + SEARCH.most_places])
@@ -179,11 +181,11 @@ class CandidateFit:
     def _more(self) -> int:
         return SEARCH.more_places if has_place(self.effect) else 0
 
-    def _from(self, starts: Sequence[Start]) -> list[Fitted]:
+    def _from(self, starts: Sequence[Start]) -> list[Refitted]:
         fits = [self._followed(promise, u) for promise, u in starts]
         return sorted(fits, key=_chi2)
 
-    def _followed(self, promise: float, u: Array) -> Fitted:
+    def _followed(self, promise: float, u: Array) -> Refitted:
         if 0 < promise < SEARCH.least_promise:
             brief = self._rough(self.before.law, u, self.evidence, brief=True)
             if brief.converged or abs(self.before.chi2 - brief.chi2) < SEARCH.least_gain:
@@ -191,14 +193,14 @@ class CandidateFit:
         return self._rough(self.before.law, u, self.evidence)
 
     @property
-    def plain(self) -> list[Fitted]:
+    def plain(self) -> list[Refitted]:
         """Rough fits in wide valleys from the first start, from the law so far and the stated one."""
         if self._known.plain is None:
             self._known.plain = self._wide(self.effect.starts(self.problem.plate, self.problem.points)[0])
         return self._known.plain
 
     @cached_property
-    def quick(self) -> list[Fitted]:
+    def quick(self) -> list[Refitted]:
         """One rough fit, begun in a wide valley from the better of the first and the most promising start."""
         first = self.effect.starts(self.problem.plate, self.problem.points)[:1]
         blunt, starts = self.evidence.blunt(), [*first, *(u for _, u in self.starts[:1])]
@@ -207,7 +209,7 @@ class CandidateFit:
         return [refit(self._response, self.evidence, wide.law, wide.u, tolerance=ROUGH)]
 
     @property
-    def far(self) -> list[Fitted]:
+    def far(self) -> list[Refitted]:
         """Those of `plain`, and from the start that promises most.
 
         A linear step from a wrong law may lead astray.
@@ -217,13 +219,13 @@ class CandidateFit:
             self._known.far = sorted([*self.plain, *begun], key=_chi2)
         return self._known.far
 
-    def _wide(self, u: Array) -> list[Fitted]:
+    def _wide(self, u: Array) -> list[Refitted]:
         blunt = self.evidence.blunt()
         laws = (self.before.law, bent_as(self.before.law, self.problem.stated_law))
         fits = [self._rough(law, u, blunt, as_stated=True) for law in laws]
         return sorted(fits, key=_chi2)
 
-    def finished(self, rough: Fitted) -> Fitted:
+    def finished(self, rough: Refitted) -> Refitted:
         """A rough fit followed to the end."""
         return polished(self.problem, rough.effects, self.evidence, rough.law, rough.u)
 
@@ -233,7 +235,7 @@ def bent_as(law: CoreLaw, other: CoreLaw) -> CoreLaw:
     return BentLaw.over(other, np.array(law.knots_hz), law.freedom) if isinstance(law, BentLaw) else other
 
 
-def _chi2(fitted: Fitted) -> float:
+def _chi2(fitted: Refitted) -> float:
     return fitted.chi2
 
 
@@ -244,7 +246,7 @@ def has_place(effect: Effect) -> bool:
 
 def polished(
     problem: DiagnosisProblem, effects: Sequence[Effect], evidence: Evidence, law: CoreLaw, u: Array
-) -> Fitted:
+) -> Refitted:
     """A fit to the end, its grid made for the law it starts from, and again where the law has moved far."""
     for _ in range(_ROUNDS):
         fitted = refit(response_of(problem.around(law), effects), evidence, law, u)

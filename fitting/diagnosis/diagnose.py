@@ -14,7 +14,7 @@ from fitting.diagnosis.pairs import Pairs
 from fitting.diagnosis.prediction import over_noise
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.resampling import Again, Resampled, gain, resampled_of
-from fitting.diagnosis.result import Candidate, Diagnosis, Estimate, FoundEffect
+from fitting.diagnosis.result import Candidate, Diagnosis, FoundEffect, ParameterEstimate
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.singles import Singles
 from fitting.diagnosis.stage import few_of_law, found_effects, mixed_band, stage_of
@@ -40,7 +40,7 @@ def seen_in_channels(sweep: Sweep, effects: Sequence[Effect]) -> tuple[Mask, tup
         seen = effect.seen(sweep, noise)
         if seen is not None:
             used &= ~seen.aside
-            found.append(FoundEffect(effect.name, {k: Estimate(*v) for k, v in seen.values.items()}))
+            found.append(FoundEffect(effect.name, {k: ParameterEstimate(*v) for k, v in seen.values.items()}))
     return used, tuple(found), noise if used.all() else noise_of(sweep.take(used))
 
 

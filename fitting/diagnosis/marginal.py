@@ -11,7 +11,7 @@ explanations share; the prior probability of the effects themselves is in it.
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.diagnosis.refit import Fitted
+from fitting.diagnosis.refit import Refitted
 from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 
@@ -21,7 +21,7 @@ _UNIFORM = 12.0
 """Variance of a uniform density is its width squared over this."""
 
 
-def cost(fitted: Fitted, plate: EnrichedReducedPlate) -> float:
+def cost(fitted: Refitted, plate: EnrichedReducedPlate) -> float:
     """-2 ln of prior times marginal likelihood. Where the noise is unknown its size is integrated too."""
     law_widths = fitted.law.search_widths
     priors = [_prior(q, lower, upper, u) for q, lower, upper, u in _free(fitted, plate)]
@@ -43,14 +43,14 @@ def cost(fitted: Fitted, plate: EnrichedReducedPlate) -> float:
     return _misfit(fitted) + paid + sum(_odds(e) for e in fitted.effects)
 
 
-def _misfit(fitted: Fitted) -> float:
+def _misfit(fitted: Refitted) -> float:
     if fitted.noise_known:
         return fitted.chi2
     priors = fitted.residuals[fitted.data :]
     return fitted.data * float(np.log(_mean_square(fitted))) + float(priors @ priors)
 
 
-def _mean_square(fitted: Fitted) -> float:
+def _mean_square(fitted: Refitted) -> float:
     """Of what the readings leave."""
     r = fitted.residuals[: fitted.data]
     return max(float(r @ r), 1e-300) / max(1, fitted.data)
@@ -61,7 +61,7 @@ def _odds(effect: Effect) -> float:
     return -2 * float(np.log(effect.chance / (1 - effect.chance)))
 
 
-def _free(fitted: Fitted, plate: EnrichedReducedPlate) -> list[tuple[EffectParameter, float, float, float]]:
+def _free(fitted: Refitted, plate: EnrichedReducedPlate) -> list[tuple[EffectParameter, float, float, float]]:
     """Every fitted unknown of the effects with its limits and where it is."""
     found, start = [], fitted.stated
     for effect in fitted.effects:

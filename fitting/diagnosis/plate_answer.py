@@ -33,7 +33,7 @@ class ModulusNear:
 
 
 @dataclass(frozen=True)
-class Answer:
+class PlateAnswer:
     """At every node; displacements per base acceleration (heave) or angular acceleration (pitch)."""
 
     heave: Complex
@@ -60,7 +60,7 @@ def answer(
     *,
     with_pitch: bool,
     nuisances: tuple[Nuisances, Array] | None = None,
-) -> Answer:
+) -> PlateAnswer:
     """Solve the nodes.
 
     `pole_node` has a node near every pole wanted, `modulus` what is near them; `nearby` for every unknown the
@@ -87,7 +87,7 @@ def answer(
         who, at = nuisances
         by_z = who.by_response(plate, omega, G, q, z, at)
         pitch_by_z = who.by_pitch(plate, omega, G, p, z, at) if p is not None else 0 * by_z
-    return Answer(
+    return PlateAnswer(
         heave=q @ observe + travel * change.travel,
         heave_by_G=-np.einsum("pi,pi->p", z, q @ K_1.T),
         pitch=p @ observe if p is not None else np.zeros(len(omega), complex),

@@ -5,13 +5,13 @@ import numpy as np
 from fitting.arrays import Array, Mask
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import Fitted, refit
+from fitting.diagnosis.refit import Refitted, refit
 from fitting.diagnosis.responses import response_of
 from fitting.identification.result import differences_percent
 from fitting.identification.validation import Validation, validate
 
 
-def held_out(problem: DiagnosisProblem, evidence: Evidence, fitted: Fitted) -> Validation:
+def held_out(problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted) -> Validation:
     """Every segment predicted by a law and effects fitted to the others; few points one by one."""
     size = np.abs(problem.sweep.response_m_s)
     response = response_of(problem.around(fitted.law), fitted.effects)

@@ -10,19 +10,19 @@ from scipy.stats import chi2 as chi2_of
 from scipy.stats import norm
 
 from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.refit import Fitted
+from fitting.diagnosis.refit import Refitted
 from fitting.diagnosis.structure import along_frequency
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.sweep import Sweep
 
 
-def form_error(none: Fitted, fitted: Fitted) -> float:
+def form_error(none: Refitted, fitted: Refitted) -> float:
     """Chi-square that the formulas of a fit's effects may leave."""
     share = max((max(VERDICT.formula_share, e.unexplained_share) for e in fitted.effects), default=0.0)
     return share * max(0.0, none.chi2 - fitted.chi2)
 
 
-def _allowed(none: Fitted, fitted: Fitted) -> float:
+def _allowed(none: Refitted, fitted: Refitted) -> float:
     """The same, of two effects as if the better known formula had explained all.
 
     What two loose formulas together come near to is no evidence for either.
@@ -31,12 +31,12 @@ def _allowed(none: Fitted, fitted: Fitted) -> float:
     return share * max(0.0, none.chi2 - fitted.chi2)
 
 
-def temper(none: Fitted, best: Fitted) -> float:
+def temper(none: Refitted, best: Refitted) -> float:
     """How much less a difference in chi-square says where what was explained is far above the noise."""
     return 1.0 + form_error(none, best) / VERDICT.formula_shapes
 
 
-def checks(sweep: Sweep, evidence: Evidence, none: Fitted, fitted: Fitted) -> Mapping[str, float]:
+def checks(sweep: Sweep, evidence: Evidence, none: Refitted, fitted: Refitted) -> Mapping[str, float]:
     """Tail probabilities by what was looked at. Empty where the noise is unknown."""
     if not evidence.scale_known:
         return {}

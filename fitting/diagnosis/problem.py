@@ -15,7 +15,7 @@ from fitting.identification.adjusted import Adjusted, adjusted
 from fitting.laws import CoreLaw
 from fitting.nuisances import Nuisances, nuisances_of
 from fitting.rational import RationalSweep
-from fitting.specimen import Specimen, Stated
+from fitting.specimen import Specimen, StatedSpecimen
 from fitting.sweep import Sweep
 
 DENSE, FINE, COARSE = 16, 10, 6
@@ -32,7 +32,7 @@ _SECONDS_A_POINT = 10.0
 
 
 @dataclass(frozen=True)
-class Grid:
+class NodeGrid:
     """Nodes and the unchanged plate's exact answer there."""
 
     nodes: Nodes
@@ -57,14 +57,14 @@ class DiagnosisProblem:
     """A sweep with the plate it was measured on."""
 
     sweep: Sweep
-    specimen: Stated
+    specimen: StatedSpecimen
     plate: EnrichedReducedPlate
     points: Points
     rational: RationalSweep
     """The unchanged plate's exact answer at every point."""
-    fine: Grid
-    coarse: Grid
-    passes: Grid
+    fine: NodeGrid
+    coarse: NodeGrid
+    passes: NodeGrid
     """Dense, every pass of a segment for itself."""
     dense: Nodes
     """For what has poles that are not taken out."""
@@ -94,7 +94,7 @@ class DiagnosisProblem:
         def at(some: Array) -> RationalSweep:
             return whole.at(np.searchsorted(omega, some * (1 - 1e-12)))
 
-        fine, coarse, passes = (Grid(g, at(g.omega)) for g in grids)
+        fine, coarse, passes = (NodeGrid(g, at(g.omega)) for g in grids)
         points, dense = points_of(sweep, specimen), Nodes.of(sweep.omega, DENSE)
         nuisances = nuisances_of(specimen, plate, has_phase=sweep.has_phase, reference=reference)
         return cls(sweep, specimen, plate, points, at(sweep.omega), fine, coarse, passes, dense, nuisances)
@@ -142,14 +142,14 @@ class DiagnosisProblem:
         """The same, its grids made for the poles that the plate has under a law."""
         found = PlatePoles(self.plate, law)
 
-        def made_for(grid: Grid) -> Grid:
+        def made_for(grid: NodeGrid) -> NodeGrid:
             return replace(grid, nodes=grid.nodes.around(found.near), poles=found)
 
         fine, coarse, passes = (made_for(g) for g in (self.fine, self.coarse, self.passes))
         return replace(self, fine=fine, coarse=coarse, passes=passes)
 
 
-def points_of(sweep: Sweep, specimen: Stated) -> Points:
+def points_of(sweep: Sweep, specimen: StatedSpecimen) -> Points:
     """What effects may ask of a sweep's points."""
     if sweep.time_s is not None:
         time = sweep.time_s - sweep.time_s.min()

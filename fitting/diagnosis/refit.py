@@ -7,7 +7,7 @@ from scipy.optimize import least_squares
 
 from fitting.arrays import Array, Complex, Mask
 from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.response import Response
+from fitting.diagnosis.response import SweepResponse
 from fitting.effects.base import Effect
 from fitting.identification.uncertainty import limits_reached
 from fitting.laws import CoreLaw
@@ -22,7 +22,7 @@ ROUGH, COMPARABLE = 1e-3, 1e-5
 
 
 @dataclass(frozen=True, eq=False)
-class Fitted:
+class Refitted:
     """Where a fit of a law and some effects ended."""
 
     effects: tuple[Effect, ...]
@@ -119,7 +119,7 @@ class Fitted:
 
 
 def refit(
-    response: Response,
+    response: SweepResponse,
     evidence: Evidence,
     law: CoreLaw,
     u: Array,
@@ -127,7 +127,7 @@ def refit(
     tolerance: float = COMPARABLE,
     points: Mask | None = None,
     brief: bool = False,
-) -> Fitted:
+) -> Refitted:
     """The best law and unknowns from `law` and `u` on; `points` limits the sweep's points that count.
 
     `brief` where little is to be gained.
@@ -157,7 +157,7 @@ def _most(tolerance: float) -> int:
     return _ROUGH_EVALUATIONS if tolerance >= ROUGH else _MOST_EVALUATIONS
 
 
-def posterior(response: Response, evidence: Evidence, fitted: Fitted) -> Array:
+def posterior(response: SweepResponse, evidence: Evidence, fitted: Refitted) -> Array:
     """`Fitted.covariance`, wider where chi-square is flatter than its curvature says.
 
     Looked at along the directions of the stated numbers that the fit has moved by more than a standard
@@ -181,7 +181,7 @@ def posterior(response: Response, evidence: Evidence, fitted: Fitted) -> Array:
     return C
 
 
-def kept(response: Response, evidence: Evidence, law: CoreLaw, u: Array) -> Fitted:
+def kept(response: SweepResponse, evidence: Evidence, law: CoreLaw, u: Array) -> Refitted:
     """As `refit`, nothing moved."""
     problem = JointProblem(response, evidence, law, u, None)
     lower, upper = problem.limits
@@ -193,7 +193,7 @@ class JointProblem:
 
     def __init__(
         self,
-        response: Response,
+        response: SweepResponse,
         evidence: Evidence,
         law: CoreLaw,
         u: Array,
@@ -305,11 +305,11 @@ class JointProblem:
         J[:, self._n - law.bend_count : self._n] = np.eye(law.bend_count)
         return np.log(law.values[self._n - law.bend_count :]), J
 
-    def fitted(self, x: Array) -> Fitted:
+    def fitted(self, x: Array) -> Refitted:
         """As a fit that ended there."""
         r, J, v = self._both(x)
         law, u = self._split(x)
-        return Fitted(
+        return Refitted(
             self.response.effects,
             law,
             u,

@@ -15,7 +15,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.plate_answer import answer, core_strain
-from fitting.diagnosis.problem import DiagnosisProblem, Grid
+from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid
 from fitting.effects.base import Effect, EffectParameter, ModulusAt
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -31,14 +31,14 @@ _SOFTENED = np.array([-0.3, 0.0, 0.25, 0.5])
 _KEPT = 8
 
 
-class Response:
+class SweepResponse:
     """The sweep of a task under a law and effects.
 
     `u` holds the stated numbers in standard deviations, then the effects' unknowns, one after the other.
     """
 
     def __init__(
-        self, problem: DiagnosisProblem, effects: Sequence[Effect], grid: Grid | None = None
+        self, problem: DiagnosisProblem, effects: Sequence[Effect], grid: NodeGrid | None = None
     ) -> None:
         self.problem, self.effects, self.nuisances = problem, tuple(effects), problem.nuisances
         count = len(self.nuisances)
@@ -93,7 +93,7 @@ class Response:
 
         It changes the plate alone; `known` are the unknowns of the others.
         """
-        others = Response(self.problem, self.effects[:-1], self.grid)
+        others = SweepResponse(self.problem, self.effects[:-1], self.grid)
         at = others._at(law, known)
         nodes, last = self.grid.nodes, self.effects[-1]
         found = [others.effects[k].change(self.plate, others._of(k, known)) for k in others._changing]
@@ -114,9 +114,9 @@ class Response:
         raw = at.per_x * (by_u[0] + at.pitch * by_u[1])
         return others._read_along(at, raw, known)
 
-    def beside(self, effect: Effect) -> "Response":
+    def beside(self, effect: Effect) -> "SweepResponse":
         """The same with one more effect."""
-        return Response(self.problem, [*self.effects, effect], self.grid)
+        return SweepResponse(self.problem, [*self.effects, effect], self.grid)
 
     # The parts of the response.
 

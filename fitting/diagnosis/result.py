@@ -17,7 +17,7 @@ Verdict = Literal["none", "effect", "ambiguous", "unknown"]
 
 
 @dataclass(frozen=True)
-class Estimate:
+class ParameterEstimate:
     """A parameter of an effect, in the unit it is reported in."""
 
     value: float
@@ -31,7 +31,7 @@ class FoundEffect:
     """An effect with what the data say of its size."""
 
     name: str
-    parameters: Mapping[str, Estimate]
+    parameters: Mapping[str, ParameterEstimate]
     probability: float = 1.0
     """That it is there, alone or beside another."""
 

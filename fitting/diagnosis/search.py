@@ -12,7 +12,7 @@ from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.predictive import checks, form_error, passes, temper
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import Fitted, refit
+from fitting.diagnosis.refit import Refitted, refit
 from fitting.diagnosis.responses import response_of
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
@@ -27,7 +27,7 @@ _SPARE = 2
 class ScoredFit:
     """A fitted explanation, what it is worth, and what speaks against it."""
 
-    fitted: Fitted
+    fitted: Refitted
     cost: float
     """-2 ln of prior times marginal likelihood (`marginal`)."""
     checks: Mapping[str, float] = field(default_factory=dict)
@@ -51,7 +51,7 @@ class Search:
         self,
         problem: DiagnosisProblem,
         evidence: Evidence,
-        none: Fitted,
+        none: Refitted,
         effects: Sequence[Effect],
         executor: Executor,
         unnamed: Sequence[Effect] = (),
@@ -77,7 +77,7 @@ class Search:
         again = refit(response_of(self.problem, ()), evidence, none.law, none.u)
         return Search(self.problem, evidence, again, self.effects, self.executor, self.unnamed)
 
-    def judged(self, fitted: Fitted) -> ScoredFit:
+    def judged(self, fitted: Refitted) -> ScoredFit:
         """A fit with what it is worth."""
         found = checks(self.problem.sweep, self.evidence, self._none, fitted)
         return ScoredFit(fitted, cost(fitted, self.problem.plate), found)
@@ -110,7 +110,7 @@ class Search:
             for e in pair.effects
         ]
 
-    def determined(self, fitted: Fitted) -> bool:
+    def determined(self, fitted: Refitted) -> bool:
         """Whether the data leave over what a fit needs."""
         return fitted.parameter_count <= self.evidence.count - _SPARE
 

@@ -14,8 +14,8 @@ from fitting.arrays import Array, Complex
 from fitting.diagnosis.every_point import EveryPoint
 from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.of_files import OfFiles
-from fitting.diagnosis.problem import DiagnosisProblem, Grid
-from fitting.diagnosis.response import STATED_NUMBER, Response
+from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid
+from fitting.diagnosis.response import STATED_NUMBER, SweepResponse
 from fitting.effects.base import Effect, Points
 from fitting.errors import OutsideModel
 from fitting.identification.adjusted import Adjusted, stated_number
@@ -56,7 +56,7 @@ class SeveralProblem(DiagnosisProblem):
         sweep = joined([m.sweep for m in members])
         rational = _side_by_side([m.rational for m in members])
         nodes = EveryPoint.at(sweep.omega)
-        grid = Grid(nodes, rational)
+        grid = NodeGrid(nodes, rational)
         first = members[0]
         return cls(
             sweep,
@@ -117,7 +117,7 @@ class SeveralProblem(DiagnosisProblem):
         return tuple(found)
 
 
-class SeveralResponse(Response):
+class SeveralResponse(SweepResponse):
     """What all members read under one law."""
 
     def __init__(self, problem: SeveralProblem, effects: Sequence[Effect], *, coarse: bool = False) -> None:
@@ -126,7 +126,7 @@ class SeveralResponse(Response):
         count = len(self.nuisances)
         self.parameters = (*(STATED_NUMBER,) * count, *(q for e in effects for q in e.parameters))
         self._stated = slice(0, count)
-        self._of_member: list[tuple[Response, NDArray[np.intp]]] = []
+        self._of_member: list[tuple[SweepResponse, NDArray[np.intp]]] = []
         self._coarse = coarse
         for k, m in enumerate(problem.members):
             places, inner, start = [problem.places[k]], [], count
@@ -136,7 +136,7 @@ class SeveralResponse(Response):
                     inner.append(of)
                     places.append(start + np.arange(len(of.parameters)))
                 start += len(e.parameters)
-            response = Response(m, inner, m.coarse if coarse else None)
+            response = SweepResponse(m, inner, m.coarse if coarse else None)
             self._of_member.append((response, np.concatenate(places)))
 
     def velocity(self, law: CoreLaw, u: Array) -> Complex:

@@ -2,9 +2,9 @@
 
 from collections.abc import Callable, Iterable, Sequence
 
-from fitting.diagnosis.candidate_fits import Begun
+from fitting.diagnosis.candidate_fits import FirstLook
 from fitting.diagnosis.candidates import has_place
-from fitting.diagnosis.refit import Fitted
+from fitting.diagnosis.refit import Refitted
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.thresholds import SEARCH
 
@@ -76,13 +76,13 @@ class Singles:
 
     # What has been found.
 
-    def _keep(self, fits: Iterable[Fitted]) -> None:
+    def _keep(self, fits: Iterable[Refitted]) -> None:
         for scored in (self._search.judged(f) for f in fits if self._search.determined(f)):
             name = scored.names[0]
             if name not in self._found or scored.cost < self._found[name].cost:
                 self._found[name] = scored
 
-    def _begin(self, tasks: Iterable[Begun]) -> None:
+    def _begin(self, tasks: Iterable[FirstLook]) -> None:
         for begun in tasks:
             if begun.state:
                 self._work.learn(begun.name, begun.state)
@@ -91,7 +91,7 @@ class Singles:
     def _order(self) -> list[ScoredFit]:
         return sorted(self._found.values(), key=lambda t: t.cost)
 
-    def _near(self, scored: ScoredFit) -> list[tuple[tuple[str, int], Fitted]]:
+    def _near(self, scored: ScoredFit) -> list[tuple[tuple[str, int], Refitted]]:
         return self._work.best_near(scored.names[0])
 
     def _part(self, start: float, size: float) -> Report:

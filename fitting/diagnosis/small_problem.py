@@ -6,7 +6,7 @@ import numpy as np
 
 from fitting.arrays import Complex
 from fitting.diagnosis.every_point import EveryPoint
-from fitting.diagnosis.problem import DiagnosisProblem, Grid, points_of
+from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid, points_of
 from fitting.laws import CoreLaw
 from fitting.model_error import DRIFT, GAIN
 from fitting.noise import Noise
@@ -42,7 +42,7 @@ class SmallProblem(DiagnosisProblem):
         size = float(np.exp(np.mean(np.log(np.abs(specimen.core.law.modulus(sweep.omega))))))
         rational = rational_of(system, sweep.omega, size)
         nodes = EveryPoint.at(sweep.omega)
-        grid = Grid(nodes, rational)
+        grid = NodeGrid(nodes, rational)
         points = points_of(sweep, specimen)
         stated = nuisances_of(specimen, parts, has_phase=sweep.has_phase)
         return cls(sweep, specimen, system, points, rational, grid, grid, grid, nodes, stated)

@@ -7,9 +7,9 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import Fitted, posterior
+from fitting.diagnosis.refit import Refitted, posterior
 from fitting.diagnosis.responses import response_of
-from fitting.diagnosis.result import Estimate, FoundEffect, Stage
+from fitting.diagnosis.result import FoundEffect, ParameterEstimate, Stage
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.structure import structure
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -23,7 +23,7 @@ _FEW = 9
 
 
 def stage_of(
-    problem: DiagnosisProblem, evidence: Evidence, fitted: Fitted, validation: Validation, scale: float
+    problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted, validation: Validation, scale: float
 ) -> Stage:
     """`validation` is what the fit says of data it has not seen; `scale` multiplies its covariance."""
     law = fitted.law
@@ -51,7 +51,7 @@ def stage_of(
     )
 
 
-def _of_law(fitted: Fitted, covariance: Array) -> Uncertainty:
+def _of_law(fitted: Refitted, covariance: Array) -> Uncertainty:
     law = fitted.law
     reached = limits_reached(law)
     n = len(law.names)
@@ -61,14 +61,14 @@ def _of_law(fitted: Fitted, covariance: Array) -> Uncertainty:
     return Uncertainty(by_law, reached, fitted.chi2_per_dof)
 
 
-def adjusted_of(problem: DiagnosisProblem, fitted: Fitted, covariance: Array) -> tuple[Adjusted, ...]:
+def adjusted_of(problem: DiagnosisProblem, fitted: Refitted, covariance: Array) -> tuple[Adjusted, ...]:
     """The stated numbers as a fit has them."""
     n = len(fitted.law.names)
     errors = np.sqrt(np.maximum(np.diag(covariance)[n : n + fitted.stated], 0))
     return problem.adjusted(fitted.z, errors)
 
 
-def few_of_law(problem: DiagnosisProblem, fitted: Fitted, scale: float) -> LawBand:
+def few_of_law(problem: DiagnosisProblem, fitted: Refitted, scale: float) -> LawBand:
     """The law of a fit at a few frequencies."""
     uncertainty = _of_law(fitted, scale * fitted.covariance)
     return law_band(problem.sweep, fitted.law, uncertainty, points=_FEW)
@@ -98,7 +98,9 @@ def mixed_band(
     return LawBand(bands[0].frequency_hz, G, eta, G_error, eta_error)
 
 
-def found_effects(fitted: Fitted, plate: EnrichedReducedPlate, scale: float = 1.0) -> tuple[FoundEffect, ...]:
+def found_effects(
+    fitted: Refitted, plate: EnrichedReducedPlate, scale: float = 1.0
+) -> tuple[FoundEffect, ...]:
     """The effects of a fit with their sizes and standard errors; `scale` multiplies the covariance."""
     covariance = scale * fitted.covariance
     n = len(fitted.law.names)
@@ -115,11 +117,11 @@ def found_effects(fitted: Fitted, plate: EnrichedReducedPlate, scale: float = 1.
             reach = 1e-6 * (upper[k] - lower[k]) if np.isfinite(upper[k]) else 0.0
             if not q.fixed and (value - lower[k] <= reach or upper[k] - value <= reach):
                 error = float("nan")
-            parameters[q.key] = Estimate(value, error, q.unit)
+            parameters[q.key] = ParameterEstimate(value, error, q.unit)
         if effect.replaces_law:
             errors = np.sqrt(np.diag(covariance)[:n]) * fitted.law.values
             for name, value, error in zip(fitted.law.names, fitted.law.values, errors, strict=True):
-                parameters[name] = Estimate(float(value), float(error), _unit(name))
+                parameters[name] = ParameterEstimate(float(value), float(error), _unit(name))
         found.append(FoundEffect(effect.name, parameters))
         start += len(effect.parameters)
     return tuple(found)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import Fitted
+from fitting.diagnosis.refit import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.result import FoundEffect, Stage
 from fitting.diagnosis.thresholds import VERDICT
@@ -119,7 +119,7 @@ def _worst_segment(problem: DiagnosisProblem, before: Stage) -> int:
     return int(numbers[int(np.argmax(size))])
 
 
-def _moved(problem: DiagnosisProblem, fitted: Fitted) -> str:
+def _moved(problem: DiagnosisProblem, fitted: Refitted) -> str:
     """How much the effect changes the response, segment by segment, the law kept."""
     plain = response_of(problem, ()).velocity(fitted.law, fitted.z)
     changed = 100 * np.abs(fitted.velocity_m_s / plain - 1)

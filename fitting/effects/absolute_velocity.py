@@ -9,7 +9,7 @@ from fitting.effects.base import EVERY_STRUCTURE, Effect, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 
-class AbsoluteVelocity(Effect):
+class AbsoluteVelocityEffect(Effect):
     """Velocity plus a / (i omega). It has no size to be fitted."""
 
     name = "absolute_velocity"

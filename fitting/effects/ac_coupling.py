@@ -8,7 +8,7 @@ from fitting.arrays import Array, Complex
 from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter, Points
 
 
-class AcCoupling(Effect):
+class AcCouplingEffect(Effect):
     """Velocity times (i f / f_c) / (1 + i f / f_c), which is 1 / (1 - i f_c / f)."""
 
     name = "ac_coupling"

@@ -29,7 +29,7 @@ class PointMass(Span):
         return at.omega**2 * _TYPICAL_KG * rows * size
 
 
-class AddedMass(Effect):
+class AddedMassEffect(Effect):
     """m w^2 at (x, y)."""
 
     name = "added_mass"
@@ -46,7 +46,7 @@ class AddedMass(Effect):
     discriminating_test = "a look at the plate and a balance; a second spot off the axis"
 
     def on(self, kind: str) -> Effect | None:
-        return MassOfPair() if kind == "shear-pair" else super().on(kind)
+        return MassOfPairEffect() if kind == "shear-pair" else super().on(kind)
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         along, across = (np.arange(8) + 1) / 8.2, (np.arange(5) + 0.5) / 5
@@ -64,7 +64,7 @@ class AddedMass(Effect):
         return f"a mass of {1e3 * u['mass']:.2g} g sits near ({1e3 * u['x']:.0f}, {1e3 * u['y']:.0f}) mm"
 
 
-class MassOfPair(AddedMass):
+class MassOfPairEffect(AddedMassEffect):
     """The moving mass of a shear pair is so much heavier than stated: a screw, half a fixture, a cable."""
 
     parameters = (EffectParameter("mass", "kg", -0.5, 5.0, 3e-3, spread=0.02),)

@@ -6,7 +6,7 @@ from itertools import combinations
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.effects.added_mass import AddedMass
+from fitting.effects.added_mass import AddedMassEffect
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -16,12 +16,12 @@ _PLACES = [(x, y) for x in (0.4, 0.7, 0.97) for y in (0.2, 0.8)]
 _START_KG = 3e-3
 
 
-class AddedMasses(Effect):
+class AddedMassesEffect(Effect):
     """m_1 w^2 at (x_1, y_1) and m_2 w^2 at (x_2, y_2)."""
 
     name = "added_masses"
     enters = "mass"
-    source = AddedMass.source
+    source = AddedMassEffect.source
     parameters = tuple(
         EffectParameter(f"{key}_{number}", unit, lower, upper, typical, neutral=neutral, spread=spread)
         for number in (1, 2)
@@ -31,11 +31,11 @@ class AddedMasses(Effect):
             ("y", "m", 0.0, np.inf, 0.05, None, None),
         )
     )
-    spans = AddedMass.spans
-    unexplained_share = AddedMass.unexplained_share
+    spans = AddedMassEffect.spans
+    unexplained_share = AddedMassEffect.unexplained_share
     extends = "added_mass"
     chance = 0.005
-    discriminating_test = AddedMass.discriminating_test
+    discriminating_test = AddedMassEffect.discriminating_test
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         places = [(x * plate.length_m, y * plate.width_m) for x, y in _PLACES]
@@ -46,7 +46,7 @@ class AddedMasses(Effect):
         return lower, np.minimum(upper, [np.inf, plate.length_m, plate.width_m] * 2)
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
-        one, other = (AddedMass().change(plate, u[k : k + 3]) for k in (0, 3))
+        one, other = (AddedMassEffect().change(plate, u[k : k + 3]) for k in (0, 3))
         return one.and_then(other)
 
     def story(self, u: Mapping[str, float]) -> str:

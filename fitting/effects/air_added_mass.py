@@ -7,7 +7,7 @@ import scipy.sparse as sp
 
 from fitting.air import StillAir, still_air
 from fitting.arrays import Array, Complex
-from fitting.effects.base import BarePlate, Effect, EffectParameter, Points
+from fitting.effects.base import BarePlateModes, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
@@ -35,7 +35,7 @@ def _air(full: FullPlate) -> StillAir:
     return full.once("air", lambda: still_air(full.loose))
 
 
-class AirAddedMass(Effect):
+class AirAddedMassEffect(Effect):
     """rho times the inertia of still incompressible air on both faces."""
 
     name = "air_added_mass"
@@ -54,7 +54,7 @@ class AirAddedMass(Effect):
         # The bare plate feels the air too, unless its stated modulus was itself found by vibration in air.
         return [np.array([1.2, felt]) for felt in (0.0, 1.0)]
 
-    def bare_shift(self, bare: BarePlate, u: Array) -> Array:
+    def bare_shift(self, bare: BarePlateModes, u: Array) -> Array:
         return np.asarray(-0.5 * np.log1p(2 * u[0] * u[1] * bare.lowering_per_density))
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:

@@ -30,7 +30,7 @@ class Strain(Span):
         return {"mean_square": full.loose.scatter(shear) / (s.length_m * s.width_m * s.core.thickness_m)}
 
 
-class AmplitudeSoftening(Effect):
+class AmplitudeSofteningEffect(Effect):
     """G times (1 - k strain / reference), the strain that of the softened plate."""
 
     name = "amplitude_softening"
@@ -43,7 +43,7 @@ class AmplitudeSoftening(Effect):
     discriminating_test = "a second level"
 
     def on(self, kind: str) -> Effect | None:
-        return SofteningBySize() if kind in ("shear-pair", "beam") else super().on(kind)
+        return SofteningBySizeEffect() if kind in ("shear-pair", "beam") else super().on(kind)
 
     def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex:
         softened = np.zeros(len(points.omega))
@@ -62,7 +62,7 @@ class AmplitudeSoftening(Effect):
         )
 
 
-class SofteningBySize(AmplitudeSoftening):
+class SofteningBySizeEffect(AmplitudeSofteningEffect):
     """The same of a pad in shear or of a sandwich beam, seen from two levels on."""
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:

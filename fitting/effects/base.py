@@ -26,7 +26,7 @@ from fitting.specimen import Face, Reading
 from fitting.sweep import Sweep
 
 
-class BarePlate(Protocol):
+class BarePlateModes(Protocol):
     """What effects may ask of the modes of a hammer test."""
 
     @property
@@ -94,7 +94,7 @@ class Points:
 
 
 @dataclass(frozen=True)
-class Seen:
+class ChannelFinding:
     """What a channel shows by itself, without any model of the plate."""
 
     values: Mapping[str, tuple[float, float, str]]
@@ -130,7 +130,7 @@ class Effect:
         """The form it has on a `plate`, `beam` or `shear-pair`; None where it has no meaning."""
         return self if kind in self.structures else None
 
-    def seen(self, sweep: Sweep, noise: Noise) -> Seen | None:
+    def seen(self, sweep: Sweep, noise: Noise) -> ChannelFinding | None:
         """Its trace in the channels themselves."""
         return None
 
@@ -179,7 +179,7 @@ class Effect:
         """What the channels make of the velocity `v` (m/s, per point)."""
         return None
 
-    def bare_shift(self, bare: BarePlate, u: Array) -> Array:
+    def bare_shift(self, bare: BarePlateModes, u: Array) -> Array:
         """Change of ln f of the bare plate's modes. Shape (modes,)."""
         return np.zeros(len(bare.lowering_per_density))
 

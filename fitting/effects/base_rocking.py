@@ -22,7 +22,7 @@ class Pitch(Span):
         return 0.3 * full.unit(answers)
 
 
-class BaseRocking(Effect):
+class BaseRockingEffect(Effect):
     """Positive pitch lifts the tip with the base."""
 
     name = "base_rocking"

@@ -44,7 +44,7 @@ def rolling(full: FullPlate) -> Array:
     return np.asarray(r.ravel()[full.loose.free])
 
 
-class BaseRoll(Effect):
+class BaseRollEffect(Effect):
     """Positive roll lifts the far edge, y = width, with the base."""
 
     name = "base_roll"

@@ -9,7 +9,7 @@ from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter, Point
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 
-class ChannelDelay(Effect):
+class ChannelDelayEffect(Effect):
     """Velocity times e^{-i omega delay}."""
 
     name = "channel_delay"

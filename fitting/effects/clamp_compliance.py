@@ -20,7 +20,7 @@ from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
 _SPANNED = (4e12, 1e13, 3e13, 1e14, 1e15)
 
 
-class Root(RootSpan):
+class YieldingRoot(RootSpan):
     """Motions with a yielding root. Along y it is held, as between jaws."""
 
     name = "root"
@@ -62,14 +62,14 @@ def root_springs(full: FullPlate, axis: str) -> sp.csc_array:
     return sp.csc_array(whole[full.loose.free][:, full.loose.free])
 
 
-class ClampCompliance(Effect):
+class ClampComplianceEffect(Effect):
     """Springs at the root."""
 
     name = "clamp_compliance"
     enters = "stiffness"
     source = "elastic foundation of the root face, e.g. MacBain and Genin, J. Sound Vib. 27 (1973)"
     parameters = (EffectParameter("k", "N/m^3", 1e12, 1e16, 5e13, logarithmic=True, neutral=float("inf")),)
-    spans = (Root(),)
+    spans = (YieldingRoot(),)
     unexplained_share = 0.003
     chance = 0.05
     discriminating_test = "the same plate clamped anew, or its root watched by the laser"

@@ -7,18 +7,21 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
-from fitting.effects.clamp_compliance import ClampCompliance, springs
+from fitting.effects.clamp_compliance import ClampComplianceEffect, springs
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 
-class ClampFriction(Effect):
+class ClampFrictionEffect(Effect):
     """Springs at the root, k (1 + i loss)."""
 
     name = "clamp_friction"
     enters = "stiffness"
     source = "hysteretic joint damping, Beards, Structural Vibration (1996), ch. 4"
-    parameters = (*ClampCompliance.parameters, EffectParameter("loss_factor", "1", 0.0, 1.0, 0.1, spread=0.3))
-    spans = ClampCompliance.spans
+    parameters = (
+        *ClampComplianceEffect.parameters,
+        EffectParameter("loss_factor", "1", 0.0, 1.0, 0.1, spread=0.3),
+    )
+    spans = ClampComplianceEffect.spans
     extends = "clamp_compliance"
     unexplained_share = 0.003
     chance = 0.03
@@ -27,7 +30,7 @@ class ClampFriction(Effect):
     )
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
-        return ClampCompliance().objection(points, plate)
+        return ClampComplianceEffect().objection(points, plate)
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [np.array([k, 0.1]) for k in (5e13, 1.5e13)]

@@ -45,7 +45,7 @@ def with_length(specimen: Specimen, length_m: float) -> Specimen:
     return replace(specimen, length_m=length_m, elements=specimen.mesh)
 
 
-class ClampLine(Effect):
+class ClampLineEffect(Effect):
     """The free length is the stated one and `dlength`.
 
     The pickup stays where it is stated from the true line, or was measured from the visible edge too

@@ -25,7 +25,7 @@ class Constraining(Span):
         return _TYPICAL * times(full.loose.K_constraining, at.both)
 
 
-class ConstrainingStiffness(Effect):
+class ConstrainingStiffnessEffect(Effect):
     """Young's modulus of the constraining layer times a factor."""
 
     name = "constraining_stiffness"

@@ -32,7 +32,7 @@ def with_layer(specimen: Specimen, scale: float) -> Specimen:
     return replace(specimen, constraining=replace(layer, thickness_m=scale * layer.thickness_m))
 
 
-class ConstrainingThickness(Effect):
+class ConstrainingThicknessEffect(Effect):
     """The constraining layer's thickness times a factor: its stiffness, mass and distance."""
 
     name = "constraining_thickness"

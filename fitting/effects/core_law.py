@@ -9,7 +9,7 @@ from fitting.laws import LAWS, CoreLaw
 from fitting.laws.vicinity import Vicinity
 
 
-class OtherCoreLaw(Effect):
+class OtherCoreLawEffect(Effect):
     """The law is replaced: by relaxing or oscillating series, or by one that is only smooth."""
 
     name = "core_law"

@@ -30,7 +30,7 @@ def with_core(specimen: Specimen, scale: float) -> Specimen:
     return replace(specimen, core=replace(specimen.core, thickness_m=scale * specimen.core.thickness_m))
 
 
-class CoreThickness(Effect):
+class CoreThicknessEffect(Effect):
     """The core's thickness times a factor: its shear stiffness, mass and the faces' distance."""
 
     name = "core_thickness"

@@ -6,7 +6,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.effects.base import Effect, EffectParameter, Points
-from fitting.effects.base_rocking import BaseRocking
+from fitting.effects.base_rocking import BaseRockingEffect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.span import Span
 
@@ -14,7 +14,7 @@ _OUTSIDE = (0.6, 1.6)
 _STEP = 0.02
 
 
-class FixtureResonance(Effect):
+class FixtureResonanceEffect(Effect):
     """With s = 1 / (1 - r^2 + 2 i zeta r), r = w / w0: pitch = gain s a, root = (1 + heave s) a.
 
     Where the reference sits before the yielding fixture (`before` = 1), s = r^2 / (1 - r^2 + 2 i zeta r).
@@ -30,12 +30,12 @@ class FixtureResonance(Effect):
         EffectParameter("heave", "1", -0.3, 0.3, 0.01, spread=0.02),
         EffectParameter("before", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),
     )
-    spans: tuple[Span, ...] = BaseRocking.spans
+    spans: tuple[Span, ...] = BaseRockingEffect.spans
     extends = "base_rocking"
     discriminating_test = "two accelerometers on the base; the sweep repeated with a mass on the fixture"
 
     def on(self, kind: str) -> Effect | None:
-        return LocalDisturbance() if kind == "shear-pair" else super().on(kind)
+        return LocalDisturbanceEffect() if kind == "shear-pair" else super().on(kind)
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         f = points.omega / (2 * np.pi)
@@ -62,7 +62,7 @@ class FixtureResonance(Effect):
         return f"the fixture resonates at {f:.4g} Hz (damping ratio {zeta:.2g}) and turns the base"
 
 
-class LocalDisturbance(FixtureResonance):
+class LocalDisturbanceEffect(FixtureResonanceEffect):
     """On a shear pair: a stretch of frequencies that is set aside (`fitting.diagnosis.glitch`)."""
 
     parameters = ()

@@ -11,7 +11,7 @@ import scipy.sparse as sp
 
 from fitting.arrays import Array, Complex
 from fitting.assembly import Assembly
-from fitting.damping import ViscousDamping
+from fitting.damping import LowRankDamping
 from fitting.element import DOFS, THETA_Y, U_C, W
 from fitting.half_plate import HalfPlate
 from fitting.linear import times
@@ -25,7 +25,7 @@ Solver = Callable[[Array | Complex], Complex]
 class FullPlate:
     """A held plate and the same plate with its root let go; `n` counts the latter's degrees of freedom."""
 
-    def __init__(self, plate: Plate, damping: ViscousDamping) -> None:
+    def __init__(self, plate: Plate, damping: LowRankDamping) -> None:
         self.held, self.damping = plate, damping
         specimen = plate.specimen
         self.loose = Plate(_loose(specimen)) if specimen.boundary == "cantilever" else plate

@@ -8,7 +8,7 @@ from fitting.arrays import Array, Complex
 from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter, Points
 
 
-class GainError(Effect):
+class GainErrorEffect(Effect):
     """Velocity times a real factor."""
 
     name = "gain_error"

@@ -72,7 +72,7 @@ def _tilted_element(full: FullPlate, along: str) -> Array:
     return found
 
 
-class GradedCore(Effect):
+class GradedCoreEffect(Effect):
     """G times 1 + grade (s - 1/2), s along the length or across the width from 0 to 1."""
 
     name = "graded_core"
@@ -90,7 +90,7 @@ class GradedCore(Effect):
         self.parameters = (EffectParameter(f"grade_{along}", "1", -1.5, 1.5, 0.2, spread=0.3),)
 
     def variants(self) -> tuple[Effect, ...]:
-        return (self, GradedCore("y"))
+        return (self, GradedCoreEffect("y"))
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         return Change(K_1=u[0] * plate.matrix(f"grading_{self.along}.K_1"))

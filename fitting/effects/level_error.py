@@ -4,14 +4,14 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from fitting.effects.base import EVERY_STRUCTURE, Effect, Points, Seen
+from fitting.effects.base import EVERY_STRUCTURE, ChannelFinding, Effect, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.level import level_error
 from fitting.noise import Noise
 from fitting.sweep import Sweep
 
 
-class LevelError(Effect):
+class LevelErrorEffect(Effect):
     """Seen in the reference channel; velocity over acceleration does not feel it."""
 
     name = "level_error"
@@ -20,11 +20,13 @@ class LevelError(Effect):
     structures = EVERY_STRUCTURE
     discriminating_test = "a second accelerometer on the base"
 
-    def seen(self, sweep: Sweep, noise: Noise) -> Seen | None:
+    def seen(self, sweep: Sweep, noise: Noise) -> ChannelFinding | None:
         found = level_error(sweep)
         if found is None:
             return None
-        return Seen({"factor": (found.factor, found.standard_error, "1")}, np.zeros(len(sweep), bool))
+        return ChannelFinding(
+            {"factor": (found.factor, found.standard_error, "1")}, np.zeros(len(sweep), bool)
+        )
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return "it shows in the channels themselves"

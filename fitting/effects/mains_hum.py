@@ -2,14 +2,14 @@
 
 from collections.abc import Mapping
 
-from fitting.effects.base import EVERY_STRUCTURE, Effect, Points, Seen
+from fitting.effects.base import EVERY_STRUCTURE, ChannelFinding, Effect, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.hum import mains_hum
 from fitting.noise import Noise
 from fitting.sweep import Sweep
 
 
-class MainsHum(Effect):
+class MainsHumEffect(Effect):
     """Seen in the scatter itself; its points are set aside, no unknown is fitted."""
 
     name = "mains_hum"
@@ -18,12 +18,14 @@ class MainsHum(Effect):
     structures = EVERY_STRUCTURE
     discriminating_test = "a record with the shaker silent"
 
-    def seen(self, sweep: Sweep, noise: Noise) -> Seen | None:
+    def seen(self, sweep: Sweep, noise: Noise) -> ChannelFinding | None:
         hum = mains_hum(sweep, noise)
         if hum is None:
             return None
         nan = float("nan")
-        return Seen({"mains": (hum.mains_hz, nan, "Hz"), "size": (hum.size_m_s, nan, "m/s")}, hum.points)
+        return ChannelFinding(
+            {"mains": (hum.mains_hz, nan, "Hz"), "size": (hum.size_m_s, nan, "m/s")}, hum.points
+        )
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return "it shows in the channels themselves"

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import BarePlate, Effect, EffectParameter
+from fitting.effects.base import BarePlateModes, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
@@ -76,7 +76,7 @@ def substrate_coefficients(face: Face, D: Array) -> Complex:
     return (1 + 1j * face.loss_factor) * np.reshape(found, (len(STIFFNESS), -1)).sum(axis=1)
 
 
-class OrthotropicSubstrate(Effect):
+class OrthotropicSubstrateEffect(Effect):
     """E_y over E_x, E_x as stated."""
 
     name = "orthotropic_substrate"
@@ -88,7 +88,7 @@ class OrthotropicSubstrate(Effect):
         "torsional beside bending frequencies of the bare plate (hammer test); a strip cut across the sheet"
     )
 
-    def bare_shift(self, bare: BarePlate, u: Array) -> Array:
+    def bare_shift(self, bare: BarePlateModes, u: Array) -> Array:
         face = bare.substrate
         now, stated = (
             (bare.stiffness @ substrate_coefficients(face, plane_stress(face, ratio))).real

@@ -59,7 +59,7 @@ def strips(full: FullPlate, along: str) -> list[sp.csc_array]:
     return full.once(f"strips along {along}", make)
 
 
-class PartialDebond(Effect):
+class PartialDebondEffect(Effect):
     """A strip across the plate between two x, or along it between two y."""
 
     name = "partial_debond"
@@ -78,7 +78,7 @@ class PartialDebond(Effect):
         )
 
     def variants(self) -> tuple[Effect, ...]:
-        return (self, PartialDebond("y"))
+        return (self, PartialDebondEffect("y"))
 
     def _side(self, plate: EnrichedReducedPlate) -> float:
         return plate.length_m if self.along == "x" else plate.width_m

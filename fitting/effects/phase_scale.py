@@ -14,7 +14,7 @@ _GAP = 0.1
 """In ln f, beyond which two points belong to different segments."""
 
 
-class PhaseScale(Effect):
+class PhaseScaleEffect(Effect):
     """|v| e^{i factor phi}, phi as it is `counted`.
 
     0: continuously along a segment; 1: between 0 and a turn; 2: half a turn to either side.

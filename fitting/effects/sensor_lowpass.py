@@ -8,7 +8,7 @@ from fitting.arrays import Array, Complex
 from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter, Points
 
 
-class SensorLowpass(Effect):
+class SensorLowpassEffect(Effect):
     """Velocity over 1 + i f / f_c."""
 
     name = "sensor_lowpass"

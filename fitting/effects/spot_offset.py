@@ -34,7 +34,7 @@ class Spot(Span):
         return 0.3 * full.unit(answers)
 
 
-class SpotOffset(Effect):
+class SpotOffsetEffect(Effect):
     """Reading at (x + dx, y + dy)."""
 
     name = "spot_offset"

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import BarePlate, Effect, EffectParameter
+from fitting.effects.base import BarePlateModes, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
@@ -26,7 +26,7 @@ class Substrate(Span):
         return _TYPICAL * times(full.loose.K_substrate, at.both)
 
 
-class SubstrateStiffness(Effect):
+class SubstrateStiffnessEffect(Effect):
     """Young's modulus of the substrate times a factor."""
 
     name = "substrate_stiffness"
@@ -37,7 +37,7 @@ class SubstrateStiffness(Effect):
     chance = 0.03
     discriminating_test = "the bare plate's natural frequencies (hammer test)"
 
-    def bare_shift(self, bare: BarePlate, u: Array) -> Array:
+    def bare_shift(self, bare: BarePlateModes, u: Array) -> Array:
         return np.full(len(bare.lowering_per_density), 0.5 * np.log(u[0]))
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:

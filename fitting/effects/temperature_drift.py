@@ -12,7 +12,7 @@ C_1, C_2_K = 9.0, 120.0
 """Of a damping polymer well above its glass transition; another pair scales the kelvins found."""
 
 
-class TemperatureDrift(Effect):
+class TemperatureDriftEffect(Effect):
     """tau times a_T, log10 a_T = -C_1 T / (C_2 + T), T = warming (1 - exp(-t / time_constant))."""
 
     name = "temperature_drift"

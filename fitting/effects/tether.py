@@ -19,7 +19,7 @@ _LOSS = 0.2
 _START_N_M = 50.0
 
 
-class Tether(Effect):
+class TetherEffect(Effect):
     """A spring k (1 + i loss) at (x, y)."""
 
     name = "tether"

@@ -42,7 +42,7 @@ def hold(full: FullPlate) -> sp.csc_array:
     return on_root(full, along_root(full), local)
 
 
-class TreatmentNotGripped(Effect):
+class TreatmentNotGrippedEffect(Effect):
     """Springs k per width hold the constraining layer's root in its plane; none would leave it free."""
 
     name = "treatment_not_gripped"

@@ -8,7 +8,7 @@ import scipy.sparse as sp
 from fitting.arrays import Array
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
-from fitting.effects.clamp_compliance import ClampCompliance, root_springs
+from fitting.effects.clamp_compliance import ClampComplianceEffect, root_springs
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.released_root import RootSpan, along_root
@@ -48,13 +48,16 @@ def uneven_springs(full: FullPlate) -> tuple[sp.csc_array, sp.csc_array]:
     return full.once("uneven springs", make)
 
 
-class UnevenClamp(Effect):
+class UnevenClampEffect(Effect):
     """Springs k (1 + slope (2 y / width - 1)) per area of the root face."""
 
     name = "uneven_clamp"
     enters = "stiffness"
     source = "elastic foundation of the root face, stiffness linear along the width"
-    parameters = (*ClampCompliance.parameters, EffectParameter("slope", "1", -_MOST, _MOST, 0.3, spread=0.4))
+    parameters = (
+        *ClampComplianceEffect.parameters,
+        EffectParameter("slope", "1", -_MOST, _MOST, 0.3, spread=0.4),
+    )
     spans = (UnevenRoot(),)
     extends = "clamp_compliance"
     unexplained_share = 0.003

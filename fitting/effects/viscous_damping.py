@@ -8,7 +8,7 @@ from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 
-class ViscousDamping(Effect):
+class ViscousDampingEffect(Effect):
     """C_1 times a factor."""
 
     name = "viscous_damping"

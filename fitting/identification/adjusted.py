@@ -6,7 +6,7 @@ from math import exp
 
 from fitting.arrays import Array
 from fitting.nuisances import Nuisance
-from fitting.specimen import Specimen, Stated
+from fitting.specimen import Specimen, StatedSpecimen
 
 
 @dataclass(frozen=True)
@@ -32,14 +32,16 @@ _LAYERS = {
 }
 
 
-def adjusted(specimen: Stated, each: Sequence[Nuisance], z: Array, errors: Array) -> tuple[Adjusted, ...]:
+def adjusted(
+    specimen: StatedSpecimen, each: Sequence[Nuisance], z: Array, errors: Array
+) -> tuple[Adjusted, ...]:
     """`z` and its standard `errors` in standard deviations of the tolerances. Shape (count,) both."""
     return tuple(
         _one(specimen, n, float(at), float(error)) for n, at, error in zip(each, z, errors, strict=True)
     )
 
 
-def _one(specimen: Stated, n: Nuisance, z: float, error: float) -> Adjusted:
+def _one(specimen: StatedSpecimen, n: Nuisance, z: float, error: float) -> Adjusted:
     stated, factor, unit = stated_number(specimen, n)
     if is_relative(n):
         found, sigma = stated * exp(n.sigma * z), stated * n.sigma
@@ -54,7 +56,7 @@ def is_relative(n: Nuisance) -> bool:
     return n.unit == "1" and n.kind != "gain"
 
 
-def stated_number(specimen: Stated, n: Nuisance) -> tuple[float, float, str]:
+def stated_number(specimen: StatedSpecimen, n: Nuisance) -> tuple[float, float, str]:
     """The number in SI, and its unit in results with the factor to it."""
     if not isinstance(specimen, Specimen):
         return specimen.stated_number(n.kind)  # type: ignore[attr-defined]

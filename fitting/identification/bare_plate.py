@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from fitting.air import air_lowering
 from fitting.arrays import Array, Complex
-from fitting.bare_modes import Sensor, bare_modes, clamp_softness
+from fitting.bare_modes import CarriedSensor, bare_modes, clamp_softness
 from fitting.errors import TooFewPoints
 from fitting.parts import MASS, STIFFNESS, coefficients, projected_parts
 from fitting.plate import Plate
@@ -84,7 +84,7 @@ class MatchedModes:
 
 
 def match_modes(
-    specimen: Specimen, measured_hz: Array, measured_ratios: Array, sensor: Sensor | None = None
+    specimen: Specimen, measured_hz: Array, measured_ratios: Array, sensor: CarriedSensor | None = None
 ) -> MatchedModes:
     """A hammer test of `specimen.bare` beside its model. Raises `TooFewPoints`, `OutsideModel`.
 
@@ -126,7 +126,7 @@ def match_modes(
 
 
 def fit_bare_plate(
-    specimen: Specimen, measured_hz: Array, measured_ratios: Array, sensor: Sensor | None = None
+    specimen: Specimen, measured_hz: Array, measured_ratios: Array, sensor: CarriedSensor | None = None
 ) -> BarePlateFit:
     """Stiffness and ratios, by `match_modes` from a hammer test. Raises `TooFewPoints`, `OutsideModel`."""
     m = match_modes(specimen, measured_hz, measured_ratios, sensor)

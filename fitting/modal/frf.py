@@ -33,7 +33,7 @@ class Frf:
 
 
 @dataclass(frozen=True)
-class Estimate:
+class DampingEstimate:
     """Damping of one mode by one method, what a window added taken off."""
 
     frequency_hz: float

@@ -13,13 +13,13 @@ zero padding makes n large. A neighbour 5 bandwidths away still adds some 5 %.
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.modal.frf import Estimate, Frf, Motion, Refusal, corrected, is_near
+from fitting.modal.frf import DampingEstimate, Frf, Motion, Refusal, corrected, is_near
 
 _FEWEST_POINTS = 5
 """Lines between the crossings below which interpolation cannot be trusted."""
 
 
-def half_power(frf: Frf, near_hz: float, noise: float = 0.0) -> Estimate | Refusal:
+def half_power(frf: Frf, near_hz: float, noise: float = 0.0) -> DampingEstimate | Refusal:
     """Ratio of the peak nearest to `near_hz`.
 
     `noise` is the standard deviation of one line of H; it gives the standard error.
@@ -36,7 +36,7 @@ def half_power(frf: Frf, near_hz: float, noise: float = 0.0) -> Estimate | Refus
     peak = float(np.max(np.abs(frf.between(f1, f2).H)))
     # A crossing moves by noise over slope; the slope there is about peak/(sqrt(2) half bandwidth).
     error = noise / peak * ratio * 2 if noise > 0 else float("nan")
-    return Estimate(f_n or f_peak, corrected(f_n, ratio, frf.added_decay_1_s), error)
+    return DampingEstimate(f_n or f_peak, corrected(f_n, ratio, frf.added_decay_1_s), error)
 
 
 def ratio_of(f1: float, f2: float, motion: Motion) -> tuple[float, float]:

@@ -10,7 +10,7 @@ Source: Peeters, Van der Auweraer, Guillaume, Leuridan, Shock and Vibration 11 (
 import numpy as np
 
 from fitting.arrays import Complex
-from fitting.modal.frf import Estimate, Frf, Refusal, corrected
+from fitting.modal.frf import DampingEstimate, Frf, Refusal, corrected
 
 ORDERS = tuple(range(2, 25))
 """Twice as many poles as the modes a band of a hammer test holds, and some for its edges."""
@@ -59,7 +59,7 @@ def _poles_of_order(
 
 def lscf(
     poles: list[Complex], near_hz: float, added_decay_1_s: float, within_hz: float
-) -> Estimate | Refusal:
+) -> DampingEstimate | Refusal:
     """The stable mode nearest to `near_hz`, within `within_hz` of it."""
     row: list[complex] = []
     best: list[complex] = []
@@ -77,7 +77,9 @@ def lscf(
     omega_n = np.abs(best)
     ratios = np.array([-p.real / abs(p) for p in best])
     f_n = float(np.median(omega_n) / (2 * np.pi))
-    return Estimate(f_n, corrected(f_n, float(np.median(ratios)), added_decay_1_s), float(np.std(ratios)))
+    return DampingEstimate(
+        f_n, corrected(f_n, float(np.median(ratios)), added_decay_1_s), float(np.std(ratios))
+    )
 
 
 def _stable(before: complex, now: complex) -> bool:

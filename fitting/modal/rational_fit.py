@@ -13,7 +13,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from fitting.arrays import Array, Complex
-from fitting.modal.frf import Estimate, Frf, Refusal, corrected, is_near
+from fitting.modal.frf import DampingEstimate, Frf, Refusal, corrected, is_near
 
 _HALF_WIDTH_LINES = 8
 """At least, on either side: 34 numbers for the 12 that two poles ask for."""
@@ -40,7 +40,7 @@ class RationalFit:
     """rad/s, the mode's own first."""
     noise: float
     """Standard deviation of a line about the fit, each part."""
-    estimate: Estimate
+    estimate: DampingEstimate
 
 
 def rational_fit(
@@ -90,7 +90,7 @@ def rational_fit(
     if height < _LEAST_HEIGHT * noise:
         return Refusal(f"it stands only {height / noise:.1f} times above the scatter of the lines")
     fitted = window.H - _remainder(omega, window.H, poles)
-    return RationalFit(window.frequency_hz, fitted, poles, noise, Estimate(f_n, adopted, error))
+    return RationalFit(window.frequency_hz, fitted, poles, noise, DampingEstimate(f_n, adopted, error))
 
 
 def _poles(p: Array, start: Complex, scale: float) -> Complex:

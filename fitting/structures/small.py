@@ -19,7 +19,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.errors import OutsideModel
 from fitting.nuisances import Nuisance, Nuisances
 from fitting.rational import RationalSweep
-from fitting.specimen import Stated
+from fitting.specimen import StatedSpecimen
 
 _STILL = 1e-9
 """A reading below this reads nothing but rounding."""
@@ -46,7 +46,7 @@ class Parts:
     pickup_m: tuple[float, float]
 
 
-class SmallSpecimen(Stated, Protocol):
+class SmallSpecimen(StatedSpecimen, Protocol):
     """What a specimen says of itself so that it can be fitted."""
 
     @property

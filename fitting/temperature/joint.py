@@ -17,7 +17,7 @@ from scipy.stats import chi2 as chi_square
 from fitting.arrays import Array
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.begin import Begun
-from fitting.diagnosis.response import Response
+from fitting.diagnosis.response import SweepResponse
 from fitting.identification.uncertainty import limits_reached
 from fitting.laws import CoreLaw
 from fitting.temperature.shifted_law import ShiftedLaw
@@ -66,7 +66,7 @@ class ShiftedFit:
 class _Joint:
     def __init__(self, begun: Sequence[Begun], law: CoreLaw, shift: Shift, *, vertical: bool) -> None:
         self.begun, self.law, self.shift = begun, law, shift
-        self.responses = [Response(b.problem, ()) for b in begun]
+        self.responses = [SweepResponse(b.problem, ()) for b in begun]
         self.n, self.m = len(law.names), len(shift.names)
         reference = np.abs(shift.temperature_c - shift.reference_c)
         moved = sorted({float(t) for t in shift.temperature_c} - {_nearest(shift, reference)})

@@ -11,12 +11,12 @@ from gui.feeds.feed import Feed, Turn
 from gui.state import SessionState
 from instrument.engine import Engine, Order, Stopped
 from instrument.engine.messages import (
-    Asked,
     BlocksDropped,
     Ended,
     Happened,
     Logged,
     Message,
+    OperatorAsked,
     Planned,
     Progressed,
     RecordingBegan,
@@ -33,7 +33,7 @@ from instrument.stream.raw import BlockAcquired
 _AT_ONCE = 64
 """Messages between two looks at the clock."""
 _PACE_EVERY_S, _PACE_MARKS = 0.5, 20
-_QUESTIONS: dict[str, Callable[[Asked], str]] = {
+_QUESTIONS: dict[str, Callable[[OperatorAsked], str]] = {
     "mount": lambda a: f"mount the {a.detail} plate",
     "aim": lambda a: (
         f"aim the laser at the {'base beside the accelerometer' if a.detail == 'base' else a.detail}, focus"
@@ -49,7 +49,7 @@ class LiveFeed(Feed):
     Signals
     -------
     asked
-        The operator is asked for something: an `Asked`. `question` holds it until it is answered.
+        The operator is asked for something: an `OperatorAsked`. `question` holds it until it is answered.
     stopped
         What the stop button achieved: a `Stopped`.
     """
@@ -68,13 +68,13 @@ class LiveFeed(Feed):
         self.engine = engine if engine is not None else Engine.start(order)
         self.state = SessionState(configuration)
         self.state.work("starting", None)
-        self.question: Asked | None = None
+        self.question: OperatorAsked | None = None
         self.ending: Ended | None = None
         self.recording: RecordingBegan | None = None
         self.stop_path: StopPathChanged | None = None
         self.rig_open = False
         self.blocks_dropped = 0
-        self._pace = _Pace()
+        self._pace = _WallPace()
         self._stopping: BackgroundTask[Stopped] | None = None
 
     @property
@@ -148,7 +148,7 @@ class LiveFeed(Feed):
             case Happened():
                 self.state.take(message.event, message.at_s)
                 self._follow(message.event)
-            case Asked():
+            case OperatorAsked():
                 self._ask(message)
             case Progressed():
                 self.state.work("" if message.ended else message.what, message.fraction)
@@ -183,7 +183,7 @@ class LiveFeed(Feed):
             if hammer is not None and self.state.run.good_hits < hammer.hits:
                 self._ask(None)
 
-    def _ask(self, question: Asked | None) -> None:
+    def _ask(self, question: OperatorAsked | None) -> None:
         assert self.state is not None
         self.question = question if question is not None and question.what != "hit" else None
         self.state.ask(_QUESTIONS[question.what](question) if question is not None else "")
@@ -197,7 +197,7 @@ class LiveFeed(Feed):
         self.ended.emit()
 
 
-class _Pace:
+class _WallPace:
     """Seconds on the wall for one of the session's, over the last while."""
 
     def __init__(self) -> None:

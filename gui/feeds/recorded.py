@@ -5,7 +5,7 @@ from time import monotonic
 
 from PySide6.QtCore import QObject, Signal
 
-from gui.background_task import Command
+from gui.background_task import BackgroundCommand
 from gui.feeds.feed import Feed, Turn
 from gui.feeds.reader import Failed, Item, Jumped, Loaded, Read, Reader
 from gui.feeds.session_index import SessionIndex
@@ -41,7 +41,7 @@ class RecordedFeed(Feed):
         self.speed: float | None = 1.0
         """Times as fast as it was; None as fast as it goes."""
         self.comparison: ReplayResult | None = None
-        self._comparing: Command | None = None
+        self._comparing: BackgroundCommand | None = None
         self._jumping_to: float | None = None
         self._looked = monotonic()
         self._reader = Reader(path)
@@ -97,7 +97,7 @@ class RecordedFeed(Feed):
         """Compute every derived event again, in a process of its own."""
         if self._comparing is not None and not self._comparing.over:
             return
-        self._comparing = Command(["replay", str(self.path)], ReplayResult, self)
+        self._comparing = BackgroundCommand(["replay", str(self.path)], ReplayResult, self)
         self._comparing.done.connect(self._found_equal)
         self._comparing.failed.connect(self.comparison_failed)
         self._comparing.start()

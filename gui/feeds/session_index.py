@@ -22,7 +22,7 @@ Look = Callable[[], None]
 
 
 @dataclass(frozen=True)
-class Mark:
+class IndexMark:
     """A place worth jumping to."""
 
     time_s: float
@@ -51,7 +51,7 @@ class SessionIndex:
     part_first: tuple[int, ...]
     with_blows: tuple[bool, ...]
     step_first: tuple[int, ...]
-    marks: tuple[Mark, ...]
+    marks: tuple[IndexMark, ...]
 
     @classmethod
     def of(cls, file: SessionFile, look: Look) -> "SessionIndex":
@@ -60,7 +60,7 @@ class SessionIndex:
         firsts: list[int] = []
         blows: list[bool] = []
         steps: list[int] = []
-        marks: list[Mark] = []
+        marks: list[IndexMark] = []
         timeline, hammer = _Timeline(), False
         for number in range(file.part_count):
             look()
@@ -74,7 +74,7 @@ class SessionIndex:
                 if isinstance(event, StepBegan | AcquisitionBegan):
                     steps.append(len(times) - 1)
                 if (what := _worth_a_mark(event)) is not None:
-                    marks.append(Mark(times[-1], what))
+                    marks.append(IndexMark(times[-1], what))
         return cls(
             file.path,
             file.configuration,

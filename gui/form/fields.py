@@ -56,13 +56,13 @@ class Field:
 
 
 @dataclass(frozen=True)
-class Section:
+class FormSection:
     """A table of the file, or a list of tables."""
 
     key: str
     tip: str
     fields: tuple[Field, ...]
-    sections: tuple["Section", ...] = ()
+    sections: tuple["FormSection", ...] = ()
     off: Off = "never"
     repeated: bool = False
 
@@ -79,11 +79,11 @@ def section_of(
     *,
     repeated: bool = False,
     default: object = None,
-) -> Section:
+) -> FormSection:
     """All that the model of a file, or of a table in it, asks for; `default` counts where it is left out."""
     schema = model.model_json_schema()["properties"]
     fields: list[Field] = []
-    sections: list[Section] = []
+    sections: list[FormSection] = []
     for name, info in model.model_fields.items():
         if model.__name__ == "Simulation" and name in _NOT_ASKED:
             continue
@@ -94,11 +94,11 @@ def section_of(
             inner = section_of(table, name, _off(info), repeated=is_list, default=counts)
             sections.append(_device(inner) if issubclass(table, DeviceOptions) else inner)
         elif (name, info.annotation) == ("law", dict[str, Any]):
-            sections.append(Section("law", "How the core's modulus depends on frequency.", (law_kind(),)))
+            sections.append(FormSection("law", "How the core's modulus depends on frequency.", (law_kind(),)))
         else:
             counts = getattr(default, name, info.get_default(call_default_factory=True))
             fields.append(_field(name, info, schema[name], counts))
-    return Section(key, _first_line(model), tuple(fields), tuple(sections), off, repeated)
+    return FormSection(key, _first_line(model), tuple(fields), tuple(sections), off, repeated)
 
 
 def law_kind() -> Field:
@@ -106,14 +106,14 @@ def law_kind() -> Field:
     return Field("kind", "choice", needed=True, choices=tuple(sorted(LAWS)), tip="The law of the core.")
 
 
-def _device(section: Section) -> Section:
+def _device(section: FormSection) -> FormSection:
     """What is asked of every device; its kind, one of those there are, decides what else."""
     kinds = tuple(sorted(DEVICES[section.key]))
     fields = (replace(f, kind="choice", choices=kinds) if f.key == "kind" else f for f in section.fields)
     return replace(section, fields=tuple(fields))
 
 
-def device_fields(section: Section, kind: object) -> tuple[Field, ...]:
+def device_fields(section: FormSection, kind: object) -> tuple[Field, ...]:
     """What the driver of this kind asks for beside what `section` does; nothing where it is no device's."""
     options = options_of(section.key, kind) if section.key in DEVICES else None
     if options is None:

@@ -16,7 +16,7 @@ from PySide6.QtWidgets import (
 )
 
 from gui.form.draft import Draft
-from gui.form.fields import Field, Place, Section, device_fields, law_fields, section_of
+from gui.form.fields import Field, FormSection, Place, device_fields, law_fields, section_of
 from gui.theme import current_theme
 from gui.widgets import tool
 
@@ -132,7 +132,7 @@ class Form(QTreeWidget):
         self.verticalScrollBar().setValue(at)
         self.judge()
 
-    def _section(self, above: QTreeWidgetItem | None, place: Place, section: Section) -> None:
+    def _section(self, above: QTreeWidgetItem | None, place: Place, section: FormSection) -> None:
         item = self._row(above, place, section.label, section.tip)
         font = item.font(_NAME)
         font.setBold(True)
@@ -150,7 +150,7 @@ class Form(QTreeWidget):
                 return
         self._inside(item, place, section)
 
-    def _inside(self, item: QTreeWidgetItem, place: Place, section: Section) -> None:
+    def _inside(self, item: QTreeWidgetItem, place: Place, section: FormSection) -> None:
         for field in section.fields:
             self._field(item, (*place, field.key), field)
         if section.key == "law":
@@ -161,7 +161,7 @@ class Form(QTreeWidget):
         for inner in section.sections:
             self._section(item, (*place, inner.key), inner)
 
-    def _tables(self, item: QTreeWidgetItem, place: Place, section: Section) -> None:
+    def _tables(self, item: QTreeWidgetItem, place: Place, section: FormSection) -> None:
         self.setItemWidget(item, _VALUE, self._button("+", "Another one, like the last", self._add, place))
         given = self.draft.value(place)
         for number in range(len(given) if isinstance(given, list) else 0):
@@ -217,7 +217,7 @@ class Form(QTreeWidget):
         row.addStretch(1)
         return holder
 
-    def _is_on(self, place: Place, section: Section) -> bool:
+    def _is_on(self, place: Place, section: FormSection) -> bool:
         given = self.draft.value(place)
         return given is not False if section.off == "false" else given is not None
 

@@ -19,7 +19,7 @@ from gui.state.step import Step
 from gui.state.time_to_go import TimeToGo
 from instrument.cli.watching import said_of
 from instrument.errors import BadInput
-from instrument.impact.record import Channel, Hit
+from instrument.impact.record import Hit, ResponseChannel
 from instrument.session.configuration import Configuration
 from instrument.session.contents import Contents, Gather, RecordedHit
 from instrument.session.setup import sweep_settings
@@ -236,5 +236,5 @@ class SessionState:
 
 def _without_samples(hit: HitJudged, sample_rate_hz: float) -> RecordedHit:
     none = np.zeros(0)
-    record = Hit(f"hit {hit.hit}", sample_rate_hz, none, (Channel("response", "acceleration", none),))
+    record = Hit(f"hit {hit.hit}", sample_rate_hz, none, (ResponseChannel("response", "acceleration", none),))
     return RecordedHit(hit.hit, hit.accepted, hit.why, hit.peak_n, record)

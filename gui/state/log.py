@@ -10,7 +10,7 @@ _MOST_LINES = 5000
 
 
 @dataclass(frozen=True)
-class Line:
+class LogLine:
     """One line."""
 
     time_s: float
@@ -25,7 +25,7 @@ class Line:
 class Log:
     """Lines in order."""
 
-    lines: list[Line] = field(default_factory=list)
+    lines: list[LogLine] = field(default_factory=list)
     began: datetime | None = None
     """The session, on the clock of the wall."""
     dropped: int = 0
@@ -34,7 +34,7 @@ class Log:
     def add(self, time_s: float, text: str, kind: Kind = "said") -> None:
         """One more."""
         wall = self.began + timedelta(seconds=time_s) if self.began is not None else None
-        self.lines.append(Line(time_s, text, kind, wall))
+        self.lines.append(LogLine(time_s, text, kind, wall))
         if len(self.lines) > _MOST_LINES:
             self.lines.pop(0)
             self.dropped += 1

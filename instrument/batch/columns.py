@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from instrument.batch.run import Row
+from instrument.batch.run import BatchRow
 
 Cell = str | float | int | bool | None
 
@@ -36,7 +36,7 @@ DONE, FAILED = "done", "failed"
 NOT_DIAGNOSED = "not diagnosed"
 
 
-def columns_of(rows: Iterable[Row]) -> list[str]:
+def columns_of(rows: Iterable[BatchRow]) -> list[str]:
     """All there are; the parameters of every law that occurs, in the order in which they first do."""
     names: dict[str, None] = {}
     for row in rows:
@@ -54,7 +54,7 @@ def error_name(name: str) -> str:
     return f"{name}_standard_error"
 
 
-def cells(row: Row) -> dict[str, Cell]:
+def cells(row: BatchRow) -> dict[str, Cell]:
     """Of one row; columns that say nothing of it are left out."""
     task, o = row.task, row.outcome
     temperature = task.temperature_c if task.temperature_c is not None else o.get("temperature_c")

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from instrument.batch.columns import NOT_DIAGNOSED
-from instrument.batch.run import Row
+from instrument.batch.run import BatchRow
 
 
 @dataclass
@@ -23,7 +23,7 @@ class Counted:
     """Rows worked out on another specimen's reduced model."""
 
     @classmethod
-    def of(cls, rows: Iterable[Row]) -> "Counted":
+    def of(cls, rows: Iterable[BatchRow]) -> "Counted":
         """In one pass."""
         found = cls()
         for row in rows:

@@ -6,7 +6,7 @@ from itertools import islice
 import numpy as np
 from matplotlib.figure import Figure
 
-from instrument.batch.run import Row
+from instrument.batch.run import BatchRow
 from instrument.results.drawing import DATA, label, panels
 
 MOST = 400
@@ -16,7 +16,7 @@ _LINES_APART = 12
 """So many lines can be told apart: each in a colour of its own, and named."""
 
 
-def laws_figure(rows: Iterable[Row], count: int) -> Figure:
+def laws_figure(rows: Iterable[BatchRow], count: int) -> Figure:
     """G' and eta of `count` rows that have a law, with their 95 % bands."""
     figure, ((left, right),) = panels(1, 2, 4.6)
     some = islice((row for row in rows if _law(row)), 0, None, 1 + (count - 1) // MOST if count else 1)
@@ -51,6 +51,6 @@ def laws_figure(rows: Iterable[Row], count: int) -> Figure:
     return figure
 
 
-def _law(row: Row) -> dict[str, list[float]]:
+def _law(row: BatchRow) -> dict[str, list[float]]:
     law: dict[str, list[float]] = row.outcome.get("law") or {}
     return law

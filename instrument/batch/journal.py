@@ -13,7 +13,7 @@ from instrument.errors import BadInput
 NAME = "batch.jsonl"
 
 
-class Journal:
+class OutcomeJournal:
     """Outcomes by key. Only where each begins in the file is held, not what it says. A context."""
 
     def __init__(self, folder: Path) -> None:
@@ -30,7 +30,7 @@ class Journal:
             self._file.close()
             raise
 
-    def __enter__(self) -> "Journal":
+    def __enter__(self) -> "OutcomeJournal":
         return self
 
     def __exit__(

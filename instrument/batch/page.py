@@ -10,7 +10,7 @@ from instrument.batch.counted import Counted
 from instrument.batch.figure import MOST, laws_figure
 from instrument.batch.run import Rows
 from instrument.batch.table import beside
-from instrument.report.blocks import Block, Facts, Section, Sentence, Table
+from instrument.report.blocks import Block, FactsBlock, ReportSection, Sentence, TableBlock
 from instrument.report.html import html_page
 from instrument.report.picture import picture
 
@@ -46,10 +46,10 @@ def write_page(rows: Rows, counted: Counted, folder: Path) -> Path:
         ("program", f"viscorig {version('viscorig')}"),
     ]
     sections = [
-        Section("Laws", _laws(rows, counted)),
-        Section("Verdicts", _verdicts(counted)),
-        Section("Failures", _failures(counted)),
-        Section("Rows", _rows(rows)),
+        ReportSection("Laws", _laws(rows, counted)),
+        ReportSection("Verdicts", _verdicts(counted)),
+        ReportSection("Failures", _failures(counted)),
+        ReportSection("Rows", _rows(rows)),
     ]
     path = folder / HTML
     with beside(path) as draft:
@@ -68,21 +68,23 @@ def _laws(rows: Rows, counted: Counted) -> tuple[Block, ...]:
 
 def _verdicts(counted: Counted) -> tuple[Block, ...]:
     blocks: list[Block] = [
-        Table("", ("verdict", "rows"), tuple((name, str(n)) for name, n in counted.verdicts.most_common()))
+        TableBlock(
+            "", ("verdict", "rows"), tuple((name, str(n)) for name, n in counted.verdicts.most_common())
+        )
     ]
     if counted.effects:
         found = tuple((name, str(n)) for name, n in counted.effects.most_common())
-        blocks.append(Table("Effects named", ("effect", "rows"), found))
+        blocks.append(TableBlock("Effects named", ("effect", "rows"), found))
     if counted.borrowed:
         said = f"{counted.borrowed} rows were worked out on the reduced model of a specimen like theirs."
-        blocks.append(Facts("", (("models", said),)))
+        blocks.append(FactsBlock("", (("models", said),)))
     return tuple(blocks)
 
 
 def _failures(counted: Counted) -> tuple[Block, ...]:
     if not counted.failures:
         return (Sentence("None."),)
-    return (Table("", ("data", "why"), tuple(counted.failures)),)
+    return (TableBlock("", ("data", "why"), tuple(counted.failures)),)
 
 
 def _rows(rows: Rows) -> tuple[Block, ...]:
@@ -92,7 +94,7 @@ def _rows(rows: Rows) -> tuple[Block, ...]:
         if row.outcome["failed"]:
             found["warnings"] = row.outcome["failed"]
         shown.append((row.task.data, *(_text(found.get(key), scale) for key, _, scale in _SHOWN)))
-    table = Table("", ("data", *(head for _, head, _ in _SHOWN)), tuple(shown))
+    table = TableBlock("", ("data", *(head for _, head, _ in _SHOWN)), tuple(shown))
     if len(rows) <= _ROWS_SHOWN:
         return (table,)
     return (Sentence(f"The first {_ROWS_SHOWN}; batch.csv has all of them.", "note"), table)

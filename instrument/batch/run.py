@@ -7,7 +7,7 @@ from pathlib import Path
 
 from instrument.batch.cluster import on_cluster
 from instrument.batch.families import with_families
-from instrument.batch.journal import Journal
+from instrument.batch.journal import OutcomeJournal
 from instrument.batch.keys import Keys
 from instrument.batch.task import Task
 from instrument.batch.work import Outcome, failure, lost, outcome_of
@@ -30,7 +30,7 @@ def there(address: str) -> Runner:
 
 
 @dataclass(frozen=True)
-class Row:
+class BatchRow:
     """A task and what came of it."""
 
     task: Task
@@ -40,7 +40,7 @@ class Row:
 class Rows:
     """All rows in the order of the question, one at a time from the disk; a context."""
 
-    def __init__(self, tasks: Sequence[Task], keys: Sequence[str | None], journal: Journal) -> None:
+    def __init__(self, tasks: Sequence[Task], keys: Sequence[str | None], journal: OutcomeJournal) -> None:
         self._tasks, self._keys, self._journal = tasks, keys, journal
         self.repeated = 0
         """How many the journal had already."""
@@ -48,12 +48,12 @@ class Rows:
     def __len__(self) -> int:
         return len(self._tasks)
 
-    def __iter__(self) -> Iterator[Row]:
+    def __iter__(self) -> Iterator[BatchRow]:
         for task, key in zip(self._tasks, self._keys, strict=True):
             if key is not None and key in self._journal:
-                yield Row(task, self._journal[key])
+                yield BatchRow(task, self._journal[key])
             else:
-                yield Row(task, _unread(task))
+                yield BatchRow(task, _unread(task))
 
     def __enter__(self) -> "Rows":
         return self
@@ -67,7 +67,7 @@ def run_batch(
 ) -> Rows:
     """Do what is not done yet. Raises `BadInput`, `StoppedByUser`."""
     tasks = with_families(tasks)
-    journal = Journal(folder)
+    journal = OutcomeJournal(folder)
     try:
         with progress("looking for what is done"):
             keyed = Keys()
@@ -85,7 +85,7 @@ def run_batch(
 def _do_what_is_left(
     tasks: Sequence[Task],
     keys: Sequence[str | None],
-    journal: Journal,
+    journal: OutcomeJournal,
     runner: Runner,
     progress: Progress,
 ) -> None:

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from instrument.batch.columns import Cell, cells, columns_of
-from instrument.batch.run import Row
+from instrument.batch.run import BatchRow
 from instrument.errors import BadInput
 
 CSV, PARQUET = "batch.csv", "batch.parquet"
@@ -20,7 +20,7 @@ _WORDS = ("data", "specimen", "hammer", "status", "reason", "verdict", "effects"
 _WHETHER = ("converged", "borrowed_model")
 
 
-def write_tables(rows: Iterable[Row], folder: Path) -> list[Path]:
+def write_tables(rows: Iterable[BatchRow], folder: Path) -> list[Path]:
     """The files written. `rows` is gone through several times."""
     columns = columns_of(rows)
     written = [_write_csv(rows, columns, folder / CSV)]
@@ -42,7 +42,7 @@ def beside(path: Path) -> Iterator[Path]:
         draft.unlink(missing_ok=True)
 
 
-def _write_csv(rows: Iterable[Row], columns: list[str], path: Path) -> Path:
+def _write_csv(rows: Iterable[BatchRow], columns: list[str], path: Path) -> Path:
     with beside(path) as draft, open(draft, "w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(columns)
@@ -59,7 +59,7 @@ def _text(cell: Cell) -> str:
     return str(cell).lower() if isinstance(cell, bool) else str(cell)
 
 
-def _write_parquet(rows: Iterable[Row], columns: list[str], path: Path) -> Path:
+def _write_parquet(rows: Iterable[BatchRow], columns: list[str], path: Path) -> Path:
     import pyarrow as pa
     import pyarrow.parquet as pq
 

@@ -46,7 +46,7 @@ _REPEATS = 7
 
 
 @dataclass(frozen=True)
-class Row:
+class BenchLine:
     """One line: a time, and how many times faster that is than what `to` names."""
 
     name: str
@@ -56,7 +56,7 @@ class Row:
     max_relative_error: float | None = None
 
 
-def run_bench(progress: Progress = quiet) -> list[Row]:
+def run_bench(progress: Progress = quiet) -> list[BenchLine]:
     """Time everything; two minutes or so."""
     specimen = read_specimen(case_file("zn1.toml"))
     with tempfile.TemporaryDirectory() as folder, _cache_in(folder):
@@ -76,23 +76,25 @@ def run_bench(progress: Progress = quiet) -> list[Row]:
         diagnosed = _diagnoses(specimen, progress)
     whole_sweep = "the paper's sweep"
     return [
-        Row("the paper's sweep: an eigenproblem at each of 353 frequencies (10 timed, scaled)", paper_sweep),
-        Row(f"the paper's fit: {PAPER_STEPS} steps of 5 such sweeps", paper_fit),
-        Row(f"direct sparse solve, one frequency (median of {RANDOM_POINTS})", direct_seconds),
-        Row("set-up, cold", setup),
-        Row("set-up, cached", cached, setup / cached, "set-up, cold"),
-        Row(
+        BenchLine(
+            "the paper's sweep: an eigenproblem at each of 353 frequencies (10 timed, scaled)", paper_sweep
+        ),
+        BenchLine(f"the paper's fit: {PAPER_STEPS} steps of 5 such sweeps", paper_fit),
+        BenchLine(f"direct sparse solve, one frequency (median of {RANDOM_POINTS})", direct_seconds),
+        BenchLine("set-up, cold", setup),
+        BenchLine("set-up, cached", cached, setup / cached, "set-up, cold"),
+        BenchLine(
             f"reduced model ({size} vectors) against direct at {RANDOM_POINTS} random points, one frequency",
             evaluation / len(GRID_HZ),
             direct_seconds * len(GRID_HZ) / evaluation,
             "direct sparse solve",
             error,
         ),
-        Row("one law over 353 frequencies", evaluation, paper_sweep / evaluation, whole_sweep),
-        Row("the same with derivatives", gradient, paper_sweep / gradient, whole_sweep),
-        Row("identification of 9 points", fit_nine, paper_fit / fit_nine, "the paper's fit"),
-        Row("identification of 353 complex points", fit_many, paper_fit / fit_many, "the paper's fit"),
-        Row(
+        BenchLine("one law over 353 frequencies", evaluation, paper_sweep / evaluation, whole_sweep),
+        BenchLine("the same with derivatives", gradient, paper_sweep / gradient, whole_sweep),
+        BenchLine("identification of 9 points", fit_nine, paper_fit / fit_nine, "the paper's fit"),
+        BenchLine("identification of 353 complex points", fit_many, paper_fit / fit_many, "the paper's fit"),
+        BenchLine(
             "set-up, cold, and identification together",
             setup + fit_many,
             paper_fit / (setup + fit_many),
@@ -109,13 +111,13 @@ def _diagnoses(specimen: Specimen, progress: Progress) -> list[tuple[Sweep, Diag
     return [(s, diagnose(s, specimen, progress=progress)) for s in sweeps]
 
 
-def _diagnosis_rows(diagnosed: list[tuple[Sweep, Diagnosed]]) -> list[Row]:
+def _diagnosis_rows(diagnosed: list[tuple[Sweep, Diagnosed]]) -> list[BenchLine]:
     cold = diagnosed[0][1].setup_seconds
-    rows = [Row("set-up of a diagnosis, cold", cold)]
+    rows = [BenchLine("set-up of a diagnosis, cold", cold)]
     for sweep, found in diagnosed[1:]:
         levels = len(np.unique(sweep.commanded_m_s2))
         name = f"diagnosis, the whole catalogue, {len(sweep)} points at {levels} level" + "s" * (levels > 1)
-        rows.append(Row(name, found.seconds))
+        rows.append(BenchLine(name, found.seconds))
     return rows
 
 

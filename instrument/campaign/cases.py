@@ -25,7 +25,7 @@ from drivers.simulated.plant.effects import (
 from fitting.arrays import Array, Complex
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
-from instrument.campaign.channels import Channels
+from instrument.campaign.channels import TrueChannels
 from instrument.campaign.hammer import hammer_test
 from instrument.campaign.materials import TrueLaw, draw_material, draw_strange_material
 from instrument.campaign.noise import NoiseFigures, draw_noise, peaks
@@ -150,13 +150,13 @@ def plant_effects(severities: dict[str, Severity]) -> Effects:
     )
 
 
-def channel_effects(severities: dict[str, Severity]) -> Channels:
+def channel_effects(severities: dict[str, Severity]) -> TrueChannels:
     """What of the hidden the channels do, but for hum."""
 
     def number(name: str, key: str, otherwise: float) -> float:
         return float(severities[name][key]) if name in severities else otherwise
 
-    return Channels(
+    return TrueChannels(
         delay_s=number("channel_delay", "delay_s", 0.0),
         gain=number("gain_error", "factor", 1.0),
         absolute="absolute_velocity" in severities,

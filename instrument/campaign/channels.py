@@ -12,7 +12,7 @@ _AVERAGED_S = 1.0
 
 
 @dataclass(frozen=True)
-class Channels:
+class TrueChannels:
     """Each channel as it really is; the defaults are as declared."""
 
     delay_s: float = 0.0

@@ -11,14 +11,14 @@ import numpy as np
 from drivers.vibrometer import Range
 from fitting.arrays import Array
 from fitting.complex_modes import complex_modes
-from fitting.damping import ViscousDamping, viscous_damping
+from fitting.damping import LowRankDamping, viscous_damping
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.half_plate import HalfPlate
 from fitting.identification.model import velocity
 from fitting.plate import Plate
 from fitting.specimen import Specimen
 from instrument.errors import BadInput
-from instrument.files.experiment_file import Segment, SweepTable
+from instrument.files.experiment_file import SegmentSection, SweepTable
 from instrument.stepped_sine.plan import PlannedSegment
 from instrument.stepped_sine.settings import SweepSettings
 
@@ -94,11 +94,11 @@ class Forecast:
         return HalfPlate(Plate(self.specimen), odd=False)
 
     @cached_property
-    def _damping(self) -> ViscousDamping:
+    def _damping(self) -> LowRankDamping:
         whole = viscous_damping(self._half.plate)
         return replace(whole, U=self._half.down @ whole.U)
 
-    def frequencies_hz(self, segment: Segment) -> tuple[float, ...]:
+    def frequencies_hz(self, segment: SegmentSection) -> tuple[float, ...]:
         """Of a segment's steps. Raises `BadInput`."""
         low, high = segment.low_hz, segment.high_hz
         if segment.mode is not None:
@@ -113,7 +113,7 @@ class Forecast:
 
 
 def planned_segment(
-    forecast: Forecast, segment: Segment, number: int, sweep: SweepTable, ranges: tuple[Range, ...]
+    forecast: Forecast, segment: SegmentSection, number: int, sweep: SweepTable, ranges: tuple[Range, ...]
 ) -> PlannedSegment:
     """One segment of the first sweep with its range. Raises `BadInput`."""
     f = forecast.frequencies_hz(segment)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from fitting.modal.frf import Estimate, Refusal
+from fitting.modal.frf import DampingEstimate, Refusal
 from instrument.cli.options import figures_option, json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
@@ -140,7 +140,7 @@ def _print(out: Output, found: Damping) -> None:
         out.say(f"note: {warning}")
 
 
-def _percent(e: Estimate | Refusal) -> str:
+def _percent(e: DampingEstimate | Refusal) -> str:
     if isinstance(e, Refusal):
         return "refused"
     return ratio_words(e.ratio, e.standard_error)

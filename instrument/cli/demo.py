@@ -18,7 +18,7 @@ from instrument.progress import bar
 from instrument.report.page import report_page
 from instrument.results.diagnosis_figures import save_diagnosis_figures
 from instrument.results.diagnosis_words import law_at, with_verdict
-from instrument.run.control import Control
+from instrument.run.control import RunControl
 from instrument.run.experiment import Finished, run_experiment
 from instrument.session.configuration import read_whole_experiment
 from instrument.session.contents import contents_of
@@ -71,7 +71,7 @@ def _run_rig(out: Output, folder: Path, effect: str | None, seed: int) -> RunRes
     out.say("The simulated rig: bare plate, hammer; damped plate, stepped sine at 1 g.")
     out.say(f"Hidden in it: {effect or 'nothing'}. The model is not told.\n")
     experiment = read_whole_experiment(write_case(folder, seed=seed, effect=effect))
-    control = Control()
+    control = RunControl()
     with safe_stop(control), Watcher() as watch:
         finished = run_experiment(
             experiment, folder, ("hammer", "sweep"), control=control, watch=watch, progress=bar

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
-from fitting.specimen import Specimen, Stated
+from fitting.specimen import Specimen, StatedSpecimen
 from fitting.structures.small_modes import small_velocity
 from instrument.cli.options import Frequencies, file_argument, json_option
 from instrument.cli.output import Output
@@ -76,7 +76,7 @@ def predict(
     _show(out, read, result)
 
 
-def _show(out: Output, read: Stated, result: PredictionResult) -> None:
+def _show(out: Output, read: StatedSpecimen, result: PredictionResult) -> None:
     rows = [
         [
             f"{p.frequency_hz:g}",

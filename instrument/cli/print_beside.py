@@ -5,12 +5,12 @@ import numpy as np
 from instrument.cli.output import Output
 from instrument.facts.beside import BesideTable
 from instrument.files.dma_file import DmaTable
-from instrument.material.beside import Beside
+from instrument.material.beside import TableAtTemperature
 
 _SAYS = {True: "differs", False: "agrees", None: "cannot be told"}
 
 
-def print_beside(out: Output, table: DmaTable, found: list[Beside], said: BesideTable) -> None:
+def print_beside(out: Output, table: DmaTable, found: list[TableAtTemperature], said: BesideTable) -> None:
     """A row a temperature."""
     what = "" if table.poisson is None else f", {table.kind} to shear with Poisson's ratio {table.poisson:g}"
     inside = f"{said.rows_in_band} of {said.rows} rows inside the band"

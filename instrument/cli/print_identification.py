@@ -4,7 +4,7 @@ import numpy as np
 
 from fitting.identification.bare_plate import BarePlateFit
 from fitting.identification.result import Identification
-from fitting.specimen import Specimen, Stated
+from fitting.specimen import Specimen, StatedSpecimen
 from fitting.sweep import Sweep
 from instrument.cli.output import Output
 from instrument.models.identification import Identified
@@ -14,7 +14,7 @@ from instrument.results.error_words import is_below_floor, percent_words
 _MOST_ROWS = 30
 
 
-def print_identification(out: Output, found: Identified, sweep: Sweep, specimen: Stated) -> None:
+def print_identification(out: Output, found: Identified, sweep: Sweep, specimen: StatedSpecimen) -> None:
     """What was found, how well it is known, and what the data do not say; `specimen` as stated."""
     r = found.result
     errors = r.standard_errors
@@ -77,7 +77,7 @@ def _print_band(out: Output, r: Identification) -> None:
     )
 
 
-def _print_adjusted(out: Output, r: Identification, specimen: Stated) -> None:
+def _print_adjusted(out: Output, r: Identification, specimen: StatedSpecimen) -> None:
     found = r.fit.adjusted
     if not found:
         return

@@ -8,7 +8,7 @@ from instrument.cli.options import json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.facts.written import RecoverResult
-from instrument.session.journal import CONFIGURATION, Journal
+from instrument.session.journal import CONFIGURATION, SessionJournal
 from instrument.session.storage import SessionFile, part_events, write_session
 from instrument.stream.derived import HitJudged
 
@@ -25,7 +25,7 @@ def recover(folder: Path, json_path: str | None) -> None:
     """
     out = Output(json_path)
     folder = _of_run(folder)
-    journal = Journal(folder)
+    journal = SessionJournal(folder)
     configuration = journal.configuration()
     entries = journal.entries()
     if not entries:

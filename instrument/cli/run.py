@@ -10,7 +10,7 @@ from instrument.cli.print_run import print_finished, run_result
 from instrument.cli.stopping import safe_stop
 from instrument.cli.watching import Watcher
 from instrument.progress import bar
-from instrument.run.control import Control
+from instrument.run.control import RunControl
 from instrument.run.experiment import Part, run_experiment
 from instrument.session.configuration import read_whole_experiment
 
@@ -44,7 +44,7 @@ def run_parts(
     """Run some parts of an experiment and print what they gave."""
     output = Output(json_path)
     experiment = read_whole_experiment(path)
-    control = Control()
+    control = RunControl()
     with safe_stop(control), Watcher() as watch:
         finished = run_experiment(
             experiment, out, parts, control=control, watch=watch, resume=resume, progress=bar

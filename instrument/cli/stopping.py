@@ -11,14 +11,14 @@ from types import FrameType
 import click
 
 from instrument.errors import RigStopped
-from instrument.run.control import Control
+from instrument.run.control import RunControl
 
 _SIGNALS = ("SIGTERM", "SIGHUP")
 _HOLD = getattr(signal, "SIGTSTP", None)
 
 
 @contextmanager
-def safe_stop(control: Control) -> Iterator[None]:
+def safe_stop(control: RunControl) -> Iterator[None]:
     """While this is open, SIGTERM and SIGHUP raise `RigStopped`, once; the shaker is silenced on the way."""
     known = [getattr(signal, name) for name in _SIGNALS if hasattr(signal, name)]
     before = {number: signal.getsignal(number) for number in known}

@@ -3,7 +3,7 @@
 import threading
 from collections.abc import Callable
 
-from instrument.engine.messages import Answered, Asked, Decided, Message
+from instrument.engine.messages import Answered, Decided, Message, OperatorAsked
 from instrument.run.operator import Operator
 from instrument.stream.raw import OperatorDid
 
@@ -37,18 +37,18 @@ class RemoteOperator:
 
     def mount(self, plate: str) -> OperatorDid:
         """Ask, and wait for the answer."""
-        self._ask(Asked("mount", plate), "mounted")
+        self._ask(OperatorAsked("mount", plate), "mounted")
         return OperatorDid("mounted", plate)
 
     def aim(self, point: str) -> OperatorDid:
         """Ask, and wait for the answer."""
-        self._ask(Asked("aim", point), "aimed")
+        self._ask(OperatorAsked("aim", point), "aimed")
         return OperatorDid("aimed", point)
 
     def hit(self, good: int, wanted: int) -> None:
         """Ask for a blow."""
         self.forget_content()
-        self._put(Asked("hit", good=good, wanted=wanted))
+        self._put(OperatorAsked("hit", good=good, wanted=wanted))
 
     def decided(self) -> list[OperatorDid]:
         """What has come since the last time."""
@@ -62,7 +62,7 @@ class RemoteOperator:
             return True
         with self._changed:
             if not self._content_asked and "content" not in self._answers:
-                self._put(Asked("content", good=good))
+                self._put(OperatorAsked("content", good=good))
             self._content_asked = True
             return "content" in self._answers
 
@@ -77,7 +77,7 @@ class RemoteOperator:
         with self._changed:
             self._changed.wait_for(lambda: self._decisions or "content" in self._answers)
 
-    def _ask(self, question: Asked, answer: str) -> None:
+    def _ask(self, question: OperatorAsked, answer: str) -> None:
         with self._changed:
             self._answers.discard(answer)
             self._put(question)

@@ -42,7 +42,7 @@ from instrument.engine.wire import read
 from instrument.errors import RigStopped
 from instrument.progress import Report
 from instrument.run.companion import Companion
-from instrument.run.control import Control
+from instrument.run.control import RunControl
 from instrument.run.operator import Operator, SimulatedOperator
 from instrument.run.rig import Rig
 from instrument.stream.event import Event
@@ -59,7 +59,7 @@ class Host(Companion):
     """Of one run."""
 
     def __init__(self, *, ask_content: bool) -> None:
-        self.control, self.interruption, self.mailbox = Control(), Interruption(), Mailbox()
+        self.control, self.interruption, self.mailbox = RunControl(), Interruption(), Mailbox()
         self.recorded: RecordingBegan | None = None
         """Where the run is recorded, once it is."""
         self._operator = RemoteOperator(self.mailbox.put, ask_content)

@@ -119,7 +119,7 @@ class Progressed(Message):
 
 
 @dataclass(frozen=True)
-class Asked(Message):
+class OperatorAsked(Message):
     """The operator is asked for something.
 
     "mount" and "aim" wait for `Answered`. "hit" waits for a blow; "content" for `Answered("content")` or for

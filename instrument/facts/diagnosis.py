@@ -13,7 +13,7 @@ StageName = Literal["before", "after"]
 STAGES: tuple[StageName, ...] = ("before", "after")
 
 
-class EffectParameter(Result):
+class ParameterFound(Result):
     """Of an effect, in `unit`."""
 
     value: Number
@@ -26,7 +26,7 @@ class EffectFound(Result):
     """An accepted effect, or what a channel shows by itself."""
 
     name: str
-    parameters: Mapping[str, EffectParameter]
+    parameters: Mapping[str, ParameterFound]
     probability: Number = nan
     """That it is there, alone or beside another."""
 
@@ -41,7 +41,7 @@ class CandidateFitted(Result):
     probability: Number = nan
     """One of all that were tried being right."""
     chi2_per_dof: MaybeNumber = None
-    parameters: Mapping[str, EffectParameter]
+    parameters: Mapping[str, ParameterFound]
     """Of two effects together, each key with its effect's name before it."""
     law: tuple[LawRow, ...] = ()
     """At a few frequencies, its own."""

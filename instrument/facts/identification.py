@@ -32,7 +32,7 @@ class Bend(Result):
     whitened: tuple[Number, ...]
 
 
-class Posterior(Result):
+class PosteriorFound(Result):
     """Covariance of all that was fitted: logarithms of the law's parameters, the rest in its own sizes."""
 
     names: tuple[str, ...]
@@ -55,7 +55,7 @@ class BareMode(Result):
     fitted_hz: Number
 
 
-class BarePlate(Result):
+class BarePlateFound(Result):
     """What the hammer test gives by itself."""
 
     substrate_young_pa: Number
@@ -104,10 +104,10 @@ class IdentificationResult(Result):
     adjusted: tuple[AdjustedNumber, ...] = ()
     bend: Bend | None = None
     """None where the law was not free to bend."""
-    posterior: Posterior | None = None
+    posterior: PosteriorFound | None = None
     theory_error: tuple[TheoryErrorRow, ...] | None = None
     """None for the paper's method."""
-    hammer: BarePlate | None = None
+    hammer: BarePlateFound | None = None
     """Where a hammer test took part."""
     budget: tuple[BudgetRow, ...] | None = None
     """By source, where it was asked for; None too where these data give no uncertainty."""

@@ -18,7 +18,7 @@ it stands."""
 
 
 @dataclass(frozen=True)
-class Row:
+class ColumnPoint:
     """A point, and what it is told against."""
 
     point: PointMeasured
@@ -32,15 +32,15 @@ class Row:
     """Of the level."""
 
 
-Read = Callable[[Sequence[Row]], Values]
+Read = Callable[[Sequence[ColumnPoint]], Values]
 
 
 @dataclass(frozen=True)
-class Shown:
+class ShownQuantity:
     """A quantity as people read it."""
 
     label: str
-    text: Callable[[Row], str]
+    text: Callable[[ColumnPoint], str]
     tip: str = ""
 
 
@@ -63,8 +63,8 @@ class Column:
     """Two rows equal in all of these are one measurement written twice."""
     unsaid: float | None = None
     """What counts where only others of a file's tables say it."""
-    report: Shown | None = None
-    record: Shown | None = None
+    report: ShownQuantity | None = None
+    record: ShownQuantity | None = None
 
     @property
     def imaginary(self) -> str:
@@ -86,7 +86,7 @@ def number(value: float | None, spec: str, unit: str = "", nothing: str = "\u201
     return nothing if value is None or not np.isfinite(value) else f"{value:{spec}}{unit}"
 
 
-def each(value: Callable[[Row], float]) -> Read:
+def each(value: Callable[[ColumnPoint], float]) -> Read:
     """Read point by point."""
     return lambda rows: np.array([value(r) for r in rows], dtype=float)
 
@@ -94,7 +94,7 @@ def each(value: Callable[[Row], float]) -> Read:
 def numbers(field: str) -> Read:
     """Read as it stands; whole where all are."""
 
-    def read(rows: Sequence[Row]) -> Values:
+    def read(rows: Sequence[ColumnPoint]) -> Values:
         values = [getattr(r.point, field) for r in rows]
         whole = bool(values) and all(isinstance(v, int) for v in values)
         return np.array([np.nan if v is None else v for v in values], dtype=int if whole else float)
@@ -112,16 +112,18 @@ def plain(field: str, unit: str, **more: Any) -> Column:
     return Column(field, unit, numbers(field), field, **more)
 
 
-def said(label: str, field: str, spec: str, unit: str = "", tip: str = "", scale: float = 1.0) -> Shown:
+def said(
+    label: str, field: str, spec: str, unit: str = "", tip: str = "", scale: float = 1.0
+) -> ShownQuantity:
     """In the window's record."""
 
-    def text(row: Row) -> str:
+    def text(row: ColumnPoint) -> str:
         value = getattr(row.point, field)
         return number(None if value is None else scale * value, spec, unit)
 
-    return Shown(label, text, tip)
+    return ShownQuantity(label, text, tip)
 
 
-def told(label: str, field: str, spec: str) -> Shown:
+def told(label: str, field: str, spec: str) -> ShownQuantity:
     """In the report's table, its unit in the heading."""
-    return Shown(label, lambda row: number(getattr(row.point, field), spec, nothing="-"))
+    return ShownQuantity(label, lambda row: number(getattr(row.point, field), spec, nothing="-"))

@@ -8,15 +8,15 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
-from instrument.files.toml import NotNegative, Positive, Table, document_faults, read_document
-from instrument.stepped_sine.settings import Control, Dwell, Settle
+from instrument.files.toml import NotNegative, Positive, TomlTable, document_faults, read_document
+from instrument.stepped_sine.settings import Dwell, LevelControl, Settle
 
 Count = Annotated[int, Field(ge=1, le=1000)]
 Frequency = Annotated[float, Field(ge=0.5, le=1e5)]
-_CONTROL, _SETTLE, _DWELL = Control(), Settle(), Dwell()
+_CONTROL, _SETTLE, _DWELL = LevelControl(), Settle(), Dwell()
 
 
-class Mounting(Table):
+class Mounting(TomlTable):
     """How the plate is held: two mountings are two clamps."""
 
     bolts: Annotated[int, Field(ge=0, le=100)] = 0
@@ -25,7 +25,7 @@ class Mounting(Table):
     """How often it was taken out and put back."""
 
 
-class Hammer(Table):
+class Hammer(TomlTable):
     """The bare plate's hammer test."""
 
     hits: Count = 5
@@ -43,7 +43,7 @@ class Hammer(Table):
     """For a hit, before the test gives up."""
 
 
-class Segment(Table):
+class SegmentSection(TomlTable):
     """A resonance region: from low to high, or around a mode of the specimen as it is known."""
 
     low_hz: Frequency | None = None
@@ -57,7 +57,7 @@ class Segment(Table):
     """Of the vibrometer; chosen from the predicted response where none is given."""
 
     @model_validator(mode="after")
-    def _whole(self) -> "Segment":
+    def _whole(self) -> "SegmentSection":
         by_edges = self.low_hz is not None and self.high_hz is not None
         if by_edges == (self.mode is not None) or (self.low_hz is None) != (self.high_hz is None):
             raise ValueError("expected either low_hz and high_hz, or mode")
@@ -68,7 +68,7 @@ class Segment(Table):
         return self
 
 
-class ControlTable(Table):
+class ControlTable(TomlTable):
     """Level control."""
 
     tolerance_percent: Annotated[float, Field(gt=0, le=20)] = 100 * _CONTROL.tolerance
@@ -76,14 +76,14 @@ class ControlTable(Table):
     ramp_s: Annotated[float, Field(ge=1e-3, le=10)] = _CONTROL.ramp_s
 
 
-class SettleTable(Table):
+class SettleTable(TomlTable):
     """When a response counts as steady."""
 
     tolerance_percent: Annotated[float, Field(gt=0, le=20)] = 100 * _SETTLE.tolerance
     most_s: Annotated[float, Field(ge=0.1, le=300)] = _SETTLE.most_s
 
 
-class DwellTable(Table):
+class DwellTable(TomlTable):
     """How long it is read then."""
 
     cycles: Annotated[float, Field(ge=1, le=1e4)] = _DWELL.cycles
@@ -91,7 +91,7 @@ class DwellTable(Table):
     most_s: Annotated[float, Field(ge=0.05, le=300)] = _DWELL.most_s
 
 
-class LimitsTable(Table):
+class LimitsTable(TomlTable):
     """Limits of this experiment; the rig's own hold besides."""
 
     base_m_s2: Positive | None = None
@@ -100,14 +100,14 @@ class LimitsTable(Table):
     drive_v: Positive | None = None
 
 
-class SentinelTable(Table):
+class SentinelTable(TomlTable):
     """One frequency, measured again after every segment: it shows whether the plate drifts."""
 
     frequency_hz: Frequency | None = None
     """The first segment's middle where none is given."""
 
 
-class CalibrationTable(Table):
+class CalibrationTable(TomlTable):
     """The vibrometer against the accelerometer, the laser on the base."""
 
     frequencies_hz: Annotated[list[Frequency], Field(min_length=3, max_length=100)] = Field(
@@ -116,12 +116,12 @@ class CalibrationTable(Table):
     level_g: Annotated[float, Field(ge=1e-4, le=1e3)] = 1.0
 
 
-class SweepTable(Table):
+class SweepTable(TomlTable):
     """The stepped sine."""
 
     level_g: Annotated[float, Field(ge=1e-4, le=1e3)] = 1.0
     sweeps: Count = 1
-    segments: Annotated[list[Segment], Field(min_length=1, max_length=100)]
+    segments: Annotated[list[SegmentSection], Field(min_length=1, max_length=100)]
     control: ControlTable = ControlTable()
     settle: SettleTable = SettleTable()
     dwell: DwellTable = DwellTable()
@@ -140,7 +140,7 @@ class SweepTable(Table):
         return {**given, **off}
 
 
-class ExperimentDocument(Table):
+class ExperimentDocument(TomlTable):
     """EXPERIMENT.toml. Paths are relative to it."""
 
     title: str = ""

@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import BaseModel, Field, ValidationError
 
 from fitting.arrays import Array
-from fitting.bare_modes import Sensor
+from fitting.bare_modes import CarriedSensor
 from fitting.errors import TooFewPoints
 from instrument.errors import BadInput
 from instrument.facts.damping import DampingResult
@@ -38,7 +38,7 @@ class HammerModes(NamedTuple):
     frequency_hz: Array
     ratios: Array
     """NaN where there is none."""
-    sensor: Sensor | None
+    sensor: CarriedSensor | None
     """What sat on the plate."""
 
 
@@ -68,7 +68,7 @@ def _modes(document: _Document) -> HammerModes:
         raise TooFewPoints("no accepted mode")
     ratios = [np.nan if m.damping_ratio is None else m.damping_ratio for m in modes]
     s = document.sensor
-    sensor = Sensor(s.mass_kg, s.x_m, s.y_m) if s is not None and s.mass_kg > 0 else None
+    sensor = CarriedSensor(s.mass_kg, s.x_m, s.y_m) if s is not None and s.mass_kg > 0 else None
     return HammerModes(np.array([m.frequency_hz for m in modes]), np.array(ratios), sensor)
 
 

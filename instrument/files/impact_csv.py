@@ -8,7 +8,7 @@ from fitting.arrays import Array
 from fitting.modal.frf import Frf, Motion
 from instrument.errors import BadInput
 from instrument.files.table import number, rate_of_times, read_rows, stated_rate_hz
-from instrument.impact.record import Channel, Hit
+from instrument.impact.record import Hit, ResponseChannel
 
 MOTIONS: dict[str, Motion] = {
     "acceleration_m_s2": "acceleration",
@@ -46,7 +46,7 @@ def read_impact_csv(path: Path, rate_hz: float | None = None) -> list[Hit] | dic
     for number_of_hit in np.unique(which):
         inside = which == number_of_hit
         source = f"{path.name} hit {number_of_hit:g}" if "hit" in columns else path.name
-        channels = tuple(Channel(n, MOTIONS[n], columns[n][inside]) for n in names)
+        channels = tuple(ResponseChannel(n, MOTIONS[n], columns[n][inside]) for n in names)
         hits.append(Hit(source, rate, columns["force_n"][inside], channels))
     return hits
 

@@ -14,7 +14,7 @@ _SEPARATORS = {"Tab": "\t", "Comma": ",", "Semicolon": ";"}
 
 
 @dataclass(frozen=True)
-class Segment:
+class SampleBlock:
     """One block of samples: named channels with their units, evenly sampled."""
 
     names: tuple[str, ...]
@@ -24,7 +24,7 @@ class Segment:
     """Shape (samples, channels)."""
 
 
-def read_lvm(path: Path) -> list[Segment]:
+def read_lvm(path: Path) -> list[SampleBlock]:
     """Every segment of the file. Raises `BadInput`."""
     lines = read_text(path, encoding="latin-1").splitlines()
     if not lines or not lines[0].startswith("LabVIEW Measurement"):
@@ -73,7 +73,7 @@ def _segments(
     facts: dict[str, str],
     *,
     comma: bool,
-) -> list[Segment]:
+) -> list[SampleBlock]:
     try:
         count = int(header["Channels"][0])
         step = _float(header["Delta_X"][0], comma=comma)
@@ -104,7 +104,7 @@ def _segments(
     # One header may stand for several segments: `Samples` says how long each is.
     length = int(header.get("Samples", ["0"])[0] or 0)
     pieces = len(samples) // length if length > 0 and len(samples) % length == 0 else 1
-    return [Segment(titles, units, 1 / step, piece) for piece in np.split(samples, pieces)]
+    return [SampleBlock(titles, units, 1 / step, piece) for piece in np.split(samples, pieces)]
 
 
 def _float(text: str, *, comma: bool) -> float:

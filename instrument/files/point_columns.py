@@ -8,8 +8,8 @@ it goes to the end, unless `_REPORT` or `_RECORD` gives it a place.
 from fitting.gravity import PUBLISHED_G_M_S2
 from instrument.files.column import (
     Column,
-    Row,
-    Shown,
+    ColumnPoint,
+    ShownQuantity,
     each,
     number,
     numbers,
@@ -21,7 +21,7 @@ from instrument.files.column import (
 )
 
 
-def _level(row: Row) -> str:
+def _level(row: ColumnPoint) -> str:
     level = row.point.level_m_s2
     return f"{level:.4g} m/s\u00b2 ({level / PUBLISHED_G_M_S2:.3g} g)"
 
@@ -30,7 +30,7 @@ def _both(value: complex, unit: str) -> str:
     return f"{value.real:.5g}, {value.imag:.5g} {unit}"
 
 
-def _place(row: Row) -> str:
+def _place(row: ColumnPoint) -> str:
     p = row.point
     return "sentinel" if p.purpose == "sentinel" else f"{p.sweep}.{p.segment}"
 
@@ -50,8 +50,8 @@ COLUMNS: tuple[Column, ...] = (
         "if known",
         whole=True,
         identity=True,
-        report=Shown("sweep.segment", _place),
-        record=Shown("Segment, pass", lambda r: f"{r.point.segment}, {r.point.sweep}"),
+        report=ShownQuantity("sweep.segment", _place),
+        record=ShownQuantity("Segment, pass", lambda r: f"{r.point.segment}, {r.point.sweep}"),
     ),
     Column(
         "level_g",
@@ -68,7 +68,7 @@ COLUMNS: tuple[Column, ...] = (
         "m/s^2",
         field="level_m_s2",
         report=told("level / (m/s²)", "level_m_s2", ".4g"),
-        record=Shown("Level asked for", _level),
+        record=ShownQuantity("Level asked for", _level),
     ),
     Column(
         "time_s",
@@ -77,7 +77,7 @@ COLUMNS: tuple[Column, ...] = (
         "",
         "if known",
         identity=True,
-        record=Shown("Time", lambda r: f"{r.time_s:.2f} s", "Since the session's first sample"),
+        record=ShownQuantity("Time", lambda r: f"{r.time_s:.2f} s", "Since the session's first sample"),
     ),
     plain(
         "frequency_hz",
@@ -85,14 +85,14 @@ COLUMNS: tuple[Column, ...] = (
         given="always",
         above_zero=True,
         identity=True,
-        report=Shown("f / Hz", lambda r: f"{r.point.frequency_hz:g}"),
+        report=ShownQuantity("f / Hz", lambda r: f"{r.point.frequency_hz:g}"),
         record=said("Frequency", "frequency_hz", ".7g", " Hz"),
     ),
     plain(
         "velocity_re_m_s",
         "m/s",
         given="velocity",
-        record=Shown("Velocity re, im", lambda r: _both(1e3 * r.point.velocity_m_s, "mm/s"), _PHASOR),
+        record=ShownQuantity("Velocity re, im", lambda r: _both(1e3 * r.point.velocity_m_s, "mm/s"), _PHASOR),
     ),
     plain("velocity_im_m_s", "m/s", given="velocity"),
     Column(
@@ -100,8 +100,8 @@ COLUMNS: tuple[Column, ...] = (
         "m/s",
         given="velocity",
         above_zero=True,
-        report=Shown("|v| / (m/s)", lambda r: f"{abs(r.point.velocity_m_s):.5g}"),
-        record=Shown("Velocity", lambda r: f"{abs(1e3 * r.point.velocity_m_s):.5g} mm/s", _READ_TIP),
+        report=ShownQuantity("|v| / (m/s)", lambda r: f"{abs(r.point.velocity_m_s):.5g}"),
+        record=ShownQuantity("Velocity", lambda r: f"{abs(1e3 * r.point.velocity_m_s):.5g} mm/s", _READ_TIP),
     ),
     Column("acceleration_re_m_s2", "m/s^2", given="velocity"),
     Column("acceleration_im_m_s2", "m/s^2", given="velocity"),
@@ -111,13 +111,13 @@ COLUMNS: tuple[Column, ...] = (
         "base_accel_re_m_s2",
         "m/s^2",
         given="if known",
-        record=Shown("Base re, im", lambda r: _both(r.point.base_m_s2, "m/s\u00b2"), _PHASOR),
+        record=ShownQuantity("Base re, im", lambda r: _both(r.point.base_m_s2, "m/s\u00b2"), _PHASOR),
     ),
     plain("base_accel_im_m_s2", "m/s^2", given="if known"),
     Column(
         "base_accel_m_s2",
         "m/s^2",
-        record=Shown(
+        record=ShownQuantity(
             "Base acceleration",
             lambda r: f"{abs(r.point.base_m_s2):.5g} m/s\u00b2",
             "Zero to peak, of the fundamental",
@@ -136,7 +136,7 @@ COLUMNS: tuple[Column, ...] = (
         "velocity_std_m_s",
         "if known",
         above_zero=True,
-        report=Shown(
+        report=ShownQuantity(
             "noise / %",
             lambda r: number(100 * r.point.velocity_std_m_s / abs(r.point.velocity_m_s), ".2g", nothing="-"),
         ),
@@ -147,7 +147,7 @@ COLUMNS: tuple[Column, ...] = (
         "step",
         "1",
         report=told("step", "step", ""),
-        record=Shown("Step", lambda r: f"{r.point.step} ({r.point.purpose})"),
+        record=ShownQuantity("Step", lambda r: f"{r.point.step} ({r.point.purpose})"),
     ),
     Column("purpose", "", texts(lambda p: p.purpose)),
     Column(
@@ -175,7 +175,7 @@ COLUMNS: tuple[Column, ...] = (
         "control_error_percent",
         "%",
         report=told("control / %", "control_error_percent", "+.2f"),
-        record=Shown(
+        record=ShownQuantity(
             "Level error",
             lambda r: f"{r.point.control_error_percent:+.3f} % (\u00b1{r.tolerance_percent:g} %)",
         ),
@@ -195,8 +195,8 @@ COLUMNS: tuple[Column, ...] = (
         "range",
         "",
         texts(lambda p: p.range_name),
-        report=Shown("range", lambda r: r.point.range_name),
-        record=Shown("Range", lambda r: r.point.range_name, "Of the vibrometer"),
+        report=ShownQuantity("range", lambda r: r.point.range_name),
+        record=ShownQuantity("Range", lambda r: r.point.range_name, "Of the vibrometer"),
     ),
     plain(
         "signal_level",
@@ -235,12 +235,12 @@ def understood() -> list[Column]:
     return [c for c in COLUMNS if c.given != "kept"]
 
 
-def in_report() -> list[tuple[Column, Shown]]:
+def in_report() -> list[tuple[Column, ShownQuantity]]:
     """Columns of the report's table."""
     return [(c, c.report) for c in _placed(_REPORT) if c.report is not None]
 
 
-def in_record() -> list[tuple[Column, Shown]]:
+def in_record() -> list[tuple[Column, ShownQuantity]]:
     """Lines of the window's record."""
     return [(c, c.record) for c in _placed(_RECORD) if c.record is not None]
 

@@ -14,7 +14,7 @@ from instrument.files.lvm import read_lvm
 from instrument.files.mat import read_mat_variables
 from instrument.files.uff58 import FRF, TIME, Function, read_uff58
 from instrument.files.units import KNOWN_MOTIONS, unit_of
-from instrument.impact.record import Channel, Hit
+from instrument.impact.record import Hit, ResponseChannel
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,7 @@ def _hit(
     return Hit(f"{path.name} hit {k}", named.rate_hz or rate, columns[force], channels)
 
 
-def _channel(path: Path, columns: dict[str, Array], units: dict[str, str], wanted: str) -> Channel:
+def _channel(path: Path, columns: dict[str, Array], units: dict[str, str], wanted: str) -> ResponseChannel:
     name, _, unit = wanted.partition(":")
     if name not in columns:
         raise BadInput(f"{path}: no channel {name}, found {', '.join(columns)}")
@@ -87,7 +87,7 @@ def _channel(path: Path, columns: dict[str, Array], units: dict[str, str], wante
             f"{path}: channel {name} has unit {unit or 'missing'!r}, say --response {name}:UNIT "
             f"with one of {KNOWN_MOTIONS}"
         )
-    return Channel(name, known.quantity, columns[name] * known.factor)
+    return ResponseChannel(name, known.quantity, columns[name] * known.factor)
 
 
 def _universal(path: Path) -> list[Hit] | dict[str, Frf]:
@@ -102,7 +102,9 @@ def _universal(path: Path) -> list[Hit] | dict[str, Frf]:
             hits.append(Hit(f"{path.name} hit {len(hits) + 1}", f.rate_hz, f.values, ()))
         elif hits:
             last = hits[-1]
-            channel = Channel(f.label or f"response {len(last.responses) + 1}", f.unit.quantity, f.values)
+            channel = ResponseChannel(
+                f.label or f"response {len(last.responses) + 1}", f.unit.quantity, f.values
+            )
             hits[-1] = replace(last, responses=(*last.responses, channel))
     if not hits or not all(h.responses for h in hits):
         raise BadInput(f"{path}: no force with a response behind it, and no FRF (data set 58)")

@@ -13,7 +13,7 @@ from drivers.options import NOT_KEPT, SIMULATED
 from drivers.shaker.driver import ShakerOptions
 from drivers.vibrometer.driver import VibrometerOptions
 from instrument.files.devices import by_kind
-from instrument.files.toml import NotNegative, Number, Positive, Table
+from instrument.files.toml import NotNegative, Number, Positive, TomlTable
 from instrument.stepped_sine.settings import Limits
 
 Input = Annotated[int, Field(ge=1, le=64)]
@@ -29,7 +29,7 @@ FrontEnd = Annotated[SerializeAsAny[FrontEndOptions], by_kind("front_end")]
 """The front-end's table, as its driver has it."""
 
 
-class Sensor(Table):
+class SensorSection(TomlTable):
     """What hangs on an input."""
 
     input: Input
@@ -48,21 +48,21 @@ class Sensor(Table):
         return (-1000.0 if self.invert else 1000.0) / self.sensitivity_mv_per_unit
 
 
-class Response(Sensor):
+class ResponseSection(SensorSection):
     """The hammer test's accelerometer."""
 
     mass_g: NotNegative = 0.0
     """A gram at the tip moves mode 1 by half a percent."""
 
 
-class Channels(Table):
+class Channels(TomlTable):
     """What is measured on which input."""
 
-    base: Sensor
-    velocity: Sensor
-    force: Sensor | None = None
-    response: Response | None = None
-    temperature: Sensor | None = None
+    base: SensorSection
+    velocity: SensorSection
+    force: SensorSection | None = None
+    response: ResponseSection | None = None
+    temperature: SensorSection | None = None
 
     @model_validator(mode="after")
     def _apart(self) -> "Channels":
@@ -73,12 +73,12 @@ class Channels(Table):
             used[sensor.input] = name
         return self
 
-    def named(self) -> dict[str, Sensor]:
+    def named(self) -> dict[str, SensorSection]:
         """Those there are, by name."""
         return {n: s for n in type(self).model_fields if (s := getattr(self, n)) is not None}
 
 
-class RigLimits(Table):
+class RigLimits(TomlTable):
     """What this rig can bear, whatever an experiment asks."""
 
     base_m_s2: Positive = _LIMITS.base_m_s2
@@ -87,13 +87,13 @@ class RigLimits(Table):
     drive_v: Positive = _LIMITS.drive_v
 
 
-class Operator(Table):
+class OperatorSection(TomlTable):
     """Who mounts plates, aims the laser and swings the hammer."""
 
     kind: Literal["person", "simulated"] = "person"
 
 
-class Simulation(Table):
+class Simulation(TomlTable):
     """What the simulated rig is like, and what it hides. Never kept with a session."""
 
     seed: Annotated[int, Field(ge=0)] = 0
@@ -114,7 +114,7 @@ class Simulation(Table):
     """Beside this file: the rig's own record of its shaker, JSON lines."""
 
 
-class RigDocument(Table):
+class RigDocument(TomlTable):
     """RIG.toml."""
 
     name: str = "rig"
@@ -123,7 +123,7 @@ class RigDocument(Table):
     front_end: FrontEnd
     channels: Channels
     limits: RigLimits = RigLimits()
-    operator: Operator = Operator()
+    operator: OperatorSection = OperatorSection()
     simulation: Simulation | None = None
 
     @model_validator(mode="after")

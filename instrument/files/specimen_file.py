@@ -10,19 +10,19 @@ from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import LAWS, CoreLaw
 from fitting.specimen import Boundary, Core, Face, Reading, Specimen
 from instrument.errors import BadInput
-from instrument.files.toml import NotNegative, Percent, Positive, Table, one_line, read_document
+from instrument.files.toml import NotNegative, Percent, Positive, TomlTable, one_line, read_document
 
 Poisson = Annotated[float, Field(gt=-1, lt=0.5, allow_inf_nan=False)]
 Elements = Annotated[int, Field(ge=2, le=400)]
 
 
-class _Plate(Table):
+class _Plate(TomlTable):
     length_mm: Positive
     width_mm: Positive
     boundary: Boundary
 
 
-class Layer(Table):
+class StatedLayer(TomlTable):
     """An elastic layer."""
 
     thickness_mm: Positive
@@ -42,33 +42,33 @@ class Layer(Table):
         )
 
 
-class _Core(Table):
+class _Core(TomlTable):
     thickness_mm: Positive
     poisson: Poisson
     density_kg_m3: Positive
     law: dict[str, Any]
 
 
-class _Damping(Table):
+class _Damping(TomlTable):
     modal_percent: list[Percent] = Field(max_length=50)
 
 
-class _Pickup(Table):
+class _Pickup(TomlTable):
     x_mm: NotNegative
     y_mm: NotNegative
     reads: Reading = "relative"
 
 
-class _Base(Table):
+class _BaseSection(TomlTable):
     acceleration_m_s2: Positive
 
 
-class _Mesh(Table):
+class _Mesh(TomlTable):
     elements_x: Elements
     elements_y: Elements
 
 
-class Tolerances(Table):
+class TolerancesSection(TomlTable):
     """Standard deviations of what was measured or looked up; typical ones where a key is left out."""
 
     substrate_young_percent: NotNegative | None = None
@@ -98,18 +98,18 @@ _UNITS = {"percent": 1e-2, "mm": 1e-3, "us": 1e-6}
 _MOST_PERCENT = 50.0
 
 
-class SpecimenDocument(Table):
+class SpecimenDocument(TomlTable):
     """SPECIMEN.toml."""
 
     plate: _Plate
-    substrate: Layer
-    constraining: Layer | None = None
+    substrate: StatedLayer
+    constraining: StatedLayer | None = None
     core: _Core | None = None
     damping: _Damping | None = None
     pickup: _Pickup | None = None
-    base: _Base = _Base(acceleration_m_s2=PUBLISHED_G_M_S2)
+    base: _BaseSection = _BaseSection(acceleration_m_s2=PUBLISHED_G_M_S2)
     mesh: _Mesh | None = None
-    tolerances: Tolerances | None = None
+    tolerances: TolerancesSection | None = None
 
     @model_validator(mode="after")
     def _whole(self) -> "SpecimenDocument":
@@ -156,7 +156,7 @@ def specimen_of(d: SpecimenDocument) -> Specimen:
     )
 
 
-def tolerances_of(table: Tolerances | None) -> dict[str, float]:
+def tolerances_of(table: TolerancesSection | None) -> dict[str, float]:
     """As named, in what `fitting.tolerances` counts in. Raises `OutsideModel`."""
     given = table.model_dump(exclude_none=True, exclude={"exact"}) if table is not None else {}
     found = {}
@@ -182,7 +182,7 @@ def law_of(table: dict[str, Any]) -> CoreLaw:
         one = Annotated[float, Field(allow_inf_nan=False)]
         is_list = law.__annotations__[name] is not float
         fields[field.file_key] = (list[one] if is_list else one, ...)
-    model = create_model("core.law", __base__=Table, **fields)
+    model = create_model("core.law", __base__=TomlTable, **fields)
     try:
         given = model.model_validate({k: v for k, v in table.items() if k != "kind"})
     except ValidationError as error:

@@ -13,15 +13,22 @@ from fitting.structures import AnySpecimen
 from fitting.structures.beam import Beam, Ends
 from fitting.structures.shear_pair import ShearPair, disc
 from instrument.errors import BadInput
-from instrument.files.specimen_file import Layer, Poisson, Tolerances, law_of, read_specimen, tolerances_of
+from instrument.files.specimen_file import (
+    Poisson,
+    StatedLayer,
+    TolerancesSection,
+    law_of,
+    read_specimen,
+    tolerances_of,
+)
 from instrument.files.text import read_text
-from instrument.files.toml import NotNegative, Positive, Table, read_document
+from instrument.files.toml import NotNegative, Positive, TomlTable, read_document
 
 _RUBBER = 0.4999
 """Poisson's ratio of a pad; nothing depends on it."""
 
 
-class _Disc(Table):
+class _Disc(TomlTable):
     mass_kg: Positive
     discs: int = Field(default=1, ge=1, le=100)
     thickness_mm: Positive
@@ -47,30 +54,30 @@ class _Disc(Table):
         return self
 
 
-class _Rubber(Table):
+class _Rubber(TomlTable):
     density_kg_m3: Positive
     law: dict[str, Any]
 
 
-class _Reads(Table):
+class _Reads(TomlTable):
     reads: Reading = "absolute"
 
 
-class _Base(Table):
+class _PairBase(TomlTable):
     acceleration_m_s2: Positive = PUBLISHED_G_M_S2
 
 
-class _PairTolerances(Tolerances):
+class _PairTolerances(TolerancesSection):
     thickness_percent: NotNegative | None = None
 
 
-class ShearPairDocument(Table):
+class ShearPairDocument(TomlTable):
     """SPECIMEN.toml with `[shear-pair]`."""
 
     pair: _Disc = Field(alias="shear-pair")
     core: _Rubber
     pickup: _Reads = _Reads()
-    base: _Base = _Base()
+    base: _PairBase = _PairBase()
     tolerances: _PairTolerances | None = None
 
     def specimen(self) -> ShearPair:
@@ -100,35 +107,35 @@ class ShearPairDocument(Table):
         )
 
 
-class _Length(Table):
+class _Length(TomlTable):
     length_mm: Positive
     width_mm: Positive
     boundary: Ends
     both_sides: bool = False
 
 
-class _Viscoelastic(Table):
+class _Viscoelastic(TomlTable):
     thickness_mm: Positive
     poisson: Poisson
     density_kg_m3: Positive
     law: dict[str, Any]
 
 
-class _Spot(Table):
+class _Spot(TomlTable):
     x_mm: Positive
     reads: Reading = "relative"
 
 
-class BeamDocument(Table):
+class BeamDocument(TomlTable):
     """SPECIMEN.toml with `[beam]`."""
 
     beam: _Length
-    substrate: Layer
-    constraining: Layer | None = None
+    substrate: StatedLayer
+    constraining: StatedLayer | None = None
     core: _Viscoelastic | None = None
     pickup: _Spot | None = None
-    base: _Base = _Base()
-    tolerances: Tolerances | None = None
+    base: _PairBase = _PairBase()
+    tolerances: TolerancesSection | None = None
 
     @model_validator(mode="after")
     def _whole(self) -> "BeamDocument":

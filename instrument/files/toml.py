@@ -18,7 +18,7 @@ _MOST_SHOWN = 3
 _LONGEST = 80
 
 
-class Table(BaseModel):
+class TomlTable(BaseModel):
     """A table of a file: unknown keys and wrong types are refused. What stands below a key describes it."""
 
     model_config = ConfigDict(extra="forbid", strict=True, use_attribute_docstrings=True)

@@ -4,12 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fitting.bare_modes import Sensor
+from fitting.bare_modes import CarriedSensor
 from instrument.errors import BadInput
 from instrument.hammer_test.trigger import Trigger
 from instrument.impact.damping import damping_of_hits
 from instrument.impact.judge import Judged, judge
-from instrument.impact.record import Channel, Hit
+from instrument.impact.record import Hit, ResponseChannel
 from instrument.impact.result import damping_from, sensor_from
 from instrument.stream.derived import DampingFound, HitJudged, HitRevised
 from instrument.stream.event import Derived
@@ -29,7 +29,7 @@ class HammerSettings:
     record_s: float
     pre_trigger_s: float
     band_hz: tuple[float, float]
-    sensor: Sensor | None = None
+    sensor: CarriedSensor | None = None
     """The response sensor on the plate."""
 
 
@@ -111,7 +111,9 @@ class HammerAnalysis:
 
     def _judged(self, first: int, record: np.ndarray, overload: np.ndarray) -> HitJudged:
         number = len(self._hits) + 1
-        hit = Hit(f"hit {number}", self._rate, record[0], (Channel("response", "acceleration", record[1]),))
+        hit = Hit(
+            f"hit {number}", self._rate, record[0], (ResponseChannel("response", "acceleration", record[1]),)
+        )
         judged = judge(hit)
         faults = [judged.why] if judged.why else []
         faults += [

@@ -3,14 +3,14 @@
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.bare_modes import Sensor, bare_modes
+from fitting.bare_modes import CarriedSensor, bare_modes
 from fitting.plate import Plate
 from fitting.specimen import Specimen
 
 _COUNT = 12
 
 
-def expected_modes_hz(specimen: Specimen, sensor: Sensor | None, below_hz: float) -> Array:
+def expected_modes_hz(specimen: Specimen, sensor: CarriedSensor | None, below_hz: float) -> Array:
     """Natural frequencies of the bare plate as stated, the sensor on it; the first twelve at most.
 
     In vacuum, in an ideal clamp: a real one lowers them by up to a percent.

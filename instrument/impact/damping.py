@@ -8,7 +8,7 @@ from scipy.signal import find_peaks
 from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array
-from fitting.modal.frf import Estimate, Frf, Refusal
+from fitting.modal.frf import DampingEstimate, Frf, Refusal
 from fitting.modal.half_power import half_power, half_power_marks
 from fitting.modal.lscf import lscf, lscf_poles
 from fitting.modal.rational_fit import RationalFit, rational_fit
@@ -44,9 +44,9 @@ class Mode:
     damping_ratio: float
     """NaN where no method gives one."""
     channel: str
-    half_power: Estimate | Refusal
-    rational_fit: Estimate | Refusal
-    lscf: Estimate | Refusal
+    half_power: DampingEstimate | Refusal
+    rational_fit: DampingEstimate | Refusal
+    lscf: DampingEstimate | Refusal
     lines_in_bandwidth: float
     bandwidths_to_next: float
     """Distance to the nearest other mode; infinite for a single one."""
@@ -145,7 +145,7 @@ def _found(
         for name, frf in fine.items():
             for f, prominence in _peaks(plain[name], frf, band):
                 start = half_power(frf, f)
-                guess = max(start.ratio, 1e-4) if isinstance(start, Estimate) else _START_RATIO
+                guess = max(start.ratio, 1e-4) if isinstance(start, DampingEstimate) else _START_RATIO
                 fits = (rational_fit(plain[name], f, ratio) for ratio in (guess, _START_RATIO))
                 if any(isinstance(fit, RationalFit) for fit in fits):
                     explained.append((f, prominence))
@@ -154,7 +154,7 @@ def _found(
 
 def _doubt(mode: Mode) -> float:
     """The channel whose own error is smallest speaks for a mode."""
-    if isinstance(mode.rational_fit, Estimate):
+    if isinstance(mode.rational_fit, DampingEstimate):
         return mode.rational_fit.standard_error / mode.rational_fit.ratio
     return np.inf
 
@@ -193,12 +193,12 @@ def _merged(peaks: list[tuple[float, float]], apart_hz: float) -> list[float]:
 
 def _mode(name: str, plain: Frf, fine: Frf, f: float, centres: list[float], seconds: float) -> Mode:
     start = half_power(fine, f)
-    guess = max(start.ratio, 1e-4) if isinstance(start, Estimate) else _START_RATIO
+    guess = max(start.ratio, 1e-4) if isinstance(start, DampingEstimate) else _START_RATIO
     fit = rational_fit(plain, f, guess, tuple(c for c in centres if c != f))
     rational = fit.estimate if isinstance(fit, RationalFit) else fit
-    best = rational if isinstance(rational, Estimate) else start
-    f_n = best.frequency_hz if isinstance(best, Estimate) else f
-    ratio = best.ratio if isinstance(best, Estimate) else float("nan")
+    best = rational if isinstance(rational, DampingEstimate) else start
+    f_n = best.frequency_hz if isinstance(best, DampingEstimate) else f
+    ratio = best.ratio if isinstance(best, DampingEstimate) else float("nan")
     lines = 2 * ratio * f_n * seconds
     others = [abs(c - f) for c in centres if c != f]
     apart = min(others, default=np.inf) / (2 * ratio * f_n)
@@ -237,7 +237,7 @@ def _half_power(
     apart: float,
     seconds: float,
     noise: float,
-) -> Estimate | Refusal:
+) -> DampingEstimate | Refusal:
     if ratio == ratio:
         remains = float(np.exp(-2 * np.pi * ratio * f_n * seconds))
         if lines < 1:
@@ -250,9 +250,9 @@ def _half_power(
 
 
 def _verdict(
-    half: Estimate | Refusal,
-    rational: Estimate | Refusal,
-    third: Estimate | Refusal,
+    half: DampingEstimate | Refusal,
+    rational: DampingEstimate | Refusal,
+    third: DampingEstimate | Refusal,
     lines: float,
     apart: float,
     seconds: float,
@@ -263,7 +263,7 @@ def _verdict(
         said.append(f"rational fit: {rational.why}")
     else:
         for name, other in (("half power", half), ("LSCF", third)):
-            if isinstance(other, Estimate) and abs(other.ratio / rational.ratio - 1) > DISAGREEMENT:
+            if isinstance(other, DampingEstimate) and abs(other.ratio / rational.ratio - 1) > DISAGREEMENT:
                 said.append(f"{name} differs by {100 * (other.ratio / rational.ratio - 1):+.0f} %")
     if isinstance(half, Refusal):
         said.append(f"half power refused: {half.why}")
@@ -273,7 +273,7 @@ def _verdict(
         )
     if apart < 5:
         said.append(f"a neighbour {apart:.1f} bandwidths away")
-    return isinstance(rational, Estimate), "; ".join(said)
+    return isinstance(rational, DampingEstimate), "; ".join(said)
 
 
 def _advice(modes: tuple[Mode, ...], spectrum: Spectra, seconds: float) -> list[str]:

@@ -7,7 +7,7 @@ from fitting.modal.frf import Motion
 
 
 @dataclass(frozen=True)
-class Channel:
+class ResponseChannel:
     """A response: its name and what it measures."""
 
     name: str
@@ -24,7 +24,7 @@ class Hit:
     """File and number, as messages name it."""
     sample_rate_hz: float
     force_n: Array
-    responses: tuple[Channel, ...]
+    responses: tuple[ResponseChannel, ...]
 
     @property
     def seconds(self) -> float:

@@ -1,7 +1,7 @@
 """An impact test's result, read off its modes."""
 
-from fitting.bare_modes import Sensor
-from fitting.modal.frf import Estimate, Refusal
+from fitting.bare_modes import CarriedSensor
+from fitting.modal.frf import DampingEstimate, Refusal
 from instrument.facts.damping import DampingResult, HitUsed, ModeFound, RatioFound, SensorOnPlate
 from instrument.impact.damping import Damping
 
@@ -29,10 +29,12 @@ def damping_from(found: Damping) -> DampingResult:
     )
 
 
-def sensor_from(sensor: Sensor) -> SensorOnPlate:
+def sensor_from(sensor: CarriedSensor) -> SensorOnPlate:
     """What sat on the plate."""
     return SensorOnPlate(mass_kg=sensor.mass_kg, x_m=sensor.x_m, y_m=sensor.y_m)
 
 
-def _ratio(e: Estimate | Refusal) -> RatioFound | None:
-    return RatioFound(ratio=e.ratio, standard_error=e.standard_error) if isinstance(e, Estimate) else None
+def _ratio(e: DampingEstimate | Refusal) -> RatioFound | None:
+    return (
+        RatioFound(ratio=e.ratio, standard_error=e.standard_error) if isinstance(e, DampingEstimate) else None
+    )

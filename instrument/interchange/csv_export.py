@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from instrument.interchange.point_table import Column, columns
+from instrument.interchange.point_table import PointColumn, columns
 from instrument.interchange.provenance import one_line, provenance, reading
 from instrument.interchange.specimen_toml import specimen_toml
 from instrument.session.contents import Contents, RecordedHit
@@ -52,8 +52,8 @@ def hit_text(contents: Contents, hit: RecordedHit) -> str:
         f"sample_rate_hz: {record.sample_rate_hz!r}",
     ]
     table = [
-        Column("force_n", "N", record.force_n),
-        Column("acceleration_m_s2", "m/s^2", record.responses[0].samples),
+        PointColumn("force_n", "N", record.force_n),
+        PointColumn("acceleration_m_s2", "m/s^2", record.responses[0].samples),
     ]
     return "".join(f"# {line}\n" for line in said) + _rows(table)
 
@@ -65,7 +65,7 @@ def _read_back(contents: Contents) -> str:
     return f"{name}.csv --specimen {name}-specimen.toml{hammer}"
 
 
-def _rows(table: list[Column]) -> str:
+def _rows(table: list[PointColumn]) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow([c.name for c in table])

@@ -11,7 +11,7 @@ from fitting.modal.frf import Frf, Motion
 from instrument.errors import BadInput
 from instrument.files.impact_csv import MOTIONS
 from instrument.files.units import DERIVATIVE, Quantity
-from instrument.impact.record import Channel, Hit
+from instrument.impact.record import Hit, ResponseChannel
 
 Columns = dict[str, Array]
 """Of the sweep CSV, by their names."""
@@ -74,7 +74,7 @@ class Found:
         """A blow and its responses."""
         if not np.isfinite(rate_hz) or rate_hz <= 0:
             raise BadInput(f"{source}: sample rate {rate_hz:g} Hz, expected more than 0")
-        channels = tuple(Channel(_CSV_NAMES[motion], motion, x) for motion, x in responses)
+        channels = tuple(ResponseChannel(_CSV_NAMES[motion], motion, x) for motion, x in responses)
         self.hits.append(Hit(source, float(rate_hz), force, channels))
         motions = ", ".join(motion for motion, _ in responses)
         length = f"{len(force)} samples at {rate_hz:g} Hz ({len(force) / rate_hz:.3g} s)"

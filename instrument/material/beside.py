@@ -18,7 +18,7 @@ _CURVE = 2
 
 
 @dataclass(frozen=True)
-class Beside:
+class TableAtTemperature:
     """One temperature of a table, inside the law's band. Arrays have shape (rows,)."""
 
     temperature_c: float
@@ -38,7 +38,7 @@ class Beside:
         return None if np.isnan(self.p_value) else bool(self.p_value < LEVEL)
 
 
-def beside(law: MaterialLaw, table: DmaTable) -> list[Beside]:
+def beside(law: MaterialLaw, table: DmaTable) -> list[TableAtTemperature]:
     """Each temperature by itself; nothing is shifted. Empty where no row lies inside the band."""
     low, high = law.band_hz
     inside = (table.frequency_hz >= low) & (table.frequency_hz <= high)
@@ -51,7 +51,7 @@ def beside(law: MaterialLaw, table: DmaTable) -> list[Beside]:
     return found
 
 
-def _one(law: MaterialLaw, table: DmaTable, rows: Mask, temperature_c: float) -> Beside:
+def _one(law: MaterialLaw, table: DmaTable, rows: Mask, temperature_c: float) -> TableAtTemperature:
     order = np.argsort(table.frequency_hz[rows], kind="stable")
     f = table.frequency_hz[rows][order]
     G = law.modulus(2 * np.pi * f)
@@ -65,7 +65,7 @@ def _one(law: MaterialLaw, table: DmaTable, rows: Mask, temperature_c: float) ->
     d = np.concatenate([by_storage, by_loss])
     statistic = float(d @ np.linalg.solve(S, d)) if np.isfinite(S).all() else float("nan")
     p = float(chi2.sf(statistic, len(d)))
-    return Beside(temperature_c, f, np.expm1(by_storage), by_loss, statistic, p, source)
+    return TableAtTemperature(temperature_c, f, np.expm1(by_storage), by_loss, statistic, p, source)
 
 
 def _noise(f: Array, differences: tuple[Array, ...], stated: tuple[Array, ...]) -> tuple[Array, str]:
@@ -82,7 +82,7 @@ def _noise(f: Array, differences: tuple[Array, ...], stated: tuple[Array, ...]) 
     return np.concatenate(found), "scatter"
 
 
-def beside_table(table: DmaTable, found: list[Beside]) -> BesideTable:
+def beside_table(table: DmaTable, found: list[TableAtTemperature]) -> BesideTable:
     """As JSON has it, under `with`."""
     return BesideTable(
         source=table.path.name,

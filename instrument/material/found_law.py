@@ -16,7 +16,7 @@ from instrument.facts.identification import IdentificationResult
 from instrument.files.text import read_text
 from instrument.interchange.given import is_session
 from instrument.interchange.identified import identify_session
-from instrument.material.knowledge import Posterior, posterior_of
+from instrument.material.knowledge import LawPosterior, posterior_of
 from instrument.progress import Progress, quiet
 from instrument.results.identification_from import identification_from
 from instrument.session.contents import Contents, contents_of
@@ -37,7 +37,7 @@ class _Row(BaseModel):
     loss_factor_standard_error: float | None = None
 
 
-class _Found(BaseModel):
+class _LawFound(BaseModel):
     """What `identify` says, or `after` of `diagnose`."""
 
     law_kind: str
@@ -49,7 +49,7 @@ class _Found(BaseModel):
 
 class _Diagnosed(BaseModel):
     verdict: str
-    after: _Found
+    after: _LawFound
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,7 @@ class MaterialLaw:
     temperature_c: float | None = None
     poisson: float | None = None
     """Of the core, as stated."""
-    posterior: Posterior | None = None
+    posterior: LawPosterior | None = None
     """Where the source holds the covariance of the whole curve."""
 
     @property
@@ -137,7 +137,7 @@ def law_of_result(path: Path, result: IdentificationResult) -> MaterialLaw | Non
 def _identified(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
     """Of the JSON of `identify`; None where it is none."""
     try:
-        found = _law(path, _Found.model_validate(facts), NOT_DIAGNOSED)
+        found = _law(path, _LawFound.model_validate(facts), NOT_DIAGNOSED)
     except ValidationError:
         return None
     return replace(found, posterior=posterior_of(facts)) if found is not None else None
@@ -173,7 +173,7 @@ def _identified_now(path: Path, contents: Contents, progress: Progress) -> Mater
     return found
 
 
-def _law(path: Path, found: _Found, verdict: str) -> MaterialLaw | None:
+def _law(path: Path, found: _LawFound, verdict: str) -> MaterialLaw | None:
     rows = {row.frequency_hz: row for row in found.law}
     f = np.array(sorted(rows))
     if len(f) < 2:

@@ -14,7 +14,7 @@ from instrument.results.fit_file import FoundLaw
 
 
 @dataclass(frozen=True)
-class Posterior:
+class LawPosterior:
     """The fit's own covariance of a law's parameters and bend."""
 
     law: CoreLaw
@@ -29,7 +29,7 @@ class Posterior:
         return np.asarray(J.T @ self.covariance_of_logs @ J)
 
 
-def posterior_of(facts: Any) -> Posterior | None:
+def posterior_of(facts: Any) -> LawPosterior | None:
     """Of the JSON of `identify`; None where it does not hold enough of it."""
     try:
         found = FoundLaw.model_validate(facts)
@@ -37,9 +37,9 @@ def posterior_of(facts: Any) -> Posterior | None:
     except (ValidationError, BadInput, FittingError, KeyError, ValueError, TypeError):
         return None
     if found.posterior is not None and set(law.names) <= set(found.posterior.names):
-        return Posterior(law, found.posterior.covariance(law.names))
+        return LawPosterior(law, found.posterior.covariance(law.names))
     plain = found.covariance(law.plain.names)
-    return Posterior(law.plain, plain) if found.bend is None and np.isfinite(plain).all() else None
+    return LawPosterior(law.plain, plain) if found.bend is None and np.isfinite(plain).all() else None
 
 
 def _start(found: FoundLaw) -> CoreLaw:

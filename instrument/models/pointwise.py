@@ -11,7 +11,7 @@ from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.model_error import model_error
-from fitting.diagnosis.response import Response
+from fitting.diagnosis.response import SweepResponse
 from fitting.errors import OutsideModel, TooFewPoints
 from fitting.kramers_kronig import KramersKronig, kramers_kronig
 from fitting.moved_plate import moved_plate
@@ -57,7 +57,7 @@ def pointwise_of(found: Identified, sweep: Sweep) -> Pointwise:
 
 def _law(found: Identified, joint: Joint, sweep: Sweep) -> PointwiseLaw:
     none, problem = joint.begun.none, joint.begun.problem
-    v, dv = Response(problem, ()).with_derivatives(none.law, none.u)
+    v, dv = SweepResponse(problem, ()).with_derivatives(none.law, none.u)
     n = len(none.law.names)
     rows = model_error(problem, joint.reduced, none.law, v)
     if none.stated:

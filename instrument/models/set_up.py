@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.bare_modes import Sensor
+from fitting.bare_modes import CarriedSensor
 from fitting.diagnosis.evidence import BareModes
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.effects import all_spans, span_modules
@@ -25,7 +25,7 @@ from instrument.models.cache import cached
 from instrument.models.specimen_models import Models
 from instrument.progress import Progress, quiet
 
-Hammer = tuple[Array, Array] | tuple[Array, Array, Sensor | None]
+Hammer = tuple[Array, Array] | tuple[Array, Array, CarriedSensor | None]
 """The bare plate's frequencies in Hz and ratios, and the sensor that sat on it."""
 
 _USUAL_RATIO = 2e-3

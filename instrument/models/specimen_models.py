@@ -6,7 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.damping import ViscousDamping, viscous_damping
+from fitting.damping import LowRankDamping, viscous_damping
 from fitting.direct import displacement_direct
 from fitting.domain import Domain, domain_of
 from fitting.errors import OutsideModel
@@ -50,7 +50,7 @@ class Models:
         return Plate(self.specimen)
 
     @cached_property
-    def damping(self) -> ViscousDamping:
+    def damping(self) -> LowRankDamping:
         """The remaining viscous damping."""
         return viscous_damping(self.plate)
 

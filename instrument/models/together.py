@@ -20,7 +20,7 @@ from fitting.diagnosis.joint import fit_of
 from fitting.diagnosis.of_files import OfFiles
 from fitting.diagnosis.prediction import held_out
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.result import Estimate, FoundEffect
+from fitting.diagnosis.result import FoundEffect, ParameterEstimate
 from fitting.diagnosis.several import SeveralProblem, joined
 from fitting.diagnosis.small_problem import DEAF, SmallProblem
 from fitting.effects import CATALOGUE
@@ -309,17 +309,19 @@ def _standing_on(kind: str) -> list[Effect]:
 def _with_file(one: FoundEffect, file: int, files: int) -> FoundEffect:
     if files == 1:
         return one
-    return replace(one, parameters={**one.parameters, "file": Estimate(float(file), float("nan"), "1")})
+    return replace(
+        one, parameters={**one.parameters, "file": ParameterEstimate(float(file), float("nan"), "1")}
+    )
 
 
 def _fixture(one: SetAside, files: int) -> FoundEffect:
     """A stretch set aside, as what it probably is."""
     nan, g = float("nan"), one.glitch
     values = {
-        "frequency": Estimate(float(np.sqrt(g.low_hz * g.high_hz)), nan, "Hz"),
-        "from": Estimate(g.low_hz, nan, "Hz"),
-        "to": Estimate(g.high_hz, nan, "Hz"),
-        "size": Estimate(g.largest, nan, "1"),
+        "frequency": ParameterEstimate(float(np.sqrt(g.low_hz * g.high_hz)), nan, "Hz"),
+        "from": ParameterEstimate(g.low_hz, nan, "Hz"),
+        "to": ParameterEstimate(g.high_hz, nan, "Hz"),
+        "size": ParameterEstimate(g.largest, nan, "1"),
     }
     return _with_file(FoundEffect("fixture_resonance", values), one.file, files)
 

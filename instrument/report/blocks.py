@@ -14,7 +14,7 @@ class Sentence:
 
 
 @dataclass(frozen=True)
-class Facts:
+class FactsBlock:
     """Names and values in two columns."""
 
     kind: ClassVar[str] = "facts"
@@ -23,7 +23,7 @@ class Facts:
 
 
 @dataclass(frozen=True)
-class Table:
+class TableBlock:
     """Columns with their units in the head."""
 
     kind: ClassVar[str] = "table"
@@ -45,11 +45,11 @@ class Picture:
     """Below it, and read aloud in its place."""
 
 
-Block = Sentence | Facts | Table | Picture
+Block = Sentence | FactsBlock | TableBlock | Picture
 
 
 @dataclass(frozen=True)
-class Section:
+class ReportSection:
     """A heading and what stands under it."""
 
     title: str

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from instrument.report.blocks import Block, Section, Sentence, Table
+from instrument.report.blocks import Block, ReportSection, Sentence, TableBlock
 from instrument.report.numbers import with_error
 from instrument.report.picture import picture
 from instrument.results.drawing import DATA, MODEL, SECOND, label, legend, panels
@@ -13,12 +13,12 @@ from instrument.stream.derived import PointMeasured
 _COLOURS = (DATA, MODEL, SECOND, "#5b8c2a", "#222222")
 
 
-def calibration_section(contents: Contents) -> Section:
+def calibration_section(contents: Contents) -> ReportSection:
     """Gain and delay with their standard errors, and what they leave of the points."""
     title = "Calibration in place"
     if not contents.calibrations:
         text = "The vibrometer was not calibrated in place: gain and delay are as the instrument has them."
-        return Section(title, (Sentence(text, "note"),))
+        return ReportSection(title, (Sentence(text, "note"),))
     rows = tuple(
         (name, with_error(c.gain, c.gain_std), with_error(c.delay_s, c.delay_std_s, 1e6), str(c.points))
         for name, c in contents.calibrations.items()
@@ -26,11 +26,11 @@ def calibration_section(contents: Contents) -> Section:
     columns = ("range", "gain (reading over truth)", "delay / µs", "points")
     blocks: list[Block] = [
         Sentence("Reading over true velocity, with the laser on the base: gain times e^(-iω delay)."),
-        Table("± one standard error; both are taken off every point", columns, rows),
+        TableBlock("± one standard error; both are taken off every point", columns, rows),
     ]
     if contents.calibration_points:
         blocks.append(picture(_figure(contents), "What gain and delay leave of the calibration points"))
-    return Section(title, tuple(blocks))
+    return ReportSection(title, tuple(blocks))
 
 
 def _figure(contents: Contents) -> Figure:

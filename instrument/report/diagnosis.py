@@ -2,7 +2,7 @@
 
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from instrument.facts.diagnosis import DiagnosisResult
-from instrument.report.blocks import Block, Section, Sentence, Table
+from instrument.report.blocks import Block, ReportSection, Sentence, TableBlock
 from instrument.report.numbers import format_number, with_error
 from instrument.report.picture import picture
 from instrument.results.diagnosis_figures import evidence_figure, law_figure, residual_figure
@@ -20,14 +20,14 @@ _TITLE = "Diagnosis"
 _MOST_CANDIDATES = 12
 
 
-def diagnosis_sections(contents: Contents) -> list[Section]:
+def diagnosis_sections(contents: Contents) -> list[ReportSection]:
     """One section, or none where the run made no diagnosis."""
     if contents.diagnosis is None:
         return []
     found = contents.diagnosis.result
     if found is None:
         why = contents.diagnosis.message
-        return [Section(_TITLE, (Sentence(f"No diagnosis was possible: {why}.", "warning"),))]
+        return [ReportSection(_TITLE, (Sentence(f"No diagnosis was possible: {why}.", "warning"),))]
     verdict = verdict_line(found)
     blocks: list[Block] = [Sentence(f"{verdict[0].upper()}{verdict[1:]}.")]
     blocks += [Sentence(text) for text in found.explanation]
@@ -47,10 +47,10 @@ def diagnosis_sections(contents: Contents) -> list[Section]:
         _law(found),
         picture(law_figure(found), with_verdict("The core's law before and after, with 95 % bands", found)),
     ]
-    return [Section(_TITLE, tuple(blocks))]
+    return [ReportSection(_TITLE, tuple(blocks))]
 
 
-def _before_after(found: DiagnosisResult) -> Table:
+def _before_after(found: DiagnosisResult) -> TableBlock:
     before, after = found.stages
     said: tuple[tuple[str, float | None, float | None], ...] = (
         ("rms difference in amplitude / %", before.rms_percent, after.rms_percent),
@@ -69,10 +69,10 @@ def _before_after(found: DiagnosisResult) -> Table:
         )
         for b, a in zip(before.held_out, after.held_out, strict=False)
     ]
-    return Table("What the fit leaves", ("", "before", "after", "noise alone"), tuple(rows))
+    return TableBlock("What the fit leaves", ("", "before", "after", "noise alone"), tuple(rows))
 
 
-def _candidates(found: DiagnosisResult) -> Table:
+def _candidates(found: DiagnosisResult) -> TableBlock:
     rows = tuple(
         (
             c.name,
@@ -84,10 +84,10 @@ def _candidates(found: DiagnosisResult) -> Table:
         if k < _MOST_CANDIDATES or c.name == "none"
     )
     title = f"Candidates, best first ({len(found.candidates)} were fitted)"
-    return Table(title, ("effect", "probability", "chi² / degree", "parameters"), rows)
+    return TableBlock(title, ("effect", "probability", "chi² / degree", "parameters"), rows)
 
 
-def _law(found: DiagnosisResult) -> Table:
+def _law(found: DiagnosisResult) -> TableBlock:
     rows = []
     for f in REFERENCE_FREQUENCIES_HZ:
         pair = [law_at(stage.law, f) for stage in found.stages]
@@ -98,4 +98,4 @@ def _law(found: DiagnosisResult) -> Table:
         eta = (with_error(r.loss_factor, r.loss_factor_standard_error) for r in known)
         rows.append((f"{f:g}", *G, *eta))
     columns = ("f / Hz", "G' / MPa before", "after", "loss factor before", "after")
-    return Table(with_verdict("The core's law, ± one standard error", found), columns, tuple(rows))
+    return TableBlock(with_verdict("The core's law, ± one standard error", found), columns, tuple(rows))

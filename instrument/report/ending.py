@@ -1,11 +1,11 @@
 """How a session ended, and what of its plan is missing."""
 
-from instrument.report.blocks import Block, Section, Sentence
+from instrument.report.blocks import Block, ReportSection, Sentence
 from instrument.session.contents import Contents
 from instrument.stream.derived import LimitExceeded, LimitWarned
 
 
-def ending_section(contents: Contents) -> Section:
+def ending_section(contents: Contents) -> ReportSection:
     """A sentence how it ended, and one for everything that is not there."""
     missing = missing_parts(contents)
     blocks: list[Block] = [Sentence(_ended(contents), "plain" if _is_done(contents) else "warning")]
@@ -17,7 +17,7 @@ def ending_section(contents: Contents) -> Section:
     if not missing:
         blocks.append(Sentence("Everything the experiment asked for was measured."))
     blocks += [Sentence(text, "warning") for text in _limits(contents)]
-    return Section("How it ended", tuple(blocks))
+    return ReportSection("How it ended", tuple(blocks))
 
 
 def missing_parts(contents: Contents) -> list[str]:

@@ -18,14 +18,14 @@ from instrument.session.contents import Contents
 
 
 @dataclass(frozen=True)
-class Fitted:
+class ReportedFit:
     """A fit, or why there is none."""
 
     fit: SessionFit | None
     why: str = ""
 
     @classmethod
-    def of(cls, contents: Contents, progress: Progress = quiet) -> "Fitted":
+    def of(cls, contents: Contents, progress: Progress = quiet) -> "ReportedFit":
         """Identify, and never fail: a page without a law says so."""
         try:
             return cls(identify_session(contents, progress))

@@ -10,7 +10,7 @@ from instrument.facts.damping import METHODS, DampingResult, RatioFound
 from instrument.impact.damping import Damping, damping_of_hits
 from instrument.impact.figures import highest_hz
 from instrument.impact.result import damping_from
-from instrument.report.blocks import Block, Section, Sentence, Table
+from instrument.report.blocks import Block, ReportSection, Sentence, TableBlock
 from instrument.report.numbers import format_number
 from instrument.report.picture import picture
 from instrument.results.drawing import DATA, MARK, label, panels
@@ -21,20 +21,20 @@ _WITHOUT_MODES_HZ = 1250.0
 """Up to here an FRF without modes is drawn."""
 
 
-def hammer_section(contents: Contents) -> Section:
+def hammer_section(contents: Contents) -> ReportSection:
     """Computed again from the hits as they were recorded."""
     title = "Hammer test of the bare plate"
     if not contents.hits:
-        return Section(title, (Sentence("There is no hammer test in this session.", "note"),))
+        return ReportSection(title, (Sentence("There is no hammer test in this session.", "note"),))
     blocks: list[Block] = [_hits(contents)]
     try:
         found = damping_of_hits([h.judged() for h in contents.hits], band_hz=_band_hz(contents))
     except BadInput as error:
-        return Section(title, (*blocks, Sentence(f"No damping: {error}.", "warning")))
+        return ReportSection(title, (*blocks, Sentence(f"No damping: {error}.", "warning")))
     result = damping_from(found)
     blocks += [_modes(result), _agreement(contents, result), _frf(contents, found)]
     blocks += [Sentence(warning, "note") for warning in found.warnings]
-    return Section(title, tuple(blocks))
+    return ReportSection(title, tuple(blocks))
 
 
 def _band_hz(contents: Contents) -> tuple[float, float] | None:
@@ -42,7 +42,7 @@ def _band_hz(contents: Contents) -> tuple[float, float] | None:
     return (hammer.band_hz[0], hammer.band_hz[1]) if hammer is not None else None
 
 
-def _hits(contents: Contents) -> Table:
+def _hits(contents: Contents) -> TableBlock:
     rows = tuple(
         (
             str(h.number),
@@ -53,10 +53,10 @@ def _hits(contents: Contents) -> Table:
         )
         for h in contents.hits
     )
-    return Table("Hits", ("hit", "peak / N", "record / s", "verdict", "why"), rows)
+    return TableBlock("Hits", ("hit", "peak / N", "record / s", "verdict", "why"), rows)
 
 
-def _modes(result: DampingResult) -> Table:
+def _modes(result: DampingResult) -> TableBlock:
     rows = tuple(
         (
             f"{m.frequency_hz:.3f}",
@@ -67,7 +67,7 @@ def _modes(result: DampingResult) -> Table:
         for m in result.modes
     )
     columns = ("f / Hz", "rational fit / %", "half power / %", "LSCF / %", "lines in bandwidth", "remarks")
-    return Table(
+    return TableBlock(
         "Damping ratios by three methods, ± one standard error; the rational fit is adopted", columns, rows
     )
 

@@ -5,12 +5,12 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from instrument.report.blocks import Section
+from instrument.report.blocks import ReportSection
 
 _TEMPLATE = "page.html"
 
 
-def html_page(title: str, header: Sequence[tuple[str, str]], sections: Sequence[Section]) -> str:
+def html_page(title: str, header: Sequence[tuple[str, str]], sections: Sequence[ReportSection]) -> str:
     """`header` are names and values under the title. All is escaped: much of it is foreign text."""
     environment = Environment(
         loader=FileSystemLoader(Path(__file__).parent),

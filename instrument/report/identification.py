@@ -4,8 +4,8 @@ import numpy as np
 
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ, Identification
 from instrument.interchange.identified import SessionFit
-from instrument.report.blocks import Block, Facts, Section, Sentence, Table
-from instrument.report.fitted import Fitted
+from instrument.report.blocks import Block, FactsBlock, ReportSection, Sentence, TableBlock
+from instrument.report.fitted import ReportedFit
 from instrument.report.law_figures import law_figure, residual_figures
 from instrument.report.measured import segments_of
 from instrument.report.numbers import format_number, with_error
@@ -24,11 +24,11 @@ _BEFORE = (
 )
 
 
-def identification_section(contents: Contents, fitted: Fitted) -> Section:
+def identification_section(contents: Contents, fitted: ReportedFit) -> ReportSection:
     """The core's law, how well it is known, and how it follows the points."""
     title = "Identification of the core"
     if fitted.fit is None:
-        return Section(title, (Sentence(f"No law could be identified: {fitted.why}.", "warning"),))
+        return ReportSection(title, (Sentence(f"No law could be identified: {fitted.why}.", "warning"),))
     fit = fitted.fit
     r = fit.identified.result
     blocks: list[Block] = [
@@ -48,10 +48,10 @@ def identification_section(contents: Contents, fitted: Fitted) -> Section:
         picture(f, "Residual: model less measurement, by segment")
         for f in residual_figures(segments_of(contents), fitted)
     ]
-    return Section(title, tuple(blocks))
+    return ReportSection(title, tuple(blocks))
 
 
-def result_in_short(contents: Contents, fitted: Fitted) -> str:
+def result_in_short(contents: Contents, fitted: ReportedFit) -> str:
     """The law that the session ended with, at the reference frequencies, and what is left, in a line."""
     diagnosed = contents.diagnosis.result if contents.diagnosis is not None else None
     if diagnosed is not None:
@@ -78,11 +78,11 @@ def result_in_short(contents: Contents, fitted: Fitted) -> str:
     return "; ".join([*said, f"rms of the fit {r.rms_percent:.3g} %"])
 
 
-def unexplained_section(fitted: Fitted) -> Section:
+def unexplained_section(fitted: ReportedFit) -> ReportSection:
     """What is left, in three numbers, and by segment."""
     title = "What the fit cannot explain"
     if fitted.fit is None:
-        return Section(title, (Sentence("There is no fit to say it of.", "note"),))
+        return ReportSection(title, (Sentence("There is no fit to say it of.", "note"),))
     r = fitted.fit.identified.result
     v = r.validation
     chi2 = (
@@ -103,15 +103,15 @@ def unexplained_section(fitted: Fitted) -> Section:
         Sentence(
             "Before: the model has no further effects than the plate, its core and its viscous damping."
         ),
-        Facts("", tuple(rows)),
+        FactsBlock("", tuple(rows)),
     ]
     if v.held_out:
         table = tuple(
             (str(h.segment), format_number(h.rms_percent, 3), format_number(h.noise_percent, 3))
             for h in v.held_out
         )
-        blocks.append(Table("Held out: each segment predicted from the others", _HELD_OUT, table))
-    return Section(title, tuple(blocks))
+        blocks.append(TableBlock("Held out: each segment predicted from the others", _HELD_OUT, table))
+    return ReportSection(title, tuple(blocks))
 
 
 _HELD_OUT = ("segment", "rms / %", "its noise / %")
@@ -139,7 +139,7 @@ def _banded(r: Identification) -> str:
     return "with 95 % bands" if known else "without bands: these points carry no standard error"
 
 
-def _band(r: Identification) -> Table:
+def _band(r: Identification) -> TableBlock:
     b = r.band
     every = max(1, -(-len(b.frequency_hz) // _ROWS))
     shown = sorted({*range(0, len(b.frequency_hz), every), len(b.frequency_hz) - 1})
@@ -152,10 +152,10 @@ def _band(r: Identification) -> Table:
         for k in shown
     )
     title = "The law in the band, ± one standard error (noise, model error, tolerances)"
-    return Table(title, ("f / Hz", "G' / MPa", "loss factor"), rows)
+    return TableBlock(title, ("f / Hz", "G' / MPa", "loss factor"), rows)
 
 
-def _parameters(r: Identification) -> Table:
+def _parameters(r: Identification) -> TableBlock:
     errors = r.standard_errors
     rows = []
     for name, value in zip(r.law.names, r.law.values, strict=True):
@@ -165,20 +165,20 @@ def _parameters(r: Identification) -> Table:
         said = format_number(float(value), 5) if below else with_error(float(value), error)
         percent = percent_words(error, value)
         rows.append((name, said, percent, f"at its {bound} bound" if bound else ""))
-    return Table(
+    return TableBlock(
         "Parameters (SI units), ± one standard error",
         ("parameter", "value", "error / %", "remark"),
         tuple(rows),
     )
 
 
-def _correlations(r: Identification) -> Table:
+def _correlations(r: Identification) -> TableBlock:
     C, names = r.uncertainty.correlations, r.law.names
     rows = tuple(
         (name, *(f"{c:+.3f}" if np.isfinite(c) else "-" for c in row))
         for name, row in zip(names, C, strict=True)
     )
-    return Table("Correlations of the logarithms of the parameters", ("", *names), rows)
+    return TableBlock("Correlations of the logarithms of the parameters", ("", *names), rows)
 
 
 def _adjusted(fit: SessionFit) -> list[Block]:
@@ -187,7 +187,7 @@ def _adjusted(fit: SessionFit) -> list[Block]:
     if not found:
         return []
     rows = tuple(tuple(row) for row in adjusted_rows(found, fit.specimen, len(found)))
-    return [Table("Stated numbers the data moved, most moved first", COLUMNS, rows, folded=True)]
+    return [TableBlock("Stated numbers the data moved, most moved first", COLUMNS, rows, folded=True)]
 
 
 def _live(contents: Contents, r: Identification) -> Sentence:

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from instrument.interchange.identified import SessionFit
-from instrument.report.fitted import Fitted
+from instrument.report.fitted import ReportedFit
 from instrument.report.measured import Measured
 from instrument.results.drawing import (
     DATA,
@@ -51,12 +51,12 @@ def law_figure(fit: SessionFit) -> Figure:
     return figure
 
 
-def residual_figures(segments: list[Measured], fitted: Fitted) -> list[Figure]:
+def residual_figures(segments: list[Measured], fitted: ReportedFit) -> list[Figure]:
     """Model less measurement, amplitude above phase, a column a segment."""
     return [_residuals(row, fitted) for row in in_rows(segments)]
 
 
-def _residuals(segments: Sequence[Measured], fitted: Fitted) -> Figure:
+def _residuals(segments: Sequence[Measured], fitted: ReportedFit) -> Figure:
     figure, (above, below) = panels(2, len(segments), 4.4)
     for amplitude, phase, m in zip(above, below, segments, strict=True):
         model = fitted.over_base(m.frequency_hz)

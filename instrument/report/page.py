@@ -3,11 +3,11 @@
 from importlib.metadata import version
 
 from instrument.progress import Progress, quiet
-from instrument.report.blocks import Section
+from instrument.report.blocks import ReportSection
 from instrument.report.calibration import calibration_section
 from instrument.report.diagnosis import diagnosis_sections
 from instrument.report.ending import ending_section
-from instrument.report.fitted import Fitted
+from instrument.report.fitted import ReportedFit
 from instrument.report.hammer import hammer_section
 from instrument.report.html import html_page
 from instrument.report.identification import (
@@ -24,7 +24,7 @@ _PACKAGES = ("viscorig", "numpy", "scipy", "h5py", "matplotlib")
 
 def report_page(contents: Contents, progress: Progress = quiet) -> str:
     """The report of a session as HTML. Law and damping are computed here, from what was recorded."""
-    fitted = Fitted.of(contents, progress)
+    fitted = ReportedFit.of(contents, progress)
     with progress("drawing"):
         sections = sections_of(contents, fitted)
     c = contents.configuration
@@ -38,7 +38,7 @@ def report_page(contents: Contents, progress: Progress = quiet) -> str:
     return html_page(c.experiment.title or c.name, header, sections)
 
 
-def sections_of(contents: Contents, fitted: Fitted) -> list[Section]:
+def sections_of(contents: Contents, fitted: ReportedFit) -> list[ReportSection]:
     """In the order in which it was done."""
     return [
         ending_section(contents),

@@ -1,9 +1,9 @@
 """What was measured with what: specimen, rig, sensors, mounting, versions."""
 
-from instrument.files.rig_file import Response, Sensor
+from instrument.files.rig_file import ResponseSection, SensorSection
 from instrument.files.specimen_file import SpecimenDocument
 from instrument.models.tolerance_words import tolerance_rows
-from instrument.report.blocks import Block, Facts, Section, Sentence, Table
+from instrument.report.blocks import Block, FactsBlock, ReportSection, Sentence, TableBlock
 from instrument.report.numbers import format_number
 from instrument.session.contents import Contents
 
@@ -16,18 +16,18 @@ _SENSITIVITY_UNITS = {
 _LAYERS = ("substrate", "core", "constraining")
 
 
-def specimen_section(contents: Contents) -> Section:
+def specimen_section(contents: Contents) -> ReportSection:
     """Geometry, layers, the law identification starts from."""
     s = contents.configuration.specimen
-    blocks: list[Block] = [_layers(s), Facts("Plate", tuple(_plate(contents, s)))]
+    blocks: list[Block] = [_layers(s), FactsBlock("Plate", tuple(_plate(contents, s)))]
     if s.core is not None:
         rows = [(k, str(v)) for k, v in s.core.law.items()]
-        blocks.append(Facts("Core law to start from", tuple(rows)))
-    blocks.append(Facts("Tolerances (one standard deviation)", tuple(tolerance_rows(contents.specimen))))
-    return Section("Specimen", tuple(blocks))
+        blocks.append(FactsBlock("Core law to start from", tuple(rows)))
+    blocks.append(FactsBlock("Tolerances (one standard deviation)", tuple(tolerance_rows(contents.specimen))))
+    return ReportSection("Specimen", tuple(blocks))
 
 
-def _layers(s: SpecimenDocument) -> Table:
+def _layers(s: SpecimenDocument) -> TableBlock:
     rows = []
     for name in _LAYERS:
         layer = getattr(s, name)
@@ -37,7 +37,7 @@ def _layers(s: SpecimenDocument) -> Table:
             numbers = (layer.thickness_mm, young, layer.poisson, layer.density_kg_m3, loss)
             rows.append((name, *(format_number(v, 6) for v in numbers)))
     columns = ("layer", "thickness / mm", "E / GPa", "Poisson's ratio", "density / (kg/m³)", "loss factor")
-    return Table("Layers", columns, tuple(rows))
+    return TableBlock("Layers", columns, tuple(rows))
 
 
 def _plate(contents: Contents, s: SpecimenDocument) -> list[tuple[str, str]]:
@@ -53,7 +53,7 @@ def _plate(contents: Contents, s: SpecimenDocument) -> list[tuple[str, str]]:
     return rows
 
 
-def rig_section(contents: Contents) -> Section:
+def rig_section(contents: Contents) -> ReportSection:
     """Instruments as they name themselves, sensors, mounting."""
     c = contents.configuration
     m = c.experiment.mounting
@@ -68,8 +68,8 @@ def rig_section(contents: Contents) -> Section:
         named = {**contents.began[-1].instruments, "sampled at": _rates(contents)}
         named |= {"vibrometer's model in the rig file": c.rig.vibrometer.model_name}
         rows = tuple((k.replace("_", " "), v) for k, v in named.items() if v)
-        instruments = Facts(f"Instruments of {c.rig.name!r}", rows)
-    return Section("Rig", (instruments, _sensors(contents), Facts("Mounting", tuple(mounting))))
+        instruments = FactsBlock(f"Instruments of {c.rig.name!r}", rows)
+    return ReportSection("Rig", (instruments, _sensors(contents), FactsBlock("Mounting", tuple(mounting))))
 
 
 def _rates(contents: Contents) -> str:
@@ -77,16 +77,16 @@ def _rates(contents: Contents) -> str:
     return ", ".join(f"{rate:g} Hz ({part})" for part, rate in rates.items() if rate is not None)
 
 
-def _sensors(contents: Contents) -> Table:
+def _sensors(contents: Contents) -> TableBlock:
     rows = [_sensor(name, s) for name, s in contents.configuration.rig.channels.named().items()]
     columns = ("channel", "input", "sensitivity", "range / V", "IEPE", "inverted", "serial", "calibrated")
-    return Table("Sensors", columns, tuple(rows))
+    return TableBlock("Sensors", columns, tuple(rows))
 
 
-def _sensor(name: str, s: Sensor) -> tuple[str, ...]:
+def _sensor(name: str, s: SensorSection) -> tuple[str, ...]:
     unit = _SENSITIVITY_UNITS.get(name)
     sensitivity = f"{s.sensitivity_mv_per_unit:g} {unit}" if unit else "by the vibrometer's range"
-    mass = f" ({s.mass_g:g} g)" if isinstance(s, Response) and s.mass_g else ""
+    mass = f" ({s.mass_g:g} g)" if isinstance(s, ResponseSection) and s.mass_g else ""
     return (
         name + mass,
         str(s.input),
@@ -99,9 +99,9 @@ def _sensor(name: str, s: Sensor) -> tuple[str, ...]:
     )
 
 
-def versions_section(contents: Contents, now: dict[str, str]) -> Section:
+def versions_section(contents: Contents, now: dict[str, str]) -> ReportSection:
     """Of the run, and of the program that wrote this page."""
     recorded = contents.configuration.versions
     names = list(dict.fromkeys([*recorded, *now]))
     rows = tuple((n, recorded.get(n, "-"), now.get(n, "-")) for n in names)
-    return Section("Versions", (Table("", ("package", "at the run", "of this page"), rows),))
+    return ReportSection("Versions", (TableBlock("", ("package", "at the run", "of this page"), rows),))

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from instrument.files.column import Row
+from instrument.files.column import ColumnPoint
 from instrument.files.point_columns import in_report
-from instrument.report.blocks import Block, Section, Sentence, Table
-from instrument.report.fitted import Fitted
+from instrument.report.blocks import Block, ReportSection, Sentence, TableBlock
+from instrument.report.fitted import ReportedFit
 from instrument.report.measured import noise_of, segments_of
 from instrument.report.numbers import format_number, signed
 from instrument.report.picture import picture
@@ -14,11 +14,11 @@ from instrument.session.contents import Contents
 from instrument.stream.derived import PointMeasured
 
 
-def sweep_section(contents: Contents, fitted: Fitted) -> Section:
+def sweep_section(contents: Contents, fitted: ReportedFit) -> ReportSection:
     """What was measured of the damped plate."""
     title = "Sweep of the damped plate"
     if not contents.points:
-        return Section(title, (Sentence("There is no point of a sweep in this session.", "note"),))
+        return ReportSection(title, (Sentence("There is no point of a sweep in this session.", "note"),))
     blocks: list[Block] = [Sentence(_summary(contents))]
     segments = segments_of(contents)
     reads = contents.configuration.rig.vibrometer.reads
@@ -29,7 +29,7 @@ def sweep_section(contents: Contents, fitted: Fitted) -> Section:
         picture(quality_figure(contents), "How well each point was measured, in the order of measuring")
     )
     blocks += [*_sentinels(contents), *_remarks(contents.measured), _points(contents)]
-    return Section(title, tuple(blocks))
+    return ReportSection(title, tuple(blocks))
 
 
 def _summary(contents: Contents) -> str:
@@ -67,7 +67,7 @@ def _sentinels(contents: Contents) -> list[Block]:
         change = (signed(s.change_percent, 3), signed(s.change_degree, 3))
         rows.append((str(s.step), f"{s.frequency_hz:g}", when, *change, temperature))
     columns = ("step", "f / Hz", "after / min", "amplitude / %", "phase / degree", "plate / °C")
-    return [Table("Drift of the sentinel, against its first time", columns, tuple(rows))]
+    return [TableBlock("Drift of the sentinel, against its first time", columns, tuple(rows))]
 
 
 def _remarks(points: list[PointMeasured]) -> list[Block]:
@@ -75,11 +75,11 @@ def _remarks(points: list[PointMeasured]) -> list[Block]:
     if not marked:
         return [Sentence("No point carries a remark.")]
     rows = tuple((str(p.step), f"{p.frequency_hz:g}", str(p.segment), "; ".join(p.remarks)) for p in marked)
-    return [Table("Points with remarks", ("step", "f / Hz", "segment", "remark"), rows)]
+    return [TableBlock("Points with remarks", ("step", "f / Hz", "segment", "remark"), rows)]
 
 
-def _points(contents: Contents) -> Table:
+def _points(contents: Contents) -> TableBlock:
     shown = [shown for _, shown in in_report()]
-    rows = tuple(tuple(s.text(Row(p)) for s in shown) for p in contents.measured)
+    rows = tuple(tuple(s.text(ColumnPoint(p)) for s in shown) for p in contents.measured)
     columns = tuple(s.label for s in shown)
-    return Table(f"All {len(rows)} points", columns, rows, folded=True)
+    return TableBlock(f"All {len(rows)} points", columns, rows, folded=True)

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from fitting.arrays import Array
-from instrument.report.fitted import Fitted
+from instrument.report.fitted import ReportedFit
 from instrument.report.measured import Measured, noise_of
 from instrument.results.drawing import (
     DATA,
@@ -31,12 +31,12 @@ _MS = 1e3
 _TWO_STD = 2.0
 
 
-def response_figures(segments: list[Measured], fitted: Fitted) -> list[Figure]:
+def response_figures(segments: list[Measured], fitted: ReportedFit) -> list[Figure]:
     """Amplitude above phase, a column a segment."""
     return [_response(row, fitted) for row in in_rows(segments)]
 
 
-def _response(segments: Sequence[Measured], fitted: Fitted) -> Figure:
+def _response(segments: Sequence[Measured], fitted: ReportedFit) -> Figure:
     figure, (above, below) = panels(2, len(segments), 5.2)
     for amplitude, phase, measured in zip(above, below, segments, strict=True):
         _draw_segment(amplitude, phase, measured, fitted)
@@ -46,7 +46,7 @@ def _response(segments: Sequence[Measured], fitted: Fitted) -> Figure:
     return figure
 
 
-def _draw_segment(amplitude: Axes, phase: Axes, m: Measured, fitted: Fitted) -> None:
+def _draw_segment(amplitude: Axes, phase: Axes, m: Measured, fitted: ReportedFit) -> None:
     f, size = m.frequency_hz, np.abs(m.over_base)
     model = fitted.over_base(m.grid_hz)
     if model is None:

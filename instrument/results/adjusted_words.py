@@ -3,14 +3,14 @@
 from collections.abc import Sequence
 
 from fitting.identification.adjusted import Adjusted
-from fitting.specimen import Stated
+from fitting.specimen import StatedSpecimen
 from fitting.tolerances import kind_of
 
 COLUMNS = ("stated number", "stated", "tolerance", "found", "standard error", "pull", "tolerance is")
 MOST = 8
 
 
-def adjusted_rows(found: Sequence[Adjusted], specimen: Stated, most: int = MOST) -> list[list[str]]:
+def adjusted_rows(found: Sequence[Adjusted], specimen: StatedSpecimen, most: int = MOST) -> list[list[str]]:
     """Rows of `COLUMNS`; the pull is how far the number was moved, in tolerances."""
     order = sorted(found, key=lambda one: -abs(one.pull))
     return [

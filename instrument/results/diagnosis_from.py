@@ -9,7 +9,7 @@ from instrument.facts.diagnosis import (
     CandidateFitted,
     DiagnosisResult,
     EffectFound,
-    EffectParameter,
+    ParameterFound,
     PointLeft,
     Residual,
     StageFitted,
@@ -59,14 +59,14 @@ def _candidate(c: Candidate) -> CandidateFitted:
     )
 
 
-def _parameters(effect: FoundEffect) -> dict[str, EffectParameter]:
+def _parameters(effect: FoundEffect) -> dict[str, ParameterFound]:
     return {
-        key: EffectParameter(value=p.value, standard_error=p.standard_error, unit=p.unit)
+        key: ParameterFound(value=p.value, standard_error=p.standard_error, unit=p.unit)
         for key, p in effect.parameters.items()
     }
 
 
-def _all_parameters(candidate: Candidate) -> dict[str, EffectParameter]:
+def _all_parameters(candidate: Candidate) -> dict[str, ParameterFound]:
     """Of two effects together, each key with its effect's name before it: both may have a `scale`."""
     if len(candidate.effects) == 1:
         return _parameters(candidate.effects[0])

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from math import isnan, nan
 
-from instrument.facts.diagnosis import CandidateFitted, DiagnosisResult, EffectFound, EffectParameter
+from instrument.facts.diagnosis import CandidateFitted, DiagnosisResult, EffectFound, ParameterFound
 from instrument.facts.rows import LawRow
 from instrument.results.error_words import FLOOR_PERCENT, is_below_floor
 
@@ -70,7 +70,7 @@ def log_odds(found: DiagnosisResult) -> list[float | None]:
     return [None if none is None else (none - c.delta_bic) / 2 for c in found.candidates]
 
 
-def some_parameters(parameters: Mapping[str, EffectParameter]) -> str:
+def some_parameters(parameters: Mapping[str, ParameterFound]) -> str:
     """The first few; a law at knots has a dozen."""
     said = [parameter_words(key, p) for key, p in parameters.items()]
     more = [f"{len(said) - _MOST_PARAMETERS} more"] if len(said) > _MOST_PARAMETERS else []
@@ -82,7 +82,7 @@ def _sized(effect: EffectFound) -> str:
     return effect.name + (f" ({said})" if said else "")
 
 
-def parameter_words(key: str, p: EffectParameter) -> str:
+def parameter_words(key: str, p: ParameterFound) -> str:
     """Name, value, standard error where there is one, unit."""
     unit = "" if p.unit == "1" else f" {p.unit}"
     spread = ""

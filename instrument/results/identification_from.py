@@ -15,11 +15,11 @@ from fitting.sweep import Sweep
 from fitting.theory_error import TheoryError
 from instrument.facts.identification import (
     BareMode,
-    BarePlate,
+    BarePlateFound,
     Bend,
     IdentificationResult,
     PointFitted,
-    Posterior,
+    PosteriorFound,
     TheoryErrorRow,
 )
 from instrument.models.identification import Identified
@@ -67,9 +67,9 @@ def identification_from(
     return result.but(hammer=_bare_plate(found.bare, specimen))
 
 
-def _bare_plate(bare: BarePlateFit, specimen: Specimen) -> BarePlate:
+def _bare_plate(bare: BarePlateFit, specimen: Specimen) -> BarePlateFound:
     young = specimen.substrate.young_pa * bare.young_scale
-    return BarePlate(
+    return BarePlateFound(
         substrate_young_pa=young,
         substrate_young_standard_error_pa=young * bare.standard_error,
         substrate_young_over_stated=bare.young_scale,
@@ -107,12 +107,12 @@ def _bend(law: CoreLaw) -> Bend | None:
     return Bend(knots_hz=tuple(law.knots_hz), whitened=tuple(np.log(law.bend).tolist()))
 
 
-def _posterior(fit: Fit) -> Posterior | None:
+def _posterior(fit: Fit) -> PosteriorFound | None:
     C = fit.posterior
     if C is None or not np.isfinite(C).all():
         return None
     names = (*fit.law.names, *(one.name for one in fit.adjusted))
-    return Posterior(names=names, rows=tuple(tuple(C[k, : k + 1].tolist()) for k in range(len(names))))
+    return PosteriorFound(names=names, rows=tuple(tuple(C[k, : k + 1].tolist()) for k in range(len(names))))
 
 
 def _theory(theory: TheoryError | None) -> tuple[TheoryErrorRow, ...] | None:

@@ -3,7 +3,7 @@
 import threading
 
 
-class Control:
+class RunControl:
     """Hold, resume, abort. The runner looks at it between blocks."""
 
     def __init__(self) -> None:

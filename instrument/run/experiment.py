@@ -26,13 +26,13 @@ from instrument.errors import BadInput, RigStopped, StoppedByUser
 from instrument.progress import Progress, quiet
 from instrument.run.analysis import Analysis
 from instrument.run.companion import Companion
-from instrument.run.control import Control
+from instrument.run.control import RunControl
 from instrument.run.live_diagnosis import Diagnoser, apart, diagnose_points
 from instrument.run.live_fit import Fitter, LiveFit, fit_points
 from instrument.run.rig import Rig, open_rig
 from instrument.run.runner import Runner
 from instrument.session.configuration import Configuration, Experiment
-from instrument.session.journal import Journal
+from instrument.session.journal import SessionJournal
 from instrument.session.recorder import Recorder
 from instrument.session.setup import setup_of
 from instrument.session.storage import part_events, write_session
@@ -65,7 +65,7 @@ def run_experiment(
     out: Path,
     parts: tuple[Part, ...],
     *,
-    control: Control | None = None,
+    control: RunControl | None = None,
     watch: Watch | None = None,
     resume: Path | None = None,
     progress: Progress = quiet,
@@ -83,7 +83,7 @@ def run_experiment(
             experiment,
             out,
             parts,
-            control or Control(),
+            control or RunControl(),
             watch,
             resume,
             progress,
@@ -97,7 +97,7 @@ def _run(
     experiment: Experiment,
     out: Path,
     parts: tuple[Part, ...],
-    control: Control,
+    control: RunControl,
     watch: Watch | None,
     resume: Path | None,
     progress: Progress,
@@ -142,7 +142,7 @@ def _run(
     return Finished(path, session.analysis.damping, session.fit, points, session.diagnosis)
 
 
-def finish_session(journal: Journal, path: Path) -> int:
+def finish_session(journal: SessionJournal, path: Path) -> int:
     """Put a session file together from what is sealed and remove the folder; how many parts there were."""
     entries = journal.entries()
     if not entries:
@@ -156,9 +156,9 @@ class _Session:
     def __init__(
         self,
         experiment: Experiment,
-        journal: Journal,
+        journal: SessionJournal,
         forecast: Forecast,
-        control: Control,
+        control: RunControl,
         earlier: list[Event],
         parts: tuple[Part, ...],
         fit: Fitter,
@@ -296,10 +296,10 @@ def _clear_heartbeat_alarm(rig: Rig) -> None:
         rig.shaker.reset_alarm()
 
 
-def _journal(experiment: Experiment, out: Path, resume: Path | None) -> tuple[Journal, str]:
+def _journal(experiment: Experiment, out: Path, resume: Path | None) -> tuple[SessionJournal, str]:
     now = datetime.now(UTC)
     if resume is not None:
-        journal = Journal(resume)
+        journal = SessionJournal(resume)
         name = resume.name.removesuffix(".running")
         before = journal.configuration()
         _refuse_another(before, experiment.configuration(before.name, before.created_utc))
@@ -308,7 +308,7 @@ def _journal(experiment: Experiment, out: Path, resume: Path | None) -> tuple[Jo
         return journal, name
     stem = re.sub(r"[^A-Za-z0-9_-]+", "-", experiment.path.stem).strip("-") or "session"
     name = f"{stem}-{now:%Y%m%dT%H%M%SZ}"
-    journal = Journal(out / f"{name}.running")
+    journal = SessionJournal(out / f"{name}.running")
     journal.begin(experiment.configuration(name, now.isoformat(timespec="seconds")))
     journal.lock()
     return journal, name
@@ -327,7 +327,7 @@ def _refuse_another(before: Configuration, now: Configuration) -> None:
             )
 
 
-def _kept(journal: Journal, path: Path) -> str:
+def _kept(journal: SessionJournal, path: Path) -> str:
     """Put together what is complete; where it is. A run without anything complete leaves nothing."""
     try:
         entries = journal.entries()

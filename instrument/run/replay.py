@@ -54,10 +54,12 @@ def replay(
 ) -> Replayed:
     """Run a session again. `speed` 1 is as it was; None as fast as it goes."""
     with threadpool_limits(1, "blas"):
-        return _replay(session, _Pace(speed), watch, fit, diagnose)
+        return _replay(session, _ReplayPace(speed), watch, fit, diagnose)
 
 
-def _replay(session: SessionFile, pace: "_Pace", watch: Watch, fit: Fitter, diagnose: Diagnoser) -> Replayed:
+def _replay(
+    session: SessionFile, pace: "_ReplayPace", watch: Watch, fit: Fitter, diagnose: Diagnoser
+) -> Replayed:
     configuration = session.configuration
     analysis = Analysis(setup_of(configuration))
     specimen = configuration.the_specimen()
@@ -122,7 +124,7 @@ def _first_difference(computed: Event, recorded: Event) -> str:
     return f"{name}.{key}: {str(b.get(key))[:80]} recorded, {str(a.get(key))[:80]} computed"
 
 
-class _Pace:
+class _ReplayPace:
     """Holds a replay back to a speed, by the sample counter."""
 
     def __init__(self, speed: float | None) -> None:

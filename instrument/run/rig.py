@@ -16,7 +16,7 @@ from drivers.shaker.driver import ShakerOptions
 from drivers.vibrometer import Vibrometer
 from instrument.files.devices import FRONT_ENDS, SHAKERS, VIBROMETERS
 from instrument.files.experiment_file import Hammer
-from instrument.files.rig_file import RigDocument, Sensor
+from instrument.files.rig_file import RigDocument, SensorSection
 from instrument.run.operator import Operator, Person, SimulatedOperator
 
 _SIMULATOR_STARTS_S = 30.0
@@ -31,7 +31,7 @@ class Rig:
     vibrometer: Vibrometer
     front_end: FrontEnd
     operator: Operator
-    sensors: dict[str, Sensor]
+    sensors: dict[str, SensorSection]
     sample_rate_hz: float
     document: RigDocument
     """As opened: with the addresses of a rig that was simulated for the run."""

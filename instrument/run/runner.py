@@ -14,7 +14,7 @@ from drivers.shaker import Alarm
 from drivers.vibrometer import Range
 from instrument.errors import RigStopped
 from instrument.run.analysis import Analysis
-from instrument.run.control import Control
+from instrument.run.control import RunControl
 from instrument.run.rig import Rig
 from instrument.stepped_sine.plan import Plan, RangeWanted, Result
 from instrument.stream.derived import (
@@ -53,7 +53,7 @@ class Runner:
         rig: Rig,
         analysis: Analysis,
         emit: Callable[[Event], list[Derived]],
-        control: Control,
+        control: RunControl,
         ramp_s: float,
     ) -> None:
         self._rig, self._analysis, self._emit, self._control = rig, analysis, emit, control

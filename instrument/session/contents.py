@@ -9,7 +9,7 @@ from fitting.specimen import Specimen
 from instrument.errors import BadInput
 from instrument.files.rig_file import Channels
 from instrument.impact.judge import Judged, judge
-from instrument.impact.record import Channel, Hit
+from instrument.impact.record import Hit, ResponseChannel
 from instrument.session.configuration import Configuration
 from instrument.session.storage import SessionFile
 from instrument.stream.clock import SessionClock
@@ -253,7 +253,7 @@ class _Tape:
             f"hit {hit.hit}",
             self._acquisition.sample_rate_hz,
             force,
-            (Channel("response", "acceleration", response),),
+            (ResponseChannel("response", "acceleration", response),),
         )
 
 

@@ -37,7 +37,7 @@ class Entry:
     """Completed in it."""
 
 
-class Journal:
+class SessionJournal:
     """Of one session folder."""
 
     def __init__(self, folder: Path) -> None:

@@ -12,7 +12,7 @@ from contextlib import suppress
 from time import monotonic
 
 from instrument.errors import RigStopped
-from instrument.session.journal import Entry, Journal
+from instrument.session.journal import Entry, SessionJournal
 from instrument.session.storage import write_part
 from instrument.stream.derived import (
     CalibrationFound,
@@ -64,7 +64,7 @@ class Recorder:
     """Of one session. Use as a context: leaving it seals what is left."""
 
     def __init__(
-        self, journal: Journal, parts: list[Entry], sealed: Callable[[list[Event]], None] | None = None
+        self, journal: SessionJournal, parts: list[Entry], sealed: Callable[[list[Event]], None] | None = None
     ) -> None:
         self._journal, self._parts = journal, list(parts)
         self._sealed = sealed

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from fitting.bare_modes import Sensor
+from fitting.bare_modes import CarriedSensor
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
 from fitting.specimen import Specimen
@@ -14,7 +14,7 @@ from instrument.files.rig_file import Channels, RigDocument
 from instrument.files.specimen_file import specimen_of
 from instrument.hammer_test.analysis import HammerSettings
 from instrument.session.configuration import Configuration
-from instrument.stepped_sine.settings import Control, Dwell, Limits, Settle, SweepSettings
+from instrument.stepped_sine.settings import Dwell, LevelControl, Limits, Settle, SweepSettings
 
 _DECAYED = 0.01
 _LONGEST_RECORD_S = 60.0
@@ -47,7 +47,7 @@ def sweep_settings(experiment: ExperimentDocument, rig: RigDocument) -> SweepSet
         travel_m=1e-3 * _lower(s.limits.travel_mm, r.travel_mm),
         drive_v=_lower(s.limits.drive_v, r.drive_v),
     )
-    control = Control(
+    control = LevelControl(
         s.control.tolerance_percent / 100, s.control.abort_percent / 100, ramp_s=s.control.ramp_s
     )
     settle = Settle(s.settle.tolerance_percent / 100, most_s=s.settle.most_s)
@@ -65,7 +65,7 @@ def hammer_settings(configuration: Configuration) -> HammerSettings | None:
     record_s = record_length_s(specimen_of(configuration.specimen)) if h.record_s == "auto" else h.record_s
     response = configuration.rig.channels.response
     mass_kg = 1e-3 * response.mass_g if response else 0.0
-    sensor = Sensor(mass_kg, 1e-3 * h.response_x_mm, 1e-3 * h.response_y_mm) if mass_kg else None
+    sensor = CarriedSensor(mass_kg, 1e-3 * h.response_x_mm, 1e-3 * h.response_y_mm) if mass_kg else None
     return HammerSettings(h.hits, record_s, h.pre_trigger_s, (h.band_hz[0], h.band_hz[1]), sensor)
 
 

@@ -8,12 +8,12 @@ from typing import Any, get_args, get_type_hints
 
 from drivers.shaker.modbus_driver import ModbusOptions
 from drivers.shaker.register_map import DEFAULT
-from drivers.simulated.plant.effects import CoreLaw, Effects
+from drivers.simulated.plant.effects import Effects, OtherLaw
 from drivers.simulated.plant.law import MaxwellLaw
-from drivers.simulated.plates import BarePlate, DampedPlate
+from drivers.simulated.plates import DampedPlate, SimulatedBarePlate
 from drivers.simulated.rig import OWN_MODEL, Ports, SimulatedRig, VibrometerPeer
-from drivers.simulated.sensors import Sensor
-from drivers.simulated.world import Laser, Plate, Wiring, World
+from drivers.simulated.sensors import SimulatedSensor
+from drivers.simulated.world import Laser, MountedPlate, Wiring, World
 from drivers.vibrometer.driver import Optics
 from drivers.vibrometer.polytec_driver import PolytecOptions
 from instrument.errors import BadInput
@@ -131,9 +131,9 @@ def _world(document: RigDocument, simulation: Simulation, virtual_time: bool) ->
         rides_with_base=not absolute,
     )
     response = document.channels.response
-    plates: dict[str, Plate] = {
+    plates: dict[str, MountedPlate] = {
         "damped": DampedPlate(plate),
-        "bare": BarePlate(
+        "bare": SimulatedBarePlate(
             _of_the_bare_plate(plate),
             sensor_mass_kg=1e-3 * response.mass_g if response else 0.0,
             double_hit_every=simulation.double_hit_every,
@@ -155,7 +155,7 @@ def _of_the_bare_plate(effects: Effects) -> Effects:
     return Effects(substrate_stiffness=effects.substrate_stiffness, air_added_mass=effects.air_added_mass)
 
 
-def _inputs(channels: Channels, simulation: Simulation, level_factor: float) -> dict[int, Sensor]:
+def _inputs(channels: Channels, simulation: Simulation, level_factor: float) -> dict[int, SimulatedSensor]:
     """What hangs on each input, in the plant's units."""
     inputs = {}
     for name, sensor in channels.named().items():
@@ -164,7 +164,7 @@ def _inputs(channels: Channels, simulation: Simulation, level_factor: float) -> 
         if name == "base":
             per_unit *= level_factor
         noise = simulation.noise * (_LASER_NOISE_V if laser else _NOISE_V)
-        inputs[sensor.input] = Sensor(_QUANTITIES[name], per_unit, noise, _SENSOR_LIMIT_V)
+        inputs[sensor.input] = SimulatedSensor(_QUANTITIES[name], per_unit, noise, _SENSOR_LIMIT_V)
     return inputs
 
 
@@ -182,7 +182,7 @@ def _effects(simulation: Simulation) -> tuple[Effects, dict[str, dict[str, Any]]
                 raise ValueError(f"effects.{name}: expected numbers")
             channel[name] = values
         elif name == "core_law":
-            plate[name] = CoreLaw(_law(values))
+            plate[name] = OtherLaw(_law(values))
         elif name in kinds:
             known = {f.name for f in fields(kinds[name])}
             needed = {f.name for f in fields(kinds[name]) if f.default is MISSING}
@@ -195,7 +195,7 @@ def _effects(simulation: Simulation) -> tuple[Effects, dict[str, dict[str, Any]]
             known_names = ", ".join(sorted([*kinds, *CHANNEL_EFFECTS]))
             raise ValueError(f"effects.{name}: unknown, expected one of {known_names}")
     if simulation.core:
-        plate["core_law"] = CoreLaw(_law(simulation.core))
+        plate["core_law"] = OtherLaw(_law(simulation.core))
     return Effects(**plate), channel
 
 

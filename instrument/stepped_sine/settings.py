@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True)
-class Control:
+class LevelControl:
     """Level control on the fitted base acceleration."""
 
     tolerance: float = 0.01
@@ -61,7 +61,7 @@ class Limits:
 class SweepSettings:
     """All of them."""
 
-    control: Control = field(default_factory=Control)
+    control: LevelControl = field(default_factory=LevelControl)
     settle: Settle = field(default_factory=Settle)
     dwell: Dwell = field(default_factory=Dwell)
     limits: Limits = field(default_factory=Limits)

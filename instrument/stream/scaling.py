@@ -18,7 +18,7 @@ def volts_of(counts: NDArray[np.int32], volts_per_count: Sequence[float]) -> Arr
     return np.multiply(counts, np.array(volts_per_count)[:, None], order="C")
 
 
-class Sensor(Protocol):
+class SensorStated(Protocol):
     """What a rig's file says of what hangs on an input."""
 
     @property
@@ -42,7 +42,7 @@ class Scaling:
     the rest."""
 
     @classmethod
-    def of(cls, channels: Sequence[str], sensors: Mapping[str, Sensor]) -> Self:
+    def of(cls, channels: Sequence[str], sensors: Mapping[str, SensorStated]) -> Self:
         """Of an acquisition's channels, as the rig says what hangs on them."""
         scales = {name: sensor.units_per_volt for name, sensor in sensors.items()}
         scales["velocity"] = -1.0 if sensors["velocity"].invert else 1.0

@@ -16,7 +16,7 @@ from drivers.front_end import InputChannel
 from drivers.front_end.lan_xi import LanXiFrontEnd
 from instrument.files.rig_file import RigDocument
 from instrument.files.toml import read_document
-from instrument.session.journal import Journal
+from instrument.session.journal import SessionJournal
 from instrument.session.recorder import Recorder
 from instrument.simulated_case import write_case
 from instrument.simulated_case.simulation import simulated_rig
@@ -49,7 +49,7 @@ def soak(samples: int, folder: Path, *, rate_hz: float = 8192.0) -> Soaked:
     """Read, fit and record so many samples a channel; parts are removed as they are sealed."""
     path = write_case(folder).parent / "rig.toml"
     document = read_document(path, RigDocument)
-    journal = Journal(folder / "soak.running")
+    journal = SessionJournal(folder / "soak.running")
     journal.folder.mkdir()
     with simulated_rig(document, path, virtual_time=True) as addresses:
         front_end = LanXiFrontEnd(addresses["frontend_url"], paced_by_reader=True)
@@ -84,7 +84,7 @@ def _event(block) -> BlockAcquired:
     )
 
 
-def _forget(journal: Journal) -> None:
+def _forget(journal: SessionJournal) -> None:
     for part in journal.folder.glob("part-*.h5"):
         part.unlink()
 

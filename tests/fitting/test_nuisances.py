@@ -8,7 +8,7 @@ import pytest
 from fitting.damping import viscous_damping
 from fitting.diagnosis.plate_answer import answer
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.response import Response
+from fitting.diagnosis.response import SweepResponse
 from fitting.direct import displacement_direct
 from fitting.domain import domain_of
 from fitting.effects.change import Change
@@ -169,7 +169,7 @@ def response(zn1, zn1_models):
         lambda omega: rational_sweep(reduced, omega),
     )
     law = problem.stated_law
-    return Response(problem.around(law), ()), law, reduced
+    return SweepResponse(problem.around(law), ()), law, reduced
 
 
 def _every(reduced):

@@ -6,7 +6,7 @@ from scipy.linalg import expm
 
 from fitting.complex_modes import complex_modes
 from fitting.errors import OutsideModel
-from fitting.exact_layers import Layer, exact_lambda
+from fitting.exact_layers import ElasticLayer, exact_lambda
 from fitting.laws.constant import ConstantModulus
 from fitting.layer_theory import layerwise_lambda, wavenumber
 from fitting.plate import Plate
@@ -104,7 +104,7 @@ def test_exact_single_layer_is_an_antisymmetric_lamb_wave():
     # Rayleigh and Lamb: tan(q h/2)/tan(p h/2) = -(q^2 - k^2)^2/(4 k^2 p q).
     h, G, nu, rho = 0.01, 26.5e9, 0.3, 2700.0
     k = np.array([20.0, 100.0, 300.0])
-    value = exact_lambda((Layer(h, G, nu, rho),), k).real.astype(complex)
+    value = exact_lambda((ElasticLayer(h, G, nu, rho),), k).real.astype(complex)
     p = np.sqrt(value * rho * (1 - 2 * nu) / (2 * G * (1 - nu)) - k**2)
     q = np.sqrt(value * rho / G - k**2)
     left = np.tan(q * h / 2) / np.tan(p * h / 2)

@@ -2,7 +2,7 @@ from pathlib import Path
 
 import pytest
 
-from gui.rediagnosis import Asked, effects_of
+from gui.rediagnosis import DiagnosisAsked, effects_of
 
 DATA = Path("s.h5")
 
@@ -10,11 +10,11 @@ DATA = Path("s.h5")
 @pytest.mark.parametrize(
     ("asked", "said"),
     [
-        (Asked(DATA), ["diagnose", "s.h5"]),
-        (Asked(DATA, accept=("a", "b")), ["diagnose", "s.h5", "--accept=a", "--accept=b"]),
-        (Asked(DATA, accept=()), ["diagnose", "s.h5", "--accept=none"]),
-        (Asked(DATA, decline=("a",)), ["diagnose", "s.h5", "--without=a"]),
-        (Asked(DATA, Path("p.toml")), ["diagnose", "s.h5", "--specimen", "p.toml"]),
+        (DiagnosisAsked(DATA), ["diagnose", "s.h5"]),
+        (DiagnosisAsked(DATA, accept=("a", "b")), ["diagnose", "s.h5", "--accept=a", "--accept=b"]),
+        (DiagnosisAsked(DATA, accept=()), ["diagnose", "s.h5", "--accept=none"]),
+        (DiagnosisAsked(DATA, decline=("a",)), ["diagnose", "s.h5", "--without=a"]),
+        (DiagnosisAsked(DATA, Path("p.toml")), ["diagnose", "s.h5", "--specimen", "p.toml"]),
     ],
 )
 def test_it_is_asked_as_on_the_command_line(asked, said):

@@ -11,7 +11,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QDialog, QFileDialog, QLineEdit, QMessageBox
 from window_runs import run_until_driven
 
-from gui.background_task import Command
+from gui.background_task import BackgroundCommand
 from gui.controller import AppController
 
 WITHIN_S = 0.5
@@ -22,7 +22,7 @@ def stops(monkeypatch):
     """One for each stop asked for; nothing is stopped, no command is run."""
     asked = []
     monkeypatch.setattr(AppController, "stop", lambda controller: asked.append(time.monotonic()))
-    monkeypatch.setattr(Command, "start", lambda command: None)
+    monkeypatch.setattr(BackgroundCommand, "start", lambda command: None)
     return asked
 
 

@@ -141,7 +141,7 @@ class SubstrateStiffness:
 
 
 @dataclass(frozen=True)
-class CoreLaw:
+class OtherLaw:
     """Another law than the fractional one."""
 
     law: MaxwellLaw
@@ -164,4 +164,4 @@ class Effects:
     fixture_resonance: FixtureResonance | None = None
     core_thickness: CoreThickness | None = None
     substrate_stiffness: SubstrateStiffness | None = None
-    core_law: CoreLaw | None = None
+    core_law: OtherLaw | None = None

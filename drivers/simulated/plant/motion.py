@@ -38,7 +38,7 @@ def tones_of(piece: DrivePiece, harmonics: tuple[float, ...] = ()) -> tuple[Tone
     )
 
 
-class Stretch:
+class EvenStretch:
     """A time from `begin_s` on during which neither the tones nor the system change."""
 
     def __init__(self, begin_s: float, system: Diagonal, tones: tuple[Tone, ...], state: Array) -> None:
@@ -113,7 +113,7 @@ class Motion:
     def __init__(self, system: Diagonal, harmonics: tuple[float, ...] = (), memory_s: float = 1.0) -> None:
         self._harmonics, self._memory_s = harmonics, memory_s
         self._seen_s = 0.0
-        self._stretches = [Stretch(0.0, system, (), np.zeros(len(system.poles)))]
+        self._stretches = [EvenStretch(0.0, system, (), np.zeros(len(system.poles)))]
 
     @property
     def system(self) -> Diagonal:
@@ -144,7 +144,7 @@ class Motion:
             raise ValueError(
                 f"a change at {begin_s:.6f} s comes before the last, {last.begin_s:.6f} s: give them in order"
             )
-        self._stretches.append(Stretch(begin_s, system, tones, last.state(begin_s)))
+        self._stretches.append(EvenStretch(begin_s, system, tones, last.state(begin_s)))
 
     def take_back(self, from_s: float) -> None:
         """Forget changes planned for `from_s` and later. Refused (ValueError) where that was read."""
@@ -165,7 +165,7 @@ class Motion:
         """Physical state at a time not before the memory."""
         return self._at_or_before(time_s).state(time_s)
 
-    def _at_or_before(self, time_s: float) -> Stretch:
+    def _at_or_before(self, time_s: float) -> EvenStretch:
         for stretch in reversed(self._stretches):
             if stretch.begin_s <= time_s:
                 return stretch

@@ -17,7 +17,7 @@ from drivers.simulated.plant.model import ReducedModel
 from drivers.simulated.plant.motion import Motion
 from drivers.simulated.plant.one_thread import one_thread
 from drivers.simulated.plant.sandwich import Sandwich, sandwich
-from drivers.simulated.plant.shaker import Shaker
+from drivers.simulated.plant.shaker import ShakerChain
 from drivers.simulated.plant.slow_change import SlowChange
 from drivers.simulated.plant.structure import Structure, condensed, first_order
 
@@ -43,7 +43,7 @@ class _Base:
     """Acceleration and pitch acceleration straight from the volts. Shape (2,)."""
 
 
-def _base(shaker: Shaker, rocking_rad_m: float, fixture: FixtureResonance | None) -> _Base:
+def _base(shaker: ShakerChain, rocking_rad_m: float, fixture: FixtureResonance | None) -> _Base:
     A, b = shaker.first_order()
     n, extra = len(shaker.sections), 2 if fixture else 0
     A, b = np.pad(A, (0, extra)), np.pad(b, (0, extra))
@@ -70,11 +70,11 @@ class ShakenPlate:
     def __init__(
         self,
         effects: Effects | None = None,
-        shaker: Shaker | None = None,
+        shaker: ShakerChain | None = None,
         memory_s: float = 1.0,
         model: ReducedModel | None = None,
     ) -> None:
-        self.effects, self.shaker = effects or Effects(), shaker or Shaker()
+        self.effects, self.shaker = effects or Effects(), shaker or ShakerChain()
         self.plate: Sandwich = sandwich(self.effects, model)
         self._slow = SlowChange(self.plate.core_law, self.effects)
         rocking, fixture = self.effects.base_rocking, self.effects.fixture_resonance

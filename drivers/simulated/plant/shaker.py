@@ -11,7 +11,7 @@ from drivers.arrays import Array
 
 
 @dataclass(frozen=True)
-class Section:
+class ShakerMode:
     """One mode of the shaker."""
 
     frequency_hz: float
@@ -26,13 +26,13 @@ class Section:
 
 
 @dataclass(frozen=True)
-class Shaker:
+class ShakerChain:
     """The chain from volts to base motion."""
 
-    sections: tuple[Section, ...] = (
-        Section(11.0, 0.12, 7.0),
-        Section(162.0, 0.03, 1.4),
-        Section(1900.0, 0.04, 3.0),
+    sections: tuple[ShakerMode, ...] = (
+        ShakerMode(11.0, 0.12, 7.0),
+        ShakerMode(162.0, 0.03, 1.4),
+        ShakerMode(1900.0, 0.04, 3.0),
     )
     second_harmonic: float = 0.002
     """Distortion: a drive at twice the frequency, as a fraction of the drive."""

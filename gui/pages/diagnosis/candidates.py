@@ -3,8 +3,8 @@
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
-from gui.pages.diagnosis.ranking import WORDS, Decisions, Row, Standing, about, group_words, ranked
-from gui.tables import Cell, Table
+from gui.pages.diagnosis.ranking import WORDS, CandidateRow, Decisions, Standing, about, group_words, ranked
+from gui.tables import Cell, ReadTable
 from gui.theme import Role
 from gui.widgets import button
 from instrument.facts.diagnosis import DiagnosisResult
@@ -41,7 +41,7 @@ class Candidates(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.decisions = Decisions()
-        self.table = Table(_COLUMNS, selects=True)
+        self.table = ReadTable(_COLUMNS, selects=True)
         self.groups = QLabel()
         self.groups.setWordWrap(True)
         self.accept = button(
@@ -52,7 +52,7 @@ class Candidates(QWidget):
         self.what_to_do = QLabel("Select an effect to accept or decline it.")
         self.what_to_do.setEnabled(False)
         self.what_to_do.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        self._rows: list[Row] = []
+        self._rows: list[CandidateRow] = []
         self._arrange()
         self.accept.clicked.connect(self._accept)
         self.decline.clicked.connect(self._decline)
@@ -117,7 +117,7 @@ class Candidates(QWidget):
             self.table.selectRow(names.index(chosen))
         self._show_buttons()
 
-    def _cells(self, row: Row, best: float) -> list[Cell]:
+    def _cells(self, row: CandidateRow, best: float) -> list[Cell]:
         role, faint = _ROLES[row.standing], row.standing == "not fitted"
         marked = row.standing in ("found", "equal")
         parameters = ", ".join(row.parameters)
@@ -133,7 +133,7 @@ class Candidates(QWidget):
             Cell(parameters or "–", "\n".join(row.parameters), faint=faint, left=True),
         ]
 
-    def _standing_cell(self, row: Row) -> Cell:
+    def _standing_cell(self, row: CandidateRow) -> Cell:
         decided = self.decisions.of(row.name)
         if decided:
             role: Role = "good" if decided == "accepted" else "bad"

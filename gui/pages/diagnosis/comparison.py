@@ -3,10 +3,10 @@
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel, QSplitter, QVBoxLayout, QWidget
 
-from gui.pages.diagnosis.stages import Compared, compared, laws, references_hz
+from gui.pages.diagnosis.stages import ComparedMeasure, compared, laws, references_hz
 from gui.pages.law.curve import At
 from gui.pages.law.plots import LawLine, LawPlots
-from gui.tables import Cell, Table
+from gui.tables import Cell, ReadTable
 from gui.theme import Role
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.report.numbers import format_number, with_error
@@ -30,12 +30,12 @@ _LAW = {
 }
 
 
-class HeldOut(QWidget):
+class HeldOutBars(QWidget):
     """Errors in numbers and bars; bars of one unit share their scale."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.table = Table(_ERRORS, wide=(2, 3, 4))
+        self.table = ReadTable(_ERRORS, wide=(2, 3, 4))
         column = QVBoxLayout(self)
         column.setContentsMargins(4, 4, 4, 0)
         column.addWidget(self.table, 1)
@@ -57,7 +57,7 @@ class LawChange(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.plots, self.table = LawPlots(), Table(_LAW)
+        self.plots, self.table = LawPlots(), ReadTable(_LAW)
         self.doubt = QLabel(f"{UNKNOWN[0].upper()}{UNKNOWN[1:]}: no law here is to be relied on.")
         split = QSplitter(Qt.Orientation.Vertical)
         split.addWidget(self.plots)
@@ -87,7 +87,7 @@ class LawChange(QWidget):
         self.table.show_rows(rows)
 
 
-def _error_cells(row: Compared, scale: float) -> list[Cell]:
+def _error_cells(row: ComparedMeasure, scale: float) -> list[Cell]:
     values: tuple[tuple[float | None, Role], ...] = (
         (row.before, "model"),
         (row.after, "data"),

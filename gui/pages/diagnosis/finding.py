@@ -5,7 +5,7 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from gui.mark import Mark
-from gui.rediagnosis import Shown
+from gui.rediagnosis import ShownDiagnosis
 from gui.theme import Role, current_theme
 from instrument.results.diagnosis_words import verdict_line
 
@@ -40,7 +40,7 @@ class Finding(QWidget):
         column.addLayout(row)
         column.addWidget(self.next)
 
-    def show_diagnosis(self, shown: Shown) -> None:
+    def show_diagnosis(self, shown: ShownDiagnosis) -> None:
         """In words."""
         accepted = shown.asked is not None and shown.asked.accept is not None
         role, meaning = _BY_HAND if accepted else _MEANINGS[shown.found.verdict]
@@ -59,7 +59,7 @@ class Finding(QWidget):
         self.next.say("")
 
 
-def headline(shown: Shown) -> str:
+def headline(shown: ShownDiagnosis) -> str:
     """The verdict, or what a person decided: then the data were not asked."""
     said = verdict_line(shown.found).removeprefix("verdict: ").replace("+-", "±")
     if shown.asked is not None and shown.asked.accept is not None:

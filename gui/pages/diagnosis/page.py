@@ -21,10 +21,10 @@ from gui.asking import ask_open
 from gui.controller import AppController
 from gui.page import Page
 from gui.pages.diagnosis.candidates import Candidates
-from gui.pages.diagnosis.comparison import HeldOut, LawChange
+from gui.pages.diagnosis.comparison import HeldOutBars, LawChange
 from gui.pages.diagnosis.finding import Finding
 from gui.pages.diagnosis.residual_plots import ResidualPlots
-from gui.rediagnosis import Asked, Shown
+from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
 from gui.state import SessionState
 from gui.widgets import button, hint
 from instrument.facts.diagnosis import DiagnosisResult
@@ -49,14 +49,14 @@ class DiagnosisPage(Page):
     def __init__(self, controller: AppController) -> None:
         super().__init__(controller)
         self.finding, self.candidates = Finding(), Candidates()
-        self.residual, self.held_out, self.law = ResidualPlots(), HeldOut(), LawChange()
+        self.residual, self.held_out, self.law = ResidualPlots(), HeldOutBars(), LawChange()
         self.story = QTextBrowser()
         self.empty = hint(_HERE)
         self.diagnose = button("Diagnose this session", "Try every effect of the catalogue on all its points")
         self.others = QToolButton()
         self.back = button("Back to the recorded one", "Let go of what was computed here")
         self.bar, self.cancel = QProgressBar(), button("Cancel", "End the computation; what is shown stays")
-        self._shown: Shown | None = None
+        self._shown: ShownDiagnosis | None = None
         self._specimen_folder = ""
         self._found_of: dict[QWidget, DiagnosisResult] = {}
         self._arrange()
@@ -105,7 +105,7 @@ class DiagnosisPage(Page):
                 self._found_of[view] = self._shown.found
                 view.show_diagnosis(self._shown.found)
 
-    def _show_controls(self, shown: Shown | None) -> None:
+    def _show_controls(self, shown: ShownDiagnosis | None) -> None:
         running, session = self.controller.rediagnosis.running, self._session
         self.body.setVisible(shown is not None)
         self.empty.setVisible(shown is None)
@@ -138,7 +138,7 @@ class DiagnosisPage(Page):
 
     def _diagnose_session(self) -> None:
         if self._session is not None:
-            self.controller.rediagnosis.start(Asked(self._session))
+            self.controller.rediagnosis.start(DiagnosisAsked(self._session))
 
     def _diagnose_other(self) -> None:
         action = self.sender()
@@ -151,7 +151,7 @@ class DiagnosisPage(Page):
     def _diagnose_with(self, data: Path, specimen: Path) -> None:
         self._specimen_folder = str(specimen.parent)
         self.candidates.clear()
-        self.controller.rediagnosis.start(Asked(data, specimen))
+        self.controller.rediagnosis.start(DiagnosisAsked(data, specimen))
 
     def _recompute(self) -> None:
         decisions = self.candidates.decisions
@@ -161,7 +161,7 @@ class DiagnosisPage(Page):
             return
         specimen = asked.specimen if asked is not None else None
         declined = () if decisions.accept_argument is not None else decisions.declined
-        self.controller.rediagnosis.start(Asked(data, specimen, decisions.accept_argument, declined))
+        self.controller.rediagnosis.start(DiagnosisAsked(data, specimen, decisions.accept_argument, declined))
 
     def _go_back(self) -> None:
         self.candidates.clear()
@@ -254,7 +254,7 @@ class DiagnosisPage(Page):
         column.addWidget(self.filler, 1)
 
 
-def _story(shown: Shown) -> list[str]:
+def _story(shown: ShownDiagnosis) -> list[str]:
     """The explanation, what was set aside, what is to be noted."""
     found = shown.found
     said = list(found.explanation)

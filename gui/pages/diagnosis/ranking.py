@@ -21,7 +21,7 @@ WORDS: dict[Standing, str] = {
 
 
 @dataclass(frozen=True)
-class Row:
+class CandidateRow:
     """A candidate."""
 
     name: str
@@ -41,10 +41,10 @@ class Row:
         return f"ln odds {self.gain:+.1f} over the fit without any effect"
 
 
-def ranked(found: DiagnosisResult) -> list[Row]:
+def ranked(found: DiagnosisResult) -> list[CandidateRow]:
     """Best first; then what the catalogue holds beside them, so that it can be accepted too."""
     rows = [
-        Row(
+        CandidateRow(
             c.name,
             _standing(c.name, found),
             gain,
@@ -55,7 +55,7 @@ def ranked(found: DiagnosisResult) -> list[Row]:
         for c, gain in zip(found.candidates, log_odds(found), strict=True)
     ]
     single = {row.name for row in rows}
-    return rows + [Row(name, "not fitted") for name in sorted(CATALOGUE) if name not in single]
+    return rows + [CandidateRow(name, "not fitted") for name in sorted(CATALOGUE) if name not in single]
 
 
 def _standing(name: str, found: DiagnosisResult) -> Standing:

@@ -41,7 +41,7 @@ class Series:
 
 
 @dataclass(frozen=True)
-class Noise:
+class NoiseBand:
     """Two standard deviations of it, for points of one pass at one level. Shape (points,) each."""
 
     frequency_hz: Array
@@ -53,7 +53,7 @@ class Panel:
     """One segment of one stage."""
 
     series: tuple[Series, ...]
-    noise: tuple[Noise, ...]
+    noise: tuple[NoiseBand, ...]
 
     @property
     def range_hz(self) -> tuple[float, float]:
@@ -90,7 +90,7 @@ def panel(found: DiagnosisResult, segment: int, stage: StageName, quantity: Quan
         parts = np.array([p.whitened for p in left], dtype=float).T
         names = _WHITENED if len(parts) > 1 else ("amplitude",)
         series = tuple(Series(name, f, part) for name, part in zip(names, parts, strict=True))
-        return Panel(series, (Noise(f, np.full(len(f), TWO_STD)),))
+        return Panel(series, (NoiseBand(f, np.full(len(f), TWO_STD)),))
     series = tuple(Series(name, f, _column(left, key)) for name, key in _KEYS[quantity])
     return Panel(series, _noise(points))
 
@@ -100,14 +100,14 @@ def limits(found: DiagnosisResult, segment: int, quantity: Quantity) -> float:
     return max(panel(found, segment, stage, quantity).highest for stage in STAGES)
 
 
-def _noise(points: Sequence[PointLeft]) -> tuple[Noise, ...]:
+def _noise(points: Sequence[PointLeft]) -> tuple[NoiseBand, ...]:
     """A band for each pass and level: between them the noise jumps."""
     found = []
     for alike in sorted({(p.sweep, p.level_m_s2) for p in points}):
         mine = [p for p in points if (p.sweep, p.level_m_s2) == alike]
         height = TWO_STD * _column(mine, "noise_percent")
         if np.isfinite(height).all():
-            found.append(Noise(_column(mine, "frequency_hz"), height))
+            found.append(NoiseBand(_column(mine, "frequency_hz"), height))
     return tuple(found)
 
 

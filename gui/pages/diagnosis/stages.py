@@ -8,7 +8,7 @@ from instrument.facts.diagnosis import DiagnosisResult
 
 
 @dataclass(frozen=True)
-class Compared:
+class ComparedMeasure:
     """One measure of the fit, before and after; `noise` is what noise alone would give."""
 
     what: str
@@ -19,11 +19,11 @@ class Compared:
     held_out: bool = False
 
 
-def compared(found: DiagnosisResult) -> list[Compared]:
+def compared(found: DiagnosisResult) -> list[ComparedMeasure]:
     """Held-out data first: they say what a fit is worth."""
     before, after = found.stages
     rows = [
-        Compared(
+        ComparedMeasure(
             f"segment {b.segment}, predicted from the others",
             "% rms",
             b.rms_percent,
@@ -35,14 +35,16 @@ def compared(found: DiagnosisResult) -> list[Compared]:
     ]
     one, other = before.leave_one_out_rms_percent, after.leave_one_out_rms_percent
     if one is not None:
-        rows.append(Compared("each point, predicted from the others", "% rms", one, other, held_out=True))
+        rows.append(
+            ComparedMeasure("each point, predicted from the others", "% rms", one, other, held_out=True)
+        )
     whole, largest = "difference in amplitude, all points fitted", "largest difference in amplitude"
     chi2 = "chi² per degree of freedom"
     return [
         *rows,
-        Compared(whole, "% rms", before.rms_percent, after.rms_percent),
-        Compared(largest, "%", before.max_percent, after.max_percent),
-        Compared(chi2, "", before.chi2_per_dof, after.chi2_per_dof, 1.0),
+        ComparedMeasure(whole, "% rms", before.rms_percent, after.rms_percent),
+        ComparedMeasure(largest, "%", before.max_percent, after.max_percent),
+        ComparedMeasure(chi2, "", before.chi2_per_dof, after.chi2_per_dof, 1.0),
     ]
 
 

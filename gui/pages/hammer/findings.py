@@ -20,7 +20,7 @@ Look = Callable[[], None]
 
 
 @dataclass(frozen=True)
-class Seen:
+class HitSeen:
     """One hit by itself."""
 
     judged: Judged
@@ -34,7 +34,7 @@ class Averaged:
     """All hits that have samples, and the average of those that count."""
 
     hits: Hits
-    seen: dict[int, Seen]
+    seen: dict[int, HitSeen]
     """By number."""
     average: Spectra | None
     """None where no hit counts."""
@@ -51,7 +51,7 @@ class Averaged:
 
 
 @dataclass(frozen=True)
-class Modes:
+class ModesFound:
     """What the average gives."""
 
     hits: Hits
@@ -69,7 +69,7 @@ class Sight:
     """Sees hits; one that was seen before is not computed again."""
 
     def __init__(self) -> None:
-        self._known: dict[Blow, Seen] = {}
+        self._known: dict[Blow, HitSeen] = {}
 
     def average(self, hits: Hits, look: Look) -> Averaged:
         """Each hit and the average of those accepted."""
@@ -82,24 +82,24 @@ class Sight:
         used = [s.judged for s in seen.values() if s.judged.accepted]
         return Averaged(hits, seen, spectra(used) if used else None)
 
-    def _see(self, hit: RecordedHit) -> Seen:
+    def _see(self, hit: RecordedHit) -> HitSeen:
         known = self._known.get(blow_of(hit))
         if known is not None and known.judged.accepted == hit.accepted:
             return known
         judged = hit.judged()
         alone = known.alone if known is not None else spectra([judged])
-        return Seen(judged, alone, known.usable_hz if known is not None else rolloff_hz(alone))
+        return HitSeen(judged, alone, known.usable_hz if known is not None else rolloff_hz(alone))
 
 
-def modes_of(averaged: Averaged, band_hz: tuple[float, float], look: Look) -> Modes:
+def modes_of(averaged: Averaged, band_hz: tuple[float, float], look: Look) -> ModesFound:
     """Frequencies and damping by three methods, and how far single hits agree."""
     judged = [averaged.seen[h.number].judged for h in averaged.hits if h.number in averaged.seen]
     try:
         found = damping_of_hits(judged, band_hz=band_hz)
     except BadInput as error:
-        return Modes(averaged.hits, None, (), (), None, str(error))
+        return ModesFound(averaged.hits, None, (), (), None, str(error))
     look()
     scatter = scatter_over_hits(found)
     look()
     around = tuple(Surroundings.of(found, mode) for mode in found.modes)
-    return Modes(averaged.hits, found, scatter, around, damping_from(found))
+    return ModesFound(averaged.hits, found, scatter, around, damping_from(found))

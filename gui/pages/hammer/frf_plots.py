@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
 
 from fitting.arrays import Array
 from fitting.modal.frf import Frf
-from gui.pages.hammer.findings import Averaged, Modes
+from gui.pages.hammer.findings import Averaged, ModesFound
 from gui.pages.hammer.traces import Lines, Surroundings, accelerance
 from gui.plots import Axis, Plot
 from gui.theme import Role
@@ -93,7 +93,7 @@ class FrfPlots(QWidget):
                 continue
             self._show_lines(name, accelerance(frf), _BESIDE[k % len(_BESIDE)])
 
-    def show_modes(self, modes: Modes | None) -> None:
+    def show_modes(self, modes: ModesFound | None) -> None:
         """A mark on each peak, to be clicked."""
         found = modes.found if modes is not None else None
         f = np.array([m.frequency_hz for m in found.modes]) if found is not None else np.zeros(0)

@@ -4,7 +4,7 @@ import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
 
-from gui.pages.hammer.findings import Averaged, Seen
+from gui.pages.hammer.findings import Averaged, HitSeen
 from gui.pages.hammer.traces import Traces
 from gui.plots import Axis, Plot
 from gui.theme import Role
@@ -61,7 +61,7 @@ class HitPlots(QWidget):
             plot.enableAutoRange()
         self._show_spectrum(averaged, seen)
 
-    def _show_spectrum(self, averaged: Averaged, seen: Seen) -> None:
+    def _show_spectrum(self, averaged: Averaged, seen: HitSeen) -> None:
         usable_hz = averaged.usable_hz or seen.usable_hz
         highest_hz = min(_SHOWN_BEYOND * usable_hz, seen.judged.hit.sample_rate_hz / 2)
         self._draw_spectrum("selected hit", seen.alone, highest_hz, "third")

@@ -7,7 +7,7 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.modal.frf import Refusal
-from gui.pages.hammer.findings import Modes
+from gui.pages.hammer.findings import ModesFound
 from gui.tables import Cell, Row
 from instrument.facts.damping import METHODS, DampingResult, Method, ModeFound, RatioFound
 from instrument.impact.damping import Mode
@@ -45,7 +45,9 @@ class ModeRow:
     cells: Row
 
 
-def mode_rows(result: DampingResult | None, modes: Modes | None, expected_hz: Array | None) -> list[ModeRow]:
+def mode_rows(
+    result: DampingResult | None, modes: ModesFound | None, expected_hz: Array | None
+) -> list[ModeRow]:
     """Of a result; what only the computation here knows is added where it has the same mode."""
     found = result.modes if result is not None else ()
     return [_mode_row(k + 1, mode, modes, expected_hz) for k, mode in enumerate(found)]
@@ -59,13 +61,13 @@ def advice_of(result: DampingResult | None) -> str:
     return "; ".join(warning for warning in result.warnings if warning not in told)
 
 
-def number_of(modes: Modes, frequency_hz: float) -> int | None:
+def number_of(modes: ModesFound, frequency_hz: float) -> int | None:
     """Which of the modes computed here is the one at a frequency."""
     found = modes.found.modes if modes.found is not None else ()
     return near(np.array([m.frequency_hz for m in found]), frequency_hz)
 
 
-def _mode_row(number: int, mode: ModeFound, modes: Modes | None, expected_hz: Array | None) -> ModeRow:
+def _mode_row(number: int, mode: ModeFound, modes: ModesFound | None, expected_hz: Array | None) -> ModeRow:
     f, lines, why = mode.frequency_hz, mode.lines_in_bandwidth, mode.why
     k = number_of(modes, f) if modes is not None else None
     found = modes.found.modes[k] if modes is not None and modes.found is not None and k is not None else None

@@ -9,7 +9,7 @@ from gui.controller import AppController
 from gui.page import Page
 from gui.pages.hammer.bench import Bench
 from gui.pages.hammer.choice import WhatIf, overruled, standing_of
-from gui.pages.hammer.findings import Averaged, Hits, Modes
+from gui.pages.hammer.findings import Averaged, Hits, ModesFound
 from gui.pages.hammer.frf_plots import FrfPlots
 from gui.pages.hammer.hit_list import HitList
 from gui.pages.hammer.hit_plots import HitPlots
@@ -49,7 +49,7 @@ class HammerPage(Page):
         self.bench = Bench(self)
         self.what_if = WhatIf()
         self._averaged: Averaged | None = None
-        self._modes: Modes | None = None
+        self._modes: ModesFound | None = None
         self._expected_hz: Array | None = None
         self._hits: Hits = ()
         """As they count on this page; what the bench was given last."""
@@ -203,7 +203,7 @@ class HammerPage(Page):
         # In a turn of its own: the window answers in between.
         self._frf_later.start()
 
-    def _has_modes(self, modes: Modes) -> None:
+    def _has_modes(self, modes: ModesFound) -> None:
         self._modes = modes
         self._show_modes()
         self.frf.show_modes(modes)

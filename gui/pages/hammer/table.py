@@ -4,10 +4,10 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QSignalBlocker, QSize, Signal
 
-from gui.tables import Row, Table
+from gui.tables import ReadTable, Row
 
 
-class ChoiceTable(Table):
+class ChoiceTable(ReadTable):
     """High enough for `usual_rows`; the last column takes what room there is.
 
     Signals

@@ -17,7 +17,7 @@ PAPER = "ZN_1, the paper's Table 4"
 
 
 @dataclass(frozen=True)
-class Compared:
+class ComparedLaw:
     """A law and its name in the legend."""
 
     name: str
@@ -26,15 +26,15 @@ class Compared:
     """Where it comes from."""
 
 
-def paper_law() -> Compared:
+def paper_law() -> ComparedLaw:
     """Over the band of the paper's measurement; the paper states no errors."""
     f = read_sweep(case_file("table5.csv")).sweep(1.0).frequency_hz
     grid = np.geomspace(f.min(), f.max(), 61)
     said = ", ".join(f"{name} = {value:g}" for name, value in zip(TABLE_4.names, TABLE_4.values, strict=True))
-    return Compared(PAPER, LawCurve.stated(TABLE_4, grid), f"{TABLE_4.kind}: {said}; no errors stated")
+    return ComparedLaw(PAPER, LawCurve.stated(TABLE_4, grid), f"{TABLE_4.kind}: {said}; no errors stated")
 
 
-def recorded_laws(path: Path) -> list[Compared]:
+def recorded_laws(path: Path) -> list[ComparedLaw]:
     """What a session's own fit gave, and what its diagnosis made of it. Raises `BadInput`."""
     with SessionFile(path) as session:
         contents = contents_of(session, with_hits=False)
@@ -44,9 +44,9 @@ def recorded_laws(path: Path) -> list[Compared]:
         raise BadInput(f"{path}: no law was fitted in this session, expected one with a finished fit")
     doubt = f", {UNKNOWN}" if diagnosis is not None and diagnosis.verdict == "unknown" else ""
     note = f"{path}: its own fit, {len(fit.points)} points{doubt}"
-    found = [Compared(f"{path.stem}{doubt}", LawCurve.of(fit.law), note)]
+    found = [ComparedLaw(f"{path.stem}{doubt}", LawCurve.of(fit.law), note)]
     if diagnosis is not None and diagnosis.equivalent:
         effects = " and ".join(diagnosis.equivalent)
         law = LawCurve.of(diagnosis.after.law)
-        found.append(Compared(f"{path.stem}, diagnosed", law, f"{path}: its diagnosis, with {effects}"))
+        found.append(ComparedLaw(f"{path.stem}, diagnosed", law, f"{path}: its diagnosis, with {effects}"))
     return found

@@ -10,8 +10,8 @@ from gui.asking import ask_open_many
 from gui.background_task import BackgroundTask, Progress
 from gui.controller import SESSION_ENDINGS
 from gui.pages.law.plots import LawLine
-from gui.pages.material.compared import PAPER, Compared, paper_law, recorded_laws
-from gui.tables import Cell, Table
+from gui.pages.material.compared import PAPER, ComparedLaw, paper_law, recorded_laws
+from gui.tables import Cell, ReadTable
 from gui.theme import Role
 from gui.widgets import button, hint
 
@@ -26,7 +26,7 @@ _LOOKS: tuple[tuple[Role, bool], ...] = (
 _COLUMNS = {"drawn beside": "Its name in the legend", "from": "Where it comes from"}
 
 
-class Comparison(QWidget):
+class LawComparison(QWidget):
     """Laws of elsewhere.
 
     Signals
@@ -42,10 +42,10 @@ class Comparison(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.laws: list[Compared] = []
+        self.laws: list[ComparedLaw] = []
         self._looks: dict[str, int] = {}
         self._reading: list[_Reading] = []
-        self.table = Table(_COLUMNS, selects=True)
+        self.table = ReadTable(_COLUMNS, selects=True)
         self.paper = QCheckBox("Paper's ZN_1")
         self.paper.setToolTip("The law of the paper's Table 4")
         self.add = button("Add session ...", "The law another session's own fit gave, and its diagnosis")
@@ -126,7 +126,7 @@ class Comparison(QWidget):
     def _selected(self) -> None:
         self.remove.setEnabled(self.table.selected is not None)
 
-    def _show(self, laws: list[Compared]) -> None:
+    def _show(self, laws: list[ComparedLaw]) -> None:
         self.laws = laws
         looks = {law.name: self._looks[law.name] for law in laws if law.name in self._looks}
         for law in laws:
@@ -153,12 +153,12 @@ class Comparison(QWidget):
         column.addWidget(hint("Drop sessions here to compare them; dropped elsewhere they are opened."))
 
 
-class _Reading(BackgroundTask[list[Compared]]):
+class _Reading(BackgroundTask[list[ComparedLaw]]):
     """Of another session."""
 
     def __init__(self, path: Path, parent: QObject) -> None:
         super().__init__(self._read_file, parent)
         self.path = path
 
-    def _read_file(self, _: Progress) -> list[Compared]:
+    def _read_file(self, _: Progress) -> list[ComparedLaw]:
         return recorded_laws(self.path)

@@ -9,10 +9,10 @@ from gui.mark import Mark
 from gui.page import Page
 from gui.pages.law.curve import LawCurve, joined, resonances_hz
 from gui.pages.law.plots import LawLine, LawPlots
-from gui.pages.material.comparison import Comparison
+from gui.pages.material.comparison import LawComparison
 from gui.pages.material.numbers import headline, parameters, places
 from gui.pages.material.tables import Correlations, Parameters, Places
-from gui.rediagnosis import Shown
+from gui.rediagnosis import ShownDiagnosis
 from gui.state import SessionState
 from instrument.facts.identification import IdentificationResult
 from instrument.results.diagnosis_words import UNKNOWN
@@ -35,7 +35,7 @@ class MaterialPage(Page):
     def __init__(self, controller: AppController) -> None:
         super().__init__(controller)
         self.said, self.origin = QLabel(_NOTHING), Mark()
-        self.plots, self.comparison = LawPlots(), Comparison()
+        self.plots, self.comparison = LawPlots(), LawComparison()
         self.places, self.parameters, self.correlations = Places(), Parameters(), Correlations()
         self.notes = QTextBrowser()
         self._curves: dict[int, LawCurve] = {}
@@ -100,7 +100,7 @@ class MaterialPage(Page):
         lines += _diagnosed_lines(self._diagnosed) + self.comparison.lines
         self.plots.show_lines(lines, self._resonances)
 
-    def _show_notes(self, result: IdentificationResult | None, shown: Shown | None) -> None:
+    def _show_notes(self, result: IdentificationResult | None, shown: ShownDiagnosis | None) -> None:
         notes = list(result.warnings) if result is not None else []
         if shown is not None:
             notes += shown.found.warnings
@@ -131,7 +131,7 @@ class MaterialPage(Page):
         return fits[-1] if fits else None
 
     @property
-    def _diagnosed(self) -> Shown | None:
+    def _diagnosed(self) -> ShownDiagnosis | None:
         """The diagnosis shown, where an effect is accepted."""
         shown = self.controller.rediagnosis.shown(self.controller.state)
         return shown if shown is not None and shown.found.equivalent else None
@@ -186,7 +186,7 @@ class MaterialPage(Page):
         column.addWidget(whole, 1)
 
 
-def _diagnosed_lines(shown: Shown | None) -> list[LawLine]:
+def _diagnosed_lines(shown: ShownDiagnosis | None) -> list[LawLine]:
     """Before and after the effects accepted."""
     if shown is None:
         return []

@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from gui.pages.law.curve import At
 from gui.pages.material.numbers import Parameter, Place, correlation_rows, labelled
-from gui.tables import Cell, Table
+from gui.tables import Cell, ReadTable
 from gui.theme import Role
 from gui.widgets import hint
 from instrument.facts.identification import IdentificationResult
@@ -37,7 +37,7 @@ _CORRELATIONS_SAID = (
 )
 
 
-class Places(Table):
+class Places(ReadTable):
     """The law at some frequencies."""
 
     def __init__(self) -> None:
@@ -49,7 +49,7 @@ class Places(Table):
         self.show_rows([_place(row, with_effects) for row in rows], wanted)
 
 
-class Parameters(Table):
+class Parameters(ReadTable):
     """The law's parameters."""
 
     def __init__(self) -> None:
@@ -66,7 +66,7 @@ class Correlations(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.table = Table({})
+        self.table = ReadTable({})
         self.table.horizontalHeader().setStretchLastSection(False)
         column = QVBoxLayout(self)
         column.setContentsMargins(4, 4, 4, 0)

@@ -7,8 +7,8 @@ from typing import Any
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
-from gui.background_task import Command
-from gui.tables import Cell, Table
+from gui.background_task import BackgroundCommand
+from gui.tables import Cell, ReadTable
 from gui.theme import current_theme
 from gui.top_bar import duration
 from gui.widgets import hint
@@ -45,7 +45,7 @@ class Check(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._command: Command | None = None
+        self._command: BackgroundCommand | None = None
 
     @property
     def running(self) -> bool:
@@ -55,7 +55,7 @@ class Check(QObject):
     def start(self, experiment: Path) -> None:
         """Of these files, as they are on the disk."""
         self.cancel()
-        self._command = Command(["check", str(experiment)], CheckResult, self)
+        self._command = BackgroundCommand(["check", str(experiment)], CheckResult, self)
         self._command.done.connect(self.passed)
         self._command.failed.connect(self._failed)
         self._command.start()
@@ -79,7 +79,7 @@ class CheckPane(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.summary = hint(_NOTHING)
-        self.table = Table(_COLUMNS)
+        self.table = ReadTable(_COLUMNS)
         self.warnings = QLabel()
         self.warnings.setWordWrap(True)
         column = QVBoxLayout(self)

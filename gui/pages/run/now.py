@@ -11,7 +11,7 @@ from gui.gauge import Gauge
 from gui.run_gauges import RunGauges, state_color
 from gui.state import SessionState
 from gui.state.run import WORDS
-from gui.tables import Cell, Table
+from gui.tables import Cell, ReadTable
 from gui.theme import Role
 from gui.widgets import hint
 from instrument.engine.messages import Ended
@@ -37,7 +37,7 @@ class NowPane(QWidget):
         self.next.setTextFormat(Qt.TextFormat.PlainText)
         self.level = Gauge("level", large=True)
         self.gauges = RunGauges(controller, self, large=True)
-        self.segments, self.channels = Table(_COLUMNS), ChannelTable()
+        self.segments, self.channels = ReadTable(_COLUMNS), ChannelTable()
         self.path = QLabel()
         self.path.setWordWrap(True)
         self.nothing = hint(_NOTHING)

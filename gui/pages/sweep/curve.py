@@ -7,7 +7,7 @@ from typing import Self
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from gui.pages.sweep.points import Index, Points
+from gui.pages.sweep.points import Index, PointsMeasured
 from instrument.facts.identification import PointFitted
 from instrument.facts.prediction import PredictionResult
 from instrument.session.contents import SegmentRun
@@ -23,7 +23,7 @@ _MOST = 2000
 
 
 @dataclass(frozen=True)
-class Stretch:
+class CurveStretch:
     """The model over one segment. Shape (frequencies,) each."""
 
     segment: int
@@ -33,7 +33,7 @@ class Stretch:
     """Of |v/a|; NaN where the fit knows none."""
     phase_std_deg: Array
 
-    def phase_deg(self, points: Points) -> Array:
+    def phase_deg(self, points: PointsMeasured) -> Array:
         """Without jumps, and as many whole turns as the points of its segment have."""
         phase = np.unwrap(np.degrees(np.angle(self.over_base_s)), period=360.0)
         mine = (points.segment == self.segment) & ~points.sentinel
@@ -47,7 +47,7 @@ class Stretch:
 class Curve:
     """Of one fit, a stretch a segment."""
 
-    stretches: tuple[Stretch, ...]
+    stretches: tuple[CurveStretch, ...]
 
     @classmethod
     def of(cls, found: PredictionResult, acceleration_m_s2: float, regions: list[Region]) -> Self:
@@ -60,10 +60,10 @@ class Curve:
             std = np.array([p.velocity_standard_error_m_s for p in mine], dtype=float)
             turn = np.array([p.phase_standard_error_rad for p in mine], dtype=float)
             a = acceleration_m_s2
-            stretches.append(Stretch(segment, f, v / a, std / a, np.degrees(turn)))
+            stretches.append(CurveStretch(segment, f, v / a, std / a, np.degrees(turn)))
         return cls(tuple(stretches))
 
-    def of_segments(self, segment: int | None) -> Iterator[Stretch]:
+    def of_segments(self, segment: int | None) -> Iterator[CurveStretch]:
         """One segment's, or all."""
         return (s for s in self.stretches if segment is None or s.segment == segment)
 
@@ -89,7 +89,7 @@ def joined(stretches: list[Array]) -> Array:
     return np.concatenate([part for s in stretches for part in (s, gap)][:-1]) if stretches else np.zeros(0)
 
 
-def predictions(points: Points, rows: Sequence[PointFitted], last_step: int) -> tuple[Index, Array]:
+def predictions(points: PointsMeasured, rows: Sequence[PointFitted], last_step: int) -> tuple[Index, Array]:
     """What a fit's own rows say: number of each point it took, and its amplitude predicted in m/s.
 
     Empty where the rows do not belong to these points.

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QLabel, QSplitter, QVBoxLayout, QWidget
 from gui.pages.sweep.drifted import drifted
 from gui.pages.sweep.panes import CHOSEN, Pointed, align, hide_foot
 from gui.pages.sweep.points import Group
-from gui.pages.sweep.seen import Seen
+from gui.pages.sweep.seen import PaneContents
 from gui.plots import Axis
 from gui.widgets import hint
 from instrument.stream.derived import SentinelCompared
@@ -51,7 +51,7 @@ class DriftPane(QWidget):
         column.addWidget(self.said)
         column.addWidget(stack, 1)
 
-    def show_seen(self, seen: Seen, sentinels: Sequence[SentinelCompared]) -> None:
+    def show_seen(self, seen: PaneContents, sentinels: Sequence[SentinelCompared]) -> None:
         """Draw."""
         p = seen.points
         drift = drifted(seen.points, sentinels)
@@ -69,7 +69,7 @@ class DriftPane(QWidget):
             plot.mark(at, "text", name=CHOSEN)
         align(*self._plots)
 
-    def _draw_temperature(self, seen: Seen) -> None:
+    def _draw_temperature(self, seen: PaneContents) -> None:
         p = seen.points
         index = np.flatnonzero(np.isfinite(p.column("temperature_c")))
         self.temperature.setVisible(bool(index.size))

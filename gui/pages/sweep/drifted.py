@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array
-from gui.pages.sweep.points import Index, Points
+from gui.pages.sweep.points import Index, PointsMeasured
 from instrument.stream.derived import SentinelCompared
 
 
@@ -31,7 +31,7 @@ class Drift:
         )
 
 
-def drifted(points: Points, sentinels: Sequence[SentinelCompared]) -> Drift | None:
+def drifted(points: PointsMeasured, sentinels: Sequence[SentinelCompared]) -> Drift | None:
     """What the sentinels say; None before the second."""
     known = [(s, k) for s in sentinels if (k := points.of_step(s.step)) is not None]
     first = np.flatnonzero(points.sentinel)

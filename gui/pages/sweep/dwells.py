@@ -26,7 +26,7 @@ class Dwells(QObject):
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         self._wanted: tuple[Path, int] | None = None
-        self._work: _Reading | None = None
+        self._work: _DwellReading | None = None
 
     @property
     def busy(self) -> bool:
@@ -49,7 +49,7 @@ class Dwells(QObject):
     def _next(self) -> None:
         if self._work is not None or self._wanted is None:
             return
-        self._work = _Reading(*self._wanted, self)
+        self._work = _DwellReading(*self._wanted, self)
         self._work.done.connect(self._done)
         self._work.failed.connect(self._failed)
         self._work.start()
@@ -74,7 +74,7 @@ class Dwells(QObject):
         return work.path, work.step
 
 
-class _Reading(BackgroundTask[DwellSamples]):
+class _DwellReading(BackgroundTask[DwellSamples]):
     def __init__(self, path: Path, step: int, parent: QObject) -> None:
         super().__init__(self._read, parent)
         self.path, self.step = path, step

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, QTemporaryDir, QTimer, Signal
 
-from gui.background_task import Command
+from gui.background_task import BackgroundCommand
 from gui.pages.sweep.curve import Curve, Region, grid, regions_of
 from gui.state import SessionState
 from instrument.facts.prediction import PredictionResult
@@ -36,7 +36,7 @@ class ModelCurve(QObject):
         self.failure = ""
         self._regions: list[Region] = []
         self._contents: Contents | None = None
-        self._command: Command | None = None
+        self._command: BackgroundCommand | None = None
         self._folder = QTemporaryDir()
         self._soon = QTimer(self)
         self._soon.setSingleShot(True)
@@ -92,7 +92,7 @@ class ModelCurve(QObject):
             hammer = folder / "hammer.json"
             hammer.write_text(json.dumps(damping.result.as_json()), encoding="utf-8")
             asked += ["--hammer", str(hammer)]
-        self._command = Command(asked, PredictionResult, self)
+        self._command = BackgroundCommand(asked, PredictionResult, self)
         self._command.done.connect(self._done)
         self._command.failed.connect(self._failed)
         self._command.start()

@@ -5,7 +5,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from gui.pages.sweep.panes import BESIDE, CHOSEN, SIGNS, Key, Pointed, keyed
-from gui.pages.sweep.seen import Seen
+from gui.pages.sweep.seen import PaneContents
 from gui.plots import Axis
 from gui.theme import Role
 
@@ -24,7 +24,7 @@ class NyquistPane(QWidget):
         column.setContentsMargins(0, 0, 0, 0)
         column.addWidget(keyed(self.key, self.plot))
 
-    def show_seen(self, seen: Seen) -> None:
+    def show_seen(self, seen: PaneContents) -> None:
         """Draw."""
         label = "v/a" if seen.way.quantity == "ratio" else "v at its level"
         self.plot.show_axes(Axis(f"Re {label}", seen.way.unit), Axis(f"Im {label}", seen.way.unit))
@@ -53,7 +53,7 @@ class NyquistPane(QWidget):
         """All there is in view."""
         self.plot.enableAutoRange()
 
-    def _draw_model(self, seen: Seen) -> list[str]:
+    def _draw_model(self, seen: PaneContents) -> list[str]:
         stretches = list(seen.curve.of_segments(seen.segment)) if seen.curve is not None else []
         if not stretches:
             return []

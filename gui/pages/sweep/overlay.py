@@ -12,7 +12,7 @@ from instrument.interchange.found import REFERENCE_M_S2, Found
 
 
 @dataclass(frozen=True)
-class Beside:
+class OverlaidSweep:
     """One sweep. Shape (points,) each."""
 
     name: str
@@ -28,7 +28,7 @@ class Beside:
         return (self.frequency_hz >= low) & (self.frequency_hz <= high)
 
 
-def besides(files: Mapping[Path, Found]) -> tuple[Beside, ...]:
+def besides(files: Mapping[Path, Found]) -> tuple[OverlaidSweep, ...]:
     """Every sweep of some files, in order."""
     found = []
     for path, file in files.items():
@@ -38,7 +38,7 @@ def besides(files: Mapping[Path, Found]) -> tuple[Beside, ...]:
             over_base = np.asarray(sweep.response_m_s / sweep.commanded_m_s2, dtype=complex)
             name = path.name if len(file.sweeps) == 1 else f"{path.name}, {number}"
             found.append(
-                Beside(
+                OverlaidSweep(
                     name,
                     sweep.frequency_hz[order],
                     over_base[order],

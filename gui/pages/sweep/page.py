@@ -15,12 +15,12 @@ from gui.pages.sweep.model import ModelCurve
 from gui.pages.sweep.nyquist import NyquistPane
 from gui.pages.sweep.overlay import besides
 from gui.pages.sweep.pane_scheduler import PaneScheduler
-from gui.pages.sweep.points import Points
+from gui.pages.sweep.points import PointsMeasured
 from gui.pages.sweep.quality import QualityPane
 from gui.pages.sweep.record import RecordPane
 from gui.pages.sweep.response import ResponsePane
 from gui.pages.sweep.samples import SamplesPane
-from gui.pages.sweep.seen import Predicted, Seen
+from gui.pages.sweep.seen import PaneContents, Predicted
 from gui.pages.sweep.segments import standings
 from gui.pages.sweep.step import StepPane
 from gui.state import SessionState
@@ -58,7 +58,7 @@ class SweepPage(Page):
         self.drift, self.samples = DriftPane(), SamplesPane()
         self.model = ModelCurve(self)
         self.tabs = QTabWidget()
-        self.seen = Seen(Points.of((), SweepSettings()))
+        self.seen = PaneContents(PointsMeasured.of((), SweepSettings()))
         self._looked_at: int | None = None
         self._configuration: Configuration | None = None
         self._running: tuple[int, int] | None = None
@@ -89,7 +89,9 @@ class SweepPage(Page):
         """There is no session any more."""
         self._layers.setCurrentIndex(1 if self.seen.beside else 0)
         self.model.want(None)
-        self.seen = Seen(Points.of((), SweepSettings()), way=self.response.way, beside=self.seen.beside)
+        self.seen = PaneContents(
+            PointsMeasured.of((), SweepSettings()), way=self.response.way, beside=self.seen.beside
+        )
         self._looked_at = self._running = None
         self.chooser.show_standings([])
         self.step.clear()

@@ -48,7 +48,7 @@ _COLUMNS = tuple(column.field for column in stored())
 
 
 @dataclass(frozen=True)
-class Points:
+class PointsMeasured:
     """Steps and sentinels in the order of measuring. Shape (points,) each."""
 
     timed: tuple[TimedPoint, ...]

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
 from fitting.arrays import Array
 from gui.pages.sweep.panes import CHOSEN, Key, Pointed, align, channel, hide_foot, keyed
 from gui.pages.sweep.points import Channel
-from gui.pages.sweep.seen import Seen
+from gui.pages.sweep.seen import PaneContents
 from gui.plots import Axis
 from gui.theme import Role
 from instrument.stepped_sine.settings import SweepSettings
@@ -59,7 +59,7 @@ class QualityPane(QWidget):
             if plot is not self.settling:
                 hide_foot(plot)
 
-    def show_seen(self, seen: Seen, settings: SweepSettings) -> None:
+    def show_seen(self, seen: PaneContents, settings: SweepSettings) -> None:
         """Draw."""
         p = seen.points
         self._show_key(seen)
@@ -74,25 +74,25 @@ class QualityPane(QWidget):
             plot.frame(seen.band_hz)
         align(*self._plots)
 
-    def _show_key(self, seen: Seen) -> None:
+    def _show_key(self, seen: PaneContents) -> None:
         none = np.zeros(0, dtype=np.intp)
         channels = [channel(said, role, second, none) for _, said, role, second in _CHANNELS]
         self.channels.show_groups(channels)
         self.qualities.show_groups(seen.points.groups(seen.wanted))
 
-    def _channels(self, plot: Pointed, seen: Seen, values: Callable[[Channel], Array]) -> None:
+    def _channels(self, plot: Pointed, seen: PaneContents, values: Callable[[Channel], Array]) -> None:
         index = np.flatnonzero(seen.wanted)
         for name, said, role, second in _CHANNELS:
             group = channel(said, role, second, index)
             plot.show_points(group, seen.points.frequency_hz[index], values(name)[index])
 
-    def _groups(self, plot: Pointed, seen: Seen, values: Array) -> None:
+    def _groups(self, plot: Pointed, seen: PaneContents, values: Array) -> None:
         groups = seen.points.groups(seen.wanted)
         plot.keep((*(g.name for g in groups), *(n for n in plot.names if n.startswith(_TOLERANCE))))
         for group in groups:
             plot.show_points(group, seen.points.frequency_hz[group.index], values[group.index])
 
-    def _tolerance(self, seen: Seen, percent: float) -> None:
+    def _tolerance(self, seen: PaneContents, percent: float) -> None:
         f = _ends(seen)
         both = np.concatenate([f, [np.nan], f])
         limits = np.concatenate([np.full(len(f), percent), [np.nan], np.full(len(f), -percent)])
@@ -100,7 +100,7 @@ class QualityPane(QWidget):
         self.level.line(name, both, limits, "bad", dashed=True)
 
 
-def _ends(seen: Seen) -> Array:
+def _ends(seen: PaneContents) -> Array:
     """Of the line that a tolerance is drawn as."""
     if seen.band_hz is not None:
         return np.array(seen.band_hz)

@@ -3,9 +3,9 @@
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
-from gui.pages.sweep.record_lines import Line, record_lines
-from gui.pages.sweep.seen import Seen
-from gui.tables import Cell, Table
+from gui.pages.sweep.record_lines import RecordLine, record_lines
+from gui.pages.sweep.seen import PaneContents
+from gui.tables import Cell, ReadTable
 from gui.widgets import hint, tool
 from instrument.stepped_sine.settings import SweepSettings
 
@@ -29,14 +29,14 @@ class RecordPane(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.title, self.none = QLabel(), hint(_NONE)
-        self.table = Table(_COLUMNS)
+        self.table = ReadTable(_COLUMNS)
         self.table.setAlternatingRowColors(True)
         self.table.horizontalHeader().hide()
         self.back = tool("\u25c0", "The point before (left arrow)")
         self.on = tool("\u25b6", "The next point (right arrow)")
         self.back.clicked.connect(self._back)
         self.on.clicked.connect(self._on)
-        self._lines: list[Line] = []
+        self._lines: list[RecordLine] = []
         above = QHBoxLayout()
         for widget, stretch in ((self.title, 1), (self.back, 0), (self.on, 0)):
             above.addWidget(widget, stretch)
@@ -48,11 +48,11 @@ class RecordPane(QWidget):
         column.addStretch(0)
 
     @property
-    def lines(self) -> list[Line]:
+    def lines(self) -> list[RecordLine]:
         """As they stand there."""
         return self._lines
 
-    def show_seen(self, seen: Seen, settings: SweepSettings) -> None:
+    def show_seen(self, seen: PaneContents, settings: SweepSettings) -> None:
         """Draw."""
         at = seen.chosen
         lines = record_lines(seen, at, settings) if at is not None else []

@@ -4,15 +4,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gui.pages.sweep.seen import Seen
-from instrument.files.column import Row
+from gui.pages.sweep.seen import PaneContents
+from instrument.files.column import ColumnPoint
 from instrument.files.point_columns import in_record
 from instrument.results.quality import QUALITIES
 from instrument.stepped_sine.settings import SweepSettings
 
 
 @dataclass(frozen=True)
-class Line:
+class RecordLine:
     """A quantity of a point."""
 
     name: str
@@ -21,29 +21,29 @@ class Line:
     tip: str = ""
 
 
-def record_lines(seen: Seen, number: int, settings: SweepSettings) -> list[Line]:
+def record_lines(seen: PaneContents, number: int, settings: SweepSettings) -> list[RecordLine]:
     """All of a point's record, what matters most first."""
     timed = seen.points.timed[number]
-    row = Row(timed.point, timed.time_s, tolerance_percent=100 * settings.control.tolerance)
-    first, *others = [Line(shown.label, shown.text(row), shown.tip) for _, shown in in_record()]
+    row = ColumnPoint(timed.point, timed.time_s, tolerance_percent=100 * settings.control.tolerance)
+    first, *others = [RecordLine(shown.label, shown.text(row), shown.tip) for _, shown in in_record()]
     return [
         first,
-        Line("Quality", QUALITIES[seen.points.quality[number]], "Against the tolerances of the sweep"),
-        *(Line("Remark", remark) for remark in timed.point.remarks),
+        RecordLine("Quality", QUALITIES[seen.points.quality[number]], "Against the tolerances of the sweep"),
+        *(RecordLine("Remark", remark) for remark in timed.point.remarks),
         *_response(seen, number),
         *_prediction(seen, number),
         *others,
     ]
 
 
-def _response(seen: Seen, number: int) -> list[Line]:
+def _response(seen: PaneContents, number: int) -> list[RecordLine]:
     p, z = seen.points, seen.points.over_base_s[number]
     noise = float(np.hypot(p.noise_percent("velocity")[number], p.noise_percent("base")[number]))
     tip = f"Velocity over base acceleration, {seen.reads}"
     return [
-        Line("|v/a|", f"{1e3 * abs(z):.5g} (mm/s)/(m/s\u00b2)", tip),
-        Line("Phase of v/a", f"{np.degrees(np.angle(z)):.3f}\u00b0", tip),
-        Line(
+        RecordLine("|v/a|", f"{1e3 * abs(z):.5g} (mm/s)/(m/s\u00b2)", tip),
+        RecordLine("Phase of v/a", f"{np.degrees(np.angle(z)):.3f}\u00b0", tip),
+        RecordLine(
             "Noise of v/a",
             f"{noise:.2g} %, {np.degrees(noise / 100):.2g}\u00b0",
             "Standard deviation by the noise of both channels",
@@ -51,7 +51,7 @@ def _response(seen: Seen, number: int) -> list[Line]:
     ]
 
 
-def _prediction(seen: Seen, number: int) -> list[Line]:
+def _prediction(seen: PaneContents, number: int) -> list[RecordLine]:
     predicted = seen.predicted.of(number)
     if predicted is None:
         return []
@@ -59,7 +59,7 @@ def _prediction(seen: Seen, number: int) -> list[Line]:
     measured = float(abs(p.over_base_s[number]) * p.level_m_s2[number])
     off = 100 * (predicted - measured) / measured
     return [
-        Line(
+        RecordLine(
             f"Fit {seen.fit} predicts",
             f"{1e3 * predicted:.5g} mm/s, {off:+.2f} %",
             "Amplitude at the level commanded, and its difference to the measured one",

@@ -15,10 +15,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from gui.pages.sweep.curve import STANDARD_ERRORS, Stretch, joined
+from gui.pages.sweep.curve import STANDARD_ERRORS, CurveStretch, joined
 from gui.pages.sweep.panes import BESIDE, CHOSEN, Pointed, align
 from gui.pages.sweep.points import Group
-from gui.pages.sweep.seen import Quantity, Seen, Way
+from gui.pages.sweep.seen import PaneContents, Quantity, Way
 from gui.plots import Axis
 
 _FREQUENCY = Axis("Frequency", "Hz")
@@ -66,7 +66,7 @@ class ResponsePane(QWidget):
             self.log_frequency.isChecked(),
         )
 
-    def show_seen(self, seen: Seen) -> None:
+    def show_seen(self, seen: PaneContents) -> None:
         """Draw."""
         way, reading = seen.way, seen.reads.capitalize()
         frequency = replace(_FREQUENCY, log=way.log_frequency)
@@ -87,12 +87,12 @@ class ResponsePane(QWidget):
             plot.frame(seen.band_hz)
         align(self.amplitude, self.phase)
 
-    def _draw_points(self, seen: Seen, group: Group) -> None:
+    def _draw_points(self, seen: PaneContents, group: Group) -> None:
         p, k = seen.points, group.index
         self.amplitude.show_points(group, p.frequency_hz[k], np.abs(seen.shown[k]))
         self.phase.show_points(group, p.frequency_hz[k], p.phase_deg[k])
 
-    def _draw_beside(self, seen: Seen) -> list[str]:
+    def _draw_beside(self, seen: PaneContents) -> list[str]:
         """Names of what is drawn."""
         for one in seen.beside:
             mine = one.inside(seen.band_hz)
@@ -104,7 +104,7 @@ class ResponsePane(QWidget):
                 self.phase.points(one.name, f, phase, **BESIDE)
         return [one.name for one in seen.beside]
 
-    def _draw_model(self, seen: Seen) -> list[str]:
+    def _draw_model(self, seen: PaneContents) -> list[str]:
         """Names of what is drawn."""
         if seen.curve is None:
             return self._draw_predictions(seen)
@@ -126,7 +126,7 @@ class ResponsePane(QWidget):
         )
         return names
 
-    def _draw_bands(self, seen: Seen, drawn: list[tuple[Stretch, float]]) -> list[str]:
+    def _draw_bands(self, seen: PaneContents, drawn: list[tuple[CurveStretch, float]]) -> list[str]:
         names = []
         for number, (s, factor) in enumerate(drawn):
             if not np.isfinite(s.amplitude_std_s).all():
@@ -139,7 +139,7 @@ class ResponsePane(QWidget):
             self.phase.band(names[-1], s.frequency_hz, phase - half, phase + half)
         return names
 
-    def _draw_predictions(self, seen: Seen) -> list[str]:
+    def _draw_predictions(self, seen: PaneContents) -> list[str]:
         """Until there is a curve: what the fit itself says, at the points it took."""
         p, predicted = seen.points, seen.predicted
         mine = seen.wanted[predicted.index] & ~p.sentinel[predicted.index]
@@ -154,7 +154,7 @@ class ResponsePane(QWidget):
         self.amplitude.line(name, joined(np.split(f, gaps)), joined(np.split(y, gaps)))
         return [name]
 
-    def _point_out(self, seen: Seen) -> None:
+    def _point_out(self, seen: PaneContents) -> None:
         if seen.chosen is None:
             for plot in (self.amplitude, self.phase):
                 plot.point_out(None, None)

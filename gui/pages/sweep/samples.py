@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QSplitter, QVBoxLayout, QWidget
 
 from gui.pages.sweep.dwells import Dwells
 from gui.pages.sweep.panes import align, span
-from gui.pages.sweep.seen import Seen
+from gui.pages.sweep.seen import PaneContents
 from gui.plots import Axis, Plot
 from gui.widgets import hint
 from instrument.session.dwell import DwellSamples
@@ -48,7 +48,7 @@ class SamplesPane(QWidget):
             self.dwells.rest()
             self._shown = None
 
-    def show_seen(self, seen: Seen, session: Path | None) -> None:
+    def show_seen(self, seen: PaneContents, session: Path | None) -> None:
         """Draw. `session` is the file the samples are in, None where there is none yet."""
         if seen.chosen is None:
             self._shown = None

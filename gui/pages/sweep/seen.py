@@ -7,8 +7,8 @@ import numpy as np
 
 from fitting.arrays import Array, Complex, Mask
 from gui.pages.sweep.curve import Curve, Region
-from gui.pages.sweep.overlay import Beside
-from gui.pages.sweep.points import Index, Points
+from gui.pages.sweep.overlay import OverlaidSweep
+from gui.pages.sweep.points import Index, PointsMeasured
 
 Quantity = Literal["ratio", "velocity"]
 
@@ -51,10 +51,10 @@ class Predicted:
 
 
 @dataclass(frozen=True)
-class Seen:
+class PaneContents:
     """Everything a pane needs; a pane never looks elsewhere."""
 
-    points: Points
+    points: PointsMeasured
     segment: int | None = None
     """None: all of them."""
     regions: tuple[Region, ...] = ()
@@ -63,7 +63,7 @@ class Seen:
     predicted: Predicted = field(default_factory=Predicted)
     fit: int = 0
     """Number of the fit `curve` and `predicted` are of."""
-    beside: tuple[Beside, ...] = ()
+    beside: tuple[OverlaidSweep, ...] = ()
     chosen: int | None = None
     """Number of the point looked at."""
     way: Way = field(default_factory=Way)

@@ -6,9 +6,9 @@ from typing import Literal
 import numpy as np
 
 from fitting.gravity import PUBLISHED_G_M_S2
-from gui.pages.sweep.points import Points
+from gui.pages.sweep.points import PointsMeasured
 from gui.state import SessionState
-from instrument.files.experiment_file import Segment
+from instrument.files.experiment_file import SegmentSection
 
 State = Literal["planned", "running", "broken off", "done"]
 
@@ -32,7 +32,7 @@ class SegmentStatus:
         return f"{self.number}   {self.band}\n{self.state}, {self.points}{remarks}, {self.level}"
 
 
-def standings(state: SessionState, points: Points) -> list[SegmentStatus]:
+def standings(state: SessionState, points: PointsMeasured) -> list[SegmentStatus]:
     """Every segment planned or begun, in order."""
     sweep = state.plan.sweep
     planned = dict(enumerate(sweep.segments, start=1)) if sweep is not None else {}
@@ -40,7 +40,9 @@ def standings(state: SessionState, points: Points) -> list[SegmentStatus]:
     return [_standing(state, points, n, planned.get(n)) for n in sorted(planned.keys() | begun)]
 
 
-def _standing(state: SessionState, points: Points, number: int, planned: Segment | None) -> SegmentStatus:
+def _standing(
+    state: SessionState, points: PointsMeasured, number: int, planned: SegmentSection | None
+) -> SegmentStatus:
     plan = state.plan
     runs = {key: run for key, run in plan.begun.items() if key[0] > 0 and key[1] == number}
     turns = plan.sweep.sweeps if plan.sweep is not None else max(1, len(runs))
@@ -71,7 +73,7 @@ def _state(state: SessionState, begun: list[tuple[int, int]], turns: int) -> Sta
     return "broken off" if state.run.over else "running"
 
 
-def _band(planned: Segment | None, begun: list[tuple[float, float]]) -> str:
+def _band(planned: SegmentSection | None, begun: list[tuple[float, float]]) -> str:
     if begun:
         return f"{min(low for low, _ in begun):.4g} to {max(high for _, high in begun):.4g} Hz"
     if planned is None or planned.mode is not None:

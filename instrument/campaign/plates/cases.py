@@ -14,16 +14,16 @@ from instrument.campaign.plates.hammer import HammerTest
 from instrument.campaign.plates.hidden import HIDDEN, draw_hidden, names_of
 from instrument.campaign.plates.hidden.base import Hidden, Setting
 from instrument.campaign.plates.kept import clean_plate
-from instrument.campaign.plates.materials import TrueLaw, draw_law, fits
+from instrument.campaign.plates.materials import PlateMaterialLaw, draw_law, fits
 from instrument.campaign.plates.noise import PlateNoise, draw_noise
-from instrument.campaign.plates.reduced import ReducedPlate
+from instrument.campaign.plates.reduced import ReducedSolid
 from instrument.campaign.plates.schedule import (
     Resonance,
     draw_schedule,
     measured_resonances,
     widest_band_hz,
 )
-from instrument.campaign.plates.simulate import Channel, built, moduli_of, peaks_hz, reading, struck
+from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, peaks_hz, reading, struck
 from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
 from instrument.campaign.schedule import Schedule
 
@@ -46,9 +46,9 @@ class PlateTruth:
     plate: TruePlate
     """As it really is, but for the effects."""
     effects: tuple[Hidden, ...]
-    law: TrueLaw
+    law: PlateMaterialLaw
     noise: PlateNoise
-    channel: Channel
+    channel: ChannelError
     resonances_hz: tuple[float, ...]
     """Middle of the three segments: where the law is judged."""
     lowest_share: float
@@ -135,7 +135,11 @@ def draw_case(
     noise, chance = draw_noise(rng("noise figures")), rng("stated")
     stated = draw_stated(chance, true)
     off = chance.standard_normal(2)
-    channel = Channel() if exact else Channel(float(np.exp(CAREFUL.gain * off[0])), CAREFUL.delay_s * off[1])
+    channel = (
+        ChannelError()
+        if exact
+        else ChannelError(float(np.exp(CAREFUL.gain * off[0])), CAREFUL.delay_s * off[1])
+    )
     stated = true if exact else stated
     text = toml(stated, None if exact else CAREFUL, middle[1])
     chance = rng("hammer")
@@ -150,7 +154,7 @@ def draw_case(
 
 def _law_and_schedule(
     rng: np.random.Generator, true: TruePlate, kind: str | None, levels: tuple[float, ...]
-) -> tuple[TrueLaw, list[Resonance], Schedule]:
+) -> tuple[PlateMaterialLaw, list[Resonance], Schedule]:
     """A law that keeps within the campaign's limits over the segments that it leads to."""
     clean = clean_plate(true)
     band = widest_band_hz(clean, true)
@@ -173,7 +177,7 @@ def _middles(schedule: Schedule) -> tuple[float, ...]:
     return tuple(middles)
 
 
-def _share(clean: ReducedPlate, law: TrueLaw, frequency_hz: float) -> float:
+def _share(clean: ReducedSolid, law: PlateMaterialLaw, frequency_hz: float) -> float:
     """Of the core in the stiffness of the mode nearest to a frequency."""
     omega = 2 * np.pi * frequency_hz
     G = float(law.modulus(omega).real)
@@ -182,7 +186,7 @@ def _share(clean: ReducedPlate, law: TrueLaw, frequency_hz: float) -> float:
     return float(G * (phi[:, r] @ clean.whole_core @ phi[:, r]) / lam[r])
 
 
-def measured(truth: PlateTruth, plate: ReducedPlate, schedule: Schedule, rng: np.random.Generator) -> Sweep:
+def measured(truth: PlateTruth, plate: ReducedSolid, schedule: Schedule, rng: np.random.Generator) -> Sweep:
     """The sweep as the rig would record it."""
     ratio = reading(plate, truth.plate, truth.effects, truth.law, schedule, truth.channel)
     commanded = schedule.level_g * PUBLISHED_G_M_S2

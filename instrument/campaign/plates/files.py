@@ -9,9 +9,9 @@ from instrument.campaign.plates.cases import PlateCase, PlateTruth
 from instrument.campaign.plates.geometry import plate_named
 from instrument.campaign.plates.hammer import HammerTest
 from instrument.campaign.plates.hidden import HIDDEN
-from instrument.campaign.plates.materials import TrueLaw
+from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.noise import PlateNoise
-from instrument.campaign.plates.simulate import Channel
+from instrument.campaign.plates.simulate import ChannelError
 from instrument.campaign.plates.stated import specimen_from
 from instrument.files.hammer_file import read_hammer
 from instrument.files.sweep_file import read_sweep, sweep_text
@@ -51,9 +51,9 @@ def _truth(facts: dict[str, Any]) -> PlateTruth:
     return PlateTruth(
         plate=plate_named(facts["plate"]),
         effects=tuple(HIDDEN[name](**severity) for name, severity in facts["effects"].items()),
-        law=TrueLaw(facts["law"]["kind"], tuple(facts["law"]["values"])),
+        law=PlateMaterialLaw(facts["law"]["kind"], tuple(facts["law"]["values"])),
         noise=PlateNoise(white, **noise),
-        channel=Channel(**facts["channel"]),
+        channel=ChannelError(**facts["channel"]),
         resonances_hz=tuple(facts["resonances_hz"]),
         lowest_share=facts["lowest_share"],
     )

@@ -16,7 +16,7 @@ class Metal:
 
 
 @dataclass(frozen=True)
-class Damping:
+class DampingLayer:
     """The viscoelastic layer but for its modulus."""
 
     thickness_m: float
@@ -32,7 +32,7 @@ class TruePlate:
     length_m: float
     width_m: float
     substrate: Metal
-    core: Damping | None
+    core: DampingLayer | None
     constraining: Metal | None
     spot_m: tuple[float, float]
     """Where the laser is meant to point."""
@@ -63,8 +63,8 @@ def _brass(mm: float, gpa: float = 104.0, poisson: float = 0.345, density: float
     return Metal(mm * 1e-3, gpa * 1e9, poisson, density)
 
 
-def _core(mm: float, poisson: float, density: float) -> Damping:
-    return Damping(mm * 1e-3, poisson, density)
+def _core(mm: float, poisson: float, density: float) -> DampingLayer:
+    return DampingLayer(mm * 1e-3, poisson, density)
 
 
 def _percent(*ratios: float) -> tuple[float, ...]:

@@ -25,7 +25,7 @@ class Fineness:
 
 
 @dataclass(frozen=True)
-class Grid:
+class BrickGrid:
     """Ends of the bricks along each axis, in m."""
 
     x: Array
@@ -43,13 +43,13 @@ class Grid:
         return (self.x[1:] + self.x[:-1]) / 2, (self.y[1:] + self.y[:-1]) / 2
 
 
-def grid_of(plate: TruePlate, fineness: Fineness, lines_x: Array, lines_y: Array) -> Grid:
+def grid_of(plate: TruePlate, fineness: Fineness, lines_x: Array, lines_y: Array) -> BrickGrid:
     """The grid of a plate, with lines at the places (m) that its effects ask for."""
     thick = float(sum(plate.heights_m))
     edge = np.array(fineness.near_edge) * thick
     x = _lines(plate.length_m, fineness.along_x, np.array(fineness.near_root) * thick, lines_x)
     y = _lines(plate.width_m, fineness.along_y, np.concatenate([edge, plate.width_m - edge]), lines_y)
-    return Grid(x, y, np.cumsum([0.0, *plate.heights_m]))
+    return BrickGrid(x, y, np.cumsum([0.0, *plate.heights_m]))
 
 
 def _lines(length: float, count: int, near: Array, wanted: Array) -> Array:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array
-from instrument.campaign.plates.reduced import ReducedPlate
+from instrument.campaign.plates.reduced import ReducedSolid
 
 FREQUENCY_SCATTER = 3e-4
 MODES = 8
@@ -35,8 +35,8 @@ class HammerTest:
 
 def hammer_test(
     rng: np.random.Generator,
-    rigid: ReducedPlate,
-    sprung: ReducedPlate,
+    rigid: ReducedSolid,
+    sprung: ReducedSolid,
     ratios: Array,
     ratio_scatter: float,
     yields: bool = True,

@@ -21,7 +21,7 @@ from drivers.simulated.plant import air
 from instrument.campaign.plates import brick, grid, reduced, solid
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.grid import Fineness
-from instrument.campaign.plates.reduced import MODULI_PA, ReducedPlate
+from instrument.campaign.plates.reduced import MODULI_PA, ReducedSolid
 from instrument.campaign.plates.solid import Build, RootSprings, Solid
 from instrument.models.arrays import pack, unpack
 from instrument.models.cache import cache_folder
@@ -32,7 +32,7 @@ _BARE_MODES = 24
 
 
 @cache
-def clean_plate(plate: TruePlate, fineness: Fineness | None = None) -> ReducedPlate:
+def clean_plate(plate: TruePlate, fineness: Fineness | None = None) -> ReducedSolid:
     """The treated plate without any effect, from the cache or built (about 10 s) and kept."""
     fineness = fineness or Fineness()
     said = ["treated", _made_of(plate), asdict(fineness), MODULI_PA]
@@ -40,7 +40,7 @@ def clean_plate(plate: TruePlate, fineness: Fineness | None = None) -> ReducedPl
 
 
 @cache
-def bare_plate(plate: TruePlate, sprung: bool, fineness: Fineness | None = None) -> ReducedPlate:
+def bare_plate(plate: TruePlate, sprung: bool, fineness: Fineness | None = None) -> ReducedSolid:
     """The substrate alone, in a rigid clamp or in one of `BARE_SPRINGS_N_M3`."""
     fineness = fineness or Fineness()
     said = ["bare", _made_of(plate.bare), asdict(fineness), sprung, BARE_SPRINGS_N_M3]
@@ -55,7 +55,7 @@ def _made_of(plate: TruePlate) -> dict[str, Any]:
 
 def bare_solid(
     plate: TruePlate, build: Build, sprung: bool, fineness: Fineness | None = None
-) -> ReducedPlate:
+) -> ReducedSolid:
     """The same as `build` has it, never kept."""
     root = RootSprings(_even, _even) if sprung else None
     return reduced.reduced(Solid(plate, replace(build, root=root), fineness), modes=_BARE_MODES)
@@ -65,7 +65,7 @@ def _even(y: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
     return np.full(y.shape, BARE_SPRINGS_N_M3)
 
 
-def _kept(name: str, said: Any, build: Callable[[], ReducedPlate]) -> ReducedPlate:
+def _kept(name: str, said: Any, build: Callable[[], ReducedSolid]) -> ReducedSolid:
     text = json.dumps([_sources(), np.__version__, scipy.__version__, said], sort_keys=True)
     digest = hashlib.sha256(text.encode()).hexdigest()
     path = cache_folder() / f"campaign-{name}-{digest[:32]}.npz"
@@ -76,16 +76,16 @@ def _kept(name: str, said: Any, build: Callable[[], ReducedPlate]) -> ReducedPla
     return found
 
 
-def _load(path: Path) -> ReducedPlate | None:
+def _load(path: Path) -> ReducedSolid | None:
     """None for a file that is not there, torn or of another version: it is built again."""
     try:
         with np.load(path, allow_pickle=False) as file:
-            return unpack(ReducedPlate, {key: file[key] for key in file.files})
+            return unpack(ReducedSolid, {key: file[key] for key in file.files})
     except Exception:  # whatever a damaged file makes a reader raise, the answer is the same
         return None
 
 
-def _store(path: Path, plate: ReducedPlate) -> None:
+def _store(path: Path, plate: ReducedSolid) -> None:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
         # Written beside and renamed: another process sees the whole file or none.

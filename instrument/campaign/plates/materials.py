@@ -20,7 +20,7 @@ _MOST_DRAWS = 200_000
 
 
 @dataclass(frozen=True)
-class TrueLaw:
+class PlateMaterialLaw:
     """G*(omega) by its kind and numbers, in SI units.
 
     fractional-zener: g0, ginf, tau, alpha. maxwell: g_inf, then pairs g, tau. havriliak-negami: g0, ginf,
@@ -62,7 +62,9 @@ def _splines(values: tuple[float, ...]) -> tuple[CubicSpline, CubicSpline]:
     return CubicSpline(x, np.log(g), bc_type="natural"), CubicSpline(x, np.log(eta), bc_type="natural")
 
 
-def draw_law(rng: np.random.Generator, band_hz: tuple[float, float], kind: str | None = None) -> TrueLaw:
+def draw_law(
+    rng: np.random.Generator, band_hz: tuple[float, float], kind: str | None = None
+) -> PlateMaterialLaw:
     """A law whose G' and eta keep within `STORAGE_PA` and `LOSS` over a band.
 
     Half are fractional Zener where no kind is asked for.
@@ -77,7 +79,7 @@ def draw_law(rng: np.random.Generator, band_hz: tuple[float, float], kind: str |
     raise ArithmeticError(f"no {kind} keeps within the limits over {band_hz[0]:.4g} to {band_hz[1]:.4g} Hz")
 
 
-def fits(law: TrueLaw, frequency_hz: Array) -> bool:
+def fits(law: PlateMaterialLaw, frequency_hz: Array) -> bool:
     """Whether G' and eta keep within the limits of the campaign."""
     G = law.modulus(2 * np.pi * frequency_hz)
     eta = G.imag / G.real
@@ -89,13 +91,15 @@ def _log(rng: np.random.Generator, low: float, high: float) -> float:
     return float(np.exp(rng.uniform(np.log(low), np.log(high))))
 
 
-def _zener(rng: np.random.Generator, middle_hz: float) -> TrueLaw:
+def _zener(rng: np.random.Generator, middle_hz: float) -> PlateMaterialLaw:
     g0 = _log(rng, 0.1e6, 0.8e6)
     tau = 1 / (2 * np.pi * middle_hz * _log(rng, 1.5, 40))
-    return TrueLaw("fractional-zener", (g0, g0 * _log(rng, 6, 80), tau, float(rng.uniform(0.45, 0.97))))
+    return PlateMaterialLaw(
+        "fractional-zener", (g0, g0 * _log(rng, 6, 80), tau, float(rng.uniform(0.45, 0.97)))
+    )
 
 
-def _maxwell(rng: np.random.Generator, middle_hz: float) -> TrueLaw:
+def _maxwell(rng: np.random.Generator, middle_hz: float) -> PlateMaterialLaw:
     count = int(rng.integers(3, 6))
     tau = 1 / (2 * np.pi * middle_hz * np.geomspace(_log(rng, 0.05, 0.2), _log(rng, 15, 60), count))
     tau = tau * np.exp(rng.uniform(-0.3, 0.3, count))
@@ -103,17 +107,17 @@ def _maxwell(rng: np.random.Generator, middle_hz: float) -> TrueLaw:
     g_inf, first, last = _log(rng, 0.15e6, 0.8e6), _log(rng, 0.05e6, 0.3e6), _log(rng, 0.8e6, 8e6)
     g = np.geomspace(first, last, count) * np.exp(rng.uniform(-0.4, 0.4, count))
     pairs = np.column_stack([g, tau]).ravel()
-    return TrueLaw("maxwell", (g_inf, *(float(v) for v in pairs)))
+    return PlateMaterialLaw("maxwell", (g_inf, *(float(v) for v in pairs)))
 
 
-def _havriliak_negami(rng: np.random.Generator, middle_hz: float) -> TrueLaw:
+def _havriliak_negami(rng: np.random.Generator, middle_hz: float) -> PlateMaterialLaw:
     g0 = _log(rng, 0.1e6, 0.8e6)
     tau = 1 / (2 * np.pi * middle_hz * _log(rng, 0.3, 20))
     alpha, beta = float(rng.uniform(0.45, 0.95)), float(rng.uniform(0.25, 0.75))
-    return TrueLaw("havriliak-negami", (g0, g0 * _log(rng, 6, 80), tau, alpha, beta))
+    return PlateMaterialLaw("havriliak-negami", (g0, g0 * _log(rng, 6, 80), tau, alpha, beta))
 
 
-def _table(rng: np.random.Generator, middle_hz: float) -> TrueLaw:
+def _table(rng: np.random.Generator, middle_hz: float) -> PlateMaterialLaw:
     """From a spectrum of two broad humps of relaxation times, read at 25 frequencies."""
     rate = np.geomspace(1e-3, 1e4, 120) * 2 * np.pi * middle_hz
     x = np.log10(rate / (2 * np.pi * middle_hz))
@@ -123,7 +127,7 @@ def _table(rng: np.random.Generator, middle_hz: float) -> TrueLaw:
     f = np.geomspace(0.02, 50, 25) * middle_hz
     s = 2j * np.pi * f[:, None] / rate
     G = _log(rng, 0.15e6, 0.8e6) + (s / (1 + s)) @ (spectrum * np.log(rate[1] / rate[0]))
-    return TrueLaw("table", (*f.tolist(), *G.real.tolist(), *(G.imag / G.real).tolist()))
+    return PlateMaterialLaw("table", (*f.tolist(), *G.real.tolist(), *(G.imag / G.real).tolist()))
 
 
 _DRAWS = {

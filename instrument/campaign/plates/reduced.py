@@ -32,7 +32,7 @@ _AIR_PANELS = 1400
 
 
 @dataclass(frozen=True)
-class ReducedPlate:
+class ReducedSolid:
     """A plate's motion relative to its base on k vectors."""
 
     M: Array
@@ -84,7 +84,7 @@ def reduced(
     air_density_kg_m3: float = 0.0,
     stirred: Sequence[sp.csr_array] = (),
     modes: int = MODES,
-) -> ReducedPlate:
+) -> ReducedSolid:
     """The plate on its basis.
 
     Parameters
@@ -152,9 +152,9 @@ def _independent(columns: Array, K: sp.csr_array) -> Array:
     return columns
 
 
-def _projected(solid: Solid, V: Array, groups: str) -> ReducedPlate:
+def _projected(solid: Solid, V: Array, groups: str) -> ReducedSolid:
     K_1, volume, x, y = _core(solid, V, groups)
-    return ReducedPlate(
+    return ReducedSolid(
         M=V.T @ (solid.M @ V),
         K_0=V.T @ (solid.K_0 @ V),
         K_1=K_1,
@@ -211,7 +211,7 @@ class _Air:
         w = self.rows[:, free]
         return np.asarray(w.T @ (self.mass @ (w @ shapes)))
 
-    def added(self, plate: ReducedPlate, V: Array) -> ReducedPlate:
+    def added(self, plate: ReducedSolid, V: Array) -> ReducedSolid:
         w = self.rows @ V
         M, load = w.T @ self.mass @ w, w.T @ self.mass @ (self.rows @ self.solid.rigid)
         return replace(plate, M=plate.M + M, load=plate.load + load)

@@ -8,13 +8,13 @@ from numpy.typing import NDArray
 
 from drivers.simulated.plant.one_thread import one_thread
 from fitting.arrays import Array, Complex
-from instrument.campaign.plates.reduced import REFERENCE_MODULUS_PA, ReducedPlate
+from instrument.campaign.plates.reduced import REFERENCE_MODULUS_PA, ReducedSolid
 
 _CHUNK = 64
 """Points solved at once."""
 
 
-def remaining_damping(plate: ReducedPlate, ratios: Array) -> Array:
+def remaining_damping(plate: ReducedSolid, ratios: Array) -> Array:
     """C_1 = M Phi diag(2 zeta_r w_r) Phi^T M over the first modes at `REFERENCE_MODULUS_PA`. Shape (k, k)."""
     lam, phi = plate.modes(REFERENCE_MODULUS_PA, len(ratios))
     U = plate.M @ phi
@@ -22,7 +22,7 @@ def remaining_damping(plate: ReducedPlate, ratios: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class Motion:
+class BaseMotion:
     """How the base moves, per acceleration of its heave: pitch and roll about the middle of the root."""
 
     pitch_rad_m: Complex
@@ -30,7 +30,7 @@ class Motion:
     roll_rad_m: Complex
 
     @classmethod
-    def pure(cls, points: int) -> "Motion":
+    def pure(cls, points: int) -> "BaseMotion":
         """Heave alone."""
         return cls(np.zeros(points, complex), np.zeros(points, complex))
 
@@ -48,10 +48,10 @@ class Motion:
 class Shaken:
     """A reduced plate at every point of a sweep."""
 
-    plate: ReducedPlate
+    plate: ReducedSolid
     C_1: Array
     omega: Array
-    motion: Motion
+    motion: BaseMotion
     attached: tuple[Array, Complex, Complex] | None = None
     """Rows that read the deflection where something hangs on, shape (places, k); its dynamic stiffness there,
     shape (places, points); and its force on the plate per base acceleration, same shape."""

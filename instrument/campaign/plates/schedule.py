@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array
 from instrument.campaign.plates.geometry import TruePlate
-from instrument.campaign.plates.materials import TrueLaw
-from instrument.campaign.plates.reduced import ReducedPlate
+from instrument.campaign.plates.materials import PlateMaterialLaw
+from instrument.campaign.plates.reduced import ReducedSolid
 from instrument.campaign.schedule import Schedule
 
 Integers = NDArray[np.intp]
@@ -41,7 +41,7 @@ class Resonance:
     """Peak velocity at the spot, in any unit."""
 
 
-def resonances(plate: ReducedPlate, spot_m: tuple[float, float], law: TrueLaw) -> list[Resonance]:
+def resonances(plate: ReducedSolid, spot_m: tuple[float, float], law: PlateMaterialLaw) -> list[Resonance]:
     """The even ones in ascending order, the core's modulus taken at each frequency."""
     found = []
     row = plate.reading(*spot_m)
@@ -63,7 +63,9 @@ def resonances(plate: ReducedPlate, spot_m: tuple[float, float], law: TrueLaw) -
     return found
 
 
-def measured_resonances(plate: ReducedPlate, spot_m: tuple[float, float], law: TrueLaw) -> list[Resonance]:
+def measured_resonances(
+    plate: ReducedSolid, spot_m: tuple[float, float], law: PlateMaterialLaw
+) -> list[Resonance]:
     """The first three that the spot sees and that stand apart. Raises `ArithmeticError` if fewer."""
     every = resonances(plate, spot_m, law)
     largest = max(r.seen for r in every)
@@ -114,8 +116,11 @@ def _taken(rng: np.random.Generator, count: int, along: str) -> Integers:
     return up[::-1] if along == "down" else up
 
 
-def widest_band_hz(plate: ReducedPlate, true: TruePlate) -> tuple[float, float]:
+def widest_band_hz(plate: ReducedSolid, true: TruePlate) -> tuple[float, float]:
     """Where segments may lie, no law drawn yet: the first resonance at 0.3 MPa to the third at 2 MPa."""
-    soft, stiff = TrueLaw("maxwell", (0.3e6, 1e3, 1e-3)), TrueLaw("maxwell", (2e6, 1e3, 1e-3))
+    soft, stiff = (
+        PlateMaterialLaw("maxwell", (0.3e6, 1e3, 1e-3)),
+        PlateMaterialLaw("maxwell", (2e6, 1e3, 1e-3)),
+    )
     low, high = (resonances(plate, true.spot_m, law) for law in (soft, stiff))
     return 0.75 * low[0].frequency_hz, 1.15 * high[2].frequency_hz

@@ -11,11 +11,11 @@ from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.grid import Fineness
 from instrument.campaign.plates.hammer import HammerTest, hammer_test
 from instrument.campaign.plates.hidden.base import Hidden
-from instrument.campaign.plates.hidden.core import AmplitudeSoftening
+from instrument.campaign.plates.hidden.core import HiddenAmplitudeSoftening
 from instrument.campaign.plates.kept import bare_plate, bare_solid, clean_plate
-from instrument.campaign.plates.materials import TrueLaw
-from instrument.campaign.plates.reduced import REFERENCE_MODULUS_PA, ReducedPlate, reduced
-from instrument.campaign.plates.response import Motion, Shaken, remaining_damping
+from instrument.campaign.plates.materials import PlateMaterialLaw
+from instrument.campaign.plates.reduced import REFERENCE_MODULUS_PA, ReducedSolid, reduced
+from instrument.campaign.plates.response import BaseMotion, Shaken, remaining_damping
 from instrument.campaign.plates.softening import softened
 from instrument.campaign.plates.solid import Build, Solid
 from instrument.campaign.schedule import Schedule
@@ -26,7 +26,7 @@ _NEAR = 0.15
 
 
 @dataclass(frozen=True)
-class Channel:
+class ChannelError:
     """How far the velocity channel is off within its tolerance."""
 
     gain: float = 1.0
@@ -35,7 +35,7 @@ class Channel:
 
 def built(
     true: TruePlate, hidden: Sequence[Hidden], moduli_pa: Sequence[float], fineness: Fineness | None = None
-) -> ReducedPlate:
+) -> ReducedSolid:
     """The plate with its effects; without any, the one that is kept."""
     if not any(h.changes_solid for h in hidden):
         return clean_plate(true, fineness)
@@ -56,7 +56,7 @@ def built(
     )
 
 
-def moduli_of(law: TrueLaw, frequency_hz: Array) -> tuple[float, ...]:
+def moduli_of(law: PlateMaterialLaw, frequency_hz: Array) -> tuple[float, ...]:
     """Where the basis of a plate with this law is made."""
     size = np.abs(law.modulus(2 * np.pi * np.array([frequency_hz.min(), frequency_hz.max()])))
     low, high = min(size[0], REFERENCE_MODULUS_PA), max(1.2 * size[1], 1.5 * REFERENCE_MODULUS_PA)
@@ -64,16 +64,16 @@ def moduli_of(law: TrueLaw, frequency_hz: Array) -> tuple[float, ...]:
 
 
 def reading(
-    plate: ReducedPlate,
+    plate: ReducedSolid,
     true: TruePlate,
     hidden: Sequence[Hidden],
-    law: TrueLaw,
+    law: PlateMaterialLaw,
     schedule: Schedule,
-    channel: Channel,
+    channel: ChannelError,
 ) -> Complex:
     """The same of a plate as `built`."""
     omega = 2 * np.pi * schedule.frequency_hz
-    motion = reduce(lambda m, h: h.motion(m, omega), hidden, Motion.pure(len(omega)))
+    motion = reduce(lambda m, h: h.motion(m, omega), hidden, BaseMotion.pure(len(omega)))
     ratios = reduce(lambda r, h: h.ratios(r), hidden, np.array(true.ratios))
     hung = [a for h in hidden for a in h.attached(omega, motion, true.width_m)]
     attached = None
@@ -82,7 +82,7 @@ def reading(
         attached = rows, np.array([a.stiffness_n_m for a in hung]), np.array([a.force_n for a in hung])
     G = _modulus(plate, true, hidden, law, schedule)
     shaken = Shaken(plate, remaining_damping(plate, ratios), omega, motion, attached)
-    soft = next((h for h in hidden if isinstance(h, AmplitudeSoftening)), None)
+    soft = next((h for h in hidden if isinstance(h, HiddenAmplitudeSoftening)), None)
     q = softened(shaken, G, soft, schedule) if soft else shaken.displacements(G)
     spot = reduce(lambda s, h: h.spot(s, true), hidden, true.spot_m)
     v = 1j * omega * (q @ plate.reading(*spot))
@@ -94,17 +94,17 @@ def reading(
 
 
 def peaks_hz(
-    plate: ReducedPlate,
+    plate: ReducedSolid,
     true: TruePlate,
     hidden: Sequence[Hidden],
-    law: TrueLaw,
+    law: PlateMaterialLaw,
     expected_hz: Sequence[float],
 ) -> list[float]:
     """Where the response has its peak near each of the frequencies at which the clean plate has one."""
     around = np.geomspace(*_LOOK, _LOOKED_AT)
     f = np.concatenate([at * around for at in expected_hz])
     at_rest = Schedule(f, *(np.ones(len(f), np.intp),) * 2, np.full(len(f), 1e-6), np.zeros(len(f)))
-    size = np.abs(reading(plate, true, hidden, law, at_rest, Channel())).reshape(len(expected_hz), -1)
+    size = np.abs(reading(plate, true, hidden, law, at_rest, ChannelError())).reshape(len(expected_hz), -1)
     # A far neighbour may be larger: the nearer counts more.
     likely = size * np.exp(-((np.log(around) / _NEAR) ** 2) / 2)
     inner = (likely[:, 1:-1] >= likely[:, :-2]) & (likely[:, 1:-1] >= likely[:, 2:])
@@ -113,7 +113,7 @@ def peaks_hz(
 
 
 def _modulus(
-    plate: ReducedPlate, true: TruePlate, hidden: Sequence[Hidden], law: TrueLaw, schedule: Schedule
+    plate: ReducedSolid, true: TruePlate, hidden: Sequence[Hidden], law: PlateMaterialLaw, schedule: Schedule
 ) -> Complex:
     """Of each group of the core at each point, or of all alike."""
     omega = 2 * np.pi * schedule.frequency_hz

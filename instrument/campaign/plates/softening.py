@@ -7,8 +7,8 @@ import numpy as np
 from drivers.simulated.plant.one_thread import one_thread
 from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
-from instrument.campaign.plates.hidden.core import AmplitudeSoftening
-from instrument.campaign.plates.reduced import ReducedPlate
+from instrument.campaign.plates.hidden.core import HiddenAmplitudeSoftening
+from instrument.campaign.plates.reduced import ReducedSolid
 from instrument.campaign.plates.response import Shaken
 from instrument.campaign.schedule import Schedule
 
@@ -23,7 +23,7 @@ _SMALLEST = 1e-6
 
 
 @one_thread
-def softened(shaken: Shaken, G: Complex, soft: AmplitudeSoftening, schedule: Schedule) -> Complex:
+def softened(shaken: Shaken, G: Complex, soft: HiddenAmplitudeSoftening, schedule: Schedule) -> Complex:
     """Relative motion q per acceleration of the base. Shape (points, k). Raises `ArithmeticError`.
 
     `G` is the modulus at small strain, shape (points,) or (points, bricks).
@@ -44,13 +44,15 @@ def softened(shaken: Shaken, G: Complex, soft: AmplitudeSoftening, schedule: Sch
     return _settled(small, G, soft, level, reference) @ V.T
 
 
-def _reference(plate: ReducedPlate, q: Complex, schedule: Schedule) -> float:
+def _reference(plate: ReducedSolid, q: Complex, schedule: Schedule) -> float:
     """The core's rms strain at 1 g where it is largest in the first segment, before it softens."""
     strain = strains(plate, q[schedule.segment == schedule.segment.min()])
     return float(np.sqrt((strain**2) @ plate.volume_m3 / plate.volume_m3.sum()).max()) * PUBLISHED_G_M_S2
 
 
-def _settled(shaken: Shaken, G: Complex, soft: AmplitudeSoftening, level: Array, reference: float) -> Complex:
+def _settled(
+    shaken: Shaken, G: Complex, soft: HiddenAmplitudeSoftening, level: Array, reference: float
+) -> Complex:
     q = shaken.displacements(G)
     factor = np.ones(G.shape)
     moving = np.arange(len(level))
@@ -65,7 +67,7 @@ def _settled(shaken: Shaken, G: Complex, soft: AmplitudeSoftening, level: Array,
     raise ArithmeticError(f"softening k = {soft.k:g} finds no steady state: use a smaller k")
 
 
-def _spanned(plate: ReducedPlate, q: Complex) -> Array:
+def _spanned(plate: ReducedSolid, q: Complex) -> Array:
     """A basis of these motions, each of unit size. Shape (k, fewer)."""
     R = np.linalg.cholesky(plate.M).T
     moves = R @ q.T
@@ -84,7 +86,7 @@ def _on(shaken: Shaken, V: Array) -> Shaken:
     return Shaken(plate, V.T @ shaken.C_1 @ V, shaken.omega, shaken.motion, attached)
 
 
-def strains(plate: ReducedPlate, q: Complex) -> Array:
+def strains(plate: ReducedSolid, q: Complex) -> Array:
     """Shear strain amplitude of each group of the core by its energy. Shape (points, groups)."""
     flat = plate.K_1.reshape(len(plate.K_1), -1)
     pairs = (q.conj()[:, :, None] * q[:, None, :]).real.reshape(len(q), -1)

@@ -8,14 +8,14 @@ import numpy as np
 
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Specimen
-from instrument.campaign.plates.geometry import Damping, Metal, TruePlate
+from instrument.campaign.plates.geometry import DampingLayer, Metal, TruePlate
 from instrument.files.specimen_file import SpecimenDocument, specimen_of
 
 _LEAST_APART_POISSON = 0.499
 
 
 @dataclass(frozen=True)
-class Tolerances:
+class CampaignTolerances:
     """Standard deviations of stated numbers about the truth: relative (in the logarithm), m or s."""
 
     young: float = 0.01
@@ -48,10 +48,12 @@ class Tolerances:
         return [*lines, f"delay_us = {1e6 * self.delay_s:g}"]
 
 
-CAREFUL = Tolerances()
+CAREFUL = CampaignTolerances()
 
 
-def draw_stated(rng: np.random.Generator, true: TruePlate, tolerances: Tolerances = CAREFUL) -> TruePlate:
+def draw_stated(
+    rng: np.random.Generator, true: TruePlate, tolerances: CampaignTolerances = CAREFUL
+) -> TruePlate:
     """The plate as it is believed to be."""
     t = tolerances
 
@@ -66,9 +68,9 @@ def draw_stated(rng: np.random.Generator, true: TruePlate, tolerances: Tolerance
             m.density_kg_m3 * exp(off(t.density)),
         )
 
-    def core(c: Damping) -> Damping:
+    def core(c: DampingLayer) -> DampingLayer:
         poisson = min(c.poisson * exp(off(t.poisson)), _LEAST_APART_POISSON)
-        return Damping(
+        return DampingLayer(
             c.thickness_m * exp(off(t.core_thickness)), poisson, c.density_kg_m3 * exp(off(t.core_density))
         )
 
@@ -88,7 +90,7 @@ def draw_stated(rng: np.random.Generator, true: TruePlate, tolerances: Tolerance
     )
 
 
-def toml(plate: TruePlate, tolerances: Tolerances | None, middle_hz: float) -> str:
+def toml(plate: TruePlate, tolerances: CampaignTolerances | None, middle_hz: float) -> str:
     """The specimen file. No tolerances: all is exact. The law is where a fit starts, not the answer."""
     core, faces = plate.core, (("substrate", plate.substrate), ("constraining", plate.constraining))
     assert core is not None

@@ -1,12 +1,12 @@
 import pytest
 
-from drivers.shaker.register_map import COMMAND, DEFAULT, ECHO, STATUS, RegisterMap, Span
+from drivers.shaker.register_map import COMMAND, DEFAULT, ECHO, STATUS, RegisterMap, RegisterRun
 
 
 def test_one_transaction_carries_a_command_a_status_a_receipt():
-    assert DEFAULT.spans(COMMAND) == (Span(0, COMMAND, 7),)
-    assert DEFAULT.spans(STATUS) == (Span(20, STATUS, 8),)
-    assert DEFAULT.spans(ECHO) == (Span(28, ECHO, 7),)
+    assert DEFAULT.spans(COMMAND) == (RegisterRun(0, COMMAND, 7),)
+    assert DEFAULT.spans(STATUS) == (RegisterRun(20, STATUS, 8),)
+    assert DEFAULT.spans(ECHO) == (RegisterRun(28, ECHO, 7),)
 
 
 def test_types_take_the_registers_they_need():
@@ -22,15 +22,15 @@ def test_moved_registers_leave_the_others_where_they_were():
     assert moved["echo_sample"].address == 500
     assert moved["echo_sequence"] == DEFAULT["echo_sequence"]
     assert moved.spans(ECHO) == (
-        Span(28, ("echo_sequence",), 1),
-        Span(33, ("echo_drive_v",), 2),
-        Span(500, ("echo_sample",), 4),
+        RegisterRun(28, ("echo_sequence",), 1),
+        RegisterRun(33, ("echo_drive_v",), 2),
+        RegisterRun(500, ("echo_sample",), 4),
     )
 
 
 def test_the_command_block_moves_whole():
     addresses = {"frequency_hz": 1000, "drive_v": 1002, "ramp_v_s": 1004, "command_sequence": 1006}
-    assert DEFAULT.with_addresses(addresses).spans(COMMAND) == (Span(1000, COMMAND, 7),)
+    assert DEFAULT.with_addresses(addresses).spans(COMMAND) == (RegisterRun(1000, COMMAND, 7),)
 
 
 @pytest.mark.parametrize(

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from drivers.errors import Garbled, Refused
 from drivers.shaker.interface import Alarm, Echo, ShakerStatus
 from drivers.shaker.protocol import (
-    Command,
     Identity,
+    SineCommand,
     as_sent,
     decode,
     decode_command,
@@ -32,7 +32,7 @@ ALL_ONES = [0xFFFF] * 4
 
 def test_command_block():
     words = [0x42A0, 0x0000, 0x3F80, 0x0000, 0x4120, 0x0000, 0x0007]
-    command = Command(frequency_hz=80.0, drive_v=1.0, ramp_v_s=10.0, sequence=7)
+    command = SineCommand(frequency_hz=80.0, drive_v=1.0, ramp_v_s=10.0, sequence=7)
     assert encode_command(DEFAULT, command) == words
     assert decode_command(DEFAULT, words) == command
 
@@ -134,15 +134,15 @@ def test_what_cannot_be_is_garbled(read, says):
 @pytest.mark.parametrize(
     "command",
     [
-        Command(math.nan, 1.0, 1.0, 1),
-        Command(80.0, math.inf, 1.0, 1),
-        Command(80.0, 1e300, 1.0, 1),
-        Command(80.0, -0.1, 1.0, 1),
-        Command(0.0, 1.0, 1.0, 1),
-        Command(80.0, 1.0, 0.0, 1),
-        Command(80.0, 1.0, 1e-300, 1),
-        Command(80.0, 1.0, 1.0, 0),
-        Command(80.0, 1.0, 1.0, 65536),
+        SineCommand(math.nan, 1.0, 1.0, 1),
+        SineCommand(80.0, math.inf, 1.0, 1),
+        SineCommand(80.0, 1e300, 1.0, 1),
+        SineCommand(80.0, -0.1, 1.0, 1),
+        SineCommand(0.0, 1.0, 1.0, 1),
+        SineCommand(80.0, 1.0, 0.0, 1),
+        SineCommand(80.0, 1.0, 1e-300, 1),
+        SineCommand(80.0, 1.0, 1.0, 0),
+        SineCommand(80.0, 1.0, 1.0, 65536),
     ],
 )
 def test_a_command_out_of_range_is_not_sent(command):
@@ -156,7 +156,7 @@ def test_sequence_numbers_go_round_without_zero():
 
 FLOAT32 = st.floats(0.0, 900.0, width=32)
 COMMANDS = st.builds(
-    Command,
+    SineCommand,
     frequency_hz=st.floats(1.0, 1e5, width=32),
     drive_v=FLOAT32,
     ramp_v_s=st.floats(2**-19, 1e6, width=32),
@@ -171,8 +171,8 @@ def test_commands_come_back_as_sent(command):
 
 @given(st.floats(0.01, 1e5), st.floats(0, 1e3), st.floats(1e-6, 1e6))
 def test_every_command_that_may_be_sent_is_understood_as_its_nearest_float32(frequency, drive, ramp):
-    got = decode_command(DEFAULT, encode_command(DEFAULT, Command(frequency, drive, ramp, 1)))
-    assert got == Command(as_sent(frequency), as_sent(drive), as_sent(ramp), 1)
+    got = decode_command(DEFAULT, encode_command(DEFAULT, SineCommand(frequency, drive, ramp, 1)))
+    assert got == SineCommand(as_sent(frequency), as_sent(drive), as_sent(ramp), 1)
     assert got.frequency_hz == pytest.approx(frequency, rel=6e-8)
 
 

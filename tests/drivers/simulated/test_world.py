@@ -5,7 +5,7 @@ import pytest
 
 from drivers.errors import Refused
 from drivers.simulated.drive import DrivePiece
-from drivers.simulated.sensors import COUNTS, Input, Sensor, hum
+from drivers.simulated.sensors import COUNTS, Input, SimulatedSensor, hum
 from drivers.simulated.shaker_device import ShakerDevice
 from drivers.simulated.world import Laser, Wiring, World
 
@@ -36,7 +36,10 @@ class Struck(Line):
 
 
 def world(virtual=True, **wiring):
-    inputs = {1: Sensor("base_acceleration", 1.0, 0.0, 10.0), 2: Sensor("laser", 1.0, 1e-3, 10.0)}
+    inputs = {
+        1: SimulatedSensor("base_acceleration", 1.0, 0.0, 10.0),
+        2: SimulatedSensor("laser", 1.0, 1e-3, 10.0),
+    }
     return World(
         {"damped": Line(), "bare": Struck()},
         Wiring(**{"inputs": inputs, **wiring}),
@@ -65,7 +68,7 @@ def test_another_acquisition_has_other_noise():
 
 
 def test_the_laser_lags_by_its_delay_and_inputs_by_their_skew():
-    inputs = {n: Sensor(q, 1.0, 0.0, 10.0) for n, q in ((1, "base_acceleration"), (2, "laser"))}
+    inputs = {n: SimulatedSensor(q, 1.0, 0.0, 10.0) for n, q in ((1, "base_acceleration"), (2, "laser"))}
     one = started(world(inputs=inputs, skew_samples=0.5))
     volts = one.acquire(4096).counts * FULL / COUNTS
     t = np.arange(4096) / RATE
@@ -124,7 +127,7 @@ def test_the_side_door_refuses_what_there_is_not(name, body, said):
 
 
 def test_a_converter_rounds_clips_and_says_so():
-    one = Input(Sensor("x", 1.0, 0.0, 20.0), FULL, 8.0, (0,))
+    one = Input(SimulatedSensor("x", 1.0, 0.0, 20.0), FULL, 8.0, (0,))
     fine = one.convert(np.array([1.0, -1.0]), np.zeros(2))
     np.testing.assert_array_equal(fine.counts, np.rint(np.array([1.0, -1.0]) * COUNTS / FULL))
     assert not fine.overload
@@ -134,7 +137,7 @@ def test_a_converter_rounds_clips_and_says_so():
 
 
 def test_a_sensors_own_output_ends_before_the_converters():
-    one = Input(Sensor("x", 1.0, 0.0, 4.0), FULL, 10.0, (0,))
+    one = Input(SimulatedSensor("x", 1.0, 0.0, 4.0), FULL, 10.0, (0,))
     assert one.convert(np.array([100.0]), np.zeros(1)).counts[0] == pytest.approx(4.08 * COUNTS / FULL, abs=1)
 
 

@@ -17,7 +17,7 @@ from fitting.depth.quantities import Quantities
 from fitting.depth.task import DepthTask
 from fitting.diagnosis.begin import begin
 from fitting.diagnosis.model_error import model_error
-from fitting.diagnosis.response import Response
+from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.whitening import SHARE
 from fitting.noise import noise_of
 from instrument.campaign.bench import GRID_HZ, synthetic_sweep
@@ -42,7 +42,7 @@ def drawn(ready, seed):
     straight = BentLaw.over(plain, problem.sweep.frequency_hz)
     law = straight.with_values(np.concatenate([plain.values, np.exp(rng.normal(size=straight.bend_count))]))
     z = rng.normal(size=len(problem.nuisances))
-    v = Response(problem.around(law), ()).velocity(law, z)
+    v = SweepResponse(problem.around(law), ()).velocity(law, z)
     off = model_error(problem, ready.reduced, law, v)
     white = rng.normal(size=(2, len(v))) + 1j * rng.normal(size=(2, len(v)))
     read = v + rng.normal(size=len(off)) @ off + np.array([SHARE, NOISE]) @ white * np.abs(v)

@@ -7,7 +7,7 @@ import pytest
 
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.marginal import cost, probabilities
-from fitting.diagnosis.refit import Fitted
+from fitting.diagnosis.refit import Refitted
 from fitting.effects.base import Effect, EffectParameter
 from fitting.laws.constant import ConstantModulus
 
@@ -42,7 +42,7 @@ def linear(columns, data, stated=0, effects=(), law=LAW, noise_known=True):
     start = -np.concatenate([data, np.zeros(priors)])
     at = -np.linalg.lstsq(J, start, rcond=None)[0]
     u = at[own:]
-    return Fitted(
+    return Refitted(
         effects=tuple(effects),
         law=law.with_logs(np.log(law.values) + at[:own]),
         u=u,

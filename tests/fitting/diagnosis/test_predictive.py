@@ -11,7 +11,7 @@ from fitting.diagnosis.predictive import (
     temper,
     weakest,
 )
-from fitting.diagnosis.refit import Fitted
+from fitting.diagnosis.refit import Refitted
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.effects.base import Effect
 from fitting.laws.constant import ConstantModulus
@@ -42,7 +42,7 @@ def fitted(r, z=(), effects=()):
     law = ConstantModulus(0.5e6, 0.5)
     residuals = np.concatenate([r, z])
     J = np.zeros((len(residuals), len(law.names) + len(z)))
-    return Fitted(
+    return Refitted(
         effects=tuple(effects),
         law=law,
         u=z,

@@ -7,7 +7,7 @@ import pytest
 import scipy.sparse as sp
 
 from fitting.effects import CATALOGUE
-from fitting.effects.graded_core import GradedCore
+from fitting.effects.graded_core import GradedCoreEffect
 from fitting.effects.orthotropic_substrate import plane_stress, substrate_stiffness
 from fitting.element import DOFS, THETA_Y, U_B, V_B, Shape, core_shear, face_stiffness
 from fitting.plate import Plate
@@ -67,7 +67,7 @@ def graded(full, along, grade):
 
 @pytest.mark.parametrize(("along", "grade"), [("x", 0.3), ("x", -1.2), ("y", 0.4), ("y", 1.3)])
 def test_a_graded_core(full, along, grade):
-    assert full.error(GradedCore(along), [grade], K_1=graded(full, along, grade)) < 1e-3
+    assert full.error(GradedCoreEffect(along), [grade], K_1=graded(full, along, grade)) < 1e-3
 
 
 @pytest.mark.parametrize("scale", [0.8, 1.06])

@@ -14,7 +14,7 @@ from fitting.effects import CATALOGUE, Change, all_spans
 from fitting.effects.clamp_compliance import root_springs
 from fitting.effects.enriching import enriched
 from fitting.effects.full_plate import FullPlate
-from fitting.effects.partial_debond import LEFT, PartialDebond, strips
+from fitting.effects.partial_debond import LEFT, PartialDebondEffect, strips
 from fitting.plate import Plate
 from fitting.reduced import reduce_plate
 from instrument.files.specimen_file import read_specimen
@@ -110,7 +110,7 @@ def test_a_loose_strip(full, along, low, width):
     share = np.diff(np.clip(edges, low, low + width)) / np.diff(edges)
     lost = sum(s * A for s, A in zip(share, rows, strict=True))
     expected = full.direct(K_1=-(1 - LEFT) * lost)
-    assert error(full.reduced(PartialDebond(along), [low, width]), expected) < 2e-3
+    assert error(full.reduced(PartialDebondEffect(along), [low, width]), expected) < 2e-3
 
 
 def test_more_viscous_damping(full):

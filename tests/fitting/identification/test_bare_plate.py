@@ -8,7 +8,7 @@ import scipy.sparse as sp
 from conftest import TABLE_4
 from scipy.sparse.linalg import eigsh
 
-from fitting.bare_modes import Sensor, bare_modes, clamp_softness, edge_softening, loaded_modes
+from fitting.bare_modes import CarriedSensor, bare_modes, clamp_softness, edge_softening, loaded_modes
 from fitting.effects import CATALOGUE
 from fitting.effects.orthotropic_substrate import plane_stress, substrate_stiffness
 from fitting.element import Shape
@@ -201,7 +201,7 @@ def test_for_a_method_without_tolerances_the_tests_stiffness_is_put_in(zn1, bare
 @pytest.fixture(scope="module")
 def bare_test(zn1):
     """A hammer test with a sensor on the plate, and the stated numbers, each with its typical tolerance."""
-    sensor = Sensor(2e-3, 0.25, 0.03)
+    sensor = CarriedSensor(2e-3, 0.25, 0.03)
     modes = match_modes(zn1, frequencies_hz(zn1, sensor), np.array(zn1.modal_ratios), sensor)
     names = [
         n for n in STATED if n.startswith(("substrate", "constraining", "core_")) or n in ("length", "width")
@@ -284,7 +284,7 @@ def with_sensor_hz(plate, sensor, count=8):
 
 def test_a_gram_at_the_tip_takes_half_a_percent_off_mode_1(zn1, stiff):
     plate = Plate(stiff.bare)
-    tip = Sensor(1e-3, zn1.length_m, zn1.width_m / 2)
+    tip = CarriedSensor(1e-3, zn1.length_m, zn1.width_m / 2)
     loaded = loaded_modes(plate, real_modes(plate, 0.0, 12), tip).omega[:8] / (2 * np.pi)
     np.testing.assert_allclose(loaded, with_sensor_hz(plate, tip), rtol=2e-5)
     unloaded = real_modes(plate, 0.0, 8).omega / (2 * np.pi)
@@ -292,7 +292,7 @@ def test_a_gram_at_the_tip_takes_half_a_percent_off_mode_1(zn1, stiff):
 
 
 def test_the_sensors_mass_is_not_taken_for_a_soft_plate(zn1, stiff):
-    sensor = Sensor(2e-3, 0.25, 0.03)
+    sensor = CarriedSensor(2e-3, 0.25, 0.03)
     measured = frequencies_hz(stiff, sensor)
     ratios = np.array(zn1.modal_ratios)
     told = fit_bare_plate(zn1, measured, ratios, sensor)

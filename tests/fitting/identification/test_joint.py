@@ -13,7 +13,7 @@ from fitting.diagnosis.begin import begin, within_search
 from fitting.diagnosis.joint import fit_of
 from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.refit import posterior
-from fitting.diagnosis.response import Response
+from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.whitening import SHARE
 from fitting.identification.uncertainty import uncertainty_of
 from fitting.laws.fractional_zener import FractionalZener
@@ -45,7 +45,7 @@ class Drawn:
         bend = np.exp(rng.normal(size=straight.bend_count))
         self.law = straight.with_values(np.concatenate([plain.values, bend]))
         self.z = rng.normal(size=len(problem.nuisances))
-        v = Response(problem.around(self.law), ()).velocity(self.law, self.z)
+        v = SweepResponse(problem.around(self.law), ()).velocity(self.law, self.z)
         off = model_error(problem, ready.reduced, self.law, v)
         white = rng.normal(size=(2, len(v))) + 1j * rng.normal(size=(2, len(v)))
         read = v + rng.normal(size=len(off)) @ off + np.array([SHARE, NOISE]) @ white * np.abs(v)
@@ -65,7 +65,7 @@ class Drawn:
     def stated_pulls(self):
         """Of every stated number, in standard errors: both in tolerances, as they were drawn."""
         found = self.begun.none
-        C = posterior(Response(self.begun.problem, ()), self.begun.evidence, found)
+        C = posterior(SweepResponse(self.begun.problem, ()), self.begun.evidence, found)
         n = len(found.law.names)
         return (found.z - self.z) / np.sqrt(np.diag(C)[n : n + found.stated])
 

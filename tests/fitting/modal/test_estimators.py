@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fitting.modal.frf import Estimate, Frf, Refusal, corrected
+from fitting.modal.frf import DampingEstimate, Frf, Refusal, corrected
 from fitting.modal.half_power import half_power, ratio_of
 from fitting.modal.lscf import lscf, lscf_poles
 from fitting.modal.rational_fit import RationalFit, rational_fit
@@ -34,7 +34,7 @@ def test_half_power_is_exact_to_its_resolution(motion, log_zeta, f_n, offset):
     low, high = max(f_n * (1 - 4 * zeta), step), f_n * (1 + 5 * zeta)
     f = np.arange(low, high, step) + offset * step
     found = half_power(analytic(f, [(f_n, zeta, 1.0)], motion), f_n)
-    assert isinstance(found, Estimate)
+    assert isinstance(found, DampingEstimate)
     # interpolation in |H|^-2: the remainder falls with the square of the resolution
     assert found.ratio == pytest.approx(zeta, rel=0.5 / lines**2 + 2 * zeta / lines**2)
     assert found.frequency_hz == pytest.approx(f_n, rel=2 * zeta / lines**2 + 1e-9)
@@ -130,6 +130,6 @@ def test_lscf_finds_stable_modes_and_refuses_where_there_is_none():
     poles = lscf_poles([frf.between(90, 120)])
     for f, zeta in ((100.0, 0.003), (110.0, 0.005)):
         found = lscf(poles, f, 0.0, 1.0)
-        assert isinstance(found, Estimate)
+        assert isinstance(found, DampingEstimate)
         assert found.ratio == pytest.approx(zeta, rel=5e-2)
     assert isinstance(lscf(poles, 95.0, 0.0, 0.1), Refusal)

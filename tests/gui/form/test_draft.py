@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gui.form.draft import Draft, Drafts
-from gui.form.fields import Field, Section, law_fields, section_of
+from gui.form.fields import Field, FormSection, law_fields, section_of
 from instrument.errors import BadInput
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.rig_file import RigDocument
@@ -20,7 +20,7 @@ def draft(name="experiment"):
     return Draft.of(case_file(f"{name}.toml"), MODELS[name])
 
 
-def places(section: Section, at=()):
+def places(section: FormSection, at=()):
     """Of every field."""
     for field in section.fields:
         yield (*at, field.key), field

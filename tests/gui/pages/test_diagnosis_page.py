@@ -5,7 +5,7 @@ from PySide6.QtCore import Qt
 
 from gui.pages.diagnosis import DiagnosisPage
 from gui.pages.material import MaterialPage
-from gui.rediagnosis import Asked, Shown
+from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
 
 LEFT = Qt.MouseButton.LeftButton
 LONG_MS = 300_000
@@ -132,7 +132,9 @@ def test_an_effect_accepted_by_hand_is_fitted_and_the_material_follows(qtbot, wi
 def test_no_effect_by_hand_is_not_called_noise(window, page):
     nothing = diagnosis(verdict="none").but(effects=(), equivalent={}, by_hand=True)
     rediagnosis = window.controller.rediagnosis
-    rediagnosis.found = Shown(nothing, "by hand", Asked(window.controller.recorded.path, accept=()))
+    rediagnosis.found = ShownDiagnosis(
+        nothing, "by hand", DiagnosisAsked(window.controller.recorded.path, accept=())
+    )
     rediagnosis.changed.emit()
     assert page.finding.verdict.said == "By hand: no effect accepted"
     assert page.residual.segment.count() == 4
@@ -195,18 +197,20 @@ def test_other_data_can_be_diagnosed_without_a_session(qtbot, window, tmp_path):
     qtbot.waitUntil(page.others.isVisible, timeout=5000)
     assert [action.text() for action in page.others.menu().actions()] == ["sweep.csv ..."]
     with qtbot.waitSignal(window.controller.refused, timeout=LONG_MS) as refused:
-        window.controller.rediagnosis.start(Asked(sweep, tmp_path / "none.toml"))
+        window.controller.rediagnosis.start(DiagnosisAsked(sweep, tmp_path / "none.toml"))
     assert "none.toml" in refused.args[0]
 
 
 def test_closing_ends_what_is_computed(qtbot, window, page):
-    window.controller.rediagnosis.start(Asked(window.controller.recorded.path))
+    window.controller.rediagnosis.start(DiagnosisAsked(window.controller.recorded.path))
     window.close()
     assert not window.controller.rediagnosis.running
 
 
 def test_another_session_lets_go_of_what_was_made_here(qtbot, window, page, session_path):
-    window.controller.rediagnosis.start(Asked(window.controller.recorded.path, accept=("spot_offset",)))
+    window.controller.rediagnosis.start(
+        DiagnosisAsked(window.controller.recorded.path, accept=("spot_offset",))
+    )
     before = window.controller.feed
     window.open(session_path)
     qtbot.waitUntil(lambda: window.controller.feed is not before, timeout=10_000)

@@ -8,14 +8,14 @@ import pytest
 from scipy.io import loadmat
 from session_cases import SyntheticSession, configuration
 
-from gui.pages.sweep.points import Points
+from gui.pages.sweep.points import PointsMeasured
 from gui.pages.sweep.record_lines import record_lines
-from gui.pages.sweep.seen import Seen
+from gui.pages.sweep.seen import PaneContents
 from instrument.files import point_columns
-from instrument.files.column import Column, Shown
+from instrument.files.column import Column, ShownQuantity
 from instrument.files.sweep_file import read_sweep
 from instrument.interchange.exporting import export_session
-from instrument.report.fitted import Fitted
+from instrument.report.fitted import ReportedFit
 from instrument.report.sweep import sweep_section
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
@@ -45,8 +45,8 @@ def later(monkeypatch):
         "drive_current_a",
         "A",
         read=lambda rows: np.array([row.point.drive_v / 4 for row in rows]),
-        report=Shown("current / A", lambda row: f"{row.point.drive_v / 4:.6f}"),
-        record=Shown("Current", lambda row: f"{row.point.drive_v / 4:.6f} A"),
+        report=ShownQuantity("current / A", lambda row: f"{row.point.drive_v / 4:.6f}"),
+        record=ShownQuantity("Current", lambda row: f"{row.point.drive_v / 4:.6f} A"),
     )
     monkeypatch.setattr(point_columns, "COLUMNS", (*point_columns.COLUMNS, later))
     return later
@@ -64,14 +64,14 @@ def test_a_quantity_added_to_the_table_is_exported(later, contents, tmp_path):
 
 
 def test_a_quantity_added_to_the_table_is_reported(later, contents):
-    table = sweep_section(contents, Fitted(None)).blocks[-1]
+    table = sweep_section(contents, ReportedFit(None)).blocks[-1]
     assert table.columns[-1] == "current / A"
     assert [row[-1] for row in table.rows] == [f"{p.drive_v / 4:.6f}" for p in contents.measured]
 
 
 def test_a_quantity_added_to_the_table_is_in_the_windows_record(later, contents):
     settings = SweepSettings()
-    seen = Seen(Points.of(contents.points, settings))
+    seen = PaneContents(PointsMeasured.of(contents.points, settings))
     line = record_lines(seen, 2, settings)[-1]
     assert (line.name, line.value) == ("Current", f"{contents.measured[2].drive_v / 4:.6f} A")
 

@@ -8,13 +8,13 @@ import pytest
 from session_cases import SyntheticSession, configuration
 from sessions import point
 
-from gui.pages.sweep.curve import Stretch, grid, joined, predictions, regions_of
+from gui.pages.sweep.curve import CurveStretch, grid, joined, predictions, regions_of
 from gui.pages.sweep.drifted import drifted
 from gui.pages.sweep.following import Following, latest_cycles, words
 from gui.pages.sweep.overlay import besides
-from gui.pages.sweep.points import Points
+from gui.pages.sweep.points import PointsMeasured
 from gui.pages.sweep.record_lines import record_lines
-from gui.pages.sweep.seen import Seen, Way
+from gui.pages.sweep.seen import PaneContents, Way
 from gui.pages.sweep.segments import standings
 from gui.state import SessionState
 from instrument.facts.identification import PointFitted
@@ -34,7 +34,7 @@ def timed(*points):
 
 
 def of(*points):
-    return Points.of(timed(*points), SETTINGS)
+    return PointsMeasured.of(timed(*points), SETTINGS)
 
 
 def groups(points):
@@ -84,9 +84,9 @@ def test_passes_and_levels_have_names_and_looks_of_their_own():
 
 def test_points_that_come_later_are_added_to_those_there_are():
     all_of_them = timed(*(point(k, 20.0 + k) for k in range(5)))
-    some = Points.of(all_of_them[:2], SETTINGS)
+    some = PointsMeasured.of(all_of_them[:2], SETTINGS)
     more = some.up_to(all_of_them, SETTINGS)
-    np.testing.assert_array_equal(more.table, Points.of(all_of_them, SETTINGS).table)
+    np.testing.assert_array_equal(more.table, PointsMeasured.of(all_of_them, SETTINGS).table)
     assert more.up_to(all_of_them, SETTINGS) is more
     others = timed(*(point(k, 40.0 + k) for k in range(5)))
     np.testing.assert_array_equal(more.up_to(others, SETTINGS).frequency_hz, 40.0 + np.arange(5))
@@ -115,22 +115,24 @@ def test_a_sentinel_elsewhere_is_no_part_of_a_segments_view():
         point(3, 20.0, purpose="sentinel"),
         point(4, 111.0, purpose="sentinel"),
     )
-    seen = Seen(points, segment=1, regions=((1, 108.0, 130.0),))
+    seen = PaneContents(points, segment=1, regions=((1, 108.0, 130.0),))
     assert seen.wanted.tolist() == [True, True, False, True]
-    assert Seen(points).wanted.all()
+    assert PaneContents(points).wanted.all()
 
 
 def test_one_walks_along_the_frequency_and_stops_at_the_ends():
-    seen = Seen(of(point(1, 30.0), point(2, 10.0), point(3, 20.0), point(4, 5.0, segment=2)), segment=1)
+    seen = PaneContents(
+        of(point(1, 30.0), point(2, 10.0), point(3, 20.0), point(4, 5.0, segment=2)), segment=1
+    )
     assert seen.neighbour(1) == 1
     assert seen.but(chosen=1).neighbour(1) == 2
     assert seen.but(chosen=0).neighbour(1) == 0
     assert seen.but(chosen=1).neighbour(-1) == 1
-    assert Seen(of()).neighbour(1) is None
+    assert PaneContents(of()).neighbour(1) is None
 
 
 def test_velocity_is_the_response_times_the_level_commanded():
-    seen = Seen(of(point(1)), way=Way("velocity"))
+    seen = PaneContents(of(point(1)), way=Way("velocity"))
     assert seen.shown[0] == pytest.approx(1e3 * 9.81 * (0.05 - 0.02j) / (9.8 + 0.1j))
 
 
@@ -141,10 +143,10 @@ def test_the_model_has_as_many_turns_as_the_points():
     f = np.linspace(19, 21, 5)
     points = of(*(point(k, x, velocity_re_m_s=-0.05, velocity_im_m_s=0.02) for k, x in enumerate(f)))
     response = points.over_base_s[0] * np.exp(-0.01j)
-    stretch = Stretch(1, f, np.full(5, response), np.full(5, np.nan), np.full(5, np.nan))
+    stretch = CurveStretch(1, f, np.full(5, response), np.full(5, np.nan), np.full(5, np.nan))
     np.testing.assert_allclose(points.phase_deg - stretch.phase_deg(points), np.degrees(0.01))
 
-    class Turned(Points):
+    class Turned(PointsMeasured):
         phase_deg = points.phase_deg - 360
 
     moved = Turned(points.timed, points.table)
@@ -178,7 +180,7 @@ def test_every_region_is_drawn_once_with_gaps_between():
 
 
 def test_segments_are_planned_running_done_or_broken_off(state, index):
-    points = Points.of(state.contents.points, state.limits)
+    points = PointsMeasured.of(state.contents.points, state.limits)
     stand = standings(state, points)
     assert [s.state for s in stand] == ["done", "running", "planned"]
     assert [s.points for s in stand] == ["9 of 9 points", "4 of 9 points", "0 of 9 points"]
@@ -221,7 +223,7 @@ def test_the_record_tells_every_field_of_a_point():
         for k, name in enumerate(f.name for f in fields(point()) if f.type in (float, Positive))
     }
     one = point(31, **numbers, signal_level=0.77, temperature_c=21.25, remarks=WEAK, segment=4, sweep=3)
-    seen = Seen(of(one))
+    seen = PaneContents(of(one))
     lines = record_lines(seen, 0, SETTINGS)
     said = " | ".join(line.value for line in lines)
     wanted = {

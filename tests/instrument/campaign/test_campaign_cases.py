@@ -12,7 +12,7 @@ from drivers.simulated.plant.effects import Effects
 from fitting.noise import noise_of
 from instrument.campaign.case_files import load_case, save_case, write_csv
 from instrument.campaign.cases import KINDS, Truth, clean, draw, measured, nominal_specimen
-from instrument.campaign.channels import Channels
+from instrument.campaign.channels import TrueChannels
 from instrument.campaign.materials import TrueLaw, deviation, draw_strange_material, nearest_zener
 from instrument.campaign.noise import DRIVE_PHASE_RAD, NoiseFigures, peaks
 from instrument.campaign.plant_sweep import Steady, steady
@@ -156,7 +156,7 @@ def test_a_level_error_shows_in_the_reference_and_not_in_the_ratio():
 
 def test_hum_is_loud_at_multiples_of_the_mains_and_nowhere_else():
     f = np.array([49.0, 50.0, 75.2, 100.0, 100.3, 103.0, 300.0])
-    size = np.abs(Channels(hum_m_s=1.0).hum(f, np.random.default_rng(0)))
+    size = np.abs(TrueChannels(hum_m_s=1.0).hum(f, np.random.default_rng(0)))
     assert (size[[1, 3, 6]] >= 0.5).all()
     assert (size[[0, 2, 5]] < 1e-9 + 0.03).all()
     assert 0.3 < size[4] < 1.5

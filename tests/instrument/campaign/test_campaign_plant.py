@@ -11,7 +11,7 @@ from drivers.simulated.plant.shaken import ShakenPlate
 from drivers.simulated.plant.slow_change import SlowChange
 from fitting.identification.bare_plate import fit_bare_plate
 from instrument.campaign.cases import nominal_specimen
-from instrument.campaign.channels import Channels
+from instrument.campaign.channels import TrueChannels
 from instrument.campaign.hammer import hammer_test
 from instrument.campaign.materials import TrueLaw
 from instrument.campaign.plant_sweep import steady
@@ -68,7 +68,9 @@ def test_friction_independent_of_rate_is_the_shaken_plate_s_at_60_hz():
 
 def test_an_absolute_reading_is_the_shaken_plate_s_spot():
     omega = 2 * np.pi * FREQUENCIES_HZ
-    seen = Channels(absolute=True).velocity_per_acceleration(at(ROCKING).velocity_per_acceleration_s, omega)
+    seen = TrueChannels(absolute=True).velocity_per_acceleration(
+        at(ROCKING).velocity_per_acceleration_s, omega
+    )
     shaken = ShakenPlate(ROCKING)
     states = [shaken.steady_state(f) for f in FREQUENCIES_HZ]
     np.testing.assert_allclose(
@@ -78,7 +80,7 @@ def test_an_absolute_reading_is_the_shaken_plate_s_spot():
 
 def test_a_delay_turns_and_a_gain_stretches():
     omega = 2 * np.pi * FREQUENCIES_HZ
-    seen = Channels(delay_s=1e-4, gain=1.02).velocity_per_acceleration(np.ones(len(omega)) + 0j, omega)
+    seen = TrueChannels(delay_s=1e-4, gain=1.02).velocity_per_acceleration(np.ones(len(omega)) + 0j, omega)
     np.testing.assert_allclose(seen, 1.02 * np.exp(-1e-4j * omega))
 
 

@@ -17,17 +17,21 @@ from instrument.campaign.plates.files import load_case, save_case
 from instrument.campaign.plates.geometry import PLATES, plate_named
 from instrument.campaign.plates.grid import Fineness
 from instrument.campaign.plates.hidden import HIDDEN, STRANGE
-from instrument.campaign.plates.hidden.attached import AddedMass, AirAddedMass, TunedAbsorber
+from instrument.campaign.plates.hidden.attached import (
+    HiddenAddedMass,
+    HiddenAirAddedMass,
+    HiddenTunedAbsorber,
+)
 from instrument.campaign.plates.hidden.base import Setting
-from instrument.campaign.plates.hidden.core import AmplitudeSoftening
+from instrument.campaign.plates.hidden.core import HiddenAmplitudeSoftening
 from instrument.campaign.plates.materials import KINDS as LAWS
-from instrument.campaign.plates.materials import LOSS, STORAGE_PA, TrueLaw, draw_law
+from instrument.campaign.plates.materials import LOSS, STORAGE_PA, PlateMaterialLaw, draw_law
 from instrument.campaign.plates.reduced import reduced
-from instrument.campaign.plates.response import Motion, Shaken, remaining_damping
+from instrument.campaign.plates.response import BaseMotion, Shaken, remaining_damping
 from instrument.campaign.plates.run import plate_jobs, run_plates
 from instrument.campaign.plates.schedule import Schedule
 from instrument.campaign.plates.score import reliability, score
-from instrument.campaign.plates.simulate import Channel, built, moduli_of, reading
+from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, reading
 from instrument.campaign.plates.solid import Build, RootSprings, Solid, factorised
 from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
 from instrument.campaign.plates.tables import summary
@@ -36,7 +40,7 @@ from instrument.errors import BadInput
 
 COARSE = Fineness(5, 3, (0.5, 2.0), (1.0,))
 P2 = plate_named("P2")
-LAW = TrueLaw("fractional-zener", (0.4e6, 8e6, 2e-4, 0.7))
+LAW = PlateMaterialLaw("fractional-zener", (0.4e6, 8e6, 2e-4, 0.7))
 MODULI = (0.4e6, 1.6e6)
 
 
@@ -110,11 +114,11 @@ def test_the_reduced_plate_answers_as_the_whole_solid_does():
 
 
 def test_a_patch_weighs_what_it_weighs_and_air_makes_heavier():
-    solid = Solid(P2, AddedMass(0.01, 0.2, 0.1, 0.01).build(Build(), P2), COARSE)
+    solid = Solid(P2, HiddenAddedMass(0.01, 0.2, 0.1, 0.01).build(Build(), P2), COARSE)
     bare = Solid(P2, None, COARSE)
     heave = solid.rigid[:, 0]
     assert heave @ (solid.M - bare.M) @ heave == pytest.approx(0.01)
-    air = AirAddedMass(1.2)
+    air = HiddenAirAddedMass(1.2)
     in_air = built(P2, (air,), MODULI, COARSE)
     assert in_air.modes(1e6, 1)[0][0] < kept.clean_plate(P2).modes(1e6, 1)[0][0]
 
@@ -126,9 +130,9 @@ def clean_reading(hidden, schedule, channel):
 
 
 def test_an_absorber_far_below_its_resonance_is_a_mass():
-    schedule, channel = few_points(), Channel()
-    absorber = TunedAbsorber(0.004, 1e5, 0.0, 0.25, 0.05)
-    mass = AddedMass(0.004, 0.25, 0.05, 1e-4)
+    schedule, channel = few_points(), ChannelError()
+    absorber = HiddenTunedAbsorber(0.004, 1e5, 0.0, 0.25, 0.05)
+    mass = HiddenAddedMass(0.004, 0.25, 0.05, 1e-4)
     hung, laid = (clean_reading((h,), schedule, channel) for h in (absorber, mass))
     assert np.abs(hung / laid - 1).max() < 2e-3
 
@@ -140,13 +144,13 @@ def test_a_stiff_clamp_is_a_rigid_one():
 
 
 def test_softening_settles_brick_by_brick():
-    schedule, soft = few_points(), AmplitudeSoftening(0.15, 0.5)
+    schedule, soft = few_points(), HiddenAmplitudeSoftening(0.15, 0.5)
     plate = built(P2, (soft,), MODULI, COARSE)
     shaken = Shaken(
         plate,
         remaining_damping(plate, np.array(P2.ratios)),
         2 * np.pi * schedule.frequency_hz,
-        Motion.pure(24),
+        BaseMotion.pure(24),
     )
     G = LAW.modulus(shaken.omega)
     row = plate.reading(*P2.spot_m)
@@ -159,7 +163,7 @@ def test_softening_settles_brick_by_brick():
 
 @pytest.mark.parametrize("name", [n for n in HIDDEN if not HIDDEN[n].changes_solid])
 def test_an_effect_of_base_or_channels_shows(name):
-    schedule, channel = few_points(), Channel()
+    schedule, channel = few_points(), ChannelError()
     effect = HIDDEN[name].draw(np.random.default_rng(1), setting())
     seen, clean = (clean_reading(h, schedule, channel) for h in ((effect,), ()))
     off_axis = name == "base_roll"

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from fitting.diagnosis.result import Diagnosis, Estimate, FoundEffect, Stage
+from fitting.diagnosis.result import Diagnosis, FoundEffect, ParameterEstimate, Stage
 from fitting.identification.result import LawBand
 from fitting.identification.validation import HeldOutSegment, Validation
 from fitting.laws.fractional_zener import FractionalZener
@@ -36,7 +36,7 @@ def found_diagnosis(law):
     segments = tuple(HeldOutSegment(k, rms, 1.0) for k, rms in ((1, 2.0), (2, 30.0), (3, 4.0)))
     band = LawBand(*(nothing,) * 5)
     stage = Stage(law, {}, band, nothing + 0j, nothing, nothing, 1.2, Validation(held_out=segments), ())
-    effect = FoundEffect("gain_error", {"gain": Estimate(1.02, 0.001, "1")})
+    effect = FoundEffect("gain_error", {"gain": ParameterEstimate(1.02, 0.001, "1")})
     groups = {"gain_error": ("gain_error", "spot_offset")}
     return Diagnosis("ambiguous", (effect,), (), groups, (), stage, stage, "", (), np.ones(0, dtype=bool), ())
 

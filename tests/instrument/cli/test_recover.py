@@ -1,11 +1,11 @@
 from sessions import configuration
 
 from instrument.cli.main import run
-from instrument.session.journal import Journal
+from instrument.session.journal import SessionJournal
 
 
 def begun(folder):
-    Journal(folder).begin(configuration())
+    SessionJournal(folder).begin(configuration())
     return folder
 
 

@@ -25,8 +25,8 @@ from quick_engine import QUICK_ENGINE, no_fit
 from instrument.engine import Engine, Order
 from instrument.engine.client import ENGINE
 from instrument.engine.messages import (
-    Asked,
     Happened,
+    OperatorAsked,
     Progressed,
     RigClosed,
     RigOpened,
@@ -115,7 +115,7 @@ def test_a_hit_is_rejected_and_another_one_taken(tmp_path):
         asked = []
 
         def react(message):
-            if isinstance(message, Asked) and message.what == "content":
+            if isinstance(message, OperatorAsked) and message.what == "content":
                 asked.append(message.good)
                 engine.reject(1) if len(asked) == 1 else engine.content()
 
@@ -136,7 +136,7 @@ def test_a_rejected_hit_may_be_undone(tmp_path):
     ):
 
         def react(message):
-            if isinstance(message, Asked) and message.what == "content":
+            if isinstance(message, OperatorAsked) and message.what == "content":
                 engine.reject(2)
                 engine.undo(2)
             if isinstance(message, Happened) and message.event == HitRevised(2, accepted=True):
@@ -154,8 +154,8 @@ def test_a_person_is_asked_to_mount_and_aim_and_answers(tmp_path):
         engine_of(Order(experiment, tmp_path, ("sweep",))) as engine,
     ):
         answers = {"mount": engine.mounted, "aim": engine.aimed}
-        messages = follow(engine, lambda m: answers[m.what]() if isinstance(m, Asked) else None)
-    assert [(m.what, m.detail) for m in messages if isinstance(m, Asked)] == [
+        messages = follow(engine, lambda m: answers[m.what]() if isinstance(m, OperatorAsked) else None)
+    assert [(m.what, m.detail) for m in messages if isinstance(m, OperatorAsked)] == [
         ("mount", "damped"),
         ("aim", "pickup"),
     ]
@@ -167,7 +167,7 @@ def test_a_run_that_waits_for_its_operator_can_be_aborted(tmp_path):
         engine_rig(tmp_path, person=True) as (_, experiment),
         engine_of(Order(experiment, tmp_path, ("sweep",))) as engine,
     ):
-        end = ended(follow(engine, lambda m: engine.abort() if isinstance(m, Asked) else None))
+        end = ended(follow(engine, lambda m: engine.abort() if isinstance(m, OperatorAsked) else None))
     assert (end.why, end.message, end.session) == ("stopped by the user", "nothing was measured", None)
 
 
@@ -304,7 +304,8 @@ def test_an_engine_stands_up_a_simulated_rig_itself(tmp_path):
     order = Order(write_case(tmp_path), tmp_path, ("hammer",), ask_content=True)
     with engine_of(order, ENGINE) as engine:
         messages = follow(
-            engine, lambda m: engine.content() if isinstance(m, Asked) and m.what == "content" else None
+            engine,
+            lambda m: engine.content() if isinstance(m, OperatorAsked) and m.what == "content" else None,
         )
     assert ended(messages).why == "done"
     assert any(isinstance(e, DampingFound) for e in events_of(ended(messages).session))

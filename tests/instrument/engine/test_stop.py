@@ -10,7 +10,7 @@ import pytest
 from engine_cases import LONG, drive_v, ended, engine_of, engine_rig, follow, is_silent, told, wait_until
 
 from instrument.engine import Order, client
-from instrument.engine.messages import Asked, StopPathChanged
+from instrument.engine.messages import OperatorAsked, StopPathChanged
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import PointMeasured
 from instrument.stream.raw import BlockAcquired, SessionEnded
@@ -177,7 +177,7 @@ def test_a_stop_while_held_lasts_though_the_run_is_told_to_go_on(tmp_path):
 def test_a_stop_before_anything_is_driven_ends_the_run(tmp_path):
     with engine_rig(tmp_path, person=True) as (rig, experiment):
         with engine_of(Order(experiment, tmp_path, ("sweep",))) as engine:
-            wait_until(lambda: any(isinstance(m, Asked) for m in engine.poll()))
+            wait_until(lambda: any(isinstance(m, OperatorAsked) for m in engine.poll()))
             stopped = engine.stop()
             assert stopped.silent, stopped.message
             end = ended(follow(engine))

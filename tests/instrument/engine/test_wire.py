@@ -11,7 +11,6 @@ from drivers.shaker.modbus_driver import ModbusTcpOptions
 from instrument.check.work import Work
 from instrument.engine.messages import (
     Answered,
-    Asked,
     BlocksDropped,
     Decided,
     Ended,
@@ -19,6 +18,7 @@ from instrument.engine.messages import (
     HoldWanted,
     Logged,
     Message,
+    OperatorAsked,
     Order,
     Planned,
     Progressed,
@@ -42,7 +42,7 @@ MESSAGES = (
     Progressed("forecasting", 0.5),
     Planned((Work("hit", 15.0), Work("step", 1.0, 2.5))),
     ShakerSeen(0.5, 12.25),
-    Asked("mount", "bare"),
+    OperatorAsked("mount", "bare"),
     Logged("2026-04-01T08:00:05+00:00", "WARNING", "line\nand another"),
     RecordingBegan(Path("x.running"), Path("x.h5")),
     RigOpened(ModbusTcpOptions(address="127.0.0.1:502", registers={"heartbeat": 108})),

@@ -1,13 +1,13 @@
 import numpy as np
 import pytest
 
-from fitting.bare_modes import Sensor
+from fitting.bare_modes import CarriedSensor
 from instrument.hammer_test.expected import expected_modes_hz
 
 
 def test_the_sensor_lowers_every_mode_it_moves_in(coarse):
     bare = expected_modes_hz(coarse, None, 600.0)
-    loaded = expected_modes_hz(coarse, Sensor(2e-3, 0.27, 0.17), 600.0)
+    loaded = expected_modes_hz(coarse, CarriedSensor(2e-3, 0.27, 0.17), 600.0)
     assert np.all(loaded <= bare * (1 + 1e-12))
     assert loaded[0] < 0.999 * bare[0]
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from impact_cases import BARE_HZ, RATE, SECONDS, TABLE_3, clean_hit, hit_of, noisy_hits
 
-from fitting.modal.frf import Estimate, Refusal
+from fitting.modal.frf import DampingEstimate, Refusal
 from instrument.errors import BadInput
 from instrument.impact.damping import damping_of_frfs, damping_of_hits
 from instrument.impact.judge import judge
@@ -29,7 +29,7 @@ def test_the_papers_eight_ratios_over_100_seeds(clean):
         assert len(found.modes) == 8
         rational.append([m.rational_fit.ratio for m in found.modes])
         half.append(
-            [m.half_power.ratio if isinstance(m.half_power, Estimate) else np.nan for m in found.modes]
+            [m.half_power.ratio if isinstance(m.half_power, DampingEstimate) else np.nan for m in found.modes]
         )
         refused |= {k for k, m in enumerate(found.modes) if isinstance(m.half_power, Refusal)}
     error = np.abs(np.array(rational) / TABLE_3 - 1)
@@ -53,7 +53,7 @@ def test_exponential_windows_give_the_same_corrected_ratio(clean, end):
     found = found_in([hit_of(*clean)], at_hz=tuple(BARE_HZ[1:]), end_value=end)
     for mode, zeta in zip(found.modes, TABLE_3[1:], strict=True):
         assert mode.rational_fit.ratio == pytest.approx(zeta, rel=1e-2)
-        if isinstance(mode.half_power, Estimate):
+        if isinstance(mode.half_power, DampingEstimate):
             assert mode.half_power.ratio == pytest.approx(zeta, rel=1e-2)
 
 
@@ -82,7 +82,7 @@ def test_close_modes_are_flagged_where_half_power_is_off():
         for mode in found.modes:
             assert mode.rational_fit.ratio == pytest.approx(zeta, rel=3e-2)
             half = mode.half_power
-            off = isinstance(half, Estimate) and abs(half.ratio / zeta - 1) > 0.1
+            off = isinstance(half, DampingEstimate) and abs(half.ratio / zeta - 1) > 0.1
             assert not off or "half power differs" in mode.why
 
 

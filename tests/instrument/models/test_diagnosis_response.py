@@ -7,7 +7,7 @@ import pytest
 from threadpoolctl import threadpool_limits
 
 from fitting.diagnosis.plate_answer import answer
-from fitting.diagnosis.response import Response
+from fitting.diagnosis.response import SweepResponse
 from fitting.effects import CATALOGUE
 from fitting.effects.temperature_drift import C_1, C_2_K
 from instrument.files.specimen_file import read_specimen
@@ -55,7 +55,7 @@ def test_a_core_that_warms_on_a_root_that_yields(once_up, make):
         law = problem.stated_law
         problem = problem.condensed(law).around(law)
         clamp, drift = CATALOGUE["clamp_compliance"], CATALOGUE["temperature_drift"]
-        response = Response(problem, [clamp, drift])
+        response = SweepResponse(problem, [clamp, drift])
         u = np.array([ROOT_N_M3, WARMING_K, TIME_CONSTANT_S])
         v, by = response.with_derivatives(law, u)
         kelvin = -WARMING_K * np.expm1(-problem.points.time_s / TIME_CONSTANT_S)

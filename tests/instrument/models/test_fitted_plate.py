@@ -10,7 +10,7 @@ from conftest import DATA, TABLE_4
 from fitting.direct import displacement_direct
 from fitting.nuisances import Nuisance, Nuisances
 from instrument.errors import BadInput
-from instrument.facts.identification import IdentificationResult, Posterior
+from instrument.facts.identification import IdentificationResult, PosteriorFound
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.models.fitted_plate import FittedPlate
@@ -76,7 +76,7 @@ def test_the_moved_plate_is_that_of_the_moved_specimen(coarse):
 def test_a_posterior_that_is_none_is_refused(identified):
     *_, result = identified
     with pytest.raises(ValueError, match="lower triangle"):
-        found_law(result.but(posterior=Posterior(names=("a", "b"), rows=((1.0,),))))
+        found_law(result.but(posterior=PosteriorFound(names=("a", "b"), rows=((1.0,),))))
     with pytest.raises(ValueError, match="no stated number is called"):
         found_law(result.but(adjusted=(result.adjusted[0].but(name="colour"),)))
     one = result.adjusted[0].but(name="core_thickness", stated=0.5, tolerance=0.015, found=-1.0)

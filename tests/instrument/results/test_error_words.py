@@ -1,4 +1,4 @@
-from instrument.facts.diagnosis import EffectParameter
+from instrument.facts.diagnosis import ParameterFound
 from instrument.results.diagnosis_words import parameter_words
 from instrument.results.error_words import percent_words
 
@@ -7,5 +7,5 @@ def test_an_error_below_the_models_own_is_not_said_as_a_number():
     assert percent_words(4e-8, 1.0) == "below 0.01"
     assert percent_words(0.02, -1.0) == "2"
     assert percent_words(float("nan"), 1.0) == "-"
-    said = parameter_words("tau_s", EffectParameter(value=1.0, standard_error=4e-8, unit="s"))
+    said = parameter_words("tau_s", ParameterFound(value=1.0, standard_error=4e-8, unit="s"))
     assert said == "tau_s 1 (+- below 0.01 %) s"

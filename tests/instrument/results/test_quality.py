@@ -2,7 +2,7 @@ import pytest
 from sessions import point
 
 from instrument.results.quality import quality_of
-from instrument.stepped_sine.settings import Control, SweepSettings
+from instrument.stepped_sine.settings import LevelControl, SweepSettings
 
 
 @pytest.mark.parametrize(
@@ -17,4 +17,4 @@ from instrument.stepped_sine.settings import Control, SweepSettings
     ],
 )
 def test_a_point_is_judged_by_the_sweeps_own_tolerances(changes, quality):
-    assert quality_of(point(**changes), SweepSettings(Control(tolerance=0.01))) == quality
+    assert quality_of(point(**changes), SweepSettings(LevelControl(tolerance=0.01))) == quality

@@ -11,7 +11,7 @@ from run_at_point import RunAtPoint
 
 from drivers.simulated.rig import SimulatedRig
 from instrument.errors import RigStopped
-from instrument.run.control import Control
+from instrument.run.control import RunControl
 from instrument.run.experiment import run_experiment
 from instrument.run.replay import replay
 from instrument.session.storage import SessionFile
@@ -147,7 +147,7 @@ def test_an_overload_repeats_the_step_in_a_coarser_range(tmp_path):
 
 
 def test_an_abort_ends_the_run_and_a_resume_measures_only_what_is_missing(tmp_path):
-    control = Control()
+    control = RunControl()
     with formula_rig(tmp_path) as (_, experiment):
         with pytest.raises(RigStopped, match="enough for today"):
             run(
@@ -170,7 +170,7 @@ def test_an_abort_ends_the_run_and_a_resume_measures_only_what_is_missing(tmp_pa
 
 
 def test_a_hold_silences_and_resuming_goes_on(tmp_path):
-    control = Control()
+    control = RunControl()
     drives = []
     with formula_rig(tmp_path) as (rig, experiment):
 

@@ -17,7 +17,7 @@ from instrument.cli.print_run import print_finished, run_result
 from instrument.cli.watching import said_of
 from instrument.errors import BadInput, RigStopped, StoppedByUser
 from instrument.facts.damping import DampingResult, ModeFound
-from instrument.run.control import Control
+from instrument.run.control import RunControl
 from instrument.run.experiment import run_experiment
 from instrument.run.live_diagnosis import apart, diagnose_points
 from instrument.run.replay import replay
@@ -108,7 +108,7 @@ def test_without_a_law_nothing_is_asked(tmp_path):
 
 
 def test_a_sweep_that_is_stopped_is_not_diagnosed_and_its_resumed_whole_is(tmp_path):
-    control = Control()
+    control = RunControl()
     enough = RunAtPoint(6, lambda: control.abort("enough"))
     with formula_rig(tmp_path) as (_, experiment):
         with pytest.raises(RigStopped, match="enough"):

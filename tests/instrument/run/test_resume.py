@@ -5,11 +5,11 @@ from formula_rig import formula_rig
 from run_at_point import RunAtPoint
 
 from instrument.errors import BadInput, RigStopped
-from instrument.run.control import Control
+from instrument.run.control import RunControl
 from instrument.run.experiment import run_experiment
 from instrument.run.replay import replay
 from instrument.session.configuration import read_whole_experiment
-from instrument.session.journal import Journal
+from instrument.session.journal import SessionJournal
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import CalibrationFound, FitUpdated, PointMeasured
 
@@ -44,7 +44,7 @@ def calibrated(experiment):
 
 def broken_off(experiment, folder, after):
     """Run until so many points are measured, then abort; the folder."""
-    control = Control()
+    control = RunControl()
     enough = RunAtPoint(after, lambda: control.abort("broken off"))
     with pytest.raises(RigStopped, match="broken off"):
         run(experiment, folder, control=control, companion=enough)
@@ -89,7 +89,7 @@ def test_a_changed_experiment_is_refused(tmp_path, name, old, new):
 def test_two_runs_in_one_folder_are_refused(tmp_path):
     with formula_rig(tmp_path, sweep=SWEEP) as (_, experiment):
         running = broken_off(experiment, tmp_path, 2)
-        other = Journal(running)
+        other = SessionJournal(running)
         other.lock()
         with pytest.raises(BadInput, match="another run goes on"):
             run(experiment, tmp_path, resume=running)

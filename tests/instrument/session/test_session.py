@@ -11,7 +11,7 @@ from sessions import RIG, block, configuration, point
 
 from instrument.errors import BadInput, RigStopped
 from instrument.files.rig_file import RigDocument
-from instrument.session.journal import JOURNAL, Journal
+from instrument.session.journal import JOURNAL, SessionJournal
 from instrument.session.recorder import Recorder
 from instrument.session.storage import SessionFile, part_events, write_part, write_session
 from instrument.stream.event import from_line, to_line
@@ -32,7 +32,7 @@ def test_an_unknown_event_is_refused():
 
 
 def recorded(folder, events, sealed=None):
-    journal = Journal(folder)
+    journal = SessionJournal(folder)
     journal.begin(configuration())
     with Recorder(journal, [], sealed) as recorder:
         for event in events:
@@ -134,7 +134,7 @@ def record_on_and_on(recorder):
 
 
 def test_a_disk_that_fails_stops_the_run_in_one_line(tmp_path):
-    journal = Journal(tmp_path / "s.running")
+    journal = SessionJournal(tmp_path / "s.running")
     journal.begin(configuration())
     with Recorder(journal, []) as recorder:
         (tmp_path / "s.running" / "part-000001.tmp").mkdir()
@@ -147,7 +147,7 @@ def test_a_disk_that_fails_stops_the_run_in_one_line(tmp_path):
 def test_a_folder_that_is_there_already_is_left_alone(tmp_path):
     (tmp_path / "s.running").mkdir()
     with pytest.raises(BadInput, match="exists already"):
-        Journal(tmp_path / "s.running").begin(configuration())
+        SessionJournal(tmp_path / "s.running").begin(configuration())
 
 
 @pytest.mark.parametrize("content", [b"", b"not hdf5", b"\x89HDF\r\n\x1a\n" + b"\0" * 100])

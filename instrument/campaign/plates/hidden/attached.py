@@ -10,7 +10,7 @@ import numpy as np
 from fitting.arrays import Array
 from instrument.campaign.plates.geometry import TruePlate
 from instrument.campaign.plates.hidden.base import Attachment, Hidden, Setting, either_sign, log_uniform
-from instrument.campaign.plates.response import Motion
+from instrument.campaign.plates.response import BaseMotion
 from instrument.campaign.plates.solid import Build, Patch
 
 
@@ -31,7 +31,7 @@ def _patch(rng: np.random.Generator, true: TruePlate, least: float) -> tuple[flo
 
 
 @dataclass(frozen=True)
-class AddedMass(Hidden):
+class HiddenAddedMass(Hidden):
     """A mass of a size of its own on the constraining layer, its own height left out."""
 
     name: ClassVar[str] = "added_mass"
@@ -44,7 +44,7 @@ class AddedMass(Hidden):
     side_m: float
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "AddedMass":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAddedMass":
         return cls(*_patch(rng, at.plate, 0.5))
 
     def build(self, build: Build, true: TruePlate) -> Build:
@@ -53,7 +53,7 @@ class AddedMass(Hidden):
 
 
 @dataclass(frozen=True)
-class TwoMasses(Hidden):
+class HiddenTwoMasses(Hidden):
     """Two such masses apart from each other."""
 
     name: ClassVar[str] = "two_masses"
@@ -71,7 +71,7 @@ class TwoMasses(Hidden):
     side_m: float
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "TwoMasses":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenTwoMasses":
         while True:
             first, second = _patch(rng, at.plate, 0.4), _patch(rng, at.plate, 0.4)
             if np.hypot(first[1] - second[1], first[2] - second[2]) > 0.3 * at.plate.length_m:
@@ -84,7 +84,7 @@ class TwoMasses(Hidden):
 
 
 @dataclass(frozen=True)
-class AirAddedMass(Hidden):
+class HiddenAirAddedMass(Hidden):
     """Still air on both faces, about the simulated rig's own lattice of vortex rings."""
 
     name: ClassVar[str] = "air_added_mass"
@@ -94,7 +94,7 @@ class AirAddedMass(Hidden):
     density_kg_m3: float
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "AirAddedMass":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAirAddedMass":
         return cls(float(rng.uniform(1.1, 1.25)))
 
     @property
@@ -103,7 +103,7 @@ class AirAddedMass(Hidden):
 
 
 @dataclass(frozen=True)
-class Tether(Hidden):
+class HiddenTether(Hidden):
     """A cable: spring and dashpot from a point of the plate to the floor, or to what moves with the base."""
 
     name: ClassVar[str] = "tether"
@@ -117,7 +117,7 @@ class Tether(Hidden):
     to_floor: bool
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "Tether":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenTether":
         true = at.plate
         # A cantilever's first mode moves its tip as a quarter of its mass on a spring would.
         tip = plate_mass_kg(true) / 4 * (2 * np.pi * at.resonances_hz[0]) ** 2
@@ -130,7 +130,7 @@ class Tether(Hidden):
     def points(self) -> tuple[tuple[float, float], ...]:
         return ((self.x_m, self.y_m),)
 
-    def attached(self, omega: Array, motion: Motion, width_m: float) -> tuple[Attachment, ...]:
+    def attached(self, omega: Array, motion: BaseMotion, width_m: float) -> tuple[Attachment, ...]:
         k = np.asarray(self.stiffness_n_m + 1j * omega * self.damping_ns_m)
         # The floor sees the base's displacement -a / w^2 of the point too.
         force = k / omega**2 * motion.at(self.x_m, self.y_m, width_m) if self.to_floor else 0 * k
@@ -138,7 +138,7 @@ class Tether(Hidden):
 
 
 @dataclass(frozen=True)
-class TunedAbsorber(Hidden):
+class HiddenTunedAbsorber(Hidden):
     """A small mass on a spring of its own: a loose screw, a liquid that sloshes."""
 
     name: ClassVar[str] = "tuned_absorber"
@@ -153,7 +153,7 @@ class TunedAbsorber(Hidden):
     y_m: float
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "TunedAbsorber":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenTunedAbsorber":
         true = at.plate
         x, y = true.length_m * rng.uniform(0.5, 0.95), true.width_m * rng.uniform(0.1, 0.9)
         near = at.resonances_hz[int(rng.integers(3))] * (1 + either_sign(rng, 0.0, 0.08))
@@ -163,7 +163,7 @@ class TunedAbsorber(Hidden):
     def points(self) -> tuple[tuple[float, float], ...]:
         return ((self.x_m, self.y_m),)
 
-    def attached(self, omega: Array, motion: Motion, width_m: float) -> tuple[Attachment, ...]:
+    def attached(self, omega: Array, motion: BaseMotion, width_m: float) -> tuple[Attachment, ...]:
         k = (2 * np.pi * self.frequency_hz) ** 2 * (1 + 1j * self.loss_factor)
         felt_kg = self.mass_kg * k / (k - omega**2)
         force = -felt_kg * motion.at(self.x_m, self.y_m, width_m)
@@ -171,7 +171,7 @@ class TunedAbsorber(Hidden):
 
 
 @dataclass(frozen=True)
-class TipMagnet(Hidden):
+class HiddenTipMagnet(Hidden):
     """A magnet near the free end: it pulls the more, the nearer the plate comes. A negative spring."""
 
     name: ClassVar[str] = "tip_magnet"
@@ -186,8 +186,8 @@ class TipMagnet(Hidden):
     to_floor: bool
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "TipMagnet":
-        tether = Tether.draw(rng, at)
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenTipMagnet":
+        tether = HiddenTether.draw(rng, at)
         return cls(
             -tether.stiffness_n_m,
             0.98 * at.plate.length_m,
@@ -198,6 +198,6 @@ class TipMagnet(Hidden):
     def points(self) -> tuple[tuple[float, float], ...]:
         return ((self.x_m, self.y_m),)
 
-    def attached(self, omega: Array, motion: Motion, width_m: float) -> tuple[Attachment, ...]:
-        pull = Tether(self.stiffness_n_m, 0.0, self.x_m, self.y_m, self.to_floor)
+    def attached(self, omega: Array, motion: BaseMotion, width_m: float) -> tuple[Attachment, ...]:
+        pull = HiddenTether(self.stiffness_n_m, 0.0, self.x_m, self.y_m, self.to_floor)
         return pull.attached(omega, motion, width_m)

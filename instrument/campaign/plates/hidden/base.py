@@ -10,7 +10,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from instrument.campaign.plates.geometry import TruePlate
-from instrument.campaign.plates.response import Motion
+from instrument.campaign.plates.response import BaseMotion
 from instrument.campaign.plates.solid import Build, Field
 
 
@@ -104,7 +104,7 @@ class Hidden:
         """Where it hangs on."""
         return ()
 
-    def attached(self, omega: Array, motion: Motion, width_m: float) -> tuple[Attachment, ...]:
+    def attached(self, omega: Array, motion: BaseMotion, width_m: float) -> tuple[Attachment, ...]:
         """What hangs there."""
         return ()
 
@@ -116,7 +116,7 @@ class Hidden:
         """Factor on the frequency at which the law is read, at each point and group of bricks; None: one."""
         return None
 
-    def motion(self, motion: Motion, omega: Array) -> Motion:
+    def motion(self, motion: BaseMotion, omega: Array) -> BaseMotion:
         """How else the base moves."""
         return motion
 

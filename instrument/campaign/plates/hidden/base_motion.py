@@ -9,11 +9,11 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from instrument.campaign.plates.hidden.base import Hidden, Setting, either_sign, log_uniform
-from instrument.campaign.plates.response import Motion
+from instrument.campaign.plates.response import BaseMotion
 
 
 @dataclass(frozen=True)
-class BaseRocking(Hidden):
+class HiddenBaseRocking(Hidden):
     """Pitch in proportion to the base's acceleration."""
 
     name: ClassVar[str] = "base_rocking"
@@ -22,15 +22,15 @@ class BaseRocking(Hidden):
     pitch_rad_m: float
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "BaseRocking":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenBaseRocking":
         return cls(either_sign(rng, 0.01, 0.06) / at.plate.length_m)
 
-    def motion(self, motion: Motion, omega: Array) -> Motion:
-        return Motion(motion.pitch_rad_m + self.pitch_rad_m, motion.roll_rad_m)
+    def motion(self, motion: BaseMotion, omega: Array) -> BaseMotion:
+        return BaseMotion(motion.pitch_rad_m + self.pitch_rad_m, motion.roll_rad_m)
 
 
 @dataclass(frozen=True)
-class BaseRoll(Hidden):
+class HiddenBaseRoll(Hidden):
     """Roll about the plate's axis in proportion to the base's acceleration."""
 
     name: ClassVar[str] = "base_roll"
@@ -39,15 +39,15 @@ class BaseRoll(Hidden):
     roll_rad_m: float
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "BaseRoll":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenBaseRoll":
         return cls(either_sign(rng, 0.08, 0.4) / at.plate.width_m)
 
-    def motion(self, motion: Motion, omega: Array) -> Motion:
-        return Motion(motion.pitch_rad_m, motion.roll_rad_m + self.roll_rad_m)
+    def motion(self, motion: BaseMotion, omega: Array) -> BaseMotion:
+        return BaseMotion(motion.pitch_rad_m, motion.roll_rad_m + self.roll_rad_m)
 
 
 @dataclass(frozen=True)
-class FixtureResonance(Hidden):
+class HiddenFixtureResonance(Hidden):
     """The fixture yields between reference sensor and root, and it pitches.
 
     The root moves by 1 + gain r^2/(1 - r^2) of the reference, r the frequency over that of the fixture.
@@ -64,7 +64,7 @@ class FixtureResonance(Hidden):
     """Per acceleration of the reference, times the same r^2/(1 - r^2)."""
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "FixtureResonance":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenFixtureResonance":
         low, high = at.resonances_hz[0] * 1.5, at.resonances_hz[2] * 1.6
         return cls(
             log_uniform(rng, low, high),
@@ -77,9 +77,9 @@ class FixtureResonance(Hidden):
         r = omega / (2 * np.pi * self.frequency_hz)
         return np.asarray(r**2 / (1 - r**2 + 2j * self.damping_ratio * r))
 
-    def motion(self, motion: Motion, omega: Array) -> Motion:
+    def motion(self, motion: BaseMotion, omega: Array) -> BaseMotion:
         swing = self._resonance(omega)
-        return Motion(
+        return BaseMotion(
             motion.pitch_rad_m + self.pitch_rad_m * swing / (1 + self.gain * swing), motion.roll_rad_m
         )
 

@@ -13,7 +13,7 @@ from instrument.campaign.plates.hidden.base import Hidden, Setting, either_sign,
 
 
 @dataclass(frozen=True)
-class SpotOffset(Hidden):
+class HiddenSpotOffset(Hidden):
     """The spot is elsewhere."""
 
     name: ClassVar[str] = "spot_offset"
@@ -23,7 +23,7 @@ class SpotOffset(Hidden):
     dy_m: float
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "SpotOffset":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenSpotOffset":
         size, angle = float(rng.uniform(2e-3, 6e-3)), float(rng.uniform(-np.pi / 3, np.pi / 3))
         return cls(float(rng.choice([-1, 1])) * size * float(np.cos(angle)), size * float(np.sin(angle)))
 
@@ -33,14 +33,14 @@ class SpotOffset(Hidden):
 
 
 @dataclass(frozen=True)
-class AbsoluteVelocity(Hidden):
+class HiddenAbsoluteVelocity(Hidden):
     """The laser stands on the floor and reads the base too."""
 
     name: ClassVar[str] = "absolute_velocity"
     place: ClassVar[str] = "velocity channel"
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "AbsoluteVelocity":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAbsoluteVelocity":
         return cls()
 
     def channel(self, velocity_s: Complex, omega: Array, base_s: Complex) -> Complex:
@@ -48,7 +48,7 @@ class AbsoluteVelocity(Hidden):
 
 
 @dataclass(frozen=True)
-class ChannelDelay(Hidden):
+class HiddenChannelDelay(Hidden):
     """The velocity comes late."""
 
     name: ClassVar[str] = "channel_delay"
@@ -57,7 +57,7 @@ class ChannelDelay(Hidden):
     delay_s: float
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "ChannelDelay":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenChannelDelay":
         return cls(float(rng.uniform(30e-6, 150e-6)))
 
     def channel(self, velocity_s: Complex, omega: Array, base_s: Complex) -> Complex:
@@ -65,7 +65,7 @@ class ChannelDelay(Hidden):
 
 
 @dataclass(frozen=True)
-class GainError(Hidden):
+class HiddenGainError(Hidden):
     """The velocity channel's scale."""
 
     name: ClassVar[str] = "gain_error"
@@ -74,7 +74,7 @@ class GainError(Hidden):
     factor: float
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "GainError":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenGainError":
         return cls(1 + either_sign(rng, 0.015, 0.04))
 
     def channel(self, velocity_s: Complex, omega: Array, base_s: Complex) -> Complex:
@@ -82,7 +82,7 @@ class GainError(Hidden):
 
 
 @dataclass(frozen=True)
-class SensorLowpass(Hidden):
+class HiddenSensorLowpass(Hidden):
     """A first-order filter in the velocity channel."""
 
     name: ClassVar[str] = "sensor_lowpass"
@@ -91,7 +91,7 @@ class SensorLowpass(Hidden):
     corner_hz: float
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "SensorLowpass":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenSensorLowpass":
         return cls(log_uniform(rng, 1e3, 5e3))
 
     def channel(self, velocity_s: Complex, omega: Array, base_s: Complex) -> Complex:
@@ -99,7 +99,7 @@ class SensorLowpass(Hidden):
 
 
 @dataclass(frozen=True)
-class AcCoupling(Hidden):
+class HiddenAcCoupling(Hidden):
     """The velocity channel has lost its constant part, and some of what is slow."""
 
     name: ClassVar[str] = "ac_coupling"
@@ -108,7 +108,7 @@ class AcCoupling(Hidden):
     corner_hz: float
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "AcCoupling":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAcCoupling":
         return cls(log_uniform(rng, 0.3, 2.0))
 
     def channel(self, velocity_s: Complex, omega: Array, base_s: Complex) -> Complex:
@@ -116,7 +116,7 @@ class AcCoupling(Hidden):
 
 
 @dataclass(frozen=True)
-class PhaseScale(Hidden):
+class HiddenPhaseScale(Hidden):
     """A phase meter that counts from 0 to 360 degrees shows a few per cent too many of them."""
 
     name: ClassVar[str] = "phase_scale"
@@ -125,7 +125,7 @@ class PhaseScale(Hidden):
     factor: float
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "PhaseScale":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenPhaseScale":
         return cls(float(rng.uniform(1.02, 1.05)))
 
     def channel(self, velocity_s: Complex, omega: Array, base_s: Complex) -> Complex:
@@ -134,7 +134,7 @@ class PhaseScale(Hidden):
 
 
 @dataclass(frozen=True)
-class ViscousDamping(Hidden):
+class HiddenViscousDamping(Hidden):
     """The treated plate's remaining damping is not the bare plate's."""
 
     name: ClassVar[str] = "viscous_damping"
@@ -143,7 +143,7 @@ class ViscousDamping(Hidden):
     scale: float
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "ViscousDamping":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenViscousDamping":
         return cls(float(rng.uniform(1.5, 3.0)))
 
     def ratios(self, ratios: Array) -> Array:

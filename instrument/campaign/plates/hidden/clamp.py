@@ -19,7 +19,7 @@ def _springs(at: Setting, softness: float) -> float:
 
 
 @dataclass(frozen=True)
-class ClampCompliance(Hidden):
+class HiddenClampCompliance(Hidden):
     """A row of bolts, each holding a few plate thicknesses to its sides, over a softer jaw."""
 
     name: ClassVar[str] = "clamp_compliance"
@@ -36,7 +36,7 @@ class ClampCompliance(Hidden):
     """What is left between bolts."""
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "ClampCompliance":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenClampCompliance":
         along_x = _springs(at, log_uniform(rng, 0.0012, 0.008))
         bolts = int(rng.integers(3, 6))
         reach = float(rng.uniform(0.12, 0.25)) * at.plate.width_m / bolts
@@ -54,7 +54,7 @@ class ClampCompliance(Hidden):
 
 
 @dataclass(frozen=True)
-class UnevenClamp(Hidden):
+class HiddenUnevenClamp(Hidden):
     """The clamp holds one edge of the plate better than the other."""
 
     name: ClassVar[str] = "uneven_clamp"
@@ -68,7 +68,7 @@ class UnevenClamp(Hidden):
     """ln of the ratio of both edges."""
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "UnevenClamp":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenUnevenClamp":
         return cls(_springs(at, log_uniform(rng, 0.0012, 0.007)), either_sign(rng, 1.5, 3.5))
 
     def build(self, build: Build, true: TruePlate) -> Build:
@@ -79,7 +79,7 @@ class UnevenClamp(Hidden):
 
 
 @dataclass(frozen=True)
-class ClampLine(Hidden):
+class HiddenClampLine(Hidden):
     """The plate bends from another line than the jaw's visible edge: length and spot count from there."""
 
     name: ClassVar[str] = "clamp_line"
@@ -89,7 +89,7 @@ class ClampLine(Hidden):
     longer_m: float
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "ClampLine":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenClampLine":
         return cls(either_sign(rng, 1.5e-3, 4e-3))
 
     def plate(self, true: TruePlate) -> TruePlate:
@@ -101,7 +101,7 @@ class ClampLine(Hidden):
 
 
 @dataclass(frozen=True)
-class TreatmentNotGripped(Hidden):
+class HiddenTreatmentNotGripped(Hidden):
     """The clamp holds the substrate alone; core and constraining layer end at it or short of it."""
 
     name: ClassVar[str] = "treatment_not_gripped"
@@ -112,7 +112,7 @@ class TreatmentNotGripped(Hidden):
     """Distance of the treatment from the clamp."""
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "TreatmentNotGripped":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenTreatmentNotGripped":
         return cls(0.0 if rng.random() < 0.5 else float(rng.uniform(1e-3, 3e-3)))
 
     def build(self, build: Build, true: TruePlate) -> Build:

@@ -17,7 +17,7 @@ _ROOM_K = 296.0
 
 
 @dataclass(frozen=True)
-class GradedCore(Hidden):
+class HiddenGradedCore(Hidden):
     """The modulus grows along x or y."""
 
     name: ClassVar[str] = "graded_core"
@@ -29,7 +29,7 @@ class GradedCore(Hidden):
     """From one end to the other, over the mean."""
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "GradedCore":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenGradedCore":
         return cls(str(rng.choice(["x", "y"])), either_sign(rng, 0.2, 0.4))
 
     def build(self, build: Build, true: TruePlate) -> Build:
@@ -41,7 +41,7 @@ class GradedCore(Hidden):
 
 
 @dataclass(frozen=True)
-class PartialDebond(Hidden):
+class HiddenPartialDebond(Hidden):
     """A strip has come loose; towards its edges the bond is gradually better."""
 
     name: ClassVar[str] = "partial_debond"
@@ -56,7 +56,7 @@ class PartialDebond(Hidden):
     """Over which the bond recovers."""
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "PartialDebond":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenPartialDebond":
         along = str(rng.choice(["x", "y"]))
         side = at.plate.length_m if along == "x" else at.plate.width_m
         wide = side * float(rng.uniform(0.06, 0.16))
@@ -83,7 +83,7 @@ class PartialDebond(Hidden):
 
 
 @dataclass(frozen=True)
-class TemperatureDrift(Hidden):
+class HiddenTemperatureDrift(Hidden):
     """The core warms, more at one end than at the other; its times shift as Arrhenius has it."""
 
     name: ClassVar[str] = "temperature_drift"
@@ -99,7 +99,7 @@ class TemperatureDrift(Hidden):
     activation_j_mol: float
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "TemperatureDrift":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenTemperatureDrift":
         sign = -1.0 if rng.random() < 0.25 else 1.0
         return cls(
             sign * float(rng.uniform(3, 7)),
@@ -119,7 +119,7 @@ class TemperatureDrift(Hidden):
 
 
 @dataclass(frozen=True)
-class AmplitudeSoftening(Hidden):
+class HiddenAmplitudeSoftening(Hidden):
     """Each brick softens with its own strain, as filled rubber does (Kraus): G (1 - d r / (1 + r)).
 
     r is the brick's strain amplitude over a strain at which half of what can be lost is lost.
@@ -136,7 +136,7 @@ class AmplitudeSoftening(Hidden):
     """What can be lost at all."""
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "AmplitudeSoftening":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAmplitudeSoftening":
         return cls(log_uniform(rng, 0.05, 0.2), 0.5)
 
     def stirred(self, true: TruePlate) -> tuple[Field, ...]:

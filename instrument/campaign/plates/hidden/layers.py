@@ -13,7 +13,7 @@ from instrument.campaign.plates.solid import Build
 
 
 @dataclass(frozen=True)
-class ConstrainingStiffness(Hidden):
+class HiddenConstrainingStiffness(Hidden):
     """Young's modulus of the constraining layer."""
 
     name: ClassVar[str] = "constraining_stiffness"
@@ -23,7 +23,7 @@ class ConstrainingStiffness(Hidden):
     scale: float
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "ConstrainingStiffness":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenConstrainingStiffness":
         return cls(1 + either_sign(rng, 0.05, 0.1))
 
     def plate(self, true: TruePlate) -> TruePlate:
@@ -33,7 +33,7 @@ class ConstrainingStiffness(Hidden):
 
 
 @dataclass(frozen=True)
-class ConstrainingThickness(Hidden):
+class HiddenConstrainingThickness(Hidden):
     """Thickness of the constraining layer."""
 
     name: ClassVar[str] = "constraining_thickness"
@@ -43,7 +43,7 @@ class ConstrainingThickness(Hidden):
     scale: float
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "ConstrainingThickness":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenConstrainingThickness":
         return cls(1 + either_sign(rng, 0.05, 0.1))
 
     def plate(self, true: TruePlate) -> TruePlate:
@@ -53,7 +53,7 @@ class ConstrainingThickness(Hidden):
 
 
 @dataclass(frozen=True)
-class SubstrateStiffness(Hidden):
+class HiddenSubstrateStiffness(Hidden):
     """Young's modulus of the substrate."""
 
     name: ClassVar[str] = "substrate_stiffness"
@@ -63,7 +63,7 @@ class SubstrateStiffness(Hidden):
     scale: float
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "SubstrateStiffness":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenSubstrateStiffness":
         return cls(1 + either_sign(rng, 0.04, 0.08))
 
     def plate(self, true: TruePlate) -> TruePlate:
@@ -75,7 +75,7 @@ class SubstrateStiffness(Hidden):
 
 
 @dataclass(frozen=True)
-class OrthotropicSubstrate(Hidden):
+class HiddenOrthotropicSubstrate(Hidden):
     """A rolled sheet: stiffer along x than along y, or the other way round."""
 
     name: ClassVar[str] = "orthotropic_substrate"
@@ -86,7 +86,7 @@ class OrthotropicSubstrate(Hidden):
     """Difference of both moduli over their mean."""
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "OrthotropicSubstrate":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenOrthotropicSubstrate":
         return cls(either_sign(rng, 0.03, 0.06))
 
     def plate(self, true: TruePlate) -> TruePlate:
@@ -97,7 +97,7 @@ class OrthotropicSubstrate(Hidden):
 
 
 @dataclass(frozen=True)
-class CoreThickness(Hidden):
+class HiddenCoreThickness(Hidden):
     """Thickness of the core."""
 
     name: ClassVar[str] = "core_thickness"
@@ -107,7 +107,7 @@ class CoreThickness(Hidden):
     scale: float
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "CoreThickness":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenCoreThickness":
         return cls(1 + either_sign(rng, 0.1, 0.15))
 
     def plate(self, true: TruePlate) -> TruePlate:

@@ -14,7 +14,7 @@ from instrument.campaign.plates.solid import Build
 
 
 @dataclass(frozen=True)
-class CrackedSubstrate(Hidden):
+class HiddenCrackedSubstrate(Hidden):
     """A soft line across part of the substrate, from one long edge."""
 
     name: ClassVar[str] = "cracked_substrate"
@@ -30,7 +30,7 @@ class CrackedSubstrate(Hidden):
     """Of the stiffness within."""
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "CrackedSubstrate":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenCrackedSubstrate":
         length, width = at.plate.length_m, at.plate.width_m
         return cls(
             float(rng.uniform(0.08, 0.5)) * length,
@@ -60,7 +60,7 @@ class CrackedSubstrate(Hidden):
 
 
 @dataclass(frozen=True)
-class WrinkledConstraining(Hidden):
+class HiddenWrinkledConstraining(Hidden):
     """The constraining layer is wavy in one region and stretches there more easily."""
 
     name: ClassVar[str] = "wrinkled_constraining"
@@ -77,7 +77,7 @@ class WrinkledConstraining(Hidden):
     """Of the stiffness in its middle."""
 
     @classmethod
-    def draw(cls, rng: np.random.Generator, at: Setting) -> "WrinkledConstraining":
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenWrinkledConstraining":
         length, width = at.plate.length_m, at.plate.width_m
         x, y = length * rng.uniform(0.15, 0.7), width * rng.uniform(0.2, 0.8)
         return cls(float(x), float(y), length * float(rng.uniform(0.06, 0.12)), float(rng.uniform(0.4, 0.75)))

@@ -24,7 +24,7 @@ NEUTRAL = {
     "fixture_resonance": e.Effects(fixture_resonance=e.FixtureResonance(130.0, 0.02, 0.0)),
     "core_thickness": e.Effects(core_thickness=e.CoreThickness(1.0)),
     "substrate_stiffness": e.Effects(substrate_stiffness=e.SubstrateStiffness(1.0)),
-    "core_law": e.Effects(core_law=e.CoreLaw(ZN1)),
+    "core_law": e.Effects(core_law=e.OtherLaw(ZN1)),
 }
 PRESENT = {
     "clamp_compliance": e.Effects(e.ClampCompliance(2.8e13, 2.8e13)),
@@ -38,7 +38,7 @@ PRESENT = {
     "fixture_resonance": e.Effects(fixture_resonance=e.FixtureResonance(100.0, 0.02, 0.05)),
     "core_thickness": e.Effects(core_thickness=e.CoreThickness(0.92)),
     "substrate_stiffness": e.Effects(substrate_stiffness=e.SubstrateStiffness(1.05)),
-    "core_law": e.Effects(core_law=e.CoreLaw(MaxwellLaw(2e5, (4e5, 2e6), (1e-3, 1e-4)))),
+    "core_law": e.Effects(core_law=e.OtherLaw(MaxwellLaw(2e5, (4e5, 2e6), (1e-3, 1e-4)))),
 }
 
 

@@ -6,7 +6,7 @@ from drivers.simulated.drive import DrivePiece
 from drivers.simulated.plant import effects as e
 from drivers.simulated.plant.one_thread import one_thread
 from drivers.simulated.plant.shaken import OUTPUTS, ShakenPlate
-from drivers.simulated.plant.shaker import Section, Shaker
+from drivers.simulated.plant.shaker import ShakerChain, ShakerMode
 
 TWO_PIECES = (DrivePiece(0.0, 55.0, 0.2, 4.0, 0.3), DrivePiece(0.0312345, 90.0, 1.0, -3.0, -0.7))
 ALL_IN_ONE = e.Effects(
@@ -89,7 +89,7 @@ def test_agrees_with_an_independent_integration():
 
 @pytest.mark.parametrize("frequency_hz", [19.3, 100.5, 281.1])
 def test_settles_to_the_steady_state(frequency_hz):
-    plate = ShakenPlate(shaker=Shaker(second_harmonic=0.0, third_harmonic=0.0))
+    plate = ShakenPlate(shaker=ShakerChain(second_harmonic=0.0, third_harmonic=0.0))
     plate.drive(DrivePiece(0.0, frequency_hz, 0.7, 0.0, 0.4))
     first, step, count = 9.0, 1e-4, 400
     found = plate.at(first, step, count)
@@ -160,7 +160,7 @@ def test_memory_and_order_are_kept():
 
 
 def test_harmonics_of_the_drive_are_heard():
-    plate = ShakenPlate(shaker=Shaker(second_harmonic=0.01, third_harmonic=0.0))
+    plate = ShakenPlate(shaker=ShakerChain(second_harmonic=0.01, third_harmonic=0.0))
     plate.drive(DrivePiece(0.0, 40.0, 1.0, 0.0, 0.0))
     y = plate.at(8.0, 1 / 8000, 8000, ("base_acceleration",))[0]
     lines = np.abs(np.fft.rfft(y)) / 4000
@@ -169,9 +169,9 @@ def test_harmonics_of_the_drive_are_heard():
 
 
 def test_shaker_gain_varies_by_some_twenty_decibels():
-    gains = [abs(Shaker().acceleration(2 * np.pi * f)) for f in np.geomspace(14, 310, 300)]
+    gains = [abs(ShakerChain().acceleration(2 * np.pi * f)) for f in np.geomspace(14, 310, 300)]
     assert 17 < 20 * np.log10(max(gains) / min(gains)) < 23
-    assert Shaker((Section(10.0, 0.1, 5.0),)).acceleration(1e6) == pytest.approx(5.0, rel=1e-3)
+    assert ShakerChain((ShakerMode(10.0, 0.1, 5.0),)).acceleration(1e6) == pytest.approx(5.0, rel=1e-3)
 
 
 def test_drift_moves_the_law_and_not_the_state():
