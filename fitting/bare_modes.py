@@ -9,7 +9,7 @@ from fitting.arrays import Array
 from fitting.element import DOFS, THETA_X, THETA_Y
 from fitting.linear import factorise
 from fitting.plate import Plate, element_matrices
-from fitting.real_modes import RealModes, real_modes
+from fitting.real_modes import RealModes, lowest_scale, real_modes
 
 _EDGE_WIDTH = 0.63 / 2
 """Of the thickness, at each free edge."""
@@ -39,11 +39,13 @@ def loaded_modes(plate: Plate, modes: RealModes, sensor: CarriedSensor) -> RealM
     """
     row = plate.observe(sensor.x_m, sensor.y_m)
     K = plate.K_0.real.tocsc()
-    V = np.column_stack([modes.shapes, factorise(K)(row)])
+    rigid = plate.rigid.shape[1]
+    pushed = factorise(K + lowest_scale(plate) * plate.M if rigid else K)(row)
+    V = np.column_stack([modes.shapes, pushed, *plate.rigid.T])
     w = row @ V
     squared, q = la.eigh(V.T @ (K @ V), V.T @ (plate.M @ V) + sensor.mass_kg * np.outer(w, w))
-    count = len(modes.omega)
-    return RealModes(np.sqrt(squared[:count]), V @ q[:, :count])
+    its = slice(rigid, rigid + len(modes.omega))
+    return RealModes(np.sqrt(squared[its]), V @ q[:, its])
 
 
 def edge_softening(plate: Plate, modes: RealModes) -> Array:
@@ -53,18 +55,22 @@ def edge_softening(plate: Plate, modes: RealModes) -> Array:
     turns over, as if a width of 0.315 h carried no twist. Its energy, D (1 - nu) kappa_xy^2 an area, goes.
     """
     face, mesh = plate.specimen.substrate, plate.mesh
-    if plate.specimen.boundary == "simply-supported":
-        return np.zeros(len(modes.omega))
     h = face.thickness_m
     twisting = face.young_pa * h**3 / (12 * (1 + face.poisson))
     grid = plate.on_nodes(modes.shapes).reshape(mesh.n_x + 1, mesh.n_y + 1, DOFS, -1)
     slope = grid[:, :, [THETA_X, THETA_Y]]
     a, b = mesh.sides_m
-    clamped = plate.specimen.boundary == "cantilever"
     # kappa_xy along an edge is how fast the slope across it changes; the sign of a rotation does not matter.
-    lost = _edge_integral(slope[:, 0, 0], a) + _edge_integral(slope[:, -1, 0], a)
-    for i in (-1,) if clamped else (0, -1):
-        lost = lost + _edge_integral(slope[i, :, 1], b)
+    at_x0, at_y0, at_length, at_width = plate.specimen.edges
+    lost = np.zeros(len(modes.omega))
+    for edge, along, step in (
+        (at_y0, slope[:, 0, 0], a),
+        (at_width, slope[:, -1, 0], a),
+        (at_x0, slope[0, :, 1], b),
+        (at_length, slope[-1, :, 1], b),
+    ):
+        if edge == "free":
+            lost = lost + _edge_integral(along, step)
     return np.asarray(_EDGE_WIDTH * h * twisting * lost / modes.omega**2)
 
 

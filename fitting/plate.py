@@ -22,8 +22,10 @@ Indices = NDArray[np.intp]
 
 _STILL = 1e-9
 """A reading row below this reads nothing but rounding."""
-_HELD_ON_X_EDGES = (V_C, V_B, W, THETA_X)
-_HELD_ON_Y_EDGES = (U_C, U_B, W, THETA_Y)
+_SUPPORTED = {"x": (V_C, V_B, W, THETA_X), "y": (U_C, U_B, W, THETA_Y)}
+"""What a simple support holds of the nodes on an edge of constant x or y."""
+_RIGID = 1e-9
+"""Share of a rigid motion at held degrees of freedom, below which it is not held."""
 
 
 @dataclass(frozen=True)
@@ -122,14 +124,43 @@ class Plate:
         x, y = self.mesh.node_positions().T
         if self.specimen.core is None:
             held[:, [U_C, V_C]] = True
-        if self.specimen.boundary == "cantilever":
-            held[x == 0] = True
-        elif self.specimen.boundary == "simply-supported":
-            on_y = (x == 0) | (x == self.mesh.length_m)
-            on_x = (y == 0) | (y == self.mesh.width_m)
-            for dofs, edge in ((_HELD_ON_X_EDGES, on_y), (_HELD_ON_Y_EDGES, on_x)):
-                held[np.ix_(edge, dofs)] = True
+        nodes = (x == 0, y == 0, x == self.mesh.length_m, y == self.mesh.width_m)
+        for edge, on, constant in zip(self.specimen.edges, nodes, ("x", "y", "x", "y"), strict=True):
+            if edge == "clamped":
+                held[on] = True
+            elif edge == "simply-supported":
+                held[np.ix_(on, _SUPPORTED[constant])] = True
         return held.ravel()
+
+    @cached_property
+    def rigid(self) -> Array:
+        """Motions that strain nothing and are not held, at most six. Shape (n, motions)."""
+        s = self.specimen
+        x, y = (self.mesh.node_positions() / max(s.length_m, s.width_m)).T
+        apart = 0.0
+        if s.core is not None and s.constraining is not None:
+            apart = s.core.thickness_m + (s.substrate.thickness_m + s.constraining.thickness_m) / 2
+        # Turns are scaled to the size of the plate; the upper face turns about the substrate's middle.
+        slope = 1 / max(s.length_m, s.width_m)
+        one = np.ones_like(x)
+        motions: list[dict[int, Array]] = [
+            {U_B: one, U_C: one},
+            {V_B: one, V_C: one},
+            {U_B: -y, U_C: -y, V_B: x, V_C: x},
+            {W: one},
+            {W: x, THETA_Y: -slope * one, U_C: -apart * slope * one},
+            {W: y, THETA_X: slope * one, V_C: -apart * slope * one},
+        ]
+        R = np.zeros((self.mesh.nodes, DOFS, len(motions)))
+        for k, motion in enumerate(motions):
+            for dof, values in motion.items():
+                R[:, dof, k] = values
+        if s.core is None:
+            R[:, [U_C, V_C]] = 0.0
+        each = R.reshape(-1, len(motions))
+        held = np.delete(each, self.free, axis=0)
+        values, vectors = np.linalg.eigh(held.T @ held)
+        return each[self.free] @ vectors[:, values < _RIGID * max(1.0, values[-1])]
 
     def _assemble(self) -> None:
         s, e = self.specimen, element_matrices(self.specimen, self.mesh)

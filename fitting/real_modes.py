@@ -27,8 +27,8 @@ def real_modes(plate: Plate, G: float, count: int) -> RealModes:
         raise OutsideModel(f"{count} modes asked of a mesh of {plate.size} degrees of freedom, refine [mesh]")
     K = (plate.K_0.real + G * plate.K_1).tocsc()
     # A free plate has six motions without energy: shift off them so that K - shift M can be factorised.
-    rigid = 6 if plate.specimen.boundary == "free" else 0
-    shift = -_lowest_scale(plate) if rigid else 0.0
+    rigid = plate.rigid.shape[1]
+    shift = -lowest_scale(plate) if rigid else 0.0
     solve = factorise(K - shift * plate.M)
     inverse = LinearOperator(K.shape, matvec=solve, dtype=float)
     start = np.random.default_rng(0).normal(size=plate.size)
@@ -37,7 +37,7 @@ def real_modes(plate: Plate, G: float, count: int) -> RealModes:
     return RealModes(np.sqrt(squared[order]), shapes[:, order])
 
 
-def _lowest_scale(plate: Plate) -> float:
+def lowest_scale(plate: Plate) -> float:
     """About a hundredth of the square of the first bending frequency, in (rad/s)^2."""
     s = plate.specimen
     h, face = s.substrate.thickness_m, s.substrate

@@ -7,10 +7,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal, Protocol
 
+from fitting.edges import Edges, edges_of, named
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
 
-Boundary = Literal["cantilever", "simply-supported", "free"]
 Reading = Literal["relative", "absolute"]
 
 DEFAULT_ELEMENTS = 1040
@@ -79,7 +79,8 @@ class Specimen:
 
     length_m: float
     width_m: float
-    boundary: Boundary
+    boundary: str
+    """By name or edge by edge (`fitting.edges`); kept by its name where it has one."""
     substrate: Face
     constraining: Face | None = None
     core: Core | None = None
@@ -96,10 +97,18 @@ class Specimen:
     elements: tuple[int, int] | None = None
     """Elements along x and y; None for the default mesh."""
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "boundary", named(self.boundary))
+
     @property
     def kind(self) -> str:
         """Which structure it is."""
         return "plate"
+
+    @property
+    def edges(self) -> Edges:
+        """How each edge is held."""
+        return edges_of(self.boundary)
 
     @property
     def mesh(self) -> tuple[int, int]:

@@ -3,12 +3,13 @@
 from pathlib import Path
 from typing import Annotated, Any
 
-from pydantic import Field, ValidationError, create_model, model_validator
+from pydantic import AfterValidator, Field, ValidationError, create_model, model_validator
 
+from fitting.edges import named
 from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import LAWS, CoreLaw
-from fitting.specimen import Boundary, Core, Face, Reading, Specimen
+from fitting.specimen import Core, Face, Reading, Specimen
 from instrument.errors import BadInput
 from instrument.files.toml import NotNegative, Percent, Positive, TomlTable, one_line, read_document
 
@@ -16,10 +17,17 @@ Poisson = Annotated[float, Field(gt=-1, lt=0.5, allow_inf_nan=False)]
 Elements = Annotated[int, Field(ge=2, le=400)]
 
 
+def _known(boundary: str) -> str:
+    try:
+        return named(boundary)
+    except OutsideModel as error:
+        raise ValueError(f"expected {str(error).partition('expected ')[2]}") from None
+
+
 class _Plate(TomlTable):
     length_mm: Positive
     width_mm: Positive
-    boundary: Boundary
+    boundary: Annotated[str, AfterValidator(_known)]
 
 
 class StatedLayer(TomlTable):

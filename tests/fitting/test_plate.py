@@ -73,15 +73,49 @@ def test_narrow_plate_agrees_with_the_sandwich_beam():
     np.testing.assert_allclose(eta[flexural] / 0.1, [0.281, 0.242, 0.154], rtol=1e-2)
 
 
-def test_free_plate_has_no_rigid_modes_and_its_published_frequencies(zn1):
-    # Leissa 1973: square free plate, nu 0.3, omega a^2 sqrt(rho h / D) = 13.489, 19.789, 24.432.
-    square = replace(zn1.bare, boundary="free", length_m=0.2, width_m=0.2, elements=(24, 24))
+# Leissa, J. Sound Vib. 31 (1973): square plates, nu 0.3, omega a^2 sqrt(rho h / D).
+LEISSA = {
+    "clamped-clamped-clamped-clamped": [35.992, 73.413, 73.413, 108.27, 131.64],
+    "cantilever": [3.4917, 8.5246, 21.429, 27.331, 31.111],
+    "simply-supported": [19.739, 49.348, 49.348, 78.957, 98.696],
+    "free": [13.489, 19.789, 24.432, 35.024, 35.024],
+    "clamped-free-clamped-free": [22.272, 26.529, 43.664, 61.466, 67.549],
+    "simply-supported-free-simply-supported-free": [9.6314, 16.135, 36.726, 38.945, 46.738],
+    "clamped-clamped-free-free": [6.9421, 24.034, 26.681, 47.785, 63.039],
+    "simply-supported-clamped-simply-supported-clamped": [28.951, 54.743, 69.327, 94.585, 102.216],
+}
+
+
+@pytest.mark.parametrize("boundary", LEISSA)
+def test_plates_on_any_edges_have_their_published_frequencies_and_no_rigid_modes(zn1, boundary):
+    square = replace(zn1.bare, boundary=boundary, length_m=0.2, width_m=0.2, elements=(30, 30))
     face = square.substrate
     D = face.young_pa * face.thickness_m**3 / (12 * (1 - 0.3**2))
     scale = 0.2**2 * np.sqrt(face.density_kg_m3 * face.thickness_m / D)
-    np.testing.assert_allclose(
-        real_modes(Plate(square), 0.0, 3).omega * scale, [13.489, 19.789, 24.432], rtol=1e-2
-    )
+    found = real_modes(Plate(square), 0.0, 5).omega * scale
+    np.testing.assert_allclose(found, LEISSA[boundary], rtol=1e-2)
+
+
+@pytest.mark.parametrize(
+    ("boundary", "rigid"),
+    [("free", 6), ("cantilever", 0), ("simply-supported", 0), ("simply-supported-free-free-free", 3)],
+)
+def test_rigid_motions_cost_no_energy(coarse, boundary, rigid):
+    plate = Plate(replace(coarse, boundary=boundary))
+    R = plate.rigid
+    assert R.shape == (plate.size, rigid)
+    strained = np.abs(R.T @ (plate.K_0.real + 1e6 * plate.K_1) @ R)
+    assert np.all(strained < 1e-9 * (plate.K_0.real.diagonal() @ np.square(R)).max(initial=1e-9))
+
+
+def test_edges_one_by_one_are_the_boundary_that_has_a_name(coarse):
+    by_edges = replace(coarse, boundary="clamped-free-free-free")
+    assert by_edges == coarse
+    turned = replace(coarse, boundary="free-clamped-free-free", length_m=coarse.width_m)
+    assert turned.edges == ("free", "clamped", "free", "free")
+    for nonsense in ("clamped-free-free", "glued-free-free-free", "", "free-free"):
+        with pytest.raises(OutsideModel, match="expected 'cantilever'"):
+            replace(coarse, boundary=nonsense)
 
 
 def test_default_mesh_is_within_a_thousandth_of_its_limit_and_errors_shrink_quadratically(zn1):

@@ -318,3 +318,13 @@ def test_a_long_strip_in_torsion_loses_saint_venants_share(zn1):
     modes = real_modes(Plate(strip), 0.0, 8)
     h_over_b = strip.substrate.thickness_m / strip.width_m
     assert edge_softening(Plate(strip), modes).max() == pytest.approx(0.63 * h_over_b / 2, rel=0.03)
+
+
+def test_a_sensor_on_a_free_plate_takes_its_share_of_every_mode(zn1):
+    free = Plate(replace(zn1.bare, boundary="free", elements=(20, 14)))
+    modes = real_modes(free, 0.0, 4)
+    light, at = 1e-5, (0.02, 0.03)
+    loaded = loaded_modes(free, modes, Sensor(light, *at))
+    # Rayleigh's quotient, to first order in the mass: the shapes have unit modal mass.
+    expected = -0.5 * light * (free.observe(*at) @ modes.shapes) ** 2
+    np.testing.assert_allclose(loaded.omega / modes.omega - 1, expected, rtol=1e-2)
