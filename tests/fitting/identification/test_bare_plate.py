@@ -324,7 +324,7 @@ def test_a_sensor_on_a_free_plate_takes_its_share_of_every_mode(zn1):
     free = Plate(replace(zn1.bare, boundary="free", elements=(20, 14)))
     modes = real_modes(free, 0.0, 4)
     light, at = 1e-5, (0.02, 0.03)
-    loaded = loaded_modes(free, modes, Sensor(light, *at))
+    loaded = loaded_modes(free, modes, CarriedSensor(light, *at))
     # Rayleigh's quotient, to first order in the mass: the shapes have unit modal mass.
     expected = -0.5 * light * (free.observe(*at) @ modes.shapes) ** 2
     np.testing.assert_allclose(loaded.omega / modes.omega - 1, expected, rtol=1e-2)
