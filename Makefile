@@ -27,6 +27,7 @@ checks: lint types contracts ## style, types and import directions
 lint: $(READY)
 	@$(BIN)/ruff check .
 	@$(BIN)/ruff format --check .
+	@$(BIN)/python scripts/docstrings.py
 
 types: $(READY)
 	@$(BIN)/mypy

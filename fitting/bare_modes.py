@@ -25,7 +25,10 @@ class CarriedSensor:
 
 
 def bare_modes(plate: Plate, count: int, sensor: CarriedSensor | None = None) -> tuple[RealModes, Array]:
-    """The bare plate's modes as plate theory has them, the sensor on it, and their `edge_softening`."""
+    """The bare plate's modes as plate theory has them, the sensor on it, and their `edge_softening`.
+
+    The last of shape (modes,).
+    """
     modes = real_modes(plate, 0.0, count)
     if sensor is not None:
         modes = loaded_modes(plate, modes, sensor)
@@ -53,6 +56,7 @@ def edge_softening(plate: Plate, modes: RealModes) -> Array:
 
     Saint-Venant's torsion of a strip has J = b h^3 / 3 (1 - 0.63 h / b): near a free edge the shear flow
     turns over, as if a width of 0.315 h carried no twist. Its energy, D (1 - nu) kappa_xy^2 an area, goes.
+    Shape (modes,).
     """
     face, mesh = plate.specimen.substrate, plate.mesh
     h = face.thickness_m
@@ -80,7 +84,10 @@ def _edge_integral(slope: Array, step_m: float) -> Array:
 
 
 def clamp_softness(plate: Plate, modes: RealModes) -> Array:
-    """Fall of ln f for a root that yields in rotation, one for mode 1; zero without a clamp."""
+    """Fall of ln f for a root that yields in rotation, one for mode 1; zero without a clamp.
+
+    Shape (modes,).
+    """
     if plate.specimen.boundary != "cantilever":
         return np.zeros(len(modes.omega))
     mesh = plate.mesh

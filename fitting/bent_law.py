@@ -38,7 +38,7 @@ class BentLaw(CoreLaw):
 
     @classmethod
     def over(cls, law: CoreLaw, frequency_hz: Array, freedom: float = 1.0) -> "BentLaw":
-        """`law` unbent, free to bend over a range of frequencies."""
+        """`law` unbent, free to bend over a range of frequencies, given in any shape."""
         low, high = float(np.min(frequency_hz)), float(np.max(frequency_hz))
         count = 2 + int(np.log(high / low) / _A_KNOT)
         knots = tuple(float(f) for f in np.geomspace(low, high, count))
@@ -75,7 +75,7 @@ class BentLaw(CoreLaw):
         return [*self.law.limits, *(_BEND,) * len(self.bend)]
 
     def with_values(self, values: Array) -> Self:
-        """The same law with other parameters and another bend."""
+        """The same law with other parameters and another bend. Shape (names,)."""
         n = len(self.law.names)
         bend = tuple(float(v) for v in values[n:])
         return type(self)(self.law.with_values(values[:n]), self.knots_hz, bend, self.freedom)

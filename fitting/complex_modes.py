@@ -50,7 +50,8 @@ def complex_modes(
 ) -> list[ComplexMode]:
     """The first `count` elastic modes; `law` None for a bare plate.
 
-    Real modes at a few moduli span the start; each mode is then corrected on the full plate.
+    Real modes at a few moduli span the start; each mode is then corrected on the full plate. Raises
+    `OutsideModel` for no mode, or more than half of the mesh's degrees of freedom.
     """
     if not 0 < count <= plate.size // 2:
         raise OutsideModel(f"{count} modes asked for, expected 1 to {plate.size // 2}")

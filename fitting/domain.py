@@ -35,7 +35,7 @@ class Domain:
         return omega, size * np.exp(1j * np.arctan(u * self.loss))
 
     def grid(self, n_omega: int, n_modulus: int, losses: tuple[float, ...]) -> tuple[Array, Complex]:
-        """Frequency (rad/s) and G* over the domain, flattened."""
+        """Frequency (rad/s) and G* over the domain, flattened. Shape (n,) each."""
         points = [
             self.point(s, t, u)
             for s in np.linspace(0, 1, n_omega)
@@ -45,7 +45,10 @@ class Domain:
         return np.array([p[0] for p in points]), np.array([p[1] for p in points])
 
     def widened(self, law: CoreLaw, frequency_hz: Array) -> "Domain":
-        """The domain with a law's moduli at `frequency_hz` well inside, whole decades at a time."""
+        """The domain with a law's moduli at `frequency_hz` well inside, whole decades at a time.
+
+        Shape (n,).
+        """
         G = law.modulus(2 * np.pi * frequency_hz)
         low, high = np.abs(G).min() / _MARGIN, np.abs(G).max() * _MARGIN
         loss = float(np.max(G.imag / G.real))
@@ -63,7 +66,7 @@ class Domain:
 def domain_of(specimen: Specimen, frequency_hz: Array) -> Domain:
     """The default domain, stretched over `frequency_hz` and the specimen's law where they lie outside.
 
-    Raises `OutsideModel` where the mesh is too coarse for the highest frequency.
+    `frequency_hz` of shape (n,). Raises `OutsideModel` where the mesh is too coarse for the highest.
     """
     highest, limit = float(np.max(frequency_hz)), highest_frequency_hz(specimen)
     if highest > limit:

@@ -32,22 +32,22 @@ class HalfPlate:
         """Of each of the columns of `Plate.even` or `Plate.odd` among those of `P`."""
 
     def blocks(self, A: sp.sparray) -> NDArray[np.float64] | Complex:
-        """A matrix of the plate on these motions."""
+        """A matrix of the plate on these motions. Shape (values,)."""
         return self.chain.blocks(self.down @ A @ self.P)
 
     @cached_property
     def M(self) -> Array:
-        """Mass."""
+        """Mass. Shape (values,)."""
         return np.asarray(self.blocks(self.plate.M))
 
     @cached_property
     def K_0(self) -> Array | Complex:
-        """The faces' stiffness."""
+        """The faces' stiffness. Shape (values,)."""
         return self.blocks(self.plate.K_0)
 
     @cached_property
     def K_1(self) -> Array:
-        """The core's, for a modulus of one."""
+        """The core's, for a modulus of one. Shape (values,)."""
         return np.asarray(self.blocks(self.plate.K_1))
 
     def solver(

@@ -52,7 +52,10 @@ def factorise(A: sp.sparray) -> Callable[[NDArray[Any]], NDArray[Any]]:
 
 
 def times(A: sp.sparray, X: NDArray[Any]) -> NDArray[Any]:
-    """A X for a real sparse matrix: complex columns as pairs of real ones, several times faster."""
+    """A X for a real sparse matrix: complex columns as pairs of real ones, several times faster.
+
+    Shapes (n, m), and (m,) or (m, columns).
+    """
     if not np.iscomplexobj(X) or np.iscomplexobj(A.dtype.type(0)):
         return np.asarray(A @ X)
     pairs = np.ascontiguousarray(X).view(np.float64)
@@ -162,7 +165,10 @@ def _inverse(A: NDArray[Any]) -> NDArray[Any]:
 def with_damping(
     solve: Callable[[NDArray[Any]], NDArray[Any]], omega: float, U: NDArray[Any], d: NDArray[Any]
 ) -> Callable[[NDArray[Any]], NDArray[Any]]:
-    """The solver of A + i omega U diag(d) U^T from that of A, by the Woodbury identity."""
+    """The solver of A + i omega U diag(d) U^T from that of A, by the Woodbury identity.
+
+    `U` of shape (n, modes), `d` (modes,).
+    """
     if not d.size:
         return solve
     Z = solve(U)

@@ -33,7 +33,7 @@ class ModelError:
 
 
 def model_error_at(specimen: Specimen, frequency_hz: Array, G: Complex) -> ModelError:
-    """Around some frequencies, the core's modulus there given."""
+    """Around some frequencies, the core's modulus there given. Shape (points,) each."""
     found = theory_error(specimen, frequency_hz, G)
     layers = (specimen.substrate, specimen.core, specimen.constraining)
     thickness = sum(layer.thickness_m for layer in layers if layer is not None)

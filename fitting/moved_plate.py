@@ -13,7 +13,10 @@ from fitting.reduced import ReducedPlate
 def moved_plate(
     reduced: ReducedPlate, nuisances: Nuisances, plate: EnrichedReducedPlate, z: Array
 ) -> ReducedPlate:
-    """A reduced plate with its stated numbers moved; `plate` has the same columns."""
+    """A reduced plate with its stated numbers moved; `plate` has the same columns.
+
+    `z` of shape (numbers,).
+    """
     change = nuisances.change(plate, z)
     damping = change.damping[reduced.mode] if np.ndim(change.damping) else change.damping
     return replace(

@@ -62,7 +62,7 @@ def scatter_over_stated(sweep: Sweep) -> float | None:
 
 
 def groups_of(sweep: Sweep) -> list[NDArray[np.intp]]:
-    """Points of one segment, one pass and one level: each group a curve of its own."""
+    """Points of one segment, one pass and one level: each group a curve of its own. Shape (n,) each."""
     keys = np.column_stack([sweep.segment, sweep.sweep, np.round(sweep.commanded_m_s2, 9)])
     _, which = np.unique(keys, axis=0, return_inverse=True)
     return [np.flatnonzero(which.ravel() == k) for k in range(int(which.max()) + 1)]

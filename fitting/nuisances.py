@@ -215,7 +215,7 @@ class Nuisances:
         return plate.row(x, y)
 
     def rows_by(self, plate: EnrichedReducedPlate, z: Array) -> dict[int, Array]:
-        """Derivatives of `row` to those that move it."""
+        """Derivatives of `row` to those that move it, by number. Shape (k,) each, of `z` (numbers,)."""
         (x, by_x), (y, by_y) = self._read_at(z)
         found: dict[int, Array] = {}
         for slopes, (dx, dy) in ((by_x, (1, 0)), (by_y, (0, 1))):

@@ -174,7 +174,10 @@ def layers_of(specimen: Specimen) -> Array:
 
 
 def specimen_of(size: Array, layers: Array) -> Specimen:
-    """As far as `coefficients` asks: `size` gives length and width in m and elements along each."""
+    """As far as `coefficients` asks: `size` gives length and width in m and elements along each.
+
+    Shapes (4,) and (3, 5), see `layers_of`.
+    """
     substrate, constraining = (Face(*row) for row in layers[:2].tolist())
     thickness, _, poisson, density, _ = layers[2].tolist()
     length, width, n_x, n_y = size.tolist()

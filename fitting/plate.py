@@ -191,7 +191,10 @@ class Plate:
 
     @cached_property
     def base_load(self) -> Array:
-        """-M r: the load of a unit base acceleration along +w, Eq. (5). Shape (n,)."""
+        """-M r: the load of a unit base acceleration along +w, Eq. (5). Shape (n,).
+
+        Raises `OutsideModel` for a free plate.
+        """
         if self.specimen.boundary == "free":
             raise OutsideModel("a free plate has no base to be excited by, expected another boundary")
         r = np.zeros((self.mesh.nodes, DOFS))
@@ -243,7 +246,11 @@ class Plate:
 
     @cached_property
     def pickup(self) -> Array:
-        """The row that reads w at the specimen's pickup. Shape (n,)."""
+        """The row that reads w at the specimen's pickup. Shape (n,).
+
+        Raises `OutsideModel` without a pickup, off the plate, and on a held edge where the reading is
+        relative.
+        """
         if self.specimen.pickup_m is None:
             raise OutsideModel("[pickup] is missing, expected x_mm and y_mm of the measured spot")
         row = self.observe(*self.specimen.pickup_m)
@@ -253,7 +260,10 @@ class Plate:
         return row
 
     def observe(self, x_m: float, y_m: float) -> Array:
-        """The row that reads w at a point, by the shape functions; a unit force there too. Shape (n,)."""
+        """The row that reads w at a point, by the shape functions; a unit force there too. Shape (n,).
+
+        Raises `OutsideModel` for a point off the plate.
+        """
         L, B = self.mesh.length_m, self.mesh.width_m
         if not (0 <= x_m <= L and 0 <= y_m <= B):
             raise OutsideModel(

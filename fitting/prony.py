@@ -38,11 +38,11 @@ class Prony:
 
     @property
     def shares(self) -> Array:
-        """G_k over the instantaneous modulus: their sum is below one."""
+        """G_k over the instantaneous modulus: their sum is below one. Shape (terms,)."""
         return np.asarray(self.g_pa / self.g_0_pa)
 
     def modulus(self, omega: Array) -> Complex:
-        """G* in Pa."""
+        """G* in Pa. Shape of `omega`."""
         s = 1j * np.multiply.outer(omega, self.tau_s)
         return np.asarray(self.g_inf_pa + (s / (1 + s)) @ self.g_pa)
 
@@ -50,7 +50,10 @@ class Prony:
 def fit_prony(
     modulus: Callable[[Array], Complex], low_hz: float, high_hz: float, wanted: float = 0.01
 ) -> Prony:
-    """The series with the fewest terms whose largest error is at most `wanted`; else the best there is."""
+    """The series with the fewest terms whose largest error is at most `wanted`; else the best there is.
+
+    `modulus`: rad/s to Pa, shape (n,) both.
+    """
     omega = 2 * np.pi * np.geomspace(low_hz, high_hz, _POINTS)
     G = modulus(omega)
     best: Prony | None = None

@@ -50,7 +50,7 @@ class RationalSweep:
         return cq.sum(axis=1), -np.einsum("pk,pk,pk->p", cq, q, self.mu)
 
     def at(self, index: NDArray[np.intp]) -> "RationalSweep":
-        """The same sum at some of the frequencies."""
+        """The same sum at some of the frequencies. Shape (n,)."""
         return RationalSweep(self.omega[index], self.G_ref, self.c[index], self.mu[index])
 
 

@@ -22,7 +22,10 @@ class RealModes:
 
 
 def real_modes(plate: Plate, G: float, count: int) -> RealModes:
-    """The first `count` elastic modes at the real core modulus `G` in Pa."""
+    """The first `count` elastic modes at the real core modulus `G` in Pa.
+
+    Raises `OutsideModel` where the mesh has hardly more degrees of freedom than that.
+    """
     if count + 8 > plate.size:
         raise OutsideModel(f"{count} modes asked of a mesh of {plate.size} degrees of freedom, refine [mesh]")
     K = (plate.K_0.real + G * plate.K_1).tocsc()

@@ -126,7 +126,7 @@ class Specimen:
         return replace(self, constraining=None, core=None)
 
     def with_law(self, law: CoreLaw) -> "Specimen":
-        """The same plate with another core law."""
+        """The same plate with another core law. Raises `ValueError` for a bare one."""
         if self.core is None:
             raise ValueError("a bare plate has no core to give a law to")
         return replace(self, core=replace(self.core, law=law))

@@ -219,7 +219,7 @@ class AppController(QObject):
         self._opening.failed.connect(self._not_opened)
 
     def _opened(self) -> None:
-        """The session has a picture: only now does it take the other's place."""
+        """The session has a state to show: only now does it take the other's place."""
         feed, self._opening = self._opening, None
         if feed is None:
             return

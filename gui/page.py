@@ -10,11 +10,11 @@ from gui.state import SessionState, Topic
 
 
 class Page(QWidget):
-    """One view of the picture. Subclasses say `title` and draw in `refresh`.
+    """One view of the session state. Subclasses say `title` and draw in `refresh`.
 
     Parameters
     ----------
-    desk : AppController
+    controller : AppController
         What a person can do here.
     """
 
@@ -38,7 +38,7 @@ class Page(QWidget):
         """There is no session (any more). Nothing by default."""
 
     def news(self, *topics: Topic) -> bool:
-        """Whether one of the topics changed since this was last asked; also true for another picture."""
+        """Whether one of the topics changed since this was last asked; also true for another session."""
         assert self._picture is not None
         fresh = False
         for topic in topics:
@@ -48,7 +48,7 @@ class Page(QWidget):
         return fresh
 
     def show_state(self, state: SessionState | None) -> None:
-        """From the window, at every turn: the picture there is now."""
+        """From the window, at every turn: the state there is now."""
         self._picture = state
         if self.isVisible():
             self._draw()

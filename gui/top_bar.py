@@ -28,7 +28,7 @@ _EDGE_PX = 2
 
 
 class TopBar(QFrame):
-    """Reads the picture, acts on the desk."""
+    """Reads the session state, acts on the controller."""
 
     def __init__(self, controller: AppController, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -45,12 +45,12 @@ class Identification(Facts[IdentificationResult]):
 
     @property
     def storage_modulus_pa(self) -> Array:
-        """G' at `frequency_hz`."""
+        """G' at `frequency_hz`. Shape (frequencies,)."""
         return np.asarray(self.to_numpy()["storage_modulus_pa"])
 
     @property
     def loss_factor(self) -> Array:
-        """Loss modulus over storage modulus, G''/G' at `frequency_hz`."""
+        """Loss modulus over storage modulus, G''/G' at `frequency_hz`. Shape (frequencies,)."""
         return np.asarray(self.to_numpy()["loss_factor"])
 
     @property

@@ -54,7 +54,7 @@ def plot_laws(ax: Axes | None, laws: Mapping[str, Columns]) -> Axes:
 
 
 def plot_amplitude(ax: Axes | None, frequency_hz: Array, amplitude_m_s: Array, style: str, name: str) -> Axes:
-    """Velocity amplitude over frequency."""
+    """Velocity amplitude over frequency. Shape (points,) each."""
     ax, order = axes_of(ax), np.argsort(frequency_hz)
     color = DATA if style == "o" else MODEL
     ax.semilogy(frequency_hz[order], amplitude_m_s[order], style, color=color, markersize=4, label=name)

@@ -102,7 +102,10 @@ class ModbusShakerServer:
             ) from self._failure
 
     def stop(self) -> None:
-        """End serving and drop every connection; also twice. The device stays as it is."""
+        """End serving and drop every connection; also twice. The device stays as it is.
+
+        Raises `TimedOut` where it serves on, `DriverError` for what made serving fail before.
+        """
         if self._thread is None:
             return
         if self._loop is not None and self._ending is not None:

@@ -29,7 +29,7 @@ class DampedPlate:
         self.plant.drive(piece)
 
     def at(self, output: str, first_s: float, step_s: float, count: int) -> Array:
-        """An output by its name; force and response are not there."""
+        """An output by its name; force and response are not there. Shape (count,)."""
         if output == "temperature":
             return self._temperature_c(np.asarray(first_s + step_s * np.arange(count), dtype=float))
         if output in ("force", "response_acceleration"):
@@ -61,7 +61,10 @@ class SimulatedBarePlate:
         self.plant = StruckPlate(hit_m, response_m, self._sensor_mass_kg, self._effects)
 
     def hit(self, now_s: float) -> None:
-        """One blow soon, a little harder or softer than the last."""
+        """One blow soon, a little harder or softer than the last.
+
+        Raises `ValueError` before it is known where to.
+        """
         if self.plant is None:
             raise ValueError("nobody said where to hit")
         self._hits += 1
@@ -72,7 +75,7 @@ class SimulatedBarePlate:
             self.plant.strike(Pulse(begin + _BOUNCE_S, _WIDTH_S, _BOUNCE_SHARE * peak))
 
     def at(self, output: str, first_s: float, step_s: float, count: int) -> Array:
-        """Force and the response sensor's acceleration; nothing else is there."""
+        """Force and the response sensor's acceleration; nothing else is there. Shape (count,)."""
         if output == "temperature":
             return np.full(count, AMBIENT_C)
         if self.plant is None or output not in ("force", "response_acceleration"):

@@ -48,7 +48,7 @@ class Input:
         self._random = np.random.default_rng(seed)
 
     def convert(self, signal: Array, hum_v: Array) -> Converted:
-        """Counts of a signal in the sensor's unit."""
+        """Counts of a signal in the sensor's unit. Shape (samples,)."""
         s = self.sensor
         volts = np.clip(signal * s.volts_per_unit, -_CLIP * s.limit_v, _CLIP * s.limit_v) + hum_v
         if s.noise_v:
@@ -59,7 +59,7 @@ class Input:
 
 
 def hum(amplitude_v: float, mains_hz: float, first_s: float, step_s: float, count: int) -> Array:
-    """What the mains put on a cable."""
+    """What the mains put on a cable, in V. Shape (count,)."""
     if not amplitude_v:
         return np.zeros(count)
     angle = 2 * np.pi * mains_hz * (first_s + step_s * np.arange(count))

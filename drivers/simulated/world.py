@@ -34,7 +34,7 @@ class MountedPlate(Protocol):
         ...
 
     def at(self, output: str, first_s: float, step_s: float, count: int) -> Array:
-        """An output by its name."""
+        """An output by its name. Shape (count,)."""
         ...
 
 

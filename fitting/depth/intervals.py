@@ -27,7 +27,7 @@ class Intervals:
 
     @classmethod
     def of_logs(cls, method: str, quantities: Quantities, bounds: dict[int, Array]) -> "Intervals":
-        """From bounds of the logarithms; linear ones from the fit's own covariance."""
+        """From bounds of the logarithms; linear ones from the fit's own covariance. Shape (quantities, 2)."""
         task = quantities.task
         at, slope = quantities.logs(task.mode), quantities.gradient(task.mode)
         error = np.linalg.norm(slope @ task.root, axis=1)

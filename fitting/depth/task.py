@@ -1,7 +1,7 @@
 """What the deeper looks share: the joint fit's residuals in units of what they are worth, and where it ended.
 
-The rows are those of the linear errors (`Fitted.weighted`): readings and priors over their misfit, below them
-the ranges that are searched, about the fit. A parameter at its limit stays there.
+The rows are those of the linear errors (`Refitted.weighted`): readings and priors over their misfit, below
+them the ranges that are searched, about the fit. A parameter at its limit stays there.
 """
 
 from dataclasses import dataclass
@@ -44,7 +44,7 @@ class DepthTask:
 
     @cached_property
     def kept(self) -> Mask:
-        """Which of them may move."""
+        """Which of them may move. Shape (unknowns,)."""
         fixed = limits_reached(self.law)
         names = self.law.names
         return np.array([n not in fixed for n in names] + [True] * (len(self.whole) - len(names)))
@@ -56,13 +56,16 @@ class DepthTask:
 
     @cached_property
     def limits(self) -> tuple[Array, Array]:
-        """Of what may move."""
+        """Of what may move. Shape (kept,) each."""
         low, high = self.problem.limits
         return low[self.kept], high[self.kept]
 
     @cached_property
     def worth(self) -> Array:
-        """What every row of the fit is divided by: its misfit, never below one where the noise is known."""
+        """What every row of the fit is divided by: its misfit, never below one where the noise is known.
+
+        Shape (rows,).
+        """
         none = self.begun.none
         chi2 = none.chi2_per_dof
         scale = chi2 if np.isfinite(chi2) and chi2 > 0 else 1.0

@@ -85,7 +85,10 @@ def begin(
 
 
 def within_search(law: CoreLaw, omega: Array) -> CoreLaw:
-    """The law of the ranges that are searched whose modulus is nearest to a law's; itself where it is one."""
+    """The law of the ranges that are searched whose modulus is nearest to a law's; itself where it is one.
+
+    `omega` in rad/s, shape (points,).
+    """
     low, high = np.log([q.search for q in law.limits]).T
     logs = np.log(law.values)
     if np.all((logs >= low) & (logs <= high)):

@@ -34,7 +34,7 @@ class Budget:
 
 
 def budget_of(begun: Begun, frequency_hz: Array) -> Budget:
-    """To first order, about where the fit without effects ended."""
+    """To first order, about where the fit without effects ended. Shape (frequencies,)."""
     none, law = begun.none, begun.none.law
     J, kept = none.weighted()
     size = np.linalg.norm(J, axis=0)

@@ -247,7 +247,10 @@ def has_place(effect: Effect) -> bool:
 def polished(
     problem: DiagnosisProblem, effects: Sequence[Effect], evidence: Evidence, law: CoreLaw, u: Array
 ) -> Refitted:
-    """A fit to the end, its grid made for the law it starts from, and again where the law has moved far."""
+    """A fit to the end, its grid made for the law it starts from, and again where the law has moved far.
+
+    `u` of shape (unknowns,).
+    """
     for _ in range(_ROUNDS):
         fitted = refit(response_of(problem.around(law), effects), evidence, law, u)
         if fitted.chi2_per_dof > SEARCH.hopeless:

@@ -33,7 +33,10 @@ Settle = Callable[[Search, Judgement], Judgement]
 
 
 def seen_in_channels(sweep: Sweep, effects: Sequence[Effect]) -> tuple[Mask, tuple[FoundEffect, ...], Noise]:
-    """Points fit for use, what the channels show by themselves, and the noise of the points in use."""
+    """Points fit for use, what the channels show by themselves, and the noise of the points in use.
+
+    The first of shape (points,).
+    """
     used, found = np.ones(len(sweep), bool), []
     noise = noise_of(sweep)
     for effect in effects:
@@ -60,11 +63,12 @@ def diagnose_task(
     resamples: int | None = None,
     settle: Settle | None = None,
 ) -> Diagnosis:
-    """Everything that can be said of a sweep's residual; `task` holds the points in use.
+    """Everything that can be said of a sweep's residual; `problem` holds the points in use.
 
-    With `accepted_by_hand` these effects are fitted and nothing is searched for. `remade` gives the task of
-    some of the points; with it the search is repeated on `resamples` sweeps without effects (None: where
-    points are few) and with points held out. `settle` has the last word on the judgement.
+    With `accepted_by_hand` these effects are fitted and nothing is searched for. `used` says which of the
+    sweep's points the problem holds, shape (points,). `remade` gives the problem of some of the points; with
+    it the search is repeated on `resamples` sweeps without effects (None: where points are few) and with
+    points held out. `settle` has the last word on the judgement.
     """
     given = problem
     begun = begin(problem, reduced, noise, bare, start)

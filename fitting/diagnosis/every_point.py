@@ -26,5 +26,5 @@ class EveryPoint(Nodes):
         return self
 
     def spread(self, values: Complex, first: Complex, second: Complex) -> Complex:
-        """The values as they are."""
+        """The values as they are. Shape (points,) at the end."""
         return values

@@ -167,11 +167,11 @@ class Evidence:
         return np.concatenate([z.real, z.imag], axis=-1) if self.has_phase else np.real(z)
 
     def parts(self, points: Mask) -> Mask:
-        """Which data belong to some points."""
+        """Which data belong to some points. Shape (data,), from (points,)."""
         return np.tile(points, 2) if self.has_phase else points
 
     def take(self, points: Mask) -> "Evidence":
-        """Some of the points; the bare plate stays."""
+        """Some of the points; the bare plate stays. `points` of shape (all points,), true or false."""
         return Evidence(
             self.measured_m_s[points],
             self.sigma_m_s[points],

@@ -85,7 +85,10 @@ class Nodes:
         )
 
     def around(self, poles: Callable[[float, float], Complex]) -> "Nodes":
-        """The same, made for a plate whose poles near two frequencies (rad/s) are known."""
+        """The same, made for a plate whose poles near two frequencies (rad/s) are known.
+
+        `poles` gives shape (any,).
+        """
         found, nearest = [], []
         for number in np.unique(self.cluster):
             here = np.flatnonzero(self.cluster == number)

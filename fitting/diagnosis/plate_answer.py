@@ -28,7 +28,7 @@ class ModulusNear:
     """dG/d omega, Pa s."""
 
     def at(self, p: Complex) -> Complex:
-        """Near the frequency of the same place."""
+        """At p near the frequency of the same place. Shape of `omega`."""
         return np.asarray(self.G + self.slope * (p - self.omega))
 
 
@@ -65,7 +65,7 @@ def answer(
 
     `pole_node` has a node near every pole wanted, `modulus` what is near them; `nearby` for every unknown the
     changes a step above and below, and the step between them. `nuisances` with where they are: `change` has
-    what they change in it.
+    what they change in it. Shape (nodes,) for `omega` and `G`, (poles,) for `pole_node`.
     """
     C_1 = (plate.U * (plate.d * change.damping)) @ plate.U.T
     K_1 = plate.K_1 + change.K_1

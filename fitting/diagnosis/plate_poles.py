@@ -25,7 +25,7 @@ class PlatePoles:
         self._found: dict[tuple[float, float], Complex] = {}
 
     def near(self, low: float, high: float) -> Complex:
-        """In and beside a range (rad/s), the law continued off the real axis to first order."""
+        """In and beside a range (rad/s), the law continued off the real axis to first order. Shape (any,)."""
         key = round(low, 6), round(high, 6)
         if key not in self._found:
             self._found[key] = self._near(low, high)
@@ -49,7 +49,7 @@ class PlatePoles:
         return found
 
     def moved(self, poles: Complex, modulus: ModulusNear) -> Complex:
-        """Where poles that were found have gone under another modulus."""
+        """Where poles that were found have gone under another modulus. Shape (poles,)."""
         if not len(poles):
             return poles
         y = np.array([self._known[complex(p)] for p in poles])

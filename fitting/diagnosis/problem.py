@@ -41,12 +41,12 @@ class NodeGrid:
     """Of the unchanged plate, as the nodes are made for them."""
 
     def modulus_near_poles(self, G: Complex) -> ModulusNear:
-        """G* near every pole, from its values at the nodes."""
+        """G* near every pole, from its values at the nodes. `G` of shape (nodes,)."""
         at = self.nodes.pole_node
         return ModulusNear(self.nodes.omega[at], G[at], self.nodes.slope(G))
 
     def unchanged_poles(self, G: Complex) -> Complex:
-        """Of the unchanged plate under a modulus, given at the nodes."""
+        """Of the unchanged plate under a modulus, given at the nodes. Shape (poles,), of `G` (nodes,)."""
         if self.poles is None:
             return self.nodes.poles
         return self.poles.moved(self.nodes.poles, self.modulus_near_poles(G))
@@ -80,7 +80,7 @@ class DiagnosisProblem:
         rational: Callable[[Array], RationalSweep],
         reference: Specimen | None = None,
     ) -> "DiagnosisProblem":
-        """`rational` gives the unchanged plate's sum on an ascending grid in rad/s.
+        """`rational` gives the unchanged plate's sum on an ascending grid in rad/s, shape (grid,).
 
         `plate` and `rational` are of `reference`, a specimen like this one, where that is given.
         """
@@ -126,16 +126,22 @@ class DiagnosisProblem:
         return 1.0
 
     def model_error(self, law: CoreLaw, v: Complex) -> Complex | None:
-        """Changes of the velocity `v` by what the model gets wrong; None for a plate, see `model_error`."""
+        """Changes of the velocity `v` by what the model gets wrong; None for a plate, see `model_error`.
+
+        Shape (causes, points).
+        """
         return None
 
     def adjusted(self, z: Array, errors: Array) -> tuple[Adjusted, ...]:
-        """The stated numbers as a fit has them, and their errors, in standard deviations of tolerances."""
+        """The stated numbers as a fit has them, and their errors, in standard deviations of tolerances.
+
+        Shape (numbers,) each.
+        """
         return adjusted(self.specimen, self.nuisances.each, z, errors)
 
     @property
     def as_stated(self) -> Array:
-        """Where every stated number is what it is stated to be."""
+        """Where every stated number is what it is stated to be. Shape (numbers,)."""
         return np.zeros(len(self.nuisances))
 
     def around(self, law: CoreLaw) -> "DiagnosisProblem":

@@ -28,7 +28,7 @@ class Refitted:
     effects: tuple[Effect, ...]
     law: CoreLaw
     u: Array
-    """The stated numbers, in standard deviations, then the effects' unknowns."""
+    """The stated numbers, in standard deviations, then the effects' unknowns. Shape (unknowns,)."""
     velocity_m_s: Complex
     residuals: Array
     """Whitened; the bare plate's after the sweep's, then the stated numbers'."""
@@ -62,13 +62,13 @@ class Refitted:
         return float(np.sum(self.residuals[: self.data] ** 2) / dof) if dof > 0 else float("nan")
 
     def of(self, effect: Effect) -> Array:
-        """The unknowns of one of its effects."""
+        """The unknowns of one of its effects. Shape (parameters,)."""
         start = self.stated + sum(len(e.parameters) for e in self.effects[: self.effects.index(effect)])
         return self.u[start : start + len(effect.parameters)]
 
     @property
     def z(self) -> Array:
-        """The stated numbers, in standard deviations of their tolerances."""
+        """The stated numbers, in standard deviations of their tolerances. Shape (numbers,)."""
         return self.u[: self.stated]
 
     @property
@@ -81,7 +81,7 @@ class Refitted:
         """Of the fitted parameters, scaled by the residual: only upwards where the noise is known.
 
         A parameter of the law that sits at a limit is taken as fixed there; what the data leave open is
-        bounded by the ranges that are searched.
+        bounded by the ranges that are searched. Shape (columns, columns) of `jacobian`.
         """
         J, kept = self.weighted()
         found = np.zeros((len(kept), len(kept)))
@@ -97,7 +97,8 @@ class Refitted:
     def weighted(self) -> tuple[Array, Mask]:
         """The Jacobian of what may move, its rows of unit variance, and which columns those are.
 
-        Below the rows of `residuals` stand those of the ranges that are searched, one a parameter.
+        Below the rows of `residuals` stand those of the ranges that are searched, one a parameter. Shapes
+        (rows, kept) and (columns,).
         """
         chi2 = self.chi2_per_dof
         scale = chi2 if np.isfinite(chi2) else 1.0
@@ -130,7 +131,7 @@ def refit(
 ) -> Refitted:
     """The best law and unknowns from `law` and `u` on; `points` limits the sweep's points that count.
 
-    `brief` where little is to be gained.
+    Shapes: `u` as in `Refitted`, `points` (points,). `brief` where little is to be gained.
     """
     problem = JointProblem(response, evidence, law, u, points)
     lower, upper = problem.limits
@@ -158,7 +159,7 @@ def _most(tolerance: float) -> int:
 
 
 def posterior(response: SweepResponse, evidence: Evidence, fitted: Refitted) -> Array:
-    """`Fitted.covariance`, wider where chi-square is flatter than its curvature says.
+    """`Refitted.covariance`, wider where chi-square is flatter than its curvature says. Shape as there.
 
     Looked at along the directions of the stated numbers that the fit has moved by more than a standard
     deviation: one posterior standard deviation off, chi-square must have risen by one.
@@ -182,7 +183,7 @@ def posterior(response: SweepResponse, evidence: Evidence, fitted: Refitted) -> 
 
 
 def kept(response: SweepResponse, evidence: Evidence, law: CoreLaw, u: Array) -> Refitted:
-    """As `refit`, nothing moved."""
+    """As `refit`, nothing moved. Shape of `u` as in `Refitted`."""
     problem = JointProblem(response, evidence, law, u, None)
     lower, upper = problem.limits
     return problem.fitted(np.clip(problem.start, lower, upper))
@@ -241,7 +242,7 @@ class JointProblem:
         return self.law.with_logs(x[: self._n]), self._to_outer(t)
 
     def residuals(self, x: Array) -> Array:
-        """Whitened, as `Fitted.residuals`."""
+        """Whitened, as `Refitted.residuals`. Shape (rows,)."""
         return self._both(x)[0]
 
     def jacobian(self, x: Array) -> Array:
@@ -306,7 +307,7 @@ class JointProblem:
         return np.log(law.values[self._n - law.bend_count :]), J
 
     def fitted(self, x: Array) -> Refitted:
-        """As a fit that ended there."""
+        """As a fit that ended there. `x` of shape (columns,)."""
         r, J, v = self._both(x)
         law, u = self._split(x)
         return Refitted(

@@ -76,7 +76,10 @@ class Again:
         return replace(sweep, velocity_m_s=drawn, base_m_s2=None)
 
     def left_out(self, held: Mask) -> Array:
-        """100 (|predicted| - |measured|)/|measured| of points held out, the search repeated without them."""
+        """100 (|predicted| - |measured|)/|measured| of points held out, the search repeated without them.
+
+        Shape (held out,), of `held` (points,).
+        """
         problem = self.remade(self.problem.sweep.take(~held))
         search, scored_fits = self.searched(problem)
         judged = judge(

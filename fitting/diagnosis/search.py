@@ -127,7 +127,10 @@ class Search:
         return [names[k] for k in np.argsort(chi2)]
 
     def told(self, effects: Sequence[Effect]) -> ScoredFit:
-        """These effects together, none of them weighed; `FittingError` where the data cannot carry one."""
+        """These effects together, none of them weighed.
+
+        Raises `OutsideModel` where the data cannot carry one.
+        """
         fitted = self.none.fitted
         # Another law comes first: the others are then fitted beside it.
         for effect in sorted(effects, key=lambda e: not e.replaces_law):

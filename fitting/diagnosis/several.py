@@ -105,7 +105,7 @@ class SeveralProblem(DiagnosisProblem):
         return np.concatenate(rows)
 
     def adjusted(self, z: Array, errors: Array) -> tuple[Adjusted, ...]:
-        """Under the names of `nuisances`; each as its first owner states it."""
+        """Under the names of `nuisances`; each as its first owner states it. Shape (numbers,)."""
         found = []
         for k, n in enumerate(self.nuisances.each):
             owner = self.members[self.owners[k][0]]

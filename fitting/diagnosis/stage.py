@@ -62,7 +62,7 @@ def _of_law(fitted: Refitted, covariance: Array) -> Uncertainty:
 
 
 def adjusted_of(problem: DiagnosisProblem, fitted: Refitted, covariance: Array) -> tuple[Adjusted, ...]:
-    """The stated numbers as a fit has them."""
+    """The stated numbers as a fit has them. `covariance` of shape (columns, columns)."""
     n = len(fitted.law.names)
     errors = np.sqrt(np.maximum(np.diag(covariance)[n : n + fitted.stated], 0))
     return problem.adjusted(fitted.z, errors)

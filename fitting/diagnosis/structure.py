@@ -18,7 +18,10 @@ _FEWEST = 20
 
 
 def structure(sweep: Sweep, evidence: Evidence, whitened: Array, chi2_per_dof: float) -> tuple[str, ...]:
-    """What is not random in whitened residuals, in words; nothing where the noise is unknown."""
+    """What is not random in whitened residuals, in words; nothing where the noise is unknown.
+
+    Shape (data,).
+    """
     if not evidence.scale_known:
         return ()
     said = []
@@ -37,7 +40,10 @@ def structure(sweep: Sweep, evidence: Evidence, whitened: Array, chi2_per_dof: f
 
 
 def roughness(sweep: Sweep, whitened: Array, parts: int) -> float:
-    """Mean square of what jumps from point to point: noise alone, whatever the model misses smoothly."""
+    """Mean square of what jumps from point to point: noise alone, whatever the model misses smoothly.
+
+    Shape (data,): `parts` times the points.
+    """
     jumps = [np.diff(r, 2) for r in _traces(sweep, whitened, parts) if len(r) > 2]
     # The variance of r_1 - 2 r_2 + r_3.
     return float(np.mean(np.concatenate(jumps) ** 2) / 6) if jumps else float("nan")
@@ -46,7 +52,7 @@ def roughness(sweep: Sweep, whitened: Array, parts: int) -> float:
 def along_frequency(sweep: Sweep, whitened: Array, parts: int) -> tuple[float, float]:
     """Fewer runs than chance, and Ljung-Box's statistic above its mean, both in standard deviations.
 
-    Of whitened residuals, `parts` of every point one after the other.
+    Of whitened residuals, `parts` of every point one after the other. Shape (data,).
     """
     runs_short, runs_variance, box, box_count = 0.0, 0.0, 0.0, 0
     for r in _traces(sweep, whitened, parts):

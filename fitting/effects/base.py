@@ -104,7 +104,7 @@ class ChannelFinding:
 
 
 class Effect:
-    """A physical cause. `u` holds the values of `unknowns`, in their units."""
+    """A physical cause. `u` holds the values of `parameters`, in their units. Shape (parameters,)."""
 
     name: ClassVar[str]
     enters: ClassVar[Entry]
@@ -139,7 +139,10 @@ class Effect:
         return None
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        """Values to look at first; the best of them by a linear step is followed."""
+        """Values to look at first; the best of them by a linear step is followed.
+
+        Shape (parameters,) each.
+        """
         return [np.array([u.typical for u in self.parameters])]
 
     def variants(self) -> tuple[Effect, ...]:
@@ -151,7 +154,7 @@ class Effect:
         return []
 
     def scaled(self, u: Array, a: float) -> Array:
-        """`u` with the effect `a` times as strong, by a linear guess."""
+        """`u` with the effect `a` times as strong, by a linear guess. Shape (parameters,)."""
         found = u.copy()
         for k, q in enumerate(self.parameters):
             if q.fixed or q.neutral is None:
@@ -160,15 +163,18 @@ class Effect:
         return found
 
     def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
-        """Least and largest values of the unknowns."""
+        """Least and largest values of the unknowns. Shape (parameters,) each."""
         return np.array([u.lower for u in self.parameters]), np.array([u.upper for u in self.parameters])
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change | None:
-        """What it changes of the reduced plate."""
+        """What it changes of the reduced plate; None: nothing. `u` of shape (parameters,)."""
         return None
 
     def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex | None:
-        """The core's modulus at every point, where it is not the law's at the point's frequency."""
+        """The core's modulus in Pa at every point; None: the law's at the point's frequency.
+
+        Shape (points,).
+        """
         return None
 
     def pitch(self, omega: Array, u: Array) -> Complex | None:
@@ -176,7 +182,7 @@ class Effect:
         return None
 
     def reading(self, v: Complex, points: Points, u: Array) -> Complex | None:
-        """What the channels make of the velocity `v` (m/s, per point)."""
+        """What the channels make of the velocity `v` in m/s; None: nothing. Shape (points,), as `v`."""
         return None
 
     def bare_shift(self, bare: BarePlateModes, u: Array) -> Array:

@@ -88,5 +88,5 @@ class ClampComplianceEffect(Effect):
 
 
 def springs(plate: EnrichedReducedPlate, u: Array) -> Array:
-    """The root's stiffness with springs of `u[0]`."""
+    """The root's stiffness with springs of `u[0]`. Shape (k, k)."""
     return np.asarray(u[0] * (plate.matrix("root.x") + plate.matrix("root.z")))

@@ -137,7 +137,7 @@ class EnrichedReducedPlate:
         """Its own even columns as far as they answer at some frequencies and moduli; others as they are.
 
         `changes` are of the plate, on its columns: answers with each of them at `changed_omega` and
-        `changed_G` are kept too.
+        `changed_G` are kept too. Shape (points,) for `omega` and `G`, and for the changed ones.
         """
         own = np.flatnonzero(self.group == "plate")
         found = [self._answers(own, omega, G, Change())]

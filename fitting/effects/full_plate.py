@@ -82,7 +82,7 @@ class FullPlate:
         return sp.csc_array(p.K_0.real + 1e6 * p.K_1 + (2 * np.pi * 50) ** 2 * p.M)
 
     def unit(self, X: Complex) -> Complex:
-        """Columns scaled to unit size."""
+        """Columns scaled to unit size. Shape (n, any), as `X`."""
         return np.asarray(X / np.sqrt(np.real(np.einsum("ij,ij->j", X.conj(), times(self.scale, X)))))
 
     def snapshot(self, omega: float, G: complex) -> "Snapshot":
@@ -147,7 +147,7 @@ class Snapshot:
         return found
 
     def answers(self, forces: Sequence[Array | Complex], odd: Sequence[bool]) -> list[Complex]:
-        """As `solve`, for many at once: far quicker."""
+        """As `solve`, for many at once: far quicker. Shape (n, m) each, as its forces."""
         found = _side_by_side(self.even, forces)
         twisting = [k for k, wanted in enumerate(odd) if wanted]
         for k, more in zip(twisting, _side_by_side(self.odd, [forces[k] for k in twisting]), strict=True):

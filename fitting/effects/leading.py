@@ -32,7 +32,10 @@ class Motions:
         return np.asarray(self.half.down @ motions)
 
     def stirred(self, responses: Sequence[Complex]) -> list[Stirred]:
-        """Of several spans: as few real motions each as have the same products, many being alike."""
+        """Of several spans: as few real motions each as have the same products, many being alike.
+
+        Of responses of shape (n, any).
+        """
         X = times(self.half.down, np.hstack(responses))
         ends = np.cumsum([r.shape[1] for r in responses])[:-1]
         each = [np.hstack([x.real, x.imag]) for x in np.split(X, ends, axis=1)]
@@ -67,7 +70,7 @@ class Motions:
         return self.orthonormal(V - known @ (known.T @ self._scaled(V)))
 
     def orthonormal(self, V: Array) -> Array:
-        """The same motions so."""
+        """The same motions, orthonormal by `FullPlate.scale`. Shape (half, few), as `V`."""
         for _ in range(2):
             R = np.linalg.cholesky(V.T @ self._scaled(V))
             V = la.solve_triangular(R, V.T, lower=True).T

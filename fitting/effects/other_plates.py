@@ -55,7 +55,10 @@ def changed_to(plate: EnrichedReducedPlate, other: Specimen) -> Change:
 
 
 def mixed(coefficients: Array | Complex, parts: Array) -> Array | Complex | float:
-    """The sum of parts with such coefficients; 0 for nothing."""
+    """The sum of parts with such coefficients; 0 where all are zero.
+
+    Of shapes (parts,) and (parts, ...): the latter's without its first axis.
+    """
     kept = np.flatnonzero(coefficients)
     if not kept.size:
         return 0.0

@@ -61,7 +61,7 @@ def released(
 ) -> ReleasedRoot:
     """The root released in some of a node's degrees of freedom; `odd` for motions odd in y too.
 
-    `answers` are those of the held plate to `root_forces`.
+    `answers` are those of the held plate to `root_forces`. Shape (n, any).
     """
     root, moved = root_dofs(full, dofs), _moved(full, dofs)
     # An even and an odd motion in one column: its response and the mirrored one tell them apart.
@@ -113,7 +113,7 @@ def _mirrored(full: FullPlate, X: Array | Complex) -> Array | Complex:
 
 
 def root_dofs(full: FullPlate, dofs: Sequence[int]) -> Indices:
-    """Places of the root nodes' degrees of freedom among the loose plate's."""
+    """Places of the root nodes' degrees of freedom among the loose plate's. Shape (dofs,)."""
     wanted = (np.arange(full.loose.mesh.n_y + 1)[:, None] * DOFS + np.asarray(dofs)).ravel()
     return np.asarray(np.searchsorted(full.loose.free, wanted), dtype=np.intp)
 

@@ -23,13 +23,19 @@ class Span:
         return {}
 
     def vectors(self, full: FullPlate) -> Mapping[str, Array]:
-        """Loads over the full plate, by name."""
+        """Loads over the full plate, by name. Shape (n,) each."""
         return {}
 
     def forces(self, full: FullPlate, at: Snapshot) -> Array | Complex:
-        """Of typical changes, as large as the effect makes them; their responses are spanned. (n, any)."""
+        """Of typical changes, as large as the effect makes them; their responses are spanned.
+
+        Shape (n, any).
+        """
         return np.empty((len(at.x), 0))
 
     def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
-        """What is to be spanned: the held plate's `answers` to `forces`, or what follows from them."""
+        """What is to be spanned: the held plate's `answers` to `forces`, or what follows from them.
+
+        Shape (n, any).
+        """
         return answers

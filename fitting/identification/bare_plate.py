@@ -86,9 +86,10 @@ class MatchedModes:
 def match_modes(
     specimen: Specimen, measured_hz: Array, measured_ratios: Array, sensor: CarriedSensor | None = None
 ) -> MatchedModes:
-    """A hammer test of `specimen.bare` beside its model. Raises `TooFewPoints`, `OutsideModel`.
+    """A hammer test of `specimen.bare` beside its model; what was measured of shape (modes,) each.
 
-    `sensor` is what sat on the plate in the test; the model's modes are those of the plate with it.
+    `sensor` is what sat on the plate in the test; the model's modes are those of the plate with it. Raises
+    `TooFewPoints` where too few modes match, `OutsideModel`.
     """
     plate = Plate(specimen.bare)
     count = max(len(measured_hz), len(specimen.modal_ratios)) + _SPARE
@@ -128,7 +129,10 @@ def match_modes(
 def fit_bare_plate(
     specimen: Specimen, measured_hz: Array, measured_ratios: Array, sensor: CarriedSensor | None = None
 ) -> BarePlateFit:
-    """Stiffness and ratios, by `match_modes` from a hammer test. Raises `TooFewPoints`, `OutsideModel`."""
+    """Stiffness and ratios, by `match_modes` from a hammer test, shape (modes,).
+
+    Raises `TooFewPoints` where too few modes match or want too soft a clamp, `OutsideModel`.
+    """
     m = match_modes(specimen, measured_hz, measured_ratios, sensor)
     scale, error, kappa = _solve(
         m.shift, m.softness, m.scatter, max(_STIFFNESS, tolerance(specimen, "substrate_young"))

@@ -13,7 +13,10 @@ from fitting.sweep import Sweep
 
 
 def velocity(omega: Array, displacement: Complex, reads: Reading) -> Complex:
-    """Velocity per base acceleration, in s: i omega x, and 1/(i omega) more where the reading is absolute."""
+    """Velocity per base acceleration, in s: i omega x, and 1/(i omega) more where the reading is absolute.
+
+    Shape (points,).
+    """
     relative = 1j * omega * displacement
     return relative + 1 / (1j * omega) if reads == "absolute" else relative
 
@@ -54,6 +57,6 @@ class SweepModel:
         return v, dv
 
     def take(self, points: NDArray[np.intp] | NDArray[np.bool_]) -> "SweepModel":
-        """The model at some of the points."""
+        """The model at some of the points. Numbers or shape (points,), true or false."""
         used, index = np.unique(self.index[points], return_inverse=True)
         return SweepModel(self.rational.at(used), index, self.acceleration_m_s2[points], self.reads)

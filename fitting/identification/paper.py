@@ -60,7 +60,10 @@ class PaperProblem:
         return np.asarray(v.reshape(len(laws), -1) * self.sweep.commanded_m_s2)
 
     def linearise(self, law: CoreLaw) -> tuple[Array, Array]:
-        """The dx relative to the measured values and S to the parameters' own size: Eq. (20), (21), (23b)."""
+        """The dx relative to the measured values and S to the parameters' own size: Eq. (20), (21), (23b).
+
+        Shapes (points,) and (points, parameters).
+        """
         b = law.values
         # A step up would leave the limits where a parameter sits at its upper one.
         upper = np.array([q.upper for q in law.limits])
@@ -72,14 +75,17 @@ class PaperProblem:
         return (theory[0] - measured) / measured, S.T
 
     def take(self, points: NDArray[np.intp] | NDArray[np.bool_]) -> "PaperProblem":
-        """Some of the points, their weights kept."""
+        """Some of the points, their weights kept. Numbers or shape (points,), true or false."""
         return PaperProblem(self.sweep.take(points), self.plate, self.reads, self.weight[points])
 
 
 def fit_paper(
     problem: PaperProblem, start: CoreLaw, progress: Callable[[int], None] = lambda step: None
 ) -> Fit:
-    """Iterate Eq. (25) until the 5 % criterion is met or the parameters come to rest."""
+    """Iterate Eq. (25) until the 5 % criterion is met or the parameters come to rest.
+
+    Raises `TooFewPoints` for one point, or a law without parameters.
+    """
     if not start.names:
         raise TooFewPoints(f"core law {start.kind} has no parameter to identify, choose another law")
     if len(problem.sweep) < 2:

@@ -40,7 +40,7 @@ def validate(
     noise_percent: Array,
     progress: Callable[[float], None] = lambda fraction: None,
 ) -> Validation:
-    """Leave-one-out up to 30 points, else every segment from the others."""
+    """Leave-one-out up to 30 points, else every segment from the others. Shape (points,)."""
     count = len(segment)
     if count <= MOST_POINTS_ONE_BY_ONE:
         if count - 1 < points_needed:
@@ -64,5 +64,5 @@ def validate(
 
 
 def rms(values: Array) -> float:
-    """Root mean square."""
+    """Root mean square over all of an array of any shape."""
     return float(np.sqrt(np.mean(np.square(values))))

@@ -137,7 +137,7 @@ class CoreLaw:
         return [quantities[name] for name, values in self._fields() for _ in _as_tuple(values)]
 
     def with_values(self, values: Array) -> Self:
-        """The same law with other parameters, in the order of `names`."""
+        """The same law with other parameters, in the order of `names`. Shape (names,)."""
         rest = [float(v) for v in values]
         changed: dict[str, Any] = {}
         for name, old in self._fields():
@@ -171,7 +171,10 @@ class CoreLaw:
         return np.asarray((high - low) / np.sqrt(12.0))
 
     def with_logs(self, logs: Array) -> Self:
-        """The same law with the exponentials of `logs` as parameters, kept within their limits."""
+        """The same law with the exponentials of `logs` as parameters, kept within their limits.
+
+        Shape (names,).
+        """
         limits = self.limits
         return self.with_values(
             np.array([min(max(np.exp(p), q.lower), q.upper) for p, q in zip(logs, limits, strict=True)])

@@ -21,6 +21,7 @@ class Isd112(CoreLaw):
     source: ClassVar[str] = "the paper's Eq. (19)"
 
     def modulus(self, omega: Array) -> Complex:
+        """G* in Pa. Shape of `omega`. Raises `OutsideModel` below `LOWEST_HZ`."""
         f = np.asarray(omega, dtype=float) / (2 * np.pi)
         if np.any(f < LOWEST_HZ):
             raise OutsideModel(

@@ -65,7 +65,10 @@ class Smooth(CoreLaw):
 
     @classmethod
     def through(cls, law: CoreLaw, frequency_hz: Sequence[float] | Array) -> Self:
-        """The smooth law that equals `law` at the knots. Raises `OutsideModel` for a lossless one."""
+        """The smooth law that equals `law` at the knots. Raises `OutsideModel` for a lossless one.
+
+        Shape (knots,).
+        """
         knots = tuple(float(f) for f in frequency_hz)
         G, eta = law.storage_and_loss(2 * np.pi * np.array(knots))
         return cls(knots, tuple(map(float, G)), tuple(map(float, eta)))

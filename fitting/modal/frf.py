@@ -23,7 +23,7 @@ class Frf:
 
     @property
     def omega(self) -> Array:
-        """rad/s."""
+        """rad/s. Shape (lines,)."""
         return 2 * np.pi * self.frequency_hz
 
     def between(self, low_hz: float, high_hz: float) -> "Frf":

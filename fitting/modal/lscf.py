@@ -26,7 +26,7 @@ _MOST_RATIO = 0.5
 
 
 def lscf_poles(frfs: list[Frf], orders: tuple[int, ...] = ORDERS) -> list[Complex]:
-    """Decaying poles in rad/s at every order; all channels on the same lines."""
+    """Decaying poles in rad/s at every order; all channels on the same lines. Shape (poles,) each."""
     f = frfs[0].frequency_hz
     if len(f) < _FEWEST_LINES:
         return []
@@ -60,7 +60,10 @@ def _poles_of_order(
 def lscf(
     poles: list[Complex], near_hz: float, added_decay_1_s: float, within_hz: float
 ) -> DampingEstimate | Refusal:
-    """The stable mode nearest to `near_hz`, within `within_hz` of it."""
+    """The stable mode nearest to `near_hz`, within `within_hz` of it.
+
+    `poles` as `lscf_poles` gives them, shape (poles,) each.
+    """
     row: list[complex] = []
     best: list[complex] = []
     for found in poles:

@@ -76,7 +76,7 @@ class Beam:
         return (*(f"{layer}_{n}" for layer, numbers in layers for n in numbers), "length")
 
     def with_law(self, law: CoreLaw) -> "Beam":
-        """The same beam with another core law."""
+        """The same beam with another core law. Raises `ValueError` for a bare one."""
         if self.core is None:
             raise ValueError("a bare beam has no core to give a law to")
         return replace(self, core=replace(self.core, law=law))

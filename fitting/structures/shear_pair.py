@@ -86,7 +86,7 @@ class ShearPair:
         )
 
     def coefficients(self, by: Mapping[str, float]) -> Complex:
-        """N A/t over the bending's share; mass and rubber; both again as loads."""
+        """N A/t over the bending's share; mass and rubber; both again as loads. Shape (5,)."""
         area = self.discs * self.area_m2 * np.exp(by.get("area", 0.0))
         t = self.core.thickness_m * np.exp(by.get("core_thickness", 0.0))
         mass = self.mass_kg * np.exp(by.get("mass", 0.0))

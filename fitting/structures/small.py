@@ -107,7 +107,7 @@ class SmallNuisances(Nuisances):
         return np.zeros(len(plate.observe))
 
     def rows_by(self, plate: EnrichedReducedPlate, z: Array) -> dict[int, Array]:
-        """The reading does not move."""
+        """None: the reading does not move. Of `z`, shape (numbers,)."""
         return {}
 
 
@@ -164,7 +164,7 @@ def _sum(c: Complex, P: Array, k: int) -> Complex:
 
 
 def rational_of(system: EnrichedReducedPlate, omega: Array, size_pa: float) -> RationalSweep:
-    """The same system at some frequencies (rad/s) as a sum in G*, about a modulus of a size."""
+    """The same system at some frequencies (rad/s) as a sum in G*, about a modulus of a size. Shape (n,)."""
     G_ref = complex(size_pa * np.exp(1j * _LOSSY))
     w = np.asarray(omega, dtype=float)[:, None, None]
     C_1 = (system.U * system.d) @ system.U.T

@@ -66,7 +66,10 @@ class Shift:
         return np.array([2e6]) if self.kind == "arrhenius" else np.full(len(self._moved), 60.0)
 
     def log_shift(self, p: Array, temperature_c: Array | None = None) -> Array:
-        """Ln a_T at the sweeps' temperatures, or others for a form that has a formula."""
+        """Ln a_T at the sweeps' temperatures, or others for a form that has a formula.
+
+        Shape of the temperatures.
+        """
         T = self.temperature_c if temperature_c is None else np.asarray(temperature_c, float)
         if self.kind == "wlf":
             off = T - self.reference_c
@@ -93,7 +96,7 @@ class Shift:
         return np.array(found).T.reshape(len(self.temperature_c), len(p))
 
     def near(self, log_shift: Array) -> Array:
-        """The parameters nearest to some factors, to start from."""
+        """The parameters nearest to some factors, to start from. Shapes (parameters,), of (sweeps,)."""
         if self.kind == "free":
             return np.array([np.mean(log_shift[self.temperature_c == t]) for t in self._moved])
         starts = [[8.0, 100.0], [17.0, 60.0]] if self.kind == "wlf" else [[5e4]]

@@ -19,7 +19,10 @@ _FAR = np.linspace(-18.0, 18.0, 361)
 def start_of(
     laws: Sequence[CoreLaw], bands_hz: Sequence[tuple[float, float]], temperature_c: Array, reference_c: float
 ) -> tuple[CoreLaw, Array]:
-    """A law at the reference and ln a_T of every sweep, from curves alone."""
+    """A law at the reference and ln a_T of every sweep, from curves alone.
+
+    Shape (sweeps,), as `temperature_c`.
+    """
     omegas = [2 * np.pi * np.geomspace(low, high, _POINTS) for low, high in bands_hz]
     curves = [_curve(law, w) for law, w in zip(laws, omegas, strict=True)]
     order = np.argsort(temperature_c)

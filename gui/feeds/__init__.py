@@ -1,1 +1,1 @@
-"""Where a picture's events come from: a run in its engine, or a recorded session."""
+"""Where the session state's events come from: a run in its engine, or a recorded session."""

@@ -11,12 +11,12 @@ MOST_S = 0.012
 
 
 class Feed(QObject):
-    """Fills a picture, a little at every turn of the window's timer.
+    """Fills a session state, a little at every turn of the window's timer.
 
     Signals
     -------
     renewed
-        `picture` is another one: a session was opened, or a replay jumped back.
+        `state` is another one: a session was opened, or a replay jumped back.
     failed
         One line: there is no session to show.
     ended

@@ -26,7 +26,7 @@ class Loaded:
 
 @dataclass(frozen=True)
 class Jumped:
-    """The picture at a place; what is read from now on follows it."""
+    """The session state at a place; what is read from now on follows it."""
 
     state: SessionState
     time_s: float

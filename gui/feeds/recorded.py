@@ -18,7 +18,7 @@ class RecordedFeed(Feed):
     Signals
     -------
     loaded
-        `tape` is there; the picture comes next.
+        `index` is there; the state comes next.
     moved
         `position_s`, `playing` or `speed` changed.
     compared

@@ -1,4 +1,4 @@
-"""A session file as a tape: where on its timeline each event stands, and the picture at any place. No Qt.
+"""A session file indexed: where on its timeline each event stands, and the state at any place. No Qt.
 
 The timeline is the session's clock, without the time that lay between a break and its continuation.
 """
@@ -100,7 +100,7 @@ class SessionIndex:
             yield from self._part_events(file, part, first, with_samples=True)
 
     def state(self, file: SessionFile, count: int, look: Look) -> SessionState:
-        """The picture after so many events. Samples are read only where the picture keeps them."""
+        """The state after so many events. Samples are read only where the state keeps them."""
         state = SessionState(self.configuration, self.path)
         step = self.step_first[bisect_right(self.step_first, count - 1) - 1] if self.step_first else 0
         for part in range(self._part(count - 1) + 1 if count else 0):

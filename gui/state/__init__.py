@@ -1,6 +1,6 @@
 """What is known of a session so far: fed by events, drawn by pages. No Qt.
 
-Rule: the same events give the same picture, whether they come from a rig, a file or a replay. Everything a
+Rule: the same events give the same state, whether they come from a rig, a file or a replay. Everything a
 session holds is in `contents`; beside it stands only what a person watching needs at this moment.
 """
 

@@ -109,7 +109,10 @@ class Step:
         return Trace(np.concatenate(time) / rate, rows[0], rows[1])
 
     def since(self, sample: int) -> list[tuple[int, Array]]:
-        """Blocks that begin at a sample or later: first sample of each, base and velocity in units."""
+        """Blocks that begin at a sample or later: first sample of each, base in m/s^2 and velocity in m/s.
+
+        Shape (2, samples) each.
+        """
         return [
             (h.block.first_sample, self._in_units(h)) for h in self._heard if h.block.first_sample >= sample
         ]

@@ -165,7 +165,10 @@ def channel_effects(severities: dict[str, Severity]) -> TrueChannels:
 
 
 def clean(truth: Truth, schedule: Schedule, g_m_s2: float) -> Complex:
-    """The reading over the base's true acceleration at each point, without noise or hum (s)."""
+    """The reading over the base's true acceleration at each point, without noise or hum (s).
+
+    Shape (points,).
+    """
     channels = channel_effects(truth.effects)
     level_m_s2 = channels.level * schedule.level_g * g_m_s2
     plate = steady(

@@ -25,12 +25,15 @@ class TrueChannels:
     """Mains and its multiples in the velocity channel, each of about this amplitude."""
 
     def velocity_per_acceleration(self, relative_s: Complex, omega: Array) -> Complex:
-        """The reading over the base's true acceleration, from the plate's velocity relative to the clamp."""
+        """The reading over the base's true acceleration, of the plate's velocity relative to the clamp.
+
+        In s, shape of `omega`.
+        """
         seen = relative_s + 1 / (1j * omega) if self.absolute else relative_s
         return np.asarray(self.gain * np.exp(-1j * omega * self.delay_s) * seen)
 
     def hum(self, frequency_hz: Array, rng: np.random.Generator) -> Complex:
-        """What hum adds to each reading, with a phase that no trigger holds."""
+        """What hum adds to each reading in m/s, with a phase that no trigger holds. Shape (points,)."""
         count = len(frequency_hz)
         phase = rng.uniform(0, 2 * np.pi, count)
         size = self.hum_m_s * rng.uniform(0.5, 1.5, count)

@@ -30,7 +30,7 @@ class TrueLaw:
     values: tuple[float, ...]
 
     def modulus(self, omega: ArrayLike) -> Complex:
-        """In Pa, of the shape of `omega` (rad/s)."""
+        """In Pa, of the shape of `omega` (rad/s). Raises `ValueError` for an unknown kind."""
         w = np.asarray(omega, dtype=float)
         if self.kind == "fractional-zener":
             return fractional_zener(*self.values)(w)
@@ -54,7 +54,7 @@ def draw_material(rng: np.random.Generator) -> TrueLaw:
 
 
 def draw_strange_material(rng: np.random.Generator, frequency_hz: Array) -> TrueLaw:
-    """A core whose law no fractional Zener follows over the measured frequencies."""
+    """A core whose law no fractional Zener follows over the measured frequencies. Shape (points,)."""
     omega = 2 * np.pi * frequency_hz
     while True:
         law = _draw_maxwell(rng) if rng.random() < 0.5 else _draw_ghm(rng)
@@ -81,12 +81,12 @@ def _draw_ghm(rng: np.random.Generator) -> TrueLaw:
 
 
 def deviation(law: TrueLaw, omega: Array) -> float:
-    """Rms of the relative deviation from the nearest fractional Zener at `omega`."""
+    """Rms of the relative deviation from the nearest fractional Zener at `omega`. Shape (points,)."""
     return float(np.sqrt(np.mean(np.abs(_misfit(nearest_zener(law, omega), law, omega)) ** 2)))
 
 
 def nearest_zener(law: TrueLaw, omega: Array) -> TrueLaw:
-    """The fractional Zener nearest to a law in relative error at `omega`."""
+    """The fractional Zener nearest to a law in relative error at `omega`. Shape (points,)."""
     G = law.modulus(omega)
 
     def residuals(p: Array) -> Array:

@@ -44,7 +44,7 @@ class NoiseFigures:
         return np.asarray(level * np.exp(1j * DRIVE_PHASE_RAD * rng.standard_normal(count)))
 
     def added(self, rng: np.random.Generator, clean_m_s: Complex, group: NDArray[np.intp]) -> Complex:
-        """What the reading has beyond the clean velocity."""
+        """What the reading has beyond the clean velocity. Shape (points,)."""
         std = self.std_m_s(clean_m_s, group)
         return np.asarray(std * (rng.standard_normal(len(std)) + 1j * rng.standard_normal(len(std))))
 

@@ -49,8 +49,9 @@ def steady(
 ) -> Steady:
     """The plate at each point, its base moved with amplitude `level_m_s2`, `time_s` after warming began.
 
-    `modulus` takes the place of the plant's own law and of `effects.core_law`. Softening has come to its
-    fixed point. Raises `ArithmeticError` where it has none, `ValueError` for a place off the plate.
+    Shape (points,). `modulus` takes the place of the plant's own law and of `effects.core_law`. Softening has
+    come to its fixed point. Raises `ArithmeticError` where it has none, `ValueError` for a place off the
+    plate.
     """
     omega = 2 * np.pi * frequency_hz
     plate = sandwich(replace(effects, core_law=None))
@@ -80,7 +81,7 @@ def steady(
 
 
 def time_shift(drift: TemperatureDrift | None, time_s: Array) -> Array:
-    """Factor on the relaxation times, and so on the frequency at which the law is read."""
+    """Factor on the relaxation times, and so on the frequency at which the law is read. Shape (points,)."""
     if drift is None:
         return np.ones(len(time_s))
     kelvin = -drift.kelvin * np.expm1(-time_s / drift.time_constant_s)
@@ -88,7 +89,7 @@ def time_shift(drift: TemperatureDrift | None, time_s: Array) -> Array:
 
 
 def pitch_per_acceleration(effects: Effects, omega: Array) -> Complex:
-    """Angular acceleration of the base over its acceleration, rad/m."""
+    """Angular acceleration of the base over its acceleration, rad/m. Shape of `omega`."""
     rocking, fixture = effects.base_rocking, effects.fixture_resonance
     pitch = np.full(len(omega), rocking.pitch_rad_m if rocking else 0.0, dtype=complex)
     if fixture:

@@ -123,7 +123,10 @@ def write_summary(lines: Sequence[dict[str, Any]], folder: Path) -> str:
 
 
 def read_lines(folder: Path) -> list[dict[str, Any]]:
-    """What is there; a line torn by a kill is dropped, from the file too."""
+    """What is there; a line torn by a kill is dropped, from the file too.
+
+    Raises `BadInput` for what is not JSON.
+    """
     path = folder / OUTCOMES
     if not path.exists():
         return []

@@ -77,12 +77,12 @@ class Card:
 
     @property
     def storage(self) -> Array:
-        """G' in Pa at the law's frequencies."""
+        """G' in Pa at the law's frequencies. Shape (frequencies,)."""
         return self.law.storage_modulus_pa
 
     @property
     def loss(self) -> Array:
-        """G'' in Pa."""
+        """G'' in Pa. Shape (frequencies,)."""
         return self.law.storage_modulus_pa * self.law.loss_factor
 
     def young_pa(self, shear_pa: float) -> float:

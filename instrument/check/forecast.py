@@ -65,7 +65,7 @@ class Forecast:
         return float(self.mode_decay_1_s[near].min() if near.any() else self.mode_decay_1_s[0])
 
     def velocity_m_s(self, frequency_hz: Array, level_m_s2: float) -> Array:
-        """Amplitude the laser will see; between a few frequencies where there are many."""
+        """Amplitude the laser will see; between a few frequencies where there are many. Shape (points,)."""
         law = self.specimen.core.law if self.specimen.core is not None else None
         few = np.unique(frequency_hz)
         if len(few) > _MOST_SOLVED:

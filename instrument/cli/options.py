@@ -45,7 +45,7 @@ class Frequencies(click.ParamType):  # type: ignore[type-arg]
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
     ) -> NDArray[np.float64]:
-        """Frequencies in Hz, as given."""
+        """Frequencies in Hz, as given. Shape (points,)."""
         if isinstance(value, np.ndarray):
             return value
         try:

@@ -43,7 +43,10 @@ class Output:
         )
 
     def result(self, found: Result | Mapping[str, object]) -> None:
-        """The facts as JSON, where they were asked for."""
+        """The facts as JSON, where they were asked for.
+
+        Raises `BadInput` where the file cannot be written.
+        """
         if self._json_path is None:
             return
         facts = found.as_json() if isinstance(found, Result) else to_jsonable(dict(found))

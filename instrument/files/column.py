@@ -73,7 +73,10 @@ class Column:
 
 
 def reading_std_m_s(points: Sequence[PointMeasured]) -> Array:
-    """Of each part of the velocity, the base channel's noise carried over: both blur the response."""
+    """Of each part of the velocity, the base channel's noise carried over: both blur the response.
+
+    Shape (points,).
+    """
     base = np.array([p.base_m_s2 for p in points])
     velocity = np.array([p.velocity_m_s for p in points])
     base_std = np.array([p.base_accel_std_m_s2 for p in points])

@@ -62,7 +62,7 @@ def write_impact_csv(path: Path, hits: list[Hit]) -> None:
 
 
 def write_frf_csv(path: Path, frf: Frf, coherence: Array | None = None) -> None:
-    """One FRF."""
+    """One FRF; `coherence` on its lines, shape (lines,)."""
     stem = next(s for s, motion in FRF_STEMS.items() if motion == frf.motion)
     header = ["frequency_hz", f"{stem}_re", f"{stem}_im"] + (["coherence"] if coherence is not None else [])
     table = [frf.frequency_hz, frf.H.real, frf.H.imag] + ([coherence] if coherence is not None else [])

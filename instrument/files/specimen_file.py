@@ -179,7 +179,7 @@ def tolerances_of(table: TolerancesSection | None) -> dict[str, float]:
 
 
 def law_of(table: dict[str, Any]) -> CoreLaw:
-    """The law of `[core.law]`: `kind` decides the other keys."""
+    """The law of `[core.law]`: `kind` decides the other keys. Raises `OutsideModel` where a key is wrong."""
     known = ", ".join(sorted(LAWS))
     kind = table.get("kind")
     if not isinstance(kind, str) or kind not in LAWS:

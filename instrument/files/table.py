@@ -23,7 +23,10 @@ _ROUNDING = 1e-12
 def read_rows(
     path: Path, check_header: Callable[[list[str]], None] = lambda header: None, separator: str = ","
 ) -> tuple[list[str], Rows]:
-    """The header, checked by `check_header`, and the rows with their line numbers, all equally long."""
+    """The header, checked by `check_header`, and the rows with their line numbers, all equally long.
+
+    Raises `BadInput` for what is not such a table.
+    """
     header: list[str] | None = None
     rows: Rows = []
     for line, row in _fields(path, separator):
@@ -47,7 +50,7 @@ def read_rows(
 
 
 def number(path: Path, line: int, name: str, text: str) -> float:
-    """A finite number, or one line saying where it is not."""
+    """A finite number, or one line saying where it is not. Raises `BadInput`."""
     try:
         value = float(text)
     except ValueError:
@@ -69,7 +72,7 @@ def stated_rate_hz(path: Path) -> float | None:
 
 
 def rate_of_times(t: Array) -> float | None:
-    """Samples a second of times in s; None where they are not evenly spaced."""
+    """Samples a second of times in s; None where they are not evenly spaced. Shape (samples,)."""
     step = (t[-1] - t[0]) / max(1, len(t) - 1)
     off = float(np.max(np.abs(t - np.linspace(t[0], t[-1], len(t)))))
     if not step > 0 or off > _OFF_GRID * step:

@@ -13,7 +13,7 @@ _COUNT = 12
 def expected_modes_hz(specimen: Specimen, sensor: CarriedSensor | None, below_hz: float) -> Array:
     """Natural frequencies of the bare plate as stated, the sensor on it; the first twelve at most.
 
-    In vacuum, in an ideal clamp: a real one lowers them by up to a percent.
+    In vacuum, in an ideal clamp: a real one lowers them by up to a percent. Shape (modes,).
     """
     plate = Plate(specimen.bare)
     modes, edge = bare_modes(plate, _COUNT, sensor)

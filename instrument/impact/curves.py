@@ -35,6 +35,7 @@ def fit_curve(fit: RationalFit, frequency_hz: Array) -> Complex:
     """The rational fit at any frequencies inside its window.
 
     On its own lines it lies in the span of its poles and a straight line: that gives the coefficients back.
+    Shape of `frequency_hz`.
     """
     middle = fit.frequency_hz.mean()
     c, *_ = np.linalg.lstsq(_columns(fit.frequency_hz, middle, fit.poles), fit.H, rcond=None)

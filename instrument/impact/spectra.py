@@ -55,7 +55,10 @@ def spectra(
 
 
 def frf_of(S_ff: Array, S_xx: Array, S_xf: Complex, estimator: Estimator) -> Complex:
-    """H1 (noise on the response), H2 (on the force) or Hv, their geometric mean in size with H1's phase."""
+    """H1 (noise on the response), H2 (on the force) or Hv, their geometric mean in size with H1's phase.
+
+    Shape (lines,).
+    """
     h1 = S_xf / np.maximum(S_ff, 1e-300)
     if estimator == "h1":
         return np.asarray(h1)
@@ -66,7 +69,10 @@ def frf_of(S_ff: Array, S_xx: Array, S_xf: Complex, estimator: Estimator) -> Com
 
 
 def force_window(judged: Judged) -> Array:
-    """One over the blow and a little after it, then a half cosine to zero: the rest of the force is noise."""
+    """One over the blow and a little after it, then a half cosine to zero: the rest of the force is noise.
+
+    Shape (samples,).
+    """
     n, pulse = len(judged.hit.force_n), judged.pulse
     width = pulse.stop - pulse.start
     stop = min(n, pulse.stop + _PULSES * width)

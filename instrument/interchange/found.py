@@ -48,7 +48,10 @@ class Found:
     """What was found, and what was passed over and why: one line each."""
 
     def add_ratio(self, ratio: Ratio, coherence: Array | None = None) -> None:
-        """To the sweeps where it is over a base's motion, to the FRFs where it is over a force."""
+        """To the sweeps where it is over a base's motion, to the FRFs where it is over a force.
+
+        Shape (lines,).
+        """
         f = ratio.frequency_hz
         good = (f > 0) & np.isfinite(ratio.H) & (ratio.H != 0)
         left = f"; left out at 0 Hz or without a value: {np.sum(~good)}" if not good.all() else ""
@@ -71,7 +74,7 @@ class Found:
     def add_hit(
         self, source: str, rate_hz: float, force: Array, responses: list[tuple[Motion, Array]]
     ) -> None:
-        """A blow and its responses."""
+        """A blow and its responses. Shape (samples,) each. Raises `BadInput` for a rate that is none."""
         if not np.isfinite(rate_hz) or rate_hz <= 0:
             raise BadInput(f"{source}: sample rate {rate_hz:g} Hz, expected more than 0")
         channels = tuple(ResponseChannel(_CSV_NAMES[motion], motion, x) for motion, x in responses)

@@ -10,7 +10,10 @@ T = TypeVar("T")
 
 
 def pack(value: Any, prefix: str = "") -> dict[str, NDArray[Any]]:
-    """Every field as an array, nested dataclasses as `outer.inner`."""
+    """Every field as an array, nested dataclasses as `outer.inner`.
+
+    Shapes as in the fields, () of a number.
+    """
     packed: dict[str, NDArray[Any]] = {}
     for field in fields(value):
         item, name = getattr(value, field.name), prefix + field.name
@@ -22,7 +25,7 @@ def pack(value: Any, prefix: str = "") -> dict[str, NDArray[Any]]:
 
 
 def unpack(cls: type[T], packed: dict[str, NDArray[Any]], prefix: str = "") -> T:
-    """The inverse of `pack`. Raises `KeyError` where an array is missing."""
+    """The inverse of `pack`. Raises `KeyError` where an array is missing. Shapes as `pack` gives them."""
     hints = get_type_hints(cls)
     values: dict[str, Any] = {}
     for field in fields(cls):  # type: ignore[arg-type]

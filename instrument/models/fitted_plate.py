@@ -64,7 +64,7 @@ class FittedPlate:
         return self.nuisances.by_response(self._plain(models), omega, G, q, adjoint, self.z)
 
     def read(self, velocity: Complex, frequency_hz: Array) -> Complex:
-        """What the velocity channel, its gain and delay as found, makes of a velocity."""
+        """What the velocity channel, its gain and delay as found, makes of a velocity. Shape (points,)."""
         return self.nuisances.reading(velocity, 2 * np.pi * frequency_hz, self.z)
 
     def by_reading(self, velocity: Complex, frequency_hz: Array) -> Complex:

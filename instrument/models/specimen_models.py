@@ -34,7 +34,11 @@ class Models:
 
     @classmethod
     def of(cls, specimen: Specimen, frequency_hz: Array, progress: Progress = quiet) -> "Models":
-        """Models that hold over `frequency_hz` for any sensible core."""
+        """Models that hold over `frequency_hz`, of any shape, for any sensible core.
+
+        Raises `OutsideModel` for a specimen that no base moves or no pickup sees, and beyond what the mesh
+        resolves.
+        """
         if specimen.pickup_m is None:
             raise OutsideModel("[pickup] is missing, expected x_mm and y_mm of the measured spot")
         if specimen.boundary == "free":
@@ -75,7 +79,7 @@ class Models:
         return cached("real-modes", [self.without_law, self.domain], RealModePlate, build)
 
     def rational(self, omega: Array) -> RationalSweep:
-        """The sweep on a frequency grid as a rational sum."""
+        """The sweep on an ascending grid in rad/s as a rational sum. Shape (points,)."""
         reduced = self.reduced
 
         def build() -> RationalSweep:
@@ -93,7 +97,10 @@ class Models:
         )
 
     def predict(self, law: CoreLaw | None, frequency_hz: Array, *, real_modes: bool = False) -> Complex:
-        """Velocity phasors at the pickup in m/s; a point that is not certified is solved in full."""
+        """Velocity phasors at the pickup in m/s; a point that is not certified is solved in full.
+
+        Shape (points,).
+        """
         omega = 2 * np.pi * frequency_hz
         G = law.modulus(omega) if law is not None else np.zeros(len(omega), dtype=complex)
         if real_modes:
@@ -108,6 +115,6 @@ class Models:
         return velocity(omega, x, self.specimen.reads) * self.specimen.base_acceleration_m_s2
 
     def uncertified(self, law: CoreLaw, frequency_hz: Array) -> bool:
-        """Whether some point of a law is beyond what the reduced model is certified for."""
+        """Whether some point of a law is beyond what the reduced model is certified for. Shape (points,)."""
         omega = 2 * np.pi * frequency_hz
         return bool(np.any(self.reduced.estimated_error(omega, law.modulus(omega)) > CERTIFIED))

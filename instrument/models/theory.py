@@ -13,13 +13,19 @@ _PLACES = 10
 
 
 def theory_over(specimen: Specimen, law: CoreLaw, frequency_hz: Array) -> TheoryError:
-    """The theory's error over the band of some frequencies. Raises `OutsideModel` beyond its limits."""
+    """The theory's error over the band of some frequencies, of any shape.
+
+    Raises `OutsideModel` beyond its limits.
+    """
     low, high = float(np.min(frequency_hz)), float(np.max(frequency_hz))
     return check_theory(specimen, law, np.geomspace(low, high, _PLACES if high > low else 1))
 
 
 def theory_remark(specimen: Specimen, law: CoreLaw | None, frequency_hz: Array) -> str:
-    """What would be refused, in a line; empty where the theory holds or the plate has no core."""
+    """What would be refused, in a line; empty where the theory holds or the plate has no core.
+
+    Over the band of `frequency_hz`, of any shape.
+    """
     if specimen.core is None or law is None:
         return ""
     try:

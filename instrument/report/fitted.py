@@ -46,7 +46,7 @@ class ReportedFit:
         return FittedModel.of(self.fit.specimen, found_law(self.result), self.fit.sweep.frequency_hz)
 
     def over_base(self, frequency_hz: Array) -> Complex | None:
-        """The model's velocity over base acceleration in s at any frequency."""
+        """The model's velocity over base acceleration in s at any frequency. Shape (points,)."""
         if self.fit is None:
             return None
         assert self._model is not None

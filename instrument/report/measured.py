@@ -47,7 +47,7 @@ def _segment(number: int, steps: list[PointMeasured]) -> Measured:
 
 
 def noise_of(points: list[PointMeasured], channel: str) -> Array:
-    """Standard deviation of each part over the amplitude: a fraction."""
+    """Standard deviation of each part over the amplitude: a fraction. Shape (points,)."""
     if channel == "velocity":
         return np.array([p.velocity_std_m_s / abs(p.velocity_m_s) for p in points])
     return np.array([p.base_accel_std_m_s2 / abs(p.base_m_s2) for p in points])

@@ -42,7 +42,7 @@ def label(ax: Axes, *, x: str = "", y: str = "", title: str = "") -> None:
 
 
 def from_zero(ax: Axes, values: NDArray[Any]) -> None:
-    """The y axis from zero, with room above the highest value."""
+    """The y axis from zero, with room above the highest of some values, of any shape."""
     highest = float(np.nanmax(values, initial=0.0))
     if highest > 0:
         ax.set_ylim(0, 1.08 * highest)

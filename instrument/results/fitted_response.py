@@ -46,7 +46,7 @@ class FittedModel:
     def of(
         cls, specimen: Specimen, found: FoundLaw, frequency_hz: Array, progress: Progress = quiet
     ) -> "FittedModel":
-        """Over the band of some frequencies.
+        """Over the band of some frequencies, of shape (points,).
 
         Raises `BadInput` for a law of another kind, `OutsideModel` for a bare plate.
         """
@@ -76,7 +76,7 @@ class FittedModel:
         return self.plate.read(velocity(omega, x, s.reads) * s.base_acceleration_m_s2, frequency_hz)
 
     def response(self, frequency_hz: Array) -> FittedResponse:
-        """The velocity and its errors."""
+        """The velocity and its errors. Shape (points,)."""
         v = self.velocity(frequency_hz)
         ratio = self._derivatives(v, frequency_hz) / v
         return FittedResponse(
@@ -104,7 +104,7 @@ def fitted_response(
 ) -> FittedResponse:
     """Predict with the law found on the plate found; their covariance is carried over to first order.
 
-    Raises `BadInput` for a law of another kind, `OutsideModel` for a bare plate.
+    Shape (points,). Raises `BadInput` for a law of another kind, `OutsideModel` for a bare plate.
     """
     return FittedModel.of(specimen, found, frequency_hz, progress).response(frequency_hz)
 

@@ -6,7 +6,7 @@ from instrument.results.fitted_response import FittedResponse
 
 
 def prediction_from(frequency_hz: Array, velocity_m_s: Complex, remark: str = "") -> PredictionResult:
-    """Of a specimen's own law."""
+    """Of a specimen's own law. Shape (points,) each."""
     rows = zip(frequency_hz.tolist(), velocity_m_s, strict=True)
     return PredictionResult(points=tuple(_point(f, z) for f, z in rows), notes=(remark,) if remark else ())
 

@@ -143,7 +143,10 @@ def _run(
 
 
 def finish_session(journal: SessionJournal, path: Path) -> int:
-    """Put a session file together from what is sealed and remove the folder; how many parts there were."""
+    """Put a session file together from what is sealed and remove the folder; how many parts there were.
+
+    Raises `BadInput` where nothing is sealed.
+    """
     entries = journal.entries()
     if not entries:
         raise BadInput(f"{journal.folder}: nothing was completed, there is no session to put together")

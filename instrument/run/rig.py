@@ -92,7 +92,10 @@ def open_shaker(table: ShakerOptions, *, timeout_s: float = 1.0, retries: int = 
 
 @contextmanager
 def simulator(path: Path, *options: str) -> Iterator[Addresses]:
-    """The simulated instruments in their own process, in virtual time; it ends with its standard input."""
+    """The simulated instruments in their own process, in virtual time; it ends with its standard input.
+
+    Raises `Unreachable` where they do not come up.
+    """
     command = [sys.executable, "-m", "instrument.cli", "simulate", str(path), "--virtual-time", *options]
     # In a session of its own: a Ctrl-C for the run must not take the rig away before the shaker is silent.
     process = subprocess.Popen(

@@ -102,7 +102,8 @@ class SessionJournal:
     def entries(self) -> list[Entry]:
         """Parts that are there and whole, in order; the first that is not ends the list.
 
-        A last line torn by the end of the program is left out.
+        A last line torn by the end of the program is left out. Raises `BadInput` where the journal cannot be
+        read.
         """
         path = self.folder / JOURNAL
         if not path.exists():

@@ -55,7 +55,10 @@ def sweep_settings(experiment: ExperimentDocument, rig: RigDocument) -> SweepSet
 
 
 def hammer_settings(configuration: Configuration) -> HammerSettings | None:
-    """Of the experiment; the record long enough for the slowest mode where it is left to us."""
+    """Of the experiment; the record long enough for the slowest mode where it is left to us.
+
+    Raises `BadInput` where the rig has no channel for force or response.
+    """
     h = configuration.experiment.hammer
     if h is None:
         return None

@@ -54,7 +54,7 @@ def write_part(path: Path, events: list[Event]) -> str:
 
 
 def write_session(path: Path, configuration: Configuration, parts: list[Path]) -> None:
-    """Put a session together from its sealed parts."""
+    """Put a session together from its sealed parts. Raises `OSError` where the disk is too full for it."""
     needed = _ROOM * sum(part.stat().st_size for part in parts) + _OVERHEAD_BYTES
     if (free := shutil.disk_usage(path.parent).free) < needed:
         raise OSError(errno.ENOSPC, f"{free / 1e6:.0f} MB free, {needed / 1e6:.0f} MB needed for {path.name}")

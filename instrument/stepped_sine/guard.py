@@ -17,7 +17,10 @@ class Guard:
         self._warned: set[str] = set()
 
     def look(self, x: NDArray[np.float64], drive_v: float) -> list[Derived]:
-        """Peaks of base acceleration and velocity (rows of x, SI) and the drive against their limits."""
+        """Peaks of base acceleration and velocity and the drive against their limits.
+
+        SI, shape (2, samples).
+        """
         limits = self._settings.limits
         base, velocity = np.ptp(x, axis=1) / 2
         travel = base / (2 * np.pi * self._began.frequency_hz) ** 2

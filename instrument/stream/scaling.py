@@ -53,11 +53,14 @@ class Scaling:
         return name in self.rows
 
     def units(self, name: str, volts: Array) -> Array:
-        """Samples of a channel in m/s^2, N or degree Celsius, from those of all channels in V."""
+        """Samples of a channel in m/s^2, N or degree Celsius, from those of all channels in V.
+
+        Shapes (channels, samples) to (samples,).
+        """
         return volts[self.rows[name]] * self.units_per_volt[name]
 
     def velocity(self, volts: Array, scale_m_s_v: float) -> Array:
-        """The laser's samples in m/s, read in a range of this scale."""
+        """The laser's samples in m/s, read in a range of this scale. Shapes as of `units`."""
         return self.units("velocity", volts) * scale_m_s_v
 
     def motion(self, volts: Array, scale_m_s_v: float) -> Array:

@@ -94,7 +94,10 @@ class StruckPlate:
         return diagonalised(A, B[:, 0], C, d, scale, OUTPUTS)
 
     def modes(self, count: int = 8) -> tuple[Array, Array]:
-        """Natural frequencies in Hz (of the poles' modulus) and damping ratios, the sensor on the plate."""
+        """Natural frequencies in Hz (of the poles' modulus) and damping ratios, the sensor on the plate.
+
+        Shape (count,) each, or fewer.
+        """
         poles = self._motion.system.poles
         poles = poles[poles.imag > 0]
         poles = poles[np.argsort(np.abs(poles))][:count]

@@ -32,13 +32,16 @@ class Diagonal:
         return np.asarray(self.C @ (self.b / (s - self.poles)) + self.d)
 
     def transfer_rate(self, s: complex) -> Complex:
-        """Derivative of `transfer` with respect to s."""
+        """Derivative of `transfer` with respect to s. Shape (outputs,)."""
         return np.asarray(-self.C @ (self.b / (s - self.poles) ** 2))
 
 
 @one_thread
 def diagonalised(A: Array, b: Array, C: Array, d: Array, scale: Array, names: tuple[str, ...]) -> Diagonal:
-    """From matrices in scaled states; `scale` makes them from physical ones. C reads scaled states."""
+    """From matrices in scaled states; `scale` makes them from physical ones. C reads scaled states.
+
+    Shapes as `Diagonal` has them.
+    """
     eigenvalues, vectors = np.linalg.eig(A)
     poles, X = eigenvalues.astype(np.complex128), vectors.astype(np.complex128)
     inverse: Complex = np.linalg.inv(X).astype(np.complex128)

@@ -53,7 +53,7 @@ def wlf_shift(kelvin: float, c1: float, c2_kelvin: float) -> float:
 def fractional_zener(
     g0_pa: float, ginf_pa: float, tau_s: float, alpha: float
 ) -> Callable[[ArrayLike], Complex]:
-    """G* of (g0 + ginf (i w tau)^alpha) / (1 + (i w tau)^alpha), to make a series from."""
+    """G* of (g0 + ginf (i w tau)^alpha) / (1 + (i w tau)^alpha), to make a series from. Shape of omega."""
 
     def modulus(omega: ArrayLike) -> Complex:
         s = (1j * np.asarray(omega) * tau_s) ** alpha
@@ -67,7 +67,8 @@ def maxwell_series(
 ) -> MaxwellLaw:
     """The series nearest to a law over the band in relative error, by non-negative least squares.
 
-    The times are spaced evenly in the logarithm, from 2 / (lowest w) to 1 / (highest w).
+    The times are spaced evenly in the logarithm, from 2 / (lowest w) to 1 / (highest w). `modulus` keeps the
+    shape of omega.
     """
     omega = 2 * np.pi * np.geomspace(*band_hz, 200)
     wanted = modulus(omega)

@@ -31,7 +31,10 @@ class ReducedModel:
 
 
 def unpacked(upper: Array, n: int) -> Array:
-    """Symmetric matrices from their upper triangles, the last axis."""
+    """Symmetric matrices from their upper triangles, the last axis.
+
+    Shapes (..., n (n + 1) / 2) to (..., n, n).
+    """
     out = np.zeros((*upper.shape[:-1], n, n))
     i, j = np.triu_indices(n)
     out[..., i, j] = out[..., j, i] = upper
@@ -39,7 +42,7 @@ def unpacked(upper: Array, n: int) -> Array:
 
 
 def model_from(arrays: dict[str, Array]) -> ReducedModel:
-    """A model of arrays as built."""
+    """A model of arrays as built. Shapes as stored: symmetric matrices as `unpacked` takes them."""
     n = arrays["w_top"].shape[1]
     packed = {name for name in arrays if name[:2] in ("M_", "K_", "S_")}
     whole = {k: unpacked(v, n) if k in packed else v for k, v in arrays.items() if k != "rigid_count"}

@@ -71,7 +71,7 @@ class EvenStretch:
         return turn * (tone.amplitude * H + tone.slope * dH), turn * tone.slope * H
 
     def state(self, time_s: float) -> Array:
-        """Physical state."""
+        """Physical state. Shape (n,)."""
         t = time_s - self.begin_s
         modal = self.transient * np.exp(self.system.poles * t) + self._particular(t)
         return np.asarray((self.system.from_modal @ modal).real)
@@ -162,7 +162,7 @@ class Motion:
             del self._stretches[0]
 
     def state(self, time_s: float) -> Array:
-        """Physical state at a time not before the memory."""
+        """Physical state at a time not before the memory. Shape (n,)."""
         return self._at_or_before(time_s).state(time_s)
 
     def _at_or_before(self, time_s: float) -> EvenStretch:

@@ -55,13 +55,16 @@ def sandwich(effects: Effects | None = None, model: ReducedModel | None = None) 
 
 
 def elastic(effects: Effects, model: ReducedModel) -> Array:
-    """Stiffness of both faces."""
+    """Stiffness of both faces. Shape (n, n)."""
     scale = effects.substrate_stiffness.scale if effects.substrate_stiffness else 1.0
     return scale * model["K_substrate"] + model["K_constraining"]
 
 
 def core_stiffness(effects: Effects, model: ReducedModel, thickness: float) -> Array:
-    """Of the core for unit modulus. What a loose strip lacks is shear across it, as 1 / thickness."""
+    """Of the core for unit modulus. What a loose strip lacks is shear across it, as 1 / thickness.
+
+    Shape (n, n).
+    """
     K = thickness * model["K_core_in_plane"] + model["K_core_mixed"] + model["K_core_normal"] / thickness
     debond = effects.partial_debond
     if debond is None:
@@ -72,7 +75,7 @@ def core_stiffness(effects: Effects, model: ReducedModel, thickness: float) -> A
 
 
 def inertia(effects: Effects, model: ReducedModel, thickness: float) -> tuple[Array, Array]:
-    """M, and M times heave and pitch."""
+    """M, and M times heave and pitch. Shapes (n, n) and (n, 2)."""
     scales = {"substrate": 1.0, "core": thickness, "constraining": 1.0}
     if effects.air_added_mass:
         scales["air"] = effects.air_added_mass.density_kg_m3
@@ -97,7 +100,7 @@ def clamp(effects: Effects, model: ReducedModel) -> tuple[Branch, ...]:
 
 
 def damping_ratios(effects: Effects) -> Array:
-    """Of the first eight modes."""
+    """Of the first eight modes. Shape (8,)."""
     scale = effects.viscous_damping.scale if effects.viscous_damping else 1.0
     return scale * np.array(specimen.BARE_MODAL_RATIOS)
 

@@ -97,7 +97,7 @@ class ShakenPlate:
         return self._structure.with_laws(self._law)
 
     def poles(self) -> NDArray[np.complex128]:
-        """Of the whole chain, in rad/s, as it is now."""
+        """Of the whole chain, in rad/s, as it is now. Shape (n,)."""
         return self._motion.system.poles
 
     @one_thread

@@ -48,7 +48,7 @@ class ShakerChain:
         return complex(sum(parts))
 
     def first_order(self) -> tuple[Array, Array]:
-        """A and b of x' = A x + b u; states w_k x_k, then x_k', of each section."""
+        """A and b of x' = A x + b u; states w_k x_k, then x_k', of each section. Shapes (n, n) and (n,)."""
         w = np.array([k.omega for k in self.sections])
         zeta = np.array([k.damping_ratio for k in self.sections])
         zero = np.zeros((len(w), len(w)))

@@ -33,7 +33,7 @@ class Structure:
     """Rows that read displacements. Shape (readings, n)."""
 
     def dynamic_stiffness(self, omega: float) -> Complex:
-        """-w^2 M + i w C + K + sum of G* K_b."""
+        """-w^2 M + i w C + K + sum of G* K_b. Shape (n, n)."""
         Z = self.K - omega**2 * self.M + 1j * omega * self.C
         for branch in self.branches:
             Z = Z + branch.law.modulus(omega) * branch.K
@@ -49,14 +49,14 @@ class Structure:
         return replace(self, branches=changed + self.branches[len(laws) :])
 
     def projected(self, V: Array) -> "Structure":
-        """On the columns of V."""
+        """On the columns of V. Shape (n, m)."""
         branches = tuple(Branch(V.T @ b.K @ V, b.law) for b in self.branches)
         M, C, K = (V.T @ A @ V for A in (self.M, self.C, self.K))
         return Structure(M, C, K, branches, V.T @ self.loads, self.readings @ V)
 
 
 def modal_damping(M: Array, K: Array, ratios: Array) -> Array:
-    """C = M Phi diag(2 zeta_r w_r) Phi^T M over the first modes."""
+    """C = M Phi diag(2 zeta_r w_r) Phi^T M over the first modes. Shape (n, n)."""
     lam, phi = eigh(K, M)
     U = M @ phi[:, : len(ratios)]
     return np.asarray((U * (2 * ratios * np.sqrt(lam[: len(ratios)]))) @ U.T)
@@ -69,7 +69,10 @@ def condensed(
     band_hz: tuple[float, float] = (4.0, 700.0),
     count: int = 90,
 ) -> tuple[Structure, Array]:
-    """The structure on its responses over the band under each of `laws`, and the basis. M becomes one."""
+    """The structure on its responses over the band under each of `laws`, and the basis. M becomes one.
+
+    The basis of shape (n, m).
+    """
     snapshots = []
     for law in laws:
         under = structure.with_laws(law)
@@ -93,7 +96,8 @@ def first_order(structure: Structure) -> tuple[Array, Array, Array]:
 
     Physical states: q, q', then for each branch and relaxing element z with tau z' = tau F^T q' - z, where
     K_b = F F^T. Scaled by `scale` the energy is |x|^2/2 and A is skew but for its losses: well conditioned.
-    Returns A and B in scaled states and the matrix that scales physical states.
+    Returns A and B in scaled states and the matrix that scales physical states. Shapes (N, N), (N, inputs)
+    and (N, N).
     """
     n = len(structure.M)
     relaxed = structure.K + sum((b.law.g_inf_pa * b.K for b in structure.branches), np.zeros((n, n)))
@@ -126,7 +130,7 @@ def first_order(structure: Structure) -> tuple[Array, Array, Array]:
 
 
 def factor(K: Array) -> Array:
-    """F of K = F F^T, of the rank of K."""
+    """F of K = F F^T, of the rank of K. Shape (n, rank)."""
     lam, u = eigh(K)
     kept = lam > 1e-13 * lam[-1]
     return np.asarray(u[:, kept] * np.sqrt(lam[kept]))

@@ -10,7 +10,7 @@ Blow = tuple[int, float]
 
 
 def blow_of(hit: RecordedHit) -> Blow:
-    """What tells a hit from all others, also in another picture of the same session."""
+    """What tells a hit from all others, also in another state of the same session."""
     return hit.number, hit.peak_n
 
 

@@ -105,7 +105,7 @@ class FrfPlots(QWidget):
         self.magnitude.points(_MODES, f, np.array(heights), "model", symbol="t", size=10.0, listed=False)
 
     def show_expected(self, frequency_hz: Array | None) -> None:
-        """Where the specimen file has the bare plate's modes."""
+        """Where the specimen file has the bare plate's modes. Shape (modes,)."""
         self._expected_hz = () if frequency_hz is None else tuple(float(f) for f in frequency_hz)
         self.phase.mark(self._expected_hz, "faint", name="expected")
         self._mark_expected()

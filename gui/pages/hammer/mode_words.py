@@ -48,7 +48,10 @@ class ModeRow:
 def mode_rows(
     result: DampingResult | None, modes: ModesFound | None, expected_hz: Array | None
 ) -> list[ModeRow]:
-    """Of a result; what only the computation here knows is added where it has the same mode."""
+    """Of a result; what only the computation here knows is added where it has the same mode.
+
+    `expected_hz` of shape (modes,).
+    """
     found = result.modes if result is not None else ()
     return [_mode_row(k + 1, mode, modes, expected_hz) for k, mode in enumerate(found)]
 
@@ -112,7 +115,7 @@ def agree(recorded: DampingResult, computed: DampingResult) -> bool:
 
 
 def near(frequencies_hz: Array, frequency_hz: float) -> int | None:
-    """Which of these is the same mode; None where none is."""
+    """Which of these is the same mode; None where none is. Shape (n,)."""
     if len(frequencies_hz) == 0:
         return None
     k = int(np.argmin(np.abs(frequencies_hz - frequency_hz)))

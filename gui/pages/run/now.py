@@ -27,7 +27,7 @@ _NOTHING = "No run and no session. How a run stands appears here: state, level, 
 
 
 class NowPane(QWidget):
-    """Reads the picture, and of a run how its stop path stands."""
+    """Reads the session state, and of a run how its stop path stands."""
 
     def __init__(self, controller: AppController, parent: QWidget | None = None) -> None:
         super().__init__(parent)

@@ -78,13 +78,13 @@ def regions_of(segments: dict[tuple[int, int], SegmentRun]) -> list[Region]:
 
 
 def grid(regions: list[Region]) -> list[Array]:
-    """Frequencies to draw at, for each region."""
+    """Frequencies to draw at, for each region. Shape (count,) each."""
     count = max(3, min(_A_SEGMENT, _MOST // max(1, len(regions))))
     return [np.linspace(low, high, count) for _, low, high in regions]
 
 
 def joined(stretches: list[Array]) -> Array:
-    """One array with a gap between one stretch and the next."""
+    """One array with a gap between one stretch and the next. Shape (n,), as of each stretch."""
     gap = np.array([np.nan])
     return np.concatenate([part for s in stretches for part in (s, gap)][:-1]) if stretches else np.zeros(0)
 
@@ -92,7 +92,7 @@ def joined(stretches: list[Array]) -> Array:
 def predictions(points: PointsMeasured, rows: Sequence[PointFitted], last_step: int) -> tuple[Index, Array]:
     """What a fit's own rows say: number of each point it took, and its amplitude predicted in m/s.
 
-    Empty where the rows do not belong to these points.
+    Empty where the rows do not belong to these points. Shape (taken,) each.
     """
     taken = [k for k, t in enumerate(points.timed) if t.point.step <= last_step]
     fits = len(rows) == len(taken) and all(

@@ -48,7 +48,10 @@ class Following:
         return self._course
 
     def remaining(self) -> tuple[Array, Array, Array]:
-        """Seconds since the last change, the bound on the transient in percent, and that by noise alone."""
+        """Seconds since the last change, the bound on the transient in percent, and that by noise alone.
+
+        Shape (looks,) each.
+        """
         known = [s for s in self._course.standings if s.remaining < np.inf] if self._course else []
         table = np.array([(s.seconds, 100 * s.remaining, 100 * s.noise) for s in known]).reshape(-1, 3)
         return table[:, 0], table[:, 1], table[:, 2]

@@ -49,7 +49,7 @@ class ModelCurve(QObject):
         return self._command is not None or self._soon.isActive()
 
     def want(self, state: SessionState | None) -> None:
-        """The curve of this picture's latest fit, over the segments begun so far.
+        """The curve of the session's latest fit, over the segments begun so far.
 
         Another fit's curve is gone at once; `changed` comes with the new one.
         """

@@ -48,7 +48,7 @@ class Pointed(Plot):
         self.picked.connect(self._picked)
 
     def show_points(self, group: Group, x: Array, y: Array) -> None:
-        """A group under its name."""
+        """A group under its name. Shape (points,), as of its index."""
         self._index[group.name] = group.index
         self.points(group.name, x, y, group.role, symbol=group.symbol)
 
@@ -125,7 +125,7 @@ def hide_foot(plot: Plot) -> None:
 
 
 def span(plot: Plot, x: Array) -> None:
-    """The whole of a trace in view along x.
+    """The whole of a trace in view along x. Shape (points,).
 
     Not left to the plot: linked plots that draw only what is in view would move each other for ever.
     """

@@ -33,7 +33,7 @@ class Way:
         return "|v/a|" if self.quantity == "ratio" else "|v| at its level"
 
     def factor(self, level_m_s2: Array | float) -> Array:
-        """From v/a in s to what is shown."""
+        """From v/a in s to what is shown. Shape of the levels."""
         return np.asarray(1e3 * (np.ones_like(level_m_s2) if self.quantity == "ratio" else level_m_s2))
 
 
@@ -72,7 +72,7 @@ class PaneContents:
 
     @property
     def wanted(self) -> Mask:
-        """Points of the segment chosen; a sentinel that lies elsewhere is left out."""
+        """Points of the segment chosen; a sentinel that lies elsewhere is left out. Shape (points,)."""
         p = self.points
         if self.segment is None:
             return np.ones(len(p), dtype=bool)
@@ -88,11 +88,11 @@ class PaneContents:
 
     @property
     def shown(self) -> Complex:
-        """Response of every point, in the unit of the way chosen."""
+        """Response of every point, in the unit of the way chosen. Shape (points,)."""
         return np.asarray(self.points.over_base_s * self.way.factor(self.points.level_m_s2))
 
     def levels(self, segment: int) -> Array:
-        """Levels of a segment's points in m/s^2; of all where it has none yet."""
+        """Levels of a segment's points in m/s^2; of all where it has none yet. Shape (levels,)."""
         p = self.points
         mine = p.segment == segment
         return np.unique(np.round(p.level_m_s2[mine] if mine.any() else p.level_m_s2, 6))

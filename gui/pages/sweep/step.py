@@ -67,7 +67,7 @@ class StepPane(QWidget):
         self.clear()
 
     def show_step(self, state: SessionState) -> None:
-        """Draw the picture's step."""
+        """Draw the session's step."""
         if self._following is None or state is not self._picture:
             self._following = Following(state.limits)
         self._picture = state

@@ -30,7 +30,10 @@ def isotropic(lame_pa: float, shear_pa: float) -> Array:
 
 
 def metal(young_pa: float, poisson: float, rolled: float = 0.0) -> Array:
-    """C_ikjl of a metal, its Young's modulus (1 + rolled/2) along x and (1 - rolled/2) along y."""
+    """C_ikjl of a metal, its Young's modulus (1 + rolled/2) along x and (1 - rolled/2) along y, in Pa.
+
+    Shape (3, 3, 3, 3).
+    """
     if not rolled:
         shear = young_pa / (2 * (1 + poisson))
         return isotropic(2 * shear * poisson / (1 - 2 * poisson), shear)
@@ -51,7 +54,7 @@ def metal(young_pa: float, poisson: float, rolled: float = 0.0) -> Array:
 
 
 def unit_core(poisson: float) -> Array:
-    """C_ikjl of a core whose shear modulus is one."""
+    """C_ikjl of a core whose shear modulus is one. Shape (3, 3, 3, 3)."""
     return isotropic(2 * poisson / (1 - 2 * poisson), 1.0)
 
 

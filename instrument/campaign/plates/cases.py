@@ -97,7 +97,7 @@ class PlateCase:
 
     @property
     def hammer(self) -> tuple[Array, Array] | None:
-        """Natural frequencies in Hz and ratios of the bare plate."""
+        """Natural frequencies in Hz and ratios of the bare plate. Shape (modes,) each."""
         return self.hammer_test.pair if self.hammer_test else None
 
 
@@ -107,7 +107,8 @@ def draw_case(
     """A random case of one of `KINDS`, always the same for the same arguments.
 
     `exact`: the specimen says the truth, and says so. `plate` and `law` ask for one plate or kind of law.
-    Law, segments, noise and effects of a seed are the same for exact and stated cases.
+    Law, segments, noise and effects of a seed are the same for exact and stated cases. Raises `ValueError`
+    for another kind.
     """
     if kind not in KINDS:
         raise ValueError(f"kind {kind!r}, expected one of {', '.join(KINDS)}")

@@ -34,17 +34,17 @@ class BrickGrid:
 
     @property
     def nodes(self) -> tuple[Array, Array, Array]:
-        """Ends and middles along each axis."""
+        """Ends and middles along each axis. Shape (n,) each."""
         return fine(self.x), fine(self.y), fine(self.z)
 
     @property
     def middles(self) -> tuple[Array, Array]:
-        """Of the bricks, along x and along y."""
+        """Of the bricks, along x and along y. Shape (n,) each."""
         return (self.x[1:] + self.x[:-1]) / 2, (self.y[1:] + self.y[:-1]) / 2
 
 
 def grid_of(plate: TruePlate, fineness: Fineness, lines_x: Array, lines_y: Array) -> BrickGrid:
-    """The grid of a plate, with lines at the places (m) that its effects ask for."""
+    """The grid of a plate, with lines at the places (m) that its effects ask for. Shape (n,) each."""
     thick = float(sum(plate.heights_m))
     edge = np.array(fineness.near_edge) * thick
     x = _lines(plate.length_m, fineness.along_x, np.array(fineness.near_root) * thick, lines_x)
@@ -68,7 +68,7 @@ def _lines(length: float, count: int, near: Array, wanted: Array) -> Array:
 
 
 def fine(ends: Array) -> Array:
-    """Nodes along one axis: ends and middles."""
+    """Nodes along one axis: ends and middles. Shapes (n,) to (2 n - 1,)."""
     return np.sort(np.concatenate([ends, (ends[1:] + ends[:-1]) / 2]))
 
 

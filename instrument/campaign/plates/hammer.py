@@ -41,7 +41,10 @@ def hammer_test(
     ratio_scatter: float,
     yields: bool = True,
 ) -> HammerTest:
-    """A test of the plate whose models in a rigid and in a softer clamp are given."""
+    """A test of the plate whose models in a rigid and in a softer clamp are given.
+
+    `ratios` of shape (modes,).
+    """
     f, soft = (np.sqrt(plate.modes(0.0, MODES)[0]) / (2 * np.pi) for plate in (rigid, sprung))
     drop = 0.0 if rng.random() < _RIGID_SHARE or not yields else float(rng.uniform(0, _MOST_SOFT))
     fall = np.log(soft / f)

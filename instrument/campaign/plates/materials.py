@@ -32,7 +32,7 @@ class PlateMaterialLaw:
     values: tuple[float, ...]
 
     def modulus(self, omega: ArrayLike) -> Complex:
-        """In Pa, of the shape of `omega` (rad/s)."""
+        """In Pa, of the shape of `omega` (rad/s). Raises `ValueError` for an unknown kind."""
         w = np.asarray(omega, dtype=float)
         if self.kind == "fractional-zener":
             g0, ginf, tau, alpha = self.values
@@ -67,7 +67,7 @@ def draw_law(
 ) -> PlateMaterialLaw:
     """A law whose G' and eta keep within `STORAGE_PA` and `LOSS` over a band.
 
-    Half are fractional Zener where no kind is asked for.
+    Half are fractional Zener where no kind is asked for. Raises `ArithmeticError` where it finds none.
     """
     if kind is None:
         kind = KINDS[0] if rng.random() < 0.5 else str(rng.choice(KINDS[1:]))
@@ -80,7 +80,7 @@ def draw_law(
 
 
 def fits(law: PlateMaterialLaw, frequency_hz: Array) -> bool:
-    """Whether G' and eta keep within the limits of the campaign."""
+    """Whether G' and eta keep within the limits of the campaign. Shape (n,)."""
     G = law.modulus(2 * np.pi * frequency_hz)
     eta = G.imag / G.real
     storage = STORAGE_PA[0] < G.real.min() and G.real.max() < STORAGE_PA[1]

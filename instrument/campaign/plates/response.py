@@ -35,7 +35,10 @@ class BaseMotion:
         return cls(np.zeros(points, complex), np.zeros(points, complex))
 
     def at(self, x_m: float, y_m: float, width_m: float) -> Complex:
-        """Acceleration of the base's rigid motion at a point, per acceleration of its heave."""
+        """Acceleration of the base's rigid motion at a point, per acceleration of its heave.
+
+        Shape (points,).
+        """
         return np.asarray(1 + x_m * self.pitch_rad_m + (y_m - width_m / 2) * self.roll_rad_m)
 
     @property

@@ -57,7 +57,7 @@ def built(
 
 
 def moduli_of(law: PlateMaterialLaw, frequency_hz: Array) -> tuple[float, ...]:
-    """Where the basis of a plate with this law is made."""
+    """Where the basis of a plate with this law is made. Shape (n,)."""
     size = np.abs(law.modulus(2 * np.pi * np.array([frequency_hz.min(), frequency_hz.max()])))
     low, high = min(size[0], REFERENCE_MODULUS_PA), max(1.2 * size[1], 1.5 * REFERENCE_MODULUS_PA)
     return tuple(float(g) for g in np.geomspace(low, high, 3))
@@ -71,7 +71,7 @@ def reading(
     schedule: Schedule,
     channel: ChannelError,
 ) -> Complex:
-    """The same of a plate as `built`."""
+    """The same of a plate as `built`. Shape (points,)."""
     omega = 2 * np.pi * schedule.frequency_hz
     motion = reduce(lambda m, h: h.motion(m, omega), hidden, BaseMotion.pure(len(omega)))
     ratios = reduce(lambda r, h: h.ratios(r), hidden, np.array(true.ratios))

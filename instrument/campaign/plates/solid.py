@@ -208,7 +208,7 @@ class Solid:
 
     @cached_property
     def free(self) -> NDArray[np.intp]:
-        """Degrees of freedom that move, ordered for factorisation."""
+        """Degrees of freedom that move, ordered for factorisation. Shape (n,)."""
         nx, ny, nz = self.counts
         columns = dissected(nx, ny)
         i, k = columns[:, 0][:, None, None], np.arange(nz)[:, None]

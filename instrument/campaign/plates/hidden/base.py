@@ -105,19 +105,22 @@ class Hidden:
         return ()
 
     def attached(self, omega: Array, motion: BaseMotion, width_m: float) -> tuple[Attachment, ...]:
-        """What hangs there."""
+        """What hangs there. `omega` of shape (points,)."""
         return ()
 
     def ratios(self, ratios: Array) -> Array:
-        """Remaining damping of the treated plate."""
+        """Remaining damping of the treated plate. Shape (modes,)."""
         return ratios
 
     def frequency_factor(self, time_s: Array, x: Array, length_m: float) -> Array | None:
-        """Factor on the frequency at which the law is read, at each point and group of bricks; None: one."""
+        """Factor on the frequency at which the law is read, at each point and group of bricks; None: one.
+
+        Shape (points, groups); `x` in m of shape (groups,).
+        """
         return None
 
     def motion(self, motion: BaseMotion, omega: Array) -> BaseMotion:
-        """How else the base moves."""
+        """How else the base moves. `omega` of shape (points,)."""
         return motion
 
     def spot(self, spot_m: tuple[float, float], true: TruePlate) -> tuple[float, float]:
@@ -125,9 +128,12 @@ class Hidden:
         return spot_m
 
     def channel(self, velocity_s: Complex, omega: Array, base_s: Complex) -> Complex:
-        """What the velocity channel makes of a velocity per base acceleration; `base_s` is the base's own."""
+        """What the velocity channel makes of a velocity per base acceleration; `base_s` is the base's own.
+
+        In s, shape (points,).
+        """
         return velocity_s
 
     def reference(self, base: Complex, omega: Array) -> Complex:
-        """What the reference channel makes of the acceleration of the plate's root."""
+        """What the reference channel makes of the acceleration of the plate's root. Shape (points,)."""
         return base

@@ -144,6 +144,9 @@ class HiddenAmplitudeSoftening(Hidden):
         return tuple(lambda x, y, n=n: np.cos(n * np.pi * x / true.length_m) + 0 * y for n in (1, 2))
 
     def factor(self, strain: Array, reference: float) -> Array:
-        """On the modulus of bricks of given strain; `reference` is that at which `k` is lost."""
+        """On the modulus of bricks of given strain; `reference` is that at which `k` is lost.
+
+        Shape of `strain`.
+        """
         r = strain / reference * self.k / (self.most - self.k)
         return np.asarray(1 - self.most * r / (1 + r))

@@ -1,0 +1,136 @@
+"""What docstrings leave out: the shape of arrays, and errors raised.
+
+    python scripts/docstrings.py [ROOT]
+
+A public function that takes or returns an array states a shape, one that raises says so. An override of a
+documented method of the project needs neither, nor does what a Protocol of the project asks for; a class may
+state the shapes of its methods. Exits 1 where something is missing, a line each.
+"""
+
+import ast
+import re
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import chain
+from pathlib import Path
+
+ROOMS = ("fitting", "drivers", "instrument", "gui", "viscorig")
+KEPT = {f"drivers/simulated/plant/{name}.py" for name in ("air", "grid", "specimen", "strips")}
+"""plate.npz carries a digest of their text: a docstring more would make it another plate."""
+
+_ARRAY = re.compile(r"\b(Array|Complex|Mask|Indices|Integers|Names|NDArray|ndarray)\b")
+_SHAPE = re.compile(r"\b[Ss]hapes?\b|\([\w ]+,\)|\(\w+(, [\w ]+)+\)|\bper (point|line|sample|mode)\b")
+_RAISES = re.compile(r"\b([Rr]aise|[Rr]efuse)")
+_NOT_REFUSALS = {"NotImplementedError", "AssertionError"}
+
+Function = ast.FunctionDef | ast.AsyncFunctionDef
+
+
+@dataclass(frozen=True)
+class Place:
+    """A class and where it is written."""
+
+    file: str
+    node: ast.ClassDef
+
+    @property
+    def bases(self) -> list[str]:
+        """Their names, without module and parameters."""
+        return [re.split(r"[\[.]", ast.unparse(base).partition("[")[0])[-1] for base in self.node.bases]
+
+    @property
+    def members(self) -> set[str]:
+        """Public names in its body."""
+        names = {item.name for item in self.node.body if isinstance(item, Function)}
+        fields = {ast.unparse(item.target) for item in self.node.body if isinstance(item, ast.AnnAssign)}
+        return {name for name in names | fields if not name.startswith("_")}
+
+    def method(self, name: str) -> Function | None:
+        """The one of that name in its body."""
+        return next((m for m in self.node.body if isinstance(m, Function) and m.name == name), None)
+
+
+def missing(root: Path) -> list[str]:
+    """A line for every statement that is left out in the rooms under `root`."""
+    trees = {
+        file.relative_to(root).as_posix(): ast.parse(file.read_text("utf-8"))
+        for room in ROOMS
+        for file in sorted(root.glob(f"{room}/**/*.py"))
+    }
+    classes = {
+        node.name: Place(file, node)
+        for file, tree in trees.items()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ClassDef)
+    }
+    return [
+        f"{file}:{node.lineno}: {node.name} {complaint}"
+        for file, tree in trees.items()
+        if file not in KEPT
+        for node, owner in _public(tree.body)
+        for complaint in _complaints(node, owner, classes)
+    ]
+
+
+def _public(body: list[ast.stmt], owner: str = "") -> Iterator[tuple[Function, str]]:
+    for node in body:
+        if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+            yield from _public(node.body, node.name)
+        elif isinstance(node, Function) and not node.name.startswith("_"):
+            yield node, owner
+
+
+def _complaints(node: Function, owner: str, classes: dict[str, Place]) -> Iterator[str]:
+    if any(re.search(r"overload|command", ast.unparse(decorator)) for decorator in node.decorator_list):
+        return  # a command's docstring is its --help
+    signature = f"{ast.unparse(node.args)} -> {ast.unparse(node.returns) if node.returns else ''}"
+    if _ARRAY.search(signature) and not _stated(_SHAPE, node, owner, classes):
+        yield "states no shape"
+    raised = sorted(set(_raised(node)))
+    if raised and not _stated(_RAISES, node, owner, classes):
+        yield f"does not say that it raises {', '.join(raised)}"
+
+
+def _stated(what: re.Pattern[str], node: Function, owner: str, classes: dict[str, Place]) -> bool:
+    own = [node, classes[owner].node] if owner else [node]
+    places = chain(own, _overridden(node.name, owner, classes) if owner else ())
+    return any(what.search(ast.get_docstring(place) or "") for place in places)
+
+
+def _overridden(name: str, owner: str, classes: dict[str, Place]) -> Iterator[Function]:
+    """The methods of this name in what a class is derived from, and in the protocols that it fits."""
+    ancestors = list(_ancestors(owner, classes))
+    members = {member for each in (owner, *ancestors) for member in classes[each].members}
+    protocols = (each for each, place in classes.items() if "Protocol" in place.bases)
+    for each in chain(ancestors, (p for p in protocols if name in classes[p].members <= members)):
+        method = classes[each].method(name)
+        if method is not None:
+            yield method
+
+
+def _ancestors(owner: str, classes: dict[str, Place]) -> Iterator[str]:
+    for base in classes[owner].bases:
+        if base in classes:
+            yield base
+            yield from _ancestors(base, classes)
+
+
+def _raised(node: Function) -> Iterator[str]:
+    for inner in ast.walk(node):
+        if isinstance(inner, ast.Raise) and inner.exc is not None:
+            error = inner.exc.func if isinstance(inner.exc, ast.Call) else inner.exc
+            name = ast.unparse(error)
+            if (name[0].isupper() or "." in name) and name not in _NOT_REFUSALS:
+                yield name
+
+
+def main() -> int:
+    """Say what is missing."""
+    found = missing(Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parents[1])
+    print("\n".join(found), end="\n" if found else "")
+    return bool(found)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,59 @@
+import subprocess
+import sys
+from pathlib import Path
+
+SCRIPT = Path(__file__).parents[2] / "scripts" / "docstrings.py"
+
+
+def looked_at(root, source):
+    (root / "fitting").mkdir()
+    (root / "fitting" / "one.py").write_text(source, encoding="utf-8")
+    done = subprocess.run([sys.executable, SCRIPT, root], capture_output=True, text=True, check=False)
+    return done.returncode, done.stdout.splitlines()
+
+
+def test_an_array_without_a_shape_and_an_unsaid_error_are_told_with_their_places(tmp_path):
+    source = '''
+def twice(x: Array) -> Array:
+    """Both."""
+    if not len(x):
+        raise ValueError("nothing")
+    return 2 * x
+'''
+    assert looked_at(tmp_path, source) == (
+        1,
+        [
+            "fitting/one.py:2: twice states no shape",
+            "fitting/one.py:2: twice does not say that it raises ValueError",
+        ],
+    )
+
+
+def test_what_is_said_once_holds_for_overrides_for_protocols_and_within_a_class(tmp_path):
+    source = '''
+class Law:
+    def modulus(self, omega: Array) -> Array:
+        """G* in Pa. Shape of `omega`. Raises `ValueError` below zero."""
+
+class Constant(Law):
+    def modulus(self, omega: Array) -> Array:
+        raise ValueError
+
+class Reader(Protocol):
+    def read(self) -> Array:
+        """Shape (samples,)."""
+
+class Card:
+    def read(self) -> Array:
+        """By what it is like."""
+
+class Sweep:
+    """Columns of shape (points,)."""
+
+    def velocity(self) -> Array:
+        """In m/s."""
+
+def _inner(x: Array) -> Array:
+    return x
+'''
+    assert looked_at(tmp_path, source) == (0, [])
