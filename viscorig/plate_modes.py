@@ -59,4 +59,4 @@ def modes(specimen: Specimen, count: int = 8) -> Modes:
     model = specimen.model
     law = model.core.law if model.core is not None else None
     with bar("modes") as report:
-        return Modes(modes_from(complex_modes(Plate(model), law, count, report)))
+        return Modes(modes_from(complex_modes(Plate(model), law, count, report), law))

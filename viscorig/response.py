@@ -83,7 +83,8 @@ def predict(
     law = model.core.law if model.core is not None else None
     if fit is None:
         v = Models.of(model, f, bar).predict(law, f, real_modes=real_modes)
-        return Response(prediction_from(f, v, theory_remark(model, law, f)))
+        outside = law.outside(f) if law is not None else ""
+        return Response(prediction_from(f, v, outside, theory_remark(model, law, f)))
     known = found_law(fit.result)
     found = fitted_response(model, known, f, bar)
     law = known.law(law) if law is not None else None

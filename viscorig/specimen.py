@@ -11,7 +11,13 @@ from pydantic import ValidationError
 from fitting.errors import OutsideModel
 from fitting.specimen import Specimen as Model
 from instrument.errors import BadInput
-from instrument.files.specimen_file import SpecimenDocument, read_specimen, specimen_of
+from instrument.files.law_table import with_rows
+from instrument.files.specimen_file import (
+    SpecimenDocument,
+    read_specimen,
+    read_specimen_document,
+    specimen_of,
+)
 from instrument.files.text import read_text
 from instrument.files.toml import one_line
 from instrument.stream.jsonable import to_jsonable
@@ -36,7 +42,9 @@ class Specimen(Shown):
     def __init__(self, **tables: Mapping[str, Any]) -> None:
         self._tables: dict[str, Any] = to_jsonable(tables)
         try:
-            self.model = specimen_of(SpecimenDocument.model_validate(self._tables))
+            document = with_rows(SpecimenDocument.model_validate(self._tables), Path())
+            self._keep_rows(document)
+            self.model = specimen_of(document)
         except ValidationError as error:
             raise BadInput(f"specimen: {one_line(error)}") from None
         except OutsideModel as error:
@@ -48,7 +56,13 @@ class Specimen(Shown):
         made = cls.__new__(cls)
         made.model = read_specimen(Path(path))
         made._tables = tomllib.loads(read_text(Path(path)))
+        made._keep_rows(read_specimen_document(Path(path)))
         return made
+
+    def _keep_rows(self, document: SpecimenDocument) -> None:
+        """Of a law's table: where it lies holds for this folder alone."""
+        if document.core is not None and "core" in self._tables:
+            self._tables["core"]["law"] = dict(to_jsonable(document.core.law))
 
     def but(self, **tables: Mapping[str, Any]) -> "Specimen":
         """The same with other values: `specimen.but(core={"thickness_mm": 0.4})`. Raises `BadInput`."""

@@ -52,6 +52,7 @@ def begin(
 ) -> Begun:
     """The fit without any effect, and the evidence all candidates are judged by."""
     sweep = problem.sweep
+    start = start.to_fit(sweep.frequency_hz)
     model = SweepModel(problem.rational, np.arange(len(sweep)), sweep.commanded_m_s2, problem.points.reads)
     first = fit_direct(Residuals.of(sweep, noise, model), start)
     laws: list[CoreLaw] = [first.law]

@@ -99,6 +99,14 @@ class CoreLaw:
         """What is unphysical about the parameters together, in words."""
         return []
 
+    def outside(self, frequency_hz: Array) -> str:
+        """Where the law is asked beyond what it was made for, in words; empty for nowhere."""
+        return ""
+
+    def to_fit(self, frequency_hz: Array) -> "CoreLaw":
+        """What a fit to data at these frequencies begins with, and has the kind of; the law itself."""
+        return self
+
     @classmethod
     def alternatives(cls, near: Vicinity) -> list["CoreLaw"]:
         """Laws of this kind to try in the place of the stated one (effect `core_law`); none by default."""

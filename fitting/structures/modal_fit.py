@@ -207,10 +207,11 @@ def _start(specimens: Sequence[SmallSpecimen], tables: Sequence[ModalTable]) -> 
     cores = [s.core for s in specimens if s.core is not None]
     if len(cores) < len(specimens):
         raise OutsideModel("a bare specimen has no core to identify, expected a core in every one")
-    law = cores[0].law.lifted()
+    frequency_hz = np.concatenate([t.frequency_hz for t in tables])
+    law = cores[0].law.to_fit(frequency_hz).lifted()
     if all(s.exact for s in specimens):
         return law
-    return BentLaw.over(law, np.concatenate([t.frequency_hz for t in tables]))
+    return BentLaw.over(law, frequency_hz)
 
 
 def _uncertainty(law: CoreLaw, J: Array, readings: Array, n: int) -> tuple[Array, Uncertainty]:

@@ -15,6 +15,7 @@ from fitting.errors import OutsideModel
 from gui.form.fields import Field, Kind, Place, shown
 from instrument.errors import BadInput
 from instrument.files.experiment_file import ExperimentDocument
+from instrument.files.law_table import with_rows
 from instrument.files.rig_file import RigDocument
 from instrument.files.specimen_file import SpecimenDocument, specimen_of
 from instrument.files.text import read_text
@@ -70,10 +71,10 @@ class Draft:
         try:
             document = self.model.model_validate(self.plain())
             if isinstance(document, SpecimenDocument):
-                specimen_of(document)
+                specimen_of(with_rows(document, self.path.parent))
         except ValidationError as error:
             return _by_place(error)
-        except OutsideModel as error:
+        except (OutsideModel, BadInput) as error:
             return _of_law(str(error))
         except (RecursionError, OverflowError, ValueError) as error:
             return {(): " ".join(str(error).split())}

@@ -11,8 +11,10 @@ from pydantic_core import PydanticUndefined
 from drivers.options import DeviceOptions
 from fitting.laws import LAWS
 from fitting.laws.base import Quantity
+from fitting.laws.table import Tabulated
 from gui.form.labels import LABELS
 from instrument.files.devices import DEVICES, options_of
+from instrument.files.law_table import COLUMNS
 
 Place = tuple[str | int, ...]
 """Where a value stands in a file: keys, and numbers of tables in a list."""
@@ -127,6 +129,9 @@ def law_fields(kind: object) -> tuple[Field, ...]:
     law = LAWS.get(kind) if isinstance(kind, str) else None
     if law is None:
         return ()
+    if law is Tabulated:
+        tip = f"A CSV with {', '.join(COLUMNS)}, or a material card; relative to this file."
+        return (Field("path", "text", needed=True, tip=tip),)
     return tuple(
         Field(
             field.file_key,

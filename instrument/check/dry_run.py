@@ -95,6 +95,8 @@ def dry_run(path: Path) -> DryRun:
         raise BadInput(f"{path}: {error}") from None
     band = np.array([f for s in segments for f in (s.low_hz, s.high_hz)])
     if len(band) and specimen.core is not None:
+        outside = specimen.core.law.outside(band)
+        warnings += [outside] if outside else []
         remark = theory_remark(specimen, specimen.core.law, band)
         warnings += [f"with the law to start from, {remark}"] if remark else []
     if hammer is not None:

@@ -10,6 +10,7 @@ from fitting.structures.modal_fit import fit_modes
 from instrument.cli.output import Output
 from instrument.files.modal_table import read_modal_table
 from instrument.files.structure_file import read_structure
+from instrument.models.remarks import remarks_on_law
 from instrument.results.modal_from import modal_band, modal_from
 
 
@@ -26,7 +27,13 @@ def identify_modes(out: Output, data: Sequence[Path], specimens: Sequence[Path])
         raise click.UsageError("a modal table of a plate: expected a beam or a shear pair")
     tables = [read_modal_table(path) for path in data]
     found = fit_modes(tables, [s for s in read if not isinstance(s, Specimen)])
-    result = modal_from(found, tables, [path.name for path in data])
+    warnings = [
+        text
+        for t, s in zip(tables, read, strict=True)
+        if s.core is not None
+        for text in remarks_on_law(s.core.law, t.frequency_hz)
+    ]
+    result = modal_from(found, tables, [path.name for path in data], tuple(dict.fromkeys(warnings)))
     rows = [[n, f"{v:.5g}", f"{result.standard_errors[n]:.2g}"] for n, v in result.parameters.items()]
     out.table(f"{result.law_kind} by modes", ["parameter", "value", "standard error"], rows)
     out.say()
@@ -60,4 +67,6 @@ def identify_modes(out: Output, data: Sequence[Path], specimens: Sequence[Path])
         ],
     )
     out.say(f"chi-square per degree of freedom {found.uncertainty.chi2_per_dof:.3g}")
+    for text in result.warnings:
+        out.say(f"note: {text}")
     out.result(result)

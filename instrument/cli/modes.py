@@ -35,4 +35,7 @@ def modes(specimen: Path, count: int, json_path: str | None) -> None:
         found = small_modes(read, law, count)
     rows = [[str(k + 1), f"{m.frequency_hz:.3f}", f"{m.loss_factor:.5f}"] for k, m in enumerate(found)]
     out.table("", ["mode", "frequency/Hz", "loss factor"], rows)
-    out.result(modes_from(found))
+    result = modes_from(found, law)
+    for remark in result.notes:
+        out.say(f"note: {remark}")
+    out.result(result)

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
-from fitting.specimen import Specimen, StatedSpecimen
+from fitting.specimen import Core, Specimen, StatedSpecimen
 from fitting.structures.small_modes import small_velocity
 from instrument.cli.options import Frequencies, file_argument, json_option
 from instrument.cli.output import Output
@@ -60,7 +60,8 @@ def predict(
     if not isinstance(read, Specimen):
         if real_modes or fit is not None or hammer is not None:
             raise click.UsageError(f"--real-modes, --fit, --hammer with a {read.kind}: expected a plate")
-        _show(out, read, prediction_from(frequencies, small_velocity(read, frequencies)))
+        v = small_velocity(read, frequencies)
+        _show(out, read, prediction_from(frequencies, v, _outside(read.core, frequencies)))
         return
     if hammer is not None:
         read = with_bare_plate(read, fit_bare_plate(read, *read_hammer(hammer)))
@@ -72,8 +73,13 @@ def predict(
         result = prediction_from_fit(found, theory_remark(read, law, frequencies))
     else:
         v = Models.of(read, frequencies, bar).predict(law, frequencies, real_modes=real_modes)
-        result = prediction_from(frequencies, v, theory_remark(read, law, frequencies))
+        remarks = (_outside(read.core, frequencies), theory_remark(read, law, frequencies))
+        result = prediction_from(frequencies, v, *remarks)
     _show(out, read, result)
+
+
+def _outside(core: Core | None, frequencies: NDArray[np.float64]) -> str:
+    return core.law.outside(frequencies) if core is not None else ""
 
 
 def _show(out: Output, read: StatedSpecimen, result: PredictionResult) -> None:

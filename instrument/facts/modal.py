@@ -35,3 +35,4 @@ class ModalResult(Result):
     law: tuple[LawRow, ...]
     """Over the range of the modes."""
     adjusted: tuple[AdjustedNumber, ...] = ()
+    warnings: tuple[str, ...] = ()

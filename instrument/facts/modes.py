@@ -15,3 +15,4 @@ class ModesResult(Result):
     """Natural frequencies and modal loss factors, ascending; rigid modes are left out."""
 
     modes: tuple[ComplexModeRow, ...]
+    notes: tuple[str, ...] = ()

@@ -9,8 +9,10 @@ from fitting.edges import named
 from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import LAWS, CoreLaw
+from fitting.laws.table import Tabulated
 from fitting.specimen import Core, Face, Reading, Specimen
 from instrument.errors import BadInput
+from instrument.files.law_table import with_rows
 from instrument.files.toml import NotNegative, Percent, Positive, TomlTable, one_line, read_document
 
 Poisson = Annotated[float, Field(gt=-1, lt=0.5, allow_inf_nan=False)]
@@ -137,9 +139,14 @@ class SpecimenDocument(TomlTable):
 def read_specimen(path: Path) -> Specimen:
     """Read and check a specimen. Raises `BadInput` with one line."""
     try:
-        return specimen_of(read_document(path, SpecimenDocument))
+        return specimen_of(read_specimen_document(path))
     except OutsideModel as error:
         raise BadInput(f"{path}: {error}") from None
+
+
+def read_specimen_document(path: Path) -> SpecimenDocument:
+    """A specimen's document, the rows of a law's table in it. Raises `BadInput`."""
+    return with_rows(read_document(path, SpecimenDocument), path.parent)
 
 
 def specimen_of(d: SpecimenDocument) -> Specimen:
@@ -185,6 +192,8 @@ def law_of(table: dict[str, Any]) -> CoreLaw:
     if not isinstance(kind, str) or kind not in LAWS:
         raise OutsideModel(f"core.law.kind: {kind!r}, expected one of {known}")
     law = LAWS[kind]
+    # Where rows came from says nothing any more once they are read.
+    aside = ("path",) if law is Tabulated else ()
     fields: dict[str, Any] = {}
     for name, field in law.file_fields().items():
         one = Annotated[float, Field(allow_inf_nan=False)]
@@ -192,7 +201,7 @@ def law_of(table: dict[str, Any]) -> CoreLaw:
         fields[field.file_key] = (list[one] if is_list else one, ...)
     model = create_model("core.law", __base__=TomlTable, **fields)
     try:
-        given = model.model_validate({k: v for k, v in table.items() if k != "kind"})
+        given = model.model_validate({k: v for k, v in table.items() if k not in ("kind", *aside)})
     except ValidationError as error:
         raise OutsideModel(one_line(error, prefix="core.law.")) from None
     values = {}

@@ -13,6 +13,7 @@ from fitting.structures import AnySpecimen
 from fitting.structures.beam import Beam, Ends
 from fitting.structures.shear_pair import ShearPair, disc
 from instrument.errors import BadInput
+from instrument.files.law_table import with_rows
 from instrument.files.specimen_file import (
     Poisson,
     StatedLayer,
@@ -182,7 +183,7 @@ def read_structure(path: Path) -> AnySpecimen:
         raise BadInput(f"{path}: [{kinds[0]}] and [{kinds[1]}], expected one of them")
     if kinds and kinds[0] in _DOCUMENTS:
         try:
-            return read_document(path, _DOCUMENTS[kinds[0]]).specimen()
+            return with_rows(read_document(path, _DOCUMENTS[kinds[0]]), path.parent).specimen()
         except OutsideModel as error:
             raise BadInput(f"{path}: {error}") from None
     return read_specimen(path)

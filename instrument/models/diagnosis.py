@@ -13,7 +13,7 @@ from fitting.errors import OutsideModel
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.errors import BadInput
-from instrument.models.remarks import remarks_on_noise, remarks_on_tolerances
+from instrument.models.remarks import remarks_on_law, remarks_on_noise, remarks_on_tolerances
 from instrument.models.second_process import executor
 from instrument.models.set_up import Hammer, set_up
 from instrument.models.theory import theory_over, theory_remark
@@ -83,7 +83,11 @@ def diagnose(
             )
     seconds = perf_counter() - ready
     theory_over(specimen, result.after.law, sweep.frequency_hz)
-    further = (*remarks_on_noise(sweep), *remarks_on_tolerances(specimen))
+    further = (
+        *remarks_on_law(start, sweep.frequency_hz),
+        *remarks_on_noise(sweep),
+        *remarks_on_tolerances(specimen),
+    )
     before = theory_remark(specimen, result.before.law, sweep.frequency_hz)
     if before:
         further += (f"before, without any effect, the law is outside the theory: {before}",)

@@ -24,7 +24,7 @@ from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from fitting.theory_error import TheoryError
-from instrument.models.remarks import remarks_on_noise, remarks_on_tolerances
+from instrument.models.remarks import remarks_on_law, remarks_on_noise, remarks_on_tolerances
 from instrument.models.set_up import Hammer, SetUp, set_up
 from instrument.models.specimen_models import Models
 from instrument.models.theory import theory_over
@@ -79,13 +79,14 @@ def identify(
     """
     if specimen.core is None:
         raise OutsideModel("a bare plate has no core to identify, expected [core] and [constraining]")
-    start, noise = specimen.core.law, noise_of(sweep)
+    stated, noise = specimen.core.law, noise_of(sweep)
+    start = stated.to_fit(sweep.frequency_hz)
     bare = fit_bare_plate(specimen, *hammer) if hammer is not None else None
     if method == "paper" and bare is not None:
         specimen = with_bare_plate(specimen, bare)
     models: Models | None = Models.of(specimen, sweep.frequency_hz, progress) if method == "paper" else None
     setup = seconds = 0.0
-    further = remarks_on_noise(sweep)
+    further = (*remarks_on_law(stated, sweep.frequency_hz), *remarks_on_noise(sweep))
     if method == "direct":
         further += remarks_on_tolerances(specimen)
     elif not specimen.exact:

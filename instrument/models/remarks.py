@@ -1,5 +1,7 @@
 """What is to be said of data and specimen as they were given, whatever is found in them."""
 
+from fitting.arrays import Array
+from fitting.laws import CoreLaw
 from fitting.noise import scatter_over_stated
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
@@ -16,6 +18,17 @@ def remarks_on_tolerances(specimen: Specimen) -> tuple[str, ...]:
         return ()
     count = "" if len(missing) == len(every) else f"{len(missing)} of {len(every)} "
     return (f"{count}tolerances not named: typical values of a careful laboratory (docs/specimen.md)",)
+
+
+def remarks_on_law(law: CoreLaw, sweep_hz: Array) -> tuple[str, ...]:
+    """Where the law that is fitted is not the one the specimen file names."""
+    fitted = law.to_fit(sweep_hz)
+    if fitted.kind == law.kind:
+        return ()
+    return (
+        f"[core.law] is a {law.kind}: fitted is a {fitted.kind} that begins at the one nearest to it; the "
+        "rows are a start and weigh nothing against the data",
+    )
 
 
 def remarks_on_noise(sweep: Sweep) -> tuple[str, ...]:

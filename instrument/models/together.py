@@ -38,7 +38,7 @@ from fitting.sweep import Sweep
 from instrument.errors import BadInput
 from instrument.models.diagnosis import Diagnosed
 from instrument.models.identification import Identified
-from instrument.models.remarks import remarks_on_noise
+from instrument.models.remarks import remarks_on_law, remarks_on_noise
 from instrument.models.second_process import executor
 from instrument.models.set_up import set_up
 from instrument.models.theory import theory_over
@@ -332,6 +332,8 @@ def _remarks(files: Sequence[File]) -> tuple[str, ...]:
         of = f"{file.name}: " if file.name and len(files) > 1 else ""
         said += [of + text for text in remarks_on_noise(file.sweep)]
         s = file.specimen
+        if s.core is not None:
+            said += remarks_on_law(s.core.law, file.sweep.frequency_hz)
         if isinstance(s, ShearPair) and not s.bending and s.softer_by_bending > _WORTH_SAYING:
             said.append(
                 f"{of}bending of the discs is not counted: with it G' is {100 * s.softer_by_bending:.2g} "

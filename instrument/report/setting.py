@@ -13,6 +13,7 @@ _SENSITIVITY_UNITS = {
     "force": "mV/N",
     "temperature": "mV/°C",
 }
+_MOST_LISTED = 8
 _LAYERS = ("substrate", "core", "constraining")
 
 
@@ -21,10 +22,16 @@ def specimen_section(contents: Contents) -> ReportSection:
     s = contents.configuration.specimen
     blocks: list[Block] = [_layers(s), FactsBlock("Plate", tuple(_plate(contents, s)))]
     if s.core is not None:
-        rows = [(k, str(v)) for k, v in s.core.law.items()]
+        rows = [(k, _law_value(v)) for k, v in s.core.law.items()]
         blocks.append(FactsBlock("Core law to start from", tuple(rows)))
     blocks.append(FactsBlock("Tolerances (one standard deviation)", tuple(tolerance_rows(contents.specimen))))
     return ReportSection("Specimen", tuple(blocks))
+
+
+def _law_value(value: object) -> str:
+    if isinstance(value, list) and len(value) > _MOST_LISTED:
+        return f"{len(value)} values, {min(value):g} to {max(value):g}"
+    return str(value)
 
 
 def _layers(s: SpecimenDocument) -> TableBlock:

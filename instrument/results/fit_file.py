@@ -102,6 +102,8 @@ class FoundLaw(BaseModel):
 
     def law(self, start: CoreLaw) -> CoreLaw:
         """The law found, of the kind the specimen has, bent as it was. Raises `BadInput`, `OutsideModel`."""
+        # A table is no law that is found: what a fit begins with there has the kind.
+        start = start.to_fit(np.ones(1))
         if self.law_kind != start.kind or set(self.parameters) != set(start.names):
             raise BadInput(f"the law found is {self.law_kind}, expected the specimen's own, {start.kind}")
         law = start.with_values(np.array([self.parameters[name] for name in start.names]))

@@ -12,7 +12,9 @@ from instrument.results.rows_from import adjusted_from, law_rows_from
 _BAND_POINTS = 41
 
 
-def modal_from(found: ModalFit, tables: Sequence[ModalTable], names: Sequence[str]) -> ModalResult:
+def modal_from(
+    found: ModalFit, tables: Sequence[ModalTable], names: Sequence[str], warnings: Sequence[str] = ()
+) -> ModalResult:
     """The result of `identify` on modal tables."""
     plain = found.law.plain
     errors = found.uncertainty.of_first(len(plain.names)).standard_errors * plain.values
@@ -39,6 +41,7 @@ def modal_from(found: ModalFit, tables: Sequence[ModalTable], names: Sequence[st
         converged=bool(found.converged),
         law=law_rows_from(modal_band(found, tables)),
         adjusted=adjusted_from(found.adjusted),
+        warnings=tuple(warnings),
     )
 
 

@@ -5,15 +5,15 @@ from instrument.facts.prediction import PointPredicted, PredictionResult
 from instrument.results.fitted_response import FittedResponse
 
 
-def prediction_from(frequency_hz: Array, velocity_m_s: Complex, remark: str = "") -> PredictionResult:
+def prediction_from(frequency_hz: Array, velocity_m_s: Complex, *remarks: str) -> PredictionResult:
     """Of a specimen's own law. Shape (points,) each."""
     rows = zip(frequency_hz.tolist(), velocity_m_s, strict=True)
-    return PredictionResult(points=tuple(_point(f, z) for f, z in rows), notes=(remark,) if remark else ())
+    return PredictionResult(points=tuple(_point(f, z) for f, z in rows), notes=tuple(r for r in remarks if r))
 
 
-def prediction_from_fit(found: FittedResponse, remark: str = "") -> PredictionResult:
+def prediction_from_fit(found: FittedResponse, *remarks: str) -> PredictionResult:
     """Of a law and a plate that were fitted, with standard errors."""
-    plain = prediction_from(found.frequency_hz, found.velocity_m_s, remark)
+    plain = prediction_from(found.frequency_hz, found.velocity_m_s, *remarks)
     errors = zip(
         found.amplitude_standard_error_m_s.tolist(), found.phase_standard_error_rad.tolist(), strict=True
     )

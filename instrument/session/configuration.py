@@ -10,7 +10,7 @@ from fitting.plugins import packages
 from fitting.specimen import Specimen
 from instrument.files.experiment_file import ExperimentDocument, read_experiment
 from instrument.files.rig_file import RigDocument
-from instrument.files.specimen_file import SpecimenDocument, specimen_of
+from instrument.files.specimen_file import SpecimenDocument, read_specimen_document, specimen_of
 from instrument.files.toml import read_document
 
 
@@ -65,5 +65,5 @@ def read_whole_experiment(path: Path) -> Experiment:
     rig_path = path.parent / document.rig
     specimen_path = path.parent / document.specimen
     rig = read_document(rig_path, RigDocument)
-    specimen = read_document(specimen_path, SpecimenDocument)
+    specimen = read_specimen_document(specimen_path)
     return Experiment(path, document, rig, specimen, rig_path)

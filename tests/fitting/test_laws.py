@@ -12,6 +12,7 @@ from fitting.laws.generalised_maxwell import GeneralisedMaxwell
 from fitting.laws.ghm import GollaHughesMcTavish
 from fitting.laws.isd112 import Isd112
 from fitting.laws.smooth import Smooth
+from fitting.laws.table import Tabulated
 
 EXAMPLES = [
     FractionalZener(0.27e6, 4.1e6, 1.21e-4, 0.83),
@@ -21,6 +22,7 @@ EXAMPLES = [
     AnelasticDisplacementFields(0.3e6, (0.8, 6.0), (4e2, 8e3)),
     Smooth((14.0, 50.0, 120.0, 300.0), (0.3e6, 0.4e6, 0.6e6, 1e6), (0.25, 0.5, 0.8, 0.9)),
     Isd112(),
+    Tabulated((5.0, 20.0, 90.0, 400.0), (0.3e6, 0.4e6, 0.6e6, 1e6), (0.25, 0.5, 0.8, 0.9)),
 ]
 frequencies = st.floats(2, 1000)
 

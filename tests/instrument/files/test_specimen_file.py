@@ -37,6 +37,7 @@ LAW_TABLES = {
     "generalised-maxwell": "g_inf_mpa = 0.2\ng_mpa = [0.3, 1.0]\ntau_s = [1e-3, 1e-4]",
     "ghm": "g0_mpa = 0.3\nalpha = [0.8, 6.0]\nzeta = [1.5, 0.9]\nomega_rad_s = [1e3, 2e4]",
     "adf": "g0_mpa = 0.3\ndelta = [0.8, 6.0]\nomega_rad_s = [4e2, 8e3]",
+    "table": "frequency_hz = [14.0, 300.0]\nstorage_modulus_pa = [3e5, 1e6]\nloss_factor = [0.3, 0.9]",
     "smooth": "frequency_hz = [14.0, 300.0]\ng_mpa = [0.3, 1.0]\nloss_factor = [0.3, 0.9]",
 }
 
