@@ -100,11 +100,14 @@ class CoreLaw:
         return []
 
     def outside(self, frequency_hz: Array) -> str:
-        """Where the law is asked beyond what it was made for, in words; empty for nowhere."""
+        """Where the law is asked beyond what it was made for, in words; empty for nowhere. Shape (any,)."""
         return ""
 
     def to_fit(self, frequency_hz: Array) -> "CoreLaw":
-        """What a fit to data at these frequencies begins with, and has the kind of; the law itself."""
+        """What a fit to data at these frequencies begins with, and has the kind of; the law itself.
+
+        Shape (any,), Hz.
+        """
         return self
 
     @classmethod

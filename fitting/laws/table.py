@@ -59,6 +59,7 @@ class Tabulated(CoreLaw):
                     )
 
     def modulus(self, omega: Array) -> Complex:
+        """G* in Pa at `omega` in rad/s, shape of `omega`. Raises `OutsideModel` at 0 and below."""
         omega = np.asarray(omega, dtype=float)
         if np.any(omega <= 0):
             raise OutsideModel(
@@ -81,6 +82,7 @@ class Tabulated(CoreLaw):
         return self.frequency_hz[0], self.frequency_hz[-1]
 
     def outside(self, frequency_hz: Array) -> str:
+        """As `CoreLaw`: frequencies that no row reaches. Shape (any,)."""
         low, high = self.band_hz
         f = np.asarray(frequency_hz, dtype=float)
         # A band's own edge may round to just outside it.
@@ -94,7 +96,7 @@ class Tabulated(CoreLaw):
         )
 
     def to_fit(self, frequency_hz: Array) -> CoreLaw:
-        """The fractional Zener nearest to the table over the frequencies, as far as it has rows there."""
+        """The fractional Zener nearest to the table over the frequencies, as far as it has rows there. Shape (any,)."""
         low, high = np.clip([np.min(frequency_hz), np.max(frequency_hz)], *self.band_hz)
         if not low < high:
             low, high = self.band_hz

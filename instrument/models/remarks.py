@@ -21,7 +21,7 @@ def remarks_on_tolerances(specimen: Specimen) -> tuple[str, ...]:
 
 
 def remarks_on_law(law: CoreLaw, sweep_hz: Array) -> tuple[str, ...]:
-    """Where the law that is fitted is not the one the specimen file names."""
+    """Where the law that is fitted is not the one the specimen file names. Shape (points,)."""
     fitted = law.to_fit(sweep_hz)
     if fitted.kind == law.kind:
         return ()
