@@ -96,7 +96,7 @@ class Tabulated(CoreLaw):
         )
 
     def to_fit(self, frequency_hz: Array) -> CoreLaw:
-        """The fractional Zener nearest to the table over the frequencies, as far as it has rows there. Shape (any,)."""
+        """The fractional Zener nearest to the table over the frequencies, shape (any,), as far as rows go."""
         low, high = np.clip([np.min(frequency_hz), np.max(frequency_hz)], *self.band_hz)
         if not low < high:
             low, high = self.band_hz

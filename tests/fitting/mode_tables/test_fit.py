@@ -1,0 +1,102 @@
+import numpy as np
+import pytest
+
+from fitting.errors import TooFewPoints
+from fitting.laws import LAWS
+from fitting.specimen import Core, Face
+from fitting.structures.beam import Beam
+from fitting.structures.modal_fit import ModalTable, fit_modes
+from fitting.structures.small_modes import small_modes
+from instrument.cli.main import run
+from instrument.errors import BadInput
+from instrument.files.modal_table import is_modal_table, read_modal_table
+
+LAW = LAWS["fractional-zener"](5e5, 2e7, 1e-4, 0.6)
+START = LAWS["fractional-zener"](1e6, 1e7, 3e-4, 0.5)
+ALUMINIUM = Face(2e-3, 70e9, 0.3, 2700.0)
+
+
+def beam(length_m=0.2, law=LAW, **more):
+    core = Core(0.5e-3, 0.49, 1000.0, law)
+    return Beam(length_m, 0.02, "clamped-free", ALUMINIUM, ALUMINIUM, core, **more)
+
+
+def table(specimen, count, rng, f_std=1e-3, eta_std=0.03):
+    modes = small_modes(specimen, specimen.core.law, count)
+    f = np.array([m.frequency_hz for m in modes]) * (1 + f_std * rng.normal(size=count))
+    eta = np.array([m.loss_factor for m in modes]) * (1 + eta_std * rng.normal(size=count))
+    return ModalTable(np.arange(1.0, count + 1), f, eta)
+
+
+def test_six_modes_give_the_law_within_its_band():
+    rng = np.random.default_rng(3)
+    found = fit_modes([table(beam(), 6, rng)], [beam(law=START)])
+    omega = 2 * np.pi * np.geomspace(80, 1500, 7)
+    G, eta = LAW.storage_and_loss(omega)
+    found_G, found_eta = found.law.storage_and_loss(omega)
+    G_error, eta_error = found.uncertainty.law_band(found.law, omega)
+    assert np.sqrt(np.mean(((found_G - G) / G_error) ** 2)) < 2
+    assert np.sqrt(np.mean(((found_eta - eta) / eta_error) ** 2)) < 2
+    assert found.uncertainty.chi2_per_dof < 4
+    assert {"core_thickness", "length", "substrate_young"} <= {one.name for one in found.adjusted}
+
+
+def test_two_lengths_share_a_core_and_not_a_length():
+    rng = np.random.default_rng(4)
+    lengths = (0.2, 0.15)
+    found = fit_modes([table(beam(x), 3, rng) for x in lengths], [beam(x, law=START) for x in lengths])
+    names = [one.name for one in found.adjusted]
+    assert names.count("core_thickness") == 1
+    assert {"length [1]", "length [2]"} <= set(names)
+
+
+def test_one_mode_cannot_carry_four_parameters():
+    with pytest.raises(TooFewPoints):
+        fit_modes([table(beam(), 1, np.random.default_rng(0))], [beam()])
+
+
+TABLE = "mode,frequency_hz,loss_factor\n1,70.0,0.15\n2,311.0,0.12\n3,773.0,0.08\n4,1449.0,0.05\n"
+FAULTS = {
+    "half a mode": (TABLE.replace("2,311", "2.5,311"), "line 3: mode = 2.5"),
+    "no loss": (TABLE.replace("0.12", "0"), "line 3: loss_factor = 0"),
+    "twice": (TABLE.replace("2,311", "1,311"), "twice"),
+}
+
+
+@pytest.mark.parametrize(("text", "said"), FAULTS.values(), ids=FAULTS)
+def test_a_bad_table_is_refused_in_one_line(tmp_path, text, said):
+    (tmp_path / "t.csv").write_text(text)
+    with pytest.raises(BadInput) as error:
+        read_modal_table(tmp_path / "t.csv")
+    assert said in str(error.value)
+
+
+def test_the_command_takes_a_table(tmp_path, capsys):
+    path = tmp_path / "t.csv"
+    path.write_text(TABLE)
+    assert is_modal_table(path)
+    assert run(["new", "beam", str(tmp_path / "beam.toml")]) == 0
+    assert run(["identify", str(path), "--specimen", str(tmp_path / "beam.toml")]) == 0
+    assert run(["new", "plate", str(tmp_path / "plate.toml")]) == 0
+    assert run(["identify", str(path), "--specimen", str(tmp_path / "plate.toml")]) == 2
+    assert "expected a beam or a shear pair" in capsys.readouterr().err
+
+
+def test_derivatives_are_central_differences():
+    import fitting.structures.modal_fit as module
+
+    specimen = beam()
+    members, each = module._members([table(specimen, 3, np.random.default_rng(0))], [specimen])
+    (member,) = members
+    x = np.concatenate([np.log(LAW.values), 0.0 * np.arange(len(each))])
+    n, h = len(LAW.names), 1e-2
+
+    def logs(x):
+        f, eta = member.modes(LAW.with_logs(x[:n]), x[n:])
+        return np.concatenate([np.log(f), np.log(eta)])
+
+    found = np.concatenate(member.by_everything(LAW, x[n:]))
+    for k in range(len(x)):
+        step = h * (np.arange(len(x)) == k)
+        expected = (logs(x + step) - logs(x - step)) / (2 * h)
+        assert np.allclose(found[:, k], expected, rtol=3e-3, atol=1e-6), k
