@@ -40,7 +40,9 @@ class Given(NamedTuple):
         """A result of these data, which says whose they are."""
         if self.session is None:
             return result
-        return result.but(session=self.session.name, reads=self.session.reads)
+        said = result.but(session=self.session.name, reads=self.session.reads)
+        of_session = isinstance(said, IdentificationResult) and self.session.diagnosis is not None
+        return said.but(session_result=self.session.result) if of_session else said
 
 
 def identify(

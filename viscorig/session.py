@@ -5,8 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from instrument.facts.session_result import SessionResult
 from instrument.interchange.identified import session_sweep
 from instrument.interchange.specimen_toml import specimen_toml
+from instrument.results.session_result import recorded_result
 from instrument.session.contents import Contents, contents_of
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import DiagnosisFound, FitUpdated
@@ -39,6 +41,8 @@ class Session(Shown):
     diagnosis: Diagnosis | None
     remarks: tuple[str, ...]
     """Why there is no law or no diagnosis, where one was tried."""
+    result: SessionResult
+    """The law to sign: that after the diagnosis, with its verdict and where it holds."""
 
     @property
     def good_hammer(self) -> Damping | None:
@@ -52,6 +56,7 @@ class Session(Shown):
             "session": str(self.path),
             "points": len(self.sweep) if self.sweep is not None else 0,
             **{key: one.as_dict() if one is not None else None for key, one in found.items()},
+            "result": self.result.as_json() if self.sweep is not None else None,
         }
 
     def to_numpy(self) -> Columns:
@@ -60,8 +65,9 @@ class Session(Shown):
 
     def lines(self) -> list[str]:
         """Name, plate, and what each part gave."""
-        parts = (self.specimen, self.hammer, self.sweep, self.identification, self.diagnosis)
-        return [f"session {self.name}", *(p.lines()[0] for p in parts if p is not None), *self.remarks]
+        parts = [p.lines()[0] for p in (self.specimen, self.hammer, self.sweep) if p is not None]
+        result = [f"result: {self.result.words}"] if self.sweep is not None else []
+        return [f"session {self.name}", *parts, *result, *self.remarks]
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """The sweep, or the hammer test where nothing else was measured; the axes."""
@@ -89,6 +95,7 @@ def _session(contents: Contents) -> Session:
         hammer=Damping(contents.damping.result) if contents.damping is not None else None,
         identification=Identification(fit.result, specimen) if fit and fit.result else None,
         diagnosis=Diagnosis(diagnosis.result) if diagnosis and diagnosis.result else None,
+        result=recorded_result(contents),
         remarks=(*_why("no law identified", fit), *_why("no diagnosis", diagnosis)),
     )
 

@@ -11,7 +11,7 @@ from fitting.specimen import Specimen
 from instrument.batch.keys import program
 from instrument.batch.task import Task
 from instrument.errors import BadInput
-from instrument.facts.diagnosis import StageFitted
+from instrument.facts.diagnosis import DiagnosisResult, StageFitted
 from instrument.facts.identification import IdentificationResult
 from instrument.files.specimen_file import read_specimen
 from instrument.interchange.given import Given, read_given
@@ -76,7 +76,10 @@ def _worked(task: Task) -> Outcome:
         raise BadInput(f"{data}: neither a session nor a sweep")
     given = read_given(data, specimen, hammer)
     like = _lender(task, given)
-    facts = _diagnosed(given, like) if task.diagnose else _identified(given, like)
+    if given.diagnosis is not None and not task.diagnose:
+        like, facts = None, _of_diagnosis(given.diagnosis)
+    else:
+        facts = _diagnosed(given, like) if task.diagnose else _identified(given, like)
     f = given.sweep.frequency_hz
     kept = {
         "failed": None,
@@ -118,7 +121,11 @@ def _identified(given: Given, like: Specimen | None) -> dict[str, Any]:
 
 def _diagnosed(given: Given, like: Specimen | None) -> dict[str, Any]:
     found = diagnose(given.sweep, given.plate, given.modes, like=like)
-    result = diagnosis_from(found, given.sweep)
+    return _of_diagnosis(diagnosis_from(found, given.sweep))
+
+
+def _of_diagnosis(result: DiagnosisResult) -> dict[str, Any]:
+    """Made now, or recorded with the session: its law is the one after it."""
     return {
         "verdict": result.verdict,
         "effects": [effect.name for effect in result.effects],

@@ -8,12 +8,14 @@ from fitting.specimen import Specimen
 from instrument.cli.options import figures_option, file_arguments, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
+from instrument.cli.print_run import print_result
 from instrument.cli.reading import read_each, reading_options, together
 from instrument.models.diagnosis import diagnose as diagnose_sweep
 from instrument.models.together import diagnose_together
 from instrument.progress import bar
 from instrument.results.diagnosis_figures import save_diagnosis_figures
 from instrument.results.diagnosis_from import diagnosis_from
+from instrument.results.session_result import Conditions, result_of
 from instrument.results.together_from import diagnosed_together_from
 
 
@@ -71,6 +73,9 @@ def diagnose(
         result = diagnosis_from(found, given.sweep)
     result = given.said(result)
     print_diagnosis(out, result)
+    if files is None:
+        out.say()
+        print_result(out, result_of(None, result, Conditions.of_sweep(given.sweep, given.temperature_c)))
     if figures is not None:
         for path in save_diagnosis_figures(result, figures):
             out.say(f"saved {path}")

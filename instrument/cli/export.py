@@ -6,8 +6,10 @@ import click
 
 from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
+from instrument.cli.print_run import print_result
 from instrument.facts.written import ExportResult
 from instrument.interchange.exporting import FORMATS, Format, export_session
+from instrument.results.session_result import recorded_result
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 
@@ -39,5 +41,8 @@ def export(session: Path, to: Format, folder: Path, json_path: str | None) -> No
         out.say(f"wrote {path}")
     for note in written.notes:
         out.say(f"note: {note}")
+    result = recorded_result(contents) if contents.points else None
+    if result is not None:
+        print_result(out, result)
     files = tuple(str(path) for path in written.files)
-    out.result(ExportResult(files=files, notes=tuple(written.notes)))
+    out.result(ExportResult(files=files, notes=tuple(written.notes), result=result))

@@ -19,6 +19,7 @@ from instrument.cli.output import Output
 from instrument.cli.print_beside import print_beside
 from instrument.cli.print_budget import print_budget
 from instrument.cli.print_identification import print_bare_plate, print_identification
+from instrument.cli.print_run import print_result
 from instrument.cli.print_uncertainty import print_in_depth
 from instrument.cli.reading import read_each, reading_options, together
 from instrument.facts.beside import BesideTable
@@ -38,6 +39,7 @@ from instrument.results.budget_from import budget, budget_from
 from instrument.results.identification_from import identification_from
 from instrument.results.pointwise_figures import save_pointwise_figure
 from instrument.results.pointwise_from import with_second_look
+from instrument.results.session_result import BEFORE_DIAGNOSIS
 from instrument.results.together_from import identified_together_from
 from instrument.results.uncertainty_facts import Depth, in_depth, in_depth_facts
 
@@ -172,6 +174,8 @@ def identify(
         phase_is_kept(given.sweep)
     table = _table(dma, read)
     found: Identified = identify_sweep(given.sweep, read, method, bar, given.modes)
+    if given.recorded is not None:
+        out.say(f"the law {BEFORE_DIAGNOSIS}, which the session's own result below is not:\n")
     print_identification(out, found, given.sweep, read)
     result = identification_from(found, given.sweep, read)
     if found.bare is not None:
@@ -189,6 +193,9 @@ def identify(
             out.say(f"saved {save_pointwise_figure(bands, found.result.band, figures)}")
     if table is not None:
         result = result.but(beside=_beside(out, table, data[0], result, figures))
+    if given.recorded is not None:
+        out.say()
+        print_result(out, given.recorded)
     out.result(given.said(result))
 
 

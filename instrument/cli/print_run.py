@@ -9,19 +9,23 @@ from instrument.cli.print_diagnosis import print_before_after, print_story
 from instrument.facts.damping import METHODS, RatioFound
 from instrument.facts.rows import LawRow
 from instrument.facts.run import RunResult
+from instrument.facts.session_result import SessionResult
 from instrument.results.error_words import ratio_words
+from instrument.results.session_result import BEFORE_DIAGNOSIS, result_of_events
 from instrument.run.experiment import Finished
 from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated, PointMeasured
 
 
 def run_result(finished: Finished) -> RunResult:
     """The result of `run`, `hammer` and `sweep`."""
+    swept = finished.points or finished.fit is not None
     return RunResult(
         session=str(finished.session),
         points=len(finished.points),
         damping=finished.damping.result if finished.damping is not None else None,
         identify=finished.fit.result if finished.fit is not None else None,
         diagnose=finished.diagnosis.result if finished.diagnosis is not None else None,
+        result=result_of_events(finished.fit, finished.diagnosis, finished.points) if swept else None,
     )
 
 
@@ -31,11 +35,29 @@ def print_finished(out: Output, finished: Finished) -> None:
         print_damping(out, finished.damping)
     if finished.points:
         print_quality(out, list(finished.points))
-    if finished.fit is not None:
-        print_fit(out, finished.fit)
-    if finished.diagnosis is not None:
-        print_found_diagnosis(out, finished.diagnosis)
+    print_found(out, finished.fit, finished.diagnosis, finished.points)
     out.say(f"session: {finished.session}")
+
+
+def print_found(
+    out: Output,
+    fit: FitUpdated | None,
+    diagnosis: DiagnosisFound | None,
+    points: Sequence[PointMeasured],
+) -> None:
+    """The law, the diagnosis, and last the one result."""
+    diagnosed = diagnosis is not None and diagnosis.result is not None
+    if fit is not None:
+        print_fit(out, fit, BEFORE_DIAGNOSIS if diagnosed else "")
+    if diagnosis is not None:
+        print_found_diagnosis(out, diagnosis)
+    if fit is not None or diagnosis is not None:
+        print_result(out, result_of_events(fit, diagnosis, points))
+
+
+def print_result(out: Output, result: SessionResult) -> None:
+    """The law to sign."""
+    out.say(f"result: {result.words}")
 
 
 def print_damping(out: Output, found: DampingFound) -> None:
@@ -68,8 +90,8 @@ def print_quality(out: Output, points: list[PointMeasured]) -> None:
     )
 
 
-def print_fit(out: Output, fit: FitUpdated) -> None:
-    """The law over the band."""
+def print_fit(out: Output, fit: FitUpdated, which: str = "") -> None:
+    """The law over the band; `which` law it is, where there is another."""
     result = fit.result
     if result is None:
         out.say(f"no law identified: {fit.message}")
@@ -85,7 +107,8 @@ def print_fit(out: Output, fit: FitUpdated) -> None:
         for r in shown
     ]
     at = f" at {result.temperature_c:.1f} degC" if result.temperature_c is not None else ""
-    out.table(f"core: shear modulus with one standard error{at}", ["f/Hz", "G'/MPa", "loss factor"], rows)
+    of = f"core, {which}" if which else "core"
+    out.table(f"{of}: shear modulus with one standard error{at}", ["f/Hz", "G'/MPa", "loss factor"], rows)
     chi2, held = result.chi2_per_dof, result.held_out_rms_percent
     out.say(
         f"residual {result.rms_percent:.2f} % rms"

@@ -6,10 +6,11 @@ import click
 
 from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
-from instrument.cli.print_run import print_fit, print_found_diagnosis, print_quality
+from instrument.cli.print_run import print_found, print_quality
 from instrument.cli.watching import Watcher
 from instrument.facts.run import ReplayResult
 from instrument.progress import bar
+from instrument.results.session_result import result_of_events
 from instrument.run.replay import replay as replay_session
 from instrument.session.storage import SessionFile
 from instrument.stream.event import Event
@@ -39,10 +40,7 @@ def replay(session: Path, speed: float | None, json_path: str | None) -> None:
                 again = replay_session(file, speed=speed, watch=one)
     if again.points:
         print_quality(out, again.points)
-    if again.fit is not None:
-        print_fit(out, again.fit)
-    if again.diagnosis is not None:
-        print_found_diagnosis(out, again.diagnosis)
+    print_found(out, again.fit, again.diagnosis, again.points)
     verdict = "all equal to the recorded ones" if again.equal else "NOT all equal to the recorded ones"
     out.say(f"{again.derived} derived events computed again: {verdict}")
     for difference in again.differences:
@@ -51,6 +49,7 @@ def replay(session: Path, speed: float | None, json_path: str | None) -> None:
         ReplayResult(
             identify=again.fit.result if again.fit is not None else None,
             diagnose=again.diagnosis.result if again.diagnosis is not None else None,
+            result=result_of_events(again.fit, again.diagnosis, again.points) if again.points else None,
             equal_to_recorded=again.equal,
             derived_events=again.derived,
             differences=tuple(again.differences),

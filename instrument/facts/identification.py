@@ -11,6 +11,7 @@ from instrument.facts.number import MaybeNumber, Number
 from instrument.facts.pointwise import BandFound, CausalityTest
 from instrument.facts.result import Result
 from instrument.facts.rows import AdjustedNumber, HeldOut, LawRow, StretchSetAside
+from instrument.facts.session_result import SessionResult
 
 
 class PointFitted(Result):
@@ -128,6 +129,8 @@ class IdentificationResult(Result):
     """Of several files, what takes no part."""
     session: str | None = None
     """Whose points these are; None for a sweep's file."""
+    session_result: SessionResult | None = None
+    """Of a session that was diagnosed: the law to sign, and not this one."""
     reads: str | None = None
     """What the session's laser sees: `absolute` or `relative` velocity."""
 

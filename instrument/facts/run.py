@@ -4,6 +4,7 @@ from instrument.facts.damping import DampingResult
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.result import Result
+from instrument.facts.session_result import SessionResult
 
 
 class RunResult(Result):
@@ -14,7 +15,10 @@ class RunResult(Result):
     points: int
     damping: DampingResult | None = None
     identify: IdentificationResult | None = None
+    """Before the diagnosis, where there is one."""
     diagnose: DiagnosisResult | None = None
+    result: SessionResult | None = None
+    """The law to sign; None without a sweep."""
     report: str | None = None
     """Path of its page; of `demo` alone."""
 
@@ -23,7 +27,10 @@ class ReplayResult(Result):
     """A recorded session computed again."""
 
     identify: IdentificationResult | None = None
+    """Before the diagnosis, where there is one."""
     diagnose: DiagnosisResult | None = None
+    result: SessionResult | None = None
+    """The law to sign; None without a sweep."""
     equal_to_recorded: bool
     derived_events: int
     """Computed again."""

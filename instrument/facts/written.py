@@ -1,6 +1,7 @@
 """The results of commands that write files: `viscorig export`, `import`, `report`, `recover`."""
 
 from instrument.facts.result import Result
+from instrument.facts.session_result import SessionResult
 
 
 class ExportResult(Result):
@@ -9,6 +10,8 @@ class ExportResult(Result):
     files: tuple[str, ...]
     notes: tuple[str, ...] = ()
     """What was left out."""
+    result: SessionResult | None = None
+    """The law to sign; None without a sweep."""
 
 
 class ImportResult(Result):

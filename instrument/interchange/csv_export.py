@@ -10,11 +10,12 @@ import numpy as np
 from instrument.interchange.point_table import PointColumn, columns
 from instrument.interchange.provenance import one_line, provenance, reading
 from instrument.interchange.specimen_toml import specimen_toml
+from instrument.results.session_result import recorded_result
 from instrument.session.contents import Contents, RecordedHit
 
 
 def export_csv(contents: Contents, folder: Path) -> list[Path]:
-    """Sweep, hits, the damping they gave, the specimen as read here. What is not there is not written."""
+    """Sweep, hits, their damping, the law to sign, the specimen as read here: what there is."""
     name, texts = contents.configuration.name, dict[str, str]()
     if contents.points:
         texts[f"{name}.csv"] = sweep_text(contents)
@@ -23,6 +24,9 @@ def export_csv(contents: Contents, folder: Path) -> list[Path]:
         texts[f"{name}-hit-{hit.number:02d}{verdict}.csv"] = hit_text(contents, hit)
     if contents.damping is not None:
         texts[f"{name}-damping.json"] = json.dumps(contents.damping.result.as_json(), indent=1) + "\n"
+    result = recorded_result(contents)
+    if result.law:
+        texts[f"{name}-result.json"] = json.dumps(result.as_json(), indent=1) + "\n"
     texts[f"{name}-specimen.toml"] = specimen_toml(contents)
     for file, text in texts.items():
         (folder / file).write_text(text, encoding="utf-8")

@@ -12,6 +12,7 @@ from fitting.sweep import Sweep
 from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.identification import IdentificationResult
+from instrument.facts.session_result import SessionResult
 from instrument.files.hammer_file import HammerModes, read_hammer
 from instrument.files.specimen_file import read_specimen
 from instrument.files.structure_file import read_structure
@@ -19,6 +20,7 @@ from instrument.files.sweep_file import read_sweep
 from instrument.interchange.base_frf import is_frf_csv, sweep_of_foreign, sweep_of_frf_csv
 from instrument.interchange.identified import session_modes, session_sweep
 from instrument.interchange.readers import is_foreign
+from instrument.results.session_result import recorded_result
 from instrument.session.contents import Contents, contents_of
 from instrument.session.storage import SessionFile
 
@@ -41,6 +43,10 @@ class Given:
     """What its laser sees."""
     remark: str = ""
     """For people, where a file leaves something to say."""
+    recorded: SessionResult | None = None
+    """What a session ended with, where it was diagnosed."""
+    diagnosis: DiagnosisResult | None = None
+    """A session's own, where specimen and hammer test are its own too."""
     temperature_c: float | None = None
     """Mean over the points of a session or a column, where it was measured."""
 
@@ -53,7 +59,11 @@ class Given:
 
     def said(self, result: R) -> R:
         """A result of these data, which says whose they are."""
-        return result.but(session=self.session, reads=self.reads) if self.session else result
+        if not self.session:
+            return result
+        said = result.but(session=self.session, reads=self.reads)
+        of_session = isinstance(said, IdentificationResult) and self.recorded is not None
+        return said.but(session_result=self.recorded) if of_session else said
 
 
 def is_session(data: Path) -> bool:
@@ -97,7 +107,19 @@ def _of_session(data: Path, specimen: Path | None, *, own_hammer: bool) -> Given
     name = contents.configuration.name
     hammer = f", its hammer test with {len(modes.frequency_hz)} modes" if modes is not None else ""
     said = f"session {name}: {len(sweep)} points, velocity {reads}{hammer}"
-    return Given(read, sweep, modes, name, reads, said, _temperature_c(contents))
+    diagnosis = contents.diagnosis.result if contents.diagnosis is not None else None
+    own = specimen is None and own_hammer
+    return Given(
+        read,
+        sweep,
+        modes,
+        name,
+        reads,
+        said,
+        recorded_result(contents) if diagnosis is not None else None,
+        diagnosis if own else None,
+        _temperature_c(contents),
+    )
 
 
 def _temperature_c(contents: Contents) -> float | None:

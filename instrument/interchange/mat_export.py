@@ -10,6 +10,7 @@ from instrument.facts.damping import METHODS
 from instrument.impact.spectra import spectra
 from instrument.interchange.point_table import PointColumn, columns
 from instrument.interchange.provenance import provenance, reading
+from instrument.results.session_result import recorded_result
 from instrument.session.contents import Contents
 
 
@@ -25,7 +26,10 @@ def export_mat(contents: Contents, folder: Path) -> list[Path]:
     there = {name: table for name, table in parts.items() if table}
     content: dict[str, Any] = {name: {c.name: c.values for c in table} for name, table in there.items()}
     content["units"] = {name: {c.name: c.unit or "text" for c in table} for name, table in there.items()}
-    content["about"] = np.array([*provenance(contents), *reading(contents)], dtype=object)
+    said = [*provenance(contents), *reading(contents)]
+    if contents.points:
+        said.append(f"result: {recorded_result(contents).words}")
+    content["about"] = np.array(said, dtype=object)
     path = folder / f"{contents.configuration.name}.mat"
     savemat(path, content, oned_as="column", do_compression=True)
     return [path]

@@ -19,6 +19,7 @@ from instrument.interchange.identified import identify_session
 from instrument.material.knowledge import LawPosterior, posterior_of
 from instrument.progress import Progress, quiet
 from instrument.results.identification_from import identification_from
+from instrument.results.session_result import recorded_result
 from instrument.session.contents import Contents, contents_of
 from instrument.session.storage import SessionFile
 
@@ -146,10 +147,10 @@ def _identified(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
 def _of_session(path: Path, progress: Progress) -> MaterialLaw:
     with SessionFile(path) as session:
         contents = contents_of(session, with_hits=False)
-    found = None
-    for event in (contents.diagnosis, contents.fit):
-        if found is None and event is not None and event.result is not None:
-            found = _of_facts(path, event.result.as_json())
+    found, result = None, recorded_result(contents)
+    event = contents.diagnosis if result.verdict is not None else contents.fit
+    if result.is_complete and event is not None and event.result is not None:
+        found = _of_facts(path, event.result.as_json())
     found = found or _identified_now(path, contents, progress)
     specimen = contents.specimen
     temperatures = [p.temperature_c for p in contents.measured if p.temperature_c is not None]

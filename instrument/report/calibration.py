@@ -4,9 +4,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from instrument.report.blocks import Block, ReportSection, Sentence, TableBlock
-from instrument.report.numbers import with_error
 from instrument.report.picture import picture
 from instrument.results.drawing import DATA, MODEL, SECOND, label, legend, panels
+from instrument.results.numbers import with_error
 from instrument.session.contents import Contents
 from instrument.stream.derived import PointMeasured
 

@@ -3,7 +3,6 @@
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.report.blocks import Block, ReportSection, Sentence, TableBlock
-from instrument.report.numbers import format_number, with_error
 from instrument.report.picture import picture
 from instrument.results.diagnosis_figures import evidence_figure, law_figure, residual_figure
 from instrument.results.diagnosis_words import (
@@ -14,6 +13,7 @@ from instrument.results.diagnosis_words import (
     verdict_line,
     with_verdict,
 )
+from instrument.results.numbers import format_number, with_error
 from instrument.session.contents import Contents
 
 _TITLE = "Diagnosis"

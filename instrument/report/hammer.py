@@ -11,10 +11,10 @@ from instrument.impact.damping import Damping, damping_of_hits
 from instrument.impact.figures import highest_hz
 from instrument.impact.result import damping_from
 from instrument.report.blocks import Block, ReportSection, Sentence, TableBlock
-from instrument.report.numbers import format_number
 from instrument.report.picture import picture
 from instrument.results.drawing import DATA, MARK, label, panels
 from instrument.results.error_words import ratio_words
+from instrument.results.numbers import format_number
 from instrument.session.contents import Contents
 
 _WITHOUT_MODES_HZ = 1250.0

@@ -2,17 +2,24 @@
 
 import numpy as np
 
-from fitting.identification.result import REFERENCE_FREQUENCIES_HZ, Identification
+from fitting.identification.result import Identification
+from instrument.facts.session_result import SessionResult
 from instrument.interchange.identified import SessionFit
 from instrument.report.blocks import Block, FactsBlock, ReportSection, Sentence, TableBlock
 from instrument.report.fitted import ReportedFit
 from instrument.report.law_figures import law_figure, residual_figures
 from instrument.report.measured import segments_of
-from instrument.report.numbers import format_number, with_error
 from instrument.report.picture import picture
 from instrument.results.adjusted_words import COLUMNS, adjusted_rows
-from instrument.results.diagnosis_words import UNKNOWN, law_at, verdict_line
+from instrument.results.diagnosis_words import UNKNOWN
 from instrument.results.error_words import is_below_floor, percent_words
+from instrument.results.numbers import format_number, with_error
+from instrument.results.session_result import (
+    BEFORE_DIAGNOSIS,
+    Conditions,
+    recorded_result,
+    result_of,
+)
 from instrument.session.contents import Contents
 
 _SAME = 1e-6
@@ -26,7 +33,8 @@ _BEFORE = (
 
 def identification_section(contents: Contents, fitted: ReportedFit) -> ReportSection:
     """The core's law, how well it is known, and how it follows the points."""
-    title = "Identification of the core"
+    diagnosed = contents.diagnosis is not None and contents.diagnosis.result is not None
+    title = f"Identification of the core{f', {BEFORE_DIAGNOSIS}' if diagnosed else ''}"
     if fitted.fit is None:
         return ReportSection(title, (Sentence(f"No law could be identified: {fitted.why}.", "warning"),))
     fit = fitted.fit
@@ -52,30 +60,16 @@ def identification_section(contents: Contents, fitted: ReportedFit) -> ReportSec
 
 
 def result_in_short(contents: Contents, fitted: ReportedFit) -> str:
-    """The law that the session ended with, at the reference frequencies, and what is left, in a line."""
-    diagnosed = contents.diagnosis.result if contents.diagnosis is not None else None
-    if diagnosed is not None:
-        known = [law_at(diagnosed.after.law, f) for f in REFERENCE_FREQUENCIES_HZ]
-        said = [
-            f"{row.frequency_hz:.4g} Hz: G' "
-            f"{with_error(row.storage_modulus_pa, row.storage_modulus_standard_error_pa, 1e-6)} MPa, "
-            f"η {with_error(row.loss_factor, row.loss_factor_standard_error)}"
-            for row in known
-            if row is not None
-        ]
-        return "; ".join([*said, f"rms {diagnosed.after.rms_percent:.3g} %", verdict_line(diagnosed)])
-    if fitted.fit is None:
-        return f"no law identified: {fitted.why}"
-    r = fitted.fit.identified.result
-    b = r.band
-    at = [int(np.argmin(np.abs(b.frequency_hz - f))) for f in REFERENCE_FREQUENCIES_HZ]
-    said = [
-        f"{b.frequency_hz[k]:.4g} Hz: G' {with_error(b.storage_modulus_pa[k], s, 1e-6)} MPa, "
-        f"η {with_error(b.loss_factor[k], b.loss_factor_standard_error[k])}"
-        for k in sorted(set(at))
-        for s in [b.storage_modulus_standard_error_pa[k]]
-    ]
-    return "; ".join([*said, f"rms of the fit {r.rms_percent:.3g} %"])
+    """The law to sign, in a line."""
+    return session_result(contents, fitted).words.replace("+-", "±")
+
+
+def session_result(contents: Contents, fitted: ReportedFit) -> SessionResult:
+    """As recorded; computed for the page where the run left no law of all its points."""
+    recorded = recorded_result(contents)
+    if recorded.is_complete or (recorded.points and fitted.result is None):
+        return recorded
+    return result_of(fitted.result, None, Conditions.of_points(contents.measured), fitted.why)
 
 
 def unexplained_section(fitted: ReportedFit) -> ReportSection:

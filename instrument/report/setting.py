@@ -4,7 +4,7 @@ from instrument.files.rig_file import ResponseSection, SensorSection
 from instrument.files.specimen_file import SpecimenDocument
 from instrument.models.tolerance_words import tolerance_rows
 from instrument.report.blocks import Block, FactsBlock, ReportSection, Sentence, TableBlock
-from instrument.report.numbers import format_number
+from instrument.results.numbers import format_number
 from instrument.session.contents import Contents
 
 _SENSITIVITY_UNITS = {

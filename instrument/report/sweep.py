@@ -7,9 +7,9 @@ from instrument.files.point_columns import in_report
 from instrument.report.blocks import Block, ReportSection, Sentence, TableBlock
 from instrument.report.fitted import ReportedFit
 from instrument.report.measured import noise_of, segments_of
-from instrument.report.numbers import format_number, signed
 from instrument.report.picture import picture
 from instrument.report.sweep_figures import quality_figure, response_figures
+from instrument.results.numbers import format_number, signed
 from instrument.session.contents import Contents
 from instrument.stream.derived import PointMeasured
 

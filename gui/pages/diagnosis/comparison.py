@@ -9,8 +9,8 @@ from gui.pages.law.plots import LawLine, LawPlots
 from gui.tables import Cell, ReadTable
 from gui.theme import Role
 from instrument.facts.diagnosis import DiagnosisResult
-from instrument.report.numbers import format_number, with_error
 from instrument.results.diagnosis_words import UNKNOWN, with_verdict
+from instrument.results.numbers import format_number, with_error
 
 _ERRORS = {
     "what the fit leaves": "Held-out data: a segment predicted by law and effects fitted to the others",

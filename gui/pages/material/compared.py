@@ -10,6 +10,7 @@ from instrument.errors import BadInput
 from instrument.files.sweep_file import read_sweep
 from instrument.paper_case import TABLE_4, case_file
 from instrument.results.diagnosis_words import UNKNOWN
+from instrument.results.session_result import BEFORE_DIAGNOSIS
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 
@@ -35,18 +36,20 @@ def paper_law() -> ComparedLaw:
 
 
 def recorded_laws(path: Path) -> list[ComparedLaw]:
-    """What a session's own fit gave, and what its diagnosis made of it. Raises `BadInput`."""
+    """The law a session ended with, and that before its diagnosis found effects. Raises `BadInput`."""
     with SessionFile(path) as session:
         contents = contents_of(session, with_hits=False)
     fit = contents.fit.result if contents.fit is not None else None
     diagnosis = contents.diagnosis.result if contents.diagnosis is not None else None
     if fit is None:
         raise BadInput(f"{path}: no law was fitted in this session, expected one with a finished fit")
-    doubt = f", {UNKNOWN}" if diagnosis is not None and diagnosis.verdict == "unknown" else ""
-    note = f"{path}: its own fit, {len(fit.points)} points{doubt}"
-    found = [ComparedLaw(f"{path.stem}{doubt}", LawCurve.of(fit.law), note)]
     if diagnosis is not None and diagnosis.equivalent:
         effects = " and ".join(diagnosis.equivalent)
-        law = LawCurve.of(diagnosis.after.law)
-        found.append(ComparedLaw(f"{path.stem}, diagnosed", law, f"{path}: its diagnosis, with {effects}"))
-    return found
+        before, after = (LawCurve.of(stage.law) for stage in diagnosis.stages)
+        return [
+            ComparedLaw(path.stem, after, f"{path}: its diagnosis, with {effects}"),
+            ComparedLaw(f"{path.stem}, before", before, f"{path}: {BEFORE_DIAGNOSIS}, without {effects}"),
+        ]
+    doubt = f", {UNKNOWN}" if diagnosis is not None and diagnosis.verdict == "unknown" else ""
+    note = f"{path}: its own fit, {len(fit.points)} points{doubt}"
+    return [ComparedLaw(f"{path.stem}{doubt}", LawCurve.of(fit.law), note)]

@@ -8,10 +8,10 @@ import numpy as np
 
 from fitting.identification.uncertainty import limits_reached
 from fitting.laws import CoreLaw
-from gui.pages.law.curve import At, LawCurve, places_hz, resonances_hz
+from gui.pages.law.curve import At, LawCurve, places_hz
 from instrument.facts.diagnosis import StageFitted
 from instrument.facts.identification import IdentificationResult
-from instrument.report.numbers import format_number, with_error
+from instrument.results.numbers import format_number, with_error
 from instrument.stream.derived import FitUpdated
 
 _NOT_FIXED = 1.0
@@ -22,12 +22,12 @@ _UNITS = (("_pa", "MPa", 1e-6), ("_rad_s", "rad/s", 1.0), ("_s", "s", 1.0))
 
 @dataclass(frozen=True)
 class Place:
-    """The law at one frequency, by the fit and by the diagnosis."""
+    """The law at one frequency, and what it was before the diagnosis."""
 
     frequency_hz: float
     where: str
-    fitted: At | None
-    with_effects: At | None
+    law: At | None
+    before: At | None
 
 
 @dataclass(frozen=True)
@@ -39,42 +39,41 @@ class Parameter:
     value: str
     percent: str
     remark: str
-    with_effects: str
+    before: str
 
 
-def places(fit: IdentificationResult | None, fitted: LawCurve | None, after: LawCurve | None) -> list[Place]:
+def places(law: LawCurve, resonances: dict[int, float], before: LawCurve | None = None) -> list[Place]:
     """The reference frequencies and the resonances, as far as they were measured."""
-    known = fitted or after
-    if known is None:
-        return []
-    resonances = resonances_hz(fit.points) if fit is not None else {}
     return [
-        Place(f, where, fitted.at(f) if fitted else None, after.at(f) if after else None)
-        for f, where in places_hz(resonances, known)
+        Place(f, where, law.at(f), before.at(f) if before is not None else None)
+        for f, where in places_hz(resonances, law)
     ]
 
 
 def parameters(
-    fit: IdentificationResult, start: CoreLaw | None, after: StageFitted | None
+    fit: IdentificationResult | StageFitted,
+    start: CoreLaw | None,
+    correlations: Mapping[str, Mapping[str, float]],
+    before: StageFitted | None = None,
 ) -> list[Parameter]:
-    """With errors and remarks; `start` is the specimen's law, `after` the stage of a diagnosis."""
+    """Of the law that stands, with errors and remarks; `start` is the specimen's law."""
     reached = _limits_reached(fit.parameters, start)
     rows = []
     for key, value in fit.parameters.items():
         error = fit.standard_errors[key]
         label, scale = labelled(key)
         relative = error / abs(value) if not isnan(error) and value else None
-        with_effects = "–"
-        if after is not None and key in after.parameters:
-            with_effects = with_error(after.parameters[key], after.standard_errors[key], scale)
+        was = "–"
+        if before is not None and key in before.parameters:
+            was = with_error(before.parameters[key], before.standard_errors[key], scale)
         rows.append(
             Parameter(
                 key,
                 label,
                 with_error(value, error, scale),
                 f"{100 * relative:.2g}" if relative is not None else "–",
-                _remark(key, relative, reached, fit.correlations.get(key, {})),
-                with_effects,
+                _remark(key, relative, reached, correlations.get(key, {})),
+                was,
             )
         )
     return rows

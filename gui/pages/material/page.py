@@ -1,5 +1,7 @@
 """The law found: G'(f) and eta(f) with their bands as they converge, in numbers, beside other laws."""
 
+from typing import overload
+
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSplitter, QTabWidget, QTextBrowser, QVBoxLayout
@@ -14,8 +16,16 @@ from gui.pages.material.numbers import headline, parameters, places
 from gui.pages.material.tables import Correlations, Parameters, Places
 from gui.rediagnosis import ShownDiagnosis
 from gui.state import SessionState
+from instrument.facts.diagnosis import StageFitted
 from instrument.facts.identification import IdentificationResult
-from instrument.results.diagnosis_words import UNKNOWN
+from instrument.facts.session_result import SessionResult
+from instrument.results.diagnosis_words import UNKNOWN, with_verdict
+from instrument.results.session_result import (
+    BEFORE_DIAGNOSIS,
+    Conditions,
+    recorded_result,
+    result_of,
+)
 from instrument.stream.derived import FitUpdated
 
 _NOTHING = (
@@ -74,18 +84,26 @@ class MaterialPage(Page):
         state = self.controller.state
         self.said.setText(self._headline(state))
         self._draw_lines()
-        fit, shown = self._latest, self._diagnosed
-        after = shown.found.after if shown is not None else None
-        fitted = self._curve(fit) if fit is not None else None
+        fit, shown = self._latest, self._shown
         result = fit.result if fit is not None else None
-        rows = places(result, fitted, LawCurve.of(after.law) if after is not None else None)
-        self.places.show_places(rows, with_effects=after is not None)
+        # Nothing is before a diagnosis that accepted no effect: its law is that one.
+        before = shown.found.before if shown is not None and shown.found.equivalent else None
+        stands = shown.found.after if shown is not None else result
+        resonances = resonances_hz(result.points) if result is not None else {}
+        rows = places(_curve(stands), resonances, _curve(before)) if stands is not None else []
+        self.places.show_places(rows, with_before=before is not None)
         start = state.contents.specimen.core if state is not None else None
         law = start.law if start is not None else None
+        correlations = result.correlations if result is not None and shown is None else {}
         self.parameters.show_parameters(
-            parameters(result, law, after) if result is not None else [], with_effects=after is not None
+            parameters(stands, law, correlations, before) if stands is not None else [],
+            with_before=before is not None,
         )
         self.correlations.show_fit(result)
+        self.tabs.setTabText(
+            self.tabs.indexOf(self.correlations),
+            "Correlations" + (f", {BEFORE_DIAGNOSIS}" if before is not None else ""),
+        )
         self._show_notes(result, shown)
 
     def _draw_lines(self) -> None:
@@ -94,10 +112,12 @@ class MaterialPage(Page):
         if len(fits) > 1:
             earlier = joined([self._curve(fit) for fit in fits[:-1]])
             lines.append(LawLine(f"earlier fits ({len(fits) - 1})", earlier, "faint", width=1.0))
-        if fits:
-            name = f"identified ({UNKNOWN})" if self._is_unknown else "identified"
-            lines.append(LawLine(name, self._curve(fits[-1]), "model"))
-        lines += _diagnosed_lines(self._diagnosed) + self.comparison.lines
+        shown = self._shown
+        if shown is not None:
+            lines += _diagnosed_lines(shown)
+        elif fits:
+            lines.append(LawLine("identified", self._curve(fits[-1]), "model"))
+        lines += self.comparison.lines
         self.plots.show_lines(lines, self._resonances)
 
     def _show_notes(self, result: IdentificationResult | None, shown: ShownDiagnosis | None) -> None:
@@ -114,8 +134,13 @@ class MaterialPage(Page):
         self.origin.say(f"● diagnosis {shown.origin}" if shown and made_here else "", "fair", bold=True)
 
     def _headline(self, state: SessionState | None) -> str:
+        shown = self._shown
+        if shown is not None:
+            return _in_words(result_of(None, shown.found, _conditions(state, shown)))
         if state is None:
-            return _NOTHING if self._diagnosed is None else ""
+            return _NOTHING
+        if state.run.over and state.fit_running is None and state.contents.fit is not None:
+            return _in_words(recorded_result(state.contents))
         empty = _NEVER if state.run.over else _NO_FIT
         return headline(state.fits, state.fit_running) or empty
 
@@ -131,15 +156,14 @@ class MaterialPage(Page):
         return fits[-1] if fits else None
 
     @property
-    def _diagnosed(self) -> ShownDiagnosis | None:
-        """The diagnosis shown, where an effect is accepted."""
-        shown = self.controller.rediagnosis.shown(self.controller.state)
-        return shown if shown is not None and shown.found.equivalent else None
+    def _shown(self) -> ShownDiagnosis | None:
+        """The diagnosis whose law stands: the recorded one, or one made here."""
+        return self.controller.rediagnosis.shown(self.controller.state)
 
     @property
     def _is_unknown(self) -> bool:
         """Whether the diagnosis shown found no explanation."""
-        shown = self.controller.rediagnosis.shown(self.controller.state)
+        shown = self._shown
         return shown is not None and shown.found.verdict == "unknown"
 
     @property
@@ -186,14 +210,32 @@ class MaterialPage(Page):
         column.addWidget(whole, 1)
 
 
-def _diagnosed_lines(shown: ShownDiagnosis | None) -> list[LawLine]:
-    """Before and after the effects accepted."""
-    if shown is None:
-        return []
+def _diagnosed_lines(shown: ShownDiagnosis) -> list[LawLine]:
+    """The law that stands, and before it that without the effects accepted."""
     by_hand = ", by hand" if shown.asked is not None and shown.asked.by_hand else ""
-    before, after = (LawCurve.of(stage.law) for stage in shown.found.stages)
     effects = " and ".join(shown.found.equivalent)
+    if not effects:
+        return [LawLine(with_verdict(f"result{by_hand}", shown.found), _curve(shown.found.after), "model")]
     return [
-        LawLine("diagnosis: without effect", before, "model", dashed=True, width=1.5),
-        LawLine(f"diagnosis: with {effects}{by_hand}", after, "data"),
+        LawLine(BEFORE_DIAGNOSIS, _curve(shown.found.before), "model", dashed=True, width=1.5),
+        LawLine(f"result: with {effects}{by_hand}", _curve(shown.found.after), "data"),
     ]
+
+
+def _conditions(state: SessionState | None, shown: ShownDiagnosis) -> Conditions:
+    """The session's; another file's by its points."""
+    if state is not None and (shown.asked is None or shown.asked.specimen is None):
+        return Conditions.of_points(state.contents.measured)
+    return Conditions.of_diagnosis(shown.found)
+
+
+def _in_words(result: SessionResult) -> str:
+    return result.words.replace("+-", "±")
+
+
+@overload
+def _curve(found: StageFitted | IdentificationResult) -> LawCurve: ...
+@overload
+def _curve(found: None) -> None: ...
+def _curve(found: StageFitted | IdentificationResult | None) -> LawCurve | None:
+    return LawCurve.of(found.law) if found is not None else None

@@ -10,17 +10,17 @@ from gui.tables import Cell, ReadTable
 from gui.theme import Role
 from gui.widgets import hint
 from instrument.facts.identification import IdentificationResult
-from instrument.report.numbers import with_error
+from instrument.results.numbers import with_error
 
 _PLACES = {
     "f / Hz": "20, 100, 280 Hz and the resonances, as far as they were measured",
     "at": "Resonance: where the response measured in a segment is largest",
-    "G' / MPa": "Storage modulus of the latest fit, ± one standard error",
-    "η": "Loss factor of the latest fit, ± one standard error",
+    "G' / MPa": "Storage modulus: after the diagnosis where there is one, ± one standard error",
+    "η": "Loss factor: after the diagnosis where there is one, ± one standard error",
 }
-_PLACES_WITH = {
-    "G' / MPa, effect": "Storage modulus with the effects of the diagnosis, ± one standard error",
-    "η, effect": "Loss factor with the effects of the diagnosis, ± one standard error",
+_PLACES_BEFORE = {
+    "G' before": "Storage modulus in MPa before the diagnosis: without the effects it found",
+    "η before": "Loss factor before the diagnosis: without the effects it found",
 }
 _PARAMETERS = {
     "parameter": "Of the law",
@@ -28,7 +28,7 @@ _PARAMETERS = {
     "error / %": "Standard error over value",
     "remark": "Limits reached, and what the data do not fix",
 }
-_WITH = {"with effect": "By the diagnosis, with the effects accepted"}
+_BEFORE = {"before": "Before the diagnosis: without the effects it found"}
 _HEAT = 0.75
 _STRONG = 0.99
 _CORRELATIONS_SAID = (
@@ -43,10 +43,10 @@ class Places(ReadTable):
     def __init__(self) -> None:
         super().__init__(_PLACES)
 
-    def show_places(self, rows: list[Place], *, with_effects: bool) -> None:
-        """By the fit, and by the diagnosis where it has effects."""
-        wanted = _PLACES | (_PLACES_WITH if with_effects else {})
-        self.show_rows([_place(row, with_effects) for row in rows], wanted)
+    def show_places(self, rows: list[Place], *, with_before: bool) -> None:
+        """The law that stands, and that before the diagnosis where effects were found."""
+        wanted = _PLACES | (_PLACES_BEFORE if with_before else {})
+        self.show_rows([_place(row, with_before) for row in rows], wanted)
 
 
 class Parameters(ReadTable):
@@ -55,10 +55,10 @@ class Parameters(ReadTable):
     def __init__(self) -> None:
         super().__init__(_PARAMETERS)
 
-    def show_parameters(self, rows: list[Parameter], *, with_effects: bool) -> None:
-        """By the fit, and by the diagnosis where it has effects."""
-        wanted = _PARAMETERS | (_WITH if with_effects else {})
-        self.show_rows([_parameter(row, with_effects) for row in rows], wanted)
+    def show_parameters(self, rows: list[Parameter], *, with_before: bool) -> None:
+        """Of the law that stands, and of that before the diagnosis where effects were found."""
+        wanted = _PARAMETERS | (_BEFORE if with_before else {})
+        self.show_rows([_parameter(row, with_before) for row in rows], wanted)
 
 
 class Correlations(QWidget):
@@ -94,26 +94,27 @@ def _heat(c: float, names: str) -> Cell:
     return Cell(f"{c:+.3f}", f"{names}: {c:+.5f}", bold=abs(c) > _STRONG, fill=role, alpha=_HEAT * abs(c))
 
 
-def _place(row: Place, with_effects: bool) -> list[Cell]:
+def _place(row: Place, with_before: bool) -> list[Cell]:
     cells = [
         Cell(f"{row.frequency_hz:.4g}", bold=not row.where),
         Cell(row.where, left=True, faint=True),
-        *_pair(row.fitted),
+        *_pair(row.law),
     ]
-    return [*cells, *_pair(row.with_effects)] if with_effects else cells
+    return [*cells, *_pair(row.before, faint=True)] if with_before else cells
 
 
-def _pair(at: At | None) -> list[Cell]:
+def _pair(at: At | None, *, faint: bool = False) -> list[Cell]:
     if at is None:
         return [Cell("–"), Cell("–")]
-    return [Cell(with_error(at.storage_mpa, at.storage_error_mpa)), Cell(with_error(at.loss, at.loss_error))]
+    pairs = ((at.storage_mpa, at.storage_error_mpa), (at.loss, at.loss_error))
+    return [Cell(with_error(value, error), faint=faint) for value, error in pairs]
 
 
-def _parameter(row: Parameter, with_effects: bool) -> list[Cell]:
+def _parameter(row: Parameter, with_before: bool) -> list[Cell]:
     cells = [
         Cell(row.label, row.key, bold=True, left=True),
         Cell(row.value),
         Cell(row.percent),
         Cell(row.remark, left=True, fill="fair" if row.remark else None, alpha=0.25),
     ]
-    return [*cells, Cell(row.with_effects)] if with_effects else cells
+    return [*cells, Cell(row.before, faint=True)] if with_before else cells

@@ -118,14 +118,14 @@ def test_an_effect_accepted_by_hand_is_fitted_and_the_material_follows(qtbot, wi
     assert page.candidates.table.texts(0)[0] == "added_mass"
     material = page_of(window, MaterialPage)
     window.tabs.setCurrentWidget(material)
-    assert "diagnosis: with spot_offset, by hand" in material.plots.names
+    assert "result: with spot_offset, by hand" in material.plots.names
     assert "not recorded" in material.origin.said
     window.tabs.setCurrentWidget(page)
     qtbot.mouseClick(page.back, LEFT)
     assert page.finding.verdict.said.startswith("Ambiguous: added_mass")
     assert not page.candidates.decisions.any
     window.tabs.setCurrentWidget(material)
-    assert "diagnosis: with added_mass" in material.plots.names
+    assert "result: with added_mass" in material.plots.names
     assert material.origin.said == ""
 
 
@@ -140,7 +140,8 @@ def test_no_effect_by_hand_is_not_called_noise(window, page):
     assert page.residual.segment.count() == 4
     material = page_of(window, MaterialPage)
     window.tabs.setCurrentWidget(material)
-    assert material.plots.names == ("earlier fits (1)", "identified")
+    assert material.plots.names == ("earlier fits (1)", "result, by hand")
+    assert "verdict: by your word: no effect accepted" in material.said.text()
 
 
 def test_what_is_computed_can_be_cancelled(qtbot, window, page):

@@ -10,6 +10,9 @@ from result_cases import identification
 from gui.pages.material import MaterialPage, comparison
 from gui.pages.material.compared import PAPER
 from gui.pages.material.numbers import headline, parameters
+from instrument.results.session_result import recorded_result
+from instrument.session.contents import contents_of
+from instrument.session.storage import SessionFile
 
 LEFT = Qt.MouseButton.LeftButton
 
@@ -33,6 +36,10 @@ def fit_of(page):
     return page.controller.state.contents.fit.result
 
 
+def diagnosis_of(page):
+    return page.controller.state.contents.diagnosis.result
+
+
 def drop(widget, path):
     data = QMimeData()
     data.setUrls([QUrl.fromLocalFile(str(path))])
@@ -40,30 +47,35 @@ def drop(widget, path):
     widget.dropEvent(QDropEvent(QPointF(5, 5), Qt.DropAction.CopyAction, data, buttons, keys))
 
 
-def test_the_latest_fit_stands_before_earlier_ones_and_beside_the_diagnosis(page):
+def test_the_law_to_sign_stands_beside_the_one_before_the_diagnosis_and_earlier_fits(page):
     assert page.plots.names == (
         "earlier fits (1)",
-        "identified",
-        "diagnosis: without effect",
-        "diagnosis: with added_mass",
+        "before the diagnosis",
+        "result: with added_mass",
     )
 
 
-def test_curves_and_bands_are_the_fits_own(page):
-    law = fit_of(page).law
+def test_its_words_are_those_of_every_command(page, diagnosed_path):
+    with SessionFile(diagnosed_path) as file:
+        words = recorded_result(contents_of(file, with_hits=False)).words
+    assert page.said.text() == words.replace("+-", "±")
+
+
+def test_curves_and_bands_are_those_of_the_law_to_sign(page):
+    law = diagnosis_of(page).after.law
     G = 1e-6 * np.array([row.storage_modulus_pa for row in law])
     error = 1e-6 * np.array([row.storage_modulus_standard_error_pa for row in law])
     columns = page.plots.storage.columns()
     axis = "Storage modulus G' (MPa)"
-    assert columns[f"identified: {axis}"] == pytest.approx(G)
-    assert columns[f"identified, band high: {axis}"] == pytest.approx(G + error)
+    assert columns[f"result: with added_mass: {axis}"] == pytest.approx(G)
+    assert columns[f"result: with added_mass, band high: {axis}"] == pytest.approx(G + error)
 
 
 def test_the_width_of_the_bands_is_chosen(qtbot, page):
-    eta = np.array([row.loss_factor for row in fit_of(page).law])
-    error = np.array([row.loss_factor_standard_error for row in fit_of(page).law])
+    eta = np.array([row.loss_factor for row in diagnosis_of(page).after.law])
+    error = np.array([row.loss_factor_standard_error for row in diagnosis_of(page).after.law])
     qtbot.keyClick(page.plots.bands, Qt.Key.Key_Down)
-    low = page.plots.loss.columns()["identified, band low: Loss factor η"]
+    low = page.plots.loss.columns()["result: with added_mass, band low: Loss factor η"]
     assert low == pytest.approx(eta - 1.96 * error)
 
 
@@ -72,7 +84,7 @@ def test_numbers_stand_at_the_references_and_the_resonances(page):
     assert {"20", "100"} < set(page.places.texts(0))
     assert "resonance 1" in page.places.texts(1)
     row = page.places.texts(0).index("100")
-    at_100 = next(r for r in fit_of(page).law if r.frequency_hz == 100.0)
+    at_100 = next(r for r in diagnosis_of(page).after.law if r.frequency_hz == 100.0)
     assert float(page.places.cell(row, 2).text.split(" ± ")[0]) == pytest.approx(
         1e-6 * at_100.storage_modulus_pa, rel=1e-2
     )
@@ -88,8 +100,13 @@ def test_parameters_and_correlations_are_the_fits_own(page):
     assert found.cell(1, 3).fill == "model"
 
 
-def test_the_fit_says_what_it_is_made_of(page):
-    assert page.said.text().startswith("fractional-zener law, fit 2 of 31 points, rms ")
+def test_a_fit_without_a_diagnosis_says_what_it_is_made_of(qtbot, window, page, session_path):
+    assert headline([page.controller.state.contents.fit], None).startswith(
+        "fractional-zener law, fit 2 of 31 points, rms "
+    )
+    window.open(session_path)
+    qtbot.waitUntil(lambda: page.said.text().endswith("not diagnosed"), timeout=10_000)
+    assert page.plots.names[-1] == "identified"
 
 
 def test_a_parameter_at_its_limit_or_loose_is_named(zn1):
@@ -100,7 +117,7 @@ def test_a_parameter_at_its_limit_or_loose_is_named(zn1):
     correlations = {n: {m: float(n == m) for m in values} for n in values}
     correlations["g0_pa"]["alpha"] = -0.995
     fit = identification(parameters=values, standard_errors=errors, correlations=correlations)
-    said = [row.remark for row in parameters(fit, law, None)]
+    said = [row.remark for row in parameters(fit, law, fit.correlations)]
     assert said == ["fixed only together with alpha", "at its upper limit", "not fixed by these data", ""]
 
 
@@ -135,7 +152,7 @@ def test_a_session_with_a_diagnosis_brings_both_laws(qtbot, page, diagnosed_path
         page.comparison.read(diagnosed_path)
     assert [law.name for law in page.comparison.laws] == [
         diagnosed_path.stem,
-        f"{diagnosed_path.stem}, diagnosed",
+        f"{diagnosed_path.stem}, before",
     ]
     looks = {(line.role, line.dashed) for line in page.comparison.lines}
     assert len(looks) == 2

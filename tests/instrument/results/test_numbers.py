@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from instrument.report.numbers import format_number, signed, with_error
+from instrument.results.numbers import format_number, signed, with_error
 
 
 @pytest.mark.parametrize(
