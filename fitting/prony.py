@@ -7,6 +7,7 @@ relative to |G*|. Few terms: their number grows until the error over the band is
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 from scipy.optimize import nnls
@@ -17,6 +18,9 @@ MOST_TERMS = 20
 _REACHES = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0)
 """How far relaxation times go beyond the band's edges: what lies outside shows inside."""
 _POINTS = 200
+_FEW_POINTS, _FEW_TIMES, _FEW_REACH = 40, 14, 30.0
+"""Of a series that is only a beginning: a grid of some three relaxation times a decade, a decade and a half
+beyond the band's edges."""
 
 
 @dataclass(frozen=True)
@@ -70,6 +74,15 @@ def fit_prony(
             break
     assert best is not None
     return best
+
+
+def series_of(modulus: Callable[[Array], Complex], low_hz: float, high_hz: float, terms: int) -> Prony:
+    """The nearest series of at most `terms` terms with times on a coarse grid: where a fit may begin."""
+    omega = 2 * np.pi * np.geomspace(low_hz, high_hz, _FEW_POINTS)
+    G = modulus(omega)
+    tau = np.geomspace(1 / (_FEW_REACH * omega[-1]), _FEW_REACH / omega[0], _FEW_TIMES)
+    found = (_fit(omega, G, np.array(some)) for some in combinations(tau, terms))
+    return min(found, key=lambda series: series.rms_error)
 
 
 def _fit(omega: Array, G: Complex, tau: Array) -> Prony:

@@ -68,6 +68,10 @@ class CandidateFits:
         coarse = response_of(self.problem, [*self.none.effects, effect], self.problem.coarse)
         laws = effect.laws(self.none.law, self.problem.points)
         rough = [refit(coarse, self.evidence, law, self.none.u, tolerance=ROUGH) for law in laws]
+        nearest = min(rough, key=lambda f: f.chi2)
+        if self.none.chi2 - nearest.chi2 > SEARCH.least_expected:
+            further = effect.following(nearest.law, self.none.law, self.problem.points)
+            rough += [refit(coarse, self.evidence, law, nearest.u, tolerance=ROUGH) for law in further]
         order = sorted(rough, key=lambda f: cost(f, self.problem.plate))
         worth = [f for f in order if f.chi2 < self.none.chi2]
         best = worth[: SEARCH.laws_finished] or order[:1]

@@ -119,8 +119,9 @@ def found_effects(
                 error = float("nan")
             parameters[q.key] = ParameterEstimate(value, error, q.unit)
         if effect.replaces_law:
-            errors = np.sqrt(np.diag(covariance)[:n]) * fitted.law.values
-            for name, value, error in zip(fitted.law.names, fitted.law.values, errors, strict=True):
+            law = fitted.law.plain
+            errors = np.sqrt(np.diag(covariance)[: len(law.names)]) * law.values
+            for name, value, error in zip(law.names, law.values, errors, strict=True):
                 parameters[name] = ParameterEstimate(float(value), float(error), _unit(name))
         found.append(FoundEffect(effect.name, parameters))
         start += len(effect.parameters)

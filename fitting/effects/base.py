@@ -153,6 +153,10 @@ class Effect:
         """Laws to be tried in the place of the stated one."""
         return []
 
+    def following(self, found: CoreLaw, stated: CoreLaw, points: Points) -> list[CoreLaw]:
+        """Further laws to be tried, beside the one of `laws` that does best."""
+        return []
+
     def scaled(self, u: Array, a: float) -> Array:
         """`u` with the effect `a` times as strong, by a linear guess. Shape (parameters,)."""
         found = u.copy()

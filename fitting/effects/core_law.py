@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from fitting.bent_law import BentLaw
 from fitting.effects.base import EVERY_STRUCTURE, Effect, Points
 from fitting.laws import LAWS, CoreLaw
 from fitting.laws.vicinity import Vicinity
@@ -26,6 +27,13 @@ class OtherCoreLawEffect(Effect):
         """Near the stated one, of every kind that offers itself (`CoreLaw.alternatives`)."""
         near = Vicinity(np.unique(points.omega) / (2 * np.pi), stated.storage_and_loss)
         return [one for law in LAWS.values() for one in law.alternatives(near)]
+
+    def following(self, found: CoreLaw, stated: CoreLaw, points: Points) -> list[CoreLaw]:
+        """Laws with a formula beside one that is only smooth; they may bend where the stated one may."""
+        frequency_hz = np.unique(points.omega) / (2 * np.pi)
+        curve = Vicinity(frequency_hz, found.storage_and_loss)
+        laws = [one for law in LAWS.values() for one in law.following(curve)]
+        return [BentLaw.over(one, frequency_hz) for one in laws] if stated.bend_count else laws
 
     def story(self, u: Mapping[str, float]) -> str:
         return "the core follows another law than the stated one"

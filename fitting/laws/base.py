@@ -116,6 +116,11 @@ class CoreLaw:
         return []
 
     @classmethod
+    def following(cls, curve: Vicinity) -> list["CoreLaw"]:
+        """Laws of this kind beside a curve that a law without a formula has found; none by default."""
+        return []
+
+    @classmethod
     @cache
     def file_fields(cls) -> dict[str, FileField]:
         """All a file says of the law: its parameters and what is fixed."""

@@ -9,6 +9,10 @@ from fitting.arrays import Array, Complex
 from fitting.errors import OutsideModel
 from fitting.laws.base import CoreLaw, quantity
 from fitting.laws.vicinity import Vicinity
+from fitting.prony import series_of
+
+_TERMS = 3
+"""With a bend of a few percent, three follow any material over the two decades of a sweep."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +41,18 @@ class GeneralisedMaxwell(CoreLaw):
             cls(rest, (2 * rise,), (tau[0],)),
             cls(rest, (2 * rise, 0.3 * rise), (tau[0], tau[1])),
             cls(rest, (2 * rise, 0.3 * rise, 0.1 * rise), (tau[0], tau[1], tau[2])),
+        ]
+
+    @classmethod
+    def following(cls, curve: Vicinity) -> list[CoreLaw]:
+        def modulus(omega: Array) -> Complex:
+            storage, loss = curve.storage_and_loss(omega)
+            return np.asarray(storage * (1 + 1j * loss))
+
+        series = series_of(modulus, *curve.ends_hz, _TERMS)
+        least = cls.quantities()["g_inf_pa"].lower
+        return [
+            cls(max(series.g_inf_pa, least), tuple(map(float, series.g_pa)), tuple(map(float, series.tau_s)))
         ]
 
     def modulus(self, omega: Array) -> Complex:
