@@ -27,8 +27,6 @@ more than any specimen's other tolerances make it."""
 LOSS_LIMIT = 0.05
 """Largest relative error of a modal loss factor: it goes into the core's loss factor one to one."""
 
-CORRECTED_SHARE = 0.1
-"""Share of the error that `stiffness_correction` leaves: between edges other waves take part than the one."""
 EDGE_FREQUENCY, EDGE_LOSS = 2.0, 10.0
 """Relative errors that clamped and free edges add, in units of (thickness/shorter side)^2.
 
@@ -131,30 +129,6 @@ def check_theory(specimen: Specimen, law: CoreLaw | None, frequency_hz: ArrayLik
     if not error.acceptable:
         raise OutsideModel(_refusal(error))
     return error
-
-
-def stiffness_correction(specimen: Specimen, omega: ArrayLike, G: ArrayLike = 0.0) -> Complex:
-    """exp(2 delta): times K_0 + G K_1, it gives a layer-wise plate the resonances of exact elasticity.
-
-    Smooth in both arguments. `omega` in rad/s, `G` in Pa; shape (frequencies,).
-    """
-    k = wavenumber(specimen, omega, G)
-    exact = exact_lambda(stack(specimen, G), k, _QUICK_ORDER, _QUICK_TOLERANCE)
-    return exact / layerwise_lambda(specimen, k, G)
-
-
-def remaining_error(specimen: Specimen, error: TheoryError) -> tuple[Array, Array]:
-    """Relative errors of frequency and loss factor after the correction. Shape (frequencies,) each.
-
-    A bound where `check_theory` accepts the specimen, not a standard deviation.
-    """
-    s = specimen
-    h = sum(layer.thickness_m for layer in stack(s))
-    edge = 0.0 if s.boundary == "simply-supported" else (h / min(s.length_m, s.width_m)) ** 2
-    return (
-        CORRECTED_SHARE * np.abs(error.frequency_error) + EDGE_FREQUENCY * edge,
-        CORRECTED_SHARE * np.abs(error.loss_factor_error) + EDGE_LOSS * edge,
-    )
 
 
 def stack(specimen: Specimen, G: ArrayLike = 0.0) -> tuple[ElasticLayer, ...]:

@@ -1,13 +1,16 @@
-"""Specimens and models the tests share; models are cached in a folder of the test run."""
+"""Specimens, models and made-up packages the tests share; models are cached in a folder of the test run."""
 
 import os
 import signal
+import sys
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from plugin_sites import describe
 
+from fitting import plugins
 from fitting.domain import domain_of
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.fractional_zener import FractionalZener
@@ -82,3 +85,31 @@ def johnson_kienholz() -> Specimen:
     face = Face(thickness_m=0.762e-3, young_pa=68.9e9, poisson=0.3, density_kg_m3=2740.0)
     core = Core(0.254e-3, 0.49, 999.0, ConstantModulus(0.896e6, 0.5))
     return Specimen(0.348, 0.3048, "simply-supported", face, face, core)
+
+
+@pytest.fixture
+def nothing_told(monkeypatch):
+    """Installed packages are looked at anew, before and after."""
+    monkeypatch.setenv(plugins.TOLD, "")
+    plugins.entries.cache_clear()
+    yield
+    plugins.entries.cache_clear()
+
+
+@pytest.fixture
+def package(nothing_told, tmp_path, monkeypatch):
+    """Adds an installed package: its name, its one module's text, and its entry points."""
+    site = tmp_path / "site"
+    site.mkdir()
+    monkeypatch.syspath_prepend(site)
+
+    def add(name: str, text: str, **named: dict[str, str]) -> None:
+        module = f"plugin_{name.replace('-', '_')}"
+        (site / f"{module}.py").write_text(text)
+        monkeypatch.delitem(sys.modules, module, raising=False)
+        groups = {f"viscorig.{group}": entries for group, entries in named.items()}
+        places = {g: {e: f"{module}:{attribute}" for e, attribute in n.items()} for g, n in groups.items()}
+        describe(site, name, "1.2", places)
+        plugins.entries.cache_clear()
+
+    return add

@@ -11,7 +11,7 @@ _FORCE = 13
 
 def write_frf(path, frfs, *, binary=True):
     """FRFs as data set 58, double precision; uneven lines are kept as they are."""
-    _write(path, [_frf_set(name, frf, binary=binary) for name, frf in frfs.items()])
+    write_sets(path, *[_frf_set(name, frf, binary=binary) for name, frf in frfs.items()])
 
 
 def write_hits(path, hits, *, binary=True, ordinate_axis_units_lab=None, further=()):
@@ -28,7 +28,31 @@ def write_hits(path, hits, *, binary=True, ordinate_axis_units_lab=None, further
             add(c.name, _CODES[c.motion], c.samples, hit, c.motion)
         for code in further:
             add("tacho", code, hit.force_n, hit)
-    _write(path, sets)
+    write_sets(path, *sets)
+
+
+def ratio_set(frequency_hz, data, over, under):
+    """One spectrum over another, by their codes: 8 displacement, 11 velocity, 12 acceleration, 13 force."""
+    return _common("NONE", binary=True) | {
+        "func_type": 4,
+        "abscissa_spacing": 0,
+        "abscissa_min": 0.0,
+        "abscissa_inc": 0.0,
+        "abscissa_spec_data_type": 18,
+        "ordinate_spec_data_type": over,
+        "orddenom_spec_data_type": under,
+        "data": np.asarray(data),
+        "x": frequency_hz,
+    }
+
+
+def write_sets(path, *sets):
+    """Instead of what was there."""
+    path.unlink(missing_ok=True)
+    # The library's "overwrite" wipes a binary set's header; closing its file it leaves to the collector.
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ResourceWarning)
+        pyuff.UFF(str(path)).write_sets(list(sets), mode="add")
 
 
 def _frf_set(name, frf, *, binary):
@@ -80,11 +104,3 @@ def _common(name, *, binary):
         "ref_dir": 3,
         "z_axis_value": 0.0,
     }
-
-
-def _write(path, sets):
-    path.unlink(missing_ok=True)
-    # The library's "overwrite" wipes a binary set's header; closing its file it leaves to the collector.
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ResourceWarning)
-        pyuff.UFF(str(path)).write_sets(sets, mode="add")

@@ -31,8 +31,6 @@ Counts = NDArray[np.int32]
 HEADER_BYTES = 28
 LONGEST_CONTENT = 1 << 24
 """Bytes; 12 channels with all the samples a block can count are a tenth of it."""
-MOST_SAMPLES = 32767
-"""Of one signal in one data message: the count is signed."""
 FULL_SCALE_COUNTS = 1 << 23
 
 _HEADER = struct.Struct("<2sHHHI4BQI")

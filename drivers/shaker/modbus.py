@@ -98,7 +98,7 @@ class ModbusShaker:
     def command(self, frequency_hz: float, drive_v: float, ramp_v_s: float) -> Echo:
         """A new sine, phase continuous; the amplitude goes there at `ramp_v_s`.
 
-        The device makes the numbers nearest to these that a float32 holds (`protocol.as_sent`).
+        The device makes the numbers nearest to these that a float32 holds.
 
         Raises
         ------

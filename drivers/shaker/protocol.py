@@ -44,11 +44,6 @@ class Identity:
     serial_number: int
 
 
-def as_sent(value: float) -> float:
-    """The nearest number that a float32 holds: what the device gets when `value` is asked."""
-    return float(struct.unpack(">f", struct.pack(">f", value))[0])
-
-
 def next_sequence(sequence: int) -> int:
     """The number after this one: 65535 is followed by 1."""
     return sequence % 0xFFFF + 1

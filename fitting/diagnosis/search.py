@@ -1,6 +1,6 @@
 """The catalogue tried on a residual, effect by effect."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -18,7 +18,6 @@ from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.identification.validation import Validation
 
-Report = Callable[[float], None]
 _SPARE = 2
 """Data a candidate must leave over."""
 

@@ -20,7 +20,6 @@ from numpy.polynomial import Legendre, Polynomial
 
 from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.laws import CoreLaw
 from fitting.specimen import Core, Face, Reading
 from fitting.structures.small import Parts
 from fitting.tolerances import STATED
@@ -75,18 +74,15 @@ class Beam:
             layers.append(("core", ("thickness", "density")))
         return (*(f"{layer}_{n}" for layer, numbers in layers for n in numbers), "length")
 
-    def with_law(self, law: CoreLaw) -> "Beam":
-        """The same beam with another core law. Raises `ValueError` for a bare one."""
-        if self.core is None:
-            raise ValueError("a bare beam has no core to give a law to")
-        return replace(self, core=replace(self.core, law=law))
-
     def parts(self) -> Parts:
         """For unit coefficients, on the basis of modes."""
         return _parts(replace(self, core=_without_law(self.core), tolerances={}))
 
     def coefficients(self, by: Mapping[str, float]) -> Complex:
-        """Of `_STIFFNESS`, `_CORE`, `_INERTIA` and the load."""
+        """Three of the faces' stiffness, three of slip, three of a free layer, six of inertia, the load.
+
+        Shape (16,).
+        """
         b, c, v = (self._moved(name, by) for name in ("substrate", "constraining", "core"))
         length = self.span_m
         L = length + by.get("length", 0.0) * (length / self.length_m)
@@ -142,9 +138,6 @@ class Beam:
             "density": ("density_kg_m3", 1.0, "kg/m^3"),
         }[quantity]
         return getattr(getattr(self, layer), name), factor, unit
-
-
-_STIFFNESS, _CORE, _INERTIA = 3, 6, 6
 
 
 def _of_face(face: dict[str, float]) -> tuple[complex, float, float]:

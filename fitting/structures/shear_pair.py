@@ -10,14 +10,13 @@ with the mass.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.polynomial import Legendre
 
 from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.laws import CoreLaw
 from fitting.specimen import Core, Reading
 from fitting.structures.small import Parts
 from fitting.tolerances import STATED
@@ -63,10 +62,6 @@ class ShearPair:
         if self.gyration_m is None:
             return 0.0
         return (self.core.thickness_m / (6 * self.gyration_m)) ** 2
-
-    def with_law(self, law: CoreLaw) -> "ShearPair":
-        """The same pair with another core law."""
-        return replace(self, core=replace(self.core, law=law))
 
     def parts(self) -> Parts:
         """For unit mass, unit rubber mass and unit A/t."""

@@ -1,4 +1,8 @@
-"""What a batch is asked to do: sessions and sweeps as named, or the rows of a table."""
+"""What a batch is asked to do: sessions and sweeps as named, or the rows of a table.
+
+A table has the column `data`, and where they are wanted `specimen`, `hammer` and `temperature_c`; others are
+passed over.
+"""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -8,9 +12,6 @@ from instrument.batch.task import Task
 from instrument.errors import BadInput
 from instrument.files.table import number, read_rows
 from instrument.interchange.given import is_session
-
-COLUMNS = ("data", "specimen", "hammer", "temperature_c")
-"""Of a table; `data` has to be there, others than these are passed over."""
 
 
 def tasks_of(

@@ -1,13 +1,11 @@
 """Options and arguments shared by commands."""
 
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import click
 import numpy as np
 from numpy.typing import NDArray
-
-F = TypeVar("F")
 
 _MOST_FREQUENCIES = 100_000
 

@@ -15,7 +15,6 @@ from drivers.vibrometer.interface import Range
 from fitting.plugins import NoPlugin, Registry
 
 T = TypeVar("T")
-Driver = AnyShakerDriver | AnyVibrometerDriver | AnyFrontEndDriver
 
 
 def _judge(base: type[T], options: type[DeviceOptions]) -> Callable[[str, Any], T]:

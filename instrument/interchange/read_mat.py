@@ -16,8 +16,6 @@ from instrument.interchange.found import Found, Ratio, motion_of
 from instrument.interchange.read_table import Named, read_table
 
 _DEPTH = 4
-_ROUNDING = 1e-9
-"""Of a step, as a difference of two times."""
 _OUR_OWN = ("units", "about")
 
 

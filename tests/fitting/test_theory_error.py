@@ -16,9 +16,7 @@ from fitting.theory_error import (
     LOSS_LIMIT,
     check_theory,
     held_stack,
-    remaining_error,
     stack,
-    stiffness_correction,
     theory_error,
 )
 
@@ -187,7 +185,7 @@ def test_thick_face_is_refused_for_its_shear(zn1):
         check_theory(thick, zn1.core.law, BAND)
 
 
-def test_what_is_accepted_is_within_its_limits_and_corrected_to_the_stated_share():
+def test_what_is_accepted_is_within_its_limits():
     random = np.random.default_rng(20)
     accepted = refused = 0
     for _ in range(200):
@@ -205,25 +203,4 @@ def test_what_is_accepted_is_within_its_limits_and_corrected_to_the_stated_share
             refused += 1
             continue
         accepted += 1
-        # A corrected plate resonates where the exact one does, so there its correction is taken.
-        corrected = layerwise * stiffness_correction(s, 2 * np.pi * f_exact, G)[0]
-        f_corrected, eta_corrected = frequency_and_loss(corrected)
-        rest_f, rest_eta = remaining_error(s, error)
-        assert abs(f_corrected / f_exact - 1) <= rest_f[0] + 1e-6
-        assert abs(eta_corrected / eta_exact - 1) <= rest_eta[0] + 1e-4
     assert min(accepted, refused) > 40
-
-
-def test_correction_is_smooth_over_frequency_and_modulus(zn1):
-    omega = 2 * np.pi * np.geomspace(10, 1000, 400)
-    log_stiffness = np.log(stiffness_correction(zn1, omega, zn1.core.law.modulus(omega)))
-    bend = np.diff(log_stiffness / log_stiffness[-1], 2)
-    assert np.abs(bend).max() < 1e-3
-    assert np.abs(np.diff(bend)).max() < 1e-4
-
-
-def test_clamped_edges_leave_an_error_of_their_own(zn1):
-    error = theory_error(zn1, BAND, zn1.core.law.modulus(2 * np.pi * BAND))
-    f, loss = remaining_error(zn1, error)
-    assert f.max() < 5e-4
-    assert loss.max() < 3e-3

@@ -1,39 +1,7 @@
-"""Packages that add something, installed for a test."""
-
-import sys
+"""The examples, installed for a test."""
 
 import pytest
-from plugin_sites import EXAMPLES, describe, install, python
-
-from fitting import plugins
-
-
-@pytest.fixture
-def nothing_told(monkeypatch):
-    """Installed packages are looked at anew, before and after."""
-    monkeypatch.setenv(plugins.TOLD, "")
-    plugins.entries.cache_clear()
-    yield
-    plugins.entries.cache_clear()
-
-
-@pytest.fixture
-def package(nothing_told, tmp_path, monkeypatch):
-    """Adds an installed package: its name, its one module's text, and its entry points."""
-    site = tmp_path / "site"
-    site.mkdir()
-    monkeypatch.syspath_prepend(site)
-
-    def add(name: str, text: str, **named: dict[str, str]) -> None:
-        module = f"plugin_{name.replace('-', '_')}"
-        (site / f"{module}.py").write_text(text)
-        monkeypatch.delitem(sys.modules, module, raising=False)
-        groups = {f"viscorig.{group}": entries for group, entries in named.items()}
-        places = {g: {e: f"{module}:{attribute}" for e, attribute in n.items()} for g, n in groups.items()}
-        describe(site, name, "1.2", places)
-        plugins.entries.cache_clear()
-
-    return add
+from plugin_sites import EXAMPLES, install, python
 
 
 @pytest.fixture(scope="session")

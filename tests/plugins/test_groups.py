@@ -11,6 +11,7 @@ import fitting.laws
 from fitting.effects import CATALOGUE, all_spans, span_modules
 from fitting.laws import LAWS
 from fitting.plugins import Registry
+from gui.form import fields
 from instrument.errors import BadInput
 from instrument.files import devices
 from instrument.files.rig_file import RigDocument
@@ -206,7 +207,6 @@ def test_an_unknown_kind_is_one_line_for_every_device(tmp_path, device, usual, k
 
 
 def test_a_form_asks_what_the_driver_asks(vibrometers):
-    fields = pytest.importorskip("gui.form.fields")
     (section,) = [s for s in fields.section_of(RigDocument).sections if s.key == "vibrometer"]
     assert section.fields[0].choices == ("other", "polytec")
     assert [f.key for f in fields.device_fields(section, "other")] == ["lens_mm"]

@@ -94,10 +94,6 @@ def _mode_row(number: int, mode: ModeFound, modes: ModesFound | None, expected_h
     )
 
 
-def _method_cell(estimate: RatioFound | None, method: Method, found: Mode | None) -> Cell:
-    return Cell(_percent(estimate), _method_tip(estimate, method, found), bold=method == METHODS[_ADOPTED])
-
-
 def _scatter_tip(scatter: Scatter | None) -> str:
     if scatter is None:
         return "two hits or more have to give a value, each alone"

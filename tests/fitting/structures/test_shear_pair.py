@@ -28,7 +28,7 @@ def test_the_matrices_follow_the_wave_in_the_pad(mass, G, loss, f):
 
 def test_a_third_of_the_rubber_moves_with_the_mass():
     p = pair(0.2)
-    (mode,) = small_modes(p.with_law(ConstantModulus(6e6, 0.3)), ConstantModulus(6e6, 0.3), 1)
+    (mode,) = small_modes(p, ConstantModulus(6e6, 0.3), 1)
     rubber = 1100 * p.discs * p.area_m2 * 6e-3
     expected = np.sqrt(6e6 * p.discs * p.area_m2 / 6e-3 / (0.2 + rubber / 3)) / (2 * np.pi)
     assert mode.frequency_hz == pytest.approx(expected, rel=1e-4)

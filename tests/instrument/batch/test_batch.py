@@ -7,6 +7,7 @@ import re
 import pytest
 from batch_cases import CORRUPT, write_specimen, write_sweeps
 from diagnosed_session import diagnosed_session
+from pyarrow import parquet
 
 from instrument.batch.asking import tasks_of
 from instrument.batch.run import here, run_batch
@@ -126,7 +127,6 @@ def test_diagnosed_rows_carry_a_verdict(tmp_path, sweeps, plate, capsys):
 
 
 def test_parquet_holds_the_same_numbers(tmp_path, sweeps, plate):
-    parquet = pytest.importorskip("pyarrow.parquet")
     batch(*sweeps, "--specimen", plate, "--out", tmp_path)
     table = parquet.read_table(tmp_path / "batch.parquet").to_pylist()
     rows = rows_of(tmp_path)

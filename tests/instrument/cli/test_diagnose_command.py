@@ -1,14 +1,13 @@
 """`viscorig diagnose` as a user calls it: what it reads, refuses, prints, saves."""
 
 import json
-import warnings
 
 import numpy as np
 import pytest
-import pyuff
 from conftest import DATA
 from diagnosis_cases import diagnosis
 from session_cases import RATE, whole_session
+from uff_files import ratio_set, write_sets
 
 import instrument.cli.diagnose as command
 from instrument.cli.main import run
@@ -163,27 +162,7 @@ def test_an_frf_is_the_pickup_over_the_bases_acceleration(capsys, given, tmp_pat
 
 def write_uff(path, under):
     """Velocity over what the code says: 12 an acceleration, 13 a force."""
-    one = {
-        "type": 58,
-        "binary": 1,
-        "func_type": 4,
-        "rsp_node": 1,
-        "rsp_dir": 3,
-        "ref_node": 1,
-        "ref_dir": 3,
-        "abscissa_spacing": 0,
-        "abscissa_min": 0.0,
-        "abscissa_inc": 0.0,
-        "abscissa_spec_data_type": 18,
-        "ordinate_spec_data_type": 11,
-        "orddenom_spec_data_type": under,
-        "z_axis_value": 0.0,
-        "data": V_OVER_A,
-        "x": F,
-    }
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ResourceWarning)
-        pyuff.UFF(str(path)).write_sets([one], mode="add")
+    write_sets(path, ratio_set(F, V_OVER_A, 11, under))
     return path
 
 

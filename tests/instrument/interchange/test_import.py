@@ -1,13 +1,12 @@
 """Foreign files to this program's CSV, and refusals in a line."""
 
 import json
-import warnings
 
 import h5py
 import numpy as np
 import pytest
-import pyuff
 from scipy.io import savemat
+from uff_files import ratio_set, write_sets
 
 from instrument.cli.main import run
 from instrument.files.impact_csv import read_impact_csv
@@ -110,32 +109,8 @@ def test_our_own_csv_passes_unchanged(exported, tmp_path):
 # Foreign universal files
 
 
-def write_uff(path, *sets):
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ResourceWarning)
-        pyuff.UFF(str(path)).write_sets(list(sets), mode="add")
-
-
 def frf_set(data, over, under, **more):
-    return {
-        "type": 58,
-        "binary": 1,
-        "func_type": 4,
-        "rsp_node": 1,
-        "rsp_dir": 3,
-        "ref_node": 1,
-        "ref_dir": 3,
-        "abscissa_spacing": 0,
-        "abscissa_min": 0.0,
-        "abscissa_inc": 0.0,
-        "abscissa_spec_data_type": 18,
-        "ordinate_spec_data_type": over,
-        "orddenom_spec_data_type": under,
-        "z_axis_value": 0.0,
-        "data": np.asarray(data),
-        "x": F,
-        **more,
-    }
+    return ratio_set(F, data, over, under) | more
 
 
 def time_set(data, code, **more):
@@ -168,7 +143,7 @@ I_OMEGA = 2j * np.pi * F
     ],
 )
 def test_any_motion_over_any_motion_of_the_base_is_velocity_over_acceleration(tmp_path, data, over, under):
-    write_uff(tmp_path / "a.uff", frf_set(data, over, under))
+    write_sets(tmp_path / "a.uff", frf_set(data, over, under))
     read = sweep_of(tmp_path / "a.uff", tmp_path / "a.csv").columns
     np.testing.assert_allclose(over_base(read), RATIO, rtol=1e-12)
     assert "level_g" not in read
@@ -176,14 +151,14 @@ def test_any_motion_over_any_motion_of_the_base_is_velocity_over_acceleration(tm
 
 def test_units_are_read_from_the_set(tmp_path):
     labelled = {"ordinate_axis_units_lab": "mm/s", "orddenom_axis_units_lab": "g"}
-    write_uff(tmp_path / "a.uff", frf_set(RATIO * 1e3 * 9.80665, 11, 12, **labelled))
+    write_sets(tmp_path / "a.uff", frf_set(RATIO * 1e3 * 9.80665, 11, 12, **labelled))
     read = sweep_of(tmp_path / "a.uff", tmp_path / "a.csv").columns
     np.testing.assert_allclose(over_base(read), RATIO, rtol=1e-12)
 
 
 def test_a_files_own_units_scale_what_has_no_label(tmp_path):
     """mm and mN: accelerance in mm/s^2/mN is m/s^2/N; one in mm/s^2 over a labelled N is not."""
-    write_uff(
+    write_sets(
         tmp_path / "a.uff",
         UNITS_MM,
         frf_set(RATIO, 12, 13),
@@ -196,14 +171,14 @@ def test_a_files_own_units_scale_what_has_no_label(tmp_path):
 
 
 def test_passes_over_one_band_become_sweeps(tmp_path):
-    write_uff(tmp_path / "a.uff", frf_set(RATIO, 11, 12), frf_set(2 * RATIO, 11, 12))
+    write_sets(tmp_path / "a.uff", frf_set(RATIO, 11, 12), frf_set(2 * RATIO, 11, 12))
     read = sweep_of(tmp_path / "a.uff", tmp_path / "a.csv").columns
     np.testing.assert_array_equal(read["sweep"], [1] * 5 + [2] * 5)
 
 
 def test_a_line_at_zero_is_left_out_and_said(tmp_path):
     x = np.array([0.0, 10.0, 20.0])
-    write_uff(tmp_path / "a.uff", frf_set(np.array([0, 1j, 2j]), 11, 12, x=x))
+    write_sets(tmp_path / "a.uff", frf_set(np.array([0, 1j, 2j]), 11, 12, x=x))
     imported = import_file(tmp_path / "a.uff", tmp_path / "a.csv")
     assert read_sweep(tmp_path / "a.csv").columns["frequency_hz"].tolist() == [10, 20]
     assert "left out at 0 Hz or without a value: 1" in imported.said[0]
@@ -212,7 +187,7 @@ def test_a_line_at_zero_is_left_out_and_said(tmp_path):
 def test_a_response_before_its_force_is_found(tmp_path):
     force, response = np.zeros(50), np.arange(50.0)
     force[5] = 100.0
-    write_uff(tmp_path / "a.uff", time_set(response, 12), time_set(force, 13))
+    write_sets(tmp_path / "a.uff", time_set(response, 12), time_set(force, 13))
     import_file(tmp_path / "a.uff", tmp_path / "a.csv")
     (hit,) = read_impact_csv(tmp_path / "a.csv")
     np.testing.assert_array_equal(hit.responses[0].samples, response)
@@ -221,7 +196,7 @@ def test_a_response_before_its_force_is_found(tmp_path):
 
 def test_two_accelerometers_get_a_file_each(tmp_path):
     force, a, b = np.eye(1, 50, 5)[0], np.arange(50.0), -np.arange(50.0)
-    write_uff(tmp_path / "a.uff", time_set(force, 13), time_set(a, 12), time_set(b, 12))
+    write_sets(tmp_path / "a.uff", time_set(force, 13), time_set(a, 12), time_set(b, 12))
     imported = import_file(tmp_path / "a.uff", tmp_path / "a.csv")
     assert [p.name for p in imported.files] == ["a-1.csv", "a-2.csv"]
     (second,) = read_impact_csv(tmp_path / "a-2.csv")
@@ -348,7 +323,7 @@ def refusals(folder):
         return folder / name
 
     def uff(name, *sets):
-        write_uff(folder / name, *sets)
+        write_sets(folder / name, *sets)
         return folder / name
 
     mat73(folder / "new.mat")

@@ -1,22 +1,13 @@
 """Pages that another package adds to the window; what they break is theirs alone."""
 
 import logging
-import os
-
-os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 import pytest
-
-pytest.importorskip("PySide6")
-
-from PySide6.QtCore import QEvent, QSettings, Qt
+from PySide6.QtCore import Qt
 
 import gui.page_set
 from fitting.plugins import Registry
-from gui.garbage import Collector
 from gui.pages import PAGES
-from gui.settings import Settings
-from gui.theme import Appearance
 from gui.window import Window
 
 PAGE = """
@@ -41,22 +32,8 @@ class Nameless(Page):
 OURS = ["run", "sweep", "hammer", "material", "diagnosis"]
 
 
-@pytest.fixture(autouse=True)
-def _rubbish_dies_in_the_main_thread(qapp):
-    collector = Collector()
-    yield
-    qapp.sendPostedEvents(None, QEvent.Type.DeferredDelete)
-    collector.stop()
-
-
 @pytest.fixture
-def settings(tmp_path):
-    QSettings.setPath(QSettings.Format.IniFormat, QSettings.Scope.UserScope, str(tmp_path / "settings"))
-    return Settings()
-
-
-@pytest.fixture
-def opened(package, monkeypatch, qtbot, qapp, settings, caplog):
+def opened(package, monkeypatch, qtbot, appearance, settings, caplog):
     """The window with a package's pages."""
     caplog.set_level(logging.WARNING)
 
@@ -64,7 +41,7 @@ def opened(package, monkeypatch, qtbot, qapp, settings, caplog):
         package("pages-one", PAGE, pages=pages)
         fresh = Registry(PAGES.group, PAGES._own, PAGES._judge)
         monkeypatch.setattr(gui.page_set, "PAGES", fresh)
-        window = Window(Appearance(qapp, "light"), settings)
+        window = Window(appearance, settings)
         qtbot.addWidget(window)
         window.show()
         qtbot.waitUntil(window.isActiveWindow)
