@@ -35,8 +35,8 @@ def solve_direct(A: sp.sparray, omega: float, damping: LowRankDamping, loads: Ar
 
 
 def displacement_direct(plate: Plate, damping: LowRankDamping, omega: Array, G: Complex) -> Complex:
-    """Relative displacement at the pickup for a base acceleration of 1 m/s^2, in m. Shape of `omega`."""
-    load = plate.base_load[:, None]
+    """Relative displacement at the pickup for a unit of what drives it, in m. Shape of `omega`."""
+    load = plate.load[:, None]
     return np.array(
         [
             plate.pickup @ solve_direct(plate.dynamic_stiffness(w, g), w, damping, load)[:, 0]

@@ -1,7 +1,12 @@
-"""A plate's motions of one parity in y: half as many unknowns, ordered and solved line by line."""
+"""A plate's motions of one parity in y: half as many unknowns, ordered and solved line by line.
 
-from collections.abc import Callable
+Or all motions that what drives it excites: both parities side by side, or, where the long edges are not
+alike, as they are.
+"""
+
+from collections.abc import Callable, Sequence
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 import scipy.sparse as sp
@@ -14,14 +19,16 @@ from fitting.linear import Chain, with_damping
 from fitting.plate import Plate
 
 Indices = NDArray[np.intp]
+Parity = Literal["even", "odd", "carried"]
 
 
 class HalfPlate:
-    """The plate's matrices on motions even or odd in y, as blocks of `chain`."""
+    """The plate's matrices on motions even or odd in y, or on all it carries, as blocks of `chain`."""
 
-    def __init__(self, plate: Plate, *, odd: bool) -> None:
-        whole = plate.odd if odd else plate.even
-        line = _lines(plate, whole)
+    def __init__(self, plate: Plate, parity: Parity) -> None:
+        sides = {"even": (plate.even,), "odd": (plate.odd,)}[parity] if parity != "carried" else plate.sides
+        whole = sp.csc_array(sp.hstack(sides)) if len(sides) > 1 else sides[0]
+        line = _chained([_lines(plate, P) for P in sides])
         order = np.argsort(line, kind="stable")
         self.plate = plate
         self.chain = Chain(tuple(np.bincount(line).tolist()))
@@ -29,7 +36,7 @@ class HalfPlate:
         """Motions of the plate, orthonormal. Shape (n, half)."""
         self.down = sp.csr_array(self.P.T)
         self.place = np.asarray(np.argsort(order), dtype=np.intp)
-        """Of each of the columns of `Plate.even` or `Plate.odd` among those of `P`."""
+        """Of each of the columns of `Plate.even`, `Plate.odd` or `Plate.carried` among those of `P`."""
 
     def blocks(self, A: sp.sparray) -> NDArray[np.float64] | Complex:
         """A matrix of the plate on these motions. Shape (values,)."""
@@ -60,11 +67,16 @@ class HalfPlate:
         return with_damping(self.chain.factorise(A), omega, damping.U, damping.d)
 
 
+def _chained(each: Sequence[Indices]) -> Indices:
+    """Lines of several sets of motions, one after the other: nothing couples the sets."""
+    starts = np.cumsum([0, *(line.max() + 1 for line in each)])[:-1]
+    return np.concatenate([line + start for line, start in zip(each, starts, strict=True)])
+
+
 def _lines(plate: Plate, P: sp.csc_array) -> Indices:
     """Of every column of P the line of nodes it lies on, across the plate or along it: short ones."""
     node = plate.free[P.indices[P.indptr[:-1]]] // DOFS
     i, j = np.divmod(node, plate.mesh.n_y + 1)
-    across, along = (
-        np.unique(line, return_inverse=True)[1] for line in (i, np.minimum(j, plate.mesh.n_y - j))
-    )
+    mirrored = np.minimum(j, plate.mesh.n_y - j) if P.shape[1] < plate.size else j
+    across, along = (np.unique(line, return_inverse=True)[1] for line in (i, mirrored))
     return np.asarray(min(across, along, key=lambda line: np.bincount(line).max()), dtype=np.intp)

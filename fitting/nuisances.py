@@ -8,6 +8,7 @@ derivatives of the response follow from theirs by the chain rule.
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 
@@ -24,6 +25,7 @@ _UNHEARD = 1e-6
 """Share of a mode that the plate's motions carry, below which its ratio plays no part."""
 _TREATMENT = ("constraining", "core")
 _MOST_KEPT = 64
+Spot = Literal["pickup", "force"]
 _FELT = 0.3
 """Standard deviations from which derivatives to stated numbers are taken to vary."""
 
@@ -55,6 +57,8 @@ def nuisances_of(
     names = [n for n in PLATE if specimen.core is not None or not n.startswith(_TREATMENT)]
     found = [Nuisance(n, n, tolerance(specimen, n)) for n in names]
     found += [Nuisance(f"pickup_{axis}", "pickup", tolerance(specimen, "pickup")) for axis in "xy"]
+    if specimen.force_m is not None:
+        found += [Nuisance(f"force_{axis}", "force", tolerance(specimen, "force")) for axis in "xy"]
     share = np.linalg.norm(plate.U, axis=0)
     heard = share > _UNHEARD * share.max(initial=0.0)
     damping = tolerance(specimen, "damping")
@@ -197,7 +201,7 @@ class Nuisances:
             K=K,
             K_1=K_1.real,
             M=M.real,
-            load=self._load(plate, c),
+            load=self._load(plate, c) + self._force_change(plate, z),
             observe=self._row_change(plate, z),
             damping=self._damping(len(plate.d), z),
         )
@@ -211,12 +215,23 @@ class Nuisances:
 
     def row(self, plate: EnrichedReducedPlate, z: Array) -> Array:
         """Reads w at the pickup, where it is on the plate as long and as wide as it is. Shape (k,)."""
-        (x, _), (y, _) = self._read_at(z)
+        (x, _), (y, _) = self._spot("pickup", z)
         return plate.row(x, y)
 
     def rows_by(self, plate: EnrichedReducedPlate, z: Array) -> dict[int, Array]:
         """Derivatives of `row` to those that move it, by number. Shape (k,) each, of `z` (numbers,)."""
-        (x, by_x), (y, by_y) = self._read_at(z)
+        return self._rows_by("pickup", plate, z)
+
+    def _force_change(self, plate: EnrichedReducedPlate, z: Array) -> Array | float:
+        """What the load of a force becomes more. Shape (k,)."""
+        if self.specimen.drive == "base":
+            return 0.0
+        (x, _), (y, _) = self._spot("force", z)
+        assert self.reference.force_m is not None
+        return plate.row(x, y) - plate.row(*self.reference.force_m)
+
+    def _rows_by(self, spot: Spot, plate: EnrichedReducedPlate, z: Array) -> dict[int, Array]:
+        (x, by_x), (y, by_y) = self._spot(spot, z)
         found: dict[int, Array] = {}
         for slopes, (dx, dy) in ((by_x, (1, 0)), (by_y, (0, 1))):
             if slopes:
@@ -224,16 +239,17 @@ class Nuisances:
                 found |= {k: size * slope for k, size in slopes.items()}
         return found
 
-    def _read_at(self, z: Array) -> list[tuple[float, dict[int, float]]]:
+    def _spot(self, spot: Spot, z: Array) -> list[tuple[float, dict[int, float]]]:
         """X and y in m of the point on the plate of `reference`, and how they go with z."""
         s, r = self.specimen, self.reference
-        assert s.pickup_m is not None
+        place = s.pickup_m if spot == "pickup" else s.force_m
+        assert place is not None
         found = []
-        for side, axis, at in (("length", "x", s.pickup_m[0]), ("width", "y", s.pickup_m[1])):
+        for side, axis, at in (("length", "x", place[0]), ("width", "y", place[1])):
             side_m = getattr(s, f"{side}_m") + self._by(side, z)
             stretch = getattr(r, f"{side}_m") / side_m
-            at = at + self._by(f"pickup_{axis}", z)
-            slopes = {f"pickup_{axis}": stretch, side: -at * stretch / side_m}
+            at = at + self._by(f"{spot}_{axis}", z)
+            slopes = {f"{spot}_{axis}": stretch, side: -at * stretch / side_m}
             by = {
                 self._places[n]: v * self._sigma[self._places[n]]
                 for n, v in slopes.items()
@@ -261,6 +277,9 @@ class Nuisances:
         """
         found = self._by_matrices(plate, omega, G, q, adjoint, z)
         found -= self._by_load(plate, adjoint, z)
+        if self.specimen.drive == "force":
+            for k, row in self._rows_by("force", plate, z).items():
+                found[k] += adjoint @ row
         return found
 
     def _by_load(self, plate: EnrichedReducedPlate, adjoint: Complex, z: Array) -> Complex:

@@ -77,6 +77,11 @@ def load_part(reference: Specimen) -> Array:
     return found
 
 
+def moving_part(reference: Specimen) -> Array:
+    """`load_part` where the base drives the plate; a force at a point does not go with any part."""
+    return load_part(reference) if reference.drive == "base" else np.zeros_like(load_part(reference))
+
+
 def projected_parts(plate: Plate, V: Array, *, one_parity: bool = False) -> Array:
     """V^T P_p V of every part: of K_0, then of K_1, then of M. `V` of shape (n, k); shape (parts, k, k).
 

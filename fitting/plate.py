@@ -205,6 +205,18 @@ class Plate:
         np.add.at(inertia, dofs, r.ravel()[dofs] @ element_matrices(self.specimen, self.mesh).M)
         return -inertia[self.free]
 
+    @cached_property
+    def load(self) -> Array:
+        """Of a unit of what drives it: base acceleration in m/s^2, or a force in N. Shape (n,)."""
+        force_m = self.specimen.force_m
+        if force_m is None:
+            return self.base_load
+        row = self.observe(*force_m)
+        if np.abs(row).max() < _STILL:
+            x, y = (1e3 * v for v in force_m)
+            raise OutsideModel(f"force at ({x:g}, {y:g}) mm acts on a held edge, expected a point that moves")
+        return row
+
     def on_nodes(self, V: Array) -> Array:
         """Vectors over the free degrees of freedom, node by node, held ones zero. Shape (nodes, 7, k)."""
         full = np.zeros((self.mesh.nodes * DOFS, V.shape[1]))
@@ -225,6 +237,19 @@ class Plate:
     def odd(self) -> sp.csc_array:
         """P, orthonormal: motions odd in y. Shape (n, about n/2)."""
         return self._of_parity(-1.0)
+
+    @cached_property
+    def carried(self) -> sp.csc_array:
+        """P, orthonormal: the motions that what drives it can excite. Shape (n, any)."""
+        return sp.csc_array(sp.hstack(self.sides))
+
+    @property
+    def sides(self) -> tuple[sp.csc_array, ...]:
+        """Of `carried`, motions that do not couple: of one parity where the long edges are alike."""
+        if self.specimen.only_even:
+            return (self.even,)
+        at_y0, at_width = self.specimen.edges[1::2]
+        return (self.even, self.odd) if at_y0 == at_width else (sp.eye_array(self.size, format="csc"),)
 
     def _of_parity(self, parity: float) -> sp.csc_array:
         # In an even motion u_b, u_c, w and theta_y repeat at the mirrored node, v_b, v_c and theta_x turn.

@@ -1,6 +1,6 @@
 """The reduced model: the plate projected once on a few certified vectors, G* still outside.
 
-The basis holds responses to the base and to the pickup (the adjoint) over a whole domain of
+The basis holds responses to what drives it and to the pickup (the adjoint) over a whole domain of
 frequency and modulus, so one basis serves every law. What is missed is judged by
 the residuals of both: the pickup's error is r_adjoint^T A^-1 r, quadratic in what the basis lacks.
 """
@@ -20,7 +20,7 @@ from fitting.domain import Domain
 from fitting.element import THETA_X, THETA_Y, W
 from fitting.half_plate import HalfPlate
 from fitting.linear import times
-from fitting.parts import load_part, projected_parts, stated_steps
+from fitting.parts import moving_part, projected_parts, stated_steps
 from fitting.plate import Plate
 
 Point = tuple[float, complex]
@@ -39,7 +39,7 @@ _SPREAD, _STIRRED = 8, 6
 
 @dataclass(frozen=True)
 class ReducedPlate:
-    """The plate on its basis of k vectors, for a unit base acceleration, read at the pickup."""
+    """The plate on its basis of k vectors, for a unit of what drives it, read at the pickup."""
 
     M: Array
     K_0: Complex
@@ -60,7 +60,7 @@ class ReducedPlate:
     gram: Array
     """Inner products, in the inverse stiffness, of load, pickup, M V, K_0' V, K_0'' V, K_1 V and U."""
     V: Array
-    """The basis over `Plate.even`. Shape (even, k)."""
+    """The basis over `Plate.carried`. Shape (carried, k)."""
 
     def matrices(self, omega: Array, G: Complex) -> Complex:
         """A = -omega^2 M + i omega C_1 + K_0 + G K_1. Shape (points, k, k)."""
@@ -72,7 +72,10 @@ class ReducedPlate:
         return np.asarray((factors @ each).reshape(len(w), *self.M.shape))
 
     def displacement(self, omega: Array, G: Complex) -> Complex:
-        """Relative displacement at the pickup for a base acceleration of 1 m/s^2, in m. Shape (points,)."""
+        """Relative displacement at the pickup for a base acceleration of 1 m/s^2 or a force of 1 N, in m.
+
+        Shape (points,).
+        """
         return np.asarray(self._solve(omega, G)[0])
 
     def estimated_error(self, omega: Array, G: Complex) -> Array:
@@ -133,8 +136,8 @@ def reduce_plate(
             reduced = builder.project()
             points, worst = builder.worst_points(reduced)
             size = builder.V.shape[1]
-            progress(min(1.0, size / LARGEST_BASIS))
-            if worst < TOLERANCE or size + 4 > LARGEST_BASIS:
+            progress(min(1.0, size / builder.most))
+            if worst < TOLERANCE or size + 4 > builder.most:
                 builder.follow(np.hstack(list(pool.map(builder.stirred, builder.spread[:_STIRRED]))))
                 return builder.project(final=True)
 
@@ -144,15 +147,19 @@ _GIVEN, _M, _K_0, _LOSS, _K_1, _DAMPED = range(6)
 
 
 class _Builder:
-    """The growing basis and its products, all in the subspace even in y."""
+    """The growing basis and its products, all on the motions that are excited."""
 
     def __init__(self, plate: Plate, damping: LowRankDamping, domain: Domain) -> None:
-        half = HalfPlate(plate, odd=False)
+        half = HalfPlate(plate, "carried")
         self.plate, self.half, self.domain = plate, half, domain
         self.damping = damping.projected(half.P)
-        self.load = np.asarray(half.down @ plate.base_load)
+        self.most = LARGEST_BASIS if plate.specimen.only_even else 2 * LARGEST_BASIS
+        self.load = np.asarray(half.down @ plate.load)
         self.observe = np.asarray(half.down @ plate.pickup)
         self.stiffness = half.K_0.real + np.sqrt(domain.modulus[0] * domain.modulus[1]) * half.K_1
+        if plate.rigid.shape[1]:
+            # What moves freely has no stiffness to be measured by.
+            self.stiffness += domain.omega[0] * domain.omega[1] * half.M
         self.unload = half.chain.factorise(self.stiffness)
         self.spread = [
             domain.point((0.5 + k * 0.7549) % 1, (0.5 + k * 0.5698) % 1, 0.5) for k in range(_SPREAD)
@@ -256,8 +263,8 @@ class _Builder:
         plate = self.plate
         V = self.half.P @ self.V
         return (
-            projected_parts(plate, V, one_parity=True),
-            V.T @ load_part(plate.specimen)[plate.free],
+            projected_parts(plate, V, one_parity=plate.specimen.only_even),
+            V.T @ moving_part(plate.specimen)[plate.free],
             plate.on_nodes(V)[:, [W, THETA_X, THETA_Y]],
         )
 

@@ -12,6 +12,7 @@ from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import CoreLaw
 
 Reading = Literal["relative", "absolute"]
+Drive = Literal["base", "force"]
 
 DEFAULT_ELEMENTS = 1040
 """Elements of the default mesh: 40 x 26 on a plate of aspect 1.5."""
@@ -50,12 +51,20 @@ class StatedSpecimen(Protocol):
         """Its law is where identification starts."""
 
     @property
+    def offers(self) -> frozenset[str]:
+        """What an effect may need: `base`, one that moves; `clamp`, a clamped root."""
+
+    @property
     def reads(self) -> Reading:
         """Relative to the base, or absolute."""
 
     @property
-    def base_acceleration_m_s2(self) -> float:
-        """Zero to peak."""
+    def drive(self) -> Drive:
+        """What moves it: its base, or a force at a point."""
+
+    @property
+    def drive_amplitude(self) -> float:
+        """Zero to peak, that readings are told for: m/s^2 of the base, or newtons."""
 
     @property
     def tolerances(self) -> Mapping[str, float]:
@@ -68,6 +77,19 @@ class StatedSpecimen(Protocol):
     @property
     def modal_ratios(self) -> tuple[float, ...]:
         """Remaining viscous damping."""
+
+
+class BaseDriven:
+    """What a structure says that only its base can drive."""
+
+    drive: Drive = "base"
+    offers = frozenset({"base"})
+    base_acceleration_m_s2: float
+
+    @property
+    def drive_amplitude(self) -> float:
+        """Of the base, in m/s^2."""
+        return self.base_acceleration_m_s2
 
 
 @dataclass(frozen=True)
@@ -87,6 +109,8 @@ class Specimen:
     modal_ratios: tuple[float, ...] = ()
     """Remaining viscous damping, fractions of critical, in frequency order (Table 3)."""
     pickup_m: tuple[float, float] | None = None
+    force_m: tuple[float, float] | None = None
+    """Where a force along w drives it, its edges at rest; None: the base does."""
     reads: Reading = "relative"
     base_acceleration_m_s2: float = PUBLISHED_G_M_S2
     tolerances: Mapping[str, float] = field(default_factory=dict)
@@ -99,11 +123,35 @@ class Specimen:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "boundary", named(self.boundary))
+        if self.force_m is not None:
+            # Its edges are at rest: one reading is the other.
+            object.__setattr__(self, "reads", "relative")
 
     @property
     def kind(self) -> str:
         """Which structure it is."""
         return "plate"
+
+    @property
+    def drive(self) -> Drive:
+        """What moves it."""
+        return "base" if self.force_m is None else "force"
+
+    @property
+    def drive_amplitude(self) -> float:
+        """Of the base in m/s^2, or one newton."""
+        return self.base_acceleration_m_s2 if self.force_m is None else 1.0
+
+    @property
+    def offers(self) -> frozenset[str]:
+        """As `Stated` has it."""
+        base = {"base"} if self.force_m is None else set()
+        return frozenset(base | ({"clamp"} if self.boundary == "cantilever" else set()))
+
+    @property
+    def only_even(self) -> bool:
+        """Whether nothing stirs motions odd in y: the base drives it, and its long edges are alike."""
+        return self.force_m is None and self.edges[1] == self.edges[3]
 
     @property
     def edges(self) -> Edges:

@@ -1,4 +1,7 @@
-"""A measured sweep: the pickup's velocity at single frequencies, and what it was excited with."""
+"""A measured sweep: the pickup's velocity at single frequencies, and what it was excited with.
+
+Where a force drives, the fields of the base's acceleration hold newtons.
+"""
 
 from dataclasses import dataclass, replace
 from functools import cached_property

@@ -44,6 +44,7 @@ _STATED = (
     StatedNumber(
         "pickup", "m", 3e-4, "a laser's spot of half a millimetre, placed by a rule; each coordinate"
     ),
+    StatedNumber("force", "m", 1e-3, "a hammer aimed by hand at a mark; each coordinate"),
     StatedNumber("damping", "1", 0.1, "a bare plate's ratios from one mounting to the next; each mode"),
     StatedNumber("gain", "1", 0.003, "two calibrated channels"),
     StatedNumber("delay", "s", 2e-6, "decoder against accelerometer, a known delay taken out"),

@@ -95,16 +95,16 @@ class Sweep(Shown, Points):
 
 
 def load_sweep(path: str | Path, specimen: Specimen) -> Sweep:
-    """Read a sweep (.csv), or FRFs of the pickup over the base (.csv, .uff, .unv, .mat). Raises `BadInput`.
+    """Read a sweep (.csv), or FRFs over the base or the force (.csv, .uff, .unv, .mat). Raises `BadInput`.
 
     The levels of a file are multiples of the specimen's base acceleration.
     """
-    path, level = Path(path), specimen.model.base_acceleration_m_s2
+    path, level, drive = Path(path), specimen.model.drive_amplitude, specimen.model.drive
     if is_foreign(path):
-        return as_sweep(sweep_of_foreign(path, level))
+        return as_sweep(sweep_of_foreign(path, level, drive))
     if is_frf_csv(path):
         return as_sweep(sweep_of_frf_csv(path, level))
-    return as_sweep(read_sweep(path).sweep(level))
+    return as_sweep(read_sweep(path).sweep(level, drive))
 
 
 def as_sweep(points: Points) -> Sweep:

@@ -168,4 +168,5 @@ def points_of(sweep: Sweep, specimen: StatedSpecimen) -> Points:
         timed=sweep.time_s is not None,
         has_phase=sweep.has_phase,
         reads=specimen.reads,
+        drive=specimen.drive,
     )

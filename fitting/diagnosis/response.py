@@ -96,7 +96,7 @@ class SweepResponse:
         others = SweepResponse(self.problem, self.effects[:-1], self.grid)
         at = others._at(law, known)
         nodes, last = self.grid.nodes, self.effects[-1]
-        found = [others.effects[k].change(self.plate, others._of(k, known)) for k in others._changing]
+        found = [others._change(k, known, self.plate) for k in others._changing]
         if not self.nuisances.change_nothing:
             found.append(self.nuisances.change(self.plate, known[self._stated]))
         G, _ = others._bearing(law, law.modulus(self.problem.points.omega), at.G)
@@ -104,8 +104,8 @@ class SweepResponse:
             self.plate,
             nodes.omega,
             G,
-            reduce(Change.and_then, (c for c in found if c is not None), Change()),
-            [(last.change(self.plate, u) or Change(), Change(), 1.0) for u in starts],
+            reduce(Change.and_then, found, Change()),
+            [(self._moving(last.change(self.plate, u)), Change(), 1.0) for u in starts],
             nodes.pole_node,
             self.grid.modulus_near_poles(G),
             with_pitch=bool(self._pitching),
@@ -171,10 +171,8 @@ class SweepResponse:
                 part = self._slices[k]
                 for n in range(part.start, part.stop):
                     h = self._step(n, u)
-                    one = [
-                        self.effects[k].change(self.plate, self._of(k, _moved(u, n, s * h))) for s in (1, -1)
-                    ]
-                    nearby.append((one[0] or Change(), one[1] or Change(), 2 * h))
+                    up, down = (self._change(k, _moved(u, n, s * h), self.plate) for s in (1, -1))
+                    nearby.append((up, down, 2 * h))
             nodes = self.grid.nodes
             solved = answer(
                 self.plate,
@@ -201,10 +199,17 @@ class SweepResponse:
         return self._last[1], self._last[2]
 
     def _changes(self, u: Array) -> Change:
-        found = [self.effects[k].change(self.plate, self._of(k, u)) or Change() for k in self._changing]
+        found = [self._change(k, u, self.plate) for k in self._changing]
         if not self.nuisances.change_nothing:
             found.append(self.nuisances.change(self.plate, u[self._stated]))
         return reduce(Change.and_then, found, Change())
+
+    def _change(self, k: int, u: Array, plate: EnrichedReducedPlate) -> Change:
+        return self._moving(self.effects[k].change(plate, self._of(k, u)))
+
+    def _moving(self, change: Change | None) -> Change:
+        change = change or Change()
+        return change if self.problem.points.drive == "base" else change.at_rest
 
     def _modulus(self, law: CoreLaw, u: Array, G_law: Complex, strained: CoreLaw | None = None) -> Complex:
         """G* at every point; strains are those of the law `strained` where it is a step away."""

@@ -25,7 +25,7 @@ from fitting.rational import RationalSweep
 from fitting.reduced import ReducedPlate
 from fitting.sweep import Sweep
 
-OF_EACH_FILE = ("mass", "gain", "delay", "pickup", "damping", "length", "width")
+OF_EACH_FILE = ("mass", "gain", "delay", "pickup", "force", "damping", "length", "width")
 """Kinds of stated numbers that are another one in every file, though they are stated alike."""
 Places = tuple[NDArray[np.intp], ...]
 
@@ -48,6 +48,8 @@ class SeveralProblem(DiagnosisProblem):
         """One task of several. Raises `OutsideModel` where they cannot be fitted together."""
         if len({m.points.reads for m in members}) > 1:
             raise OutsideModel("some files read absolute, others relative to the base, expected one of them")
+        if len({m.points.drive for m in members}) > 1:
+            raise OutsideModel("some files are driven by a base, others by a force, expected one of them")
         if len({m.sweep.has_phase for m in members}) > 1:
             raise OutsideModel("some files hold phasors, others amplitudes, expected one of them")
         if len({m.specimen.exact for m in members}) > 1:
@@ -196,6 +198,7 @@ def _points(each: Sequence[Points]) -> Points:
         timed=all(p.timed for p in each),
         has_phase=each[0].has_phase,
         reads=each[0].reads,
+        drive=each[0].drive,
     )
 
 

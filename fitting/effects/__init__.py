@@ -11,6 +11,7 @@ from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.span import Span
 from fitting.plugins import NoPlugin, Registry, derived_from
+from fitting.specimen import StatedSpecimen
 
 for _module in iter_modules(__path__):
     import_module(f"{__name__}.{_module.name}")
@@ -42,9 +43,10 @@ def spans_of(effect: Effect) -> list[Span]:
     return [span for variant in effect.variants() for span in variant.spans]
 
 
-def all_spans() -> list[Span]:
-    """Every span of the catalogue once."""
-    return list({span.name: span for e in CATALOGUE.values() for span in spans_of(e)}.values())
+def all_spans(specimen: StatedSpecimen | None = None) -> list[Span]:
+    """Every span of the catalogue once; of those effects that stand on a specimen, where one is given."""
+    effects = [e for e in CATALOGUE.values() if specimen is None or e.standing_on(specimen)]
+    return list({span.name: span for e in effects for span in spans_of(e)}.values())
 
 
 def span_modules() -> list[str]:

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import EVERY_STRUCTURE, Effect, Points
+from fitting.effects.base import BASE, EVERY_STRUCTURE, Effect, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 
@@ -15,6 +15,7 @@ class AbsoluteVelocityEffect(Effect):
     name = "absolute_velocity"
     enters = "observation"
     source = "kinematics of a moving base"
+    needs = BASE
     structures = EVERY_STRUCTURE
     discriminating_test = "where the laser's head stands, and whether a reference beam goes to the clamp"
 

@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import Effect, EffectParameter, ModulusAt, Points
+from fitting.effects.base import BASE, Effect, EffectParameter, ModulusAt, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.span import Span
@@ -36,6 +36,7 @@ class AmplitudeSofteningEffect(Effect):
     name = "amplitude_softening"
     enters = "level"
     source = "Payne, J. Appl. Polym. Sci. 6 (1962), first order in the strain amplitude"
+    needs = BASE
     parameters = (EffectParameter("k", "1", -0.5, 0.8, 0.1, spread=0.15),)
     spans = (Strain(),)
     unexplained_share = 0.004

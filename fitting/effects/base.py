@@ -22,7 +22,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.span import Span
 from fitting.laws import CoreLaw
 from fitting.noise import Noise
-from fitting.specimen import Face, Reading
+from fitting.specimen import Drive, Face, Reading, StatedSpecimen
 from fitting.sweep import Sweep
 
 
@@ -46,6 +46,7 @@ Entry = Literal["stiffness", "mass", "load", "observation", "channel", "time", "
 
 
 PLATE_ONLY = frozenset({"plate"})
+BASE, CLAMP = frozenset({"base"}), frozenset({"clamp"})
 EVERY_STRUCTURE = frozenset({"plate", "beam", "shear-pair"})
 
 
@@ -80,12 +81,13 @@ class Points:
 
     omega: Array
     acceleration_m_s2: Array
-    """Commanded amplitude."""
+    """Commanded amplitude; newtons where a force drives."""
     time_s: Array
     """Since the first point; by frequency, evenly, where no time is kept."""
     timed: bool
     has_phase: bool
     reads: Reading
+    drive: Drive = "base"
 
     @property
     def levels(self) -> int:
@@ -120,6 +122,9 @@ class Effect:
     structures: ClassVar[frozenset[str]] = PLATE_ONLY
     """Kinds of specimens on which it has a meaning as it is."""
 
+    needs: ClassVar[frozenset[str]] = frozenset()
+    """What a specimen must offer: a `base` that moves, a `clamp`."""
+
     chance: ClassVar[float] = 0.02
     """Prior probability that a laboratory's set-up has it, to be seen or not."""
 
@@ -129,6 +134,11 @@ class Effect:
     def on(self, kind: str) -> Effect | None:
         """The form it has on a `plate`, `beam` or `shear-pair`; None where it has no meaning."""
         return self if kind in self.structures else None
+
+    def standing_on(self, specimen: StatedSpecimen) -> Effect | None:
+        """The form it has on a specimen; None where that lacks what it needs."""
+        form = self.on(specimen.kind)
+        return form if form is not None and form.needs <= specimen.offers else None
 
     def seen(self, sweep: Sweep, noise: Noise) -> ChannelFinding | None:
         """Its trace in the channels themselves."""

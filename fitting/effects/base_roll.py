@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.base import BASE, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
@@ -50,6 +50,7 @@ class BaseRollEffect(Effect):
     name = "base_roll"
     enters = "load"
     source = "rigid turn of the base about x, inertia load -M r_r"
+    needs = BASE
     parameters = (EffectParameter("roll", "rad/m", -2.0, 2.0, 0.05, spread=0.1),)
     spans = (Roll(),)
     chance = 0.015

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 
@@ -21,6 +21,11 @@ class Change:
     """Load per displacement of the base, -1 / omega^2 of its acceleration; N/m. Shape (k,)."""
     travel: Any = 0.0
     """Displacement read per displacement of the base, beside that of the plate."""
+
+    @property
+    def at_rest(self) -> Change:
+        """The same where the base is at rest: what it changes of the base's load and reading is none."""
+        return replace(self, load=0.0, travel_load=0.0, travel=0.0)
 
     def and_then(self, other: Change) -> Change:
         """Both changes."""

@@ -10,7 +10,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array
-from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.base import CLAMP, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
@@ -68,6 +68,7 @@ class ClampComplianceEffect(Effect):
     name = "clamp_compliance"
     enters = "stiffness"
     source = "elastic foundation of the root face, e.g. MacBain and Genin, J. Sound Vib. 27 (1973)"
+    needs = CLAMP
     parameters = (EffectParameter("k", "N/m^3", 1e12, 1e16, 5e13, logarithmic=True, neutral=float("inf")),)
     spans = (YieldingRoot(),)
     unexplained_share = 0.003

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.base import CLAMP, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.clamp_compliance import ClampComplianceEffect, springs
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -17,6 +17,7 @@ class ClampFrictionEffect(Effect):
     name = "clamp_friction"
     enters = "stiffness"
     source = "hysteretic joint damping, Beards, Structural Vibration (1996), ch. 4"
+    needs = CLAMP
     parameters = (
         *ClampComplianceEffect.parameters,
         EffectParameter("loss_factor", "1", 0.0, 1.0, 0.1, spread=0.3),

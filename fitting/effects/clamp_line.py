@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.base import CLAMP, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
@@ -55,6 +55,7 @@ class ClampLineEffect(Effect):
     name = "clamp_line"
     enters = "stiffness"
     source = "the paper's Eq. (15) to (18) on a mesh stretched along x; the viscous damping kept"
+    needs = CLAMP
     parameters = (
         EffectParameter("dlength", "m", -8e-3, 8e-3, 1e-3, spread=2e-3),
         EffectParameter("pickup_too", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),

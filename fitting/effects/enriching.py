@@ -21,7 +21,7 @@ from fitting.parts import (
     STIFFNESS,
     coefficients,
     layers_of,
-    load_part,
+    moving_part,
     projected_parts,
 )
 
@@ -37,30 +37,41 @@ def enriched(
     progress: Callable[[float], None] = lambda fraction: None,
 ) -> EnrichedReducedPlate:
     """Build it. `basis`: the unchanged plate's columns over the held degrees of freedom. Shape (held, k)."""
-    halves = Motions(full, odd=False), Motions(full, odd=True)
-    even, odd = halves
+    halves = _halves(full)
+    first = halves[0]
     with threadpool_limits(1, "blas"), ThreadPoolExecutor(2) as pool:
-        found: list[tuple[dict[str, Stirred], dict[str, Stirred]]] = []
+        found: list[list[dict[str, Stirred]]] = []
         for answers in pool.map(lambda at: _responses(full, halves, spans, at), _points()):
             found.append(answers)
             progress(0.8 * len(found) / SNAPSHOTS)
-        own = even.orthonormal(even.of(full.lift @ basis))
-        odd_own = odd.leading([by_name["plate"] for _, by_name in found], None, 1e-4, 40)
-        even.groups["plate"], odd.groups["plate/odd"] = own, odd_own
+        own = [first.orthonormal(first.of(full.lift @ basis))]
+        own += [odd.leading([each[1]["plate"] for each in found], None, 1e-4, 40) for odd in halves[1:]]
+        for half, ending, known in zip(halves, _ENDINGS, own, strict=False):
+            half.groups[f"plate{ending}"] = known
 
         def motions(span: Span) -> list[Array]:
-            beside = ((even, own), (odd, odd_own)) if span.odd else ((even, own),)
+            count = span.columns if full.only_even else 2 * span.columns
             return [
-                half.leading([both[n][span.name] for both in found], known, TOLERANCE, span.columns)
-                for n, (half, known) in enumerate(beside)
+                half.leading([each[n][span.name] for each in found], own[n], TOLERANCE, count)
+                for n, half in enumerate(halves[: 2 if span.odd else 1])
             ]
 
         for span, V in zip(spans, pool.map(motions, spans), strict=True):
-            even.groups[span.name] = V[0]
-            if span.odd:
-                odd.groups[f"{span.name}/odd"] = V[1]
-            progress(0.8 + 0.1 * len(even.groups) / len(spans))
-        return _project(full, even, odd, spans, pool)
+            for half, ending, columns in zip(halves, _ENDINGS, V, strict=False):
+                half.groups[f"{span.name}{ending}"] = columns
+            progress(0.8 + 0.1 * len(first.groups) / len(spans))
+        return _project(full, halves, spans, pool)
+
+
+_ENDINGS = ("", "/odd")
+"""Of a group's name, by the parity of its motions."""
+
+
+def _halves(full: FullPlate) -> tuple[Motions, ...]:
+    """Even and odd motions apart where nothing but effects couples them, all together otherwise."""
+    if full.only_even:
+        return Motions(full, "even"), Motions(full, "odd")
+    return (Motions(full, "carried"),)
 
 
 def _points() -> list[tuple[float, complex]]:
@@ -72,35 +83,34 @@ def _points() -> list[tuple[float, complex]]:
 
 
 def _responses(
-    full: FullPlate, halves: tuple[Motions, Motions], spans: Sequence[Span], point: tuple[float, complex]
-) -> tuple[dict[str, Stirred], dict[str, Stirred]]:
+    full: FullPlate, halves: tuple[Motions, ...], spans: Sequence[Span], point: tuple[float, complex]
+) -> list[dict[str, Stirred]]:
     """To the pickup and of each span, by its name: even motions, and odd ones where it has any."""
-    even, odd = halves
     at = full.snapshot(*point)
     size = np.sqrt(np.real(np.vdot(at.x, times(full.scale, at.x))))
     at = replace(at, x=at.x / size, z=at.both[:, 1] / size)
     forces = [span.forces(full, at) for span in spans]
-    answers = at.answers(forces, [span.odd for span in spans])
+    answers = at.answers(forces, [span.odd or not full.only_even for span in spans])
     found = {span.name: span.responses(full, at, X) for span, X in zip(spans, answers, strict=True)}
     twisting = {span.name: found[span.name] for span in spans if span.odd} | {"plate": at.both[:, 1:]}
-    return (
-        dict(zip(found, even.stirred(list(found.values())), strict=True)),
-        dict(zip(twisting, odd.stirred(list(twisting.values())), strict=True)),
-    )
+    return [
+        dict(zip(some, half.stirred(list(some.values())), strict=True))
+        for half, some in zip(halves, (found, twisting), strict=False)
+    ]
 
 
 def _project(
-    full: FullPlate, even: Motions, odd: Motions, spans: Sequence[Span], pool: ThreadPoolExecutor
+    full: FullPlate, halves: tuple[Motions, ...], spans: Sequence[Span], pool: ThreadPoolExecutor
 ) -> EnrichedReducedPlate:
     loose, s = full.loose, full.specimen
-    V = np.hstack([half.half.P @ half.columns for half in (even, odd)])
+    V = np.hstack([half.half.P @ half.columns for half in halves])
     matrices: dict[str, Array] = {}
     vectors: dict[str, Array] = {}
     of_spans = [(f"{span.name}.{name}", A) for span in spans for name, A in span.matrices(full).items()]
     projected = pool.map(lambda named: _between(V, named[1]), of_spans)
     parts = [
-        pool.submit(projected_parts, loose, half.half.P @ half.columns, one_parity=True)
-        for half in (even, odd)
+        pool.submit(projected_parts, loose, half.half.P @ half.columns, one_parity=full.only_even)
+        for half in halves
     ]
     for span in spans:
         vectors |= {f"{span.name}.{name}": V.T @ v for name, v in span.vectors(full).items()}
@@ -110,19 +120,19 @@ def _project(
     both = _in_blocks([found.result() for found in parts])
     stated = coefficients(s, s)
     # The inertia of held nodes loads their neighbours.
-    of_load = V.T @ load_part(s)[loose.free]
+    of_load = V.T @ moving_part(s)[loose.free]
     K_0, K_1, M = np.split(both, np.cumsum([len(STIFFNESS), len(CORE)]))
     return EnrichedReducedPlate(
-        group=np.array(even.names + odd.names),
+        group=np.array([name for half in halves for name in half.names]),
         M=np.tensordot(stated.M, M, axes=1),
         K_0=np.tensordot(stated.K_0, K_0, axes=1),
         K_1=np.tensordot(stated.K_1, K_1, axes=1),
         U=V.T @ (loose.M @ _over_mass(full)),
         d=full.damping.d,
-        load=-stated.load * of_load,
-        pitch=-V.T @ (loose.M @ full.pitching),
+        load=-stated.load * of_load if s.drive == "base" else V.T @ full.drive,
+        pitch=-V.T @ (loose.M @ full.pitching) if s.drive == "base" else np.zeros(k),
         observe=V.T @ loose.observe(*full.pickup_m),
-        gram=la.block_diag(even.gram, odd.gram),
+        gram=la.block_diag(*(half.gram for half in halves)),
         names=np.array(list(matrices), dtype=str),
         matrices=np.array(list(matrices.values())).reshape(-1, k, k),
         vector_names=np.array(list(vectors), dtype=str),
@@ -163,6 +173,8 @@ def _over_mass(full: FullPlate) -> Array:
     """Phi of C_1 = M Phi diag(d) Phi^T M, on the loose plate. Shape (n, modes)."""
     found = np.zeros((full.loose.size, len(full.damping.d)))
     for held in full.halves:
+        if held is None:
+            continue
         half = held.half
         found += held.up @ half.chain.factorise(half.M)(half.down @ full.damping.U)
     return found

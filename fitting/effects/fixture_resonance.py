@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.base import BASE, Effect, EffectParameter, Points
 from fitting.effects.base_rocking import BaseRockingEffect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.span import Span
@@ -23,6 +23,7 @@ class FixtureResonanceEffect(Effect):
     name = "fixture_resonance"
     enters = "load"
     source = "one mode of the fixture between shaker and clamp"
+    needs = BASE
     parameters: tuple[EffectParameter, ...] = (
         EffectParameter("frequency", "Hz", 1.0, 5000.0, 100.0, logarithmic=True, neutral=None),
         EffectParameter("damping_ratio", "1", 1e-3, 0.3, 0.02, logarithmic=True, neutral=None),

@@ -13,7 +13,7 @@ from fitting.arrays import Array, Complex
 from fitting.assembly import Assembly
 from fitting.damping import LowRankDamping
 from fitting.element import DOFS, THETA_Y, U_C, W
-from fitting.half_plate import HalfPlate
+from fitting.half_plate import HalfPlate, Parity
 from fitting.linear import times
 from fitting.plate import Plate
 from fitting.specimen import Specimen
@@ -23,7 +23,7 @@ Solver = Callable[[Array | Complex], Complex]
 
 
 class FullPlate:
-    """A held plate and the same plate with its root let go; `n` counts the latter's degrees of freedom."""
+    """A held plate and the same with its root let go, if it has one; `n` counts the latter's unknowns."""
 
     def __init__(self, plate: Plate, damping: LowRankDamping) -> None:
         self.held, self.damping = plate, damping
@@ -41,9 +41,20 @@ class FullPlate:
             return cast(T, self._made[name])
 
     @property
-    def halves(self) -> "tuple[HeldHalf, HeldHalf]":
-        """The held plate's even and odd motions."""
-        return self.once("halves", lambda: (HeldHalf(self, odd=False), HeldHalf(self, odd=True)))
+    def halves(self) -> "tuple[HeldHalf, HeldHalf | None]":
+        """The held plate's even and odd motions; all together where its long edges are not alike."""
+
+        def make() -> tuple[HeldHalf, HeldHalf | None]:
+            if len(self.held.sides) == 1 and not self.only_even:
+                return HeldHalf(self, "carried"), None
+            return HeldHalf(self, "even"), HeldHalf(self, "odd")
+
+        return self.once("halves", make)
+
+    @property
+    def only_even(self) -> bool:
+        """Whether what drives it stirs no motion odd in y."""
+        return self.specimen.only_even
 
     @property
     def elements(self) -> Assembly:
@@ -86,20 +97,30 @@ class FullPlate:
         return np.asarray(X / np.sqrt(np.real(np.einsum("ij,ij->j", X.conj(), times(self.scale, X)))))
 
     def snapshot(self, omega: float, G: complex) -> "Snapshot":
-        """Responses to base and pickup at a point of the domain."""
-        even, odd = (half.solver(omega, G) for half in self.halves)
-        X, Z = even(self.loads), odd(self.loads[:, 1:])
-        return Snapshot(omega, G, X[:, 0], X[:, 1] + Z[:, 0], even, odd)
+        """Responses to what drives it and to the pickup at a point of the domain."""
+        first, second = self.halves
+        even = first.solver(omega, G)
+        odd = second.solver(omega, G) if second is not None else _nothing
+        X, Z = even(self.loads), odd(self.loads[:, 1:] if self.only_even else self.loads)
+        x = X[:, 0] if self.only_even else X[:, 0] + Z[:, 0]
+        return Snapshot(omega, G, x, X[:, 1] + Z[:, -1], even, odd)
 
     @property
     def loads(self) -> Array:
-        """Of a unit base acceleration, and a unit force at the pickup. Shape (n, 2)."""
+        """Of a unit of what drives it, and a unit force at the pickup. Shape (n, 2)."""
 
         def make() -> Array:
-            # -M r of the held plate carries the inertia of its root too.
-            return np.column_stack([-(self.loose.M @ self.heave), self.loose.observe(*self.pickup_m)])
+            return np.column_stack([self.drive, self.loose.observe(*self.pickup_m)])
 
         return self.once("loads", make)
+
+    @property
+    def drive(self) -> Array:
+        """Of a unit base acceleration, or of a unit force at a point. Shape (n,)."""
+        if self.specimen.force_m is not None:
+            return self.loose.observe(*self.specimen.force_m)
+        # -M r of the held plate carries the inertia of its root too.
+        return -(self.loose.M @ self.heave)
 
     @property
     def pickup_m(self) -> tuple[float, float]:
@@ -109,10 +130,10 @@ class FullPlate:
 
 
 class HeldHalf:
-    """The held plate's motions of one parity, among the loose plate's."""
+    """The held plate's motions of one parity, or all, among the loose plate's."""
 
-    def __init__(self, full: FullPlate, *, odd: bool) -> None:
-        self.half = HalfPlate(full.held, odd=odd)
+    def __init__(self, full: FullPlate, parity: Parity) -> None:
+        self.half = HalfPlate(full.held, parity)
         self.damping = full.damping.projected(self.half.P)
         self.up = sp.csr_array(full.lift @ self.half.P)
         self.down = sp.csr_array(self.up.T)
@@ -132,11 +153,11 @@ class Snapshot:
     omega: float
     G: complex
     x: Complex
-    """Response to a unit base acceleration. Shape (n,)."""
+    """Response to a unit of what drives it. Shape (n,)."""
     z: Complex
     """Response to a unit force at the pickup, odd motions too. Shape (n,)."""
     even: Solver
-    """Forces, (n, m), to even responses of the held plate."""
+    """Forces, (n, m), to even responses of the held plate; to all where its long edges are not alike."""
     odd: Solver
 
     def solve(self, forces: Array | Complex, *, odd: bool) -> Complex:
@@ -165,6 +186,10 @@ def _side_by_side(solve: Solver, forces: Sequence[Array | Complex]) -> list[Comp
         return []
     ends = np.cumsum([f.shape[1] for f in forces])[:-1]
     return list(np.split(solve(np.asarray(np.hstack(forces), dtype=complex)), ends, axis=1))
+
+
+def _nothing(forces: Array | Complex) -> Complex:
+    return np.zeros(forces.shape, complex)
 
 
 def _loose(specimen: Specimen) -> Specimen:

@@ -36,7 +36,8 @@ class Grading(Span):
         return self._of(full, at, at.both)
 
     def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
-        return np.hstack([answers, at.solve(self._of(full, at, answers), odd=self.odd)])
+        odd = self.odd or not full.only_even
+        return np.hstack([answers, at.solve(self._of(full, at, answers), odd=odd)])
 
     def _of(self, full: FullPlate, at: Snapshot, X: Complex) -> Complex:
         return np.asarray(_GRADE * at.G * times(tilted(full, self.along), X))

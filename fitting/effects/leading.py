@@ -7,7 +7,7 @@ import scipy.linalg as la
 
 from fitting.arrays import Array, Complex
 from fitting.effects.full_plate import FullPlate
-from fitting.half_plate import HalfPlate
+from fitting.half_plate import HalfPlate, Parity
 from fitting.linear import times
 
 _ALIKE = 1e-14
@@ -20,15 +20,15 @@ Stirred = tuple[Array, Array]
 
 
 class Motions:
-    """Of the loose plate, of one parity, orthonormal by `FullPlate.scale` to the first of them; by group."""
+    """Of the loose plate, of one parity or all, orthonormal by `FullPlate.scale` to the first; by group."""
 
-    def __init__(self, full: FullPlate, *, odd: bool) -> None:
-        self.half = HalfPlate(full.loose, odd=odd)
+    def __init__(self, full: FullPlate, parity: Parity) -> None:
+        self.half = HalfPlate(full.loose, parity)
         self.scale = np.asarray(self.half.blocks(full.scale))
         self.groups: dict[str, Array] = {}
 
     def of(self, motions: Array) -> Array:
-        """The part of this parity. Shape (half, any)."""
+        """The part of these. Shape (half, any)."""
         return np.asarray(self.half.down @ motions)
 
     def stirred(self, responses: Sequence[Complex]) -> list[Stirred]:

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from fitting.effects.base import EVERY_STRUCTURE, ChannelFinding, Effect, Points
+from fitting.effects.base import BASE, EVERY_STRUCTURE, ChannelFinding, Effect, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.level import level_error
 from fitting.noise import Noise
@@ -17,6 +17,7 @@ class LevelErrorEffect(Effect):
     name = "level_error"
     enters = "level"
     source = "reference channel over command"
+    needs = BASE
     structures = EVERY_STRUCTURE
     discriminating_test = "a second accelerometer on the base"
 

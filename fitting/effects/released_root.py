@@ -158,4 +158,5 @@ class RootSpan(Span):
     def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
         if full.specimen.boundary != "cantilever":
             return answers
-        return released(full, at, self.released, answers, odd=self.odd).answers(full, self.springs(full))
+        odd = self.odd or not full.only_even
+        return released(full, at, self.released, answers, odd=odd).answers(full, self.springs(full))

@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array
-from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.base import CLAMP, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.clamp_compliance import ClampComplianceEffect, root_springs
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -54,6 +54,7 @@ class UnevenClampEffect(Effect):
     name = "uneven_clamp"
     enters = "stiffness"
     source = "elastic foundation of the root face, stiffness linear along the width"
+    needs = CLAMP
     parameters = (
         *ClampComplianceEffect.parameters,
         EffectParameter("slope", "1", -_MOST, _MOST, 0.3, spread=0.4),

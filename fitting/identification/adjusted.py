@@ -62,9 +62,9 @@ def stated_number(specimen: StatedSpecimen, n: Nuisance) -> tuple[float, float, 
         return specimen.stated_number(n.kind)  # type: ignore[attr-defined]
     if n.kind in ("length", "width"):
         return getattr(specimen, f"{n.kind}_m"), 1e3, "mm"
-    if n.kind == "pickup":
-        assert specimen.pickup_m is not None
-        return specimen.pickup_m["xy".index(n.name[-1])], 1e3, "mm"
+    if n.kind in ("pickup", "force"):
+        place = getattr(specimen, f"{n.kind}_m")
+        return place["xy".index(n.name[-1])], 1e3, "mm"
     if n.kind == "damping":
         return specimen.modal_ratios[int(n.name.split("_")[1]) - 1], 1e2, "%"
     if n.kind == "gain":

@@ -20,7 +20,7 @@ from numpy.polynomial import Legendre, Polynomial
 
 from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.specimen import Core, Face, Reading
+from fitting.specimen import BaseDriven, Core, Face, Reading
 from fitting.structures.small import Parts
 from fitting.tolerances import STATED
 
@@ -36,7 +36,7 @@ _NEGLIGIBLE = 1e-9
 
 
 @dataclass(frozen=True)
-class Beam:
+class Beam(BaseDriven):
     """What is stated of it, in SI units; x from a clamped end, or from the centre where that is driven."""
 
     length_m: float

@@ -17,7 +17,7 @@ from numpy.polynomial import Legendre
 
 from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.specimen import Core, Reading
+from fitting.specimen import BaseDriven, Core, Reading
 from fitting.structures.small import Parts
 from fitting.tolerances import STATED
 
@@ -29,7 +29,7 @@ _TYPICAL = {"mass": 2e-3}
 
 
 @dataclass(frozen=True)
-class ShearPair:
+class ShearPair(BaseDriven):
     """What is stated of it, in SI units."""
 
     mass_kg: float

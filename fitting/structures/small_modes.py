@@ -63,4 +63,4 @@ def small_velocity(specimen: SmallSpecimen, frequency_hz: Array) -> Complex:
     parts = specimen.parts()
     check_driven(parts, specimen.kind)
     x = displacement(system_of(specimen, parts), omega, G)
-    return velocity(omega, x, specimen.reads) * specimen.base_acceleration_m_s2
+    return velocity(omega, x, specimen.reads) * specimen.drive_amplitude

@@ -77,10 +77,10 @@ class Forecast:
         return np.interp(frequency_hz, few, seen)
 
     def _displacement(self, omega: float, G: complex) -> complex:
-        """At the pickup for 1 m/s^2 of the base. It moves the plate evenly in y, and nothing else."""
+        """At the pickup for a unit of what drives it, on the motions that it excites."""
         if (omega, G) not in self._solved:
             half, damping = self._half, self._damping
-            load = half.down @ self._half.plate.base_load[:, None]
+            load = half.down @ half.plate.load[:, None]
             x = half.solver(omega, G, damping)(load)[:, 0]
             self._solved[omega, G] = complex((half.down @ half.plate.pickup) @ x)
         return self._solved[omega, G]
@@ -91,7 +91,7 @@ class Forecast:
 
     @cached_property
     def _half(self) -> HalfPlate:
-        return HalfPlate(Plate(self.specimen), odd=False)
+        return HalfPlate(Plate(self.specimen), "carried")
 
     @cached_property
     def _damping(self) -> LowRankDamping:

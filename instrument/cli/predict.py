@@ -90,7 +90,8 @@ def _show(out: Output, read: StatedSpecimen, result: PredictionResult) -> None:
         ]
         for p in result.points
     ]
-    title = f"{read.reads} velocity at {read.base_acceleration_m_s2:g} m/s^2 base acceleration"
+    per = f"{read.drive_amplitude:g} m/s^2 base acceleration" if read.drive == "base" else "a force of 1 N"
+    title = f"{read.reads} velocity at {per}" if read.drive == "base" else f"velocity for {per}"
     out.table(title, ["frequency/Hz", "amplitude/(m/s)", "real/(m/s)", "imaginary/(m/s)"], rows)
     for remark in result.notes:
         out.say(f"note: {remark}")

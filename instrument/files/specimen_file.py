@@ -10,7 +10,7 @@ from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import LAWS, CoreLaw
 from fitting.laws.table import Tabulated
-from fitting.specimen import Core, Face, Reading, Specimen
+from fitting.specimen import Core, Drive, Face, Reading, Specimen
 from instrument.errors import BadInput
 from instrument.files.law_table import with_rows
 from instrument.files.toml import NotNegative, Percent, Positive, TomlTable, one_line, read_document
@@ -73,6 +73,28 @@ class _BaseSection(TomlTable):
     acceleration_m_s2: Positive
 
 
+class _Excitation(TomlTable):
+    kind: Drive = "base"
+    x_mm: NotNegative | None = None
+    y_mm: NotNegative | None = None
+
+    @model_validator(mode="after")
+    def _placed(self) -> "_Excitation":
+        given = [n for n, v in (("x_mm", self.x_mm), ("y_mm", self.y_mm)) if v is not None]
+        if self.kind == "force" and len(given) < 2:
+            raise ValueError('kind = "force", expected x_mm and y_mm of the point where it acts')
+        if self.kind == "base" and given:
+            raise ValueError(f'{given[0]} with kind = "base", expected kind = "force"')
+        return self
+
+    @property
+    def force_m(self) -> tuple[float, float] | None:
+        """Where the force acts."""
+        if self.x_mm is None or self.y_mm is None:
+            return None
+        return self.x_mm * 1e-3, self.y_mm * 1e-3
+
+
 class _Mesh(TomlTable):
     elements_x: Elements
     elements_y: Elements
@@ -95,6 +117,7 @@ class TolerancesSection(TomlTable):
     length_mm: NotNegative | None = None
     width_mm: NotNegative | None = None
     pickup_mm: NotNegative | None = None
+    force_mm: NotNegative | None = None
     damping_percent: NotNegative | None = None
     gain_percent: NotNegative | None = None
     delay_us: NotNegative | None = None
@@ -118,21 +141,27 @@ class SpecimenDocument(TomlTable):
     damping: _Damping | None = None
     pickup: _Pickup | None = None
     base: _BaseSection = _BaseSection(acceleration_m_s2=PUBLISHED_G_M_S2)
+    excitation: _Excitation | None = None
     mesh: _Mesh | None = None
     tolerances: TolerancesSection | None = None
+
+    @property
+    def force_m(self) -> tuple[float, float] | None:
+        """Where a force drives it; None: the base does."""
+        return self.excitation.force_m if self.excitation is not None else None
 
     @model_validator(mode="after")
     def _whole(self) -> "SpecimenDocument":
         if (self.core is None) != (self.constraining is None):
             missing = "constraining" if self.constraining is None else "core"
             raise ValueError(f"[{missing}] is missing, expected [core] and [constraining] both or neither")
-        if self.pickup is not None:
-            for name, at, side in (
-                ("x_mm", self.pickup.x_mm, self.plate.length_mm),
-                ("y_mm", self.pickup.y_mm, self.plate.width_mm),
-            ):
-                if at > side:
-                    raise ValueError(f"pickup.{name} = {at:g} is off the plate, expected 0 to {side:g}")
+        if "base" in self.model_fields_set and self.force_m is not None:
+            raise ValueError('[base] with [excitation] kind = "force", expected one of them')
+        for table, spot in (("pickup", self.pickup), ("excitation", self.excitation)):
+            for name, side in (("x_mm", self.plate.length_mm), ("y_mm", self.plate.width_mm)):
+                at = getattr(spot, name, None)
+                if at is not None and at > side:
+                    raise ValueError(f"{table}.{name} = {at:g} is off the plate, expected 0 to {side:g}")
         return self
 
 
@@ -164,6 +193,7 @@ def specimen_of(d: SpecimenDocument) -> Specimen:
         modal_ratios=tuple(p / 100 for p in d.damping.modal_percent) if d.damping else (),
         pickup_m=(d.pickup.x_mm * 1e-3, d.pickup.y_mm * 1e-3) if d.pickup else None,
         reads=d.pickup.reads if d.pickup else "relative",
+        force_m=d.force_m,
         base_acceleration_m_s2=d.base.acceleration_m_s2,
         tolerances=tolerances_of(d.tolerances),
         exact=d.tolerances is not None and d.tolerances.exact,

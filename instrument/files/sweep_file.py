@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from fitting.specimen import Drive
 from fitting.sweep import Sweep, segments_by_gap
 from instrument.errors import BadInput
 from instrument.files.column import Column
@@ -13,6 +14,11 @@ from instrument.files.point_columns import understood
 from instrument.files.table import number, read_rows
 
 _LARGEST_WHOLE = 1e9
+_DRIVES: dict[Drive, tuple[str, str]] = {
+    "base": ("base_accel_re_m_s2", "base_accel_im_m_s2"),
+    "force": ("force_re_n", "force_im_n"),
+}
+"""Columns of the phasor that drives."""
 _READINGS = (("velocity", "m_s", 0), ("acceleration", "m_s2", -1), ("displacement", "m", 1))
 """Stem and unit of phasor columns, and the power of i omega that makes a velocity of them."""
 
@@ -37,17 +43,18 @@ class SweepFile:
             raise BadInput(f"{self.path}: column temperature_c: expected numbers in degrees Celsius")
         return float(values.mean()) if len(values) else None
 
-    def sweep(self, acceleration_m_s2: float) -> Sweep:
-        """The sweep, its levels multiples of `acceleration_m_s2`."""
+    def sweep(self, amplitude: float, drive: Drive = "base") -> Sweep:
+        """The sweep, levels multiples of `amplitude`: m/s^2 of the base, or newtons. Raises `BadInput`."""
         c = self.columns
         f = c["frequency_hz"]
-        base = None
-        if "base_accel_re_m_s2" in c:
-            base = c["base_accel_re_m_s2"] + 1j * c["base_accel_im_m_s2"]
+        self._check_drive(drive)
+        base, (real, imaginary) = None, _DRIVES[drive]
+        if real in c:
+            base = c[real] + 1j * c[imaginary]
         return Sweep(
             frequency_hz=f,
             velocity_m_s=self._velocity(),
-            commanded_m_s2=c.get("level_g", np.ones(len(f))) * acceleration_m_s2,
+            commanded_m_s2=c.get("level_g", np.ones(len(f))) * amplitude,
             segment=c["segment"].astype(np.intp) if "segment" in c else segments_by_gap(f),
             sweep=c["sweep"].astype(np.intp) if "sweep" in c else np.ones(len(f), dtype=np.intp),
             base_m_s2=base,
@@ -55,6 +62,20 @@ class SweepFile:
             weight=c.get("weight"),
             time_s=c.get("time_s"),
         )
+
+    def _check_drive(self, drive: Drive) -> None:
+        """Raise `BadInput` where the columns are those of another drive."""
+        other, (wrong, _) = next((d, names) for d, names in _DRIVES.items() if d != drive)
+        if wrong in self.columns:
+            raise BadInput(
+                f"{self.path}: column {wrong}, but the specimen's [excitation] kind is {drive!r}, "
+                f"expected {other!r}"
+            )
+        if drive == "force":
+            if "force_re_n" not in self.columns:
+                raise BadInput(f"{self.path}: no force, expected force_re_n and force_im_n, or an FRF")
+            if "level_g" in self.columns:
+                raise BadInput(f"{self.path}: column level_g with a force, expected one level")
 
     def _velocity(self) -> Array | Complex:
         """As read, or made from acceleration or displacement: v = a/(i omega) = i omega x."""

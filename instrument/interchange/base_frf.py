@@ -1,10 +1,11 @@
-"""A sweep from another program's file: FRFs of the pickup over the base's acceleration."""
+"""A sweep from another program's file: FRFs of the pickup over the base's acceleration, or over a force."""
 
 from pathlib import Path
 
 import numpy as np
 
 from fitting.modal.frf import Frf
+from fitting.specimen import Drive
 from fitting.sweep import Sweep, segments_by_gap
 from instrument.errors import BadInput
 from instrument.files.impact_csv import FRF_STEMS, read_impact_csv
@@ -22,36 +23,40 @@ def is_frf_csv(path: Path) -> bool:
     return any(f"{stem}_re" in header for stem in FRF_STEMS) and not any("velocity" in n for n in header)
 
 
-def sweep_of_frf_csv(path: Path, acceleration_m_s2: float) -> Sweep:
-    """Its one FRF as the response of the pickup over the base's acceleration. Raises `BadInput`."""
+def sweep_of_frf_csv(path: Path, amplitude: float) -> Sweep:
+    """Its one FRF as the response of the pickup to a drive of that amplitude. Raises `BadInput`."""
     found = read_impact_csv(path)
     if not isinstance(found, dict) or len(found) != 1:
-        raise BadInput(f"{path}: {len(found)} FRFs, expected one: the pickup over the base's acceleration")
+        raise BadInput(f"{path}: {len(found)} FRFs, expected one: the pickup over what drives the plate")
     (frf,) = found.values()
-    return _sweep(path, frf, acceleration_m_s2)
+    return _sweep(path, frf, amplitude)
 
 
-def sweep_of_foreign(path: Path, acceleration_m_s2: float) -> Sweep:
-    """The FRFs over a base's motion of another program's file. Raises `BadInput`."""
+def sweep_of_foreign(path: Path, amplitude: float, drive: Drive = "base") -> Sweep:
+    """The FRFs over a base's motion, or the one over a force, of a foreign file. Raises `BadInput`."""
     found = read_foreign(path)
+    if drive == "force":
+        if len(found.frfs) != 1:
+            raise BadInput(f"{path}: {len(found.frfs)} responses over a force, expected one")
+        return _sweep(path, found.frfs[0][1], amplitude)
     if not found.sweeps:
         raise BadInput(
             f"{path}: {'; '.join(found.said)}: no response over a base's acceleration, expected one"
         )
     columns = one_table(found.sweeps)
-    return SweepFile(path, columns, {}).sweep(acceleration_m_s2)
+    return SweepFile(path, columns, {}).sweep(amplitude)
 
 
-def _sweep(path: Path, frf: Frf, acceleration_m_s2: float) -> Sweep:
+def _sweep(path: Path, frf: Frf, amplitude: float) -> Sweep:
     good = (frf.frequency_hz > 0) & (frf.H != 0)
     if not good.any():
         raise BadInput(f"{path}: no line with a value above 0 Hz")
     f = frf.frequency_hz[good]
-    over_base = frf.H[good] * (2j * np.pi * f) ** _TIMES_I_OMEGA[frf.motion]
-    level = np.full(len(f), acceleration_m_s2)
+    over_drive = frf.H[good] * (2j * np.pi * f) ** _TIMES_I_OMEGA[frf.motion]
+    level = np.full(len(f), amplitude)
     return Sweep(
         frequency_hz=f,
-        velocity_m_s=over_base * acceleration_m_s2,
+        velocity_m_s=over_drive * amplitude,
         commanded_m_s2=level,
         segment=segments_by_gap(f),
         sweep=np.ones(len(f), dtype=np.intp),

@@ -87,14 +87,15 @@ def _of_sweep(data: Path, specimen: Path | None) -> Given:
     if specimen is None:
         raise BadInput("Missing option '--specimen': a sweep does not say which plate it was")
     read = read_structure(specimen)
-    level = read.base_acceleration_m_s2
+    level, drive = read.drive_amplitude, read.drive
     if is_foreign(data):
-        return Given(read, sweep_of_foreign(data, level), None)
+        return Given(read, sweep_of_foreign(data, level, drive), None)
     if is_frf_csv(data):
-        said = "an FRF: taken as the pickup over the base's acceleration"
+        over = "the base's acceleration" if drive == "base" else "the force"
+        said = f"an FRF: taken as the pickup over {over}"
         return Given(read, sweep_of_frf_csv(data, level), None, remark=said)
     file = read_sweep(data)
-    return Given(read, file.sweep(level), None, temperature_c=file.temperature_c)
+    return Given(read, file.sweep(level, drive), None, temperature_c=file.temperature_c)
 
 
 def _of_session(data: Path, specimen: Path | None, *, own_hammer: bool) -> Given:

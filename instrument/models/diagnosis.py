@@ -8,9 +8,9 @@ from threadpoolctl import threadpool_limits
 
 from fitting.diagnosis.diagnose import diagnose_task, seen_in_channels
 from fitting.diagnosis.result import Diagnosis
-from fitting.effects import CATALOGUE
+from fitting.effects import CATALOGUE, Effect
 from fitting.errors import OutsideModel
-from fitting.specimen import Specimen
+from fitting.specimen import Specimen, StatedSpecimen
 from fitting.sweep import Sweep
 from instrument.errors import BadInput
 from instrument.models.remarks import remarks_on_law, remarks_on_noise, remarks_on_tolerances
@@ -29,6 +29,23 @@ class Diagnosed:
     """Models made or loaded."""
     seconds: float
     """Everything else."""
+
+
+def effects_on(
+    specimen: StatedSpecimen, without: Collection[str] = (), accept: Sequence[str] | None = None
+) -> list[Effect]:
+    """The forms that effects have on a specimen. Raises `BadInput` for a name that is none of them."""
+    unknown = sorted({*without, *(accept or ())} - set(CATALOGUE))
+    if unknown:
+        raise BadInput(f"effect {unknown[0]!r}, expected one of {', '.join(sorted(CATALOGUE))}")
+    standing = {n: form for n, e in CATALOGUE.items() if (form := e.standing_on(specimen)) is not None}
+    for name in accept or ():
+        if name not in standing:
+            raise BadInput(
+                f"effect {name!r} has no meaning on this {specimen.kind} driven by a {specimen.drive}, "
+                f"expected one of {', '.join(sorted(standing))}"
+            )
+    return [form for name, form in standing.items() if name not in without]
 
 
 def diagnose(
@@ -50,9 +67,7 @@ def diagnose(
     declines them all. `like` as `set_up` takes it. The search is repeated on
     `resamples` sweeps without effects, by default where points are few.
     """
-    unknown = sorted({*without, *(accept or ())} - set(CATALOGUE))
-    if unknown:
-        raise BadInput(f"effect {unknown[0]!r}, expected one of {', '.join(sorted(CATALOGUE))}")
+    effects = effects_on(specimen, without, accept)
     both = sorted(set(without) & set(accept or ()))
     if both:
         raise BadInput(f"effect {both[0]!r} both accepted and left out, expected one of them")
@@ -61,7 +76,6 @@ def diagnose(
     start = specimen.core.law
     began = perf_counter()
     with threadpool_limits(1, "blas"), executor() as workers:
-        effects = [e for name, e in CATALOGUE.items() if name not in without]
         used, channels, noise = seen_in_channels(sweep, effects)
         ready_made = set_up(sweep.take(used), specimen, hammer, progress, like=like)
         ready = perf_counter()

@@ -34,10 +34,19 @@ class FittedPlate:
         ratios = [
             r * float(np.exp(by.get(f"damping_{k + 1}", 0.0))) for k, r in enumerate(found.modal_ratios)
         ]
-        pickup = self.specimen.pickup_m
-        if pickup is not None:
-            pickup = (pickup[0] + by.get("pickup_x", 0.0), pickup[1] + by.get("pickup_y", 0.0))
-        return replace(found, modal_ratios=tuple(ratios), pickup_m=pickup)
+
+        def moved(spot: str, at: tuple[float, float] | None) -> tuple[float, float] | None:
+            if at is None:
+                return None
+            return at[0] + by.get(f"{spot}_x", 0.0), at[1] + by.get(f"{spot}_y", 0.0)
+
+        s = self.specimen
+        return replace(
+            found,
+            modal_ratios=tuple(ratios),
+            pickup_m=moved("pickup", s.pickup_m),
+            force_m=moved("force", s.force_m),
+        )
 
     def reduced(self, models: Models) -> ReducedPlate:
         """The reduced plate moved; `models` are those of the stated one."""

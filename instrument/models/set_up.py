@@ -114,6 +114,8 @@ def check_like(specimen: Specimen, like: Specimen) -> None:
             )
     if specimen.boundary != like.boundary:
         raise OutsideModel(f"boundary {specimen.boundary!r} is not the model's {like.boundary!r}")
+    if specimen.drive != like.drive:
+        raise OutsideModel(f"driven by a {specimen.drive}, the model by a {like.drive}")
 
 
 def _numbers(specimen: Specimen, like: Specimen) -> list[tuple[str, float, float]]:
@@ -145,7 +147,7 @@ def _spanned(models: Models) -> EnrichedReducedPlate:
     def build() -> EnrichedReducedPlate:
         full = FullPlate(models.plate, models.damping)
         with models.progress("spanning what effects change") as report:
-            return enriched(full, models.plate.even @ reduced.V, all_spans(), report)
+            return enriched(full, models.plate.carried @ reduced.V, all_spans(models.specimen), report)
 
     return cached("spanned", [models.without_law, models.domain], EnrichedReducedPlate, build, span_modules())
 

@@ -41,10 +41,10 @@ class Models:
         """
         if specimen.pickup_m is None:
             raise OutsideModel("[pickup] is missing, expected x_mm and y_mm of the measured spot")
-        if specimen.boundary == "free":
+        if specimen.boundary == "free" and specimen.drive == "base":
             raise OutsideModel(
-                "a free plate has no base to be excited by, "
-                'expected boundary "cantilever" or "simply-supported"'
+                "a free plate has no base to be excited by, expected an edge that is clamped or supported, "
+                'or [excitation] kind = "force"'
             )
         return cls(specimen, domain_of(specimen, frequency_hz), progress)
 
@@ -71,6 +71,8 @@ class Models:
     @cached_property
     def real_modes(self) -> RealModePlate:
         """The plate as the paper's response sees it."""
+        if self.specimen.drive == "force" or not self.specimen.only_even:
+            raise OutsideModel("the paper's real modes need a base and long edges that are alike")
 
         def build() -> RealModePlate:
             with self.progress("spanning the real modes") as report:
@@ -112,7 +114,7 @@ class Models:
                 for done, k in enumerate(doubtful):
                     x[k] = displacement_direct(self.plate, self.damping, omega[k : k + 1], G[k : k + 1])[0]
                     report((done + 1) / len(doubtful))
-        return velocity(omega, x, self.specimen.reads) * self.specimen.base_acceleration_m_s2
+        return velocity(omega, x, self.specimen.reads) * self.specimen.drive_amplitude
 
     def uncertified(self, law: CoreLaw, frequency_hz: Array) -> bool:
         """Whether some point of a law is beyond what the reduced model is certified for. Shape (points,)."""

@@ -23,8 +23,6 @@ from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.result import FoundEffect, ParameterEstimate
 from fitting.diagnosis.several import SeveralProblem, joined
 from fitting.diagnosis.small_problem import DEAF, SmallProblem
-from fitting.effects import CATALOGUE
-from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.identification.result import summarise
 from fitting.identification.validation import rms
@@ -35,8 +33,7 @@ from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
 from fitting.structures.shear_pair import ShearPair
 from fitting.sweep import Sweep
-from instrument.errors import BadInput
-from instrument.models.diagnosis import Diagnosed
+from instrument.models.diagnosis import Diagnosed, effects_on
 from instrument.models.identification import Identified
 from instrument.models.remarks import remarks_on_law, remarks_on_noise
 from instrument.models.second_process import executor
@@ -250,16 +247,14 @@ def diagnose_together(
 
     Raises as `identify_together`.
     """
-    unknown = sorted({*without, *(accept or ())} - set(CATALOGUE))
-    if unknown:
-        raise BadInput(f"effect {unknown[0]!r}, expected one of {', '.join(sorted(CATALOGUE))}")
     began = perf_counter()
     kinds = {f.specimen.kind for f in files}
     if len(kinds) > 1:
         raise OutsideModel(
             f"{' and '.join(sorted(kinds))} together, expected specimens of one kind to diagnose"
         )
-    effects = [e for e in _standing_on(kinds.pop()) if e.name not in without]
+    standing = [{e.name for e in effects_on(f.specimen, without, accept)} for f in files]
+    effects = [e for e in effects_on(files[0].specimen, without) if e.name in set.intersection(*standing)]
     work = _Work(files, progress, with_effects=True)
     with threadpool_limits(1, "blas"), executor() as workers:
         channels: list[FoundEffect] = []
@@ -299,11 +294,6 @@ def diagnose_together(
 
 def _all(files: Sequence[File]) -> Sweep:
     return joined([f.sweep for f in files])
-
-
-def _standing_on(kind: str) -> list[Effect]:
-    """The forms that effects have on a structure."""
-    return [form for e in CATALOGUE.values() if (form := e.on(kind)) is not None]
 
 
 def _with_file(one: FoundEffect, file: int, files: int) -> FoundEffect:

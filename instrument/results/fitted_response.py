@@ -73,7 +73,7 @@ class FittedModel:
             full = replace(models, specimen=self.plate.moved_specimen())
             x[doubtful] = displacement_direct(full.plate, full.damping, omega[doubtful], G[doubtful])
         s = self.plate.specimen
-        return self.plate.read(velocity(omega, x, s.reads) * s.base_acceleration_m_s2, frequency_hz)
+        return self.plate.read(velocity(omega, x, s.reads) * s.drive_amplitude, frequency_hz)
 
     def response(self, frequency_hz: Array) -> FittedResponse:
         """The velocity and its errors. Shape (points,)."""
@@ -93,7 +93,7 @@ class FittedModel:
         above, below = (self._reduced.displacement(omega, (1 + s) * G) for s in (_STEP, -_STEP))
         by_law = (above - below) / (2 * _STEP * G) * law.jacobian(omega) * law.values[:, None]
         dx = np.concatenate([by_law, self.plate.by_moved(self.models, omega, G)])
-        a = self.plate.specimen.base_acceleration_m_s2
+        a = self.plate.specimen.drive_amplitude
         dv = self.plate.read(1j * omega * dx * a, frequency_hz)
         dv[len(law.names) :] += self.plate.by_reading(v, frequency_hz)
         return dv

@@ -8,6 +8,7 @@ from pydantic import BaseModel
 
 from fitting.plugins import packages
 from fitting.specimen import Specimen
+from instrument.errors import BadInput
 from instrument.files.experiment_file import ExperimentDocument, read_experiment
 from instrument.files.rig_file import RigDocument
 from instrument.files.specimen_file import SpecimenDocument, read_specimen_document, specimen_of
@@ -66,4 +67,8 @@ def read_whole_experiment(path: Path) -> Experiment:
     specimen_path = path.parent / document.specimen
     rig = read_document(rig_path, RigDocument)
     specimen = read_specimen_document(specimen_path)
+    if specimen.force_m is not None:
+        raise BadInput(
+            f'{specimen_path}: excitation.kind: "force", but a rig shakes the base, expected "base"'
+        )
     return Experiment(path, document, rig, specimen, rig_path)

@@ -72,6 +72,24 @@ def test_optional_parts(tmp_path):
     assert read_specimen(write(tmp_path, whole)).length_m == 0.3
 
 
+FORCED = (
+    re.sub(r"\[base\].*?\n\n", "\n", GOOD, flags=re.S)
+    + """
+[excitation]
+kind = "force"
+x_mm = 270.0
+y_mm = 30.0
+"""
+)
+
+
+def test_a_force_in_the_place_of_a_base(tmp_path):
+    s = read_specimen(write(tmp_path, FORCED))
+    assert (s.drive, s.force_m, s.drive_amplitude) == ("force", pytest.approx((0.27, 0.03)), 1.0)
+    edges = FORCED.replace('"cantilever"', '"free-simply-supported-free-clamped"')
+    assert read_specimen(write(tmp_path, edges)).edges == ("free", "simply-supported", "free", "clamped")
+
+
 STATED_ALONE = re.sub(r"\n\[tolerances\].*", "", GOOD, flags=re.S)
 
 
@@ -138,6 +156,10 @@ BAD = {
     "missing key": (GOOD.replace("density_kg_m3 = 2700.0\n", ""), "substrate.density_kg_m3: missing"),
     "missing plate": (GOOD.replace("[plate]", "[plates]"), "plate: missing"),
     "poisson": (GOOD.replace("poisson = 0.49", "poisson = 0.5"), "core.poisson"),
+    "force nowhere": (GOOD + '\n[excitation]\nkind = "force"\n', "excitation: kind"),
+    "force beside a base": (FORCED + "[base]\nacceleration_m_s2 = 1.0\n", "[base] with [excitation]"),
+    "force off the plate": (FORCED.replace("270.0", "400.0"), "excitation.x_mm = 400 is off the plate"),
+    "place of a base": (FORCED.replace('"force"', '"base"'), "expected kind"),
     "boundary": (GOOD.replace('"cantilever"', '"clamped"'), "plate.boundary"),
     "law kind": (GOOD.replace('"fractional-zener"', '"zener"'), "core.law.kind: 'zener'"),
     "law out of bounds": (GOOD.replace("alpha = 0.89", "alpha = 1.5"), "alpha = 1.5"),

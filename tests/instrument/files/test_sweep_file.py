@@ -44,6 +44,34 @@ def test_reference_channel_scales_the_response(tmp_path):
     assert sweep.response_m_s[0] == pytest.approx(0.07 / 9 * 9.81)
 
 
+FORCED = (
+    "frequency_hz,acceleration_re_m_s2,acceleration_im_m_s2,force_re_n,force_im_n\n18.4,0.0,0.07,0.0,2.0\n"
+)
+
+
+def test_a_force_drives_in_the_place_of_the_base(tmp_path):
+    sweep = read_sweep(write(tmp_path, FORCED)).sweep(1.0, "force")
+    assert sweep.response_m_s[0] == pytest.approx(0.07 / 2 / (2j * np.pi * 18.4))
+
+
+@pytest.mark.parametrize(
+    ("text", "drive", "said"),
+    [
+        (FORCED, "base", "column force_re_n"),
+        (PHASORS, "force", "no force"),
+        (FORCED.replace("force_re_n,force_im_n", "base_accel_re_m_s2,base_accel_im_m_s2"), "force", "base_"),
+        (
+            FORCED.replace("18.4", "18.4,1").replace("frequency_hz", "frequency_hz,level_g"),
+            "force",
+            "level_g",
+        ),
+    ],
+)
+def test_columns_of_another_drive_are_refused(tmp_path, text, drive, said):
+    with pytest.raises(BadInput, match=said):
+        read_sweep(write(tmp_path, text)).sweep(1.0, drive)
+
+
 def test_repeated_frequencies_are_kept_where_level_sweep_or_time_tells_them_apart(tmp_path):
     for column, values in (("level_g", "12"), ("sweep", "12"), ("time_s", "12")):
         text = f"frequency_hz,velocity_m_s,{column}\n18.4,0.07,{values[0]}\n18.4,0.07,{values[1]}\n"
