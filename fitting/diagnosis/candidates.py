@@ -35,7 +35,7 @@ def look(problem: DiagnosisProblem, evidence: Evidence, before: Refitted, effect
     priors = np.zeros(before.stated + before.law.bend_count)
     lower, upper = effect.limits(response.plate)
     starts, found = effect.starts(response.plate, problem.points), []
-    for u, moved in zip(starts, _moves(response, law, known, starts, v), strict=True):
+    for u, moved in zip(starts, moves(response, law, known, starts, v), strict=True):
         s = np.concatenate([evidence.jacobian(v, moved[None])[:, 0], evidence.bare_moves(effect, u), priors])
         s = s - Q @ (Q.T @ s)
         size = float(s @ s)
@@ -56,7 +56,7 @@ def look(problem: DiagnosisProblem, evidence: Evidence, before: Refitted, effect
     return sorted(found, key=lambda f: -f[0])
 
 
-def _moves(
+def moves(
     response: SweepResponse, law: CoreLaw, known: Array, starts: Sequence[Array], v: Complex
 ) -> Complex:
     """How the phasors move from `v` as the last effect comes in from each start. Shape (starts, points)."""

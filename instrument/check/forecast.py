@@ -100,6 +100,8 @@ class Forecast:
 
     def frequencies_hz(self, segment: SegmentSection) -> tuple[float, ...]:
         """Of a segment's steps. Raises `BadInput`."""
+        if segment.frequencies_hz is not None:
+            return tuple(segment.frequencies_hz)
         low, high = segment.low_hz, segment.high_hz
         if segment.mode is not None:
             if segment.mode > len(self.mode_hz):

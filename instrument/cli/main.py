@@ -25,6 +25,7 @@ STOPPED_BY_USER = 130
 COMMANDS = (
     "demo",
     "new",
+    "plan",
     "check",
     "run",
     "hammer",

@@ -13,6 +13,7 @@ from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.modal import ModalResult
 from instrument.facts.modes import ModesResult
+from instrument.facts.plan import PlanResult
 from instrument.facts.prediction import PredictionResult
 from instrument.facts.result import Result
 from instrument.facts.run import ReplayResult, RunResult
@@ -28,6 +29,7 @@ RESULTS: dict[str, type[Result]] = {
     "identify-modes": ModalResult,
     "import": ImportResult,
     "modes": ModesResult,
+    "plan": PlanResult,
     "predict": PredictionResult,
     "recover": RecoverResult,
     "replay": ReplayResult,

@@ -44,7 +44,7 @@ class Hammer(TomlTable):
 
 
 class SegmentSection(TomlTable):
-    """A resonance region: from low to high, or around a mode of the specimen as it is known."""
+    """A resonance region: from low to high, around a mode of the specimen as it is known, or step by step."""
 
     low_hz: Frequency | None = None
     high_hz: Frequency | None = None
@@ -53,18 +53,33 @@ class SegmentSection(TomlTable):
     """Of the mode's frequency, low to high."""
     points: Annotated[int, Field(ge=2, le=2000)] | None = None
     step_hz: Annotated[float, Field(ge=1e-3, le=1e4)] | None = None
+    frequencies_hz: Annotated[list[Frequency], Field(min_length=1, max_length=2000)] | None = None
+    """Of single steps, in this order."""
     range: str | None = None
     """Of the vibrometer; chosen from the predicted response where none is given."""
 
     @model_validator(mode="after")
     def _whole(self) -> "SegmentSection":
+        if self.frequencies_hz is not None:
+            return self._listed(self.frequencies_hz)
         by_edges = self.low_hz is not None and self.high_hz is not None
         if by_edges == (self.mode is not None) or (self.low_hz is None) != (self.high_hz is None):
-            raise ValueError("expected either low_hz and high_hz, or mode")
+            raise ValueError("expected either low_hz and high_hz, or mode, or frequencies_hz")
         if by_edges and not self.low_hz < self.high_hz:  # type: ignore[operator]
             raise ValueError(f"low_hz = {self.low_hz:g} is not below high_hz = {self.high_hz:g}")
         if (self.points is None) == (self.step_hz is None):
             raise ValueError("expected either points or step_hz")
+        return self
+
+    def _listed(self, frequencies_hz: list[float]) -> "SegmentSection":
+        others = [
+            n for n in ("low_hz", "high_hz", "mode", "points", "step_hz") if getattr(self, n) is not None
+        ]
+        if others:
+            raise ValueError(f"frequencies_hz and {others[0]}: expected one way to say which steps")
+        twice = [f for f in frequencies_hz if frequencies_hz.count(f) > 1]
+        if twice:
+            raise ValueError(f"frequencies_hz has {twice[0]:g} twice, expected each once")
         return self
 
 

@@ -29,7 +29,11 @@ T = TypeVar("T", bound=BaseModel)
 
 def read_document(path: Path, model: type[T]) -> T:
     """Read and check a file. Raises `BadInput` with one line."""
-    text = read_text(path)
+    return parse_document(path, read_text(path), model)
+
+
+def parse_document(path: Path, text: str, model: type[T]) -> T:
+    """Check what a file says or is going to say. Raises `BadInput` with one line."""
     try:
         return model.model_validate(tomllib.loads(text))
     except tomllib.TOMLDecodeError as error:

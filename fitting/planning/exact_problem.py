@@ -1,0 +1,53 @@
+"""Points that may be measured as a problem of the joint inference, the plate solved at each of them.
+
+A diagnosis interpolates between a few nodes of each dense segment. Candidates lie too far apart for that, and
+are few.
+"""
+
+import numpy as np
+
+from fitting.arrays import Array
+from fitting.diagnosis.nodes import Nodes
+from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid, points_of
+from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.nuisances import nuisances_of
+from fitting.rational import rational_sweep
+from fitting.reduced import ReducedPlate
+from fitting.specimen import Specimen
+from fitting.sweep import Integers, Sweep
+
+
+def exact_problem(
+    frequency_hz: Array,
+    region: Integers,
+    level_m_s2: float,
+    specimen: Specimen,
+    plate: EnrichedReducedPlate,
+    reduced: ReducedPlate,
+    time_s: Array | None = None,
+) -> DiagnosisProblem:
+    """Of distinct, ascending frequencies; `plate` and `reduced` are of `specimen`. Shapes (points,)."""
+    count = len(frequency_hz)
+    sweep = Sweep(
+        frequency_hz=frequency_hz,
+        velocity_m_s=np.ones(count, dtype=complex),
+        commanded_m_s2=np.full(count, level_m_s2),
+        segment=region,
+        sweep=np.ones(count, dtype=np.intp),
+        time_s=time_s,
+    )
+    rational = rational_sweep(reduced, sweep.omega)
+    nodes = Nodes.of(sweep.omega, count)
+    grid = NodeGrid(nodes, rational)
+    return DiagnosisProblem(
+        sweep=sweep,
+        specimen=specimen,
+        plate=plate,
+        points=points_of(sweep, specimen),
+        rational=rational,
+        fine=grid,
+        coarse=grid,
+        passes=grid,
+        dense=nodes,
+        nuisances=nuisances_of(specimen, plate, has_phase=True),
+    )

@@ -1,0 +1,142 @@
+"""`viscorig plan`: what to measure, before anything is."""
+
+from pathlib import Path
+
+import click
+
+from fitting.planning.sensitivity import ReadingNoise
+from fitting.specimen import Specimen
+from instrument.cli.options import figures_option, file_argument, json_option
+from instrument.cli.output import Output
+from instrument.cli.print_plan import print_plan
+from instrument.errors import BadInput
+from instrument.files.hammer_file import read_hammer
+from instrument.files.structure_file import read_structure
+from instrument.planning.into_experiment import begun, write_into
+from instrument.planning.plan import make_plan
+from instrument.planning.result import result_of
+from instrument.planning.wish import CAUSES_SHARE, NOISE, TARGET, Wish
+from instrument.progress import bar
+from instrument.results.plan_figures import save_plan_figures
+
+_LEAST_RATIO = 1.05
+
+
+class Band(click.ParamType):  # type: ignore[type-arg]
+    """`LOW:HIGH` in Hz."""
+
+    name = "LOW:HIGH"
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> tuple[float, float]:
+        """Both in Hz."""
+        try:
+            low, high = (float(part) for part in str(value).split(":"))
+        except ValueError:
+            self.fail(f"{value!r}, expected LOW:HIGH in Hz", param, ctx)
+        if not 0 < low * _LEAST_RATIO <= high < 1e5:
+            self.fail(f"{value!r}, expected 0 < LOW < HIGH in Hz, at least 5 % apart", param, ctx)
+        return low, high
+
+
+@click.command()
+@file_argument("specimen")
+@click.option(
+    "--target",
+    type=click.FloatRange(0.01, 100),
+    default=100 * TARGET,
+    show_default=True,
+    metavar="PERCENT",
+    help="Standard error of G' and of the loss factor wanted everywhere in the band.",
+)
+@click.option("--band", type=Band(), help="In Hz; around the first three resonances where none is given.")
+@click.option(
+    "--noise",
+    type=click.FloatRange(0, 100),
+    default=100 * NOISE.share,
+    show_default=True,
+    metavar="PERCENT",
+    help="What repeated readings scatter, of the reading (each part of the phasor).",
+)
+@click.option(
+    "--floor",
+    type=click.FloatRange(0, 1e6),
+    default=1e6 * NOISE.floor_m_s,
+    show_default=True,
+    metavar="UM_S",
+    help="Velocity noise of a reading over one second, in um/s.",
+)
+@click.option(
+    "--level",
+    type=click.FloatRange(1e-4, 1e3),
+    metavar="G",
+    help="Level of the base in g; proposed where none is given.",
+)
+@click.option(
+    "--causes",
+    type=click.FloatRange(0, 80),
+    default=100 * CAUSES_SHARE,
+    show_default=True,
+    metavar="PERCENT",
+    help="Share of rig time for steps that separate what the model may lack.",
+)
+@click.option(
+    "--hammer",
+    type=click.Path(path_type=Path),
+    help="JSON of 'viscorig damping' on the bare plate: known beside the sweep.",
+)
+@click.option("--no-spots", is_flag=True, help="Do not compare other spots: seconds instead of a minute.")
+@click.option(
+    "--experiment",
+    type=click.Path(path_type=Path),
+    help="Write the plan as the [sweep] of this experiment file; a new one where there is none.",
+)
+@figures_option("Save the plan on the response, and the map of spots, as PNG.")
+@json_option
+def plan(
+    specimen: Path,
+    target: float,
+    band: tuple[float, float] | None,
+    noise: float,
+    floor: float,
+    level: float | None,
+    causes: float,
+    hammer: Path | None,
+    no_spots: bool,
+    experiment: Path | None,
+    figures: Path | None,
+    json_path: str | None,
+) -> None:
+    """Steps, level and spot for SPECIMEN.toml and a wanted uncertainty, and what they could not tell.
+
+    Predicted to first order about the law that the file states, with its tolerances, the model's own error
+    and the noise given here. Nothing is connected.
+    """
+    out = Output(json_path)
+    read = read_structure(specimen)
+    if not isinstance(read, Specimen):
+        raise BadInput(
+            f"{specimen}: a {read.kind}, expected a plate: other specimens are not planned for yet"
+        )
+    wish = Wish(
+        target=target / 100,
+        band_hz=band,
+        noise=ReadingNoise(floor * 1e-6, noise / 100),
+        level_g=level,
+        causes_share=causes / 100,
+    )
+    if noise == 0 and floor == 0:
+        raise click.UsageError("--noise 0 and --floor 0: expected one above zero, no reading is exact")
+    # Said before the work, not after it.
+    text = begun(experiment, specimen) if experiment is not None else ""
+    hit = read_hammer(hammer) if hammer is not None else None
+    found = result_of(make_plan(read, wish, hit, bar, with_spots=not no_spots), wish)
+    print_plan(out, found)
+    if experiment is not None:
+        write_into(experiment, text, found.sweep_toml)
+        out.say(f"\nwritten as the [sweep] of {experiment}")
+    if figures is not None:
+        for path in save_plan_figures(found, figures):
+            out.say(str(path))
+    out.result(found)

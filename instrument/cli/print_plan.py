@@ -1,0 +1,133 @@
+"""A plan as tables."""
+
+from instrument.cli.output import Output
+from instrument.facts.plan import EffectForecast, PlanResult, SpotCompared
+
+_MOST_SPOTS = 8
+_MOST_RIVALS = 3
+
+
+def print_plan(out: Output, found: PlanResult) -> None:
+    """All of it for a person."""
+    _headline(out, found)
+    rows = [
+        [f"{p.segment}", f"{p.low_hz:g} to {p.high_hz:g}", f"{p.steps}", f"{p.seconds:.0f}"]
+        for p in found.segments
+    ]
+    out.table("steps", ["segment", "f/Hz", "steps", "s"], rows)
+    rows = [
+        [f"{row.frequency_hz:.4g}", f"{row.storage_modulus_percent:.2g}", f"{row.loss_factor_percent:.2g}"]
+        for row in found.law[:: max(1, (len(found.law) - 1) // 5)]
+    ]
+    out.table("predicted standard errors", ["f/Hz", "G'/%", "loss factor/%"], rows)
+    _levels(out, found)
+    _spots(out, found)
+    _effects(out, found)
+    for note in found.notes:
+        out.say(f"note: {note}")
+    out.say("\n" + found.sweep_toml)
+
+
+def _headline(out: Output, found: PlanResult) -> None:
+    out.say(
+        f"{len(found.steps)} steps at {found.level_g:g} g in about {found.seconds:.0f} s leave at most "
+        f"{found.worst_percent:.2g} % on G' and the loss factor from {found.band_low_hz:g} to "
+        f"{found.band_high_hz:g} Hz (predicted to first order)"
+    )
+    if not found.reached:
+        out.say(
+            f"{found.target_percent:g} % is out of reach: everything measured would leave "
+            f"{found.limit_percent:.2g} %"
+        )
+        for limit in found.limited_by:
+            out.say(f"  {limit.name} known exactly would leave {limit.worst_percent:.2g} %")
+    out.say(
+        f"assumed: readings scatter by {found.noise_share_percent:g} %, "
+        f"{1e6 * found.noise_floor_m_s:g} um/s over one second\n"
+    )
+
+
+def _levels(out: Output, found: PlanResult) -> None:
+    if len(found.levels) < 2:
+        return
+    rows = [
+        [
+            f"{x.level_g:g}" + ("*" if x.level_g == found.level_g else ""),
+            f"{x.steps}",
+            f"{x.seconds:.0f}",
+            f"{x.worst_percent:.2g}",
+            x.why_not,
+        ]
+        for x in found.levels
+    ]
+    out.table(
+        "levels (steps for the law alone; * proposed: the lowest that is no slower)",
+        ["level/g", "steps", "s", "leaves/%", "exceeds"],
+        rows,
+    )
+
+
+def _spots(out: Output, found: PlanResult) -> None:
+    if not found.spots:
+        return
+    shown = [s for k, s in enumerate(found.spots) if k < _MOST_SPOTS or s.stated]
+    out.table(
+        f"spots (best {_MOST_SPOTS} of {len(found.spots)}; * the stated one)",
+        ["x/mm", "y/mm", "steps", "s", "leaves/%", "least/%"],
+        [_spot(s) for s in shown],
+    )
+    _map(out, found)
+
+
+def _spot(s: SpotCompared) -> list[str]:
+    return [
+        f"{s.x_mm:.0f}" + ("*" if s.stated else ""),
+        f"{s.y_mm:.0f}",
+        f"{s.steps}",
+        f"{s.seconds:.0f}" if s.reached else "-",
+        f"{s.worst_percent:.2g}",
+        f"{s.limit_percent:.2g}",
+    ]
+
+
+def _map(out: Output, found: PlanResult) -> None:
+    """What the plan's rig time would leave at each spot, the clamp on the left."""
+    grid = [s for s in found.spots if not s.stated]
+    along, across = sorted({s.x_mm for s in grid}), sorted({s.y_mm for s in grid})
+    at = {(s.x_mm, s.y_mm): f"{s.worst_percent:.2g}" for s in grid}
+    rows = [[f"{y:.0f}", *(at.get((x, y), "") for x in along)] for y in across]
+    out.table(
+        "map: % left in the plan's rig time; columns x/mm from the clamp, the other half of the width alike",
+        ["y/mm", *(f"{x:.0f}" for x in along)],
+        rows,
+    )
+
+
+def _effects(out: Output, found: PlanResult) -> None:
+    if not found.effects:
+        return
+    out.table(
+        "effects: from which size this plan sees them (4 sigma), and what they are mistaken for",
+        ["effect", "seen from", "", "chance", "mistaken for (told apart at so many times it)"],
+        [_effect(e) for e in found.effects],
+    )
+    for one in found.not_judged:
+        out.say(f"{one.name}: {one.why}")
+
+
+def _effect(e: EffectForecast) -> list[str]:
+    said = [
+        f"{r.name} ({r.times:.2g})" if r.times is not None else f"{r.name} (never)"
+        for r in e.rivals[:_MOST_RIVALS]
+    ]
+    more = len(e.rivals) - _MOST_RIVALS
+    seen = "any" if e.parameter is None else "-" if e.seen_at is None else f"{e.seen_at:.4g}"
+    unit = "" if e.unit in (None, "1") else e.unit or ""
+    name = "" if e.parameter is None else f"{e.parameter} "
+    return [
+        e.name,
+        name + seen,
+        unit,
+        f"{100 * e.chance_seen:.0f} %",
+        ", ".join(said) + (f" and {more} more" if more > 0 else ""),
+    ]

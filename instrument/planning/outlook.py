@@ -1,0 +1,135 @@
+"""The models a plan is made with: a specimen's resonances, candidates, and what readings there would say."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from fitting.arrays import Array, Complex
+from fitting.diagnosis.evidence import BareModes
+from fitting.diagnosis.plate_poles import PlatePoles
+from fitting.diagnosis.problem import DiagnosisProblem
+from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.errors import OutsideModel
+from fitting.planning.candidates import Candidates, candidate_frequencies, regions, resonances_hz
+from fitting.planning.exact_problem import exact_problem
+from fitting.planning.sensitivity import ReadingNoise, Sensitivity, bent, sensitivity
+from fitting.reduced import ReducedPlate
+from fitting.specimen import Specimen
+from fitting.sweep import Sweep
+from instrument.models.set_up import Hammer, SetUp, set_up
+from instrument.planning.costs import dwell_seconds, step_seconds
+from instrument.progress import Progress, quiet
+from instrument.stepped_sine.settings import SweepSettings
+
+_WIDEST_HZ = (5.0, 600.0)
+"""Where resonances are looked for while no band is given."""
+_SEEN = 0.01
+"""Of the largest resonance's response at the spot: a smaller one is no region of its own to begin with."""
+_USUAL = 3
+"""Resonances of a band that nobody asked for."""
+_EDGE = (0.08, 0.22)
+"""How far such a band goes beyond its outer resonances, in shares of their frequency, by their loss
+factor."""
+
+Band = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Outlook:
+    """Of one specimen, one spot, one band."""
+
+    specimen: Specimen
+    setup: SetUp
+    poles_hz: Complex
+    """Of the plate, by the law it starts from."""
+    band_hz: Band
+    candidates: Candidates
+
+    @property
+    def bare(self) -> BareModes | None:
+        """The hammer test, where there was one."""
+        return self.setup.bare
+
+    @property
+    def here(self) -> "At":
+        """The plate as read at the stated spot."""
+        assert self.specimen.pickup_m is not None
+        return At(self.setup.problem.plate, self.setup.reduced, self.specimen.pickup_m)
+
+    def problem(self, level_m_s2: float, at: "At") -> DiagnosisProblem:
+        """Of all candidates."""
+        c = self.candidates
+        return exact_problem(
+            c.frequency_hz,
+            c.region,
+            level_m_s2,
+            replace(self.specimen, pickup_m=at.spot_m),
+            at.plate,
+            at.reduced,
+            np.cumsum(c.seconds),
+        )
+
+    def sensitivity(self, level_m_s2: float, noise: ReadingNoise, at: "At | None" = None) -> Sensitivity:
+        """What readings at the candidates say, of the specimen's spot or of another."""
+        at = at or self.here
+        problem = self.problem(level_m_s2, at)
+        law = bent(self.specimen.core.law, problem)  # type: ignore[union-attr]
+        dwell_s = self.candidates.dwell_s
+        return sensitivity(problem, at.reduced, law, problem.as_stated, noise, dwell_s, self.bare)
+
+
+@dataclass(frozen=True)
+class At:
+    """A plate read at one spot."""
+
+    plate: EnrichedReducedPlate
+    reduced: ReducedPlate
+    spot_m: tuple[float, float]
+
+
+def outlook_of(
+    specimen: Specimen,
+    settings: SweepSettings,
+    band_hz: Band | None = None,
+    hammer: Hammer | None = None,
+    progress: Progress = quiet,
+    *,
+    with_effects: bool = False,
+) -> Outlook:
+    """Of a plate with the law it starts from. Raises `OutsideModel` where there is none, or no answer."""
+    if specimen.core is None:
+        raise OutsideModel("a bare plate has no core to plan for, expected [core] and [constraining]")
+    law = specimen.core.law
+    ends = np.array(band_hz or _WIDEST_HZ)
+    few = Sweep(ends, np.ones(2, complex), np.ones(2), np.ones(2, np.intp), np.ones(2, np.intp))
+    setup = set_up(few, specimen, hammer, progress, with_effects=with_effects)
+    poles = PlatePoles(setup.problem.plate, law.lifted())
+    low, high = band_hz or usual_band(setup, resonances_hz(poles, *_WIDEST_HZ))
+    every = resonances_hz(poles, min(low, _WIDEST_HZ[0]), high)
+    f = candidate_frequencies(every, low, high)
+    seen = every[_visible(setup, every)]
+    candidates = Candidates(f, regions(f, seen), dwell_seconds(f, settings), step_seconds(f, every, settings))
+    return Outlook(setup.specimen, setup, every, (float(f[0]), float(f[-1])), candidates)
+
+
+def usual_band(setup: SetUp, poles_hz: Complex) -> Band:
+    """Around the first three poles, shape (any,), that the spot sees. Raises `OutsideModel` without any."""
+    seen = poles_hz[_visible(setup, poles_hz)][:_USUAL]
+    if not len(seen):
+        raise OutsideModel(
+            f"no resonance between {_WIDEST_HZ[0]:g} and {_WIDEST_HZ[1]:g} Hz: give the band to be measured"
+        )
+    low, high = seen[0], seen[-1]
+    below, above = (float(np.clip(2.6 * p.imag / p.real, *_EDGE)) for p in (low, high))
+    return round(low.real * (1 - below), 2), round(high.real * (1 + above), 2)
+
+
+def _visible(setup: SetUp, poles_hz: Complex) -> Array:
+    """Which resonances stand out at the spot. Shape of `poles_hz`, true or false."""
+    if not len(poles_hz):
+        return np.zeros(0, dtype=bool)
+    omega = 2 * np.pi * poles_hz.real
+    core = setup.specimen.core
+    assert core is not None
+    v = omega * np.abs(setup.reduced.displacement(omega, core.law.modulus(omega)))
+    return np.asarray(v > _SEEN * v.max())

@@ -1,0 +1,28 @@
+"""What a person asks of a plan, and what is assumed where nothing is said."""
+
+from dataclasses import dataclass, field
+
+from fitting.planning.sensitivity import ReadingNoise
+from instrument.stepped_sine.settings import SweepSettings
+
+TARGET = 0.02
+CAUSES_SHARE = 0.25
+"""Of rig time, for steps that separate causes and teach little about the law."""
+NOISE = ReadingNoise(floor_m_s=5e-6, share=2e-3)
+"""A vibrometer's and an accelerometer's floor over one second, and what repeats of a good rig scatter."""
+LEVELS_G = (0.1, 0.2, 0.5, 1.0, 2.0)
+
+
+@dataclass(frozen=True)
+class Wish:
+    """Of one plan."""
+
+    target: float = TARGET
+    """Relative standard error of G' and of eta, anywhere in the band."""
+    band_hz: tuple[float, float] | None = None
+    """None for the first three resonances."""
+    noise: ReadingNoise = NOISE
+    level_g: float | None = None
+    """None to have it proposed."""
+    causes_share: float = CAUSES_SHARE
+    settings: SweepSettings = field(default_factory=SweepSettings)

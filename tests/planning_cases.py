@@ -1,0 +1,28 @@
+"""A law of two parameters that readings see directly: what is right can be said without a plate."""
+
+import numpy as np
+
+from fitting.laws.constant import ConstantModulus
+from fitting.planning.aims import Aims
+from fitting.planning.sensitivity import Sensitivity
+
+LAW = ConstantModulus(1e6, 0.5)
+
+
+def sensitivity(sizes, others=0, seed=1):
+    """Readings of ln G' (real part) and ln eta (imaginary), each so many over its noise.
+
+    `others` are unknowns with unit priors that every reading sees too.
+    """
+    sizes = np.asarray(sizes, float)
+    n = 2 + others
+    rows = np.zeros((len(sizes), 2, n))
+    rows[:, 0, 0] = rows[:, 1, 1] = sizes
+    rows[:, :, 2:] = np.random.default_rng(seed).standard_normal((len(sizes), 2, others))
+    prior = np.diag([1e-4, 1e-4, *np.ones(others)])
+    ones = np.ones(len(sizes))
+    return Sensitivity(LAW, ones.astype(complex), ones, rows, prior, others)
+
+
+def aims():
+    return Aims.over(LAW, 10.0, 100.0, 3)
