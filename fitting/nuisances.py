@@ -115,7 +115,7 @@ class Nuisances:
         return np.asarray(found if np.any(found.imag) else found.real)
 
     @property
-    def _counts(self) -> tuple[int, int, int]:
+    def counts(self) -> tuple[int, int, int]:
         """How many parts K_0, K_1 and M have; those of the load follow them."""
         return len(STIFFNESS), len(CORE), len(MASS)
 
@@ -192,7 +192,7 @@ class Nuisances:
     def change(self, plate: EnrichedReducedPlate, z: Array) -> Change:
         """What they change of a plate that has the parts of `specimen`."""
         c = self.coefficients(z)
-        n_0, n_1, n_M = self._counts
+        n_0, n_1, n_M = self.counts
         K, K_1, M = (
             np.tensordot(c[a:b], plate.parts[a:b], axes=1)
             for a, b in ((0, n_0), (n_0, n_0 + n_1), (n_0 + n_1, n_0 + n_1 + n_M))
@@ -268,6 +268,11 @@ class Nuisances:
             found[mode] = np.exp(self._sigma[k] * z[k])
         return found
 
+    def by_damping(self, modes: int, z: Array) -> dict[int, tuple[int, float]]:
+        """Of each number that is a modal ratio: its mode, and the derivative of that mode's factor."""
+        factor = self._damping(modes, z)
+        return {k: (mode, float(self._sigma[k] * factor[mode])) for k, mode in self._damped}
+
     def by_response(
         self, plate: EnrichedReducedPlate, omega: Array, G: Complex, q: Complex, adjoint: Complex, z: Array
     ) -> Complex:
@@ -295,7 +300,7 @@ class Nuisances:
         self, plate: EnrichedReducedPlate, omega: Array, G: Complex, q: Complex, adjoint: Complex, z: Array
     ) -> Complex:
         between = _between(plate.parts, q, adjoint)
-        n_0, n_1, n_M = self._counts
+        n_0, n_1, n_M = self.counts
         between[n_0 : n_0 + n_1] *= G
         between[n_0 + n_1 :] *= -(omega**2)
         by = self.by_coefficients(z)[:, : n_0 + n_1 + n_M]

@@ -78,7 +78,8 @@ class SmallNuisances(Nuisances):
     """What their coefficients multiply."""
 
     @property
-    def _counts(self) -> tuple[int, int, int]:
+    def counts(self) -> tuple[int, int, int]:
+        """How many parts K_0, K_1 and M have."""
         assert self.parts is not None
         return len(self.parts.K_0), len(self.parts.K_1), len(self.parts.M)
 
@@ -95,12 +96,12 @@ class SmallNuisances(Nuisances):
         return np.asarray(_real_where_it_is(self.specimen.coefficients(by)))
 
     def _load(self, plate: EnrichedReducedPlate, c: Array) -> Array:
-        return np.asarray(c[sum(self._counts) :].real @ plate.load_part)
+        return np.asarray(c[sum(self.counts) :].real @ plate.load_part)
 
     def _by_load(self, plate: EnrichedReducedPlate, adjoint: Complex, z: Array) -> Complex:
         # Their sign is in the parts.
         return np.asarray(
-            -self.by_coefficients(z)[:, sum(self._counts) :].real @ (plate.load_part @ adjoint.T)
+            -self.by_coefficients(z)[:, sum(self.counts) :].real @ (plate.load_part @ adjoint.T)
         )
 
     def _row_change(self, plate: EnrichedReducedPlate, z: Array) -> Array:

@@ -21,12 +21,11 @@ from instrument.cli.print_budget import print_budget
 from instrument.cli.print_identification import print_bare_plate, print_identification
 from instrument.cli.print_run import print_result
 from instrument.cli.print_uncertainty import print_in_depth
-from instrument.cli.reading import read_each, reading_options, together
+from instrument.cli.reading import are_tables, read_each, reading_options, together
 from instrument.facts.beside import BesideTable
 from instrument.facts.budget import BudgetRow
 from instrument.facts.identification import IdentificationResult
 from instrument.files.dma_file import DmaTable, read_dma
-from instrument.files.modal_table import is_modal_table
 from instrument.material.beside import beside, beside_table
 from instrument.material.found_law import law_of_result
 from instrument.material.overlay import save_overlay
@@ -141,10 +140,11 @@ def identify(
     if shift is None and (reference_c is not None or vertical):
         raise click.UsageError("--reference-c and --vertical: expected --shift with them")
     out = Output(json_path)
-    if specimen and all(path.suffix.lower() == ".csv" and is_modal_table(path) for path in data):
-        if pointwise or method == "paper" or hammer is not None or dma is not None or with_budget:
+    if are_tables(data, specimen):
+        if pointwise or method == "paper" or hammer is not None or dma is not None or with_budget or depths:
             raise click.UsageError(
-                "--pointwise, --method paper, --hammer, --with, --budget with modal tables: expected sweeps"
+                "--pointwise, --method paper, --hammer, --with, --budget, --uncertainty with modal tables: "
+                "expected sweeps"
             )
         identify_modes(out, data, specimen)
         return

@@ -5,8 +5,12 @@ from pathlib import Path
 
 import click
 
+from fitting.mode_tables.table import ModalTable
 from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen
 from instrument.cli.output import Output
+from instrument.files.modal_table import is_modal_table, read_modal_table
+from instrument.files.structure_file import read_structure
 from instrument.interchange.given import Given, read_given
 from instrument.models.together import File
 
@@ -53,6 +57,28 @@ def read_each(
     if hammer is not None and not isinstance(given[0].specimen, Specimen):
         raise click.UsageError(f"--hammer with a {given[0].specimen.kind}: expected a plate")
     return given
+
+
+def are_tables(data: Sequence[Path], specimens: Sequence[Path]) -> bool:
+    """Whether DATA are tables of modes. Raises `UsageError` for tables beside other data."""
+    found = [path.suffix.lower() == ".csv" and is_modal_table(path) for path in data]
+    if any(found) and not all(found):
+        raise click.UsageError("tables of modes beside other data: expected one of them")
+    if any(found) and not specimens:
+        raise click.UsageError("Missing option '--specimen': a table of modes does not say whose they are")
+    return any(found)
+
+
+def read_tables(
+    data: Sequence[Path], specimens: Sequence[Path]
+) -> tuple[list[ModalTable], list[AnySpecimen]]:
+    """Tables of modes with their specimens, paired in order. Raises `BadInput`, `UsageError`."""
+    if len(specimens) not in (1, len(data)):
+        raise click.UsageError(
+            f"{len(specimens)} times --specimen for {len(data)} tables, expected one for each or one for all"
+        )
+    paths = list(specimens) if len(specimens) == len(data) else [specimens[0]] * len(data)
+    return [read_modal_table(path) for path in data], [read_structure(path) for path in paths]
 
 
 def together(given: Sequence[Given], data: Sequence[Path]) -> list[File] | None:

@@ -20,7 +20,7 @@ class ModeFitted(Result):
 
 
 class ModalResult(Result):
-    """The core's law from natural frequencies and loss factors of beams and shear pairs."""
+    """The core's law from natural frequencies and loss factors of any structure."""
 
     method: str = "modes"
     law_kind: str
@@ -36,3 +36,6 @@ class ModalResult(Result):
     """Over the range of the modes."""
     adjusted: tuple[AdjustedNumber, ...] = ()
     warnings: tuple[str, ...] = ()
+    temperature_c: MaybeNumber = None
+    """Mean of the rows that state one."""
+    seconds: MaybeNumber = None

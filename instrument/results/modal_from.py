@@ -5,17 +5,20 @@ from collections.abc import Sequence
 import numpy as np
 
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ, LawBand
-from fitting.structures.modal_fit import ModalFit, ModalTable
+from fitting.mode_tables.fit import ModalFit
+from fitting.mode_tables.table import ModalTable
 from instrument.facts.modal import ModalResult, ModeFitted
+from instrument.models.modal import TablesIdentified
 from instrument.results.rows_from import adjusted_from, law_rows_from
 
 _BAND_POINTS = 41
 
 
 def modal_from(
-    found: ModalFit, tables: Sequence[ModalTable], names: Sequence[str], warnings: Sequence[str] = ()
+    identified: TablesIdentified, tables: Sequence[ModalTable], names: Sequence[str]
 ) -> ModalResult:
     """The result of `identify` on modal tables."""
+    found = identified.fit
     plain = found.law.plain
     errors = found.uncertainty.of_first(len(plain.names)).standard_errors * plain.values
     return ModalResult(
@@ -24,25 +27,38 @@ def modal_from(
         parameters=dict(zip(plain.names, plain.values.tolist(), strict=True)),
         standard_errors=dict(zip(plain.names, errors.tolist(), strict=True)),
         chi2_per_dof=found.uncertainty.chi2_per_dof,
-        modes=tuple(
-            ModeFitted(
-                file=k + 1,
-                mode=int(t.mode[m]),
-                frequency_hz=float(t.frequency_hz[m]),
-                predicted_hz=float(found.predicted_hz[k][m]),
-                loss_factor=float(t.loss_factor[m]),
-                predicted_loss_factor=float(found.predicted_loss[k][m]),
-            )
-            for k, t in enumerate(tables)
-            for m in range(len(t.mode))
-        ),
+        modes=modes_fitted(found, tables),
         files=tuple(names),
         evaluations=int(found.evaluations),
         converged=bool(found.converged),
         law=law_rows_from(modal_band(found, tables)),
         adjusted=adjusted_from(found.adjusted),
-        warnings=tuple(warnings),
+        warnings=identified.remarks,
+        temperature_c=mean_temperature(tables),
+        seconds=identified.seconds,
     )
+
+
+def modes_fitted(found: ModalFit, tables: Sequence[ModalTable]) -> tuple[ModeFitted, ...]:
+    """Every mode beside the fit's."""
+    return tuple(
+        ModeFitted(
+            file=k + 1,
+            mode=int(t.mode[m]),
+            frequency_hz=float(t.frequency_hz[m]),
+            predicted_hz=float(found.predicted_hz[k][m]),
+            loss_factor=float(t.loss_factor[m]),
+            predicted_loss_factor=float(found.predicted_loss[k][m]),
+        )
+        for k, t in enumerate(tables)
+        for m in range(len(t.mode))
+    )
+
+
+def mean_temperature(tables: Sequence[ModalTable]) -> float | None:
+    """Of all rows that state one."""
+    stated = [t.temperature_c for t in tables if t.temperature_c is not None]
+    return float(np.mean(np.concatenate(stated))) if stated else None
 
 
 def modal_band(found: ModalFit, tables: Sequence[ModalTable]) -> LawBand:

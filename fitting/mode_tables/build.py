@@ -1,0 +1,115 @@
+"""Members of a fit: a specimen's matrices on the motions of its first modes, whatever the core's modulus."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import scipy.linalg as la
+
+from fitting.arrays import Array
+from fitting.damping import viscous_damping
+from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.element import THETA_X, THETA_Y, W
+from fitting.laws import CoreLaw
+from fitting.mode_tables.member import Member
+from fitting.mode_tables.table import ModalTable
+from fitting.model_error import model_error_at
+from fitting.nuisances import Nuisances, nuisances_of
+from fitting.parts import layers_of, load_part, projected_parts
+from fitting.plate import Plate
+from fitting.real_modes import real_modes
+from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen
+from fitting.structures.small import nuisances_of as small_nuisances_of
+from fitting.structures.small import system_of
+from fitting.tolerances import PLATE
+
+MODULI_PA = (1e5, 6e5, 3e6, 2e7)
+"""Whose real modes a plate is spanned by."""
+SPARE = 8
+"""Real modes of each beyond the table's last."""
+_INDEPENDENT = 1e-11
+_SOMEWHERE = (0.77, 0.31)
+"""Of length and width: a plate needs a spot to be read at, though no mode depends on it."""
+Widen = Callable[[Specimen, Array], EnrichedReducedPlate]
+"""A plate and its own motions, shape (n, k), to the plate with all that effects need."""
+
+
+def member_of(table: ModalTable, specimen: AnySpecimen, widen: Widen | None = None) -> Member:
+    """A table with its specimen; `widen` where effects are to be tried on a plate."""
+    if isinstance(specimen, Specimen):
+        return _of_plate(table, specimen, widen)
+    parts = specimen.parts()
+    stated = small_nuisances_of(specimen, parts, has_phase=False)
+    own = replace(stated, each=tuple(n for n in stated.each if n.kind in specimen.numbers))
+    return Member(table, specimen, system_of(specimen, parts), own)
+
+
+def with_own_error(member: Member, law: CoreLaw) -> Member:
+    """With what a plate's theory gets wrong at the modes of a law; of others nothing is known."""
+    if not isinstance(member.specimen, Specimen):
+        return member
+    f = member.table.frequency_hz
+    found = model_error_at(member.specimen, f, law.modulus(2 * np.pi * f))
+    return replace(member, own_error=(found.frequency, found.loss))
+
+
+def read_somewhere(specimen: Specimen) -> Specimen:
+    """The plate with a spot, where it has none."""
+    if specimen.pickup_m is not None:
+        return specimen
+    x, y = _SOMEWHERE
+    return replace(specimen, pickup_m=(x * specimen.length_m, y * specimen.width_m))
+
+
+def _of_plate(table: ModalTable, specimen: Specimen, widen: Widen | None) -> Member:
+    specimen = read_somewhere(specimen)
+    plate = Plate(specimen)
+    V = own_motions(plate, int(table.mode.max()) + SPARE)
+    wide = _plain(plate, V) if widen is None else widen(specimen, V)
+    stated: Nuisances = nuisances_of(specimen, wide, has_phase=False)
+    each = tuple(n for n in stated.each if n.kind in PLATE or n.kind == "damping")
+    return Member(table, specimen, wide, replace(stated, each=each))
+
+
+def own_motions(plate: Plate, count: int) -> Array:
+    """Real modes at a few moduli, orthonormal by mass. Shape (n, k)."""
+    moduli = MODULI_PA if plate.specimen.core is not None else (0.0,)
+    count = min(count, plate.size - 8)
+    shapes = np.hstack([real_modes(plate, G, count).shapes for G in moduli])
+    values, vectors = la.eigh(shapes.T @ (plate.M @ shapes))
+    kept = values > _INDEPENDENT * values[-1]
+    return np.asarray(shapes @ (vectors[:, kept] / np.sqrt(values[kept])))
+
+
+def _plain(plate: Plate, V: Array) -> EnrichedReducedPlate:
+    """A plate that nothing but what is stated changes."""
+    s, k = plate.specimen, V.shape[1]
+    assert s.pickup_m is not None
+    damping = viscous_damping(plate)
+    modes = len(s.modal_ratios)
+    U, d = np.zeros((k, modes)), np.zeros(modes)
+    U[:, damping.mode], d[damping.mode] = V.T @ damping.U, damping.d
+    none = np.zeros(0, dtype=str)
+    return EnrichedReducedPlate(
+        group=np.full(k, "plate"),
+        M=V.T @ (plate.M @ V),
+        K_0=np.asarray(V.T @ (plate.K_0 @ V), dtype=complex),
+        K_1=V.T @ (plate.K_1 @ V),
+        U=U,
+        d=d,
+        load=np.zeros(k),
+        pitch=np.zeros(k),
+        observe=V.T @ plate.observe(*s.pickup_m),
+        gram=np.eye(k),
+        names=none,
+        matrices=np.zeros((0, k, k)),
+        vector_names=none,
+        vectors=np.zeros((0, k)),
+        deflection=plate.on_nodes(V)[:, [W, THETA_X, THETA_Y]],
+        size=np.array([s.length_m, s.width_m, *s.mesh], dtype=float),
+        pickup=np.array(s.pickup_m),
+        parts=projected_parts(plate, V),
+        load_part=V.T @ load_part(s)[plate.free],
+        layers=layers_of(s),
+    )

@@ -1,0 +1,142 @@
+"""A law from tables of modes: natural frequency and loss factor of each mode of each specimen.
+
+One posterior as for sweeps: ln f and ln eta over their standard deviations, stated numbers over their
+tolerances, the law's bend. Stated numbers of the same thing in several specimens are one number.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from fitting.arrays import Array
+from fitting.bent_law import BentLaw
+from fitting.diagnosis.begin import within_search
+from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.refit import ROUGH, Refitted, posterior, refit
+from fitting.errors import OutsideModel, TooFewPoints
+from fitting.identification.adjusted import Adjusted
+from fitting.identification.uncertainty import Uncertainty, limits_reached
+from fitting.laws import CoreLaw
+from fitting.mode_tables.build import member_of
+from fitting.mode_tables.problem import ModalProblem
+from fitting.mode_tables.table import ModalTable
+from fitting.structures import AnySpecimen
+
+_SOFTER_AND_STIFFER = (1.0, 0.2, 5.0)
+"""Times the modulus of the law that is begun with: modes count, so a start far off may count them wrongly."""
+_ROUNDS = 4
+
+
+@dataclass(frozen=True)
+class ModalFit:
+    """What was found, mode by mode."""
+
+    law: CoreLaw
+    """With its bend."""
+    uncertainty: Uncertainty
+    predicted_hz: tuple[Array, ...]
+    predicted_loss: tuple[Array, ...]
+    adjusted: tuple[Adjusted, ...]
+    evaluations: int
+    converged: bool
+
+
+@dataclass(frozen=True)
+class BegunModal:
+    """The fit without any effect."""
+
+    problem: ModalProblem
+    evidence: Evidence
+    none: Refitted
+
+
+def fit_modes(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> ModalFit:
+    """The law of all tables. Raises `TooFewPoints`, `OutsideModel`."""
+    problem = ModalProblem.of([member_of(t, s) for t, s in zip(tables, specimens, strict=True)])
+    return modal_fit_of(begin_modal(problem, start_of(tables, specimens)))
+
+
+def begin_modal(problem: ModalProblem, start: CoreLaw, *, scale_known: bool = True) -> BegunModal:
+    """The best law without any effect. Raises `TooFewPoints`, `OutsideModel`."""
+    count = 2 * len(problem.frequency_hz)
+    if count <= len(start.plain.names):
+        raise TooFewPoints(
+            f"{count} numbers cannot carry the {len(start.plain.names)} parameters of {start.kind}"
+        )
+    u = np.zeros(len(problem.each))
+    none, problem = _roughly(problem, start, u)
+    for _ in range(_ROUNDS):
+        evidence = problem.evidence(scale_known=scale_known)
+        before = none.law.modulus(2 * np.pi * problem.frequency_hz)
+        none = refit(problem.response(), evidence, none.law, none.u)
+        after = none.law.modulus(2 * np.pi * problem.frequency_hz)
+        if none.converged and np.max(np.abs(after / before - 1)) < ROUGH:
+            break
+        problem = problem.around(none.law)
+    return BegunModal(problem, evidence, none)
+
+
+def _roughly(problem: ModalProblem, start: CoreLaw, u: Array) -> tuple[Refitted, ModalProblem]:
+    omega = 2 * np.pi * problem.frequency_hz
+    found = []
+    for factor in _SOFTER_AND_STIFFER:
+        law = scaled(start, factor)
+        here = problem.around(law)
+        evidence = here.evidence().blunt()
+        try:
+            rough = refit(here.response(), evidence, law, u, tolerance=ROUGH)
+        except OutsideModel:
+            continue
+        found.append((rough.chi2, rough))
+    if not found:
+        raise OutsideModel(
+            "the table has a mode that the model has not, expected modes from 1, rigid ones left out"
+        )
+    best = min(found, key=lambda one: one[0])[1]
+    law = best.law
+    plain = within_search(law.plain, omega)
+    if plain is not law.plain and isinstance(law, BentLaw):
+        law = BentLaw.over(plain, problem.frequency_hz)
+    problem = problem.around(law)
+    return refit(problem.response(), problem.evidence(), law, best.u, tolerance=ROUGH), problem
+
+
+def scaled(law: CoreLaw, factor: float) -> CoreLaw:
+    """The law with so many times its modulus, within its limits."""
+    by = np.array([factor if name.endswith("_pa") else 1.0 for name in law.names])
+    return law.with_logs(np.log(law.values * by))
+
+
+def start_of(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> CoreLaw:
+    """What the fit begins with. Raises `OutsideModel`."""
+    cores = [s.core for s in specimens if s.core is not None]
+    if len(cores) < len(specimens):
+        raise OutsideModel("a bare specimen has no core to identify, expected a core in every one")
+    frequency_hz = np.concatenate([t.frequency_hz for t in tables])
+    law = cores[0].law.to_fit(frequency_hz).lifted()
+    if all(s.exact for s in specimens):
+        return law
+    return BentLaw.over(law, frequency_hz)
+
+
+def modal_fit_of(begun: BegunModal, fitted: Refitted | None = None) -> ModalFit:
+    """What is said of a fit; the one without effects by default."""
+    problem = begun.problem
+    fitted = fitted or begun.none
+    response = problem.response(fitted.effects)
+    C = posterior(response, begun.evidence, fitted)
+    n = len(fitted.law.names)
+    errors = np.sqrt(np.maximum(np.diag(C)[n : n + fitted.stated], 0))
+    logs = fitted.velocity_m_s
+    kappa = np.concatenate([m.kappa for m in problem.members])
+    f, eta = np.exp(logs.real), np.exp(logs.imag / kappa)
+    return ModalFit(
+        fitted.law,
+        Uncertainty(C[:n, :n], limits_reached(fitted.law), fitted.chi2_per_dof),
+        tuple(f[part] for part in problem.parts),
+        tuple(eta[part] for part in problem.parts),
+        problem.adjusted(fitted.z, errors),
+        fitted.evaluations,
+        fitted.converged,
+    )

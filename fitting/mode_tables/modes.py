@@ -1,0 +1,110 @@
+"""Complex modes of small dense matrices, the law and the viscous damping at each mode's own frequency.
+
+    (K_0 + G*(omega_r) K_1 + i omega_r C_1) y = lambda M y,   omega_r = sqrt(Re lambda),   y^T M y = 1
+
+A widened plate has a hundred columns and more: its modes are sought among its real ones, then corrected on
+all columns.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.linalg as la
+
+from fitting.arrays import Array, Complex
+from fitting.complex_modes import ComplexMode
+from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.laws import CoreLaw
+
+_SPARE = 14
+"""Real modes beyond those asked for, among which complex ones are sought."""
+_STEPS, _SETTLED = 60, 1e-9
+_CORRECTIONS = 6
+_RIGID = 1e-6
+"""Of the median eigenvalue: below it a mode is rigid."""
+
+
+@dataclass(frozen=True)
+class ModalMatrices:
+    """Of one equation. Shape (k, k) each."""
+
+    K_0: Complex
+    K_1: Array
+    M: Array
+    C_1: Array
+
+    @classmethod
+    def of(cls, system: EnrichedReducedPlate, change: Change) -> "ModalMatrices":
+        """A structure with something changed."""
+        C_1 = (system.U * (system.d * change.damping)) @ system.U.T
+        return cls(system.K_0 + change.K, system.K_1 + change.K_1, system.M + change.M, C_1)
+
+    def on(self, V: Array) -> "ModalMatrices":
+        """On the combinations V of the columns. Shape (k, few)."""
+        return ModalMatrices(V.T @ self.K_0 @ V, V.T @ self.K_1 @ V, V.T @ self.M @ V, V.T @ self.C_1 @ V)
+
+    def stiffness(self, G: complex, omega: float) -> Complex:
+        """K_0 + G* K_1 + i omega C_1. Shape (k, k)."""
+        return np.asarray(self.K_0 + G * self.K_1 + 1j * omega * self.C_1)
+
+
+def modes_of(A: ModalMatrices, law: CoreLaw, count: int, near_hz: float) -> list[ComplexMode]:
+    """The first `count` elastic modes, fewer where there are fewer; `near_hz` is a guess of the first."""
+
+    def modulus(omega: float) -> complex:
+        return complex(law.modulus(np.array([omega]))[0])
+
+    if len(A.M) <= count + 2 * _SPARE:
+        return _by_fixed_point(A, modulus, count, near_hz)
+    G = abs(modulus(2 * np.pi * near_hz))
+    _, V = la.eigh(A.K_0.real + G * A.K_1, A.M, subset_by_index=[0, count + _SPARE - 1])
+    found = _by_fixed_point(A.on(V), modulus, count, near_hz)
+    return [_corrected(A, modulus, ComplexMode(m.eigenvalue, V @ m.shape)) for m in found]
+
+
+def _by_fixed_point(
+    A: ModalMatrices, modulus: Callable[[float], complex], count: int, near_hz: float
+) -> list[ComplexMode]:
+    # M = L L^T: an ordinary problem is solved several times faster.
+    back = la.inv(la.cholesky(A.M, lower=True)).T
+    turned = A.on(back)
+
+    def elastic(omega: float) -> tuple[Complex, Complex]:
+        values, vectors = np.linalg.eig(turned.stiffness(modulus(omega), omega))
+        order = np.argsort(values.real)
+        order = order[values.real[order] > _RIGID * np.median(np.abs(values))]
+        return np.asarray(values[order]), vectors[:, order]
+
+    modes: list[ComplexMode] = []
+    omega = 2 * np.pi * near_hz
+    for k in range(min(count, len(elastic(omega)[0]))):
+        for _ in range(_STEPS):
+            values, shapes = elastic(omega)
+            # A softer guess may have made one more motion rigid.
+            at = min(k, len(values) - 1)
+            found = float(np.sqrt(values[at].real))
+            settled = abs(found - omega) < _SETTLED * found
+            omega = found
+            if settled:
+                break
+        y = back @ shapes[:, at]
+        modes.append(ComplexMode(complex(values[at]), y / np.sqrt(y @ (A.M @ y))))
+    return modes
+
+
+def _corrected(A: ModalMatrices, modulus: Callable[[float], complex], mode: ComplexMode) -> ComplexMode:
+    """Rayleigh quotient iteration on all columns."""
+    value, y = mode.eigenvalue, mode.shape
+    for _ in range(_CORRECTIONS):
+        omega = float(np.sqrt(value.real))
+        K = A.stiffness(modulus(omega), omega)
+        y = np.asarray(np.linalg.solve(K - value * (1 + 1e-8) * A.M, A.M @ y), complex)
+        y /= np.sqrt(y @ (A.M @ y))
+        new = complex(y @ (K @ y))
+        settled = abs(new / value - 1) < _SETTLED
+        value = new
+        if settled:
+            break
+    return ComplexMode(value, y)

@@ -1,0 +1,153 @@
+"""Tables and specimens under one law, as the machinery of a sweep's fit takes them."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.arrays import Array, Complex
+from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.of_files import OfFiles
+from fitting.diagnosis.response import STATED_NUMBER, SweepResponse
+from fitting.effects.base import Effect
+from fitting.identification.adjusted import Adjusted, adjusted
+from fitting.laws import CoreLaw
+from fitting.mode_tables.build import with_own_error
+from fitting.mode_tables.member import Member
+from fitting.nuisances import Nuisance, Nuisances
+
+OF_EACH_TABLE = ("mass", "length", "width", "damping")
+"""Kinds of stated numbers that are another one in every table, though they are stated alike."""
+_STEP = 1e-4
+"""Of differences, of an unknown's typical size."""
+
+
+@dataclass(frozen=True)
+class ModalProblem:
+    """Members side by side."""
+
+    members: tuple[Member, ...]
+    each: tuple[Nuisance, ...]
+    """The stated numbers, those of the same thing once."""
+    places: tuple[NDArray[np.intp], ...]
+    """Of every member's own among them."""
+
+    @classmethod
+    def of(cls, members: Sequence[Member]) -> "ModalProblem":
+        """Numbers that are stated alike, value and tolerance, are one."""
+        each: list[Nuisance] = []
+        keys: dict[tuple[object, ...], int] = {}
+        places = []
+        for k, m in enumerate(members):
+            at = []
+            for n in m.stated.each:
+                apart = n.kind in OF_EACH_TABLE and len(members) > 1
+                stated = _as_stated(m, n).stated
+                key: tuple[object, ...] = (n.name, k) if apart else (n.name, n.sigma, stated)
+                if key not in keys:
+                    keys[key] = len(each)
+                    each.append(replace(n, name=f"{n.name} [{k + 1}]") if apart else n)
+                at.append(keys[key])
+            places.append(np.array(at, dtype=np.intp))
+        return cls(tuple(members), tuple(each), tuple(places))
+
+    @property
+    def frequency_hz(self) -> Array:
+        """Of all modes. Shape (modes,)."""
+        return np.concatenate([m.table.frequency_hz for m in self.members])
+
+    @property
+    def parts(self) -> list[slice]:
+        """Where each member's modes are."""
+        ends = np.cumsum([len(m.table.mode) for m in self.members])
+        return [slice(int(e) - len(m.table.mode), int(e)) for e, m in zip(ends, self.members, strict=True)]
+
+    @property
+    def scale_known(self) -> bool:
+        """Whether every table states how well its numbers are known."""
+        return all(m.table.states_its_noise for m in self.members)
+
+    def around(self, law: CoreLaw) -> "ModalProblem":
+        """With the members' own errors at a law."""
+        return replace(self, members=tuple(with_own_error(m, law) for m in self.members))
+
+    def evidence(self, *, scale_known: bool = True) -> Evidence:
+        """The readings and what each is worth, ln f + i kappa ln eta."""
+        measured = np.concatenate([m.measured for m in self.members])
+        sigma = np.concatenate([m.std[0] for m in self.members])
+        return Evidence(measured, sigma, sigma, np.zeros((2 * len(sigma), 1)), scale_known)
+
+    def response(self, effects: Sequence[Effect] = ()) -> "ModalResponse":
+        """What the modes are under some effects."""
+        return ModalResponse(self, effects)
+
+    def adjusted(self, z: Array, errors: Array) -> tuple[Adjusted, ...]:
+        """The stated numbers as a fit has them, in standard deviations. Shape (stated numbers,) each."""
+        found = []
+        for k, one in enumerate(self.each):
+            owner = next(m for m, at in zip(self.members, self.places, strict=True) if k in at)
+            plain = replace(one, name=one.name.split(" [")[0])
+            (as_found,) = adjusted(owner.specimen, [plain], z[k : k + 1], errors[k : k + 1])
+            found.append(replace(as_found, name=one.name))
+        return tuple(found)
+
+
+class ModalResponse(SweepResponse):
+    """Modes of all members in the place of phasors."""
+
+    def __init__(self, problem: ModalProblem, effects: Sequence[Effect]) -> None:
+        self.modal, self.effects = problem, tuple(effects)
+        self.plate = problem.members[0].system(_inner(effects))
+        self.nuisances = Nuisances(problem.members[0].stated.specimen, problem.each)
+        count = len(problem.each)
+        self.parameters = (*(STATED_NUMBER,) * count, *(q for e in effects for q in e.parameters))
+        self._starts = count + np.cumsum([0, *(len(e.parameters) for e in effects)])
+
+    def velocity(self, law: CoreLaw, u: Array) -> Complex:
+        """Ln f + i kappa ln eta, member after member. Shape (modes,)."""
+        found = []
+        for k, (m, at) in enumerate(zip(self.modal.members, self.modal.places, strict=True)):
+            acting = [(e, u[part]) for e, part in self._acting(k)]
+            found.append(m.logs(m.modes(law, u[at], acting)))
+        return np.concatenate(found)
+
+    def with_derivatives(self, law: CoreLaw, u: Array) -> tuple[Complex, Complex]:
+        """The same, and derivatives to the law's log parameters and to `u`. Shape (numbers, modes)."""
+        n = len(law.names)
+        found, rows = [], np.zeros((n + len(u), len(self.modal.frequency_hz)), complex)
+        every = zip(self.modal.members, self.modal.places, self.modal.parts, strict=True)
+        for k, (m, at, here) in enumerate(every):
+            acting = [(e, part) for e, part in self._acting(k)]
+            steps = [self._steps(part, u) for _, part in acting]
+            v, dv = m.with_derivatives(law, u[at], [(e, u[part]) for e, part in acting], steps)
+            found.append(v)
+            where = np.concatenate([at, *(part for _, part in acting)]).astype(np.intp)
+            rows[:n, here] = dv[:n]
+            rows[n + where, here] = dv[n:]
+        return np.concatenate(found), rows
+
+    def _acting(self, k: int) -> list[tuple[Effect, NDArray[np.intp]]]:
+        """Effects on a member that change its matrices, and the places of their unknowns."""
+        found = []
+        for e, start in zip(self.effects, self._starts, strict=False):
+            of = e.inner if isinstance(e, OfFiles) else e
+            if (not isinstance(e, OfFiles) or e.file in (0, k + 1)) and not of.replaces_law:
+                found.append((of, int(start) + np.arange(len(of.parameters))))
+        return found
+
+    def _steps(self, part: NDArray[np.intp], u: Array) -> Array:
+        q = [self.parameters[n] for n in part]
+        return np.array(
+            [_STEP * (abs(u[n]) if p.logarithmic else p.typical or 1.0) for n, p in zip(part, q, strict=True)]
+        )
+
+
+def _inner(effects: Sequence[Effect]) -> list[Effect]:
+    return [e.inner if isinstance(e, OfFiles) else e for e in effects]
+
+
+def _as_stated(member: Member, one: Nuisance) -> Adjusted:
+    nothing = np.zeros(1)
+    (found,) = adjusted(member.specimen, [one], nothing, nothing)
+    return found

@@ -1,0 +1,109 @@
+"""Tables of modes of plates that are 3D solids: neither matrices nor formulas of the fit's."""
+
+import json
+
+import numpy as np
+import pytest
+from mode_cases import TRUTH, read_off, solid_modes, stated
+
+from fitting.mode_tables.fit import fit_modes
+from instrument.cli.main import run
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", ["P8", "P5"])
+def test_six_modes_of_a_solid_plate_give_its_law_within_the_band(name):
+    # Of 15 cases (P1, P5, P8, five seeds each) 15 are within two standard errors, 12 within one.
+    modes = solid_modes(name)
+    for seed in (0, 3):
+        rng = np.random.default_rng([seed, 7])
+        found = fit_modes([read_off(modes, rng)], [stated(name, rng)])
+        omega = 2 * np.pi * np.geomspace(modes[0][0], modes[0][-1], 9)
+        G, eta = found.law.storage_and_loss(omega)
+        G_error, eta_error = found.uncertainty.law_band(found.law, omega)
+        true = TRUTH.modulus(omega)
+        assert np.sqrt(np.mean(((G - true.real) / G_error) ** 2)) < 2
+        assert np.sqrt(np.mean(((eta - true.imag / true.real) / eta_error) ** 2)) < 2
+        # A band that covers by being useless would be no success.
+        assert np.mean(G_error / G) < 0.08
+        assert np.mean(eta_error / eta) < 0.06
+
+
+PLATE = """
+[plate]
+length_mm = 300.0
+width_mm = 200.0
+boundary = "cantilever"
+[substrate]
+thickness_mm = 2.0
+young_gpa = 69.0
+poisson = 0.3
+density_kg_m3 = 2700.0
+[constraining]
+thickness_mm = 0.5
+young_gpa = 69.0
+poisson = 0.3
+density_kg_m3 = 2700.0
+[core]
+thickness_mm = 0.5
+poisson = 0.49
+density_kg_m3 = 1000.0
+[core.law]
+kind = "fractional-zener"
+g0_mpa = 0.4
+ginf_mpa = 8.0
+tau_s = 1.0e-4
+alpha = 0.7
+[mesh]
+elements_x = 12
+elements_y = 8
+"""
+
+
+@pytest.fixture
+def table(tmp_path):
+    """The plate's own modes, its file, and a table of them."""
+    (tmp_path / "plate.toml").write_text(PLATE)
+    assert (
+        run(["modes", str(tmp_path / "plate.toml"), "--count", "6", "--json", str(tmp_path / "m.json")]) == 0
+    )
+    modes = json.loads((tmp_path / "m.json").read_text())["modes"]
+    rows = [f"{k + 1},{m['frequency_hz']!r},{m['loss_factor']!r},23.5" for k, m in enumerate(modes)]
+    (tmp_path / "modes.csv").write_text(
+        "\n".join(["mode,frequency_hz,loss_factor,temperature_c", *rows]) + "\n"
+    )
+    return tmp_path
+
+
+def test_identify_takes_a_plate_s_table_without_a_pickup(table):
+    out = table / "out.json"
+    words = ["identify", str(table / "modes.csv"), "--specimen", str(table / "plate.toml")]
+    assert run([*words, "--json", str(out)]) == 0
+    found = json.loads(out.read_text())
+    assert all(m["predicted_hz"] == pytest.approx(m["frequency_hz"], rel=1e-3) for m in found["modes"])
+    assert found["parameters"]["g0_pa"] == pytest.approx(0.4e6, rel=0.1)
+    assert found["temperature_c"] == 23.5
+    assert any("errors of the modes are not stated" in w for w in found["warnings"])
+    assert {"length", "substrate_young"} <= {one["name"] for one in found["adjusted"]}
+
+
+FAULTS = {
+    "order": ("mode,frequency_hz,loss_factor\n1,50,0.1\n2,40,0.1\n", "mode 2 lies below an earlier one"),
+    "twice": ("mode,frequency_hz,loss_factor\n1,50,0.1\n1,60,0.1\n", "mode 1 stands twice"),
+}
+
+
+@pytest.mark.parametrize(("text", "said"), FAULTS.values(), ids=FAULTS)
+def test_a_table_out_of_order_is_refused(table, capsys, text, said):
+    (table / "modes.csv").write_text(text)
+    assert run(["identify", str(table / "modes.csv"), "--specimen", str(table / "plate.toml")]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_a_table_beside_a_sweep_is_refused(table, capsys):
+    (table / "sweep.csv").write_text("frequency_hz,velocity_m_s\n10,1\n")
+    files = [str(table / name) for name in ("modes.csv", "sweep.csv")]
+    assert run(["identify", *files, "--specimen", str(table / "plate.toml")]) == 2
+    assert "tables of modes beside other data" in capsys.readouterr().err
+    assert run(["identify", files[0]]) == 2
+    assert "--specimen" in capsys.readouterr().err
