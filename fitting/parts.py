@@ -78,7 +78,10 @@ def load_part(reference: Specimen) -> Array:
 
 
 def moving_part(reference: Specimen) -> Array:
-    """`load_part` where the base drives the plate; a force at a point does not go with any part."""
+    """`load_part` where the base drives the plate; a force at a point does not go with any part.
+
+    Shape as `load_part`.
+    """
     return load_part(reference) if reference.drive == "base" else np.zeros_like(load_part(reference))
 
 

@@ -207,7 +207,10 @@ class Plate:
 
     @cached_property
     def load(self) -> Array:
-        """Of a unit of what drives it: base acceleration in m/s^2, or a force in N. Shape (n,)."""
+        """Of a unit of what drives it: base acceleration in m/s^2, or a force in N. Shape (n,).
+
+        Raises `OutsideModel` for a force on a held edge.
+        """
         force_m = self.specimen.force_m
         if force_m is None:
             return self.base_load

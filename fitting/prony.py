@@ -77,7 +77,10 @@ def fit_prony(
 
 
 def series_of(modulus: Callable[[Array], Complex], low_hz: float, high_hz: float, terms: int) -> Prony:
-    """The nearest series of at most `terms` terms with times on a coarse grid: where a fit may begin."""
+    """The nearest series of at most `terms` terms with times on a coarse grid: where a fit may begin.
+
+    `modulus`: rad/s to Pa, shape (n,) both.
+    """
     omega = 2 * np.pi * np.geomspace(low_hz, high_hz, _FEW_POINTS)
     G = modulus(omega)
     tau = np.geomspace(1 / (_FEW_REACH * omega[-1]), _FEW_REACH / omega[0], _FEW_TIMES)

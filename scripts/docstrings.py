@@ -28,10 +28,9 @@ Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 
 @dataclass(frozen=True)
-class Place:
-    """A class and where it is written."""
+class Class:
+    """A class as it is written."""
 
-    file: str
     node: ast.ClassDef
 
     @property
@@ -58,12 +57,8 @@ def missing(root: Path) -> list[str]:
         for room in ROOMS
         for file in sorted(root.glob(f"{room}/**/*.py"))
     }
-    classes = {
-        node.name: Place(file, node)
-        for file, tree in trees.items()
-        for node in ast.walk(tree)
-        if isinstance(node, ast.ClassDef)
-    }
+    walked = (node for tree in trees.values() for node in ast.walk(tree))
+    classes = {node.name: Class(node) for node in walked if isinstance(node, ast.ClassDef)}
     return [
         f"{file}:{node.lineno}: {node.name} {complaint}"
         for file, tree in trees.items()
@@ -73,15 +68,15 @@ def missing(root: Path) -> list[str]:
     ]
 
 
-def _public(body: list[ast.stmt], owner: str = "") -> Iterator[tuple[Function, str]]:
+def _public(body: list[ast.stmt], owner: Class | None = None) -> Iterator[tuple[Function, Class | None]]:
     for node in body:
         if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
-            yield from _public(node.body, node.name)
+            yield from _public(node.body, Class(node))
         elif isinstance(node, Function) and not node.name.startswith("_"):
             yield node, owner
 
 
-def _complaints(node: Function, owner: str, classes: dict[str, Place]) -> Iterator[str]:
+def _complaints(node: Function, owner: Class | None, classes: dict[str, Class]) -> Iterator[str]:
     if any(re.search(r"overload|command", ast.unparse(decorator)) for decorator in node.decorator_list):
         return  # a command's docstring is its --help
     signature = f"{ast.unparse(node.args)} -> {ast.unparse(node.returns) if node.returns else ''}"
@@ -92,28 +87,28 @@ def _complaints(node: Function, owner: str, classes: dict[str, Place]) -> Iterat
         yield f"does not say that it raises {', '.join(raised)}"
 
 
-def _stated(what: re.Pattern[str], node: Function, owner: str, classes: dict[str, Place]) -> bool:
-    own = [node, classes[owner].node] if owner else [node]
+def _stated(what: re.Pattern[str], node: Function, owner: Class | None, classes: dict[str, Class]) -> bool:
+    own = [node, owner.node] if owner else [node]
     places = chain(own, _overridden(node.name, owner, classes) if owner else ())
     return any(what.search(ast.get_docstring(place) or "") for place in places)
 
 
-def _overridden(name: str, owner: str, classes: dict[str, Place]) -> Iterator[Function]:
+def _overridden(name: str, owner: Class, classes: dict[str, Class]) -> Iterator[Function]:
     """The methods of this name in what a class is derived from, and in the protocols that it fits."""
     ancestors = list(_ancestors(owner, classes))
-    members = {member for each in (owner, *ancestors) for member in classes[each].members}
-    protocols = (each for each, place in classes.items() if "Protocol" in place.bases)
-    for each in chain(ancestors, (p for p in protocols if name in classes[p].members <= members)):
-        method = classes[each].method(name)
+    members = {member for each in (owner, *ancestors) for member in each.members}
+    protocols = (each for each in classes.values() if "Protocol" in each.bases)
+    for each in chain(ancestors, (p for p in protocols if name in p.members <= members)):
+        method = each.method(name)
         if method is not None:
             yield method
 
 
-def _ancestors(owner: str, classes: dict[str, Place]) -> Iterator[str]:
-    for base in classes[owner].bases:
+def _ancestors(owner: Class, classes: dict[str, Class]) -> Iterator[Class]:
+    for base in owner.bases:
         if base in classes:
-            yield base
-            yield from _ancestors(base, classes)
+            yield classes[base]
+            yield from _ancestors(classes[base], classes)
 
 
 def _raised(node: Function) -> Iterator[str]:

@@ -13,7 +13,10 @@ _WORTH_SAYING = 0.97
 
 
 def limited_by(s: Sensitivity, aims: Aims, taken: Array, each: Sequence[Nuisance]) -> list[tuple[str, float]]:
-    """Stated numbers, each with the worst relative error left if it were exact, best first. `taken`: shape (candidates,)."""
+    """Stated numbers, each with the worst relative error left if it were exact, best first.
+
+    `taken`: shape (candidates,).
+    """
     C = s.covariance(taken)
     now, found = float(aims.errors(C).max()), []
     for k, nuisance in enumerate(each):

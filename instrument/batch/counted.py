@@ -3,10 +3,11 @@
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Any
+from pathlib import Path
 
 from instrument.batch.columns import NOT_DIAGNOSED
 from instrument.batch.run import BatchRow
+from instrument.facts.batch import BatchFailure, BatchResult
 
 
 @dataclass
@@ -38,14 +39,16 @@ class Counted:
             found.effects.update(o["effects"])
         return found
 
-    def facts(self) -> dict[str, Any]:
-        """For the JSON."""
-        return {
-            "rows": self.rows,
-            "done": self.done,
-            "failed": len(self.failures),
-            "verdicts": dict(self.verdicts),
-            "effects": dict(self.effects.most_common()),
-            "borrowed_models": self.borrowed,
-            "failures": [{"data": data, "reason": why} for data, why in self.failures],
-        }
+    def result(self, known_before: int, files: Iterable[Path]) -> BatchResult:
+        """As JSON has it."""
+        return BatchResult(
+            rows=self.rows,
+            done=self.done,
+            failed=len(self.failures),
+            verdicts=dict(self.verdicts),
+            effects=dict(self.effects.most_common()),
+            borrowed_models=self.borrowed,
+            failures=tuple(BatchFailure(data=data, reason=why) for data, why in self.failures),
+            known_before=known_before,
+            files=tuple(str(path) for path in files),
+        )

@@ -81,7 +81,7 @@ def batch(
     _say(out, counted, repeated)
     for path in written:
         out.say(f"wrote {path}")
-    out.result({**counted.facts(), "known_before": repeated, "files": [str(path) for path in written]})
+    out.result(counted.result(repeated, written))
 
 
 def _say(out: Output, counted: Counted, repeated: int) -> None:

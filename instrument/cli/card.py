@@ -7,7 +7,7 @@ import click
 
 from instrument.cards.card import Card
 from instrument.cards.formats import FORMATS
-from instrument.cards.plain import card_facts
+from instrument.cards.plain import card_result
 from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
@@ -69,4 +69,4 @@ def card(
         output.say(line)
     output.say(made.about_series())
     output.say(f"wrote {path}")
-    output.result({**card_facts(made), "card": str(path)})
+    output.result(card_result(made).but(card=str(path)))

@@ -2,17 +2,17 @@
 
 from itertools import combinations
 from pathlib import Path
-from typing import Any
 
 import click
 import numpy as np
 
 from instrument.cli.options import json_option
 from instrument.cli.output import Output
-from instrument.material.comparing import LEVEL, Comparison, comparison_facts
+from instrument.facts.comparison import CompareResult
+from instrument.material.comparing import LEVEL, Comparison, compared_pair
 from instrument.material.comparing import compare as compare_laws
 from instrument.material.found_law import read_law
-from instrument.material.spread import spread_facts, spread_of
+from instrument.material.spread import spread_of, spread_result
 from instrument.progress import bar
 
 _SAYS = {True: "differ", False: "agree", None: "cannot be told"}
@@ -50,13 +50,14 @@ def compare(files: tuple[Path, ...], with_spread: bool, json_path: str | None) -
             ranges = ", ".join(f"{low:.4g} to {high:.4g} Hz" for low, high in c.where(z))
             if ranges:
                 out.say(f"{a} and {b}: {what} differs beyond 1.96 joint standard errors at {ranges}")
-    facts = [{**comparison_facts(c), "a": a, "b": b} for (a, b), c in zip(pairs, found, strict=True)]
-    said: dict[str, Any] = {"pairs": facts}
+    result = CompareResult(
+        pairs=tuple(compared_pair(c, a, b) for (a, b), c in zip(pairs, found, strict=True))
+    )
     if with_spread:
         spread = spread_of(laws)
         out.say(spread.words)
-        said["spread"] = spread_facts(spread)
-    out.result(said)
+        result = result.but(spread=spread_result(spread))
+    out.result(result)
 
 
 def _names(files: tuple[Path, ...]) -> list[str]:

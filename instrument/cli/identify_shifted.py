@@ -14,8 +14,8 @@ from instrument.interchange.given import Given
 from instrument.models.temperatures import AtTemperature, Shifted
 from instrument.models.temperatures import identify_shifted as identify_at_temperatures
 from instrument.progress import bar
-from instrument.results.shifted_facts import shifted_facts
 from instrument.results.shifted_figures import save_shifted_figures
+from instrument.results.shifted_from import shifted_from
 
 _ROWS = 9
 
@@ -47,9 +47,9 @@ def identify_shifted(
             out.say(f"saved {path}")
     if found.verdict.simple is False:
         raise OutsideModel(found.verdict.words)
-    facts = shifted_facts(found, sweeps)
+    result = shifted_from(found, sweeps)
     _print(out, found, sweeps)
-    out.result(facts)
+    out.result(result)
 
 
 def _print(out: Output, found: Shifted, sweeps: Sequence[AtTemperature]) -> None:

@@ -6,6 +6,7 @@ import click
 
 from instrument.cli.options import json_option
 from instrument.cli.output import Output
+from instrument.facts.written import NewResult
 from instrument.files.new_file import TEMPLATES, write_new
 
 
@@ -18,4 +19,4 @@ def new(kind: str, path: Path | None, json_path: str | None) -> None:
     out = Output(json_path)
     where = write_new(kind, path)
     out.say(f"wrote {where}")
-    out.result({"kind": kind, "path": str(where)})
+    out.result(NewResult(kind=kind, path=str(where)))

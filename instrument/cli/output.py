@@ -2,7 +2,6 @@
 
 import json
 import math
-from collections.abc import Mapping
 from pathlib import Path
 
 import click
@@ -11,7 +10,6 @@ from rich.table import Table
 
 from instrument.errors import BadInput
 from instrument.facts.result import Result
-from instrument.stream.jsonable import to_jsonable
 
 
 class Output:
@@ -42,15 +40,14 @@ class Output:
             table
         )
 
-    def result(self, found: Result | Mapping[str, object]) -> None:
+    def result(self, found: Result) -> None:
         """The facts as JSON, where they were asked for.
 
         Raises `BadInput` where the file cannot be written.
         """
         if self._json_path is None:
             return
-        facts = found.as_json() if isinstance(found, Result) else to_jsonable(dict(found))
-        text = json.dumps(facts, indent=1, allow_nan=False)
+        text = json.dumps(found.as_json(), indent=1, allow_nan=False)
         if self._json_path == "-":
             click.echo(text)
             return

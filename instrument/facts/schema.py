@@ -6,8 +6,11 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from instrument.facts.batch import BatchResult
 from instrument.facts.bench import BenchResult
+from instrument.facts.card import CardResult
 from instrument.facts.check import CheckResult
+from instrument.facts.comparison import CompareResult
 from instrument.facts.damping import DampingResult
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.identification import IdentificationResult
@@ -17,18 +20,24 @@ from instrument.facts.plan import PlanResult
 from instrument.facts.prediction import PredictionResult
 from instrument.facts.result import Result
 from instrument.facts.run import ReplayResult, RunResult
-from instrument.facts.written import ExportResult, ImportResult, RecoverResult, ReportResult
+from instrument.facts.shifted import ShiftedResult
+from instrument.facts.written import ExportResult, ImportResult, NewResult, RecoverResult, ReportResult
 
 RESULTS: dict[str, type[Result]] = {
+    "batch": BatchResult,
     "bench": BenchResult,
+    "card": CardResult,
     "check": CheckResult,
+    "compare": CompareResult,
     "damping": DampingResult,
     "diagnose": DiagnosisResult,
     "export": ExportResult,
     "identify": IdentificationResult,
     "identify-modes": ModalResult,
+    "identify-shift": ShiftedResult,
     "import": ImportResult,
     "modes": ModesResult,
+    "new": NewResult,
     "plan": PlanResult,
     "predict": PredictionResult,
     "recover": RecoverResult,
@@ -36,7 +45,8 @@ RESULTS: dict[str, type[Result]] = {
     "report": ReportResult,
     "run": RunResult,
 }
-"""By command; `hammer`, `sweep`, `demo` say what `run` does; `identify-modes` is of tables of modes."""
+"""By command; `hammer`, `sweep`, `demo` say what `run` does; `identify-modes` is of tables of modes,
+`identify-shift` of `identify --shift`."""
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 

@@ -1,4 +1,4 @@
-"""The results of commands that write files: `viscorig export`, `import`, `report`, `recover`."""
+"""The results of commands that write files: `viscorig export`, `import`, `new`, `report`, `recover`."""
 
 from instrument.facts.result import Result
 from instrument.facts.session_result import SessionResult
@@ -20,6 +20,13 @@ class ImportResult(Result):
     files: tuple[str, ...]
     found: tuple[str, ...] = ()
     """What was in it, a line each."""
+
+
+class NewResult(Result):
+    """A commented file to start from."""
+
+    kind: str
+    path: str
 
 
 class ReportResult(Result):

@@ -1,13 +1,13 @@
 """Two laws over their common band: where they differ beyond what is known of both, and whether they do."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy.stats import chi2
 
 from fitting.arrays import Array, Mask
 from fitting.bent_law import REACH
+from instrument.facts.comparison import ComparedAt, ComparedPair
 from instrument.material.found_law import MaterialLaw
 
 SURELY = 1.96
@@ -81,33 +81,33 @@ def compare(a: MaterialLaw, b: MaterialLaw) -> Comparison:
     )
 
 
-def comparison_facts(c: Comparison) -> dict[str, Any]:
-    """As JSON has it."""
+def compared_pair(c: Comparison, a: str, b: str) -> ComparedPair:
+    """As JSON has it, under these names."""
     f = c.frequency_hz
     rows = zip(f, c.storage_difference, c.storage_z, c.loss_factor_difference, c.loss_factor_z, strict=True)
-    return {
-        "a": c.a.source,
-        "b": c.b.source,
-        "verdicts": [c.a.verdict, c.b.verdict],
-        "band_hz": [f[0], f[-1]] if len(f) else None,
-        "chi2": c.chi2,
-        "degrees_of_freedom": c.dof,
-        "p_value": c.p_value,
-        "differs": c.differs,
-        "covariance": c.covariance or None,
-        "storage_modulus_differs_hz": c.where(c.storage_z),
-        "loss_factor_differs_hz": c.where(c.loss_factor_z),
-        "frequencies": [
-            {
-                "frequency_hz": at,
-                "storage_modulus_difference_percent": 100 * dG,
-                "storage_modulus_z": zG,
-                "loss_factor_difference": de,
-                "loss_factor_z": ze,
-            }
+    return ComparedPair(
+        a=a,
+        b=b,
+        verdicts=(c.a.verdict, c.b.verdict),
+        band_hz=(f[0], f[-1]) if len(f) else None,
+        chi2=c.chi2,
+        degrees_of_freedom=c.dof,
+        p_value=c.p_value,
+        differs=c.differs,
+        covariance=c.covariance or None,
+        storage_modulus_differs_hz=tuple(c.where(c.storage_z)),
+        loss_factor_differs_hz=tuple(c.where(c.loss_factor_z)),
+        frequencies=tuple(
+            ComparedAt(
+                frequency_hz=at,
+                storage_modulus_difference_percent=100 * dG,
+                storage_modulus_z=zG,
+                loss_factor_difference=de,
+                loss_factor_z=ze,
+            )
             for at, dG, zG, de, ze in rows
-        ],
-    }
+        ),
+    )
 
 
 def covariance_of(law: MaterialLaw, frequency_hz: Array) -> Array:

@@ -9,12 +9,12 @@ frequency is asked for. tau is found by restricted maximum likelihood (Patterson
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from fitting.arrays import Array
 from instrument.errors import BadInput
+from instrument.facts.comparison import SpreadAt, SpreadResult, SpreadSize
 from instrument.material.comparing import RESOLUTION, covariance_of
 from instrument.material.found_law import MaterialLaw
 
@@ -132,26 +132,22 @@ def _size(profile: Array) -> Size:
     return Size(value, lower, upper)
 
 
-def spread_facts(found: Spread) -> dict[str, Any]:
+def spread_result(found: Spread) -> SpreadResult:
     """As JSON has it, a row a frequency."""
-    return {
-        "specimens": list(found.names),
-        "frequencies": [
-            {
-                "frequency_hz": float(f),
-                "storage_modulus_pa": float(found.storage_modulus_pa[k]),
-                "storage_modulus_standard_error_pa": float(
-                    found.storage_modulus_pa[k] * found.storage_error[k]
-                ),
-                "storage_modulus_spread": _said(found.storage[k]),
-                "loss_factor": float(found.loss_factor[k]),
-                "loss_factor_standard_error": float(found.loss_factor[k] * found.loss_factor_error[k]),
-                "loss_factor_spread": _said(found.loss[k]),
-            }
-            for k, f in enumerate(found.frequency_hz)
-        ],
-    }
+    rows = [
+        SpreadAt(
+            frequency_hz=f,
+            storage_modulus_pa=found.storage_modulus_pa[k],
+            storage_modulus_standard_error_pa=found.storage_modulus_pa[k] * found.storage_error[k],
+            storage_modulus_spread=_said(found.storage[k]),
+            loss_factor=found.loss_factor[k],
+            loss_factor_standard_error=found.loss_factor[k] * found.loss_factor_error[k],
+            loss_factor_spread=_said(found.loss[k]),
+        )
+        for k, f in enumerate(found.frequency_hz)
+    ]
+    return SpreadResult(specimens=found.names, frequencies=tuple(rows))
 
 
-def _said(s: Size) -> dict[str, Any]:
-    return {"percent": 100 * s.value, "interval_95_percent": [100 * s.lower, 100 * s.upper]}
+def _said(s: Size) -> SpreadSize:
+    return SpreadSize(percent=100 * s.value, interval_95_percent=(100 * s.lower, 100 * s.upper))

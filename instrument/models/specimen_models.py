@@ -70,7 +70,10 @@ class Models:
 
     @cached_property
     def real_modes(self) -> RealModePlate:
-        """The plate as the paper's response sees it."""
+        """The plate as the paper's response sees it.
+
+        Raises `OutsideModel` where that response does not hold.
+        """
         if self.specimen.drive == "force" or not self.specimen.only_even:
             raise OutsideModel("the paper's real modes need a base and long edges that are alike")
 

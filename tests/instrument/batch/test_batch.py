@@ -7,12 +7,14 @@ import re
 import pytest
 from batch_cases import CORRUPT, write_specimen, write_sweeps
 from diagnosed_session import diagnosed_session
+from json_schema import faults
 from pyarrow import parquet
 
 from instrument.batch.asking import tasks_of
 from instrument.batch.run import here, run_batch
 from instrument.cli.main import run
 from instrument.errors import BadInput
+from instrument.facts.schema import schema_of
 
 
 @pytest.fixture(scope="module")
@@ -40,6 +42,7 @@ def batch(*arguments):
 def test_a_corrupt_file_is_a_row_with_its_reason(tmp_path, sweeps, plate, capsys):
     assert batch(*sweeps, "--specimen", plate, "--out", tmp_path, "--json", "-") == 0
     said = json.loads(capsys.readouterr().out)
+    assert faults(said, schema_of("batch")) == []
     assert (said["rows"], said["done"], said["failed"]) == (4, 3, 1)
     assert said["verdicts"] == {"not diagnosed": 3}
     rows = rows_of(tmp_path)

@@ -5,6 +5,8 @@ import lzma
 from pathlib import Path
 
 import pytest
+from conftest import TABLE_4
+from found_law_cases import facts as law_facts
 from json_schema import faults
 from kept_numbers import KEPT, load
 
@@ -50,6 +52,29 @@ def test_a_result_is_as_its_schema_says(name):
     found, command = load(name)["facts"], KEPT_RESULTS[name]
     assert faults(found, schema_of(command)) == []
     assert not set(found) - set(RESULTS[command].model_fields)
+
+
+@pytest.mark.parametrize(
+    ("command", "arguments"),
+    [
+        ("card", ("a.json", "--to", "csv")),
+        ("card", ("none.json", "--to", "json")),
+        ("compare", ("a.json", "b.json")),
+        ("compare", ("a.json", "elsewhere.json")),
+        ("compare", ("a.json", "b.json", "c.json", "--spread")),
+        ("new", ("rig",)),
+    ],
+)
+def test_what_is_made_of_laws_is_as_its_schema_says(capsys, monkeypatch, tmp_path, command, arguments):
+    made = {"a": {}, "b": {"low": 20.0}, "c": {}, "elsewhere": {"low": 500.0, "high": 900.0}}
+    for name, how in made.items():
+        (tmp_path / f"{name}.json").write_text(json.dumps(law_facts(TABLE_4, **how)))
+    unknown = law_facts(TABLE_4) | {"standard_errors": dict.fromkeys(TABLE_4.names)}
+    (tmp_path / "none.json").write_text(json.dumps(unknown))
+    monkeypatch.chdir(tmp_path)
+    found = said(capsys, command, *arguments)
+    assert faults(found, schema_of(command)) == []
+    assert RESULTS[command].model_validate(found).as_json() == found
 
 
 @pytest.mark.parametrize("name", KEPT_RESULTS)

@@ -1,14 +1,17 @@
 """One law over five temperatures: shifts and law as they were made, and no law where there is none."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from json_schema import faults
 from temperature_cases import LAW, NOISE, REFERENCE, OneProcess, T, TwoProcesses, arrhenius, sweeps, wlf
 
 from fitting.temperature.shifts import Shift
 from instrument.cli.main import run
 from instrument.errors import BadInput
+from instrument.facts.schema import schema_of
 from instrument.files.specimen_file import read_specimen
 from instrument.models.temperatures import identify_shifted
 from instrument.paper_case import case_file
@@ -103,12 +106,14 @@ def given(tmp_path):
 
 def test_the_command_fits_draws_and_says_so(tmp_path, given, capsys):
     paths = write(tmp_path, read_specimen(given), [OneProcess(a) for a in wlf()])
-    figures = tmp_path / "figures"
-    status = run(["identify", *paths, "--specimen", str(given), "--shift", "wlf", "--figures", str(figures)])
+    figures, result = tmp_path / "figures", tmp_path / "shifted.json"
+    command = ["identify", *paths, "--specimen", str(given), "--shift", "wlf", "--json", str(result)]
+    status = run([*command, "--figures", str(figures)])
     said = capsys.readouterr()
     assert status == 0, said.err
     assert "thermorheologically simple as far as" in said.out
     assert {p.name for p in figures.iterdir()} == {"nomogram.png", "simplicity.png"}
+    assert faults(json.loads(result.read_text()), schema_of("identify-shift")) == []
 
 
 def test_the_command_refuses_in_one_line(tmp_path, given, capsys):

@@ -1,0 +1,76 @@
+"""The result of `viscorig compare`."""
+
+from instrument.facts.number import Number
+from instrument.facts.result import Result
+
+Range = tuple[Number, Number]
+"""From and to, both of them in it."""
+
+
+class ComparedAt(Result):
+    """Both laws at one frequency: B less A, and that in joint standard errors."""
+
+    frequency_hz: Number
+    storage_modulus_difference_percent: Number
+    """Of A's."""
+    storage_modulus_z: Number
+    loss_factor_difference: Number
+    loss_factor_z: Number
+
+
+class ComparedPair(Result):
+    """Two laws over the band that both have."""
+
+    a: str
+    b: str
+    """Files, with their folders where names alone are not told apart."""
+    verdicts: tuple[str, str]
+    band_hz: Range | None
+    """None where they have none in common."""
+    chi2: Number
+    degrees_of_freedom: Number
+    p_value: Number
+    """Of all frequencies together."""
+    differs: bool | None
+    """None where it cannot be told."""
+    covariance: str | None
+    """Whence that of the curves is: `posterior` of both fits, or `standard errors` of one of them."""
+    storage_modulus_differs_hz: tuple[Range, ...]
+    """Where it does beyond 1.96 joint standard errors."""
+    loss_factor_differs_hz: tuple[Range, ...]
+    frequencies: tuple[ComparedAt, ...]
+
+
+class SpreadSize(Result):
+    """A relative standard deviation between specimens; zero where none is needed."""
+
+    percent: Number
+    interval_95_percent: Range
+
+
+class SpreadAt(Result):
+    """The common law at one frequency, and how far specimens lie about it."""
+
+    frequency_hz: Number
+    storage_modulus_pa: Number
+    storage_modulus_standard_error_pa: Number
+    """How well the mean of all such specimens is known."""
+    storage_modulus_spread: SpreadSize
+    loss_factor: Number
+    loss_factor_standard_error: Number
+    loss_factor_spread: SpreadSize
+
+
+class SpreadResult(Result):
+    """The spread between specimens, told from the uncertainty of each."""
+
+    specimens: tuple[str, ...]
+    frequencies: tuple[SpreadAt, ...]
+
+
+class CompareResult(Result):
+    """Laws, each with each."""
+
+    pairs: tuple[ComparedPair, ...]
+    spread: SpreadResult | None = None
+    """Where it was asked for."""

@@ -1,0 +1,48 @@
+"""The result of `viscorig identify --shift`."""
+
+from typing import Literal
+
+from instrument.facts.number import Number
+from instrument.facts.result import Result
+from instrument.facts.rows import LawRow
+
+
+class ShiftAt(Result):
+    """One sweep's place under the joint law."""
+
+    name: str
+    """Of its file."""
+    temperature_c: Number
+    log10_shift: Number
+    """Of a_T: the law is read at a_T times the frequency."""
+    log10_shift_standard_error: Number
+    vertical: Number
+    """Factor on G*; 1 where none was asked for."""
+    vertical_standard_error: Number
+
+
+class ShiftedResult(Result):
+    """One law in reduced frequency over sweeps at several temperatures."""
+
+    shift: Literal["wlf", "arrhenius", "free"]
+    reference_c: Number
+    shift_parameters: dict[str, Number]
+    shift_standard_errors: dict[str, Number]
+    temperatures: tuple[ShiftAt, ...]
+    law_kind: str
+    parameters: dict[str, Number]
+    """At the reference temperature, in SI units, which the keys end with."""
+    standard_errors: dict[str, Number]
+    law: tuple[LawRow, ...]
+    """Over reduced frequency, at the reference temperature."""
+    simple: bool | None
+    """Whether one shifted law serves; None where the noise is unknown."""
+    p_value: Number
+    chi2: Number
+    chi2_each_alone: Number
+    """Of a law for each temperature."""
+    wicket_percent: Number
+    """Largest distance of eta from the joint law's at one G', over all temperatures."""
+    words: str
+    warnings: tuple[str, ...]
+    seconds: Number
