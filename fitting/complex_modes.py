@@ -25,11 +25,10 @@ _TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True)
-class ComplexMode:
-    """One mode: lambda in (rad/s)^2 and its full shape."""
+class ModalValue:
+    """Of one mode: lambda in (rad/s)^2."""
 
     eigenvalue: complex
-    shape: Complex
 
     @property
     def frequency_hz(self) -> float:
@@ -40,6 +39,25 @@ class ComplexMode:
     def loss_factor(self) -> float:
         """Im lambda / Re lambda."""
         return float(self.eigenvalue.imag / self.eigenvalue.real)
+
+
+@dataclass(frozen=True)
+class ComplexMode(ModalValue):
+    """One mode with its full shape."""
+
+    shape: Complex
+
+
+@dataclass(frozen=True)
+class ModalValues:
+    """lambda of successive modes in (rad/s)^2. Shape (modes,)."""
+
+    eigenvalues: Complex
+
+    @property
+    def each(self) -> list[ModalValue]:
+        """One by one."""
+        return [ModalValue(complex(v)) for v in self.eigenvalues]
 
 
 def complex_modes(

@@ -113,7 +113,7 @@ class Specimen:
     """Where a force along w drives it, its edges at rest; None: the base does."""
     reads: Reading = "relative"
     base_acceleration_m_s2: float = PUBLISHED_G_M_S2
-    tolerances: Mapping[str, float] = field(default_factory=dict)
+    tolerances: Mapping[str, float] = field(default_factory=dict, hash=False)
     """Standard deviations of stated numbers (`fitting.tolerances`): relative, m or s. Not named: typical
     ones."""
     exact: bool = False

@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.complex_modes import complex_modes
-from fitting.plate import Plate
 from instrument.facts.modes import ModesResult
+from instrument.models.specimen_modes import specimen_modes
 from instrument.progress import bar
 from instrument.results.modes_from import modes_from
 from viscorig.facts import Facts
@@ -58,5 +57,4 @@ def modes(specimen: Specimen, count: int = 8) -> Modes:
     """
     model = specimen.model
     law = model.core.law if model.core is not None else None
-    with bar("modes") as report:
-        return Modes(modes_from(complex_modes(Plate(model), law, count, report), law))
+    return Modes(modes_from(specimen_modes(model, count, bar), law))

@@ -4,13 +4,12 @@ On a coarse mesh: a range or a waiting time needs no third digit.
 """
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
 from drivers.vibrometer import Range
 from fitting.arrays import Array
-from fitting.complex_modes import complex_modes
 from fitting.damping import LowRankDamping, viscous_damping
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.half_plate import HalfPlate
@@ -19,6 +18,7 @@ from fitting.plate import Plate
 from fitting.specimen import Specimen
 from instrument.errors import BadInput
 from instrument.files.experiment_file import SegmentSection, SweepTable
+from instrument.models.specimen_modes import specimen_modes
 from instrument.stepped_sine.plan import PlannedSegment
 from instrument.stepped_sine.settings import SweepSettings
 
@@ -48,11 +48,11 @@ class Forecast:
     """sigma of each mode's free decay."""
 
     @classmethod
+    @lru_cache(maxsize=8)
     def of(cls, specimen: Specimen) -> "Forecast":
         """Modes of the specimen with the law it starts from."""
         coarse = replace(specimen, elements=specimen.elements or _COARSE)
-        law = specimen.core.law if specimen.core is not None else None
-        modes = complex_modes(Plate(coarse), law, _MODES)
+        modes = specimen_modes(coarse, _MODES)
         f = np.array([m.frequency_hz for m in modes])
         ratios = np.full(_MODES, specimen.modal_ratios[-1] if specimen.modal_ratios else _OWN_RATIO)
         ratios[: len(specimen.modal_ratios)] = specimen.modal_ratios[:_MODES]

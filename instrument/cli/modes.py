@@ -1,16 +1,17 @@
 """`viscorig modes`: complex modes of a specimen."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import click
 
-from fitting.complex_modes import complex_modes
-from fitting.plate import Plate
+from fitting.complex_modes import ModalValue
 from fitting.specimen import Specimen
 from fitting.structures.small_modes import small_modes
 from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
 from instrument.files.structure_file import read_structure
+from instrument.models.specimen_modes import specimen_modes
 from instrument.progress import bar
 from instrument.results.modes_from import modes_from
 
@@ -28,11 +29,8 @@ def modes(specimen: Path, count: int, json_path: str | None) -> None:
     out = Output(json_path)
     read = read_structure(specimen)
     law = read.core.law if read.core is not None else None
-    if isinstance(read, Specimen):
-        with bar("modes") as report:
-            found = complex_modes(Plate(read), law, count, report)
-    else:
-        found = small_modes(read, law, count)
+    found: Sequence[ModalValue]
+    found = specimen_modes(read, count, bar) if isinstance(read, Specimen) else small_modes(read, law, count)
     rows = [[str(k + 1), f"{m.frequency_hz:.3f}", f"{m.loss_factor:.5f}"] for k, m in enumerate(found)]
     out.table("", ["mode", "frequency/Hz", "loss factor"], rows)
     result = modes_from(found, law)

@@ -1,6 +1,7 @@
 """What the analysis is told of a session beside its events."""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -72,6 +73,7 @@ def hammer_settings(configuration: Configuration) -> HammerSettings | None:
     return HammerSettings(h.hits, record_s, h.pre_trigger_s, (h.band_hz[0], h.band_hz[1]), sensor)
 
 
+@lru_cache(maxsize=8)
 def record_length_s(specimen: Specimen) -> float:
     """Until the slowest mode has decayed to 1 %, from the ratios the specimen states."""
     ratios = np.array(specimen.modal_ratios)
