@@ -21,8 +21,11 @@ the nearest fractional Zener over a decade (docs/uncertainty.md)."""
 REACH = 1.0
 """Distance in ln f over which a bend goes on."""
 _A_KNOT = 0.7
+"""In ln f: nearer than `REACH`, so that a bend between two knots is nearly what they say; a choice."""
 _MOST = 8.0
+"""Standard deviations of its prior that a whitened value may go: out of the way of any fit."""
 _BEND = Quantity("", 1.0, float(np.exp(-_MOST)), float(np.exp(_MOST)), (float(np.exp(-1)), float(np.exp(1))))
+"""A whitened value as laws have their parameters: an exponential, searched within a standard deviation."""
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,9 @@ from fitting.real_modes import real_modes
 _SPARE = 4
 """Real modes kept beyond those asked for, so that the last ones are spanned too."""
 _STEPS = 100
+"""Of either iteration, a bound: what has not settled by then is given as it is."""
 _TOLERANCE = 1e-9
+"""Relative change of lambda at which a mode has settled: far below what the mesh is off by."""
 
 
 @dataclass(frozen=True)

@@ -10,11 +10,15 @@ from fitting.laws import CoreLaw
 from fitting.specimen import Specimen
 
 FREQUENCIES_HZ = (5.0, 600.0)
+"""Of a laboratory plate's first resonances; what is measured outside stretches it."""
 MODULI_PA = (1e4, 2e7)
+"""|G*| of soft damping materials; a law beyond stretches it."""
 LOSS_FACTOR = 2.0
+"""More than most damping materials have; a law beyond stretches it."""
 _MARGIN = 3.0
 """A law's modulus is expected to move by this factor in a fit."""
 _ELEMENTS_A_WAVE = 5
+"""Fewer, and the bending of one wave is no longer a few cubics; a rule of thumb."""
 
 
 @dataclass(frozen=True)

@@ -18,11 +18,13 @@ from fitting.arrays import Array
 from fitting.specimen import Core, Face
 
 U_C, V_C, U_B, V_B, W, THETA_X, THETA_Y = range(7)
+"""Places of a node's degrees of freedom: both faces in their plane, the deflection, its slopes."""
 DOFS = 7
 CORNERS = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
 """Local corners of the element, counter-clockwise, in fractions of its sides."""
 
 _POWERS = ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2), (3, 0), (2, 1), (1, 2), (0, 3), (3, 1), (1, 3))
+"""Of x and y: the twelve terms of the deflection."""
 
 
 _DERIVED = [np.array([[perm(n, d), max(n - d, 0)] for n in range(4)], dtype=float).T for d in range(4)]

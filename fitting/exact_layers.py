@@ -32,6 +32,7 @@ _RIGID = 1e4
 TOLERANCE = 1e-8
 """Change of lambda from the last step: each step leaves a small part of the error of the one before."""
 _STEPS = 12
+"""Of inverse iteration for all at once; branches that are not apart by then are taken by all eigenvalues."""
 
 
 @dataclass(frozen=True)

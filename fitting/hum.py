@@ -20,6 +20,7 @@ from fitting.sweep import Sweep
 Points = NDArray[np.bool_]
 
 MAINS_HZ = (50.0, 60.0)
+"""Europe's and America's."""
 FALSE_ALARM = 1e-4
 """Chance that a sweep without hum is said to have some, all its points near multiples together.
 
@@ -34,6 +35,7 @@ _SPREAD_HZ = 10.0
 _ONCE_FOUND = 1e-3
 """Chance that is enough for a further point, once there is hum."""
 _NEIGHBOURS = 10
+"""Points that the curve at a point is drawn through, and that it is held against. A choice."""
 _STANDS_OUT = 1.5
 """Hum leaves the curve by this factor more than any of its neighbours away from multiples."""
 

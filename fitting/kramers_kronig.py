@@ -32,16 +32,21 @@ FIRST_ORDER = 0.1
 MOST_PULL = 3.5
 """Standard deviations of a common nuisance: one beyond them in two thousand is chance."""
 FEWEST_BANDS = 3
+"""Six numbers for a static modulus and relaxation times: fewer can hardly contradict."""
 _BEYOND = 1e3
 """Relaxation times reach this far beyond the band."""
 _NEAR = 10.0
+"""A decade to either side of the band is where relaxation shapes what is seen inside it."""
 _DENSE, _SPARSE = 20, 4
 """Times a decade near the band and far from it."""
 _PASSES = 4
+"""Times the weights are made anew from the smooth curve. A choice."""
 _TINY = 1e-12
+"""Below it a tail probability is only said to be below."""
 _WINDOW_OCTAVES = 0.5
 """Half width of a local slope."""
 _FEWEST_IN_WINDOW = 5
+"""Bands for a slope with an error of its own."""
 
 
 @dataclass(frozen=True)

@@ -15,9 +15,11 @@ from fitting.exact_layers import lowest
 from fitting.specimen import Core, Face, Specimen
 
 _STEPS = 30
+"""A bound for Newton's method."""
 _TOLERANCE = 1e-6
 """Last step of Newton in ln k, squared by the convergence."""
 _W, _B, _C = np.eye(3)
+"""Deflection and stretch of the two faces, the three unknowns of a wave."""
 
 
 def layerwise_lambda(specimen: Specimen, k: ArrayLike, G: ArrayLike = 0.0) -> Complex:

@@ -8,7 +8,9 @@ import numpy as np
 from fitting.sweep import Sweep
 
 LEAST_PERCENT = 1.0
+"""What an accelerometer's calibration leaves open: an error below it is not spoken of."""
 _STANDARD_ERRORS = 3.0
+"""Beyond, one sweep in 370 shows as much by chance."""
 _FEWEST = 3
 """Points that show a scatter."""
 _MAD_TO_STD = 1.4826

@@ -16,6 +16,8 @@ from fitting.arrays import Array
 from fitting.sweep import Sweep
 
 WINDOW = 7
+"""Points that a local model is laid through: three more than it has unknowns for phasors, one for
+amplitudes."""
 FEWEST = 15
 """Points a segment needs before its scatter says anything."""
 

@@ -25,6 +25,7 @@ _UNHEARD = 1e-6
 """Share of a mode that the plate's motions carry, below which its ratio plays no part."""
 _TREATMENT = ("constraining", "core")
 _MOST_KEPT = 64
+"""Changes at places just asked for: one search asks for the same few again and again."""
 Spot = Literal["pickup", "force"]
 _FELT = 0.3
 """Standard deviations from which derivatives to stated numbers are taken to vary."""

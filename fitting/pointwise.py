@@ -28,6 +28,7 @@ from fitting.specimen import Reading
 from fitting.sweep import Sweep
 
 BANDS_AN_OCTAVE = 24.0
+"""Narrow enough for a modulus that is constant over a band: laws turn over an octave or more. A choice."""
 LARGEST_ERROR = 0.25
 """Standard error over |G*| beyond which a band says nothing; first order is then no longer true either."""
 _CHANCE = 1e-3

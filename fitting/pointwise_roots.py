@@ -24,6 +24,7 @@ APART = 3.0
 _WORSE = 9.0
 """Chi-square by which a minimum is ruled out beside a better one."""
 _MOST_STEPS = 40
+"""A bound: a band that has not converged by then counts as without a root."""
 _CONVERGED = 1e-3
 """Last step in standard errors."""
 

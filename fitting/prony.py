@@ -15,9 +15,11 @@ from scipy.optimize import nnls
 from fitting.arrays import Array, Complex
 
 MOST_TERMS = 20
+"""A bound: the card says what error is left."""
 _REACHES = (1.0, 2.0, 4.0, 8.0, 16.0, 32.0)
 """How far relaxation times go beyond the band's edges: what lies outside shows inside."""
 _POINTS = 200
+"""Of the band, in the logarithm: the largest error is looked for at them."""
 _FEW_POINTS, _FEW_TIMES, _FEW_REACH = 40, 14, 30.0
 """Of a series that is only a beginning: a grid of some three relaxation times a decade, a decade and a half
 beyond the band's edges."""

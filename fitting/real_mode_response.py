@@ -18,7 +18,9 @@ from fitting.real_modes import real_modes
 MODES = 8
 """The paper superposes the first eight, odd ones counted though a base does not excite them."""
 _MODULI = 6
+"""Real ones over the domain, whose modes span those between; `_SPARE` further modes of each help."""
 _SPARE = 3
+"""Modes beyond those superposed, so that the last ones are spanned too."""
 _INDEPENDENT = 1e-8
 """Share of the strain energy below which a direction adds nothing."""
 

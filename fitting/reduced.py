@@ -28,6 +28,7 @@ Point = tuple[float, complex]
 TOLERANCE = 1e-6
 """Relative error of the pickup's reading that the basis is built for."""
 LARGEST_BASIS = 60
+"""A bound on time and memory: `estimated_error` says what was reached."""
 FOLLOWING, MOST_FOLLOWING = 5e-4, 20
 """What further vectors may leave of the answers' change by a typical tolerance of a stated number, and how
 many there may be: two tolerances off, answers are then good to 1e-4."""
@@ -35,6 +36,7 @@ _OF_A_FACE = ("young", "thickness", "poisson")
 _FACES = tuple(f"{layer}_{n}" for layer in ("substrate", "constraining") for n in _OF_A_FACE)
 """What the basis does not follow by itself: it spans moduli of the core and frequencies."""
 _SPREAD, _STIRRED = 8, 6
+"""Points over the domain that a basis begins with, and those of them where stated numbers are followed."""
 
 
 @dataclass(frozen=True)

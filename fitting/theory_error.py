@@ -35,7 +35,7 @@ published section, cores of 0.03 to 5 MPa, a core of 5 mm, a substrate of 20 mm.
 """
 
 _QUICK_ORDER = 3
-_QUICK_TOLERANCE = 1e-6
+"""Parabolic shear in each layer: which assumption is to blame shows in it as it does in ORDER."""
 """For the correction: parabolic shear in each layer, where ORDER would tell nothing more."""
 
 

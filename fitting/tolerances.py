@@ -63,6 +63,7 @@ _FIELDS = {
     "poisson": "poisson",
 }
 _LARGEST_POISSON = 0.4999
+"""A moved number stays below one half, where a solid no longer gives in volume."""
 
 
 def kind_of(name: str) -> str:

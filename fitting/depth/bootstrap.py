@@ -18,6 +18,7 @@ from fitting.depth.quantities import Quantities
 
 Kind = Literal["points", "segments"]
 _STEPS = 8
+"""By one Jacobian, from a fit that lies nearby; a choice: a step that does not help is shortened."""
 _STRETCH = 5
 """Points that stay together."""
 

@@ -10,6 +10,7 @@ from fitting.depth.quantities import Quantities
 LEVELS = {68: 1.0, 95: 1.959964}
 """Percent, and how many standard deviations a normal distribution has there."""
 _TAILS = {68: (15.8655, 84.1345), 95: (2.5, 97.5)}
+"""Percentiles with as much on either side: 68.27 %, a normal distribution's standard deviation, and 95 %."""
 TELLING = 0.2
 """Relative difference of an interval's half from the linear one, from which it is said."""
 

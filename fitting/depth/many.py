@@ -18,6 +18,7 @@ from fitting.rational import RationalSweep, rational_sweep
 from fitting.reduced import ReducedPlate
 
 _BLOCK = 64
+"""Sets of unknowns worked out in one call: a choice between calls and memory."""
 _DEAF = 0.05
 """Relative change of the response by one of the modulus, below which none stands in for a stated number."""
 

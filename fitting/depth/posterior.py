@@ -21,7 +21,9 @@ from fitting.depth.quantities import Quantities
 from fitting.errors import OutsideModel
 
 WALKERS = 80
+"""Side by side: one call works on all of them. A choice."""
 SAMPLES = 40_000
+"""Of all walkers together, 500 steps each; `effective` says what they are worth."""
 _BURN = 0.1
 """Of the samples kept: as many more go first, twice; the Gaussian stepped about is learnt in between."""
 _WIDER = 1.25
@@ -29,6 +31,7 @@ _WIDER = 1.25
 _STEPS = ((1.0, 0.3), (0.6, 0.4), (0.25, 0.3))
 """Length of a step, and its share."""
 _CHECKED = 60
+"""Samples whose weight is worked out in full, for the share that is given beside the posterior."""
 Report = Callable[[float], None]
 
 

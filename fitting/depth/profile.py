@@ -21,7 +21,9 @@ _LOOKS = (1.0, 2.1)
 _FURTHER = 3
 """Looks more, where chi-square has not risen far enough."""
 _STRETCH = 3.0
+"""Times that a look goes further or less far than the linear error says; a choice against wild jumps."""
 _MOST_EVALUATIONS = 40
+"""A bound on time: a fit starts at most a few standard errors beside its end."""
 Report = Callable[[float], None]
 
 

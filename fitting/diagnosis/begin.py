@@ -27,6 +27,7 @@ from fitting.reduced import ReducedPlate
 _FAR = 0.1
 """Relative change of the modulus from which the grids and the model's error are made anew."""
 _ROUNDS = 3
+"""A bound on time."""
 _OPEN = 1e-9
 """A range of one value is none for a bounded fit."""
 

@@ -21,7 +21,9 @@ Start = tuple[float, Array]
 """The chi-square that a start may gain, and its unknowns; zero where a linear step cannot tell."""
 
 _ROUNDS = 3
+"""As many grids at most: a bound on time."""
 _FAR = 0.02
+"""Relative change of the modulus from which the grid is made anew for the new poles. A choice."""
 
 
 def look(problem: DiagnosisProblem, evidence: Evidence, before: Refitted, effect: Effect) -> list[Start]:

@@ -31,6 +31,7 @@ _MODULUS, _CHANNEL = 0.2, 0.01
 _HELD = 0.1
 """Weight of that beside the readings."""
 _STEPS = 25
+"""Of reweighting towards the least sum of sizes. A choice."""
 _MEDIAN = 1.177
 """Of a complex normal variable's size, in standard deviations of a part."""
 

@@ -14,6 +14,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisances import Nuisances
 
 _POLE_STEPS = 2
+"""Of Rayleigh's quotient, from the answer at the nearest node, which is nearly the mode."""
 _OFF = 1e-9
 """Beside a pole, so that there is something to solve."""
 

@@ -9,6 +9,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 
 _STEPS = 3
+"""Of Rayleigh's quotient, from poles whose law was taken in the middle of the range."""
 
 
 class PlatePoles:

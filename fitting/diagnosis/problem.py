@@ -21,6 +21,7 @@ from fitting.sweep import Sweep
 DENSE, FINE, COARSE = 16, 10, 6
 """Nodes a cluster of frequencies: of strains, for fits, and for a first look."""
 _SIZES = (0.25, 0.5, 1.0, 2.0, 4.0)
+"""Times the modulus begun with, that a condensed plate answers for: a decade, with a margin."""
 _ANGLES = (0.2, 0.6, 1.0)
 """Of the modulus' argument, rad."""
 _EVERY = 2

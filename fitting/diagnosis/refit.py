@@ -13,8 +13,11 @@ from fitting.identification.uncertainty import limits_reached
 from fitting.laws import CoreLaw
 
 _MOST_EVALUATIONS = 25
+"""To compare; what has not come to its end by then says `converged = False`. A bound on time."""
 _ROUGH_EVALUATIONS = 10
+"""To choose between starts. A choice: what a good one gains it gains soon."""
 _BRIEF_EVALUATIONS = 3
+"""Where little is to be gained: a look whether that is so."""
 _WIDEST = 3.0
 """Times a standard error, that a flat chi-square may widen it."""
 ROUGH, COMPARABLE = 1e-3, 1e-5

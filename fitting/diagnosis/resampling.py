@@ -137,3 +137,4 @@ def nested_rms_percent(again: Again, executor: Executor, report: Report) -> floa
 
 
 _SEED = 20
+"""The same draws whenever a diagnosis is repeated."""

@@ -29,6 +29,7 @@ _SMALL = 1e-6
 _SOFTENED = np.array([-0.3, 0.0, 0.25, 0.5])
 """Shares by which the core softens where its strain is computed: a cubic through them serves all between."""
 _KEPT = 8
+"""Tables of the core's strain for unknowns just asked for; more are begun anew. A choice."""
 
 
 class SweepResponse:

@@ -14,7 +14,9 @@ from fitting.diagnosis.thresholds import VERDICT
 from fitting.sweep import Sweep
 
 LAGS = 8
+"""Neighbours within a resonance; what goes on for longer shows in the runs. A choice."""
 _FEWEST = 20
+"""Readings of a trace: the usual rule for the normal limit of the runs test."""
 
 
 def structure(sweep: Sweep, evidence: Evidence, whitened: Array, chi2_per_dof: float) -> tuple[str, ...]:

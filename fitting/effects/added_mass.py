@@ -12,7 +12,9 @@ from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.span import Span
 
 _TYPICAL_KG = 5e-3
+"""Of a small accelerometer with its wax: the response to it is what is spanned."""
 _GRID = [(x, y) for x in (0.25, 0.5, 0.75, 0.97) for y in (0.03, 0.3, 0.7, 0.97)]
+"""Shares of length and width: the free end and both edges, where masses matter and are put."""
 
 
 class PointMass(Span):

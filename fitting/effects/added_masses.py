@@ -14,6 +14,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 _PLACES = [(x, y) for x in (0.4, 0.7, 0.97) for y in (0.2, 0.8)]
 """Shares of length and width. Fifteen pairs: most do little that the others do not."""
 _START_KG = 3e-3
+"""Each: half a small accelerometer."""
 
 
 class AddedMassesEffect(Effect):

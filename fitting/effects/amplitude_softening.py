@@ -15,6 +15,7 @@ from fitting.element import Shape, core_shear_stiffness
 LEAST = 0.3
 """Of the modulus; softening goes no further."""
 _ITERATIONS = 60
+"""Half steps halve the distance where strain hardly falls: 1e-10 is reached in 34. A bound."""
 
 
 class Strain(Span):

@@ -18,6 +18,7 @@ from fitting.effects.released_root import RootSpan
 from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
 
 _SPANNED = (4e12, 1e13, 3e13, 1e14, 1e15)
+"""N/m^3, from softer than a clamp ought to be to nearly rigid."""
 
 
 class YieldingRoot(RootSpan):

@@ -13,6 +13,7 @@ from fitting.effects.span import Span
 from fitting.linear import times
 
 _TYPICAL = 0.1
+"""Of the stiffness: twice the spread of the prior, so that the basis follows any likely one."""
 
 
 class Constraining(Span):

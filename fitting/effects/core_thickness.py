@@ -13,6 +13,7 @@ from fitting.effects.span import Span
 from fitting.specimen import Specimen
 
 _SCALES = (0.85, 1.15)
+"""Of the thickness: twice the spread of the prior, so that the basis follows any likely one."""
 
 
 class Thickness(Span):

@@ -26,6 +26,8 @@ from fitting.parts import (
 )
 
 SNAPSHOTS = 12
+"""Points of frequency and modulus that are solved in full, each a factorisation. A choice; `TOLERANCE` is of
+what they span."""
 TOLERANCE = 3e-3
 """Of a typical change, what may be missed; the reading's error goes with its square."""
 

@@ -16,6 +16,7 @@ from fitting.parts import STIFFNESS
 from fitting.specimen import Face
 
 _RATIOS = (0.85, 1.15)
+"""E_y over E_x: five times the spread of the prior, so that the basis follows any likely one."""
 
 
 class Orthotropy(Span):

@@ -17,6 +17,7 @@ from fitting.linear import times
 LEFT = 0.01
 """Share of the shear stiffness that a loose strip keeps."""
 _WIDTH_M = 0.025
+"""To begin with, and between starts: about a twelfth of a plate of 300 mm."""
 
 
 class Strips(Span):

@@ -16,7 +16,9 @@ from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 _LOSS = 0.2
+"""To begin with: a cable's sheath loses much."""
 _START_N_M = 50.0
+"""To begin with: half the spread of the prior."""
 
 
 class TetherEffect(Effect):

@@ -18,6 +18,7 @@ from fitting.effects.released_root import RootSpan, along_root, on_root
 from fitting.element import DOFS, U_C, V_C
 
 _SPANNED = (1e6, 1e8, 4e8, 3e9)
+"""N/m^2, from nearly free to nearly gripped."""
 
 
 class FreeTreatment(RootSpan):

@@ -15,7 +15,9 @@ from fitting.effects.released_root import RootSpan, along_root
 from fitting.element import DOFS, THETA_Y, U_B, U_C, W
 
 _MOST = 0.95
+"""Below one: at one the springs of an edge vanish, beyond it they would push."""
 _SPANNED = ((6e12, 0.7), (2e13, 0.9), (6e13, 0.9), (4e14, 0.9))
+"""N/m^3 and slopes, from softer than a clamp ought to be to nearly rigid."""
 
 
 class UnevenRoot(RootSpan):

@@ -29,9 +29,12 @@ _STIFFNESS = 0.2
 CLAMP = 0.01
 """Prior standard deviation of kappa: a soft root may take 1 % off mode 1."""
 _MOST_PRIORS = 5
+"""Times `CLAMP` that a clamp may be found soft: further is another specimen, or none."""
 _MATCH = 0.15
 """A measured mode further than this from every predicted one is left out."""
 _SPARE = 4
+"""Modes of the model beyond those measured: a mode that the hammer missed leaves the others their
+partners."""
 _EDGE_DOUBT = 0.3
 """Share of `edge_softening` in doubt: torsion of a strip is not quite a plate's."""
 

@@ -14,7 +14,9 @@ CANDIDATES = 64
 STARTS = 2
 """Of those, how many are followed, beside the start given."""
 _LOOK_AT = 24
+"""Points that starts are compared on, evenly through the sweep: enough to tell one from another."""
 _MOST_EVALUATIONS = 200
+"""A bound on time; what has not come to its end by then says `converged = False`."""
 
 
 def fit_direct(residuals: Residuals, start: CoreLaw) -> Fit:

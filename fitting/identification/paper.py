@@ -24,14 +24,19 @@ from fitting.sweep import Sweep, resonance_points
 STEP = 1e-4
 """Delta b over b in Eq. (20)."""
 WEIGHT_AT_RESONANCE = 0.2
+"""As printed, of the points at each resonance."""
 WEIGHT_ELSEWHERE = 0.06
+"""As printed."""
 WEIGHT_OF_PARAMETERS = 0.25
+"""As printed: the diagonal of W_b."""
 CRITERION = 0.05
 """Largest relative difference at which the paper stops."""
 MOST_STEPS = 1000
+"""A bound: Table 5 comes to rest in about 150 (docs/paper.md)."""
 PLAIN_STEPS = 60
 """So many steps are exactly the printed ones; later every `_HURRY_EVERY`-th is extrapolated."""
 _HURRY_EVERY = 10
+"""Steps between two extrapolations: their ratio has to settle first. A choice."""
 _SMALLEST_STEP = 1e-6
 """Relative change of every parameter at which the iteration has come to rest."""
 

@@ -16,7 +16,9 @@ from fitting.sweep import Sweep
 REFERENCE_FREQUENCIES_HZ = (20.0, 100.0, 280.0)
 """Where the band is always stated, as far as they lie inside the measured range."""
 _BAND_POINTS = 41
+"""Of the law that is given with its band: dense enough to draw it and to carry it on."""
 _STRONG_CORRELATION = 0.99
+"""Beyond, a pair's own errors are seven times what one has with the other known: a warning."""
 LOST_PERCENT = 30.0
 """Difference in amplitude beyond which a fit has not followed the data at all."""
 _PULLED = 3.0

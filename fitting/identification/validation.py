@@ -12,6 +12,7 @@ Learnt = Callable[[Mask], Array]
 """Points to learn from, to 100 (|predicted| - |measured|)/|measured| at every point."""
 
 MOST_POINTS_ONE_BY_ONE = 30
+"""As many fits: of more points neighbours tell each other, and a segment is held out."""
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,7 @@ ORDERS = tuple(range(2, 25))
 FREQUENCY_STABLE = 0.005
 """Half of what stabilisation diagrams usually take: light damping fixes a frequency far better than 1 %."""
 RATIO_STABLE = 0.05
+"""As stabilisation diagrams usually take."""
 FEWEST_ORDERS = 5
 """Poles of noise move from order to order; so long a row of them is rare."""
 _FEWEST_LINES = 8

@@ -29,6 +29,7 @@ MODULI_PA = (1e5, 6e5, 3e6, 2e7)
 SPARE = 8
 """Real modes of each beyond the table's last."""
 _INDEPENDENT = 1e-11
+"""Of the largest product: below it, motions differ by rounding."""
 _SOMEWHERE = (0.77, 0.31)
 """Of length and width: a plate needs a spot to be read at, though no mode depends on it."""
 Widen = Callable[[Specimen, Array], EnrichedReducedPlate]

@@ -26,6 +26,7 @@ from fitting.structures import AnySpecimen
 _SOFTER_AND_STIFFER = (1.0, 0.2, 5.0)
 """Times the modulus of the law that is begun with: modes count, so a start far off may count them wrongly."""
 _ROUNDS = 4
+"""Matrices made anew about the law found: a bound."""
 
 
 @dataclass(frozen=True)

@@ -25,6 +25,7 @@ from fitting.structures import AnySpecimen
 _H = 1e-4
 """Relative step of a frequency: for the law's slope."""
 _LEAST_LOSS = 1e-12
+"""A mode without losses has a logarithm too."""
 
 Acting = Sequence[tuple[Effect, Array]]
 """Effects with their unknowns."""

@@ -21,7 +21,9 @@ from fitting.laws import CoreLaw
 _SPARE = 14
 """Real modes beyond those asked for, among which complex ones are sought."""
 _STEPS, _SETTLED = 60, 1e-9
+"""A bound for the law followed along; the relative change of a frequency at which that has settled."""
 _CORRECTIONS = 6
+"""A bound for Rayleigh's quotient."""
 _RIGID = 1e-6
 """Of the median eigenvalue: below it a mode is rigid."""
 

@@ -8,6 +8,7 @@ from fitting.arrays import Array
 from fitting.laws import CoreLaw
 
 _COUNT = 21
+"""Frequencies of a band, over which the worst is looked for: laws are smoother than that."""
 
 
 @dataclass(frozen=True)

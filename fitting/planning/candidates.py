@@ -18,6 +18,7 @@ _SHARE = 0.25
 _NEVER_WIDER = 0.05
 """Of the frequency."""
 _MOST = 400
+"""Candidates: where there would be more, all are set further apart. A bound on time."""
 _APART = 1.15
 """Ratio of two resonances from which each has a region of its own."""
 _WIDE = 0.6

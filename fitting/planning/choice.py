@@ -15,7 +15,7 @@ from fitting.planning.sensitivity import Sensitivity
 from fitting.sweep import Integers
 
 _POWER = 4
-REACHED = 1.0
+"""Of the variances in the sum that a step is chosen by: high enough for the worst to count most. A choice."""
 NEAR_LIMIT = 1.1
 """Times what all candidates together would leave: where the target is beyond that, a plan ends here."""
 

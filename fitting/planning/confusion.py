@@ -23,6 +23,7 @@ CONFUSED = 3.0
 """Times its size to be seen that an effect must have to be told from another: from here on they are
 confused."""
 _NOTHING = 1e-9
+"""In standard deviations: an effect that changes no reading."""
 
 
 @dataclass(frozen=True)

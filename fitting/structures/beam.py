@@ -31,6 +31,7 @@ ORDER = 18
 _MODES = 10
 """Of each modulus, that the basis holds."""
 _MODULI_PA = (1e5, 3e6, 1e8, 3e9)
+"""From a core that only stores to a free layer as stiff as a plastic: the modes of each are in the basis."""
 _NEGLIGIBLE = 1e-9
 """Of the basis' vectors, relative: what is in the others."""
 

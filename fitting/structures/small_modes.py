@@ -11,6 +11,7 @@ from fitting.laws import CoreLaw
 from fitting.structures.small import SmallSpecimen, check_driven, displacement, system_of
 
 _STEPS, _SETTLED = 60, 1e-9
+"""A bound for the law followed along; the relative change of a frequency at which that has settled."""
 _RIGID = 1e-6
 """Of the stiffest mode's square: below it a mode is rigid."""
 

@@ -26,6 +26,7 @@ from fitting.temperature.start import start_of
 
 _OF_EACH_SWEEP = ("gain", "delay")
 _MOST_EVALUATIONS = 60
+"""A bound on time; what has not come to its end by then says `converged = False`."""
 _VERTICAL = 0.5
 """Largest ln b looked at."""
 

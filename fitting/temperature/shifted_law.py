@@ -12,7 +12,9 @@ from fitting.arrays import Array, Complex
 from fitting.laws.base import CoreLaw, Quantity
 
 _H = 1e-4
+"""In ln omega: a central difference of a law that is smooth over a decade loses 1e-8."""
 _FACTOR = Quantity("", 1.0, 1e-30, 1e30, (1e-6, 1e6))
+"""Either shift as a parameter: thirty decades are no limit, six to either side are searched."""
 
 
 @dataclass(frozen=True)

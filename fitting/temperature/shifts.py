@@ -13,8 +13,11 @@ from fitting.arrays import Array
 
 Kind = Literal["wlf", "arrhenius", "free"]
 GAS_J_MOL_K = 8.314462618
+"""Molar gas constant, CODATA 2018 (exact since 2019)."""
 _ZERO_K = 273.15
+"""0 degrees Celsius."""
 _LN10 = float(np.log(10.0))
+"""WLF is written with the decimal logarithm."""
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from fitting.temperature.joint import ShiftedFit
 REFUSED = 1e-3
 """Tail probability below which one law is refused."""
 _POINTS = 25
+"""Over a sweep's band: the wicket plot is compared at them."""
 
 
 @dataclass(frozen=True)

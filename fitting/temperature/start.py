@@ -10,6 +10,7 @@ from fitting.arrays import Array
 from fitting.laws import CoreLaw
 
 _POINTS = 15
+"""Over a sweep's band: curves are laid over each other at them."""
 _STORAGE, _LOSS = 0.02, 0.04
 """What a curve is worth, relative, of G' and of eta."""
 _FAR = np.linspace(-18.0, 18.0, 361)
