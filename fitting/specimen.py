@@ -109,6 +109,8 @@ class Specimen:
     modal_ratios: tuple[float, ...] = ()
     """Remaining viscous damping, fractions of critical, in frequency order (Table 3)."""
     pickup_m: tuple[float, float] | None = None
+    further_pickups_m: tuple[tuple[float, float], ...] = ()
+    """Spots beside the first: rows of data say which one they are of; models are of one (`at_pickup`)."""
     force_m: tuple[float, float] | None = None
     """Where a force along w drives it, its edges at rest; None: the base does."""
     reads: Reading = "relative"
@@ -131,6 +133,17 @@ class Specimen:
     def kind(self) -> str:
         """Which structure it is."""
         return "plate"
+
+    @property
+    def pickups_m(self) -> tuple[tuple[float, float], ...]:
+        """All spots, in the order of their numbers from 0."""
+        return () if self.pickup_m is None else (self.pickup_m, *self.further_pickups_m)
+
+    def at_pickup(self, number: int) -> "Specimen":
+        """The same plate read at one of its spots."""
+        if not self.further_pickups_m:
+            return self
+        return replace(self, pickup_m=self.pickups_m[number], further_pickups_m=())
 
     @property
     def drive(self) -> Drive:

@@ -35,6 +35,8 @@ class Sweep:
     """Standard deviation of the reading (of each part of a phasor), where the file states it."""
     weight: Array | None = None
     time_s: Array | None = None
+    pickup: Integers | None = None
+    """Which of several spots each point is of, from 0; None where there is one."""
 
     def __len__(self) -> int:
         return len(self.frequency_hz)

@@ -5,19 +5,23 @@ from dataclasses import replace
 from typing import NamedTuple, TypeVar
 
 from fitting.pointwise import phase_is_kept
+from fitting.specimen import Specimen as Model
 from fitting.sweep import Sweep as Points
 from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.identification import IdentificationResult
 from instrument.files.hammer_file import HammerModes
+from instrument.interchange.given import at_its_spot
 from instrument.models.diagnosis import diagnose as diagnose_sweep
 from instrument.models.identification import Method
 from instrument.models.identification import identify as identify_sweep
 from instrument.models.pointwise import pointwise_of
+from instrument.models.together import diagnose_together, identify_together, spots_of
 from instrument.progress import bar
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
 from instrument.results.pointwise_from import with_second_look
+from instrument.results.together_from import diagnosed_together_from, identified_together_from
 from viscorig.diagnosis import Diagnosis
 from viscorig.hammer import HammerTest, hammer_modes_of
 from viscorig.identification import Identification
@@ -68,6 +72,10 @@ def identify(
     if pointwise:
         # Said before the work, not after it.
         phase_is_kept(given.points)
+    if given.points.pickup is not None:
+        _whole_sweeps_alone(given, pointwise=pointwise, method=method)
+        spots = spots_of(given.points, model)
+        return Identification(identified_together_from(identify_together(spots, bar), spots), given.plate)
     found = identify_sweep(given.points, model, method, bar, given.modes)
     result = identification_from(found, given.points, model)
     if pointwise:
@@ -92,8 +100,18 @@ def diagnose(
     """
     given = _given(data, specimen, hammer)
     points, model, declined = given.points, given.plate.model, frozenset(without)
+    if points.pickup is not None:
+        _whole_sweeps_alone(given)
+        spots = spots_of(points, model)
+        return Diagnosis(diagnosed_together_from(diagnose_together(spots, declined, bar, accept), spots))
     found = diagnose_sweep(points, model, given.modes, declined, bar, accept, resamples=resamples)
     return Diagnosis(given.said(diagnosis_from(found, points)))
+
+
+def _whole_sweeps_alone(given: Given, *, pointwise: bool = False, method: Method = "direct") -> None:
+    """Raises `BadInput`."""
+    if pointwise or method == "paper" or given.modes is not None:
+        raise BadInput("several pickups with pointwise, method 'paper' or a hammer test, expected one pickup")
 
 
 def _given(data: Sweep | Session, specimen: Specimen | None, hammer: HammerTest | None) -> Given:
@@ -105,4 +123,6 @@ def _given(data: Sweep | Session, specimen: Specimen | None, hammer: HammerTest 
         return Given(points_of(data.sweep), specimen or data.specimen, hammer_modes_of(tested), data)
     if specimen is None:
         raise BadInput("a sweep does not say which plate it was, expected its specimen")
-    return Given(points_of(data), specimen, hammer_modes_of(hammer))
+    model, points = at_its_spot("sweep", specimen.model, points_of(data))
+    assert isinstance(model, Model)
+    return Given(points, specimen.of(model), hammer_modes_of(hammer))

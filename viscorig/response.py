@@ -14,7 +14,7 @@ from instrument.models.theory import theory_remark
 from instrument.progress import bar
 from instrument.results.fit_file import found_law
 from instrument.results.fitted_response import fitted_response
-from instrument.results.prediction_from import prediction_from, prediction_from_fit
+from instrument.results.prediction_from import of_spots, prediction_from, prediction_from_fit
 from viscorig.checked import numbers
 from viscorig.facts import Facts
 from viscorig.hammer import HammerTest, hammer_modes_of
@@ -82,9 +82,15 @@ def predict(
         model = with_bare_plate(model, fit_bare_plate(model, *tested))
     law = model.core.law if model.core is not None else None
     if fit is None:
-        v = Models.of(model, f, bar).predict(law, f, real_modes=real_modes)
         outside = law.outside(f) if law is not None else ""
-        return Response(prediction_from(f, v, outside, theory_remark(model, law, f)))
+        remarks = (outside, theory_remark(model, law, f))
+        spots = [
+            Models.of(model.at_pickup(k), f, bar).predict(law, f, real_modes=real_modes)
+            for k in range(max(1, len(model.pickups_m)))
+        ]
+        return Response(of_spots([prediction_from(f, v, *remarks) for v in spots]))
+    if model.further_pickups_m:
+        raise BadInput("fit with several pickups, expected one")
     known = found_law(fit.result)
     found = fitted_response(model, known, f, bar)
     law = known.law(law) if law is not None else None

@@ -64,6 +64,12 @@ class Specimen(Shown):
         if document.core is not None and "core" in self._tables:
             self._tables["core"]["law"] = dict(to_jsonable(document.core.law))
 
+    def of(self, model: Model) -> "Specimen":
+        """The same tables, computed with another model: read at one of its spots."""
+        made = Specimen.__new__(Specimen)
+        made.model, made._tables = model, self._tables
+        return made
+
     def but(self, **tables: Mapping[str, Any]) -> "Specimen":
         """The same with other values: `specimen.but(core={"thickness_mm": 0.4})`. Raises `BadInput`."""
         return Specimen(

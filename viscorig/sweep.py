@@ -26,8 +26,9 @@ class Sweep(Shown, Points):
     """The pickup's velocity at single frequencies, phasors of e^{+i omega t} or amplitudes, zero to peak.
 
     Arrays have shape (points,), a single number stands for all points; order carries no meaning.
-    `commanded_m_s2` is the base acceleration asked for, `base_m_s2` the one measured (phasors), `std_m_s`
-    the standard deviation of the reading. Segments are told apart by gaps in frequency where none are
+    `commanded_m_s2` is the base acceleration asked for, `base_m_s2` the one measured (phasors), both in
+    newtons where a force drives; `std_m_s` the standard deviation of the reading, `pickup` which of several
+    spots, from 0. Segments are told apart by gaps in frequency where none are
     given. Raises `BadInput` where arrays do not fit together or hold what was never measured.
     """
 
@@ -42,6 +43,7 @@ class Sweep(Shown, Points):
         std_m_s: ArrayLike | None = None,
         weight: ArrayLike | None = None,
         time_s: ArrayLike | None = None,
+        pickup: ArrayLike | None = None,
         **further: Any,
     ) -> None:
         f = numbers("frequency_hz", frequency_hz, float, above_zero=True)
@@ -63,6 +65,7 @@ class Sweep(Shown, Points):
             std_m_s=optional("std_m_s", std_m_s),
             weight=optional("weight", weight),
             time_s=optional("time_s", time_s),
+            pickup=None if pickup is None else array("pickup", pickup, np.intp),
             **further,
         )
 

@@ -1,6 +1,7 @@
-"""An effect among several files: common to all of them, or of one."""
+"""An effect among several files or spots: common to all of them, or of one."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -8,15 +9,42 @@ from fitting.arrays import Array
 from fitting.effects.base import Effect, EffectParameter, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 
-FILE = "file"
+FILE, PICKUP = "file", "pickup"
+_ALL = -1
+_OF_A_SPOT = ("observation", "channel")
+"""Where an effect enters that may be of one spot alone."""
+
+
+class Place(NamedTuple):
+    """Whose some data are."""
+
+    file: int
+    """From 1."""
+    pickup: int | None = None
+    """From 0; None where the file has one spot."""
+
+
+def among(effect: Effect, files: int, spots: Sequence[int]) -> Effect:
+    """An effect among so many files, of which some have several spots."""
+    by_spot = tuple(spots) if effect.enters in _OF_A_SPOT else ()
+    return OfFiles(effect, files, spots=by_spot) if files > 1 or by_spot else effect
 
 
 class OfFiles(Effect):
-    """`inner` in every file (`file` 0) or in one, counted from 1; the forms are tried apart."""
+    """`inner` in every file (`file` 0) or in one, counted from 1; the forms are tried apart.
 
-    def __init__(self, inner: Effect, files: int, file: int = 0) -> None:
-        self.inner, self.files, self.file = inner, files, file
-        q = EffectParameter(FILE, "1", 0.0, float(files), float(file), neutral=None, fixed=True)
+    With `spots` also at one of them in every file (`pickup`, -1 for all).
+    """
+
+    def __init__(
+        self, inner: Effect, files: int, file: int = 0, spots: tuple[int, ...] = (), spot: int = _ALL
+    ) -> None:
+        self.inner, self.files, self.file, self.spots, self.spot = inner, files, file, spots, spot
+        where = [EffectParameter(FILE, "1", 0.0, float(files), float(file), neutral=None, fixed=True)]
+        if spots:
+            last = float(max(spots))
+            where.append(EffectParameter(PICKUP, "1", _ALL, last, float(spot), neutral=None, fixed=True))
+        self._where = np.array([q.typical for q in where])
         vars(self).update(
             name=inner.name,
             enters=inner.enters,
@@ -24,27 +52,39 @@ class OfFiles(Effect):
             chance=inner.chance,
             unexplained_share=inner.unexplained_share,
             discriminating_test=inner.discriminating_test,
-            parameters=(*inner.parameters, q),
+            parameters=(*inner.parameters, *where),
             spans=inner.spans,
         )
+
+    def holds(self, place: Place) -> bool:
+        """Whether some data have it."""
+        return self.file in (0, place.file) and self.spot in (_ALL, place.pickup)
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return self.inner.objection(points, plate)
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        return [np.append(u, self.file) for u in self.inner.starts(plate, points)]
+        return [np.append(u, self._where) for u in self.inner.starts(plate, points)]
 
     def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
         low, high = self.inner.limits(plate)
-        return np.append(low, 0.0), np.append(high, self.files)
+        where = self.parameters[len(low) :]
+        return np.append(low, [q.lower for q in where]), np.append(high, [q.upper for q in where])
 
     def scaled(self, u: Array, a: float) -> Array:
-        return np.append(self.inner.scaled(u[:-1], a), self.file)
+        return np.append(self.inner.scaled(u[: -len(self._where)], a), self._where)
 
     def variants(self) -> tuple[Effect, ...]:
         forms = self.inner.variants()
-        return tuple(OfFiles(form, self.files, k) for k in range(self.files + 1) for form in forms)
+        files = range(self.files + 1) if self.files > 1 else range(1)
+        found = [OfFiles(form, self.files, k, self.spots) for k in files for form in forms]
+        found += [OfFiles(form, self.files, 0, self.spots, k) for k in self.spots for form in forms]
+        return tuple(found)
 
     def story(self, u: Mapping[str, float]) -> str:
         where = "in every file" if not u[FILE] else f"in file {u[FILE]:.0f}"
+        if u.get(PICKUP, _ALL) != _ALL:
+            where = f"at pickup {u[PICKUP]:.0f}"
+        elif self.files == 1:
+            where = "at every pickup"
         return f"{where} {self.inner.story(u)}"

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.every_point import EveryPoint
 from fitting.diagnosis.model_error import model_error
-from fitting.diagnosis.of_files import OfFiles
+from fitting.diagnosis.of_files import OfFiles, Place
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid
 from fitting.diagnosis.response import STATED_NUMBER, SweepResponse
 from fitting.effects.base import Effect, Points
@@ -25,8 +25,10 @@ from fitting.rational import RationalSweep
 from fitting.reduced import ReducedPlate
 from fitting.sweep import Sweep
 
-OF_EACH_FILE = ("mass", "gain", "delay", "pickup", "force", "damping", "length", "width")
-"""Kinds of stated numbers that are another one in every file, though they are stated alike."""
+OF_EACH_SPOT = ("gain", "delay", "pickup")
+"""Kinds of stated numbers that are another one at every spot, though they are stated alike."""
+OF_EACH_FILE = ("mass", "force", "damping", "length", "width")
+"""And in every file, its spots sharing them."""
 Places = tuple[NDArray[np.intp], ...]
 
 
@@ -40,12 +42,21 @@ class SeveralProblem(DiagnosisProblem):
     """Of every member's stated numbers among all."""
     owners: tuple[tuple[int, ...], ...]
     """Members that each stated number belongs to."""
+    belongs: tuple[Place, ...] = ()
+    """File and spot of each member."""
 
     @classmethod
     def of_members(
-        cls, members: Sequence[DiagnosisProblem], reduced: Sequence[ReducedPlate | None]
+        cls,
+        members: Sequence[DiagnosisProblem],
+        reduced: Sequence[ReducedPlate | None],
+        of: Sequence[Place] = (),
     ) -> "SeveralProblem":
-        """One task of several. Raises `OutsideModel` where they cannot be fitted together."""
+        """One task of several, `of` these files, a file each by default.
+
+        Raises `OutsideModel` where they cannot be fitted together.
+        """
+        of = tuple(of) or tuple(Place(k + 1) for k in range(len(members)))
         if len({m.points.reads for m in members}) > 1:
             raise OutsideModel("some files read absolute, others relative to the base, expected one of them")
         if len({m.points.drive for m in members}) > 1:
@@ -54,7 +65,7 @@ class SeveralProblem(DiagnosisProblem):
             raise OutsideModel("some files hold phasors, others amplitudes, expected one of them")
         if len({m.specimen.exact for m in members}) > 1:
             raise OutsideModel("some specimens are exact, others not, expected one of them")
-        each, places, owners = _together(members)
+        each, places, owners = _together(members, of)
         sweep = joined([m.sweep for m in members])
         rational = _side_by_side([m.rational for m in members])
         nodes = EveryPoint.at(sweep.omega)
@@ -75,6 +86,7 @@ class SeveralProblem(DiagnosisProblem):
             tuple(reduced),
             places,
             owners,
+            of,
         )
 
     @property
@@ -133,10 +145,10 @@ class SeveralResponse(SweepResponse):
         for k, m in enumerate(problem.members):
             places, inner, start = [problem.places[k]], [], count
             for e in effects:
-                of = e.inner if isinstance(e, OfFiles) else e
-                if not isinstance(e, OfFiles) or e.file in (0, k + 1):
-                    inner.append(of)
-                    places.append(start + np.arange(len(of.parameters)))
+                form = e.inner if isinstance(e, OfFiles) else e
+                if not isinstance(e, OfFiles) or e.holds(problem.belongs[k]):
+                    inner.append(form)
+                    places.append(start + np.arange(len(form.parameters)))
                 start += len(e.parameters)
             response = SweepResponse(m, inner, m.coarse if coarse else None)
             self._of_member.append((response, np.concatenate(places)))
@@ -204,6 +216,7 @@ def _points(each: Sequence[Points]) -> Points:
 
 def _together(
     members: Sequence[DiagnosisProblem],
+    of: Sequence[Place],
 ) -> tuple[tuple[Nuisance, ...], Places, tuple[tuple[int, ...], ...]]:
     """All stated numbers, those of the same thing once: where each member's are, and whose each is."""
     keys: dict[tuple[object, ...], int] = {}
@@ -214,8 +227,10 @@ def _together(
         at = []
         for n in m.nuisances.each:
             key: tuple[object, ...] = (n.name, n.sigma, stated_number(m.specimen, n)[0])
-            if n.kind in OF_EACH_FILE:
-                key = (n.name, k)
+            if n.kind in OF_EACH_SPOT:
+                key = (n.name, of[k])
+            elif n.kind in OF_EACH_FILE:
+                key = (n.name, of[k].file)
             if key not in keys:
                 keys[key] = len(each)
                 each.append(n)
@@ -224,10 +239,21 @@ def _together(
             at.append(keys[key])
         places.append(np.array(at, dtype=np.intp))
     named = [
-        n if len(of) == len(members) else replace(n, name=f"{n.name} [{', '.join(str(k + 1) for k in of)}]")
-        for n, of in zip(each, owners, strict=True)
+        n
+        if len(its) == len(members)
+        else replace(n, name=f"{n.name} [{_whose(n, [of[k] for k in its], of)}]")
+        for n, its in zip(each, owners, strict=True)
     ]
-    return tuple(named), tuple(places), tuple(tuple(of) for of in owners)
+    return tuple(named), tuple(places), tuple(tuple(its) for its in owners)
+
+
+def _whose(n: Nuisance, its: Sequence[Place], every: Sequence[Place]) -> str:
+    """The files a number is of, and the spot of one that is a spot's."""
+    several = len({p.file for p in every}) > 1
+    said = [", ".join(str(file) for file in dict.fromkeys(p.file for p in its))] if several else []
+    if n.kind in OF_EACH_SPOT and its[0].pickup is not None:
+        said.append(f"pickup {its[0].pickup}")
+    return ", ".join(said)
 
 
 def _side_by_side(each: Sequence[RationalSweep]) -> RationalSweep:

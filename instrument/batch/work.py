@@ -19,8 +19,10 @@ from instrument.models.diagnosis import diagnose
 from instrument.models.identification import identify
 from instrument.models.second_process import VARIABLE as PROCESSES
 from instrument.models.sharing import serves
+from instrument.models.together import diagnose_together, identify_together, spots_of
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
+from instrument.results.together_from import diagnosed_together_from, identified_together_from
 from instrument.stream.jsonable import to_jsonable
 
 Outcome = dict[str, Any]
@@ -104,12 +106,18 @@ def _lender(task: Task, given: Given) -> Specimen | None:
     if task.like is None:
         return None
     lender = read_specimen(Path(task.like))
+    if given.sweep.pickup is not None:
+        return None
     return lender if serves(lender, given.plate, given.sweep) else None
 
 
 def _identified(given: Given, like: Specimen | None) -> dict[str, Any]:
-    found = identify(given.sweep, given.plate, hammer=given.modes, like=like)
-    result = identification_from(found, given.sweep, given.plate)
+    if given.sweep.pickup is None:
+        found = identify(given.sweep, given.plate, hammer=given.modes, like=like)
+        result = identification_from(found, given.sweep, given.plate)
+    else:
+        spots = spots_of(given.sweep, given.plate)
+        result = identified_together_from(identify_together(spots), spots)
     return {
         "verdict": None,
         "effects": [],
@@ -120,6 +128,9 @@ def _identified(given: Given, like: Specimen | None) -> dict[str, Any]:
 
 
 def _diagnosed(given: Given, like: Specimen | None) -> dict[str, Any]:
+    if given.sweep.pickup is not None:
+        spots = spots_of(given.sweep, given.plate)
+        return _of_diagnosis(diagnosed_together_from(diagnose_together(spots), spots))
     found = diagnose(given.sweep, given.plate, given.modes, like=like)
     return _of_diagnosis(diagnosis_from(found, given.sweep))
 

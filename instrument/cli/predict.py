@@ -19,7 +19,7 @@ from instrument.models.theory import theory_remark
 from instrument.progress import bar
 from instrument.results.fit_file import read_fit
 from instrument.results.fitted_response import fitted_response
-from instrument.results.prediction_from import prediction_from, prediction_from_fit
+from instrument.results.prediction_from import of_spots, prediction_from, prediction_from_fit
 
 
 @click.command()
@@ -67,14 +67,19 @@ def predict(
         read = with_bare_plate(read, fit_bare_plate(read, *read_hammer(hammer)))
     law = read.core.law if read.core is not None else None
     if fit is not None:
+        if read.further_pickups_m:
+            raise click.UsageError("--fit with several pickups: expected one")
         known = read_fit(fit)
         found = fitted_response(read, known, frequencies, bar)
         law = known.law(law) if law is not None else None
         result = prediction_from_fit(found, theory_remark(read, law, frequencies))
     else:
-        v = Models.of(read, frequencies, bar).predict(law, frequencies, real_modes=real_modes)
         remarks = (_outside(read.core, frequencies), theory_remark(read, law, frequencies))
-        result = prediction_from(frequencies, v, *remarks)
+        spots = [
+            Models.of(read.at_pickup(k), frequencies, bar).predict(law, frequencies, real_modes=real_modes)
+            for k in range(max(1, len(read.pickups_m)))
+        ]
+        result = of_spots([prediction_from(frequencies, v, *remarks) for v in spots])
     _show(out, read, result)
 
 
@@ -83,8 +88,10 @@ def _outside(core: Core | None, frequencies: NDArray[np.float64]) -> str:
 
 
 def _show(out: Output, read: StatedSpecimen, result: PredictionResult) -> None:
+    several = [] if result.points[0].pickup is None else ["pickup"]
     rows = [
         [
+            *(str(p.pickup) for _ in several),
             f"{p.frequency_hz:g}",
             *(f"{v:.6g}" for v in (p.velocity_m_s, p.velocity_re_m_s, p.velocity_im_m_s)),
         ]
@@ -92,7 +99,7 @@ def _show(out: Output, read: StatedSpecimen, result: PredictionResult) -> None:
     ]
     per = f"{read.drive_amplitude:g} m/s^2 base acceleration" if read.drive == "base" else "a force of 1 N"
     title = f"{read.reads} velocity at {per}" if read.drive == "base" else f"velocity for {per}"
-    out.table(title, ["frequency/Hz", "amplitude/(m/s)", "real/(m/s)", "imaginary/(m/s)"], rows)
+    out.table(title, [*several, "frequency/Hz", "amplitude/(m/s)", "real/(m/s)", "imaginary/(m/s)"], rows)
     for remark in result.notes:
         out.say(f"note: {remark}")
     out.result(result)

@@ -12,7 +12,7 @@ from instrument.cli.output import Output
 from instrument.files.modal_table import is_modal_table, read_modal_table
 from instrument.files.structure_file import read_structure
 from instrument.interchange.given import Given, read_given
-from instrument.models.together import File
+from instrument.models.together import File, spots_of
 
 _OPTIONS = (
     click.option(
@@ -82,10 +82,15 @@ def read_tables(
 
 
 def together(given: Sequence[Given], data: Sequence[Path]) -> list[File] | None:
-    """As files under one law; None for a single plate, which has a path of its own."""
-    if len(given) == 1 and isinstance(given[0].specimen, Specimen):
+    """As files under one law, each of their spots apart; None for a single plate read at one spot."""
+    if len(given) == 1 and isinstance(given[0].specimen, Specimen) and given[0].sweep.pickup is None:
         return None
-    return [File(g.sweep, g.specimen, path.name) for g, path in zip(given, data, strict=True)]
+    each = zip(given, data, strict=True)
+    return [
+        spot
+        for number, (g, path) in enumerate(each, start=1)
+        for spot in spots_of(g.sweep, g.specimen, path.name, number)
+    ]
 
 
 def read_data(

@@ -24,6 +24,8 @@ class PointFitted(Result):
     difference_percent: Number
     file: int | None = None
     """From 1, of several."""
+    pickup: int | None = None
+    """From 0, of several."""
 
 
 class Bend(Result):

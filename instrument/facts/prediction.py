@@ -16,10 +16,12 @@ class PointPredicted(Result):
     velocity_standard_error_m_s: Number = nan
     """Given where the law and the plate are a fit's."""
     phase_standard_error_rad: Number = nan
+    pickup: int | None = None
+    """From 0, of several."""
 
 
 class PredictionResult(Result):
-    """The response at the pickup under the specimen's base acceleration."""
+    """The response at the pickup under the specimen's base acceleration, or for a force of 1 N."""
 
     points: tuple[PointPredicted, ...]
     notes: tuple[str, ...] = ()

@@ -32,7 +32,7 @@ def read_impact_csv(path: Path, rate_hz: float | None = None) -> list[Hit] | dic
     """Hits of a record, or the FRFs of a file that begins with `frequency_hz`. Raises `BadInput`."""
     header, rows = read_rows(path)
     if is_frf(header):
-        return _frfs(path, header, rows)
+        return frfs_of(path, header, rows)
     names = [n for n in header if n in MOTIONS]
     if "force_n" not in header or not names:
         raise BadInput(
@@ -70,7 +70,8 @@ def write_frf_csv(path: Path, frf: Frf, coherence: Array | None = None) -> None:
     path.write_text("\n".join([",".join(header), *rows]) + "\n", encoding="utf-8")
 
 
-def _frfs(path: Path, header: list[str], rows: list[tuple[int, list[str]]]) -> dict[str, Frf]:
+def frfs_of(path: Path, header: list[str], rows: list[tuple[int, list[str]]]) -> dict[str, Frf]:
+    """The FRFs of some rows of a file, by their stems. Raises `BadInput`."""
     f = _column(path, header, rows, "frequency_hz")
     if np.any(np.diff(f) <= 0) or len(f) < 5 or f[0] < 0:
         raise BadInput(f"{path}: frequency_hz, expected 5 or more lines, ascending from 0 or above")

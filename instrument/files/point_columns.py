@@ -114,6 +114,7 @@ COLUMNS: tuple[Column, ...] = (
         record=ShownQuantity("Base re, im", lambda r: _both(r.point.base_m_s2, "m/s\u00b2"), _PHASOR),
     ),
     plain("base_accel_im_m_s2", "m/s^2", given="if known"),
+    Column("pickup", "1", given="if known", whole=True, identity=True),
     Column("force_re_n", "N", given="if known"),
     Column("force_im_n", "N", given="if known"),
     Column(

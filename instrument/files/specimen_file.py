@@ -129,6 +129,7 @@ class TolerancesSection(TomlTable):
 _UNITS = {"percent": 1e-2, "mm": 1e-3, "us": 1e-6}
 """Of the keys' endings, in what `fitting.tolerances` counts in."""
 _MOST_PERCENT = 50.0
+_MOST_PICKUPS = 20
 
 
 class SpecimenDocument(TomlTable):
@@ -140,10 +141,27 @@ class SpecimenDocument(TomlTable):
     core: _Core | None = None
     damping: _Damping | None = None
     pickup: _Pickup | None = None
+    further_pickups: list[_Pickup] | None = None
+    """Of `[[pickup]]`, those after the first."""
     base: _BaseSection = _BaseSection(acceleration_m_s2=PUBLISHED_G_M_S2)
     excitation: _Excitation | None = None
     mesh: _Mesh | None = None
     tolerances: TolerancesSection | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _several(cls, given: Any) -> Any:
+        pickups = given.get("pickup") if isinstance(given, dict) else None
+        if not isinstance(pickups, list):
+            return given
+        if not 0 < len(pickups) <= _MOST_PICKUPS:
+            raise ValueError(f"{len(pickups)} pickups, expected 1 to {_MOST_PICKUPS}")
+        return {**given, "pickup": pickups[0], "further_pickups": pickups[1:] or None}
+
+    @property
+    def pickups(self) -> list[_Pickup]:
+        """All of them."""
+        return [] if self.pickup is None else [self.pickup, *(self.further_pickups or [])]
 
     @property
     def force_m(self) -> tuple[float, float] | None:
@@ -157,7 +175,9 @@ class SpecimenDocument(TomlTable):
             raise ValueError(f"[{missing}] is missing, expected [core] and [constraining] both or neither")
         if "base" in self.model_fields_set and self.force_m is not None:
             raise ValueError('[base] with [excitation] kind = "force", expected one of them')
-        for table, spot in (("pickup", self.pickup), ("excitation", self.excitation)):
+        if len({p.reads for p in self.pickups}) > 1:
+            raise ValueError("pickups that read relative and absolute, expected one of them")
+        for table, spot in (*(("pickup", p) for p in self.pickups), ("excitation", self.excitation)):
             for name, side in (("x_mm", self.plate.length_mm), ("y_mm", self.plate.width_mm)):
                 at = getattr(spot, name, None)
                 if at is not None and at > side:
@@ -192,6 +212,7 @@ def specimen_of(d: SpecimenDocument) -> Specimen:
         core=core,
         modal_ratios=tuple(p / 100 for p in d.damping.modal_percent) if d.damping else (),
         pickup_m=(d.pickup.x_mm * 1e-3, d.pickup.y_mm * 1e-3) if d.pickup else None,
+        further_pickups_m=tuple((p.x_mm * 1e-3, p.y_mm * 1e-3) for p in d.pickups[1:]),
         reads=d.pickup.reads if d.pickup else "relative",
         force_m=d.force_m,
         base_acceleration_m_s2=d.base.acceleration_m_s2,

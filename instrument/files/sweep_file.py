@@ -61,6 +61,7 @@ class SweepFile:
             std_m_s=c.get("velocity_std_m_s"),
             weight=c.get("weight"),
             time_s=c.get("time_s"),
+            pickup=c["pickup"].astype(np.intp) if "pickup" in c else None,
         )
 
     def _check_drive(self, drive: Drive) -> None:

@@ -1,16 +1,18 @@
 """A sweep from another program's file: FRFs of the pickup over the base's acceleration, or over a force."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
+from fitting.diagnosis.several import joined
 from fitting.modal.frf import Frf
 from fitting.specimen import Drive
 from fitting.sweep import Sweep, segments_by_gap
 from instrument.errors import BadInput
-from instrument.files.impact_csv import FRF_STEMS, read_impact_csv
+from instrument.files.impact_csv import FRF_STEMS, frfs_of
 from instrument.files.sweep_file import SweepFile
-from instrument.files.table import read_rows
+from instrument.files.table import number, read_rows
 from instrument.interchange.importing import one_table
 from instrument.interchange.readers import read_foreign
 
@@ -24,12 +26,23 @@ def is_frf_csv(path: Path) -> bool:
 
 
 def sweep_of_frf_csv(path: Path, amplitude: float) -> Sweep:
-    """Its one FRF as the response of the pickup to a drive of that amplitude. Raises `BadInput`."""
-    found = read_impact_csv(path)
-    if not isinstance(found, dict) or len(found) != 1:
+    """Its one FRF, or one of each `pickup`, as responses to a drive of that amplitude. Raises `BadInput`."""
+    header, rows = read_rows(path)
+    if "pickup" not in header:
+        return _sweep(path, _only(path, frfs_of(path, header, rows)), amplitude)
+    at = header.index("pickup")
+    spots: dict[int, list[tuple[int, list[str]]]] = {}
+    for line, row in rows:
+        spots.setdefault(int(number(path, line, "pickup", row[at])), []).append((line, row))
+    each = [_sweep(path, _only(path, frfs_of(path, header, some)), amplitude) for some in spots.values()]
+    which = np.repeat(np.array(list(spots), dtype=np.intp), [len(s) for s in each])
+    return replace(joined(each), pickup=which)
+
+
+def _only(path: Path, found: dict[str, Frf]) -> Frf:
+    if len(found) != 1:
         raise BadInput(f"{path}: {len(found)} FRFs, expected one: the pickup over what drives the plate")
-    (frf,) = found.values()
-    return _sweep(path, frf, amplitude)
+    return next(iter(found.values()))
 
 
 def sweep_of_foreign(path: Path, amplitude: float, drive: Drive = "base") -> Sweep:

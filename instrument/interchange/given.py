@@ -80,6 +80,10 @@ def read_given(data: Path, specimen: Path | None, hammer: Path | None, *, own_ha
         given = _of_session(data, specimen, own_hammer=hammer is None and own_hammer)
     else:
         given = _of_sweep(data, specimen)
+        read, sweep = at_its_spot(data, given.specimen, given.sweep)
+        given = replace(given, specimen=read, sweep=sweep)
+        if given.sweep.pickup is not None and hammer is not None:
+            raise BadInput(f"{data}: several pickups with a hammer test, expected one pickup")
     return given if hammer is None else replace(given, modes=read_hammer(hammer))
 
 
@@ -96,6 +100,24 @@ def _of_sweep(data: Path, specimen: Path | None) -> Given:
         return Given(read, sweep_of_frf_csv(data, level), None, remark=said)
     file = read_sweep(data)
     return Given(read, file.sweep(level, drive), None, temperature_c=file.temperature_c)
+
+
+def at_its_spot(data: Path | str, read: AnySpecimen, sweep: Sweep) -> tuple[AnySpecimen, Sweep]:
+    """The specimen read where the data were; several spots stay several. Raises `BadInput`."""
+    which = sweep.pickup
+    known = len(read.pickups_m) if isinstance(read, Specimen) else 1
+    if which is None:
+        if known > 1:
+            raise BadInput(f"{data}: column pickup missing, expected it: the specimen has {known} pickups")
+        return read, sweep
+    wrong = which[(which < 0) | (which >= max(known, 1))]
+    if wrong.size:
+        expected = "0" if known < 2 else f"0 to {known - 1}"
+        raise BadInput(f"{data}: column pickup: {wrong[0]}, expected {expected} as the specimen has pickups")
+    if len(np.unique(which)) > 1:
+        return read, sweep
+    spot = read.at_pickup(int(which[0])) if isinstance(read, Specimen) and known else read
+    return spot, replace(sweep, pickup=None)
 
 
 def _of_session(data: Path, specimen: Path | None, *, own_hammer: bool) -> Given:

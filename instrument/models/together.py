@@ -17,7 +17,7 @@ from fitting.diagnosis.confounded import in_light_of_the_law
 from fitting.diagnosis.diagnose import diagnose_task, seen_in_channels
 from fitting.diagnosis.glitch import Glitch, glitches
 from fitting.diagnosis.joint import fit_of
-from fitting.diagnosis.of_files import OfFiles
+from fitting.diagnosis.of_files import Place, among
 from fitting.diagnosis.prediction import held_out
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.result import FoundEffect, ParameterEstimate
@@ -55,6 +55,30 @@ class File:
     sweep: Sweep
     specimen: AnySpecimen
     name: str = ""
+    number: int = 0
+    """Of the file, from 1; in order where it is not said: several spots of one file share it."""
+    pickup: int | None = None
+    """Which spot of the file, where it has several."""
+
+
+def spots_of(sweep: Sweep, specimen: AnySpecimen, name: str = "", number: int = 0) -> list[File]:
+    """A file's data, each of its spots for itself."""
+    if sweep.pickup is None or not isinstance(specimen, Specimen):
+        return [File(sweep, specimen, name, number)]
+    return [
+        File(replace(sweep.take(sweep.pickup == k), pickup=None), specimen.at_pickup(k), name, number, k)
+        for k in np.unique(sweep.pickup).tolist()
+    ]
+
+
+def numbers_of(files: Sequence[File]) -> list[int]:
+    """Of each of them the number of its file."""
+    return [f.number or k + 1 for k, f in enumerate(files)]
+
+
+def name_of(files: Sequence[File], number: int) -> str:
+    """Of a file by its number."""
+    return files[numbers_of(files).index(number)].name
 
 
 @dataclass(frozen=True)
@@ -68,7 +92,7 @@ class SetAside:
 
     def words(self, files: Sequence[File]) -> str:
         """Where, in a sentence."""
-        name = files[self.file - 1].name
+        name = name_of(files, self.file)
         of = f"{name}: " if name else ""
         return (
             f"{of}{self.glitch.low_hz:.0f} to {self.glitch.high_hz:.0f} Hz is a local disturbance (up to "
@@ -134,7 +158,8 @@ class _Work:
             n.std_m_s if known else np.abs(m.sweep.response_m_s) for n, m in zip(noises, members, strict=True)
         ]
         source = noises[0].source if known else "unknown"
-        return SeveralProblem.of_members(members, reduced), Noise(np.concatenate(std), source)
+        places = [Place(n, f.pickup) for n, f in zip(numbers_of(self.files), self.files, strict=True)]
+        return SeveralProblem.of_members(members, reduced, places), Noise(np.concatenate(std), source)
 
     @property
     def start(self) -> CoreLaw:
@@ -165,7 +190,7 @@ class _Work:
             f = m.sweep.frequency_hz
             for g in stretches:
                 count = int(np.sum((f >= g.low_hz) & (f <= g.high_hz)))
-                self._add(SetAside(k + 1, g, count))
+                self._add(SetAside(numbers_of(self.files)[k], g, count))
             if aside.any():
                 self.used[k][np.flatnonzero(self.used[k])[aside]] = False
                 found = True
@@ -258,17 +283,20 @@ def diagnose_together(
     work = _Work(files, progress, with_effects=True)
     with threadpool_limits(1, "blas"), executor() as workers:
         channels: list[FoundEffect] = []
+        numbers = numbers_of(files)
+        count = max(numbers)
+        spots = sorted({f.pickup for f in files if f.pickup is not None})
         for k, file in enumerate(files):
             used, seen, _ = seen_in_channels(file.sweep, effects)
             work.used[k] &= used
-            channels += [_with_file(one, k + 1, len(files)) for one in seen]
+            channels += [_with_file(one, numbers[k], count) for one in seen]
         work.problem()
         ready = perf_counter()
         with progress("tracing the residual") as report:
             work.without_glitches()
-            channels += [_fixture(one, len(files)) for one in work.aside]
+            channels += [_fixture(one, count) for one in work.aside]
             problem, noise = work.problem()
-            tried = [e if e.replaces_law or len(files) == 1 else OfFiles(e, len(files)) for e in effects]
+            tried = [e if e.replaces_law or len(files) == 1 else among(e, count, spots) for e in effects]
             result = diagnose_task(
                 problem,
                 None,

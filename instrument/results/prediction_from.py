@@ -1,5 +1,7 @@
 """The result of `viscorig predict`, of the response itself."""
 
+from collections.abc import Sequence
+
 from fitting.arrays import Array, Complex
 from instrument.facts.prediction import PointPredicted, PredictionResult
 from instrument.results.fitted_response import FittedResponse
@@ -9,6 +11,14 @@ def prediction_from(frequency_hz: Array, velocity_m_s: Complex, *remarks: str) -
     """Of a specimen's own law. Shape (points,) each."""
     rows = zip(frequency_hz.tolist(), velocity_m_s, strict=True)
     return PredictionResult(points=tuple(_point(f, z) for f, z in rows), notes=tuple(r for r in remarks if r))
+
+
+def of_spots(each: Sequence[PredictionResult]) -> PredictionResult:
+    """Spot after spot, numbered where there are several."""
+    if len(each) == 1:
+        return each[0]
+    points = tuple(point.but(pickup=k) for k, one in enumerate(each) for point in one.points)
+    return each[0].but(points=points)
 
 
 def prediction_from_fit(found: FittedResponse, *remarks: str) -> PredictionResult:

@@ -7,7 +7,7 @@ import numpy as np
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.identification import IdentificationResult, PointFitted
 from instrument.facts.rows import StretchSetAside
-from instrument.models.together import DiagnosedTogether, File, SetAside, Together
+from instrument.models.together import DiagnosedTogether, File, SetAside, Together, name_of, numbers_of
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
 
@@ -17,8 +17,8 @@ def identified_together_from(found: Together, files: Sequence[File]) -> Identifi
     result = identification_from(found.found, found.sweep)
     owned = zip(result.points, _owners(files, result.points), strict=True)
     return result.but(
-        points=tuple(point.but(file=file) for point, file in owned),
-        files=tuple(f.name for f in files),
+        points=tuple(point.but(file=number, pickup=f.pickup) for point, (number, f) in owned),
+        files=_names(files),
         set_aside=_set_aside(found.aside, files),
     )
 
@@ -26,7 +26,12 @@ def identified_together_from(found: Together, files: Sequence[File]) -> Identifi
 def diagnosed_together_from(found: DiagnosedTogether, files: Sequence[File]) -> DiagnosisResult:
     """The result of `diagnose`, with the files' names and what was set aside of which."""
     result = diagnosis_from(found.found, found.sweep)
-    return result.but(files=tuple(f.name for f in files), set_aside=_set_aside(found.aside, files))
+    return result.but(files=_names(files), set_aside=_set_aside(found.aside, files))
+
+
+def _names(files: Sequence[File]) -> tuple[str, ...]:
+    """Of the files in order, whatever spots each has."""
+    return tuple(name_of(files, number) for number in sorted(set(numbers_of(files))))
 
 
 def _set_aside(aside: Sequence[SetAside], files: Sequence[File]) -> tuple[StretchSetAside, ...]:
@@ -34,7 +39,7 @@ def _set_aside(aside: Sequence[SetAside], files: Sequence[File]) -> tuple[Stretc
     return tuple(
         StretchSetAside(
             file=one.file,
-            name=files[one.file - 1].name,
+            name=name_of(files, one.file),
             from_hz=one.glitch.low_hz,
             to_hz=one.glitch.high_hz,
             largest_percent=100 * one.glitch.largest,
@@ -44,7 +49,8 @@ def _set_aside(aside: Sequence[SetAside], files: Sequence[File]) -> tuple[Stretc
     )
 
 
-def _owners(files: Sequence[File], points: Sequence[PointFitted]) -> list[int]:
-    """By segments: every file's are numbered on from the last one's."""
+def _owners(files: Sequence[File], points: Sequence[PointFitted]) -> list[tuple[int, File]]:
+    """By segments: every file's, and every spot's, are numbered on from the last one's."""
     counts = np.cumsum([len(np.unique(f.sweep.segment)) for f in files])
-    return [int(np.searchsorted(counts, point.segment)) + 1 for point in points]
+    owners = list(zip(numbers_of(files), files, strict=True))
+    return [owners[int(np.searchsorted(counts, point.segment))] for point in points]

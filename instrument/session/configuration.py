@@ -71,4 +71,8 @@ def read_whole_experiment(path: Path) -> Experiment:
         raise BadInput(
             f'{specimen_path}: excitation.kind: "force", but a rig shakes the base, expected "base"'
         )
+    if len(specimen.pickups) > 1:
+        raise BadInput(
+            f"{specimen_path}: {len(specimen.pickups)} pickups, but a rig has one laser, expected one"
+        )
     return Experiment(path, document, rig, specimen, rig_path)

@@ -94,6 +94,77 @@ def test_a_struck_free_plate_gives_its_law_from_any_reading(folder, capsys, data
     assert {"force_x", "force_y", "pickup_x", "pickup_y"} < names
 
 
+TWO = FREE.replace("[pickup]", "[[pickup]]").replace(
+    "[excitation]", "[[pickup]]\nx_mm = 40.0\ny_mm = 150.0\n[tolerances]\ngain_percent = 3.0\n[excitation]"
+)
+
+
+@pytest.fixture(scope="module")
+def two_spots(folder):
+    """The second spot read 3 % too high."""
+    (folder / "two.toml").write_text(TWO)
+    line = [
+        "predict",
+        str(folder / "two.toml"),
+        "--frequencies",
+        "60:200:4",
+        "--json",
+        str(folder / "2.json"),
+    ]
+    assert run(line) == 0
+    points = json.loads((folder / "2.json").read_text())["points"]
+    assert [p["pickup"] for p in points] == [0] * 36 + [1] * 36
+    rng = np.random.default_rng(3)
+    rows = ["pickup,frequency_hz,mobility_re,mobility_im"]
+    for p in points:
+        v = complex(p["velocity_re_m_s"], p["velocity_im_m_s"]) * (1 + 0.03 * p["pickup"])
+        v *= 1 + 1e-3 * complex(*rng.normal(size=2))
+        rows.append(f"{p['pickup']},{p['frequency_hz']},{v.real!r},{v.imag!r}")
+    (folder / "two.csv").write_text("\n".join(rows))
+    return folder
+
+
+def test_spots_are_fitted_together_each_with_its_own_gain_and_place(two_spots, capsys):
+    line = ["identify", str(two_spots / "two.csv"), "--specimen", str(two_spots / "two.toml")]
+    assert run([*line, "--json", "-"]) == 0
+    result = json.loads(capsys.readouterr().out)
+    assert {p["pickup"] for p in result["points"]} == {0, 1}
+    found = {a["name"]: a for a in result["adjusted"]}
+    assert {"gain [pickup 0]", "pickup_x [pickup 1]", "force_x", "length"} < set(found)
+    apart = found["gain [pickup 1]"]["found"] - found["gain [pickup 0]"]["found"]
+    assert apart == pytest.approx(0.03, abs=6e-3)
+    truth = read_specimen(two_spots / "free.toml").core.law
+    row = next(r for r in result["law"] if r["frequency_hz"] == 100.0)
+    G = truth.modulus(np.array([2 * np.pi * 100.0]))[0]
+    assert abs(row["storage_modulus_pa"] - G.real) < 3 * row["storage_modulus_standard_error_pa"]
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (lambda text: text.replace("pickup,", "spot,"), "column pickup missing"),
+        (lambda text: text.replace("\n1,", "\n2,"), "column pickup: 2, expected 0 to 1"),
+    ],
+)
+def test_rows_say_which_spot_they_are_of(two_spots, tmp_path, capsys, change, said):
+    text = change((two_spots / "two.csv").read_text())
+    if "spot," in text:
+        text = "\n".join(line for line in text.splitlines() if not line.startswith("1,"))
+    (tmp_path / "bad.csv").write_text(text)
+    assert run(["identify", str(tmp_path / "bad.csv"), "--specimen", str(two_spots / "two.toml")]) == 2
+    assert said in capsys.readouterr().err
+
+
+def test_rows_of_one_spot_are_an_ordinary_sweep(two_spots, tmp_path, capsys):
+    rows = (two_spots / "two.csv").read_text().splitlines()
+    (tmp_path / "one.csv").write_text("\n".join([rows[0], *(r for r in rows if r.startswith("1,"))]))
+    line = ["identify", str(tmp_path / "one.csv"), "--specimen", str(two_spots / "two.toml"), "--json", "-"]
+    assert run(line) == 0
+    result = json.loads(capsys.readouterr().out)
+    found = {a["name"]: a["stated"] for a in result["adjusted"]}
+    assert (found["pickup_x"], found["pickup_y"]) == (40.0, 150.0)
+
+
 def test_an_effect_of_the_base_cannot_be_accepted_where_a_force_drives(folder, capsys):
     line = ["diagnose", str(folder / "accelerance.csv"), "--specimen", str(folder / "free.toml")]
     assert run([*line, "--accept", "base_rocking"]) == 2
