@@ -17,6 +17,7 @@ GROUPS = {
     "viscorig.shakers": "shaker",
     "viscorig.vibrometers": "vibrometer",
     "viscorig.front_ends": "front-end",
+    "viscorig.chambers": "chamber",
     "viscorig.readers": "file reader",
     "viscorig.pages": "page",
     "viscorig.commands": "command",

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from drivers.errors import DriverError, Garbled, Refused, TimedOut
+from drivers.modbus.line import ModbusLine
 from drivers.shaker.interface import Alarm, Echo, ShakerStatus
-from drivers.shaker.modbus_line import ModbusLine
 from drivers.shaker.protocol import (
     Identity,
     SineCommand,
@@ -55,7 +55,8 @@ class ModbusShaker:
         retries: int = 2,
     ) -> "ModbusShaker":
         """Over Modbus TCP; `timeout_s` holds for connecting and for each answer."""
-        return cls(ModbusLine.tcp(host, port, unit=unit, timeout_s=timeout_s, retries=retries), registers)
+        line = ModbusLine.tcp("shaker", host, port, unit=unit, timeout_s=timeout_s, retries=retries)
+        return cls(line, registers)
 
     @classmethod
     def rtu(
@@ -72,6 +73,7 @@ class ModbusShaker:
     ) -> "ModbusShaker":
         """Over Modbus RTU on a serial port, 8 data bits."""
         line = ModbusLine.rtu(
+            "shaker",
             port,
             baud=baud,
             parity=parity,
@@ -92,7 +94,7 @@ class ModbusShaker:
         self._identity()
         why = _forbids_start(self.status())
         if why:
-            raise Refused(f"shaker at {self._line.where} does not start: {why}")
+            raise Refused(f"{self._line.name} does not start: {why}")
         self._control(ControlBits.RUN)
 
     def command(self, frequency_hz: float, drive_v: float, ramp_v_s: float) -> Echo:
@@ -159,7 +161,7 @@ class ModbusShaker:
         """Refused where the device does not do that."""
         objection = heartbeat_timeout_objection(timeout_s)
         if objection:
-            raise Refused(f"shaker at {self._line.where}: {objection}")
+            raise Refused(f"{self._line.name}: {objection}")
         self._write("heartbeat_timeout_s", timeout_s)
 
     def _identity(self) -> Identity:
@@ -183,7 +185,7 @@ class ModbusShaker:
                 return self._echo()
             if time.monotonic() > deadline:
                 raise TimedOut(
-                    f"shaker at {self._line.where}: receipt of command {sequence} expected within "
+                    f"{self._line.name}: receipt of command {sequence} expected within "
                     f"{ECHO_TIMEOUT_S:g} s, the last one is of {seen}"
                 )
             time.sleep(ECHO_POLL_S)
@@ -221,7 +223,7 @@ class ModbusShaker:
         try:
             yield
         except (Garbled, Refused) as problem:
-            raise type(problem)(f"shaker at {self._line.where}, {problem}") from problem
+            raise type(problem)(f"{self._line.name}, {problem}") from problem
 
 
 def _forbids_start(status: ShakerStatus) -> str | None:

@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from drivers.modbus.address import host_and_port
 from drivers.shaker.driver import ShakerDriver, ShakerOptions
 from drivers.shaker.interface import Shaker
 from drivers.shaker.register_map import DEFAULT
@@ -33,9 +34,8 @@ class ModbusTcpOptions(ModbusOptions):
 
     @model_validator(mode="after")
     def _reachable(self) -> "ModbusTcpOptions":
-        host, _, port = self.address.rpartition(":")
-        if self.is_addressed and (not host or not port.isdecimal() or not 0 < int(port) < 65536):
-            raise ValueError(f"address: {self.address!r}, expected host:port")
+        if self.is_addressed:
+            host_and_port(self.address)
         return self
 
 
@@ -57,10 +57,10 @@ class ModbusTcpDriver(ShakerDriver[ModbusTcpOptions]):
         """Connected to when first used."""
         from drivers.shaker.modbus import ModbusShaker
 
-        host, _, port = options.address.rpartition(":")
+        host, port = host_and_port(options.address)
         registers = DEFAULT.with_addresses(options.registers)
         return ModbusShaker.tcp(
-            host, int(port), unit=options.unit, registers=registers, timeout_s=timeout_s, retries=retries
+            host, port, unit=options.unit, registers=registers, timeout_s=timeout_s, retries=retries
         )
 
 

@@ -1,4 +1,4 @@
-"""A simulated shaker on the wire: Modbus TCP on the loopback, Modbus RTU on a pseudo-terminal, one device.
+"""A simulated device on the wire: Modbus TCP on the loopback, Modbus RTU on a pseudo-terminal.
 
 Holding registers only. What the device refuses comes back as NEGATIVE_ACKNOWLEDGE, numbers that cannot be as
 ILLEGAL_VALUE, registers that are not there or not to be written as ILLEGAL_ADDRESS.
@@ -7,42 +7,75 @@ ILLEGAL_VALUE, registers that are not there or not to be written as ILLEGAL_ADDR
 import asyncio
 import logging
 import threading
-import time
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator
 from contextlib import AsyncExitStack, asynccontextmanager, suppress
+from dataclasses import dataclass
 from types import TracebackType
+from typing import Protocol
 
 from pymodbus.constants import ExcCodes
 from pymodbus.server import ModbusSerialServer, ModbusTcpServer
 from pymodbus.simulator import DataType, SimData, SimDevice
 
 from drivers.errors import DriverError, Garbled, Refused, TimedOut, Unreachable
-from drivers.shaker.register_map import DEFAULT, RegisterMap
 from drivers.simulated.pseudo_terminals import PseudoTerminals
-from drivers.simulated.shaker_device import ShakerDevice
-from drivers.simulated.shaker_registers import Clock, DeviceRegisters
 
 logging.getLogger("pymodbus").addHandler(logging.NullHandler())
 
 BAUD = 115200
-HEARTBEAT_CHECK_S = 0.05
+WATCH_S = 0.05
 START_TIMEOUT_S = 5.0
 STOP_TIMEOUT_S = 5.0
 
 _READ, _WRITE_ONE, _WRITE, _MASK, _READ_WRITE = 3, 6, 16, 22, 23
 
 
-class ModbusShakerServer:
+@dataclass(frozen=True)
+class RegisterBlock:
+    """Registers in a row that belong together."""
+
+    address: int
+    width: int
+    writable: bool
+
+
+class ServedRegisters(Protocol):
+    """A device as a master sees it: words at addresses. Called with the server's lock held."""
+
+    def blocks(self) -> list[RegisterBlock]:
+        """All there are."""
+        ...
+
+    def words(self) -> dict[int, int]:
+        """Every word by its address, as of this moment."""
+        ...
+
+    def write(self, address: int, new: list[int]) -> None:
+        """Words from a master.
+
+        Raises
+        ------
+        Garbled
+            Numbers that cannot be.
+        Refused
+            The device said no.
+        """
+        ...
+
+    def watch(self) -> None:
+        """Called every `WATCH_S`, whether or not anybody is connected."""
+        ...
+
+
+class ModbusServer:
     """Serves a device from a thread of its own; a context manager.
 
     Parameters
     ----------
-    clock
-        Sample index and time. Read with `lock` held, never earlier than what the device was told before.
+    name
+        Of the device, for messages.
     lock
         Held for every touch of the device.
-    wall
-        Wall time in s, for the heartbeat.
     port
         Of Modbus TCP on 127.0.0.1; 0: a free one.
     rtu
@@ -51,25 +84,20 @@ class ModbusShakerServer:
 
     def __init__(
         self,
-        device: ShakerDevice,
-        registers: RegisterMap = DEFAULT,
+        served: ServedRegisters,
+        name: str,
         *,
-        clock: Clock,
         lock: threading.RLock,
-        wall: Callable[[], float] = time.monotonic,
         port: int = 0,
         rtu: bool = False,
         unit: int = 1,
     ) -> None:
-        self._device = device
-        self._registers = registers
-        self._clock = clock
+        self._served = served
+        self._name = name
         self._lock = lock
-        self._wall = wall
         self._port = port
         self._rtu = rtu
         self._unit = unit
-        self._seen = DeviceRegisters(device, registers, clock, wall)
         self._thread: threading.Thread | None = None
         self._ready = threading.Event()
         self._failure: BaseException | None = None
@@ -90,15 +118,15 @@ class ModbusShakerServer:
         """
         self._ready.clear()
         self._failure = None
-        self._thread = threading.Thread(target=self._run, name="simulated shaker", daemon=True)
+        self._thread = threading.Thread(target=self._run, name=self._name, daemon=True)
         self._thread.start()
         if not self._ready.wait(START_TIMEOUT_S):
-            raise TimedOut(f"simulated shaker at port {self._port}: not serving within {START_TIMEOUT_S:g} s")
+            raise TimedOut(f"{self._name} at port {self._port}: not serving within {START_TIMEOUT_S:g} s")
         if self._failure is not None:
             self._thread.join(STOP_TIMEOUT_S)
             self._thread = None
             raise Unreachable(
-                f"simulated shaker: cannot serve at 127.0.0.1:{self._port}: {self._failure}"
+                f"{self._name}: cannot serve at 127.0.0.1:{self._port}: {self._failure}"
             ) from self._failure
 
     def stop(self) -> None:
@@ -114,12 +142,12 @@ class ModbusShakerServer:
                 self._loop.call_soon_threadsafe(self._ending.set)
         self._thread.join(STOP_TIMEOUT_S)
         if self._thread.is_alive():
-            raise TimedOut(f"simulated shaker at {self.address}: still serving after {STOP_TIMEOUT_S:g} s")
+            raise TimedOut(f"{self._name} at {self.address}: still serving after {STOP_TIMEOUT_S:g} s")
         self._thread = None
         if self._failure is not None:
-            raise DriverError(f"simulated shaker at {self.address}: {self._failure}") from self._failure
+            raise DriverError(f"{self._name} at {self.address}: {self._failure}") from self._failure
 
-    def __enter__(self) -> "ModbusShakerServer":
+    def __enter__(self) -> "ModbusServer":
         self.start()
         return self
 
@@ -148,9 +176,9 @@ class ModbusShakerServer:
             self._ready.set()
             while not self._ending.is_set():
                 with self._lock:
-                    self._device.check_heartbeat(self._wall(), self._clock()[1])
+                    self._served.watch()
                 with suppress(TimeoutError):
-                    await asyncio.wait_for(self._ending.wait(), HEARTBEAT_CHECK_S)
+                    await asyncio.wait_for(self._ending.wait(), WATCH_S)
 
     @asynccontextmanager
     async def _tcp(self) -> AsyncIterator[tuple[str, int]]:
@@ -177,8 +205,8 @@ class ModbusShakerServer:
 
     def _sim_device(self) -> SimDevice:
         data = [
-            SimData(r.address, count=r.width, values=0, datatype=DataType.REGISTERS, readonly=not r.writable)
-            for r in self._registers
+            SimData(b.address, count=b.width, values=0, datatype=DataType.REGISTERS, readonly=not b.writable)
+            for b in self._served.blocks()
         ]
         return SimDevice(id=self._unit, simdata=data, action=self._serve_request)
 
@@ -200,8 +228,8 @@ class ModbusShakerServer:
         try:
             with self._lock:
                 if new is not None:
-                    self._seen.write(address, [int(word) for word in new])
-                for at, word in self._seen.words().items():
+                    self._served.write(address, [int(word) for word in new])
+                for at, word in self._served.words().items():
                     current[at - start_address] = word
         except Garbled:
             return ExcCodes.ILLEGAL_VALUE

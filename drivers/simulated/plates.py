@@ -3,6 +3,7 @@
 import numpy as np
 
 from drivers.arrays import Array
+from drivers.simulated.climate import AMBIENT_C, Climate
 from drivers.simulated.drive import DrivePiece
 from drivers.simulated.plant.bare import Pulse, StruckPlate
 from drivers.simulated.plant.effects import Effects
@@ -14,15 +15,14 @@ _LIFTS_S = 0.1
 _WIDTH_S = 1e-3
 _PEAK_N = (60.0, 120.0)
 _BOUNCE_S, _BOUNCE_SHARE = 0.04, 0.4
-AMBIENT_C = 22.0
 
 
 class DampedPlate:
     """The plate with its treatment, on the shaker."""
 
-    def __init__(self, effects: Effects) -> None:
-        self.plant = ShakenPlate(effects)
-        self._drift = effects.temperature_drift
+    def __init__(self, effects: Effects, climate: Climate | None = None) -> None:
+        self.plant = ShakenPlate(effects, climate=climate)
+        self._drift, self._climate = effects.temperature_drift, climate
 
     def drive(self, piece: DrivePiece) -> None:
         """The shaker's output from now on."""
@@ -37,10 +37,11 @@ class DampedPlate:
         return np.asarray(self.plant.at(first_s, step_s, count, (_OUTPUTS.get(output, output),))[0])
 
     def _temperature_c(self, t: Array) -> Array:
-        drift = self._drift
+        climate, drift = self._climate, self._drift
+        there = np.array([climate.plate_c(s) for s in t.tolist()]) if climate else np.full(len(t), AMBIENT_C)
         if drift is None:
-            return np.full(len(t), AMBIENT_C)
-        return np.asarray(AMBIENT_C + drift.kelvin * (1 - np.exp(-t / drift.time_constant_s)))
+            return there
+        return np.asarray(there + drift.kelvin * (1 - np.exp(-t / drift.time_constant_s)))
 
 
 class SimulatedBarePlate:

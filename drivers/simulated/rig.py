@@ -1,5 +1,7 @@
 """The simulated rig: one world behind a Modbus shaker, a serial vibrometer and a LAN-XI front-end.
 
+A chamber on Modbus stands around it where there is one.
+
 The vibrometer speaks Polytec's language, unless another driver's own simulated one takes its place.
 """
 
@@ -11,10 +13,14 @@ from contextlib import AbstractContextManager, ExitStack
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from drivers.chamber.registers import TemperatureRegisters
 from drivers.shaker.register_map import DEFAULT, RegisterMap
+from drivers.simulated.chamber_registers import ChamberRegisters
+from drivers.simulated.climate import Climate
 from drivers.simulated.lan_xi_server import LanXiServer
-from drivers.simulated.modbus_server import ModbusShakerServer
+from drivers.simulated.modbus_server import ModbusServer
 from drivers.simulated.shaker_device import LogEntry, ShakerDevice
+from drivers.simulated.shaker_registers import DeviceRegisters
 from drivers.simulated.vibrometer_server import Head, VibrometerServer
 from drivers.simulated.world import World
 from drivers.vibrometer.driver import Optics
@@ -34,6 +40,16 @@ class Ports:
 
     modbus: int = 0
     front_end: int = 0
+    chamber: int = 0
+
+
+@dataclass(frozen=True)
+class SimulatedChamber:
+    """What stands around the plate, and how it is spoken to."""
+
+    climate: Climate
+    registers: TemperatureRegisters
+    unit: int = 1
 
 
 VibrometerPeer = Callable[[Optics], AbstractContextManager[str]]
@@ -75,6 +91,7 @@ class SimulatedRig:
         ports: Ports = Ports(),
         log: Path | None = None,
         vibrometer: VibrometerPeer | None = None,
+        chamber: SimulatedChamber | None = None,
     ) -> None:
         self.world, self._ports, self._log_path = world, ports, log
         self._written = 0
@@ -91,7 +108,7 @@ class SimulatedRig:
         self._head = Head(
             model=model, signal_level=signal_level, delay_s=delay_s, on_range=self._optics.choose
         )
-        self._peer = vibrometer
+        self._peer, self._chamber = vibrometer, chamber
         self._ending = threading.Event()
         self._stack = ExitStack()
 
@@ -112,16 +129,16 @@ class SimulatedRig:
                 )
             )
             modbus = stack.enter_context(
-                ModbusShakerServer(
-                    self.device,
-                    self._registers,
-                    clock=world.clock,
+                ModbusServer(
+                    DeviceRegisters(self.device, self._registers, world.clock),
+                    "simulated shaker",
                     lock=world.lock,
                     port=self._ports.modbus,
                     rtu=True,
                     unit=self._unit,
                 )
             )
+            chamber_tcp = self._stand_up_chamber(stack)
             ticking = threading.Thread(target=self._tick, name="simulated rig", daemon=True)
             ticking.start()
             stack.callback(ticking.join)
@@ -134,6 +151,7 @@ class SimulatedRig:
             "modbus_rtu": modbus.rtu_path or "",
             "vibrometer_tty": vibrometer_tty,
             "frontend_url": front_end.url,
+            "chamber_tcp": chamber_tcp,
         }
 
     def __exit__(self, *_: object) -> None:
@@ -158,6 +176,18 @@ class SimulatedRig:
         self._optics.choose(self._head.range)
         self.vibrometer = stack.enter_context(VibrometerServer(self._head, lock=self.world.lock))
         return self.vibrometer.path
+
+    def _stand_up_chamber(self, stack: ExitStack) -> str:
+        """Where it answers; empty where there is none."""
+        if self._chamber is None:
+            return ""
+        world = self.world
+        served = ChamberRegisters(self._chamber.climate, self._chamber.registers, lambda: world.clock()[1])
+        server = ModbusServer(
+            served, "simulated chamber", lock=world.lock, port=self._ports.chamber, unit=self._chamber.unit
+        )
+        host, port = stack.enter_context(server).address
+        return f"{host}:{port}"
 
     def _tick(self) -> None:
         while not self._ending.wait(_TICK_S):

@@ -3,6 +3,7 @@
 Writing the command's sequence number makes the command take effect; its other registers may come before.
 """
 
+import time
 from collections.abc import Callable
 
 from drivers.errors import Garbled, Refused
@@ -17,6 +18,7 @@ from drivers.shaker.protocol import (
     encode_status,
 )
 from drivers.shaker.register_map import COMMAND, ControlBits, Register, RegisterMap
+from drivers.simulated.modbus_server import RegisterBlock
 from drivers.simulated.shaker_device import ShakerDevice
 
 Clock = Callable[[], tuple[int, float]]
@@ -24,10 +26,17 @@ Clock = Callable[[], tuple[int, float]]
 
 
 class DeviceRegisters:
-    """The device as a master sees it: words at addresses. Call it with the device's lock held."""
+    """The device as a master sees it: words at addresses. Call it with the device's lock held.
+
+    `clock` is never earlier than what the device was told before; `wall` in s is what the heartbeat lives by.
+    """
 
     def __init__(
-        self, device: ShakerDevice, registers: RegisterMap, clock: Clock, wall: Callable[[], float]
+        self,
+        device: ShakerDevice,
+        registers: RegisterMap,
+        clock: Clock,
+        wall: Callable[[], float] = time.monotonic,
     ) -> None:
         self._device = device
         self._registers = registers
@@ -36,6 +45,14 @@ class DeviceRegisters:
         self._asked = [0] * sum(registers[name].width for name in COMMAND)
         self._heartbeat = 0
         self._echo = Echo(sequence=0, sample=None, drive_v=0.0)
+
+    def blocks(self) -> list[RegisterBlock]:
+        """All there are."""
+        return [RegisterBlock(r.address, r.width, r.writable) for r in self._registers]
+
+    def watch(self) -> None:
+        """The heartbeat."""
+        self._device.check_heartbeat(self._wall(), self._clock()[1])
 
     def words(self) -> dict[int, int]:
         """Every word by its address, as of this moment."""

@@ -27,8 +27,9 @@ from instrument.simulated_case.simulation import simulated_rig
 def simulate(rig: Path, virtual_time: bool, log: Path | None, modbus_port: int, frontend_port: int) -> None:
     """Stand up the instruments of RIG.toml's [simulation] until interrupted.
 
-    The first line of output is JSON: modbus_tcp, modbus_rtu, vibrometer_tty, frontend_url. Everything is
-    bound to loopback. Where standard input is a pipe, its end is the end.
+    The first line of output is JSON: modbus_tcp, modbus_rtu, vibrometer_tty, frontend_url,
+    chamber_tcp (empty without a [chamber]). Everything is bound to loopback. Where standard input is a
+    pipe, its end is the end.
     """
     document = read_document(rig, RigDocument)
     ports = modbus_port, frontend_port

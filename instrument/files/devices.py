@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 from pydantic import ValidationError, ValidationInfo, WrapValidator
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
+from drivers.chamber.driver import AnyChamberDriver, ChamberDriver, ChamberOptions
 from drivers.front_end.driver import AnyFrontEndDriver, FrontEndDriver, FrontEndOptions
 from drivers.options import DeviceOptions
 from drivers.shaker.driver import AnyShakerDriver, ShakerDriver, ShakerOptions
@@ -50,8 +51,25 @@ FRONT_ENDS: Registry[AnyFrontEndDriver] = Registry(
     },
     _judge(FrontEndDriver, FrontEndOptions),
 )
-DEVICES: dict[str, Registry[Any]] = {"shaker": SHAKERS, "vibrometer": VIBROMETERS, "front_end": FRONT_ENDS}
+CHAMBERS: Registry[AnyChamberDriver] = Registry(
+    "viscorig.chambers",
+    {
+        "modbus-tcp": "drivers.chamber.modbus_driver:ModbusTcpChamberDriver",
+        "modbus-rtu": "drivers.chamber.modbus_driver:ModbusRtuChamberDriver",
+        "serial": "drivers.chamber.serial_driver:SerialThermometerDriver",
+    },
+    _judge(ChamberDriver, ChamberOptions),
+)
+DEVICES: dict[str, Registry[Any]] = {
+    "shaker": SHAKERS,
+    "vibrometer": VIBROMETERS,
+    "front_end": FRONT_ENDS,
+    "chamber": CHAMBERS,
+}
 """Drivers by the table of RIG.toml that names them."""
+
+
+_USUAL = {"shaker": "modbus-tcp", "vibrometer": "polytec", "front_end": "lan-xi", "chamber": "modbus-tcp"}
 
 
 def ranges_of(table: VibrometerOptions) -> tuple[Range, ...]:
@@ -82,8 +100,8 @@ def _checked(device: str, given: Any, *, as_json: bool) -> DeviceOptions:
 
 def options_of(device: str, kind: object) -> type[DeviceOptions] | None:
     """The model of a device's table; None where no driver is of this kind. Nothing said is the usual kind."""
-    usual = {"shaker": "modbus-tcp", "vibrometer": "polytec", "front_end": "lan-xi"}[device]
-    driver = DEVICES[device].get(usual if kind is None else kind) if isinstance(kind, str | None) else None
+    named = _USUAL[device] if kind is None else kind
+    driver = DEVICES[device].get(named) if isinstance(named, str) else None
     return None if driver is None else driver.options
 
 

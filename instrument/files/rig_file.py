@@ -8,8 +8,9 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, SerializeAsAny, model_validator
 
+from drivers.chamber.driver import ChamberOptions
 from drivers.front_end.driver import FrontEndOptions
-from drivers.options import NOT_KEPT, SIMULATED
+from drivers.options import NOT_KEPT, SIMULATED, DeviceOptions
 from drivers.shaker.driver import ShakerOptions
 from drivers.vibrometer.driver import VibrometerOptions
 from instrument.files.devices import by_kind
@@ -27,6 +28,8 @@ Vibrometer = Annotated[SerializeAsAny[VibrometerOptions], by_kind("vibrometer")]
 """The vibrometer's table, as its driver has it."""
 FrontEnd = Annotated[SerializeAsAny[FrontEndOptions], by_kind("front_end")]
 """The front-end's table, as its driver has it."""
+Chamber = Annotated[SerializeAsAny[ChamberOptions], by_kind("chamber")]
+"""The chamber's table, as its driver has it."""
 
 
 class SensorSection(TomlTable):
@@ -93,6 +96,15 @@ class OperatorSection(TomlTable):
     kind: Literal["person", "simulated"] = "person"
 
 
+class SimulatedChamberSection(TomlTable):
+    """How fast the simulated chamber is. Both follow as first-order lags."""
+
+    air_s: Positive = 120.0
+    """Time constant of the air behind the set point."""
+    plate_s: Positive = 300.0
+    """Time constant of the plate behind the air."""
+
+
 class Simulation(TomlTable):
     """What the simulated rig is like, and what it hides. Never kept with a session."""
 
@@ -108,6 +120,7 @@ class Simulation(TomlTable):
     effects: dict[str, dict[str, Number | str | list[Number]]] = Field(default_factory=dict)
     core: dict[str, Any] = Field(default_factory=dict)
     """g_inf_mpa, g_mpa, tau_s: another core than the standard one."""
+    chamber: SimulatedChamberSection = SimulatedChamberSection()
     double_hit_every: Annotated[int, Field(ge=0)] = 4
     """Every so many hits one bounces; 0 for never."""
     log: str | None = None
@@ -121,6 +134,7 @@ class RigDocument(TomlTable):
     shaker: Shaker
     vibrometer: Vibrometer
     front_end: FrontEnd
+    chamber: Chamber | None = None
     channels: Channels
     limits: RigLimits = RigLimits()
     operator: OperatorSection = OperatorSection()
@@ -128,9 +142,9 @@ class RigDocument(TomlTable):
 
     @model_validator(mode="after")
     def _whole(self) -> "RigDocument":
-        given = [d.address == SIMULATED for d in (self.shaker, self.vibrometer, self.front_end)]
+        given = [d.address == SIMULATED for d in self.devices().values()]
         if any(given) and not all(given):
-            raise ValueError('address = "simulated" is for all three devices or none: they share one plate')
+            raise ValueError('address = "simulated" is for all devices or none: they share one plate')
         if any(given) and self.simulation is None:
             raise ValueError('address = "simulated" needs a [simulation] table, it may be empty')
         return self
@@ -140,10 +154,14 @@ class RigDocument(TomlTable):
         """Whether the devices are stood up for the run."""
         return self.shaker.address == SIMULATED
 
+    def devices(self) -> dict[str, DeviceOptions]:
+        """Those there are, by the name of their table."""
+        found = {"shaker": self.shaker, "vibrometer": self.vibrometer, "front_end": self.front_end}
+        return found | ({"chamber": self.chamber} if self.chamber is not None else {})
+
     def anywhere(self) -> "RigDocument":
         """The same rig wherever its instruments answer: to compare two."""
-        devices = {"shaker": self.shaker, "vibrometer": self.vibrometer, "front_end": self.front_end}
-        kept = {name: device.model_copy(update={"address": NOT_KEPT}) for name, device in devices.items()}
+        kept = {n: device.model_copy(update={"address": NOT_KEPT}) for n, device in self.devices().items()}
         return self.model_copy(update={**kept, "simulation": None})
 
     def without_simulation(self) -> "RigDocument":

@@ -9,12 +9,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from threading import Timer
 
+from drivers.chamber import Chamber
+from drivers.chamber.driver import ChamberOptions
 from drivers.errors import Unreachable
 from drivers.front_end import FrontEnd
 from drivers.shaker import Shaker
 from drivers.shaker.driver import ShakerOptions
 from drivers.vibrometer import Vibrometer
-from instrument.files.devices import FRONT_ENDS, SHAKERS, VIBROMETERS
+from instrument.files.devices import CHAMBERS, FRONT_ENDS, SHAKERS, VIBROMETERS
 from instrument.files.experiment_file import Hammer
 from instrument.files.rig_file import RigDocument, SensorSection
 from instrument.run.operator import Operator, Person, SimulatedOperator
@@ -35,6 +37,8 @@ class Rig:
     sample_rate_hz: float
     document: RigDocument
     """As opened: with the addresses of a rig that was simulated for the run."""
+    chamber: Chamber | None = None
+    """Or a thermometer."""
 
     @property
     def in_virtual_time(self) -> bool:
@@ -43,11 +47,12 @@ class Rig:
 
     def identities(self) -> dict[str, str]:
         """What each device says it is."""
-        return {
+        found = {
             "shaker": self.shaker.identity(),
             "vibrometer": self.vibrometer.identity(),
             "front_end": self.front_end.identity(),
         }
+        return found | ({"chamber": self.chamber.identity()} if self.chamber is not None else {})
 
 
 @dataclass(frozen=True)
@@ -58,6 +63,8 @@ class Addresses:
     modbus_rtu: str
     vibrometer_tty: str
     frontend_url: str
+    chamber_tcp: str
+    """Empty where there is none."""
 
 
 @contextmanager
@@ -74,6 +81,9 @@ def open_rig(document: RigDocument, path: Path, hammer: Hammer | None) -> Iterat
         stack.callback(vibrometer.close)
         front_end = FRONT_ENDS[document.front_end.kind].open(document.front_end)
         stack.callback(front_end.close)
+        chamber = open_chamber(document.chamber)
+        if chamber is not None:
+            stack.callback(chamber.close)
         yield Rig(
             shaker,
             vibrometer,
@@ -82,12 +92,18 @@ def open_rig(document: RigDocument, path: Path, hammer: Hammer | None) -> Iterat
             document.channels.named(),
             document.front_end.sample_rate_hz,
             document,
+            chamber,
         )
 
 
 def open_shaker(table: ShakerOptions, *, timeout_s: float = 1.0, retries: int = 2) -> Shaker:
     """The shaker a rig file names; it may be connected to when first used."""
     return SHAKERS[table.kind].open(table, timeout_s=timeout_s, retries=retries)
+
+
+def open_chamber(table: ChamberOptions | None) -> Chamber | None:
+    """The chamber or thermometer a rig file names; it may be connected to when first used."""
+    return None if table is None else CHAMBERS[table.kind].open(table)
 
 
 @contextmanager
@@ -125,8 +141,12 @@ def simulator(path: Path, *options: str) -> Iterator[Addresses]:
 
 def _at(document: RigDocument, addresses: Addresses) -> RigDocument:
     shaker = addresses.modbus_rtu if document.shaker.kind == "modbus-rtu" else addresses.modbus_tcp
+    chamber = document.chamber
+    if chamber is not None:
+        chamber = chamber.model_copy(update={"address": addresses.chamber_tcp})
     return document.model_copy(
         update={
+            "chamber": chamber,
             "shaker": document.shaker.model_copy(update={"address": shaker}),
             "vibrometer": document.vibrometer.model_copy(update={"address": addresses.vibrometer_tty}),
             "front_end": document.front_end.model_copy(

@@ -6,12 +6,14 @@ from dataclasses import MISSING, fields
 from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
+from drivers.chamber.modbus_driver import ModbusTcpChamberOptions
 from drivers.shaker.modbus_driver import ModbusOptions
 from drivers.shaker.register_map import DEFAULT
+from drivers.simulated.climate import Climate
 from drivers.simulated.plant.effects import Effects, OtherLaw
 from drivers.simulated.plant.law import MaxwellLaw
 from drivers.simulated.plates import DampedPlate, SimulatedBarePlate
-from drivers.simulated.rig import OWN_MODEL, Ports, SimulatedRig, VibrometerPeer
+from drivers.simulated.rig import OWN_MODEL, Ports, SimulatedChamber, SimulatedRig, VibrometerPeer
 from drivers.simulated.sensors import SimulatedSensor
 from drivers.simulated.world import Laser, MountedPlate, Wiring, World
 from drivers.vibrometer.driver import Optics
@@ -32,6 +34,13 @@ _NOISE_V = 1e-4
 _LASER_NOISE_V = 5e-2
 """Of the vibrometer's output in good light: speckle."""
 _SENSOR_LIMIT_V = 10.0
+
+_PLAYED = {
+    "shaker": ("modbus-tcp", "modbus-rtu"),
+    "front_end": ("lan-xi",),
+    "chamber": ("modbus-tcp",),
+}
+"""Kinds that the simulated rig plays by itself."""
 
 CHANNEL_EFFECTS = {
     "channel_delay": ("delay_s",),
@@ -56,11 +65,12 @@ def simulated_rig(
     simulation = document.simulation
     if simulation is None:
         raise BadInput(f"{path}: [simulation] is missing, expected it for a rig to simulate; it may be empty")
+    _refuse_without_peer(document, path)
+    chamber = _chamber(document, simulation)
     try:
-        world = _world(document, simulation, virtual_time)
+        world = _world(document, simulation, virtual_time, chamber.climate if chamber else None)
     except (ValueError, TypeError) as error:
         raise BadInput(f"{path}: simulation: {error}") from None
-    _refuse_without_peer(document, path)
     shaker, vibrometer = document.shaker, document.vibrometer
     modbus = shaker if isinstance(shaker, ModbusOptions) else None
     rig = SimulatedRig(
@@ -74,6 +84,7 @@ def simulated_rig(
         ports=Ports(*ports),
         log=log or (path.parent / simulation.log if simulation.log else None),
         vibrometer=_peer(document),
+        chamber=chamber,
     )
     with rig as addresses:
         yield addresses
@@ -95,10 +106,11 @@ def refuse_simulation(document: RigDocument, path: Path) -> None:
 
 def _refuse_without_peer(document: RigDocument, path: Path) -> None:
     """Raises `BadInput` for a device that nothing here can play."""
-    for name, played in (("shaker", ("modbus-tcp", "modbus-rtu")), ("front_end", ("lan-xi",))):
-        kind = getattr(document, name).kind
-        if document.is_simulated and kind not in played:
-            raise BadInput(f"{path}: {name}.kind: {kind!r} is not simulated, expected {' or '.join(played)}")
+    for name, device in document.devices().items():
+        played = _PLAYED.get(name, (device.kind,))
+        if document.is_simulated and device.kind not in played:
+            said = " or ".join(played)
+            raise BadInput(f"{path}: {name}.kind: {device.kind!r} is not simulated, expected {said}")
     kind = document.vibrometer.kind
     if kind != "polytec" and not VIBROMETERS[kind].can_be_simulated:
         raise BadInput(f"{path}: vibrometer.kind: {kind!r}: its driver brings no simulated one")
@@ -116,7 +128,18 @@ def _peer(document: RigDocument) -> VibrometerPeer | None:
     return peer
 
 
-def _world(document: RigDocument, simulation: Simulation, virtual_time: bool) -> World:
+def _chamber(document: RigDocument, simulation: Simulation) -> SimulatedChamber | None:
+    """The one around the plate; of another kind than the simulated rig plays there is none."""
+    table = document.chamber
+    if not isinstance(table, ModbusTcpChamberOptions):
+        return None
+    climate = Climate(simulation.chamber.air_s, simulation.chamber.plate_s)
+    return SimulatedChamber(climate, table.registers, table.unit)
+
+
+def _world(
+    document: RigDocument, simulation: Simulation, virtual_time: bool, climate: Climate | None
+) -> World:
     plate, channel = _effects(simulation)
     delay = simulation.vibrometer_delay_s + channel.get("channel_delay", {}).get("delay_s", 0.0)
     gain = channel.get("gain_error", {}).get("factor", 1.0)
@@ -132,7 +155,7 @@ def _world(document: RigDocument, simulation: Simulation, virtual_time: bool) ->
     )
     response = document.channels.response
     plates: dict[str, MountedPlate] = {
-        "damped": DampedPlate(plate),
+        "damped": DampedPlate(plate, climate),
         "bare": SimulatedBarePlate(
             _of_the_bare_plate(plate),
             sensor_mass_kg=1e-3 * response.mass_g if response else 0.0,

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from drivers.arrays import Array
+from drivers.simulated.climate import Climate
 from drivers.simulated.drive import DrivePiece
 from drivers.simulated.plant.diagonal import Diagonal, diagonalised
 from drivers.simulated.plant.effects import Effects, FixtureResonance
@@ -73,10 +74,12 @@ class ShakenPlate:
         shaker: ShakerChain | None = None,
         memory_s: float = 1.0,
         model: ReducedModel | None = None,
+        climate: Climate | None = None,
     ) -> None:
         self.effects, self.shaker = effects or Effects(), shaker or ShakerChain()
         self.plate: Sandwich = sandwich(self.effects, model)
-        self._slow = SlowChange(self.plate.core_law, self.effects)
+        self._slow = SlowChange(self.plate.core_law, self.effects, climate)
+        self._in_chamber = climate is not None
         rocking, fixture = self.effects.base_rocking, self.effects.fixture_resonance
         self._structure, _ = condensed(self.plate.structure, self._slow.extremes())
         self._base = _base(self.shaker, rocking.pitch_rad_m if rocking else 0.0, fixture)
@@ -88,7 +91,7 @@ class ShakenPlate:
 
     @property
     def law(self) -> MaxwellLaw:
-        """Of the core, as it is now."""
+        """Of the core, as it is now; where it rests in a chamber, as it was when last driven."""
         return self._law
 
     @property
@@ -104,6 +107,8 @@ class ShakenPlate:
     def drive(self, piece: DrivePiece) -> None:
         """The drive from `piece.begin_s` on. A time before the last change is refused (ValueError)."""
         self._advance(piece.begin_s)
+        if self._rests:
+            self._tune(piece.begin_s)
         self._motion.drive(piece)
         self._piece = piece
 
@@ -134,10 +139,19 @@ class ShakenPlate:
             now_s = self._checks * CHECK_EVERY_S
             amplitude_v = self._piece.amplitude_at(now_s)
             self._slow.follow(self.core_strain(self._piece.frequency_hz, amplitude_v), CHECK_EVERY_S)
-            law = self._slow.law(now_s)
-            if self._slow.moved(self._law, law) > LEAST_MOVE:
-                self._law = law
-                self._motion.retune(now_s, self._system(law))
+            if not self._rests:
+                self._tune(now_s)
+
+    @property
+    def _rests(self) -> bool:
+        """Undriven in a chamber: an hour of soaking is not worth tuning a plate for that does not move."""
+        return self._in_chamber and not self._piece.amplitude_v and not self._piece.slope_v_s
+
+    def _tune(self, now_s: float) -> None:
+        law = self._slow.law(now_s)
+        if self._slow.moved(self._law, law) > LEAST_MOVE:
+            self._law = law
+            self._motion.retune(now_s, self._system(law))
 
     def _system(self, law: MaxwellLaw) -> Diagonal:
         """The chain from volts to outputs. Physical states: the plate's, the shaker's, the fixture's."""

@@ -6,8 +6,9 @@ import pytest
 
 from drivers.shaker.modbus import ModbusShaker
 from drivers.shaker.register_map import DEFAULT
-from drivers.simulated.modbus_server import ModbusShakerServer
+from drivers.simulated.modbus_server import ModbusServer
 from drivers.simulated.shaker_device import ShakerDevice
+from drivers.simulated.shaker_registers import DeviceRegisters
 
 RATE_HZ = 5000.0
 DEADLINE_S = 5.0
@@ -22,9 +23,8 @@ class Rig:
         self.checks = 0
         self.device = ShakerDevice(self._on_drive, **device)
         self.lock = threading.RLock()
-        self.server = ModbusShakerServer(
-            self.device, registers, clock=self._clock, lock=self.lock, wall=self._wall, port=port, rtu=rtu
-        )
+        served = DeviceRegisters(self.device, registers, self._clock, self._wall)
+        self.server = ModbusServer(served, "simulated shaker", lock=self.lock, port=port, rtu=rtu)
 
     def pass_time(self, seconds):
         """Sample time; the device learns of it."""

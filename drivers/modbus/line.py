@@ -15,7 +15,7 @@ from pymodbus.exceptions import ConnectionException, ModbusIOException
 from pymodbus.pdu import ModbusPDU
 
 from drivers.errors import DriverError, Garbled, Refused, TimedOut, Unreachable
-from drivers.shaker.turns import Turns
+from drivers.modbus.turns import Turns
 
 # What goes wrong is raised, in one line; the library's own log is for those who ask for it.
 logging.getLogger("pymodbus").addHandler(logging.NullHandler())
@@ -34,13 +34,14 @@ class ModbusLine:
     def __init__(
         self,
         client: ModbusTcpClient | ModbusSerialClient,
-        where: str,
+        name: str,
         *,
         unit: int,
         timeout_s: float,
         retries: int,
     ) -> None:
-        self.where = where
+        self.name = name
+        """Device and address, for messages."""
         self._client = client
         self._unit = unit
         self._timeout_s = timeout_s
@@ -48,20 +49,32 @@ class ModbusLine:
         self._turns = Turns()
 
     @classmethod
-    def tcp(cls, host: str, port: int, *, unit: int, timeout_s: float, retries: int) -> "ModbusLine":
-        """Modbus TCP."""
+    def tcp(
+        cls, device: str, host: str, port: int, *, unit: int, timeout_s: float, retries: int
+    ) -> "ModbusLine":
+        """Modbus TCP; messages begin with `device`."""
         client = ModbusTcpClient(host, port=port, timeout=timeout_s, retries=0)
-        return cls(client, f"{host}:{port} unit {unit}", unit=unit, timeout_s=timeout_s, retries=retries)
+        name = f"{device} at {host}:{port} unit {unit}"
+        return cls(client, name, unit=unit, timeout_s=timeout_s, retries=retries)
 
     @classmethod
     def rtu(
-        cls, port: str, *, baud: int, parity: str, stop_bits: int, unit: int, timeout_s: float, retries: int
+        cls,
+        device: str,
+        port: str,
+        *,
+        baud: int,
+        parity: str,
+        stop_bits: int,
+        unit: int,
+        timeout_s: float,
+        retries: int,
     ) -> "ModbusLine":
-        """Modbus RTU on a serial port."""
+        """Modbus RTU on a serial port, 8 data bits; messages begin with `device`."""
         client = ModbusSerialClient(
             port, baudrate=baud, parity=parity, stopbits=stop_bits, timeout=timeout_s, retries=0
         )
-        return cls(client, f"{port} unit {unit}", unit=unit, timeout_s=timeout_s, retries=retries)
+        return cls(client, f"{device} at {port} unit {unit}", unit=unit, timeout_s=timeout_s, retries=retries)
 
     def read(self, what: str, address: int, count: int) -> list[int]:
         """Holding registers; `what` is for messages.
@@ -104,7 +117,7 @@ class ModbusLine:
         raise last
 
     def _once(self, what: str, ask: Callable[[], ModbusPDU]) -> ModbusPDU:
-        here = f"shaker at {self.where}, {what}"
+        here = f"{self.name}, {what}"
         tried = f"in each of {self._attempts} attempts"
         if not self._client.connect():
             raise Unreachable(

@@ -1,6 +1,6 @@
 import threading
 
-from drivers.shaker.turns import Turns
+from drivers.modbus.turns import Turns
 
 DEADLINE_S = 5.0
 

@@ -1,0 +1,116 @@
+"""A thermometer on a serial port: it is asked for a line with a number, or sends them by itself.
+
+One rule: a line that was begun before it was asked for is no answer. It may be old, or torn.
+"""
+
+import time
+from contextlib import suppress
+
+from serial import Serial
+
+from drivers.chamber import ascii_line
+from drivers.errors import DriverError, Garbled, Refused, TimedOut, Unreachable
+
+_SLICE_S = 0.05
+"""How long one look at the port may take. A pause as long between two bytes is the end of a line."""
+
+
+class SerialThermometer:
+    """A `Chamber` without a set point.
+
+    Parameters
+    ----------
+    query
+        Sent for each reading, with `line_end`; empty for a thermometer that talks by itself.
+    timeout_s
+        For one line.
+    retries
+        More attempts for a line, and for opening a vanished port.
+
+    Raises
+    ------
+    Unreachable, TimedOut, Garbled
+        By each method, in one line, after the last attempt.
+    """
+
+    def __init__(
+        self,
+        port: str,
+        *,
+        baud: int = 9600,
+        query: str = "",
+        line_end: str = "\r\n",
+        timeout_s: float = 1.2,
+        retries: int = 1,
+    ) -> None:
+        self._path, self._baud, self._timeout_s, self._retries = port, baud, timeout_s, retries
+        self._query = (query + line_end).encode("latin-1") if query else b""
+        self._port: Serial | None = None
+
+    def identity(self) -> str:
+        """It has no name to tell: that it answers, and where."""
+        self.temperature_c()
+        return self._me
+
+    def temperature_c(self) -> float:
+        """Of a line that began after this was asked."""
+        problem: DriverError = TimedOut("no attempt")
+        for _ in range(self._retries + 1):
+            try:
+                return ascii_line.decode(self._next_line())
+            except (TimedOut, Garbled) as error:
+                problem = error
+            except OSError as error:
+                # pyserial's errors are OSErrors: unplugged. The next attempt opens it again.
+                problem = Unreachable(f"{error}: is it plugged in and on?")
+                self.close()
+        raise type(problem)(f"{self._me}: {problem}, {self._retries + 1} attempts")
+
+    def set_point_c(self) -> float | None:
+        """None."""
+        return None
+
+    def go_to(self, set_point_c: float) -> float:
+        """Refused."""
+        raise Refused(f"{self._me}: it takes no set point")
+
+    def close(self) -> None:
+        """Let go of the port; a later reading opens it again."""
+        if self._port is not None:
+            with suppress(OSError):
+                self._port.close()
+        self._port = None
+
+    @property
+    def _me(self) -> str:
+        return f"thermometer at {self._path}"
+
+    def _next_line(self) -> bytes:
+        if self._port is None:
+            self._port = Serial(self._path, self._baud, timeout=_SLICE_S, write_timeout=self._timeout_s)
+        self._fall_silent(self._port)
+        if self._query:
+            self._port.write(self._query)
+        return self._line(self._port)
+
+    def _fall_silent(self, port: Serial) -> None:
+        """Drop what lies in the line, and the rest of what is just being said."""
+        deadline = time.monotonic() + self._timeout_s
+        while port.read(max(port.in_waiting, 1)):
+            if time.monotonic() > deadline:
+                raise Garbled(f"it talks without a pause of {_SLICE_S:g} s, lines expected")
+
+    def _line(self, port: Serial) -> bytes:
+        deadline, received = time.monotonic() + self._timeout_s, b""
+        while True:
+            received += port.read(max(port.in_waiting, 1))
+            # Some end a line with a carriage return alone, some begin with one.
+            line, end, _ = received.lstrip(b"\r\n").replace(b"\r", b"\n").partition(b"\n")
+            if end and line.strip():
+                return line
+            if len(received) > ascii_line.LONGEST_LINE:
+                raise Garbled(f"{len(received)} bytes without an end of line")
+            if time.monotonic() > deadline:
+                if received.strip():
+                    raise Garbled(f"{received[:40]!r} and no end of line in {self._timeout_s:g} s")
+                raise TimedOut(f"no line in {self._timeout_s:g} s")

@@ -1,0 +1,1 @@
+"""One Modbus connection, whatever device is on it."""
