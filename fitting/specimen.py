@@ -1,6 +1,6 @@
 """The specimen: what the plate model is told, in SI units.
 
-Frozen data only. Files and their units are translated at the border (`instrument.specimen_file`).
+Frozen data only. Files and their units are translated at the border (`instrument.files.specimen_file`).
 """
 
 from collections.abc import Mapping

@@ -1,6 +1,6 @@
 """Least squares complex frequency: common-denominator poles at rising orders, kept where stable.
 
-H = B(z)/A(z) in z = e^{i omega dt} over a band, coefficients of A real to all channels together, the
+H = B(z)/A(z) in z = e^{i omega dt} over a band, coefficients of A complex and common to all channels, the
 last of them one. A pole is stable where it returns in the next orders within 0.5 % in frequency
 and 5 % in damping; the mode is the median of its longest such row.
 

@@ -1,7 +1,8 @@
-"""The runner: does what the plan says on a rig, one loop on one thread; only it has devices and a clock.
+"""The runner: does what the plan says on a rig, one loop on one thread.
 
-Whatever ends a part, the shaker is silenced first. Only this loop beats the heartbeat: a hung
-acquisition lets it go stale, and the device goes silent by itself.
+While a run goes on nothing else reads a device or drives the shaker (others may silence it), and nothing
+else that measures looks at a clock. Whatever ends a part, the shaker is silenced first. Only this loop beats
+the heartbeat: a hung acquisition lets it go stale, and the device goes silent by itself.
 """
 
 from collections.abc import Callable, Iterator

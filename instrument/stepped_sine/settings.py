@@ -1,6 +1,7 @@
 """How a sweep is measured: tolerances, times, limits, and what counts where nobody says anything.
 
-The tables of the experiment and the rig file take their defaults from here.
+The tables of the experiment and the rig file take their defaults from here; what they have no key for is as
+it stands here.
 """
 
 from dataclasses import dataclass, field

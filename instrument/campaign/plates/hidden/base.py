@@ -1,6 +1,7 @@
 """What every hidden effect is: where it may reach into the plate, the base, the channels. By default nowhere.
 
-None of them shares a formula with the catalogue of the diagnosis: they are parts of a solid, or of a rig.
+What reaches into the plate shares no formula with the catalogue of the diagnosis: it is a part of a solid. A
+delay or a gain of a channel is the same in both.
 """
 
 from dataclasses import asdict, dataclass
