@@ -33,5 +33,16 @@ class FrontEndDriver(Generic[OptionsT]):
         """The front-end at an address, connected, not sampling. Raises `DriverError`."""
         raise NotImplementedError
 
+    def look(self, options: OptionsT) -> str:
+        """Who answers at the address, the device left as it is where that can be done. Raises `DriverError`.
+
+        Opened and closed again unless a driver knows a gentler way.
+        """
+        device = self.open(options)
+        try:
+            return device.identity()
+        finally:
+            device.close()
+
 
 AnyFrontEndDriver = FrontEndDriver[Any]

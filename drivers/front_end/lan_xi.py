@@ -46,6 +46,8 @@ class LanXiFrontEnd:
         More attempts to connect.
     paced_by_reader
         Of the simulated module only, see the module's docstring.
+    take_over
+        False to ask who it is and no more: the module is left as it is, and cannot be started.
 
     Raises
     ------
@@ -53,7 +55,13 @@ class LanXiFrontEnd:
     """
 
     def __init__(
-        self, url: str, *, timeout_s: float = 5.0, retries: int = 2, paced_by_reader: bool = False
+        self,
+        url: str,
+        *,
+        timeout_s: float = 5.0,
+        retries: int = 2,
+        paced_by_reader: bool = False,
+        take_over: bool = True,
     ) -> None:
         self._url, self._timeout_s, self._paced = url.rstrip("/"), timeout_s, paced_by_reader
         parts = urlsplit(self._url)
@@ -71,13 +79,14 @@ class LanXiFrontEnd:
         self._socket: socket.socket | None = None
         self._reader: StreamReader | None = None
         self._decoder = Decoder()
-        self._sample_rate_hz = 0.0
+        self._sample_rate_hz, self._taken = 0.0, take_over
         self.transducers: tuple[str | None, ...] = ()
         """Type and serial number of the sensors that say who they are, by input."""
         try:
             self._info = documents.read_module_info(self._json("GET", "/module/info"))
-            self._take_over()
-            self.transducers = self._detect()
+            if take_over:
+                self._take_over()
+                self.transducers = self._detect()
         except BaseException:
             self._http.close()
             raise
@@ -93,6 +102,8 @@ class LanXiFrontEnd:
 
     def start(self, channels: tuple[InputChannel, ...], sample_rate_hz: float) -> None:
         """Begin to sample; index 0 is the first sample after it. Refused where the rate is not to be had."""
+        if not self._taken:
+            raise Refused(f"{self._me}: it was only asked who it is")
         if self._reader is not None:
             raise Refused(f"{self._me}: it is sampling: stop it first")
         rate_hz = documents.choose_rate(self._info, sample_rate_hz)
@@ -136,10 +147,11 @@ class LanXiFrontEnd:
         """Let go of the connection; the module goes back to idle if it still answers."""
         if self._http.is_closed:
             return
-        with suppress(DriverError):
-            self.stop()
-        with suppress(DriverError):
-            self._request("PUT", "/close")
+        if self._taken:
+            with suppress(DriverError):
+                self.stop()
+            with suppress(DriverError):
+                self._request("PUT", "/close")
         self._disconnect()
         self._http.close()
 
@@ -284,3 +296,12 @@ def _in_order(block: Block, order: Any) -> Block:
         overload=block.overload[order],
         cable_fault=block.cable_fault[order],
     )
+
+
+def module_identity(url: str) -> str:
+    """Model and serial number of the module there, whatever it does just now. Raises `DriverError`."""
+    module = LanXiFrontEnd(url, take_over=False)
+    try:
+        return module.identity()
+    finally:
+        module.close()

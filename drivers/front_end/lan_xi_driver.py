@@ -24,3 +24,9 @@ class LanXiDriver(FrontEndDriver[LanXiOptions]):
         from drivers.front_end.lan_xi import LanXiFrontEnd
 
         return LanXiFrontEnd(options.address, paced_by_reader=options.paced_by_reader)
+
+    def look(self, options: LanXiOptions) -> str:
+        """Asked, not taken over: another program may be recording with it."""
+        from drivers.front_end.lan_xi import module_identity
+
+        return module_identity(options.address)

@@ -26,6 +26,7 @@ COMMANDS = (
     "demo",
     "new",
     "plan",
+    "doctor",
     "check",
     "run",
     "hammer",

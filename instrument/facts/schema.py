@@ -13,6 +13,7 @@ from instrument.facts.check import CheckResult
 from instrument.facts.comparison import CompareResult
 from instrument.facts.damping import DampingResult
 from instrument.facts.diagnosis import DiagnosisResult
+from instrument.facts.doctor import DoctorResult
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.modal import ModalResult
 from instrument.facts.modes import ModesResult
@@ -31,6 +32,7 @@ RESULTS: dict[str, type[Result]] = {
     "compare": CompareResult,
     "damping": DampingResult,
     "diagnose": DiagnosisResult,
+    "doctor": DoctorResult,
     "export": ExportResult,
     "identify": IdentificationResult,
     "identify-modes": ModalResult,

@@ -1,0 +1,48 @@
+"""`viscorig doctor`: the installation, and the instruments it can reach."""
+
+from pathlib import Path
+
+import click
+
+from instrument.check.installation import look_at_installation
+from instrument.cli.options import json_option
+from instrument.cli.output import Output
+from instrument.errors import BadInput
+from instrument.facts.doctor import DoctorResult, Finding
+from instrument.files.rig_file import RigDocument
+from instrument.files.toml import read_document
+from instrument.progress import bar
+from instrument.run.visit import visit
+
+_SIGNS = {"good": "ok", "remark": "note", "fault": "FAULT"}
+
+
+@click.command()
+@click.argument("rig", type=click.Path(path_type=Path), required=False)
+@json_option
+def doctor(rig: Path | None, json_path: str | None) -> None:
+    """Whether the installation is in order and, with RIG.toml, whether its instruments answer.
+
+    Instruments are asked who they are and how they stand; nothing is started, no range or drive is set. Exit
+    status 2 where something has to be mended.
+    """
+    out = Output(json_path)
+    document = read_document(rig, RigDocument) if rig is not None else None
+    findings: list[Finding] = []
+    with bar("looking"):
+        findings += look_at_installation()
+        if document is not None:
+            findings += visit(document)
+    for group in dict.fromkeys(found.group for found in findings):
+        out.say()
+        out.say(group)
+        for found in findings:
+            if found.group == group:
+                out.say(f"  {_SIGNS[found.state]:6s}{found.name:20s} {found.found}")
+                if found.cure:
+                    out.say(f"{'':29s}cure: {found.cure}")
+    faults = [found for found in findings if found.state == "fault"]
+    out.result(DoctorResult(healthy=not faults, findings=tuple(findings)))
+    if faults:
+        first = faults[0]
+        raise BadInput(f"{len(faults)} to be mended, first {first.name}: {first.found}")
