@@ -36,7 +36,7 @@ class Gauge(QLabel):
             said = f"{self._name} {_short(value)} / {_short(limit)} {unit}{age}"
         if share != self._share or said != self._said:
             self._share, self._said = share, said
-            self.setText(f"<span style='font-size:x-large'>{said}</span>" if self._large else said)
+            self.setText(f"<span style='font-size:large'>{said}</span>" if self._large else said)
             self.setToolTip(_OLD if self.marked else "")
             self.setEnabled(not self.marked)
             self.update()

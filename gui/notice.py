@@ -20,7 +20,7 @@ class Notice(QFrame):
         self._label.setWordWrap(True)
         self._label.setTextFormat(Qt.TextFormat.PlainText)
         self._label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        close = tool("\u2715", "Dismiss (Esc)")
+        close = tool("close", "Dismiss (Esc)")
         close.clicked.connect(self.hide)
         self._row = row = QHBoxLayout(self)
         row.setContentsMargins(10, 2, 4, 2)

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import (
 )
 
 from gui.feeds.recorded import RecordedFeed
+from gui.icons import Sign
 from gui.top_bar import duration
 from gui.widgets import button, tool
 from instrument.facts.run import ReplayResult
@@ -57,8 +58,9 @@ class ReplayBar(QFrame):
         super().__init__(parent)
         self._feed: RecordedFeed | None = None
         self.play = button("Play", "Play or pause (Ctrl+Space)")
-        self.back = tool("|\u25c0", "To the mark before (Ctrl+Left)")
-        self.on = tool("\u25b6|", "To the next mark (Ctrl+Right)")
+        self._sign = Sign(self.play, "play")
+        self.back = tool("back", "To the mark before (Ctrl+Left)")
+        self.on = tool("on", "To the next mark (Ctrl+Right)")
         self.slider = Scrubber(Qt.Orientation.Horizontal)
         self.slider.setMaximum(_STEPS)
         self.slider.setPageStep(_STEPS // 50)
@@ -67,8 +69,10 @@ class ReplayBar(QFrame):
         self.speed.setToolTip("Speed")
         self.speed.addItems(list(SPEEDS))
         self.speed.setCurrentText("1\u00d7")
-        self.compare = button("Compare ...", "Lay the law of another session beside this one's")
-        self.verify = button(_VERIFY, "Compute everything derived again: does it equal the recording?")
+        self.compare = button("Compare ...", "Lay the law of another session beside this one's", "compare")
+        self.verify = button(
+            _VERIFY, "Compute everything derived again: does it equal the recording?", "verify"
+        )
         self.verdict = QLabel()
         self.play.clicked.connect(self.toggle)
         self.back.clicked.connect(self.to_mark_before)
@@ -144,6 +148,7 @@ class ReplayBar(QFrame):
         passed = [m.what for m in feed.index.marks if m.time_s <= feed.position_s]
         self.mark.setText(passed[-1] if passed else "")
         self.play.setText("Pause" if feed.playing else "Play")
+        self._sign.show("pause" if feed.playing else "play")
 
     def _verify(self) -> None:
         if self._feed is None:

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from PySide6.QtCore import QAbstractTableModel, QEvent, QModelIndex, QPersistentModelIndex, QRectF, Qt
-from PySide6.QtGui import QFont, QGuiApplication, QKeyEvent, QKeySequence, QPainter
+from PySide6.QtGui import QFont, QGuiApplication, QKeyEvent, QKeySequence, QPainter, QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QHeaderView,
@@ -86,6 +86,7 @@ class ReadTable(QTableView):
         header.setHighlightSections(False)
         header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
         header.setStretchLastSection(not wide)
+        self._shares = bool(wide)
         for column in wide:
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.Stretch)
         self._size_rows()
@@ -93,6 +94,7 @@ class ReadTable(QTableView):
     def show_rows(self, rows: Sequence[Row], columns: dict[str, str] | None = None) -> None:
         """Instead of those there were, under other headings where they are given. Nothing is selected."""
         self._rows.show(rows, columns)
+        self._fit_last()
 
     @property
     def row_count(self) -> int:
@@ -131,6 +133,21 @@ class ReadTable(QTableView):
         super().changeEvent(event)
         if event.type() == QEvent.Type.FontChange:
             self._size_rows()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """The last column takes what is left, or what it needs: then there is a scroll bar."""
+        super().resizeEvent(event)
+        self._fit_last()
+
+    def _fit_last(self) -> None:
+        if self._shares:
+            return
+        header, last = self.horizontalHeader(), self.model().columnCount() - 1
+        before = sum(header.sectionSize(k) for k in range(last))
+        wanted = max(self.sizeHintForColumn(last), header.sectionSizeHint(last))
+        stretched = before + wanted <= self.viewport().width()
+        if stretched != header.stretchLastSection():
+            header.setStretchLastSection(stretched)
 
     def _size_rows(self) -> None:
         height = self.fontMetrics().height() + _ROOM_PX

@@ -11,6 +11,8 @@ from PySide6.QtCore import QObject, Qt
 from PySide6.QtGui import QColor, QGuiApplication, QPalette, QPixmapCache
 from PySide6.QtWidgets import QApplication
 
+from gui.style_sheet import style_sheet
+
 Mode = Literal["system", "light", "dark"]
 Role = Literal[
     "data", "model", "second", "third", "fourth", "good", "fair", "bad", "text", "faint", "grid", "base"
@@ -32,6 +34,9 @@ class Theme:
     faint: str
     grid: str
     accent: str
+    """The one colour of what can be done or is chosen."""
+    accent_text: str
+    """Upon it."""
     data: str
     model: str
     second: str
@@ -67,7 +72,7 @@ class Theme:
             roles.ToolTipBase: self.note,
             roles.ToolTipText: self.text,
             roles.Highlight: self.accent,
-            roles.HighlightedText: "#ffffff",
+            roles.HighlightedText: self.accent_text,
             roles.Light: self.button,
             roles.Midlight: self.button,
             roles.Mid: self.grid,
@@ -83,14 +88,18 @@ class Theme:
 
 
 LIGHT = Theme(
-    window="#f2f3f5", base="#ffffff", button="#e6e8eb", text="#1b1d21", faint="#6a7079", grid="#c9cdd3",
-    accent="#0067a3", data="#0072b2", model="#c24d00", second="#00805c", third="#a5497f", fourth="#8a6a00",
-    good="#00805c", fair="#c77700", bad="#b3261e", stop="#b00c12", stop_text="#ffffff", note="#fff3cd",
+    window="#f4f5f7", base="#ffffff", button="#ffffff", text="#1b1d21", faint="#5a616b", grid="#cdd2d8",
+    accent="#0067a3", accent_text="#ffffff", data="#006ba8", model="#b54700", second="#00734f",
+    third="#98406f", fourth="#755800", good="#00734f", fair="#8f5600", bad="#b3261e",
+    stop="#b00c12", stop_text="#ffffff",
+    note="#fff4d6",
 )  # fmt: skip
 DARK = Theme(
-    window="#202327", base="#17191c", button="#2e3238", text="#e6e8eb", faint="#8f969f", grid="#3a3f46",
-    accent="#2f8fd0", data="#56b4e9", model="#f0a13c", second="#3cc79d", third="#e39ac5", fourth="#e0d34a",
-    good="#3cc79d", fair="#f0b429", bad="#ff6f61", stop="#a80d12", stop_text="#ffffff", note="#4a4020",
+    window="#1e2125", base="#16181b", button="#2b2f35", text="#e8eaed", faint="#a3aab3", grid="#434951",
+    accent="#56b4e9", accent_text="#0b0d10", data="#56b4e9", model="#f0a13c", second="#3cc79d",
+    third="#e39ac5", fourth="#e0d34a", good="#3cc79d", fair="#f0b429", bad="#ff8a7a",
+    stop="#c4161c", stop_text="#ffffff",
+    note="#352e17",
 )  # fmt: skip
 
 
@@ -101,11 +110,16 @@ def current_theme() -> Theme:
 
 
 class Appearance(QObject):
-    """Light, dark or as the system has it; and the size of type."""
+    """Light, dark or as the system has it; and the size of type.
 
-    def __init__(self, application: QApplication, mode: Mode = "system", scale: float = 1.0) -> None:
+    Not `dressed`, widgets have the toolkit's own edges, and a window is made in half the time.
+    """
+
+    def __init__(
+        self, application: QApplication, mode: Mode = "system", scale: float = 1.0, *, dressed: bool = True
+    ) -> None:
         super().__init__(application)
-        self._application = application
+        self._application, self._dressed = application, dressed
         application.setStyle("Fusion")
         # Drawings are kept by palette, and every new widget's is another one: few are ever used again.
         QPixmapCache.setCacheLimit(_DRAWINGS_KB)
@@ -137,4 +151,6 @@ class Appearance(QObject):
     def _show(self) -> None:
         system = self._application.styleHints().colorScheme() == Qt.ColorScheme.Dark
         dark = self.mode == "dark" or (self.mode == "system" and system)
-        self._application.setPalette((DARK if dark else LIGHT).palette())
+        theme = DARK if dark else LIGHT
+        self._application.setPalette(theme.palette())
+        self._application.setStyleSheet(style_sheet(vars(theme)) if self._dressed else "")

@@ -2,20 +2,28 @@
 
 from PySide6.QtWidgets import QLabel, QPushButton, QToolButton
 
+from gui.icons import Sign
+from gui.style_sheet import PRIMARY
 
-def button(text: str, tip: str = "") -> QPushButton:
-    """A push button with its tool tip."""
+
+def button(text: str, tip: str = "", sign: str = "", *, primary: bool = False) -> QPushButton:
+    """A push button with its tool tip, and a sign of `gui.icons`; the `primary` one goes on."""
     made = QPushButton(text)
     made.setToolTip(tip)
+    if primary:
+        made.setObjectName(PRIMARY)
+    if sign:
+        Sign(made, sign, "accent_text" if primary else "text")
     return made
 
 
-def tool(text: str, tip: str) -> QToolButton:
-    """A flat button of one sign, with its tool tip."""
+def tool(sign: str, tip: str) -> QToolButton:
+    """A flat button of one sign of `gui.icons`, with its tool tip."""
     made = QToolButton()
-    made.setText(text)
     made.setToolTip(tip)
+    made.setAccessibleName(tip)
     made.setAutoRaise(True)
+    Sign(made, sign)
     return made
 
 

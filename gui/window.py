@@ -190,7 +190,7 @@ class Window(Shell):
         self.notice.float_over(self.tabs)
         self.addDockWidget(Qt.DockWidgetArea.BottomDockWidgetArea, self.log)
         self.resize(1280, 700)
-        self.resizeDocks([self.log], [110], Qt.Orientation.Vertical)
+        self.resizeDocks([self.log], [76], Qt.Orientation.Vertical)
 
     def _restore(self, before: Arrangement) -> None:
         if before.geometry is not None:

@@ -1,63 +1,142 @@
-"""Pictures of the window for the documentation.
+"""Pictures of every page, tab and dialog of the window, found by walking it.
 
-    python scripts/screenshots.py SESSION.h5 [--to docs]
+    viscorig demo --out out
+    python scripts/screenshots.py out/NAME.h5 [--to out/pictures] [--docs]
 
-Writes one PNG a page, light, and one dark, as they are seen on a screen of 1366 x 768.
+A folder for each screen (1366 x 768; 2560 x 1440 at scale 2) and mode (light, dark), a PNG for each page, tab
+and dialog. What is cut or overlaps is printed, and the exit status is 1. `--docs` also renews
+the pictures of the guide in docs/.
 """
 
 import argparse
 import os
+import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+ROOT = Path(__file__).resolve().parents[1]
+sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 
+from layout_faults import layout_faults, places, word
+from openers import close_all, close_popups, dialogs, openers
+from PIL import Image
 from PySide6.QtCore import QSettings
 from PySide6.QtGui import QImage
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QWidget
+from shiboken6 import isValid
 
 from gui.background_task import BackgroundCommand, BackgroundTask
+from gui.controller import AppController
 from gui.pages.run import RunPage
 from gui.settings import Settings
 from gui.theme import Appearance
 from gui.window import Window
 from instrument.simulated_case import case_file
 
-WIDTH, HEIGHT = 1366, 768
-PATIENCE_S = 600.0
-_LOOKS_S = 1.0
-"""Without any work: then a page has computed and read what it shows."""
+SCREENS = {"1366x768": (1366, 768, "1"), "2560x1440-scale-2": (1280, 720, "2")}
+"""Width and height as the window sees them, and pixels a point."""
+MODES = ("light", "dark")
+IN_DOCS = {"run", "sweep", "hammer", "material", "diagnosis"}
 _DARK = "sweep"
+PATIENCE_S = 600.0
+_LEAVING = ("&Quit", "&Close session")
+_COLORS = 96
+_LOOKS_S = 0.7
+"""Without any work: then a page has computed and read what it shows."""
 
 
 def main() -> int:
-    """Take them all."""
-    options = argparse.ArgumentParser(description=__doc__)
+    """Take them all, each screen in a process of its own: the scale belongs to the process."""
+    options = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     options.add_argument("session", type=Path)
-    options.add_argument("--to", type=Path, default=Path("docs"))
+    options.add_argument("--to", type=Path, default=Path("out/pictures"))
+    options.add_argument("--docs", action="store_true", help="renew the pictures in docs/, too")
+    options.add_argument("--screen", choices=SCREENS, help="only this one")
     given = options.parse_args()
+    if given.screen is not None:
+        return _take(given.session, given.to / given.screen, given.screen, docs=given.docs)
+    failed = 0
+    for screen, (_, _, scale) in SCREENS.items():
+        command = [sys.executable, __file__, str(given.session), "--to", str(given.to), "--screen", screen]
+        docs = ["--docs"] if given.docs and scale == "1" else []
+        failed |= subprocess.run([*command, *docs], env=os.environ | {"QT_SCALE_FACTOR": scale}).returncode
+    return failed
+
+
+def _take(session: Path, folder: Path, screen: str, *, docs: bool) -> int:
     application = QApplication([])
+    faults: list[str] = []
     with tempfile.TemporaryDirectory() as name:
         QSettings.setPath(QSettings.Format.IniFormat, QSettings.Scope.UserScope, name)
         appearance = Appearance(application, "light")
         window = Window(appearance, Settings())
-        window.resize(WIDTH, HEIGHT)
+        window.resize(*SCREENS[screen][:2])
         window.show()
-        _fill(window, given.session)
-        for page in window.pages:
-            window.show_page(page.objectName())
-            _rest(window)
-            _save(window, given.to / f"window-{page.title.lower()}.png")
-            if page.title.lower() == _DARK:
-                appearance.choose("dark")
+        _fill(window, session)
+        for mode in MODES:
+            appearance.choose(mode)
+            for place in places(window):
                 _rest(window)
-                _save(window, given.to / "window-dark.png")
-                appearance.choose("light")
+                faults += _faults(f"{screen}, {mode}, {place}", window)
+                _save(window, folder / mode / f"{place}.png")
+                if docs and mode == "light" and place in IN_DOCS:
+                    _save(window, ROOT / "docs" / f"window-{place}.png")
+                if docs and mode == "dark" and place == _DARK:
+                    _save(window, ROOT / "docs" / "window-dark.png")
+        opened = _dialogs(window)
+        for mode in MODES:
+            appearance.choose(mode)
+            for place, dialog in opened.items():
+                faults += _faults(f"{screen}, {mode}, {place}", dialog)
+                _save(dialog, folder / mode / f"{place}.png")
+        close_all()
         window.close()
-    return 0
+    for fault in dict.fromkeys(faults):
+        print(fault)
+    return 1 if faults else 0
+
+
+def _faults(place: str, seen: QWidget) -> list[str]:
+    return [f"{place}: {fault}" for fault in layout_faults(seen)]
+
+
+def _dialogs(window: Window) -> dict[str, QWidget]:
+    """One of each that an action or a button opens, all open; nothing is run or stopped by pressing them."""
+    found: dict[str, QWidget] = {}
+    window.show_page(window.pages[0].objectName())
+    with _nothing_runs():
+        for text, act in openers(window):
+            if text in _LEAVING:
+                continue
+            before = dialogs()
+            act()
+            close_popups()
+            for dialog in dialogs() - before:
+                # Asked for again, the one before goes: the latest is the one there is.
+                found[f"dialog-{word(dialog.windowTitle())}"] = dialog
+    return {place: dialog for place, dialog in found.items() if isValid(dialog) and dialog.isVisible()}
+
+
+@contextmanager
+def _nothing_runs() -> Iterator[None]:
+    """A button pressed to see what it opens does nothing else."""
+    kept = {
+        (of, name): getattr(of, name) for of, name in ((BackgroundCommand, "start"), (AppController, "start"))
+    }
+    for of, name in kept:
+        setattr(of, name, lambda *_, **__: None)
+    try:
+        yield
+    finally:
+        for of, does in kept.items():
+            of.start = does
 
 
 def _fill(window: Window, session: Path) -> None:
@@ -94,11 +173,14 @@ def _rest(window: Window) -> None:
     _wait(PATIENCE_S, rested)
 
 
-def _save(window: Window, path: Path) -> None:
+def _save(seen: QWidget, path: Path) -> None:
     """In few colours, which keeps it small."""
-    image = window.grab().toImage().convertToFormat(QImage.Format.Format_Indexed8)
-    if not image.save(str(path), "PNG", 0):  # type: ignore[call-overload]
-        sys.exit(f"{path}: cannot be written")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    shot = seen.grab().toImage().convertToFormat(QImage.Format.Format_RGB888)
+    size, row = (shot.width(), shot.height()), shot.bytesPerLine()
+    whole = Image.frombuffer("RGB", size, bytes(shot.constBits()), "raw", "RGB", row, 1)
+    few = whole.quantize(_COLORS, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
+    few.save(path, optimize=True)
     print(f"{path}: {path.stat().st_size / 1e3:.0f} kB")
 
 

@@ -127,7 +127,7 @@ class Form(QTreeWidget):
             header = self.header()
             for column in (_NAME, _UNIT):
                 header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
-            header.resizeSection(_VALUE, self.fontMetrics().averageCharWidth() * 28)
+            header.resizeSection(_VALUE, self.fontMetrics().averageCharWidth() * 42)
             header.setStretchLastSection(True)
         self.verticalScrollBar().setValue(at)
         self.judge()
@@ -162,12 +162,12 @@ class Form(QTreeWidget):
             self._section(item, (*place, inner.key), inner)
 
     def _tables(self, item: QTreeWidgetItem, place: Place, section: FormSection) -> None:
-        self.setItemWidget(item, _VALUE, self._button("+", "Another one, like the last", self._add, place))
+        self.setItemWidget(item, _VALUE, self._button("plus", "Another one, like the last", self._add, place))
         given = self.draft.value(place)
         for number in range(len(given) if isinstance(given, list) else 0):
             one = (*place, number)
             row = self._row(item, one, f"{section.label.removesuffix('s')} {number + 1}", section.tip)
-            self.setItemWidget(row, _VALUE, self._button("\u2212", "Take it away", self._take_away, one))
+            self.setItemWidget(row, _VALUE, self._button("minus", "Take it away", self._take_away, one))
             self._inside(row, one, section)
 
     def _field(self, above: QTreeWidgetItem | None, place: Place, field: Field) -> None:

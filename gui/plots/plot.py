@@ -12,6 +12,7 @@ from typing import Any, Literal
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from fitting.arrays import Array
@@ -30,6 +31,8 @@ _LEGEND_ALPHA = 0.6
 _BELOW = -1
 """What is faint lies below everything else, whenever it came."""
 _RING_WIDTH = 2.0
+_TITLE_ROOM_PX = 44
+"""Of a plot's side that its axis does not have: the other axis, and the edge."""
 _LABEL_AT = 0.08
 """Of a vertical line's height."""
 
@@ -304,7 +307,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
             axis.setPen(pg.mkPen(theme.faint))
             axis.setTextPen(pg.mkPen(theme.text))
             axis.setStyle(tickFont=self.font())
-            axis.setLabel(shown.title, **{"font-size": size, "color": theme.text})
+            axis.setLabel(self._title(side, shown), **{"font-size": size, "color": theme.text})
         if self._legend is not None:
             self._legend.setBrush(theme.color("base", _LEGEND_ALPHA))
             self._legend.setLabelTextColor(theme.text)
@@ -315,6 +318,23 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         for curve in self._curves.values():
             self._style(curve)
         self._style_marks()
+
+    def resizeEvent(self, event: QResizeEvent | None) -> None:
+        """A title that has not room enough beside its axis is shortened to the unit."""
+        super().resizeEvent(event)
+        if event is None or not hasattr(self, "_readout") or self.plotItem is None:
+            return
+        for side, shown in (("bottom", self.x), ("left", self.y)):
+            axis, title = self.getAxis(side), self._title(side, shown)
+            if axis.labelText != title:
+                axis.setLabel(title, **axis.labelStyle)
+
+    def _title(self, side: str, shown: Axis) -> str:
+        room = self.width() if side == "bottom" else self.height()
+        for title in (shown.title, shown.unit if shown.titled else ""):
+            if self.fontMetrics().horizontalAdvance(title) + _TITLE_ROOM_PX <= room:
+                return title
+        return ""
 
     def _style_marks(self) -> None:
         for marks in self._marks.values():

@@ -36,7 +36,8 @@ def settings(tmp_path):
 
 @pytest.fixture
 def appearance(qapp):
-    return Appearance(qapp, "light")
+    # Dressed, a window takes twice as long to make; test_layout.py has it so.
+    return Appearance(qapp, "light", dressed=False)
 
 
 @pytest.fixture

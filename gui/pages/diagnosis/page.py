@@ -52,7 +52,9 @@ class DiagnosisPage(Page):
         self.residual, self.held_out, self.law = ResidualPlots(), HeldOutBars(), LawChange()
         self.story = QTextBrowser()
         self.empty = hint(_HERE)
-        self.diagnose = button("Diagnose this session", "Try every effect of the catalogue on all its points")
+        self.diagnose = button(
+            "Diagnose this session", "Try every effect of the catalogue on all its points", "diagnosis"
+        )
         self.others = QToolButton()
         self.back = button("Back to the recorded one", "Let go of what was computed here")
         self.bar, self.cancel = QProgressBar(), button("Cancel", "End the computation; what is shown stays")

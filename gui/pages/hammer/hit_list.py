@@ -39,9 +39,9 @@ class HitList(QWidget):
         self.prompt.setTextFormat(Qt.TextFormat.PlainText)
         self.table = ChoiceTable(HIT_COLUMNS, usual_rows=_USUAL)
         self.table.chosen.connect(self._reselected)
-        self.accept = button("Accept", "Use this hit, whatever its verdict (A)")
-        self.reject = button("Reject", "Leave this hit out of the average (R)")
-        self.undo = button("Undo", "Back to the verdict before the operator's word (U)")
+        self.accept = button("Accept", "Use this hit, whatever its verdict (A)", "check")
+        self.reject = button("Reject", "Leave this hit out of the average (R)", "close")
+        self.undo = button("Undo", "Back to the verdict before the operator's word (U)", "undo")
         for one, key in ((self.accept, "A"), (self.reject, "R"), (self.undo, "U")):
             one.setShortcut(key)
             one.setEnabled(False)

@@ -44,7 +44,7 @@ class HitPlots(QWidget):
 
     def show_hit(self, averaged: Averaged | None, number: int) -> None:
         """One hit by its number; nothing where it has no samples."""
-        if self._shown == (number, averaged):
+        if self._shown[0] == number and self._shown[1] is averaged:
             return
         self._shown = number, averaged
         seen = averaged.seen.get(number) if averaged is not None else None

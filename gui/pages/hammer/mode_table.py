@@ -35,7 +35,7 @@ class ModeTable(QWidget):
         self.back = button("As recorded", "Take every hit as it is recorded again")
         self.back.clicked.connect(self.as_recorded)
         self.back.hide()
-        self.whole = button("Whole band", "Show the whole band again instead of one mode (W)")
+        self.whole = button("Whole band", "Show the whole band again instead of one mode (W)", "whole")
         self.whole.setShortcut("W")
         self.whole.clicked.connect(self.deselect)
         self.note = hint("")

@@ -57,10 +57,12 @@ class FilesPanel(QWidget):
         self._named: tuple[object, object] = (None, None)
         self.name = QLabel()
         self.name.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        self.open_button = button("Open...", "An experiment file (Ctrl+O)")
-        self.new_button = button("New simulated...", "Files of an experiment on the simulated rig (Ctrl+N)")
+        self.open_button = button("Open...", "An experiment file (Ctrl+O)", "open")
+        self.new_button = button(
+            "New simulated...", "Files of an experiment on the simulated rig (Ctrl+N)", "new"
+        )
         self.new_button.setShortcut("Ctrl+N")
-        self.save_button = button("Save", "Keep the changes; comments stay (Ctrl+S)")
+        self.save_button = button("Save", "Keep the changes; comments stay (Ctrl+S)", "save")
         self.save_button.setShortcut("Ctrl+S")
         self.save_as_button = button("Save as...", "The experiment and its files in another place")
         self.faults_button = button("", "Go to the first field that is wrong")

@@ -28,7 +28,7 @@ class NewCase(QDialog):
         self.setWindowTitle("New simulated experiment")
         self.folder = QLineEdit(str(folder))
         self.folder.setMinimumWidth(360)
-        browse = button("...", "Choose a folder")
+        browse = button("", "Choose a folder", "open")
         browse.clicked.connect(self._browse)
         self.effect = QComboBox()
         self.effect.addItems(["random", "none", *EFFECTS])

@@ -69,7 +69,7 @@ class NowPane(QWidget):
             self._say_state(state)
 
     def _say_state(self, state: SessionState) -> None:
-        style = f"font-size:xx-large; color:{state_color(state.run.state)}"
+        style = f"font-size:x-large; color:{state_color(state.run.state)}"
         self.state.setText(f"<span style='{style}'><b>{WORDS[state.run.state]}</b></span>")
 
     def show_segments(self, state: SessionState) -> None:

@@ -36,8 +36,8 @@ class RunPage(Page):
         self.banner, self.now = Banner(), NowPane(controller)
         self.check, self.checked = Check(self), CheckPane()
         self.export = Export(controller, self)
-        self.report_button = button("Report...", "One self-contained page of the session")
-        self.export_button = button("Export", "The session's data for other programs")
+        self.report_button = button("Report...", "One self-contained page of the session", "report")
+        self.export_button = button("Export", "The session's data for other programs", "export")
         self._next: Literal["", "check", "start"] = ""
         self._forecast: CheckResult | None = None
         """Of the experiment as it is on the disk; None where it is not known."""

@@ -49,7 +49,7 @@ class StartPanel(QWidget):
         self.out = QLineEdit()
         self.out.setToolTip("Folder of the session")
         self.out.editingFinished.connect(self.out_changed)
-        self.browse = button("...", "Choose a folder")
+        self.browse = button("", "Choose a folder", "open")
         self.browse.clicked.connect(self._browse)
         self.resume = QComboBox()
         self.resume.setToolTip(
@@ -57,9 +57,11 @@ class StartPanel(QWidget):
         )
         self.resume.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.show_broken_off([])
-        self.check = button("Check", "Everything wrong at once, then a dry run; nothing is connected (F7)")
+        self.check = button(
+            "Check", "Everything wrong at once, then a dry run; nothing is connected (F7)", "check"
+        )
         self.check.setShortcut("F7")
-        self.start = button("Start", "Connect the rig and measure (F5)")
+        self.start = button("Start", "Connect the rig and measure (F5)", "start", primary=True)
         self.start.setShortcut("F5")
         self.check.clicked.connect(self.check_wanted)
         self.start.clicked.connect(self.start_wanted)

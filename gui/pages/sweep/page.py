@@ -220,7 +220,7 @@ class SweepPage(Page):
         said = f"fit of {count} points, rms {rms:.2g} %"
         if self.model.failure:
             return f"{said}; no curve: {self.model.failure}"
-        return f"{said}; drawing its curve ..." if self.model.busy else said
+        return f"{said} ..." if self.model.busy else said
 
     @property
     def _session(self) -> Path | None:

@@ -32,8 +32,8 @@ class RecordPane(QWidget):
         self.table = ReadTable(_COLUMNS)
         self.table.setAlternatingRowColors(True)
         self.table.horizontalHeader().hide()
-        self.back = tool("\u25c0", "The point before (left arrow)")
-        self.on = tool("\u25b6", "The next point (right arrow)")
+        self.back = tool("left", "The point before (left arrow)")
+        self.on = tool("right", "The next point (right arrow)")
         self.back.clicked.connect(self._back)
         self.on.clicked.connect(self._on)
         self._lines: list[RecordLine] = []

@@ -23,6 +23,7 @@ _KEY: tuple[tuple[str, Role, str], ...] = (
     ("noise alone", "faint", "- -"),
     ("limit", "bad", "- -"),
 )
+_LEAST_PERCENT = 1e-3
 _FACTS = {
     "Drive": "Commanded to the shaker, and its limit",
     "Level": "Base acceleration of the latest block, the one asked for, and how far it is off (tolerance)",
@@ -129,8 +130,8 @@ class StepPane(QWidget):
             said["Level"] = f"{base:.4g} of {began.level_m_s2:.4g} m/s\u00b2, {off:+.2f} %"
         _, percent, noise = following.remaining()
         if percent.size:
-            limit = f"limit {100 * limits.settle.tolerance:g}, noise {noise[-1]:.2g}"
-            said["Transient"] = f"{percent[-1]:.2g} %, {limit}"
+            limit = f"{100 * limits.settle.tolerance:g}, noise {_little(noise[-1])}"
+            said["Transient"] = f"{_little(percent[-1])} % of {limit}"
         if state.range is not None:
             said["Range"] = state.range.name
         if state.signal_level is not None:
@@ -151,8 +152,8 @@ class StepPane(QWidget):
                 one.setToolTip(_FACTS[name])
             grid.addWidget(heading, row, column)
             grid.addWidget(label, row, column + 1)
-        grid.setColumnStretch(1, 3)
-        grid.setColumnStretch(3, 2)
+        grid.setColumnStretch(1, 2)
+        grid.setColumnStretch(3, 1)
         stack = QSplitter(Qt.Orientation.Vertical)
         for plot in (self.base, self.velocity):
             stack.addWidget(plot)
@@ -169,3 +170,8 @@ class StepPane(QWidget):
         column_of_all.setContentsMargins(0, 4, 0, 0)
         column_of_all.addWidget(self.none)
         column_of_all.addWidget(self._whole, 1)
+
+
+def _little(percent: float) -> str:
+    """What is far below any limit needs no digits."""
+    return f"{percent:.2g}" if percent >= _LEAST_PERCENT else f"<{_LEAST_PERCENT:g}"

@@ -1,0 +1,82 @@
+"""Nothing is cut and nothing overlaps on a small screen, on any page, in any tab."""
+
+import pytest
+from layout_faults import layout_faults, places
+from PySide6.QtWidgets import QApplication, QLabel, QWidget
+
+from gui.background_task import BackgroundCommand, BackgroundTask
+from gui.icons import NAMES, icon
+from gui.theme import DARK, LIGHT, Appearance
+
+ON = ("window", "base", "button", "note")
+READ = ("text", "faint", "data", "model", "second", "third", "fourth", "good", "fair", "bad")
+LEAST_CONTRAST = 4.5
+"""Of text, WCAG 2.2, 1.4.3."""
+
+
+@pytest.fixture
+def appearance(qapp):
+    yield Appearance(qapp, "light")
+    Appearance(qapp, "light", dressed=False)
+
+
+def at_rest(window):
+    QApplication.processEvents()
+    return all(
+        work.over for work in (*window.findChildren(BackgroundTask), *window.findChildren(BackgroundCommand))
+    )
+
+
+@pytest.mark.parametrize("size", [(1366, 768), (1280, 720)])
+def test_nothing_is_cut_and_nothing_overlaps(qtbot, opened, size):
+    opened.resize(*size)
+    faults = []
+    for place in places(opened):
+        qtbot.waitUntil(lambda: at_rest(opened), timeout=60_000)
+        faults += [f"{place}: {fault}" for fault in layout_faults(opened)]
+    assert faults == []
+
+
+def test_what_is_cut_or_overlaps_is_found(qtbot, appearance):
+    whole = QWidget()
+    qtbot.addWidget(whole)
+    one, other = QLabel("far too long for its place", whole), QLabel("two", whole)
+    one.setGeometry(0, 0, 40, 20)
+    other.setGeometry(20, 0, 60, 20)
+    whole.show()
+    cut, upon = layout_faults(whole)[::-1]
+    assert "far too long" in cut
+    assert "lies upon" in upon
+
+
+@pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
+def test_everything_written_can_be_read(theme):
+    pairs = [(one, ground) for one in READ for ground in ON]
+    pairs += [("accent_text", "accent"), ("stop_text", "stop")]
+    weak = {
+        (one, on): round(ratio, 2)
+        for one, on in pairs
+        if (ratio := contrast(getattr(theme, one), getattr(theme, on))) < LEAST_CONTRAST
+    }
+    assert weak == {}
+
+
+def contrast(one: str, other: str) -> float:
+    """WCAG 2.2's ratio of relative luminances."""
+    low, high = sorted((luminance(one), luminance(other)))
+    return (high + 0.05) / (low + 0.05)
+
+
+def luminance(color: str) -> float:
+    parts = [int(color[k : k + 2], 16) / 255 for k in (1, 3, 5)]
+    red, green, blue = (c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in parts)
+    return 0.2126 * red + 0.7152 * green + 0.0722 * blue
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_sign_is_drawn_in_the_colours_of_its_button(appearance, name):
+    for mode, theme in (("light", LIGHT), ("dark", DARK)):
+        appearance.choose(mode)
+        image = icon(name).pixmap(64, 64).toImage()
+        pixels = [image.pixelColor(x, y) for x in range(64) for y in range(64)]
+        assert theme.text in {pixel.name() for pixel in pixels if pixel.alpha() == 255}
