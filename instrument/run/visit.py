@@ -8,12 +8,13 @@ from drivers.shaker.interface import Alarm
 from instrument.facts.doctor import Finding
 from instrument.files.devices import FRONT_ENDS, VIBROMETERS
 from instrument.files.rig_file import RigDocument
-from instrument.run.rig import open_shaker
+from instrument.run.rig import open_chamber, open_shaker
 
 _LEAST_LIGHT = 0.1
 _CURES = {
     "shaker": "is it switched on, its cable in, its address and unit those of [shaker]?",
     "vibrometer": "is it switched on, the cable in, the port that of [vibrometer], and used by no other?",
+    "chamber": "is it switched on, its address that of [chamber], its registers the maker's?",
     "front_end": "is it switched on, does `ping` reach it, is its address that of [front_end]?",
 }
 
@@ -23,6 +24,8 @@ def visit(document: RigDocument) -> Iterator[Finding]:
     looks: dict[str, Callable[[RigDocument], Finding]] = {
         "shaker": _shaker, "vibrometer": _vibrometer, "front_end": _front_end
     }  # fmt: skip
+    if document.chamber is not None:
+        looks["chamber"] = _chamber
     for name, look in looks.items():
         if document.is_simulated:
             said = "simulated: stood up for each run"
@@ -70,6 +73,15 @@ def _vibrometer(document: RigDocument) -> Finding:
 
 def _front_end(document: RigDocument) -> Finding:
     return _good("front_end", FRONT_ENDS[document.front_end.kind].look(document.front_end))
+
+
+def _chamber(document: RigDocument) -> Finding:
+    device = open_chamber(document.chamber)
+    assert device is not None
+    try:
+        return _good("chamber", f"{device.identity()}, {device.temperature_c():.1f} °C now")
+    finally:
+        device.close()
 
 
 def _good(name: str, found: str) -> Finding:
