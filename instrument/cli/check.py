@@ -5,17 +5,20 @@ from pathlib import Path
 import click
 
 from instrument.check.dry_run import all_faults, dry_run
-from instrument.cli.options import file_argument, json_option
+from instrument.cli.options import file_argument, force_option, json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
+from instrument.files.plausible import question_specimen
 from instrument.models.tolerance_words import tolerance_rows
 from instrument.progress import bar
+from instrument.session.configuration import read_whole_experiment
 
 
 @click.command()
 @file_argument("experiment")
+@force_option
 @json_option
-def check(experiment: Path, json_path: str | None) -> None:
+def check(experiment: Path, insist: bool, json_path: str | None) -> None:
     """Everything wrong with EXPERIMENT.toml and the files it names; then a dry run on the model.
 
     Predicted response, vibrometer range, travel and time of every segment. Nothing is connected.
@@ -26,6 +29,7 @@ def check(experiment: Path, json_path: str | None) -> None:
         for fault in faults:
             click.echo(fault, err=True)
         raise BadInput(f"{len(faults)} fault{'s' if len(faults) > 1 else ''}, nothing can be run")
+    question_specimen(read_whole_experiment(experiment).specimen_path, insist=insist)
     with bar("dry run"):
         run = dry_run(experiment)
     rows = [

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from fitting.modal.frf import DampingEstimate, Refusal
-from instrument.cli.options import figures_option, json_option
+from instrument.cli.options import DECIMAL_COMMA, figures_option, is_decimal_comma, json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.files.records import Named, read_records
@@ -38,6 +38,8 @@ def _at(_: click.Context, __: click.Parameter, text: str | None) -> tuple[float,
         found = tuple(float(part) for part in text.split(","))
     except ValueError:
         raise click.BadParameter(f"{text!r}, expected F1,F2,... in Hz") from None
+    if is_decimal_comma(text):
+        raise click.BadParameter(DECIMAL_COMMA.format(text))
     if not all(0 < f < float("inf") for f in found):
         raise click.BadParameter(f"{text!r}, expected frequencies above 0 Hz")
     return found

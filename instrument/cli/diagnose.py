@@ -47,6 +47,7 @@ def diagnose(
     specimen: tuple[Path, ...],
     hammer: Path | None,
     no_hammer: bool,
+    insist: bool,
     without: tuple[str, ...],
     accept: tuple[str, ...],
     resamples: int | None,
@@ -59,7 +60,7 @@ def diagnose(
     (.csv, .uff, .unv, .mat). Several are one experiment: an effect common to all is named once.
     """
     out = Output(json_path)
-    every = read_each(out, data, specimen, hammer, no_hammer=no_hammer)
+    every = read_each(out, data, specimen, hammer, no_hammer=no_hammer, insist=insist)
     declined, accepted = frozenset(without), _accepted(accept)
     files, given = together(every, data), every[0]
     if files is not None:

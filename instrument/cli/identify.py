@@ -114,6 +114,7 @@ def identify(
     method: Method,
     hammer: Path | None,
     no_hammer: bool,
+    insist: bool,
     no_viscous_damping: bool,
     pointwise: bool,
     dma: Path | None,
@@ -148,7 +149,7 @@ def identify(
             )
         identify_modes(out, data, specimen)
         return
-    every = read_each(out, data, specimen, hammer, no_hammer=no_hammer)
+    every = read_each(out, data, specimen, hammer, no_hammer=no_hammer, insist=insist)
     if shift is not None:
         if pointwise or method == "paper" or no_viscous_damping or dma is not None or with_budget or depths:
             raise click.UsageError("--shift goes with --reference-c, --vertical and --figures alone")

@@ -8,8 +8,9 @@ import click
 from fitting.complex_modes import ModalValue
 from fitting.specimen import Specimen
 from fitting.structures.small_modes import small_modes
-from instrument.cli.options import file_argument, json_option
+from instrument.cli.options import file_argument, force_option, json_option
 from instrument.cli.output import Output
+from instrument.files.plausible import question_specimen
 from instrument.files.structure_file import read_structure
 from instrument.models.specimen_modes import specimen_modes
 from instrument.progress import bar
@@ -19,8 +20,9 @@ from instrument.results.modes_from import modes_from
 @click.command()
 @file_argument("specimen")
 @click.option("--count", type=click.IntRange(1, 100), default=8, show_default=True, help="How many modes.")
+@force_option
 @json_option
-def modes(specimen: Path, count: int, json_path: str | None) -> None:
+def modes(specimen: Path, count: int, insist: bool, json_path: str | None) -> None:
     """Natural frequencies and modal loss factors of SPECIMEN.toml.
 
     The core's law is taken at each mode's own frequency. Layer loss factors count, the remaining viscous
@@ -28,6 +30,7 @@ def modes(specimen: Path, count: int, json_path: str | None) -> None:
     """
     out = Output(json_path)
     read = read_structure(specimen)
+    question_specimen(specimen, insist=insist)
     law = read.core.law if read.core is not None else None
     found: Sequence[ModalValue]
     found = specimen_modes(read, count, bar) if isinstance(read, Specimen) else small_modes(read, law, count)

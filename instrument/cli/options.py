@@ -1,5 +1,6 @@
 """Options and arguments shared by commands."""
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +28,10 @@ json_option: Any = click.option(
     help="Write the result as JSON; - for standard output and nothing else.",
 )
 
+force_option: Any = click.option(
+    "--force", "insist", is_flag=True, help="Do it though the stated numbers or the data are questioned."
+)
+
 
 def figures_option(said: str) -> Any:
     """A folder for figures."""
@@ -50,9 +55,20 @@ class Frequencies(click.ParamType):  # type: ignore[type-arg]
             f = _range(value) if ":" in value else np.array([float(part) for part in value.split(",")])
         except ValueError:
             self.fail(f"{value!r}, expected A:B:STEP or F1,F2,... in Hz", param, ctx)
+        if is_decimal_comma(value):
+            self.fail(DECIMAL_COMMA.format(value), param, ctx)
         if not np.all(np.isfinite(f)) or np.any(f <= 0):
             self.fail(f"{value!r}, expected frequencies above 0 Hz", param, ctx)
         return f
+
+
+DECIMAL_COMMA = "{!r}: a decimal comma? Expected a decimal point, or the lower frequency first"
+
+
+def is_decimal_comma(text: str) -> bool:
+    """Whether a list of two looks like one number: `28,5`."""
+    found = re.fullmatch(r"(\d+),(\d{1,2})", text)
+    return found is not None and float(found[2]) < float(found[1])
 
 
 def _range(text: str) -> NDArray[Any]:

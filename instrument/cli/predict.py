@@ -9,10 +9,11 @@ from numpy.typing import NDArray
 from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
 from fitting.specimen import Core, Specimen, StatedSpecimen
 from fitting.structures.small_modes import small_velocity
-from instrument.cli.options import Frequencies, file_argument, json_option
+from instrument.cli.options import Frequencies, file_argument, force_option, json_option
 from instrument.cli.output import Output
 from instrument.facts.prediction import PredictionResult
 from instrument.files.hammer_file import read_hammer
+from instrument.files.plausible import question_specimen
 from instrument.files.structure_file import read_structure
 from instrument.models.specimen_models import Models
 from instrument.models.theory import theory_remark
@@ -43,6 +44,7 @@ from instrument.results.prediction_from import of_spots, prediction_from, predic
     type=click.Path(path_type=Path),
     help="JSON of 'viscorig damping': stiffness and ratios as the bare plate's hammer test has them.",
 )
+@force_option
 @json_option
 def predict(
     specimen: Path,
@@ -50,6 +52,7 @@ def predict(
     real_modes: bool,
     fit: Path | None,
     hammer: Path | None,
+    insist: bool,
     json_path: str | None,
 ) -> None:
     """Velocity at the pickup of SPECIMEN.toml under its base acceleration, as phasors and amplitudes."""
@@ -57,6 +60,7 @@ def predict(
         raise click.UsageError("--real-modes and --fit: expected one of them")
     out = Output(json_path)
     read = read_structure(specimen)
+    question_specimen(specimen, insist=insist)
     if not isinstance(read, Specimen):
         if real_modes or fit is not None or hammer is not None:
             raise click.UsageError(f"--real-modes, --fit, --hammer with a {read.kind}: expected a plate")

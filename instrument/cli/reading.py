@@ -8,11 +8,16 @@ import click
 from fitting.mode_tables.table import ModalTable
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
+from instrument.cli.options import force_option
 from instrument.cli.output import Output
+from instrument.errors import BadInput
 from instrument.files.modal_table import is_modal_table, read_modal_table
+from instrument.files.plausible import INSIST, question_specimen
 from instrument.files.structure_file import read_structure
 from instrument.interchange.given import Given, read_given
+from instrument.models.quick_look import data_doubt
 from instrument.models.together import File, spots_of
+from instrument.progress import bar
 
 _OPTIONS = (
     click.option(
@@ -28,21 +33,31 @@ _OPTIONS = (
         help="JSON of 'viscorig damping' on the bare plate: its ratios, and the substrate's stiffness. "
         "A session has its own.",
     ),
+    force_option,
     click.option("--no-hammer", is_flag=True, help="Leave a session's own hammer test out."),
 )
 
 
 def reading_options(command: Callable[..., None]) -> Callable[..., None]:
-    """`--specimen`, `--hammer`, `--no-hammer`."""
+    """`--specimen`, `--hammer`, `--no-hammer`, `--force`."""
     for option in reversed(_OPTIONS):
         command = option(command)
     return command
 
 
 def read_each(
-    out: Output, data: Sequence[Path], specimens: Sequence[Path], hammer: Path | None, *, no_hammer: bool
+    out: Output,
+    data: Sequence[Path],
+    specimens: Sequence[Path],
+    hammer: Path | None,
+    *,
+    no_hammer: bool,
+    insist: bool,
 ) -> list[Given]:
-    """Read every file with its specimen, paired in order; one specimen serves all. Raises as `read_data`."""
+    """Read every file with its specimen, paired in order; one specimen serves all. Raises as `read_data`.
+
+    Stated numbers and data that no such plate has are questioned, unless someone insists.
+    """
     if len(specimens) > 1 and len(specimens) != len(data):
         raise click.UsageError(
             f"{len(specimens)} times --specimen for {len(data)} files, expected one for each or one for all"
@@ -50,12 +65,20 @@ def read_each(
     if len(data) > 1 and hammer is not None:
         raise click.UsageError("--hammer with several files: expected one file")
     paired = list(specimens) if len(specimens) == len(data) else [*specimens, None][:1] * len(data)
+    for specimen in dict.fromkeys(paired):
+        if specimen is not None:
+            # Whatever else is wrong with it is said on reading.
+            read_structure(specimen)
+            question_specimen(specimen, insist=insist)
     given = [
         read_data(out, one, specimen, hammer, no_hammer=no_hammer or len(data) > 1)
         for one, specimen in zip(data, paired, strict=True)
     ]
     if hammer is not None and not isinstance(given[0].specimen, Specimen):
         raise click.UsageError(f"--hammer with a {given[0].specimen.kind}: expected a plate")
+    if not insist:
+        for one, path in zip(given, data, strict=True):
+            question_data(one, path)
     return given
 
 
@@ -79,6 +102,18 @@ def read_tables(
         )
     paths = list(specimens) if len(specimens) == len(data) else [specimens[0]] * len(data)
     return [read_modal_table(path) for path in data], [read_structure(path) for path in paths]
+
+
+def question_data(given: Given, path: Path) -> None:
+    """Ask about the sweep of a plate shaken at its base and seen at one spot. Raises `BadInput`."""
+    plate = given.specimen
+    if given.session or not isinstance(plate, Specimen) or plate.core is None or plate.pickup_m is None:
+        return
+    if plate.force_m is not None or plate.further_pickups_m:
+        return
+    doubt = data_doubt(given.sweep, plate, bar)
+    if doubt:
+        raise BadInput(f"{path}: {doubt}; {INSIST}")
 
 
 def together(given: Sequence[Given], data: Sequence[Path]) -> list[File] | None:

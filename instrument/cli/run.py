@@ -4,11 +4,12 @@ from pathlib import Path
 
 import click
 
-from instrument.cli.options import file_argument, json_option
+from instrument.cli.options import file_argument, force_option, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_run import print_finished, run_result
 from instrument.cli.stopping import safe_stop
 from instrument.cli.watching import Watcher
+from instrument.files.plausible import question_specimen
 from instrument.progress import bar
 from instrument.run.control import RunControl
 from instrument.run.experiment import Part, run_experiment
@@ -32,18 +33,26 @@ resume_option = click.option(
 @file_argument("experiment")
 @out_option
 @resume_option
+@force_option
 @json_option
-def run(experiment: Path, out: Path, resume: Path | None, json_path: str | None) -> None:
+def run(experiment: Path, out: Path, resume: Path | None, insist: bool, json_path: str | None) -> None:
     """The whole EXPERIMENT.toml on the rig it names: hammer test, sweep, live identification, session."""
-    run_parts(experiment, out, resume, json_path, ("hammer", "sweep"))
+    run_parts(experiment, out, resume, json_path, ("hammer", "sweep"), insist=insist)
 
 
 def run_parts(
-    path: Path, out: Path, resume: Path | None, json_path: str | None, parts: tuple[Part, ...]
+    path: Path,
+    out: Path,
+    resume: Path | None,
+    json_path: str | None,
+    parts: tuple[Part, ...],
+    *,
+    insist: bool = False,
 ) -> None:
     """Run some parts of an experiment and print what they gave."""
     output = Output(json_path)
     experiment = read_whole_experiment(path)
+    question_specimen(experiment.specimen_path, insist=insist)
     control = RunControl()
     with safe_stop(control), Watcher() as watch:
         finished = run_experiment(

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from instrument.cli.options import file_argument, json_option
+from instrument.cli.options import file_argument, force_option, json_option
 from instrument.cli.run import out_option, resume_option, run_parts
 
 
@@ -12,7 +12,8 @@ from instrument.cli.run import out_option, resume_option, run_parts
 @file_argument("experiment")
 @out_option
 @resume_option
+@force_option
 @json_option
-def sweep(experiment: Path, out: Path, resume: Path | None, json_path: str | None) -> None:
+def sweep(experiment: Path, out: Path, resume: Path | None, insist: bool, json_path: str | None) -> None:
     """The stepped sine of EXPERIMENT.toml, identified as it goes."""
-    run_parts(experiment, out, resume, json_path, ("sweep",))
+    run_parts(experiment, out, resume, json_path, ("sweep",), insist=insist)

@@ -52,6 +52,8 @@ def read_hammer(path: Path) -> HammerModes:
         first = error.errors()[0] if isinstance(error, ValidationError) else None
         place = ".".join(str(p) for p in first["loc"]) if first else "nesting"
         said = f": {first['msg'].lower()}" if first else ""
+        if first and first["loc"][-1] == "damping_ratio":
+            said += " (a fraction of critical, not percent)"
         raise BadInput(f"{path}: {place}{said}, expected the JSON of 'viscorig damping'") from None
     except TooFewPoints as error:
         raise BadInput(f"{path}: {error}") from None

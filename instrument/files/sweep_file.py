@@ -10,6 +10,7 @@ from fitting.specimen import Drive
 from fitting.sweep import Sweep, segments_by_gap
 from instrument.errors import BadInput
 from instrument.files.column import Column
+from instrument.files.nearest import nearest
 from instrument.files.point_columns import understood
 from instrument.files.table import number, read_rows
 
@@ -19,6 +20,19 @@ _DRIVES: dict[Drive, tuple[str, str]] = {
     "force": ("force_re_n", "force_im_n"),
 }
 """Columns of the phasor that drives."""
+_MEANT = 0.8
+"""How alike an unknown column is to one of ours that was meant."""
+_DECISIVE = (
+    "level_g",
+    "weight",
+    "velocity_re_m_s",
+    "velocity_im_m_s",
+    "velocity_m_s",
+    "velocity_std_m_s",
+    "base_accel_re_m_s2",
+    "base_accel_im_m_s2",
+)
+"""Without them the same file gives another law."""
 _READINGS = (("velocity", "m_s", 0), ("acceleration", "m_s2", -1), ("displacement", "m", 1))
 """Stem and unit of phasor columns, and the power of i omega that makes a velocity of them."""
 
@@ -108,7 +122,17 @@ def read_sweep(path: Path) -> SweepFile:
 def _check_header(path: Path, header: list[str]) -> None:
     for column in understood():
         if column.given == "always" and column.name not in header:
-            raise BadInput(f"{path}: header: column {column.name} missing, found {', '.join(header)[:120]}")
+            near = nearest(column.name, header)
+            found = f"is it {near}?" if near else f"found {', '.join(header)[:120]}"
+            raise BadInput(f"{path}: header: column {column.name} missing, {found}")
+    known = [column.name for column in understood()]
+    for name in header:
+        meant = nearest(name, [k for k in known if k not in header], _MEANT) if name not in known else None
+        if meant in _DECISIVE:
+            raise BadInput(
+                f"{path}: header: column {name} is unknown, the nearest is {meant}: expected that, or a name "
+                "that is not like it"
+            )
     pairs = [(f"{stem}_re_{unit}", f"{stem}_im_{unit}") for stem, unit, _ in _READINGS]
     readings = [pair for pair in pairs if pair[0] in header and pair[1] in header]
     if not readings and "velocity_m_s" not in header:

@@ -18,6 +18,7 @@ _RATE = re.compile(r"^#\s*sample_rate_hz\s*:\s*(\S+)", re.M)
 _OFF_GRID = 0.2
 """Times are often written with few digits: judged by their place on the grid, in steps."""
 _ROUNDING = 1e-12
+_DECIMAL_COMMA = re.compile(r"\d,\d")
 
 
 def read_rows(
@@ -35,6 +36,7 @@ def read_rows(
             for name in header:
                 if name and header.count(name) > 1:
                     raise BadInput(f"{path}: header: column {name} twice")
+            check_separator(path, header, separator)
             check_header(header)
             continue
         if len(row) != len(header):
@@ -47,6 +49,18 @@ def read_rows(
     if not rows:
         raise BadInput(f"{path}: no rows below the header")
     return header, rows
+
+
+def check_separator(path: Path, header: list[str], separator: str = ",") -> None:
+    """Raise `BadInput` where a header of one column is a row of names with another mark between them."""
+    if len(header) > 1 or separator != ",":
+        return
+    for mark, name in ((";", "semicolons"), ("\t", "tabs")):
+        if mark in header[0]:
+            below = read_text(path).partition(header[0])[2]
+            comma = " and decimal commas" if _DECIMAL_COMMA.search(below) else ""
+            cure = "commas and decimal points" if comma else "commas"
+            raise BadInput(f"{path}: header: {name} between the columns{comma}, expected {cure}")
 
 
 def number(path: Path, line: int, name: str, text: str) -> float:

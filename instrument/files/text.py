@@ -1,5 +1,6 @@
 """Reading a text file, or saying in one line why not."""
 
+import codecs
 from pathlib import Path
 
 from instrument.errors import BadInput
@@ -12,7 +13,10 @@ def read_text(path: Path, encoding: str = "utf-8-sig") -> str:
     try:
         if path.stat().st_size > LARGEST_BYTES:
             raise BadInput(f"{path}: {path.stat().st_size} bytes, expected at most {LARGEST_BYTES}")
-        text = path.read_bytes().decode(encoding)
+        content = path.read_bytes()
+        if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+            raise BadInput(f'{path}: UTF-16 text, expected UTF-8: save it as such ("CSV UTF-8")')
+        text = content.decode(encoding)
     except UnicodeDecodeError as error:
         raise BadInput(
             f"{path}: byte {error.start}: not UTF-8 text ({error.reason}), expected a text file"

@@ -1,12 +1,15 @@
 """Reading a TOML file against its model: every key known, every fault named with its place."""
 
+import re
 import tomllib
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Any, TypeVar
+from typing import Annotated, Any, TypeVar, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from instrument.errors import BadInput
+from instrument.files.nearest import nearest
 from instrument.files.text import read_text
 
 Positive = Annotated[float, Field(gt=0, le=1e9, allow_inf_nan=False)]
@@ -16,6 +19,7 @@ Percent = Annotated[float, Field(ge=0, lt=100, allow_inf_nan=False)]
 
 _MOST_SHOWN = 3
 _LONGEST = 80
+_COMMA = re.compile(r"(?m)^\s*[\w.-]+\s*=\s*(-?\d+,\d+)\s*(?:#.*)?$")
 
 
 class TomlTable(BaseModel):
@@ -37,9 +41,9 @@ def parse_document(path: Path, text: str, model: type[T]) -> T:
     try:
         return model.model_validate(tomllib.loads(text))
     except tomllib.TOMLDecodeError as error:
-        raise BadInput(f"{path}: not TOML: {error}") from None
+        raise BadInput(f"{path}: not TOML: {error}{_decimal_comma(text)}") from None
     except ValidationError as error:
-        raise BadInput(f"{path}: {one_line(error)}") from None
+        raise BadInput(f"{path}: {one_line(error, model=model)}") from None
     except (RecursionError, OverflowError, ValueError) as error:
         kind = model.__name__.removesuffix("Document").lower()
         raise BadInput(f"{path}: not a {kind}: {str(error)[:_LONGEST]}") from None
@@ -54,32 +58,60 @@ def document_faults(path: Path, model: type[BaseModel]) -> list[str]:
     except tomllib.TOMLDecodeError as error:
         return [f"{path}: not TOML: {error}"]
     except ValidationError as error:
-        return [f"{path}: {fault}" for fault in faults(error)]
+        return [f"{path}: {fault}" for fault in faults(error, model=model)]
     except (RecursionError, OverflowError, ValueError) as error:
         return [f"{path}: {str(error)[:_LONGEST]}"]
     return []
 
 
-def faults(error: ValidationError, prefix: str = "") -> list[str]:
-    """Place, what was found, what is expected: one line a fault."""
-    return [_said(dict(fault), prefix) for fault in error.errors()]
+def faults(error: ValidationError, prefix: str = "", model: type[BaseModel] | None = None) -> list[str]:
+    """Place, what was found, what is expected: one line a fault. `model` has the keys that are known."""
+    return [_said(dict(fault), prefix, model) for fault in error.errors()]
 
 
-def one_line(error: ValidationError, prefix: str = "") -> str:
+def one_line(error: ValidationError, prefix: str = "", model: type[BaseModel] | None = None) -> str:
     """What is wrong where, the first few faults in one line."""
-    said = faults(error, prefix)
+    said = faults(error, prefix, model)
     more = len(said) - _MOST_SHOWN
     return "; ".join(said[:_MOST_SHOWN]) + (f"; and {more} more" if more > 0 else "")
 
 
-def _said(fault: dict[str, Any], prefix: str) -> str:
+def _decimal_comma(text: str) -> str:
+    """A hint where a line has a number with one."""
+    found = _COMMA.search(text)
+    if found is None:
+        return ""
+    line = text.count("\n", 0, found.start(1)) + 1
+    return f"; line {line}: {found[1]}, expected a decimal point"
+
+
+def _keys_at(model: type[BaseModel] | None, place: tuple[int | str, ...]) -> list[str]:
+    """The keys of the table that a place is in."""
+    for part in place[:-1]:
+        if model is None:
+            return []
+        if isinstance(part, int) or part not in model.model_fields:
+            continue
+        model = next(_models_in(model.model_fields[part].annotation), None)
+    return list(model.model_fields) if model is not None else []
+
+
+def _models_in(annotation: Any) -> Iterator[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for part in get_args(annotation):
+        yield from _models_in(part)
+
+
+def _said(fault: dict[str, Any], prefix: str, model: type[BaseModel] | None = None) -> str:
     place = prefix + ".".join(str(part) for part in fault["loc"])
     message = str(fault["msg"]).removeprefix("Value error, ")
     found = "" if isinstance(fault["input"], dict | list) else f"{fault['input']!r}"[:_LONGEST] + ", "
     if fault["type"] == "missing":
         return f"{place}: missing"
     if fault["type"] == "extra_forbidden":
-        return f"{place}: unknown key"
+        near = nearest(str(fault["loc"][-1]), _keys_at(model, fault["loc"]))
+        return f"{place}: unknown key" + (f", the nearest is {near}" if near else "")
     if place == prefix:
         return message
     return f"{place}: {found}{message.lower()}"

@@ -39,6 +39,7 @@ class Experiment:
     rig: RigDocument
     specimen: SpecimenDocument
     rig_path: Path
+    specimen_path: Path
 
     def the_specimen(self) -> Specimen:
         """The plate as the model is told, read as this rig's laser does."""
@@ -75,4 +76,4 @@ def read_whole_experiment(path: Path) -> Experiment:
         raise BadInput(
             f"{specimen_path}: {len(specimen.pickups)} pickups, but a rig has one laser, expected one"
         )
-    return Experiment(path, document, rig, specimen, rig_path)
+    return Experiment(path, document, rig, specimen, rig_path, specimen_path)

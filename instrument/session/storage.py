@@ -153,7 +153,8 @@ class SessionFile:
         return sorted(self._file["parts"])
 
 
-_BY_WRONG_VALUES = (OSError, ValueError, LookupError, ArithmeticError)
+_BY_WRONG_VALUES = (OSError, RuntimeError, ValueError, LookupError, ArithmeticError)
+"""Of the HDF5 library and of numbers."""
 _LONGEST = 100
 """Of what is said of damage, in characters."""
 

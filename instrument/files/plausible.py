@@ -1,0 +1,132 @@
+"""Stated numbers that no such plate has: most are a unit away from the right one. Questioned before any work.
+
+The limits are wide on purpose, of handbooks and of what is built, not of what is likely: what lies outside is
+nearly always a wrong unit. `--force` insists.
+"""
+
+import math
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from fitting.errors import OutsideModel
+from instrument.errors import BadInput
+from instrument.files.specimen_file import law_of
+from instrument.files.text import read_text
+
+INSIST = "--force to go on all the same"
+_LAYERS = ("substrate", "constraining", "layer", "upper", "lower")
+_FREQUENCY_HZ = 100.0
+_MODULUS_PA = (2e3, 2e10)
+"""|G*| of a soft foam, and of a stiff glassy polymer with room to spare."""
+_RATIO_PERCENT = (0.003, 12.0)
+"""The largest of a bare plate's modal damping ratios."""
+_SPOT_MM = 0.3
+"""No laser's spot is so near an edge: it would be half beside it."""
+
+
+class Usual(NamedTuple):
+    """Limits of a key in its unit, what a known thing has, and the units it is mistaken for, by factor."""
+
+    low: float
+    high: float
+    known: str
+    mistaken: dict[str, float]
+
+
+_LENGTH = {"m": 1e3, "um": 1e-3, "cm": 10.0}
+_FACE = {
+    "young_gpa": Usual(0.5, 700.0, "aluminium 69, steel 205", {"MPa": 1e-3, "Pa": 1e-9, "TPa": 1e3}),
+    "density_kg_m3": Usual(300.0, 23_000.0, "aluminium 2700, steel 7850", {"g/cm3": 1e3, "g/m3": 1e-3}),
+    "thickness_mm": Usual(0.01, 100.0, "sheet 0.1 to 10", _LENGTH),
+    "loss_factor": Usual(0.0, 0.5, "metals below 0.01", {"%": 1e-2}),
+}
+_CORE = {
+    "density_kg_m3": Usual(5.0, 8_000.0, "rubber 1000", {"g/cm3": 1e3, "g/m3": 1e-3}),
+    "thickness_mm": Usual(0.005, 100.0, "films 0.02 to 2", _LENGTH),
+}
+_SIZE = {
+    "length_mm": Usual(5.0, 5_000.0, "plates 50 to 1000", _LENGTH),
+    "width_mm": Usual(2.0, 5_000.0, "plates 10 to 1000", _LENGTH),
+}
+_BASE = {"acceleration_m_s2": Usual(1e-3, 2_000.0, "1 g is 9.81", {"mm/s^2": 1e-3})}
+
+
+def question_specimen(path: Path, *, insist: bool = False) -> None:
+    """Ask about a specimen that reads well. Raises `BadInput` in one line."""
+    if insist:
+        return
+    for doubt in specimen_doubts(tomllib.loads(read_text(path))):
+        raise BadInput(f"{path}: {doubt}; {INSIST}")
+
+
+def specimen_doubts(tables: dict[str, Any]) -> list[str]:
+    """Everything in a specimen's tables that asks for a question; empty for a usual one."""
+    wanted = {**dict.fromkeys(_LAYERS, _FACE), "core": _CORE, "plate": _SIZE, "beam": _SIZE, "base": _BASE}
+    found: list[str] = []
+    for name, usual in wanted.items():
+        found += _outside(name, tables.get(name), usual)
+    return [*found, *_damping(tables), *_pickup(tables), *_law(tables)]
+
+
+def _outside(place: str, table: Any, usual: dict[str, Usual]) -> Iterator[str]:
+    if not isinstance(table, dict):
+        return
+    for key, limits in usual.items():
+        value = table.get(key)
+        if isinstance(value, int | float) and not limits.low <= value <= limits.high:
+            yield (
+                f"{place}.{key} = {value:g} is outside {limits.low:g} to {limits.high:g} ({limits.known})"
+                f"{_mistaken(value, limits)}"
+            )
+
+
+def _mistaken(value: float, usual: Usual) -> str:
+    """The unit it would be usual in; the nearest to what is known where several would do."""
+    middle = math.sqrt(max(usual.low, 1e-3) * usual.high)
+    fits = {u: value * f for u, f in usual.mistaken.items() if usual.low <= value * f <= usual.high}
+    if not fits:
+        return ""
+    unit = min(fits, key=lambda u: abs(math.log(max(fits[u], 1e-12) / middle)))
+    return f": is it in {unit}?"
+
+
+def _damping(tables: dict[str, Any]) -> Iterator[str]:
+    table = tables.get("damping")
+    ratios = table.get("modal_percent") if isinstance(table, dict) else None
+    if not ratios:
+        return
+    most, (low, high) = max(ratios), _RATIO_PERCENT
+    if most > high:
+        yield f"damping.modal_percent up to {most:g}, bare plates have less than {high:g}: 100 times less?"
+    elif 0 < most < low:
+        yield f"damping.modal_percent at most {most:g} %, no bare plate has so little: are they fractions?"
+
+
+def _pickup(tables: dict[str, Any]) -> Iterator[str]:
+    found = tables.get("pickup")
+    for one in found if isinstance(found, list) else [found]:
+        for key in ("x_mm", "y_mm"):
+            at = one.get(key) if isinstance(one, dict) else None
+            if isinstance(at, int | float) and 0 < at < _SPOT_MM:
+                yield f"pickup.{key} = {at:g} is nearer to the edge than a laser's spot is wide: is it in m?"
+
+
+def _law(tables: dict[str, Any]) -> Iterator[str]:
+    core = tables.get("core")
+    stated = core.get("law") if isinstance(core, dict) else None
+    if not isinstance(stated, dict) or stated.get("kind") == "table":
+        return
+    try:
+        size = abs(complex(law_of(stated).modulus(np.array([2 * np.pi * _FREQUENCY_HZ]))[0]))
+    except OutsideModel:
+        return
+    low, high = _MODULUS_PA
+    if not low <= size <= high:
+        yield (
+            f"core.law gives |G*| = {size * 1e-6:.3g} MPa at {_FREQUENCY_HZ:g} Hz, outside {low * 1e-6:g} to "
+            f"{high * 1e-6:g} MPa: are its moduli in MPa?"
+        )

@@ -1,0 +1,249 @@
+"""Mistakes a new user makes: what is done to valid files, the command, and what its one line has to say."""
+
+import json
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+IDENTIFY = "identify sweep.csv --specimen coarse.toml"
+MODES = "modes coarse.toml --count 2"
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """One; `said` is a regular expression."""
+
+    name: str
+    do: Callable[[Path], None]
+    command: str
+    said: str
+    plausibility: bool = False
+    """Whether `--force` goes on all the same."""
+
+
+def stated(key: str, value: str, command: str = MODES, said: str = "", *, sure: bool = False) -> Mistake:
+    """A number of the specimen; `sure`: beyond what the file may hold at all."""
+    table, _, name = key.partition(".")
+
+    def do(folder: Path) -> None:
+        path = folder / "coarse.toml"
+        head, mark, tail = path.read_text().partition(f"[{table}]\n")
+        path.write_text(head + mark + re.sub(rf"(?m)^{name} = .*$", f"{name} = {value}", tail, count=1))
+
+    return Mistake(f"{key} = {value}", do, command, said or rf"{key}", not sure)
+
+
+def text(
+    name: str, file: str, old: str, new: str, command: str, said: str, *, plausibility: bool = False
+) -> Mistake:
+    def do(folder: Path) -> None:
+        content = (folder / file).read_text()
+        assert old in content
+        (folder / file).write_text(content.replace(old, new))
+
+    return Mistake(name, do, command, said, plausibility)
+
+
+def column(name: str, change: Callable[[dict[str, np.ndarray]], None], said: str) -> Mistake:
+    """The sweep's numbers, by column."""
+
+    def do(folder: Path) -> None:
+        lines = (folder / "sweep.csv").read_text().splitlines()
+        head = lines[0].split(",")
+        table = np.array([[float(x or "nan") for x in line.split(",")] for line in lines[1:]])
+        columns = dict(zip(head, table.T.copy(), strict=True))
+        change(columns)
+        rows = [",".join(f"{x:.12g}" for x in row) for row in zip(*columns.values(), strict=True)]
+        (folder / "sweep.csv").write_text("\n".join([",".join(columns), *rows]) + "\n")
+
+    return Mistake(name, do, IDENTIFY, said, True)
+
+
+def sheet(name: str, change: Callable[[str], str | bytes], said: str, command: str = IDENTIFY) -> Mistake:
+    """The sweep's text."""
+
+    def do(folder: Path) -> None:
+        made = change((folder / "sweep.csv").read_text())
+        (folder / "sweep.csv").write_bytes(made if isinstance(made, bytes) else made.encode())
+
+    return Mistake(name, do, command, said)
+
+
+def wrong(command: str, said: str) -> Mistake:
+    """A file of another kind."""
+    return Mistake(command, lambda folder: None, command, said)
+
+
+def velocity(c, factor):
+    """Both parts times a number, or a number a row."""
+    v = (c["velocity_re_m_s"] + 1j * c["velocity_im_m_s"]) * factor
+    c["velocity_re_m_s"], c["velocity_im_m_s"] = v.real, v.imag
+
+
+def frequency(c, factor):
+    c["frequency_hz"] = c["frequency_hz"] * factor
+
+
+def swapped(c):
+    for part in ("re", "im"):
+        v, a = f"velocity_{part}_m_s", f"base_accel_{part}_m_s2"
+        c[v], c[a] = c[a], c[v]
+
+
+def base_in_g(c):
+    for part in ("re", "im"):
+        c[f"base_accel_{part}_m_s2"] = c[f"base_accel_{part}_m_s2"] / 9.80665
+
+
+def conjugated(c):
+    for name in ("velocity_im_m_s", "base_accel_im_m_s2"):
+        c[name] = -c[name]
+
+
+def hammer(change):
+    def do(folder: Path) -> None:
+        found = json.loads((folder / "hammer.json").read_text())
+        for mode in found["modes"]:
+            change(mode)
+        (folder / "hammer.json").write_text(json.dumps(found))
+
+    return do
+
+
+def of_another_plate(mode):
+    mode["frequency_hz"] *= 1.37
+
+
+def in_percent(mode):
+    mode["damping_ratio"] *= 100
+
+
+def commas(table):
+    return table.replace(",", ";").replace(".", ",")
+
+
+SPECIMEN = [
+    stated("substrate.young_gpa", "68900.0"),
+    stated("substrate.young_gpa", "68.9e9", sure=True),
+    stated("substrate.young_gpa", "0.0689"),
+    stated("constraining.young_gpa", "209000.0"),
+    stated("constraining.young_gpa", "0.209"),
+    stated("substrate.density_kg_m3", "2.7"),
+    stated("constraining.density_kg_m3", "7.89"),
+    stated("core.density_kg_m3", "0.7895"),
+    stated("substrate.density_kg_m3", "2.7e6"),
+    stated("substrate.thickness_mm", "0.0019"),
+    stated("substrate.thickness_mm", "1900.0"),
+    stated("core.thickness_mm", "0.0005"),
+    stated("core.thickness_mm", "500.0"),
+    stated("constraining.thickness_mm", "0.0003"),
+    stated("constraining.thickness_mm", "300.0"),
+    stated("plate.length_mm", "0.3002", sure=True, said="plate|pickup"),
+    stated("plate.length_mm", "300200.0"),
+    stated("plate.width_mm", "0.1999", sure=True, said="plate|pickup"),
+    stated("plate.width_mm", "199900.0"),
+    stated("pickup.x_mm", "0.06", IDENTIFY),
+    stated("pickup.x_mm", "60e3", sure=True),
+    stated(
+        "damping.modal_percent", "[0.0029, 0.0013, 0.0018, 0.0021, 0.0011, 0.0007, 0.0009, 0.0004]", IDENTIFY
+    ),
+    stated("damping.modal_percent", "[29, 13, 18, 21, 11, 7, 9, 4]", IDENTIFY),
+    stated("base.acceleration_m_s2", "9810.0", "predict coarse.toml --frequencies 20"),
+    stated("core.poisson", "49.0", sure=True),
+    stated("core.density_kg_m3", "789500.0"),
+    text(
+        "law in Pa",
+        "coarse.toml",
+        "g0_mpa = 0.40268\nginf_mpa = 4.1946",
+        "g0_mpa = 402680.0\nginf_mpa = 4194600.0",
+        MODES,
+        "core.law",
+    ),
+    text(
+        "law in GPa",
+        "coarse.toml",
+        "g0_mpa = 0.40268\nginf_mpa = 4.1946",
+        "g0_mpa = 0.00040268\nginf_mpa = 0.0041946",
+        MODES,
+        "core.law",
+        plausibility=True,
+    ),
+    text("young_mpa", "coarse.toml", "young_gpa = 68.9", "young_mpa = 68900.0", MODES, "nearest.*young_gpa"),
+    text("length_m", "coarse.toml", "length_mm = 300.2", "length_m = 0.3002", MODES, "nearest.*length_mm"),
+    text("[substrat]", "coarse.toml", "[substrate]", "[substrat]", MODES, "nearest.*substrate"),
+    text(
+        "decimal comma",
+        "coarse.toml",
+        "thickness_mm = 1.9",
+        "thickness_mm = 1,9",
+        MODES,
+        "line 10.*decimal point",
+    ),
+]
+SHEETS = [
+    sheet("level for level_g", lambda t: t.replace("level_g", "level"), "level.*nearest.*level_g"),
+    sheet("freq_hz", lambda t: t.replace("frequency_hz", "freq_hz"), "frequency_hz missing.*freq_hz"),
+    sheet("velocity_re_mm_s", lambda t: t.replace("velocity_re_m_s", "velocity_re_mm_s"), "velocity_re_m_s"),
+    sheet("no imaginary part", lambda t: t.replace("velocity_im_m_s", "remark"), "velocity_im_m_s"),
+    sheet("semicolons", lambda t: t.replace(",", ";"), "semicolon"),
+    sheet("semicolons and decimal commas", commas, "semicolon.*decimal comma"),
+    sheet("tabs", lambda t: t.replace(",", "\t"), "tab"),
+    sheet("UTF-16", lambda t: t.encode("utf-16"), "UTF-16"),
+    sheet("empty", lambda t: "", "empty"),
+    sheet("a header alone", lambda t: t.splitlines()[0], "no rows"),
+    sheet("doubled rows", lambda t: t + t.splitlines()[-1] + "\n", "same point"),
+    sheet("a word for a number", lambda t: t.replace("0.", "o.", 1), "expected a number"),
+]
+DATA = [
+    column("velocity in mm/s", lambda c: velocity(c, 1e3), "mm/s"),
+    column("velocity in um/s", lambda c: velocity(c, 1e6), "um/s"),
+    column("velocity in km/s", lambda c: velocity(c, 1e-3), "1000 times"),
+    column("frequency in kHz", lambda c: frequency(c, 1e-3), "kHz"),
+    column("frequency in rad/s", lambda c: frequency(c, 2 * np.pi), "rad/s"),
+    column("conjugated", conjugated, "conjugate"),
+    column("sign", lambda c: velocity(c, -1.0), "sign"),
+    column("swapped cables", swapped, "swapped"),
+    column("base in g", base_in_g, "in g"),
+    column(
+        "displacement for velocity",
+        lambda c: velocity(c, 1 / (2j * np.pi * c["frequency_hz"])),
+        "displacement",
+    ),
+    column(
+        "acceleration for velocity", lambda c: velocity(c, 2j * np.pi * c["frequency_hz"]), "acceleration"
+    ),
+    stated("substrate.thickness_mm", "4.0", IDENTIFY, "plate|layer"),
+    stated("plate.length_mm", "180.0", IDENTIFY, "plate"),
+]
+FILES = [
+    Mistake("hammer of another plate", hammer(of_another_plate), f"{IDENTIFY} --hammer hammer.json", "mode"),
+    Mistake("hammer in percent", hammer(in_percent), f"{IDENTIFY} --hammer hammer.json", "percent"),
+    wrong("damping frf.csv --at 28,5", "decimal comma|decimal point"),
+    wrong("identify coarse.toml --specimen coarse.toml", "coarse.toml"),
+    wrong("identify sweep.csv --specimen rig.toml", "rig.toml"),
+    wrong("identify sweep.csv", "--specimen"),
+    wrong("identify sweep.csv --specimen coarse.toml --hammer found.json", "found.json"),
+    wrong("identify hits.csv --specimen coarse.toml", "hits.csv"),
+    wrong("diagnose found.json --specimen coarse.toml", "found.json"),
+    wrong("modes sweep.csv", "sweep.csv"),
+    wrong("modes rig.toml", "rig.toml"),
+    wrong("predict experiment.toml --frequencies 20", "experiment.toml"),
+    wrong("damping sweep.csv", "sweep.csv"),
+    wrong("damping coarse.toml", "coarse.toml"),
+    wrong("check coarse.toml", "coarse.toml"),
+    wrong("run rig.toml", "rig.toml"),
+    wrong("report sweep.csv", "sweep.csv"),
+    wrong("replay coarse.toml", "coarse.toml"),
+    wrong("export found.json --to csv", "found.json"),
+    wrong("card sweep.csv --to csv", "sweep.csv"),
+    wrong("compare coarse.toml found.json", "coarse.toml"),
+    wrong("batch coarse.toml", "coarse.toml"),
+    wrong("recover sweep.csv", "sweep.csv"),
+    wrong("import coarse.toml", "coarse.toml"),
+    wrong("identify nowhere.csv --specimen coarse.toml", "nowhere.csv"),
+    wrong("predict coarse.toml --frequencies 20;30", "20;30"),
+]
+MISTAKES = [*SPECIMEN, *SHEETS, *DATA, *FILES]
