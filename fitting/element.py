@@ -20,6 +20,7 @@ from fitting.specimen import Core, Face
 U_C, V_C, U_B, V_B, W, THETA_X, THETA_Y = range(7)
 """Places of a node's degrees of freedom: both faces in their plane, the deflection, its slopes."""
 DOFS = 7
+"""Of a node."""
 CORNERS = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
 """Local corners of the element, counter-clockwise, in fractions of its sides."""
 

@@ -233,7 +233,10 @@ class Plate:
 
     @cached_property
     def even(self) -> sp.csc_array:
-        """P, orthonormal: motions even in y, the only ones a base can excite. Shape (n, about n/2)."""
+        """P, orthonormal: motions even in y, all that a base excites where the long edges are alike.
+
+        Shape (n, about n/2).
+        """
         return self._of_parity(1.0)
 
     @cached_property

@@ -1,10 +1,11 @@
-"""What docstrings leave out: the shape of arrays, and errors raised.
+"""What docstrings leave out: the shape of arrays, errors raised, and why a number is what it is.
 
     python scripts/docstrings.py [ROOT]
 
 A public function that takes or returns an array states a shape, one that raises says so. An override of a
 documented method of the project needs neither, nor does what a Protocol of the project asks for; a class may
-state the shapes of its methods. Exits 1 where something is missing, a line each.
+state the shapes of its methods. A named number of `fitting` has a line with its reason below it. Exits 1
+where something is missing, a line each.
 """
 
 import ast
@@ -12,7 +13,7 @@ import re
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import chain
+from itertools import chain, pairwise
 from pathlib import Path
 
 ROOMS = ("fitting", "drivers", "instrument", "gui", "viscorig")
@@ -23,6 +24,9 @@ _ARRAY = re.compile(r"\b(Array|Complex|Mask|Indices|Integers|Names|NDArray|ndarr
 _SHAPE = re.compile(r"\b[Ss]hapes?\b|\([\w ]+,\)|\(\w+(, [\w ]+)+\)|\bper (point|line|sample|mode)\b")
 _RAISES = re.compile(r"\b([Rr]aise|[Rr]efuse)")
 _NOT_REFUSALS = {"NotImplementedError", "AssertionError"}
+
+_NAMED = re.compile(r"[A-Z_0-9(), ]+")
+_AROUND_NUMBERS = (ast.Tuple, ast.UnaryOp, ast.BinOp, ast.operator, ast.unaryop, ast.expr_context)
 
 Function = ast.FunctionDef | ast.AsyncFunctionDef
 
@@ -59,13 +63,36 @@ def missing(root: Path) -> list[str]:
     }
     walked = (node for tree in trees.values() for node in ast.walk(tree))
     classes = {node.name: Class(node) for node in walked if isinstance(node, ast.ClassDef)}
-    return [
+    functions = [
         f"{file}:{node.lineno}: {node.name} {complaint}"
         for file, tree in trees.items()
         if file not in KEPT
         for node, owner in _public(tree.body)
         for complaint in _complaints(node, owner, classes)
     ]
+    numbers = [
+        f"{file}:{line}: {name} has no reason"
+        for file, tree in trees.items()
+        if file.startswith("fitting/")
+        for line, name in _bare_numbers(tree.body)
+    ]
+    return functions + numbers
+
+
+def _bare_numbers(body: list[ast.stmt]) -> Iterator[tuple[int, str]]:
+    """Numbers, or tuples of them, under names in capitals that no text follows."""
+    for statement, following in pairwise([*body, ast.Pass()]):
+        if not isinstance(statement, ast.Assign) or isinstance(following, ast.Expr):
+            continue
+        name = ast.unparse(statement.targets[0])
+        if _NAMED.fullmatch(name) and all(map(_numeric, ast.walk(statement.value))):
+            yield statement.lineno, name
+
+
+def _numeric(node: ast.AST) -> bool:
+    return isinstance(node, _AROUND_NUMBERS) or (
+        isinstance(node, ast.Constant) and isinstance(node.value, int | float | complex)
+    )
 
 
 def _public(body: list[ast.stmt], owner: Class | None = None) -> Iterator[tuple[Function, Class | None]]:

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _SAME_RATE = 1e-4
+"""Relative: hits of one test have one sample rate but for rounding."""
 _NAMES = {"rational_fit": "rational fit", "half_power": "half power", "lscf": "LSCF"}
 
 

@@ -11,6 +11,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 FILE, PICKUP = "file", "pickup"
 _ALL = -1
+"""In the place of a file's number: common to all of them."""
 _OF_A_SPOT = ("observation", "channel")
 """Where an effect enters that may be of one spot alone."""
 

@@ -1,6 +1,6 @@
 """The reduced plate widened so that it can carry every effect: small matrices, columns in named groups.
 
-The first columns are the unchanged plate's own (`ReducedPlate`, even in y). Each `Span` adds the few motions
+The first columns are the unchanged plate's own (`ReducedPlate`). Each `Span` adds the few motions
 that its effects need beside them. A fit takes the columns of its effects alone.
 """
 

@@ -10,6 +10,7 @@ from fitting.prony import Prony, fit_prony
 from instrument.material.found_law import MaterialLaw
 
 USUAL_POISSON = 0.49
+"""Of a viscoelastic core where nobody states it: nearly incompressible; cards say that it is assumed."""
 
 
 @dataclass(frozen=True)

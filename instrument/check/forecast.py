@@ -23,7 +23,9 @@ from instrument.stepped_sine.plan import PlannedSegment
 from instrument.stepped_sine.settings import SweepSettings
 
 _COARSE = (20, 14)
+"""Elements along each side: a forecast of times and ranges needs no more. A choice."""
 _MODES = 12
+"""Of the treated plate, more than segments are usually laid around."""
 _MOST_SOLVED = 25
 """Frequencies of a segment; a resonance of a damped plate is wider than their spacing."""
 _MOST_STEPS = 5000

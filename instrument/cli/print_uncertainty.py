@@ -31,6 +31,8 @@ def print_in_depth(out: Output, looked: InDepth) -> None:
 
 
 _RESTLESS, _FAR = 1.05, 0.3
+"""R-hat, as usually advised (Gelman and others, Bayesian Data Analysis, took 1.1); and the share of
+weights."""
 
 
 def _table(out: Output, i: Intervals) -> None:

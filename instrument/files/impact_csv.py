@@ -21,6 +21,7 @@ FRF_STEMS: dict[str, Motion] = {
     "receptance": "displacement",
 }
 _CONTRADICTION = 2e-3
+"""Relative, of two statements of one sample rate: times printed with few digits differ by less."""
 
 
 def is_frf(header: list[str]) -> bool:

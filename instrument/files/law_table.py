@@ -21,6 +21,7 @@ from instrument.files.toml import one_line
 
 COLUMNS = tuple(Tabulated.file_fields())
 _INCOMPRESSIBLE = 0.4999
+"""Poisson's ratio of a core that states none: rubber's."""
 
 D = TypeVar("D", bound=BaseModel)
 _Rows = tuple[Array, Array, Array]

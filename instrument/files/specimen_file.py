@@ -129,7 +129,9 @@ class TolerancesSection(TomlTable):
 _UNITS = {"percent": 1e-2, "mm": 1e-3, "us": 1e-6}
 """Of the keys' endings, in what `fitting.tolerances` counts in."""
 _MOST_PERCENT = 50.0
+"""A number that uncertain is not known: it should be left to the fit, not stated."""
 _MOST_PICKUPS = 20
+"""A bound on what one file asks for."""
 
 
 class SpecimenDocument(TomlTable):

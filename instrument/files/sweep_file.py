@@ -15,6 +15,7 @@ from instrument.files.point_columns import understood
 from instrument.files.table import number, read_rows
 
 _LARGEST_WHOLE = 1e9
+"""Numbers of segments and passes are small; beyond this a double may no longer be whole."""
 _DRIVES: dict[Drive, tuple[str, str]] = {
     "base": ("base_accel_re_m_s2", "base_accel_im_m_s2"),
     "force": ("force_re_n", "force_im_n"),

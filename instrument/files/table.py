@@ -18,6 +18,7 @@ _RATE = re.compile(r"^#\s*sample_rate_hz\s*:\s*(\S+)", re.M)
 _OFF_GRID = 0.2
 """Times are often written with few digits: judged by their place on the grid, in steps."""
 _ROUNDING = 1e-12
+"""Relative: times that are exact but for it are exact."""
 _DECIMAL_COMMA = re.compile(r"\d,\d")
 
 

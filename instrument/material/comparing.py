@@ -17,6 +17,7 @@ LEVEL = 0.05
 RESOLUTION = 1e-3
 """Relative difference that the models themselves allow: what is known better than this counts no more."""
 _POINTS = 41
+"""Of the common band: laws are smoother than that, and the statistic counts directions, not points."""
 
 
 @dataclass(frozen=True)

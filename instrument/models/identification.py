@@ -33,6 +33,7 @@ from instrument.progress import Progress, Report, quiet
 Method = Literal["direct", "paper"]
 
 _MOST_WIDENINGS = 2
+"""Of the reduced model's domain, whole decades each: a law that runs further off is no core's."""
 
 
 @dataclass(frozen=True)

@@ -29,7 +29,9 @@ Hammer = tuple[Array, Array] | tuple[Array, Array, CarriedSensor | None]
 """The bare plate's frequencies in Hz and ratios, and the sensor that sat on it."""
 
 _USUAL_RATIO = 2e-3
+"""Of critical damping, on which the models are made; a specimen's own ratios are factors on it."""
 _USUAL_MODES = 12
+"""With viscous damping, at least, so that specimens with fewer ratios share a model."""
 _LIKE = 0.15
 """How far a stated value may be off that of another specimen whose models are used."""
 

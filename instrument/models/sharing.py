@@ -20,6 +20,7 @@ SHARED = 1e-3
 """Relative error of a borrowed model above which a specimen gets its own: well below what a careful reading
 scatters by, and of the size that moving a model by its tolerances costs anyway."""
 _PROBES = 3
+"""Frequencies at which a borrowed model is compared with a full solve: both ends and the middle."""
 
 
 @dataclass(frozen=True)

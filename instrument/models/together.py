@@ -42,6 +42,7 @@ from instrument.models.theory import theory_over
 from instrument.progress import Progress, quiet
 
 _ROUNDS = 4
+"""A bound on time."""
 _MISFIT = 3.0
 """Chi-square per degree of freedom from which a misfit is more than noise."""
 _WORTH_SAYING = 0.01

@@ -6,11 +6,13 @@ from fitting.planning.sensitivity import ReadingNoise
 from instrument.stepped_sine.settings import SweepSettings
 
 TARGET = 0.02
+"""Relative standard error of G' and of eta over the band: what a design can use. A choice."""
 CAUSES_SHARE = 0.25
 """Of rig time, for steps that separate causes and teach little about the law."""
 NOISE = ReadingNoise(floor_m_s=5e-6, share=2e-3)
 """A vibrometer's and an accelerometer's floor over one second, and what repeats of a good rig scatter."""
 LEVELS_G = (0.1, 0.2, 0.5, 1.0, 2.0)
+"""Among which a plan chooses; what the rig allows limits them."""
 
 
 @dataclass(frozen=True)

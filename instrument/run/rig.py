@@ -22,7 +22,9 @@ from instrument.files.rig_file import RigDocument, SensorSection
 from instrument.run.operator import Operator, Person, SimulatedOperator
 
 _SIMULATOR_STARTS_S = 30.0
+"""A bound: one that has not come up by then is taken to hang."""
 _SIMULATOR_ENDS_S = 6.0
+"""Until it is killed."""
 
 
 @dataclass(frozen=True)

@@ -42,8 +42,11 @@ from instrument.stream.raw import (
 )
 
 _BEAT_S = 0.2
+"""A tenth of the heartbeat's usual limit: a few may come late."""
 _LONGEST_READ_S = 0.5
+"""A call of the front-end: in between the heartbeat, limits and a person's word have their turn."""
 _REST_S, _LOOK_S = 5.0, 0.01
+"""After a stop, before the run says that the shaker does not obey; and how often it looks."""
 
 
 class Runner:

@@ -56,6 +56,7 @@ _MOST_SAMPLES = 2_000_000
 _QUEUE = 256
 """Events in flight; beyond that the run waits for the disk."""
 _PATIENCE_S = 10.0
+"""With a queue that full: no disk that works is away for so long."""
 _LAST_PATIENCE_S = 120.0
 """For what is left when a run ends: nobody waits for the shaker then."""
 

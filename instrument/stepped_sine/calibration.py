@@ -14,6 +14,7 @@ from fitting.errors import TooFewPoints
 from instrument.stream.derived import CalibrationFound, PointMeasured
 
 _LEAST_POINTS = 3
+"""Gain and delay, and one to tell their scatter by."""
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 import numpy as np
 
 _FAR = 0.05
-"""Beyond this share of the frequency the gain is not carried over: a loop check measures it."""
+"""Beyond this share of the frequency the gain is not carried over: a loop check measures it. A choice."""
 
 
 class DriveModel:

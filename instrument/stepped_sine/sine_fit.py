@@ -13,6 +13,7 @@ import numpy as np
 from fitting.arrays import Array, Complex
 
 MOST_HARMONICS = 5
+"""A shaker's distortion is in the second and third; more cost length of record."""
 _BELOW_NYQUIST = 0.8
 """Share of the Nyquist frequency up to which harmonics are fitted."""
 _LINES = 8

@@ -57,3 +57,8 @@ def _inner(x: Array) -> Array:
     return x
 '''
     assert looked_at(tmp_path, source) == (0, [])
+
+
+def test_a_number_of_the_inference_has_a_reason(tmp_path):
+    source = '_ROUNDS, _FAR = 3, -1e-3\nWORDS = "no number"\n_STEPS = 2 * 5\n"""A bound."""\n'
+    assert looked_at(tmp_path, source) == (1, ["fitting/one.py:1: (_ROUNDS, _FAR) has no reason"])
