@@ -6,7 +6,7 @@ frequency the wave at which the layer-wise plate resonates is put to the exact t
     delta = 1/2 ln(lambda_exact / lambda_layerwise),  lambda = omega^2(k, G) at fixed k and G
 
 Re delta is the relative shift of a resonance, 2 Im delta that of its loss factor in absolute terms. On simply
-supported edges this is all there is; clamped and free edges add what `remaining_error` says.
+supported edges this is all there is; clamped and free edges add `EDGE_FREQUENCY` and `EDGE_LOSS`.
 """
 
 from dataclasses import dataclass, replace

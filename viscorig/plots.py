@@ -10,13 +10,11 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from instrument.facts.diagnosis import PointLeft, StageName
-from instrument.results.drawing import DATA, MARK, MODEL, label, legend
+from instrument.results.drawing import BAND_95, DATA, MARK, MODEL, TWO_STD, label, legend
 from viscorig.shown import Columns
 
 Array = NDArray[np.float64]
 
-_BAND_95 = 1.96
-_TWO_STD = 2.0
 _STYLES = ("-", "--", ":", "-.")
 _MARKERS = (("o", DATA), ("s", MODEL), ("^", MARK))
 
@@ -42,7 +40,7 @@ def plot_laws(ax: Axes | None, laws: Mapping[str, Columns]) -> Axes:
     for (name, law), style in zip(laws.items(), _STYLES, strict=False):
         for side, key, unit, scale, color, symbol in sides:
             f, value = law["frequency_hz"], scale * law[key + unit]
-            spread = _BAND_95 * scale * law[f"{key}_standard_error{unit}"]
+            spread = BAND_95 * scale * law[f"{key}_standard_error{unit}"]
             side.plot(f, value, style, color=color, label=f"{symbol} {name}".strip())
             if np.isfinite(spread).all():
                 side.fill_between(f, value - spread, value + spread, color=color, alpha=0.2, linewidth=0)
@@ -68,7 +66,7 @@ def plot_residual(ax: Axes | None, points: Sequence[PointLeft], titles: Mapping[
     ax = axes_of(ax)
     points = sorted(points, key=lambda p: p.frequency_hz)
     f = np.array([p.frequency_hz for p in points])
-    noise = _TWO_STD * np.array([p.noise_percent for p in points], dtype=float)
+    noise = TWO_STD * np.array([p.noise_percent for p in points], dtype=float)
     if np.isfinite(noise).all():
         ax.errorbar(f, np.zeros(len(f)), noise, fmt="none", color="#999999", label="noise, ± 2 std")
     for (stage, name), (marker, color) in zip(titles.items(), reversed(_MARKERS[:2]), strict=True):

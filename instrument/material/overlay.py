@@ -7,9 +7,8 @@ import numpy as np
 from instrument.errors import BadInput
 from instrument.files.dma_file import DmaTable
 from instrument.material.found_law import MaterialLaw
-from instrument.results.drawing import DATA, label, legend, panels
+from instrument.results.drawing import BAND_95, DATA, label, legend, panels
 
-_BAND_95 = 1.96
 _MARKS = "osD^v<>ph*"
 
 
@@ -30,7 +29,7 @@ def save_overlay(law: MaterialLaw, table: DmaTable, folder: Path) -> Path:
     ):
         ax.plot(f, value * scale, color=DATA, label="identified")
         if np.isfinite(error).all():
-            wide = _BAND_95 * error
+            wide = BAND_95 * error
             ax.fill_between(f, (value - wide) * scale, (value + wide) * scale, color=DATA, alpha=0.2)
         for k, t in enumerate(table.temperatures()):
             rows = np.isnan(table.temperature_c) if np.isnan(t) else table.temperature_c == t

@@ -9,8 +9,10 @@ from instrument.interchange.identified import SessionFit
 from instrument.report.fitted import ReportedFit
 from instrument.report.measured import Measured
 from instrument.results.drawing import (
+    BAND_95,
     DATA,
     MODEL,
+    TWO_STD,
     from_zero,
     in_rows,
     label,
@@ -18,9 +20,6 @@ from instrument.results.drawing import (
     legend_above,
     panels,
 )
-
-_BAND_95 = 1.96
-_TWO_STD = 2.0
 
 
 def law_figure(fit: SessionFit) -> Figure:
@@ -31,7 +30,7 @@ def law_figure(fit: SessionFit) -> Figure:
         (left, b.storage_modulus_pa, b.storage_modulus_standard_error_pa, 1e-6, "Storage modulus G' / MPa"),
         (right, b.loss_factor, b.loss_factor_standard_error, 1.0, "Loss factor η"),
     ):
-        low, high = (value - _BAND_95 * error) * scale, (value + _BAND_95 * error) * scale
+        low, high = (value - BAND_95 * error) * scale, (value + BAND_95 * error) * scale
         if np.isfinite(error).all():
             ax.fill_between(b.frequency_hz, low, high, color=DATA, alpha=0.2, linewidth=0, label="95 % band")
         ax.plot(b.frequency_hz, value * scale, color=DATA, label="identified")
@@ -61,7 +60,7 @@ def _residuals(segments: Sequence[Measured], fitted: ReportedFit) -> Figure:
     for amplitude, phase, m in zip(above, below, segments, strict=True):
         model = fitted.over_base(m.frequency_hz)
         assert model is not None
-        noise = _TWO_STD * m.std / np.abs(m.over_base)
+        noise = TWO_STD * m.std / np.abs(m.over_base)
         ratio = model / m.over_base
         for ax, rest, band in (
             (amplitude, 100 * (np.abs(ratio) - 1), 100 * noise),

@@ -16,6 +16,7 @@ from instrument.results.drawing import (
     MARK,
     MODEL,
     SECOND,
+    TWO_STD,
     from_zero,
     in_rows,
     label,
@@ -28,7 +29,6 @@ from instrument.stream.derived import PointMeasured
 
 _MS = 1e3
 """(m/s)/(m/s²) is a second; a millisecond reads better."""
-_TWO_STD = 2.0
 
 
 def response_figures(segments: list[Measured], fitted: ReportedFit) -> list[Figure]:
@@ -60,9 +60,9 @@ def _draw_segment(amplitude: Axes, phase: Axes, m: Measured, fitted: ReportedFit
         phase.plot(m.grid_hz, np.degrees(course), "-", color=MODEL, linewidth=1.3)
     bars: dict[str, Any] = {"fmt": "o", "markersize": 3.5, "color": DATA, "capsize": 2, "elinewidth": 0.8}
     amplitude.errorbar(
-        f, _MS * size, _MS * _TWO_STD * m.std, label="measured, ± 2 standard deviations", **bars
+        f, _MS * size, _MS * TWO_STD * m.std, label="measured, ± 2 standard deviations", **bars
     )
-    phase.errorbar(f, np.degrees(angle), np.degrees(_TWO_STD * m.std / size), **bars)
+    phase.errorbar(f, np.degrees(angle), np.degrees(TWO_STD * m.std / size), **bars)
     from_zero(amplitude, _MS * (size if model is None else np.concatenate([size, np.abs(model)])))
     label(amplitude, title=f"Segment {m.segment}")
     label(phase, x="Frequency / Hz")

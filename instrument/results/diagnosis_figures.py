@@ -15,11 +15,19 @@ from instrument.errors import BadInput
 from instrument.facts.diagnosis import STAGES, DiagnosisResult, PointLeft, StageName
 from instrument.facts.result import Result
 from instrument.results.diagnosis_words import log_odds, probability_words, with_verdict
-from instrument.results.drawing import DATA, MARK, MODEL, SECOND, WIDTH_IN, label, legend_above
+from instrument.results.drawing import (
+    BAND_95,
+    DATA,
+    MARK,
+    MODEL,
+    SECOND,
+    TWO_STD,
+    WIDTH_IN,
+    label,
+    legend_above,
+)
 
 _MOST_BARS = 12
-_BAND_95 = 1.96
-_TWO_STD = 2.0
 _PARTS = (
     ("re_percent", "real part", DATA, "o"),
     ("im_percent", "imaginary part", SECOND, "s"),
@@ -77,7 +85,7 @@ def _draw_residual(ax: Axes, points: Sequence[PointLeft], stage: StageName) -> N
     # A band for each pass and level: between them the noise jumps.
     for k, alike in enumerate(sorted({(p.sweep, p.level_m_s2) for p in points})):
         mine = [p for p in points if (p.sweep, p.level_m_s2) == alike]
-        band = _TWO_STD * _column(mine, "noise_percent")
+        band = TWO_STD * _column(mine, "noise_percent")
         if np.isfinite(band).all():
             name = "noise, ± 2 std" if k == 0 else None
             f = _column(mine, "frequency_hz")
@@ -144,7 +152,7 @@ def law_figure(found: DiagnosisResult) -> Figure:
             (left, "storage_modulus_pa", "storage_modulus_standard_error_pa", 1e-6),
             (right, "loss_factor", "loss_factor_standard_error", 1.0),
         ):
-            value, spread = scale * _column(law, key), _BAND_95 * scale * _column(law, error)
+            value, spread = scale * _column(law, key), BAND_95 * scale * _column(law, error)
             ax.plot(f, value, style, color=colour, label=stage)
             if np.isfinite(spread).all():
                 ax.fill_between(f, value - spread, value + spread, color=colour, alpha=0.2, linewidth=0)

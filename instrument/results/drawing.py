@@ -13,6 +13,10 @@ T = TypeVar("T")
 DATA, MODEL, MARK, SECOND = "#0b63a5", "#c2571a", "#5b8c2a", "#7a4fa3"
 WIDTH_IN = 11.0
 _COLUMNS_AT_MOST = 4
+BAND_95 = 1.96
+"""Standard errors either side of what is found: 95 % of a normal distribution."""
+TWO_STD = 2.0
+"""Standard deviations of a reading either side: what is usually drawn as its noise."""
 
 
 def in_rows(items: Sequence[T]) -> list[Sequence[T]]:

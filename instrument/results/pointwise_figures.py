@@ -13,9 +13,8 @@ from fitting.kramers_kronig import FIRST_ORDER, KramersKronig
 from fitting.pointwise import PointwiseLaw
 from instrument.errors import BadInput
 from instrument.models.pointwise import Pointwise
-from instrument.results.drawing import DATA, MARK, MODEL, label, legend_above, panels
+from instrument.results.drawing import BAND_95, DATA, MARK, MODEL, label, legend_above, panels
 
-_BAND_95 = 1.96
 _FAINT = 0.3
 _ROOM = 1.6
 """Of the law's own height: error bars beyond it are cut."""
@@ -56,7 +55,7 @@ def pointwise_figure(found: PointwiseLaw, band: LawBand, causal: KramersKronig |
 
 
 def _law(ax: Axes, band: LawBand, value: Array, error: Array, scale: float) -> None:
-    low, high = (value - _BAND_95 * error) * scale, (value + _BAND_95 * error) * scale
+    low, high = (value - BAND_95 * error) * scale, (value + BAND_95 * error) * scale
     if np.isfinite(error).all():
         ax.fill_between(
             band.frequency_hz, low, high, color=DATA, alpha=0.2, linewidth=0, label="95 % band of the law"
@@ -73,7 +72,7 @@ def _points(ax: Axes, known: PointwiseLaw, value: Array, error: Array, scale: fl
         ax.errorbar(
             known.frequency_hz[which],
             value[which] * scale,
-            _BAND_95 * error[which] * scale,
+            BAND_95 * error[which] * scale,
             fmt="o",
             color=MODEL,
             alpha=alpha,
@@ -85,7 +84,7 @@ def _points(ax: Axes, known: PointwiseLaw, value: Array, error: Array, scale: fl
         )
     if not well.any():
         return
-    value, bar = value[well] * scale, _BAND_95 * error[well] * scale
+    value, bar = value[well] * scale, BAND_95 * error[well] * scale
     top = ax.get_ylim()[1]
     # Whole bars where there is room, every value in any case.
     highest = max(float(value.max()), min(float((value + bar).max()), _ROOM * top))
