@@ -14,7 +14,7 @@ from fitting.diagnosis.refit import ROUGH, Refitted, refit
 from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
-from fitting.effects.base import Effect
+from fitting.effects.base import Effect, Points
 from fitting.laws import CoreLaw
 
 Start = tuple[float, Array]
@@ -30,13 +30,21 @@ def look(problem: DiagnosisProblem, evidence: Evidence, before: Refitted, effect
     """Starts of an effect, scaled by a linear step, with the chi-square each may gain; best first."""
     response = response_of(problem, [*before.effects, effect], problem.coarse)
     plain = response_of(problem, before.effects, problem.coarse)
+    return promising(response, plain, problem.points, evidence, before)
+
+
+def promising(
+    response: SweepResponse, plain: SweepResponse, points: Points, evidence: Evidence, before: Refitted
+) -> list[Start]:
+    """The same of the last effect of `response`; `plain` is without it. `points` has shape (points,) each."""
+    effect = response.effects[-1]
     law, known = before.law, before.u
     v = plain.velocity(law, known)
     r = before.residuals
     Q, _ = np.linalg.qr(before.jacobian)
     priors = np.zeros(before.stated + before.law.bend_count)
     lower, upper = effect.limits(response.plate)
-    starts, found = effect.starts(response.plate, problem.points), []
+    starts, found = effect.starts(response.plate, points), []
     for u, moved in zip(starts, moves(response, law, known, starts, v), strict=True):
         s = np.concatenate([evidence.jacobian(v, moved[None])[:, 0], evidence.bare_moves(effect, u), priors])
         s = s - Q @ (Q.T @ s)

@@ -10,7 +10,7 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.diagnosis.marginal import expected_size
-from fitting.diagnosis.refit import kept
+from fitting.diagnosis.refit import Refitted, kept
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.verdict import NONE, Judgement
@@ -55,13 +55,26 @@ def _neutral(value: float | None) -> float:
 
 
 def _hides(search: Search, effect: Effect) -> bool:
-    sized = [q for q in effect.parameters if not q.fixed]
-    if len(sized) != 1 or sized[0].neutral is None or sized[0].logarithmic:
+    if not _one_size(effect):
         return False
-    none, law = search.none.fitted, search.none.fitted.law
-    absent = _as_absent(search, effect).fitted
-    J = absent.jacobian
-    step = expected_size(sized[0]) * J[:, -1]
+    return hides(search.none.fitted, _as_absent(search, effect).fitted, search.problem.points.omega)
+
+
+def _one_size(effect: Effect) -> bool:
+    sized = [q for q in effect.parameters if not q.fixed]
+    return len(sized) == 1 and sized[0].neutral is not None and not sized[0].logarithmic
+
+
+def hides(none: Refitted, absent: Refitted, omega: Array) -> bool:
+    """Whether the law can do what an effect of one size would; `absent` has it last, at its neutral value.
+
+    `omega` in rad/s, shape (points,).
+    """
+    (effect,) = absent.effects
+    if not _one_size(effect):
+        return False
+    law, J = none.law, absent.jacobian
+    step = expected_size(next(q for q in effect.parameters if not q.fixed)) * J[:, -1]
     widths = law.search_widths
     loose = np.zeros((len(widths), J.shape[1] - 1))
     loose[:, : len(widths)] = np.diag(1 / widths)
@@ -70,7 +83,6 @@ def _hides(search: Search, effect: Effect) -> bool:
     left = A @ moved + np.append(step, np.zeros(len(widths)))
     if np.linalg.norm(left) > HIDDEN:
         return False
-    omega = search.problem.points.omega
     by_log = (law.jacobian(omega) * law.values[:, None] / law.modulus(omega)).real
     C = none.covariance[: len(law.names), : len(law.names)]
     return bool(_rms(by_log.T @ moved[: len(law.names)]) > MOVES * _rms(np.sqrt(_diagonal(by_log, C))))

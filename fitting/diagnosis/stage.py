@@ -87,6 +87,12 @@ def mixed_band(
         C = posterior(response_of(problem, fitted.effects), search.evidence, fitted)
         bands.append(law_band(problem.sweep, fitted.law, _of_law(fitted, search.temper(scored) * C)))
 
+    return mixture_of(bands, shares)
+
+
+def mixture_of(bands: Sequence[LawBand], shares: Array) -> LawBand:
+    """Mean and standard deviation of laws over the same frequencies; `shares` of shape (laws,)."""
+
     def mixture(value: str, error: str) -> tuple[Array, Array]:
         means = np.array([getattr(b, value) for b in bands])
         errors = np.array([getattr(b, error) for b in bands])

@@ -30,8 +30,8 @@ SPARE = 8
 """Real modes of each beyond the table's last."""
 _INDEPENDENT = 1e-11
 """Of the largest product: below it, motions differ by rounding."""
-_SOMEWHERE = (0.77, 0.31)
-"""Of length and width: a plate needs a spot to be read at, though no mode depends on it."""
+_READ, _STRUCK = (0.77, 0.31), (0.93, 0.12)
+"""Of length and width: a plate has to be struck and read somewhere, though no mode depends on it."""
 Widen = Callable[[Specimen, Array], EnrichedReducedPlate]
 """A plate and its own motions, shape (n, k), to the plate with all that effects need."""
 
@@ -55,16 +55,16 @@ def with_own_error(member: Member, law: CoreLaw) -> Member:
     return replace(member, own_error=(found.frequency, found.loss))
 
 
-def read_somewhere(specimen: Specimen) -> Specimen:
-    """The plate with a spot, where it has none."""
-    if specimen.pickup_m is not None:
-        return specimen
-    x, y = _SOMEWHERE
-    return replace(specimen, pickup_m=(x * specimen.length_m, y * specimen.width_m))
+def tapped(specimen: Specimen) -> Specimen:
+    """The plate struck and read off its axes: all its motions are carried, and no base is asked for."""
+    x, y = _READ
+    a, b = _STRUCK
+    L, B = specimen.length_m, specimen.width_m
+    return replace(specimen, pickup_m=(x * L, y * B), force_m=(a * L, b * B))
 
 
 def _of_plate(table: ModalTable, specimen: Specimen, widen: Widen | None) -> Member:
-    specimen = read_somewhere(specimen)
+    specimen = tapped(specimen)
     plate = Plate(specimen)
     V = own_motions(plate, int(table.mode.max()) + SPARE)
     wide = _plain(plate, V) if widen is None else widen(specimen, V)

@@ -50,6 +50,8 @@ class BegunModal:
     problem: ModalProblem
     evidence: Evidence
     none: Refitted
+    start: CoreLaw
+    """What the fit began with: where the law found is lost, other explanations begin there too."""
 
 
 def fit_modes(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> ModalFit:
@@ -75,7 +77,7 @@ def begin_modal(problem: ModalProblem, start: CoreLaw, *, scale_known: bool = Tr
         if none.converged and np.max(np.abs(after / before - 1)) < ROUGH:
             break
         problem = problem.around(none.law)
-    return BegunModal(problem, evidence, none)
+    return BegunModal(problem, evidence, none, start)
 
 
 def _roughly(problem: ModalProblem, start: CoreLaw, u: Array) -> tuple[Refitted, ModalProblem]:

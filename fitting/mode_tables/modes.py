@@ -22,8 +22,8 @@ _SPARE = 14
 """Real modes beyond those asked for, among which complex ones are sought."""
 _STEPS, _SETTLED = 60, 1e-9
 """A bound for the law followed along; the relative change of a frequency at which that has settled."""
-_CORRECTIONS = 6
-"""A bound for Rayleigh's quotient."""
+_CORRECTIONS, _CORRECTED = 4, 1e-8
+"""A bound for Rayleigh's quotient, and its relative change at the end: stiff springs leave no more digits."""
 _RIGID = 1e-6
 """Of the median eigenvalue: below it a mode is rigid."""
 
@@ -105,7 +105,7 @@ def _corrected(A: ModalMatrices, modulus: Callable[[float], complex], mode: Comp
         y = np.asarray(np.linalg.solve(K - value * (1 + 1e-8) * A.M, A.M @ y), complex)
         y /= np.sqrt(y @ (A.M @ y))
         new = complex(y @ (K @ y))
-        settled = abs(new / value - 1) < _SETTLED
+        settled = abs(new / value - 1) < _CORRECTED
         value = new
         if settled:
             break

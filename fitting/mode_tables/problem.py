@@ -10,7 +10,7 @@ from fitting.arrays import Array, Complex
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.of_files import OfFiles
 from fitting.diagnosis.response import STATED_NUMBER, SweepResponse
-from fitting.effects.base import Effect
+from fitting.effects.base import Effect, Points
 from fitting.identification.adjusted import Adjusted, adjusted
 from fitting.laws import CoreLaw
 from fitting.mode_tables.build import with_own_error
@@ -56,6 +56,12 @@ class ModalProblem:
     def frequency_hz(self) -> Array:
         """Of all modes. Shape (modes,)."""
         return np.concatenate([m.table.frequency_hz for m in self.members])
+
+    @property
+    def points(self) -> Points:
+        """What effects may ask of data: nothing but the frequencies."""
+        omega = 2 * np.pi * self.frequency_hz
+        return Points(omega, np.ones(len(omega)), np.zeros(len(omega)), False, True, "relative")
 
     @property
     def parts(self) -> list[slice]:
@@ -111,6 +117,11 @@ class ModalResponse(SweepResponse):
             acting = [(e, u[part]) for e, part in self._acting(k)]
             found.append(m.logs(m.modes(law, u[at], acting)))
         return np.concatenate(found)
+
+    def signatures(self, law: CoreLaw, known: Array, starts: Sequence[Array]) -> Complex:
+        """What the last effect changes as it comes in. Shape (starts, modes)."""
+        plain = self.modal.response(self.effects[:-1]).velocity(law, known)
+        return np.array([self.velocity(law, np.concatenate([known, u])) - plain for u in starts])
 
     def with_derivatives(self, law: CoreLaw, u: Array) -> tuple[Complex, Complex]:
         """The same, and derivatives to the law's log parameters and to `u`. Shape (numbers, modes)."""

@@ -5,11 +5,12 @@ from pathlib import Path
 import click
 
 from fitting.specimen import Specimen
+from instrument.cli.diagnose_modes import diagnose_modes
 from instrument.cli.options import figures_option, file_arguments, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
 from instrument.cli.print_run import print_result
-from instrument.cli.reading import read_each, reading_options, together
+from instrument.cli.reading import are_tables, read_each, reading_options, together
 from instrument.models.diagnosis import diagnose as diagnose_sweep
 from instrument.models.together import diagnose_together
 from instrument.progress import bar
@@ -57,9 +58,17 @@ def diagnose(
     """What the fit of DATA cannot explain, traced to a physical effect, with the error before and after.
 
     DATA is a sweep (.csv), a recorded session (.h5), or an FRF of the pickup over the base's acceleration
-    (.csv, .uff, .unv, .mat). Several are one experiment: an effect common to all is named once.
+    (.csv, .uff, .unv, .mat), or a table of modes (.csv: mode, frequency_hz, loss_factor). Several are one
+    experiment: an effect common to all is named once.
     """
     out = Output(json_path)
+    if are_tables(data, specimen):
+        if hammer is not None or accept or resamples is not None or figures is not None:
+            raise click.UsageError(
+                "--hammer, --accept, --resamples, --figures with tables of modes: expected sweeps"
+            )
+        diagnose_modes(out, data, specimen, frozenset(without))
+        return
     every = read_each(out, data, specimen, hammer, no_hammer=no_hammer, insist=insist)
     declined, accepted = frozenset(without), _accepted(accept)
     files, given = together(every, data), every[0]

@@ -130,7 +130,8 @@ def identify(
     """The core's complex shear modulus from DATA, with its uncertainty.
 
     DATA is a sweep (.csv), a recorded session (.h5), or an FRF of the pickup over the base's acceleration
-    (.csv, .uff, .unv, .mat). Several are fitted together: one law, each file its own specimen and channels.
+    (.csv, .uff, .unv, .mat), or a table of modes (.csv: mode, frequency_hz, loss_factor). Several are fitted
+    together: one law, each file its own specimen and channels.
     """
     if pointwise and method == "paper":
         raise click.UsageError("--pointwise and --method paper: expected the direct method")

@@ -31,9 +31,8 @@ def print_diagnosis(out: Output, found: DiagnosisResult) -> None:
     for text in found.warnings:
         out.say(f"note: {text}")
     if found.seconds is not None and found.setup_seconds is not None:
-        out.say(
-            f"{len(found.points)} points; set-up {found.setup_seconds:.2f} s, diagnosis {found.seconds:.2f} s"
-        )
+        counted = f"{len(found.points)} points" if found.modes is None else f"{len(found.modes)} modes"
+        out.say(f"{counted}; set-up {found.setup_seconds:.2f} s, diagnosis {found.seconds:.2f} s")
 
 
 def print_story(out: Output, found: DiagnosisResult) -> None:
@@ -51,8 +50,9 @@ def print_story(out: Output, found: DiagnosisResult) -> None:
 
 def print_before_after(out: Output, found: DiagnosisResult) -> None:
     """The fit without and with the effects found."""
+    of = "amplitude" if found.modes is None else "frequency"
     rows = [
-        ["rms difference in amplitude/%", *(_two(s.rms_percent) for s in found.stages), ""],
+        [f"rms difference in {of}/%", *(_two(s.rms_percent) for s in found.stages), ""],
         ["largest difference/%", *(_two(s.max_percent) for s in found.stages), ""],
         ["chi-square per degree", *(_two(s.chi2_per_dof) for s in found.stages), "1"],
     ]

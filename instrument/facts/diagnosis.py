@@ -101,6 +101,20 @@ class PointLeft(Result):
         return self.before if name == "before" else self.after
 
 
+class ModeLeft(Result):
+    """A mode of a table beside the model's, without and with the effects accepted."""
+
+    file: int
+    """From 1."""
+    mode: int
+    frequency_hz: Number
+    loss_factor: Number
+    before_hz: Number
+    before_loss_factor: Number
+    after_hz: Number
+    after_loss_factor: Number
+
+
 class DiagnosisResult(Result):
     """What the specimen's law cannot explain, traced to an effect."""
 
@@ -130,6 +144,8 @@ class DiagnosisResult(Result):
     seconds: MaybeNumber = None
     """A run does not say."""
     setup_seconds: MaybeNumber = None
+    modes: tuple[ModeLeft, ...] | None = None
+    """Of tables of modes, which have no points: differences in percent are then of frequencies."""
     files: tuple[str, ...] | None = None
     """Of several under one law."""
     set_aside: tuple[StretchSetAside, ...] | None = None

@@ -1,19 +1,37 @@
 """Tables of modes with their specimens: a law identified, the theory checked."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from time import perf_counter
 
 from threadpoolctl import threadpool_limits
 
-from fitting.mode_tables.fit import ModalFit, fit_modes
+from fitting.arrays import Array
+from fitting.damping import viscous_damping
+from fitting.effects import CATALOGUE, all_spans, span_modules
+from fitting.effects.base import Effect
+from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.enriching import enriched
+from fitting.effects.full_plate import FullPlate
+from fitting.errors import OutsideModel
+from fitting.laws import CoreLaw
+from fitting.laws.constant import ConstantModulus
+from fitting.mode_tables.build import member_of, own_motions
+from fitting.mode_tables.diagnose import DiagnosedModes, diagnose_modes
+from fitting.mode_tables.fit import ModalFit, fit_modes, start_of
+from fitting.mode_tables.problem import ModalProblem
+from fitting.mode_tables.stated_off import standing
 from fitting.mode_tables.table import ModalTable
+from fitting.plate import Plate
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
+from instrument.errors import BadInput
+from instrument.models.cache import cached
 from instrument.models.remarks import remarks_on_law, remarks_on_tolerances
 from instrument.models.theory import theory_over
 from instrument.progress import Progress, quiet
 
+Report = Callable[[float], None]
 _WARMER = 2.0
 """K between rows of a table, from which a damping polymer is another one."""
 
@@ -37,15 +55,71 @@ def identify_tables(
     began = perf_counter()
     with threadpool_limits(1, "blas"), progress("fitting modes"):
         found = fit_modes(tables, specimens)
-    check_theories(found, tables, specimens)
+    check_theories(found.law, tables, specimens)
     return TablesIdentified(found, perf_counter() - began, remarks_on_tables(tables, specimens))
 
 
-def check_theories(found: ModalFit, tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> None:
+@dataclass(frozen=True)
+class TablesDiagnosed:
+    """What tables of modes show beside a law."""
+
+    found: DiagnosedModes
+    effects: tuple[Effect, ...]
+    """What was looked for."""
+    setup_seconds: float
+    seconds: float
+    remarks: tuple[str, ...]
+
+
+def diagnose_tables(
+    tables: Sequence[ModalTable],
+    specimens: Sequence[AnySpecimen],
+    without: Collection[str] = frozenset(),
+    progress: Progress = quiet,
+) -> TablesDiagnosed:
+    """What one law cannot explain, traced to an effect of all specimens or of one.
+
+    Raises `BadInput` for an unknown effect, `FittingError` as `identify_tables`.
+    """
+    unknown = sorted(set(without) - set(CATALOGUE))
+    if unknown:
+        raise BadInput(f"effect {unknown[0]!r}, expected one of {', '.join(sorted(CATALOGUE))}")
+    kinds = sorted({s.kind for s in specimens})
+    if len(kinds) > 1:
+        raise OutsideModel(f"{' and '.join(kinds)} together, expected specimens of one kind to diagnose")
+    start, began = start_of(tables, specimens), perf_counter()
+    with threadpool_limits(1, "blas"):
+        with progress("spanning what effects change") as report:
+            members = [
+                member_of(t, s, lambda s, V: _widened(s, V, report))
+                for t, s in zip(tables, specimens, strict=True)
+            ]
+        ready = perf_counter()
+        effects = tuple(e for e in standing(members[0].specimen) if e.name not in without)
+        with progress("tracing what is left") as report:
+            found = diagnose_modes(ModalProblem.of(members), effects, start, report)
+    accepted = found.judgement.accepted
+    check_theories(accepted.fitted.law if accepted else found.begun.none.law, tables, specimens)
+    remarks = remarks_on_tables(tables, specimens)
+    return TablesDiagnosed(found, effects, ready - began, perf_counter() - ready, remarks)
+
+
+def _widened(specimen: Specimen, V: Array, report: Report) -> EnrichedReducedPlate:
+    def build() -> EnrichedReducedPlate:
+        plate = Plate(specimen)
+        return enriched(FullPlate(plate, viscous_damping(plate)), V, all_spans(specimen), report)
+
+    assert specimen.core is not None
+    lawless = specimen.with_law(ConstantModulus(1e6, 0.0))
+    modules = [*span_modules(), own_motions.__module__]
+    return cached("modes", [lawless, V.shape[1]], EnrichedReducedPlate, build, modules)
+
+
+def check_theories(law: CoreLaw, tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> None:
     """Raise `OutsideModel` where a plate's theory does not hold for the law found."""
     for table, specimen in zip(tables, specimens, strict=True):
         if isinstance(specimen, Specimen):
-            theory_over(specimen, found.law, table.frequency_hz)
+            theory_over(specimen, law, table.frequency_hz)
 
 
 def remarks_on_tables(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> tuple[str, ...]:

@@ -25,12 +25,12 @@ def diagnosis_from(found: Diagnosed, sweep: Sweep) -> DiagnosisResult:
     return DiagnosisResult(
         verdict=r.verdict,
         effects=tuple(
-            EffectFound(name=e.name, parameters=_parameters(e), probability=e.probability)
+            EffectFound(name=e.name, parameters=parameters_from(e), probability=e.probability)
             # One that is both seen in a channel and fitted is listed once, as fitted.
             for e in (*r.effects, *(c for c in r.channels if c.name not in fitted))
         ),
         equivalent=dict(r.equivalent),
-        candidates=tuple(_candidate(c) for c in r.candidates),
+        candidates=tuple(candidate_from(c) for c in r.candidates),
         before=_stage(r.before),
         after=_stage(r.after),
         adjusted=adjusted_from(r.after.adjusted),
@@ -47,7 +47,8 @@ def diagnosis_from(found: Diagnosed, sweep: Sweep) -> DiagnosisResult:
     )
 
 
-def _candidate(c: Candidate) -> CandidateFitted:
+def candidate_from(c: Candidate) -> CandidateFitted:
+    """One row of the ranking."""
     return CandidateFitted(
         name=c.name,
         delta_bic=c.delta_cost,
@@ -59,7 +60,8 @@ def _candidate(c: Candidate) -> CandidateFitted:
     )
 
 
-def _parameters(effect: FoundEffect) -> dict[str, ParameterFound]:
+def parameters_from(effect: FoundEffect) -> dict[str, ParameterFound]:
+    """Of an effect, by key."""
     return {
         key: ParameterFound(value=p.value, standard_error=p.standard_error, unit=p.unit)
         for key, p in effect.parameters.items()
@@ -69,8 +71,8 @@ def _parameters(effect: FoundEffect) -> dict[str, ParameterFound]:
 def _all_parameters(candidate: Candidate) -> dict[str, ParameterFound]:
     """Of two effects together, each key with its effect's name before it: both may have a `scale`."""
     if len(candidate.effects) == 1:
-        return _parameters(candidate.effects[0])
-    return {f"{e.name}.{key}": p for e in candidate.effects for key, p in _parameters(e).items()}
+        return parameters_from(candidate.effects[0])
+    return {f"{e.name}.{key}": p for e in candidate.effects for key, p in parameters_from(e).items()}
 
 
 def _stage(s: Stage) -> StageFitted:

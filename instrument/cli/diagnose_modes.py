@@ -1,0 +1,22 @@
+"""`viscorig diagnose` on tables of modes."""
+
+from collections.abc import Collection, Sequence
+from pathlib import Path
+
+from instrument.cli.output import Output
+from instrument.cli.print_diagnosis import print_diagnosis
+from instrument.cli.reading import read_tables
+from instrument.models.modal import diagnose_tables
+from instrument.progress import bar
+from instrument.results.modal_diagnosis_from import modal_diagnosis_from
+
+
+def diagnose_modes(
+    out: Output, data: Sequence[Path], specimens: Sequence[Path], without: Collection[str]
+) -> None:
+    """The effect behind what one law leaves. Raises `BadInput`, `FittingError`, `UsageError`."""
+    tables, read = read_tables(data, specimens)
+    found = diagnose_tables(tables, read, without, bar)
+    result = modal_diagnosis_from(found, tables, [path.name for path in data])
+    print_diagnosis(out, result)
+    out.result(result)

@@ -1,0 +1,143 @@
+"""The result of a diagnosis of tables of modes, read off its fits."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from fitting.arrays import Array
+from fitting.diagnosis import text
+from fitting.diagnosis.result import Candidate, FoundEffect
+from fitting.diagnosis.search import ScoredFit
+from fitting.diagnosis.stage import found_effects, mixture_of
+from fitting.diagnosis.verdict import NONE
+from fitting.identification.result import LawBand
+from fitting.mode_tables.diagnose import DiagnosedModes
+from fitting.mode_tables.fit import ModalFit, modal_fit_of
+from fitting.mode_tables.table import ModalTable
+from instrument.facts.diagnosis import DiagnosisResult, EffectFound, ModeLeft, StageFitted
+from instrument.models.modal import TablesDiagnosed
+from instrument.results.diagnosis_from import candidate_from, parameters_from
+from instrument.results.modal_from import modal_band
+from instrument.results.rows_from import adjusted_from, law_rows_from
+
+
+def modal_diagnosis_from(
+    diagnosed: TablesDiagnosed, tables: Sequence[ModalTable], names: Sequence[str]
+) -> DiagnosisResult:
+    """The result of `diagnose` on tables; `modes` stand in the place of `points`."""
+    found, judgement = diagnosed.found, diagnosed.found.judgement
+    before = modal_fit_of(found.begun)
+    accepted = judgement.accepted
+    after = modal_fit_of(found.begun, accepted.fitted) if accepted is not None else before
+    band = modal_band(after, tables)
+    if judgement.verdict != "unknown" and judgement.group:
+        fits = [modal_fit_of(found.begun, scored.fitted) for scored, _ in judgement.group]
+        band = mixture_of(
+            [modal_band(fit, tables) for fit in fits], np.array([share for _, share in judgement.group])
+        )
+    effects = _effects(found, accepted) if accepted is not None else ()
+    catalogue = {e.name: e for e in diagnosed.effects}
+    first, last = _stage(before, tables, modal_band(before, tables)), _stage(after, tables, band)
+    return DiagnosisResult(
+        verdict=judgement.verdict,
+        effects=tuple(
+            EffectFound(name=e.name, parameters=parameters_from(e), probability=judgement.of_effect(e.name))
+            for e in effects
+        ),
+        equivalent=dict(judgement.equivalent),
+        candidates=tuple(candidate_from(_candidate(found, scored, tables)) for scored in found.scored),
+        before=first,
+        after=last,
+        adjusted=adjusted_from(after.adjusted),
+        next_measurement=text.next_measurement(judgement, catalogue, with_hammer=False),
+        explanation=_explanation(diagnosed, effects, first, last),
+        warnings=diagnosed.remarks,
+        points=(),
+        modes=_modes(before, after, tables),
+        files=tuple(names),
+        seconds=diagnosed.seconds,
+        setup_seconds=diagnosed.setup_seconds,
+    )
+
+
+def _effects(found: DiagnosedModes, scored: ScoredFit) -> tuple[FoundEffect, ...]:
+    plate = found.begun.problem.response(scored.fitted.effects).plate
+    return found_effects(scored.fitted, plate, found.temper)
+
+
+def _candidate(found: DiagnosedModes, scored: ScoredFit, tables: Sequence[ModalTable]) -> Candidate:
+    known = found.begun.evidence.scale_known
+    return Candidate(
+        _effects(found, scored),
+        scored.cost - found.scored[0].cost,
+        scored.fitted.chi2_per_dof if known else float("nan"),
+        found.judgement.probability.get(scored.names, 0.0),
+        None,
+        dict(scored.checks),
+    )
+
+
+def _stage(fit: ModalFit, tables: Sequence[ModalTable], band: LawBand) -> StageFitted:
+    off = _percent(fit, tables)
+    plain = fit.law.plain
+    errors = fit.uncertainty.of_first(len(plain.names)).standard_errors * plain.values
+    return StageFitted(
+        rms_percent=float(np.sqrt(np.mean(off**2))),
+        max_percent=float(np.abs(off).max()),
+        chi2_per_dof=fit.uncertainty.chi2_per_dof,
+        law_kind=plain.kind,
+        parameters=dict(zip(plain.names, plain.values.tolist(), strict=True)),
+        standard_errors=dict(zip(plain.names, errors.tolist(), strict=True)),
+        law=law_rows_from(band),
+        adjusted=adjusted_from(fit.adjusted),
+    )
+
+
+def _percent(fit: ModalFit, tables: Sequence[ModalTable]) -> Array:
+    """Of frequencies. Shape (modes,)."""
+    measured = np.concatenate([t.frequency_hz for t in tables])
+    return 100 * (np.concatenate(fit.predicted_hz) / measured - 1)
+
+
+def _modes(before: ModalFit, after: ModalFit, tables: Sequence[ModalTable]) -> tuple[ModeLeft, ...]:
+    return tuple(
+        ModeLeft(
+            file=k + 1,
+            mode=int(t.mode[m]),
+            frequency_hz=float(t.frequency_hz[m]),
+            loss_factor=float(t.loss_factor[m]),
+            before_hz=float(before.predicted_hz[k][m]),
+            before_loss_factor=float(before.predicted_loss[k][m]),
+            after_hz=float(after.predicted_hz[k][m]),
+            after_loss_factor=float(after.predicted_loss[k][m]),
+        )
+        for k, t in enumerate(tables)
+        for m in range(len(t.mode))
+    )
+
+
+def _explanation(
+    diagnosed: TablesDiagnosed, effects: Sequence[FoundEffect], before: StageFitted, after: StageFitted
+) -> tuple[str, ...]:
+    judgement = diagnosed.found.judgement
+    said = [f"One law leaves {before.rms_percent:.2g} % rms in frequency."]
+    if judgement.verdict == "none":
+        return (*said, "That is what the modes' errors leave: no effect is called for.")
+    if judgement.accepted is None:
+        nearest = f" What comes nearest, {' with '.join(judgement.refused)}, {judgement.why}." * bool(
+            judgement.why
+        )
+        return (
+            *said,
+            f"There is more than the modes' errors, but nothing that was tried explains it.{nearest}",
+        )
+    if judgement.why:
+        return (*said, judgement.why)
+    stories = [text.story(e, f) for e, f in zip(judgement.accepted.fitted.effects, effects, strict=True)]
+    said.append(f"Most likely {' and '.join(stories)}.")
+    for name, group in judgement.equivalent.items():
+        others = ["no effect" if n == NONE else n for n in group if n != name]
+        if others:
+            said.append(f"These data cannot tell {name} from {', '.join(others)}.")
+    said.append(f"With it {after.rms_percent:.2g} % is left.")
+    return tuple(said)
