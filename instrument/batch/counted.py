@@ -5,6 +5,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from instrument.batch.between import Between
 from instrument.batch.columns import NOT_DIAGNOSED
 from instrument.batch.run import BatchRow
 from instrument.facts.batch import BatchFailure, BatchResult
@@ -39,7 +40,7 @@ class Counted:
             found.effects.update(o["effects"])
         return found
 
-    def result(self, known_before: int, files: Iterable[Path]) -> BatchResult:
+    def result(self, known_before: int, files: Iterable[Path], spread: Iterable[Between] = ()) -> BatchResult:
         """As JSON has it."""
         return BatchResult(
             rows=self.rows,
@@ -50,5 +51,6 @@ class Counted:
             borrowed_models=self.borrowed,
             failures=tuple(BatchFailure(data=data, reason=why) for data, why in self.failures),
             known_before=known_before,
+            spread=tuple(one.result for one in spread),
             files=tuple(str(path) for path in files),
         )

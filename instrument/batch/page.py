@@ -5,11 +5,13 @@ from importlib.metadata import version
 from itertools import islice
 from pathlib import Path
 
+from instrument.batch.between import Between
 from instrument.batch.columns import Cell, cells
 from instrument.batch.counted import Counted
 from instrument.batch.figure import MOST, laws_figure
 from instrument.batch.run import Rows
 from instrument.batch.table import beside
+from instrument.facts.comparison import SpreadSize
 from instrument.report.blocks import Block, FactsBlock, ReportSection, Sentence, TableBlock
 from instrument.report.html import html_page
 from instrument.report.picture import picture
@@ -34,7 +36,7 @@ _SHOWN: Sequence[tuple[str, str, float]] = (
 )
 
 
-def write_page(rows: Rows, counted: Counted, folder: Path) -> Path:
+def write_page(rows: Rows, counted: Counted, between: Sequence[Between], folder: Path) -> Path:
     """The page's path."""
     title = f"{counted.rows} rows"
     head = [
@@ -47,6 +49,7 @@ def write_page(rows: Rows, counted: Counted, folder: Path) -> Path:
     ]
     sections = [
         ReportSection("Laws", _laws(rows, counted)),
+        ReportSection("Between rows", _between(between)),
         ReportSection("Verdicts", _verdicts(counted)),
         ReportSection("Failures", _failures(counted)),
         ReportSection("Rows", _rows(rows)),
@@ -64,6 +67,35 @@ def _laws(rows: Rows, counted: Counted) -> tuple[Block, ...]:
     some = "" if every == 1 else f" One in {every} of them is drawn."
     said = f"G' and η of {counted.done} rows over the bands measured, with 95 % bands.{some}"
     return (picture(laws_figure(rows, counted.done), said),)
+
+
+def _between(between: Sequence[Between]) -> tuple[Block, ...]:
+    if not between:
+        return (Sentence("No three rows of one temperature have a band in common.", "note"),)
+    shown = [
+        (
+            "" if one.temperature_c is None else f"{one.temperature_c:g}",
+            str(one.rows),
+            f"{at.frequency_hz:.4g}",
+            f"{1e-6 * at.storage_modulus_pa:.4g}",
+            _percent(at.storage_modulus_spread),
+            f"{at.loss_factor:.4g}",
+            _percent(at.loss_factor_spread),
+        )
+        for one in (b.result for b in between)
+        for at in one.frequencies
+    ]
+    heads = ("T / °C", "rows", "at / Hz", "G' / MPa", "spread / % (95 %)", "η", "spread / % (95 %)")
+    said = (
+        "The common law of rows of one temperature, and the standard deviation of single rows about it, what "
+        "is not known of each row taken off. A tolerance that all rows share is not in it."
+    )
+    return (Sentence(said), TableBlock("", heads, tuple(shown)))
+
+
+def _percent(spread: SpreadSize) -> str:
+    low, high = spread.interval_95_percent
+    return f"{spread.percent:.2g} ({low:.2g} to {high:.2g})"
 
 
 def _verdicts(counted: Counted) -> tuple[Block, ...]:

@@ -5,6 +5,7 @@ from pathlib import Path
 import click
 
 from instrument.batch.asking import tasks_of
+from instrument.batch.between import between_rows
 from instrument.batch.counted import Counted
 from instrument.batch.page import write_page
 from instrument.batch.run import here, run_batch, there
@@ -76,12 +77,15 @@ def batch(
     runner = there(scheduler) if scheduler is not None else here(workers or processors())
     with run_batch(tasks, folder, runner, bar) as rows:
         counted = Counted.of(rows)
-        written = [*write_tables(rows, folder), write_page(rows, counted, folder)]
+        between = between_rows(rows)
+        written = [*write_tables(rows, folder), write_page(rows, counted, between, folder)]
         repeated = rows.repeated
     _say(out, counted, repeated)
+    for one in between:
+        out.say(one.words)
     for path in written:
         out.say(f"wrote {path}")
-    out.result(counted.result(repeated, written))
+    out.result(counted.result(repeated, written, between))
 
 
 def _say(out: Output, counted: Counted, repeated: int) -> None:

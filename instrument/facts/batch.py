@@ -1,5 +1,7 @@
 """The result of `viscorig batch`; its rows are in batch.csv."""
 
+from instrument.facts.comparison import SpreadAt
+from instrument.facts.number import Number
 from instrument.facts.result import Result
 
 
@@ -8,6 +10,15 @@ class BatchFailure(Result):
 
     data: str
     reason: str
+
+
+class BatchSpread(Result):
+    """Between the rows of one temperature, told from the uncertainty of each."""
+
+    temperature_c: Number | None
+    """In whole degrees; null where none was measured."""
+    rows: int
+    frequencies: tuple[SpreadAt, ...]
 
 
 class BatchResult(Result):
@@ -26,5 +37,7 @@ class BatchResult(Result):
     """In the order of the rows."""
     known_before: int
     """Rows that an earlier run had done."""
+    spread: tuple[BatchSpread, ...] = ()
+    """Of every temperature with three rows or more that have a band in common."""
     files: tuple[str, ...]
     """That were written."""

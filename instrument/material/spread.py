@@ -20,7 +20,7 @@ from instrument.material.found_law import MaterialLaw
 
 FEWEST = 3
 """Laws: of two nothing but their difference is seen."""
-_FREQUENCIES = 7
+FREQUENCIES = 7
 """Of the common band, each by itself."""
 _SIZES = np.geomspace(3e-4, 2.0, 121)
 """Relative standard deviations looked at: from below the models' own resolution to beyond any batch."""
@@ -74,7 +74,7 @@ def spread_of(laws: Sequence[MaterialLaw]) -> Spread:
     low, high = max(law.band_hz[0] for law in laws), min(law.band_hz[1] for law in laws)
     if not low < high:
         raise BadInput("the laws have no band in common, expected sweeps that overlap")
-    f = np.geomspace(low, high, _FREQUENCIES)
+    f = np.geomspace(low, high, FREQUENCIES)
     curves, each = [], []
     for law in laws:
         G = law.modulus(2 * np.pi * f)
@@ -87,12 +87,28 @@ def spread_of(laws: Sequence[MaterialLaw]) -> Spread:
             raise BadInput(f"{law.source}: no standard errors, expected a law that says how well it is known")
         curves.append(np.concatenate([np.log(G.real), np.log(eta)]))
         each.append(error)
-    found = [_one(y, e) for y, e in zip(np.array(curves).T, np.array(each).T, strict=True)]
-    n = len(f)
+    return spread_of_curves(tuple(law.source for law in laws), f, np.array(curves), np.array(each))
+
+
+def spread_of_curves(names: tuple[str, ...], frequency_hz: Array, curves: Array, errors: Array) -> Spread:
+    """Of ln G' at the frequencies, then of ln eta, with the standard error of each.
+
+    Shapes (frequencies,) and twice (specimens, 2 frequencies).
+    """
+    found = [_one(y, e) for y, e in zip(curves.T, errors.T, strict=True)]
+    n = len(frequency_hz)
     mean, known = (np.array([one[k] for one in found], dtype=float) for k in (1, 2))
     sizes = tuple(one[0] for one in found)
-    names = tuple(law.source for law in laws)
-    return Spread(names, f, np.exp(mean[:n]), np.exp(mean[n:]), known[:n], known[n:], sizes[:n], sizes[n:])
+    return Spread(
+        names,
+        frequency_hz,
+        np.exp(mean[:n]),
+        np.exp(mean[n:]),
+        known[:n],
+        known[n:],
+        sizes[:n],
+        sizes[n:],
+    )
 
 
 def _one(y: Array, error: Array) -> tuple[Size, float, float]:
@@ -136,8 +152,13 @@ def _size(profile: Array) -> Size:
 
 
 def spread_result(found: Spread) -> SpreadResult:
-    """As JSON has it, a row a frequency."""
-    rows = [
+    """As JSON has it."""
+    return SpreadResult(specimens=found.names, frequencies=spread_rows(found))
+
+
+def spread_rows(found: Spread) -> tuple[SpreadAt, ...]:
+    """One a frequency."""
+    return tuple(
         SpreadAt(
             frequency_hz=f,
             storage_modulus_pa=found.storage_modulus_pa[k],
@@ -148,8 +169,7 @@ def spread_result(found: Spread) -> SpreadResult:
             loss_factor_spread=_said(found.loss[k]),
         )
         for k, f in enumerate(found.frequency_hz)
-    ]
-    return SpreadResult(specimens=found.names, frequencies=tuple(rows))
+    )
 
 
 def _said(s: Size) -> SpreadSize:

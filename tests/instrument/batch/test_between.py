@@ -1,0 +1,73 @@
+"""How far the laws of a batch lie apart beyond what is not known of each."""
+
+import numpy as np
+import pytest
+
+from instrument.batch.between import between_rows
+from instrument.batch.run import BatchRow
+from instrument.batch.task import Task
+
+FREQUENCIES_HZ = np.geomspace(15.0, 290.0, 12)
+KNOWN = 0.01
+"""Standard error of each row's law, relative."""
+
+
+def row(number, factor, temperature_c=None, **outcome):
+    """A law `factor` times the common one in G'; eta is common."""
+    f = FREQUENCIES_HZ
+    storage, loss = 1e6 * factor * (f / 60) ** 0.3, np.full(len(f), 0.4)
+    law = {
+        "frequency_hz": f,
+        "storage_modulus_pa": storage,
+        "loss_factor": loss,
+        "storage_modulus_standard_error_pa": KNOWN * storage,
+        "loss_factor_standard_error": KNOWN * loss,
+    }
+    facts = {"failed": "", "verdict": "none", "law": {k: v.tolist() for k, v in law.items()}}
+    facts |= dict.fromkeys(("lowest_hz", "highest_hz", "points", "converged", "law_kind"))
+    facts |= dict.fromkeys(("rms_percent", "chi2_per_dof", "borrowed_model"))
+    facts |= {"leave_one_out_rms_percent": 1.0, "held_out_rms_percent": None, "effects": [], "warnings": []}
+    facts |= {"parameters": {}, "standard_errors": {}, "lowest_hz": f[0], "highest_hz": f[-1]}
+    return BatchRow(Task(f"{number}.csv", temperature_c=temperature_c), {**facts, **outcome})
+
+
+def rows(count, spread, seed=1, **how):
+    rng = np.random.default_rng(seed)
+    off = spread * rng.standard_normal(count) + KNOWN * rng.standard_normal(count)
+    return [row(k, float(np.exp(o)), **how) for k, o in enumerate(off)]
+
+
+def test_a_spread_is_told_from_what_is_not_known_of_each_row():
+    (found,) = between_rows(rows(40, 0.04))
+    for at in found.result.frequencies:
+        low, high = at.storage_modulus_spread.interval_95_percent
+        assert low < 4.0 < high
+        assert low > 2.0
+        assert at.loss_factor_spread.percent < 1.0
+    assert "40 rows at" in found.words
+
+
+def test_rows_that_differ_as_far_as_they_are_known_have_no_spread_to_speak_of():
+    (found,) = between_rows(rows(40, 0.0))
+    assert all(at.storage_modulus_spread.interval_95_percent[0] == 0.0 for at in found.result.frequencies)
+
+
+def test_temperatures_are_apart_and_the_unmeasured_come_last():
+    some = [*rows(3, 0.0, temperature_c=40.2), *rows(4, 0.0), *rows(5, 0.0, temperature_c=19.8)]
+    found = between_rows(some)
+    assert [(b.temperature_c, b.result.rows) for b in found] == [(20.0, 5), (40.0, 3), (None, 4)]
+
+
+@pytest.mark.parametrize("outcome", [{"failed": "torn"}, {"verdict": "unknown"}, {"law": {}}])
+def test_rows_without_a_law_to_believe_take_no_part(outcome):
+    some = [*rows(3, 0.0), row(9, 5.0, **outcome)]
+    (found,) = between_rows(some)
+    assert found.result.rows == 3
+    assert found.result.frequencies[0].storage_modulus_spread.percent < 1.0
+
+
+def test_two_rows_or_bands_apart_have_none():
+    assert between_rows(rows(2, 0.0)) == []
+    other = row(7, 1.0)
+    other.outcome["law"]["frequency_hz"] = (FREQUENCIES_HZ * 100).tolist()
+    assert between_rows([*rows(3, 0.0), other]) == []
