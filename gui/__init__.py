@@ -14,6 +14,6 @@ in `pages.PAGES`; another package adds one by an entry point (docs/plugins.md). 
 key Ctrl+(its place) and calls `refresh` at most 30 times a second, only while the page is seen and something
 has changed. In `refresh` ask `self.news("points")` before drawing: true where one of these topics changed
 since the page last asked. Draw with `plot.line`, `points`, `band`: the same name again replaces a curve. What
-a person does goes to `self.controller`. Long work goes to `BackgroundTask` (files) or `Command` (computing);
-connect bound methods of widgets only.
+a person does goes to `self.controller`. Long work goes to `BackgroundTask` (files) or
+`BackgroundCommand` (computing); connect bound methods of widgets only.
 """

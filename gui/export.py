@@ -22,7 +22,7 @@ class Export(QObject):
 
     def __init__(self, controller: AppController, window: QWidget) -> None:
         super().__init__(window)
-        self._desk, self._window = controller, window
+        self._controller, self._window = controller, window
 
     def report(self) -> None:
         """One self-contained page."""
@@ -70,4 +70,4 @@ class Export(QObject):
 
     @property
     def _session(self) -> Path | None:
-        return self._desk.recorded.path if self._desk.recorded is not None else None
+        return self._controller.recorded.path if self._controller.recorded is not None else None

@@ -25,7 +25,7 @@ class Page(QWidget):
     def __init__(self, controller: AppController) -> None:
         super().__init__()
         self.controller = controller
-        self._picture: SessionState | None = None
+        self._state: SessionState | None = None
         self._drawn: SessionState | None = None
         self._version = -1
         self._seen: dict[Topic, int] = {}
@@ -39,17 +39,17 @@ class Page(QWidget):
 
     def news(self, *topics: Topic) -> bool:
         """Whether one of the topics changed since this was last asked; also true for another session."""
-        assert self._picture is not None
+        assert self._state is not None
         fresh = False
         for topic in topics:
-            now = self._picture.changed[topic]
+            now = self._state.changed[topic]
             fresh |= self._seen.get(topic, -1) != now
             self._seen[topic] = now
         return fresh
 
     def show_state(self, state: SessionState | None) -> None:
         """From the window, at every turn: the state there is now."""
-        self._picture = state
+        self._state = state
         if self.isVisible():
             self._draw()
 
@@ -59,14 +59,14 @@ class Page(QWidget):
         self._draw()
 
     def _draw(self) -> None:
-        if self._picture is None:
+        if self._state is None:
             if self._drawn is not None:
                 self._drawn, self._version = None, -1
                 self.clear()
             return
-        if self._picture is not self._drawn:
-            self._drawn, self._version = self._picture, -1
+        if self._state is not self._drawn:
+            self._drawn, self._version = self._state, -1
             self._seen.clear()
-        if self._picture.version != self._version:
-            self._version = self._picture.version
-            self.refresh(self._picture)
+        if self._state.version != self._version:
+            self._version = self._state.version
+            self.refresh(self._state)

@@ -24,7 +24,7 @@ class RunGauges(QObject):
 
     def __init__(self, controller: AppController, parent: QWidget, *, large: bool = False) -> None:
         super().__init__(parent)
-        self._desk = controller
+        self._controller = controller
         self.by_name = {name: Gauge(name, large=large) for name in ("drive", "base", "velocity", "travel")}
         self._timer = QTimer(self)
         self._timer.timeout.connect(self.refresh)
@@ -37,7 +37,7 @@ class RunGauges(QObject):
 
     def refresh(self) -> None:
         """Look again."""
-        state, feed = self._desk.state, self._desk.feed
+        state, feed = self._controller.state, self._controller.feed
         if state is None or feed is None or state.run.over:
             for gauge in self.by_name.values():
                 gauge.show_value(None)

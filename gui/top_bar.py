@@ -32,7 +32,7 @@ class TopBar(QFrame):
 
     def __init__(self, controller: AppController, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._desk, self._recorded = controller, False
+        self._controller, self._recorded = controller, False
         self.state, self.next, self.left = QLabel(), QLabel(), QLabel()
         self.next.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.next.setTextFormat(Qt.TextFormat.PlainText)
@@ -59,10 +59,10 @@ class TopBar(QFrame):
 
     def show_state(self, state: SessionState | None) -> None:
         """How things stand now."""
-        running = self._desk.running
+        running = self._controller.running
         for one in (self.hold, self.abort):
             one.setEnabled(running)
-        self.stop.setEnabled(running or self._desk.starting)
+        self.stop.setEnabled(running or self._controller.starting)
         if state is None:
             self._say("idle", "no session")
             self.left.clear()
@@ -99,7 +99,7 @@ class TopBar(QFrame):
             label.setFixedWidth(self.fontMetrics().horizontalAdvance(longest) * 6 // 5)
 
     def _say(self, state: str, words: str) -> None:
-        recorded = self._desk.recorded is not None
+        recorded = self._controller.recorded is not None
         sign = "RECORDED" if recorded else "\u25cf"
         self.state.setText(f"<b style='color:{state_color(state)}'>{sign} {WORDS[state]}</b>")  # type: ignore[index]
         self._look(recorded)
@@ -107,9 +107,9 @@ class TopBar(QFrame):
         self.next.setToolTip(words)
 
     def _show_progress(self, state: SessionState) -> None:
-        feed = self._desk.feed
+        feed = self._controller.feed
         fraction = feed.fraction if feed is not None else None
-        live = self._desk.recorded is None and not state.run.over
+        live = self._controller.recorded is None and not state.run.over
         self.progress.setVisible(live)
         self.progress.setMaximum(_PERMILLE if fraction is not None else 0)
         self.progress.setValue(round(_PERMILLE * (fraction or 0.0)))
@@ -118,7 +118,7 @@ class TopBar(QFrame):
 
     def _show_gauges(self, state: SessionState | None) -> None:
         self.gauges.refresh()
-        self.lights.show_feed(self._desk.feed)
+        self.lights.show_feed(self._controller.feed)
         if state is None or state.run.over or state.step is None or not state.readings.channels:
             self.level.clear()
             return

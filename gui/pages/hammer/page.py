@@ -91,7 +91,7 @@ class HammerPage(Page):
     @property
     def _recorded(self) -> list[RecordedHit]:
         """As the stream has them."""
-        return self._picture.contents.hits if self._picture is not None else []
+        return self._state.contents.hits if self._state is not None else []
 
     @property
     def _engine(self) -> Engine | None:
@@ -107,7 +107,7 @@ class HammerPage(Page):
 
     @property
     def _band_hz(self) -> tuple[float, float]:
-        hammer = self._picture.configuration.experiment.hammer if self._picture is not None else None
+        hammer = self._state.configuration.experiment.hammer if self._state is not None else None
         return (hammer.band_hz[0], hammer.band_hz[1]) if hammer is not None else (0.0, 1.0)
 
     # What follows
@@ -133,21 +133,21 @@ class HammerPage(Page):
         self.hit_plots.show_hit(None, 0)
 
     def _show_hits(self) -> None:
-        assert self._picture is not None
+        assert self._state is not None
         live = self._engine is not None
         undoable = (h.number for h in self._recorded if (overruled(h) if live else self.what_if.changes(h)))
         self.hits.show_rows(
             hit_rows(self._recorded, self._hits, self.what_if, self._averaged), frozenset(undoable)
         )
-        self.hits.prompt.setText(prompt_of(self._picture.run, self._hits, live=live))
+        self.hits.prompt.setText(prompt_of(self._state.run, self._hits, live=live))
         feed = self.controller.live
         asked = feed.question.what if live and feed is not None and feed.question is not None else ""
         self.hits.use.setVisible(asked == "content")
 
     def _show_modes(self) -> None:
         """From the record where the hits count as recorded; else as computed here."""
-        assert self._picture is not None
-        recorded = None if self._is_what_if else self._picture.contents.damping
+        assert self._state is not None
+        recorded = None if self._is_what_if else self._state.contents.damping
         computed = self._modes.result if self._modes is not None else None
         result = recorded.result if recorded is not None else computed
         differs = recorded is not None and computed is not None and not agree(recorded.result, computed)

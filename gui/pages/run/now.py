@@ -31,7 +31,7 @@ class NowPane(QWidget):
 
     def __init__(self, controller: AppController, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._desk = controller
+        self._controller = controller
         self.state, self.next = QLabel(), QLabel()
         self.next.setWordWrap(True)
         self.next.setTextFormat(Qt.TextFormat.PlainText)
@@ -64,7 +64,7 @@ class NowPane(QWidget):
     def changeEvent(self, event: QEvent) -> None:
         """Another theme: the state's colour is one of its own."""
         super().changeEvent(event)
-        state = self._desk.state
+        state = self._controller.state
         if event.type() == QEvent.Type.PaletteChange and state is not None and hasattr(self, "_whole"):
             self._say_state(state)
 
@@ -93,7 +93,7 @@ class NowPane(QWidget):
 
     def _show_gauges(self, state: SessionState) -> None:
         self.gauges.refresh()
-        self.channels.show_feed(self._desk.feed)
+        self.channels.show_feed(self._controller.feed)
         if state.step is None or state.run.over or not state.readings.channels:
             self.level.show_value(None)
             return

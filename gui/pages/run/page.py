@@ -44,7 +44,7 @@ class RunPage(Page):
         self._looking: BackgroundTask[list[Path]] | None = None
         self._arrange()
         self._connect()
-        self._show_desk()
+        self._show_what_may_be_done()
 
     # From the window
 
@@ -102,7 +102,7 @@ class RunPage(Page):
         if path is not None:
             self.starting.propose(path.parent)
             self._look_for_broken_off()
-        self._show_desk()
+        self._show_what_may_be_done()
 
     def _edited(self) -> None:
         self._forget_check()
@@ -139,7 +139,7 @@ class RunPage(Page):
         self._looking.done.connect(self.starting.show_broken_off)
         self._looking.start()
 
-    def _show_desk(self) -> None:
+    def _show_what_may_be_done(self) -> None:
         """A run began or ended, or another session is shown."""
         running = self.controller.running
         self.starting.setVisible(not running)
@@ -163,7 +163,7 @@ class RunPage(Page):
         if live is None or not self.controller.running:
             self.banner.ask("")
             if not self.starting.isVisible():
-                self._show_desk()
+                self._show_what_may_be_done()
             return
         if live.question is not None:
             self.banner.ask(state.run.question, live.question.what)
@@ -181,7 +181,7 @@ class RunPage(Page):
         files.failed.connect(self._failed)
         files.said.connect(controller.said)
         controller.experiment_chosen.connect(files.open)
-        controller.changed.connect(self._show_desk)
+        controller.changed.connect(self._show_what_may_be_done)
         self.starting.check_wanted.connect(self._check)
         self.starting.start_wanted.connect(self._start)
         self.starting.out_changed.connect(self._look_for_broken_off)

@@ -100,7 +100,7 @@ class SweepPage(Page):
         """Go on where hiding broke off: in a run pane by pane, all at once it would hold up the window."""
         super().showEvent(event)
         if not self.controller.running:
-            self.model.want(self._picture)
+            self.model.want(self._state)
             self._draw_all()
 
     def changeEvent(self, event: QEvent) -> None:
@@ -190,7 +190,7 @@ class SweepPage(Page):
         return [self.record, self.response, self.tabs.currentWidget()]
 
     def _draw_pane(self, pane: QWidget) -> None:
-        state = self._picture
+        state = self._state
         limits = state.limits if state is not None else SweepSettings()
         if pane is self.response:
             self.response.show_seen(self.seen)

@@ -60,7 +60,7 @@ class StepPane(QWidget):
         hide_foot(self.base)
         self.none = hint(_NONE)
         self._following: Following | None = None
-        self._picture: SessionState | None = None
+        self._state: SessionState | None = None
         self._later = QTimer(self)
         self._later.setSingleShot(True)
         self._later.timeout.connect(self._go_on)
@@ -69,9 +69,9 @@ class StepPane(QWidget):
 
     def show_step(self, state: SessionState) -> None:
         """Draw the session's step."""
-        if self._following is None or state is not self._picture:
+        if self._following is None or state is not self._state:
             self._following = Following(state.limits)
-        self._picture = state
+        self._state = state
         if state.step is None:
             self.clear()
             return
@@ -87,7 +87,7 @@ class StepPane(QWidget):
 
     def _go_on(self) -> None:
         """Follow the step; where blocks are left over, once more when there is time."""
-        state, following = self._picture, self._following
+        state, following = self._state, self._following
         if state is None or following is None or state.step is None or not self.isVisible():
             return
         if following.take(state.step):
