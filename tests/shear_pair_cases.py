@@ -28,8 +28,13 @@ def transmissibility(specimen, frequency_hz, G, more_kg=0.0):
     return 1 / (np.cos(k * t) - inertia * np.sin(k * t))
 
 
-def sweep(specimen, *, more_kg=0.0, softening=0.0, level=G_0, noise=2e-3, points=160, seed=0, factor=1.0):
-    """From a third of the resonance to twice it; `softening` is the modulus lost per unit strain."""
+def sweep(
+    specimen, *, more_kg=0.0, softening=0.0, level=G_0, noise=2e-3, points=160, seed=0, factor=1.0, wander=0.0
+):
+    """From a third of the resonance to twice it; `softening` is the modulus lost per unit strain.
+
+    `wander`: gain and phase go up and down slowly by so much, and there is a floor.
+    """
     about = np.sqrt(8e6 * specimen.discs * specimen.area_m2 / specimen.core.thickness_m / specimen.mass_kg)
     f = np.geomspace(0.3, 2.0, points) * about / (2 * np.pi)
     w = 2 * np.pi * f
@@ -42,4 +47,16 @@ def sweep(specimen, *, more_kg=0.0, softening=0.0, level=G_0, noise=2e-3, points
     scatter = 1 + noise * (rng.normal(size=points) + 1j * rng.normal(size=points))
     one = np.ones(points, dtype=np.intp)
     v = factor * T * level / (1j * w) * scatter
+    if wander:
+        v = v * (1 + wander * _slow(rng, points))
+        v = v + 3e-4 * np.abs(v).max() * (rng.normal(size=points) + 1j * rng.normal(size=points))
     return Sweep(f, v, np.full(points, level), one, one, base_m_s2=np.full(points, level + 0j))
+
+
+def _slow(rng, points):
+    """Of unit size, a few half waves over the sweep: no noise that jumps from point to point."""
+    t, every = np.linspace(0, 1, points), range(1, 7)
+    waves = [
+        (rng.normal() + 1j * rng.normal()) * np.cos(np.pi * k * t + rng.uniform(0, 2 * np.pi)) for k in every
+    ]
+    return np.sum(waves, axis=0) / np.sqrt(len(waves))

@@ -106,6 +106,13 @@ from instrument.results.uncertainty_facts import Depth, in_depth, in_depth_facts
 @click.option(
     "--vertical", is_flag=True, help="With --shift: the modulus of a temperature may be off by a factor."
 )
+@click.option(
+    "--bare",
+    type=click.Path(path_type=Path),
+    metavar="BARE.csv",
+    help="With a treated beam's table of modes: the bare beam's, for the formulas of ASTM E756 beside the "
+    "full model.",
+)
 @figures_option("With --pointwise, --with or --shift: save figures as PNG.")
 @json_option
 def identify(
@@ -124,6 +131,7 @@ def identify(
     shift: Kind | None,
     reference_c: float | None,
     vertical: bool,
+    bare: Path | None,
     figures: Path | None,
     json_path: str | None,
 ) -> None:
@@ -148,8 +156,10 @@ def identify(
                 "--pointwise, --method paper, --hammer, --with, --budget, --uncertainty with modal tables: "
                 "expected sweeps"
             )
-        identify_modes(out, data, specimen)
+        identify_modes(out, data, specimen, bare)
         return
+    if bare is not None:
+        raise click.UsageError("--bare: expected a table of modes of a beam")
     every = read_each(out, data, specimen, hammer, no_hammer=no_hammer, insist=insist)
     if shift is not None:
         if pointwise or method == "paper" or no_viscous_damping or dma is not None or with_budget or depths:

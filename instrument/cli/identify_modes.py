@@ -3,18 +3,26 @@
 from collections.abc import Sequence
 from pathlib import Path
 
+import click
+
+from fitting.structures.beam import Beam
 from instrument.cli.output import Output
-from instrument.cli.print_modes import print_modal_law, print_modes
+from instrument.cli.print_modes import print_formulas, print_modal_law, print_modes
 from instrument.cli.reading import read_tables
+from instrument.files.modal_table import read_modal_table
 from instrument.models.modal import identify_tables
 from instrument.progress import bar
 from instrument.results.modal_from import modal_from
 
 
-def identify_modes(out: Output, data: Sequence[Path], specimens: Sequence[Path]) -> None:
+def identify_modes(
+    out: Output, data: Sequence[Path], specimens: Sequence[Path], bare: Path | None = None
+) -> None:
     """One law from all tables, each with its specimen. Raises `BadInput`, `FittingError`, `UsageError`."""
     tables, read = read_tables(data, specimens)
-    found = identify_tables(tables, read, bar)
+    if bare is not None and not all(isinstance(s, Beam) for s in read):
+        raise click.UsageError(f"--bare with a {read[0].kind}: expected a beam")
+    found = identify_tables(tables, read, bar, read_modal_table(bare) if bare is not None else None)
     result = modal_from(found, tables, [path.name for path in data])
     rows = [[n, f"{v:.5g}", f"{result.standard_errors[n]:.2g}"] for n, v in result.parameters.items()]
     out.table(f"{result.law_kind} by modes", ["parameter", "value", "standard error"], rows)
@@ -23,6 +31,7 @@ def identify_modes(out: Output, data: Sequence[Path], specimens: Sequence[Path])
     out.say()
     print_modal_law(out, result.law)
     out.say(f"chi-square per degree of freedom {found.fit.uncertainty.chi2_per_dof:.3g}")
+    print_formulas(out, result.formulas)
     for text in result.warnings:
         out.say(f"note: {text}")
     out.result(result)

@@ -19,6 +19,27 @@ class ModeFitted(Result):
     predicted_loss_factor: Number
 
 
+class FormulaRow(Result):
+    """What a standard's formula makes of one mode, beside the full model's law there."""
+
+    file: int
+    """From 1."""
+    mode: int
+    frequency_hz: Number
+    method: str
+    """`oberst`, `van-oort`, `ross-kerwin-ungar` (ASTM E756) or `central-impedance`."""
+    loss_factor: Number
+    """Of the layer; by `central-impedance` of the whole beam."""
+    storage_modulus_pa: MaybeNumber = None
+    """Of the layer, in shear."""
+    bending_stiffness_n_m2: MaybeNumber = None
+    """Of the whole beam, by `central-impedance`."""
+    full_storage_modulus_pa: MaybeNumber = None
+    full_loss_factor: MaybeNumber = None
+    objections: tuple[str, ...] = ()
+    """Why the formula is not to be trusted there."""
+
+
 class ModalResult(Result):
     """The core's law from natural frequencies and loss factors of any structure."""
 
@@ -35,6 +56,8 @@ class ModalResult(Result):
     law: tuple[LawRow, ...]
     """Over the range of the modes."""
     adjusted: tuple[AdjustedNumber, ...] = ()
+    formulas: tuple[FormulaRow, ...] = ()
+    """Of beams, where a formula can be asked."""
     warnings: tuple[str, ...] = ()
     temperature_c: MaybeNumber = None
     """Mean of the rows that state one."""

@@ -19,12 +19,14 @@ from fitting.laws.constant import ConstantModulus
 from fitting.mode_tables.build import member_of, own_motions
 from fitting.mode_tables.diagnose import DiagnosedModes, diagnose_modes
 from fitting.mode_tables.fit import ModalFit, fit_modes, start_of
+from fitting.mode_tables.formulas import ByFormula, by_formula
 from fitting.mode_tables.problem import ModalProblem
 from fitting.mode_tables.stated_off import standing
 from fitting.mode_tables.table import ModalTable
 from fitting.plate import Plate
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
+from fitting.structures.beam import Beam
 from instrument.errors import BadInput
 from instrument.models.cache import cached
 from instrument.models.remarks import remarks_on_law, remarks_on_tolerances
@@ -43,12 +45,17 @@ class TablesIdentified:
     fit: ModalFit
     seconds: float
     remarks: tuple[str, ...]
+    formulas: tuple[tuple[ByFormula, ...], ...] = ()
+    """Of every table."""
 
 
 def identify_tables(
-    tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen], progress: Progress = quiet
+    tables: Sequence[ModalTable],
+    specimens: Sequence[AnySpecimen],
+    progress: Progress = quiet,
+    bare: ModalTable | None = None,
 ) -> TablesIdentified:
-    """One law from all tables.
+    """One law from all tables; `bare` is of the beam before its treatment, for the standard's formulas.
 
     Raises `TooFewPoints`, and `OutsideModel` also where a plate's theory does not hold for the law found.
     """
@@ -56,7 +63,12 @@ def identify_tables(
     with threadpool_limits(1, "blas"), progress("fitting modes"):
         found = fit_modes(tables, specimens)
     check_theories(found.law, tables, specimens)
-    return TablesIdentified(found, perf_counter() - began, remarks_on_tables(tables, specimens))
+    formulas = tuple(
+        by_formula(t, s, found.law, bare) if isinstance(s, Beam) else ()
+        for t, s in zip(tables, specimens, strict=True)
+    )
+    seconds = perf_counter() - began
+    return TablesIdentified(found, seconds, remarks_on_tables(tables, specimens), formulas)
 
 
 @dataclass(frozen=True)

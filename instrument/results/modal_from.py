@@ -1,13 +1,14 @@
 """The result of a law from tables of modes, read off its fit."""
 
 from collections.abc import Sequence
+from dataclasses import asdict
 
 import numpy as np
 
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ, LawBand
 from fitting.mode_tables.fit import ModalFit
 from fitting.mode_tables.table import ModalTable
-from instrument.facts.modal import ModalResult, ModeFitted
+from instrument.facts.modal import FormulaRow, ModalResult, ModeFitted
 from instrument.models.modal import TablesIdentified
 from instrument.results.rows_from import adjusted_from, law_rows_from
 
@@ -33,9 +34,16 @@ def modal_from(
         converged=bool(found.converged),
         law=law_rows_from(modal_band(found, tables)),
         adjusted=adjusted_from(found.adjusted),
+        formulas=_formulas(identified),
         warnings=identified.remarks,
         temperature_c=mean_temperature(tables),
         seconds=identified.seconds,
+    )
+
+
+def _formulas(identified: TablesIdentified) -> tuple[FormulaRow, ...]:
+    return tuple(
+        FormulaRow(file=k + 1, **asdict(one)) for k, rows in enumerate(identified.formulas) for one in rows
     )
 
 

@@ -65,6 +65,23 @@ def test_four_masses_name_what_all_of_them_lack():
     assert law_error(found.after.law).max() < law_error(found.before.law).max()
 
 
+@pytest.mark.long
+def test_a_common_mass_is_named_where_channels_wander_too():
+    more = 0.05 * 0.573
+    found = diagnose_together(files(more_kg=more, wander=1e-3)).found.result
+    assert found.verdict == "effect"
+    (effect,) = found.effects
+    assert effect.name == "added_mass"
+    assert effect.parameters["mass"].value == pytest.approx(more, rel=0.05)
+    assert found.after.rms_percent < 0.5 * found.before.rms_percent
+
+
+@pytest.mark.long
+def test_one_mass_with_wandering_channels_names_nothing():
+    found = diagnose_together(files([0.573], more_kg=0.05 * 0.573, wander=1e-3)).found.result
+    assert found.verdict == "ambiguous"
+
+
 def test_a_mass_of_one_file_is_that_file_s():
     given = files()
     given[2] = File(sweep(pair(0.573), seed=2, more_kg=0.05 * 0.573), pair(0.573))
