@@ -168,9 +168,7 @@ def write_uff(path, under):
 
 
 def test_a_universal_file_says_itself_what_it_is_over(capsys, given, tmp_path):
-    status, _, err = call(
-        capsys, "diagnose", write_uff(tmp_path / "a.uff", 12), "--specimen", ZN1, "--force"
-    )
+    status, _, err = call(capsys, "diagnose", write_uff(tmp_path / "a.uff", 12), "--specimen", ZN1, "--force")
     assert status == 0, err
     np.testing.assert_allclose(given["sweep"].response_m_s, V_OVER_A * 9.81, rtol=1e-12)
 
