@@ -13,12 +13,14 @@ zero padding makes n large. A neighbour 5 bandwidths away still adds some 5 %.
 import numpy as np
 
 from fitting.arrays import Array
+from fitting.modal.attempt import refusing
 from fitting.modal.frf import DampingEstimate, Frf, Motion, Refusal, corrected, is_near
 
 _FEWEST_POINTS = 5
 """Lines between the crossings below which interpolation cannot be trusted."""
 
 
+@refusing
 def half_power(frf: Frf, near_hz: float, noise: float = 0.0) -> DampingEstimate | Refusal:
     """Ratio of the peak nearest to `near_hz`.
 

@@ -10,6 +10,7 @@ Source: Peeters, Van der Auweraer, Guillaume, Leuridan, Shock and Vibration 11 (
 import numpy as np
 
 from fitting.arrays import Complex
+from fitting.modal.attempt import refusing
 from fitting.modal.frf import DampingEstimate, Frf, Refusal, corrected
 
 ORDERS = tuple(range(2, 25))
@@ -58,6 +59,7 @@ def _poles_of_order(
     return np.asarray(s[(s.real < 0) & (s.imag > 2 * np.pi * low) & (s.imag < 2 * np.pi * high)])
 
 
+@refusing
 def lscf(
     poles: list[Complex], near_hz: float, added_decay_1_s: float, within_hz: float
 ) -> DampingEstimate | Refusal:

@@ -13,6 +13,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from fitting.arrays import Array, Complex
+from fitting.modal.attempt import refusing
 from fitting.modal.frf import DampingEstimate, Frf, Refusal, corrected, is_near
 
 _HALF_WIDTH_LINES = 8
@@ -43,6 +44,7 @@ class RationalFit:
     estimate: DampingEstimate
 
 
+@refusing
 def rational_fit(
     frf: Frf, near_hz: float, start_ratio: float, neighbours_hz: tuple[float, ...] = ()
 ) -> RationalFit | Refusal:
@@ -84,7 +86,7 @@ def rational_fit(
     error = float(scale * np.sqrt(covariance[0, 0]) / omega_n)
     f_n = omega_n / (2 * np.pi)
     adopted = corrected(f_n, ratio, frf.added_decay_1_s)
-    if error > _MOST_RELATIVE_ERROR * abs(adopted):
+    if not error <= _MOST_RELATIVE_ERROR * abs(adopted):
         return Refusal(f"its own standard error is {100 * error / abs(adopted):.0f} % of the ratio")
     height = float(np.abs(_coefficients(omega, window.H, poles)[0]))
     if height < _LEAST_HEIGHT * noise:

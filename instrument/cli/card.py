@@ -10,6 +10,7 @@ from instrument.cards.formats import FORMATS
 from instrument.cards.plain import card_result
 from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
+from instrument.cli.printable import printable
 from instrument.errors import BadInput
 from instrument.files.specimen_file import read_specimen
 from instrument.material.found_law import read_law
@@ -59,7 +60,7 @@ def card(
     made = Card.of(law, wanted=wanted / 100)
     text = form.write(made)
     if str(path) == "-":
-        click.echo(text, nl=False)
+        click.echo("\n".join(printable(line) for line in text.split("\n")), nl=False)
         return
     try:
         path.write_text(text, encoding="utf-8")

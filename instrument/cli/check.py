@@ -7,6 +7,7 @@ import click
 from instrument.check.dry_run import all_faults, dry_run
 from instrument.cli.options import file_argument, force_option, json_option
 from instrument.cli.output import Output
+from instrument.cli.printable import printable
 from instrument.errors import BadInput
 from instrument.files.plausible import question_specimen
 from instrument.models.tolerance_words import tolerance_rows
@@ -27,7 +28,7 @@ def check(experiment: Path, insist: bool, json_path: str | None) -> None:
     faults = all_faults(experiment)
     if faults:
         for fault in faults:
-            click.echo(fault, err=True)
+            click.echo(printable(" ".join(fault.split())), err=True)
         raise BadInput(f"{len(faults)} fault{'s' if len(faults) > 1 else ''}, nothing can be run")
     question_specimen(read_whole_experiment(experiment).specimen_path, insist=insist)
     with bar("dry run"):

@@ -1,5 +1,6 @@
 """The command `viscorig`: its commands, and one line instead of a traceback."""
 
+import logging
 import os
 import sys
 from contextlib import suppress
@@ -13,6 +14,7 @@ import click
 from drivers.errors import DriverError
 from fitting.errors import FittingError
 from fitting.plugins import GROUPS, NoPlugin, Registry, others, package_of
+from instrument.cli.printable import printable
 from instrument.cli.summaries import SUMMARIES
 from instrument.errors import BadInput, RigStopped, StoppedByUser
 from instrument.models.background import VARIABLE as BACKGROUND
@@ -123,6 +125,9 @@ def main(arguments: list[str] | None = None) -> None:
     """Run and exit: 0 done, 2 bad input or usage, 3 the rig stopped itself, 130 stopped by the user."""
     if os.environ.get(BACKGROUND):
         step_back()
+    # A library's warning is for the log; what a reader has to know a command says itself.
+    logging.captureWarnings(True)
+    logging.getLogger("py.warnings").addHandler(logging.NullHandler())
     sys.exit(run(arguments))
 
 
@@ -163,4 +168,4 @@ def _refuse(message: str) -> int:
 def _say(message: str) -> None:
     """One line on standard error; a terminal that is gone hears nothing."""
     with suppress(OSError):
-        click.echo("viscorig: " + " ".join(message.split()), err=True)
+        click.echo("viscorig: " + printable(" ".join(message.split())), err=True)

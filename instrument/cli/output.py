@@ -6,8 +6,10 @@ from pathlib import Path
 
 import click
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
+from instrument.cli.printable import printable
 from instrument.errors import BadInput
 from instrument.facts.result import Result
 
@@ -24,18 +26,18 @@ class Output:
 
     def say(self, text: str = "") -> None:
         """A line for people."""
-        self._console.print(text, markup=False)
+        self._console.print(printable(text), markup=False)
 
     def table(self, title: str, columns: list[str], rows: list[list[str]]) -> None:
         """A table for people, numbers to the right."""
         table = Table(box=None, pad_edge=False)
         if title:
             # Not as the table's own title: that would be wrapped to the table's width.
-            self._console.print(title, style="bold", markup=False)
+            self._console.print(printable(title), style="bold", markup=False)
         for k, column in enumerate(columns):
             table.add_column(column, justify="left" if k == 0 and not _numeric(rows, k) else "right")
         for row in rows:
-            table.add_row(*row)
+            table.add_row(*(escape(printable(cell)) for cell in row))
         Console(highlight=False, quiet=self._json_path == "-", width=max(self._console.width, 120)).print(
             table
         )

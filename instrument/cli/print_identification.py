@@ -105,10 +105,8 @@ def _print_validation(out: Output, r: Identification) -> None:
     if v.leave_one_out_rms_percent is not None:
         out.say(f"each point predicted from the others: rms {v.leave_one_out_rms_percent:.2f} %")
     for h in v.held_out:
-        out.say(
-            f"segment {h.segment} predicted from the others: rms {h.rms_percent:.2f} % "
-            f"(noise {h.noise_percent:.2f} %)"
-        )
+        noise = f" (noise {h.noise_percent:.2f} %)" if np.isfinite(h.noise_percent) else ""
+        out.say(f"segment {h.segment} predicted from the others: rms {h.rms_percent:.2f} %{noise}")
     if r.chi2_means_something:
         out.say(
             f"chi-square per degree of freedom {r.uncertainty.chi2_per_dof:.3g}, noise by {r.noise.source}"

@@ -79,6 +79,8 @@ def _segments(
         step = _float(header["Delta_X"][0], comma=comma)
     except (KeyError, ValueError, IndexError):
         raise BadInput(f"{path}: line {start}: segment without Channels or Delta_X") from None
+    if not 1 <= count <= len(lines[start].split(separator)):
+        raise BadInput(f"{path}: line {start}: {count} channels, expected as many as the names below")
     if step <= 0:
         raise BadInput(f"{path}: line {start}: Delta_X = {step:g}, expected more than 0")
     columns = facts.get("X_Columns", "One")

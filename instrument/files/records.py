@@ -9,6 +9,7 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.modal.frf import Frf
 from instrument.errors import BadInput
+from instrument.files.guard import checked_frf, checked_hits, said_of
 from instrument.files.impact_csv import MOTIONS, read_impact_csv
 from instrument.files.lvm import read_lvm
 from instrument.files.mat import read_mat_variables
@@ -29,6 +30,14 @@ class Named:
 
 def read_records(path: Path, named: Named) -> list[Hit] | dict[str, Frf]:
     """Hits, or FRFs. Raises `BadInput` with one line."""
+    with said_of(path):
+        found = _read(path, named)
+        if isinstance(found, dict):
+            return {name: checked_frf(path, name, frf) for name, frf in found.items()}
+        return checked_hits(path, found)
+
+
+def _read(path: Path, named: Named) -> list[Hit] | dict[str, Frf]:
     ending = path.suffix.lower()
     if not path.is_file():
         raise BadInput(f"{path}: no such file")

@@ -42,19 +42,34 @@ def import_file(path: Path, out: Path | None) -> Imported:
     plan = _names(target, {kind: len(items) for kind, items in kinds.items()})
     if any(p.exists() and p.samefile(path) for p in plan.values()):
         raise BadInput(f"{path}: would be written over, expected another --out")
+    unproven = {key: file.with_name(f".{file.name}.part") for key, file in plan.items()}
     try:
-        for (kind, k), file in plan.items():
+        for (kind, k), file in unproven.items():
             _write(file, kind, kinds[kind][k])
             _say_where_from(file, path)
+        if found.sweeps:
+            # What was written has to be what the program reads.
+            _prove(unproven["sweep", 0], plan["sweep", 0])
+        for key, file in unproven.items():
+            file.replace(plan[key])
     except OSError as error:
         raise BadInput(f"{target}: {error.strerror or error}") from None
+    finally:
+        for file in unproven.values():
+            file.unlink(missing_ok=True)
     if found.sweeps:
-        # What was written has to be what the program reads.
-        read_sweep(plan["sweep", 0])
         found.said.append(
             "relative to the clamp or absolute velocity? [pickup] reads in the specimen says it"
         )
     return Imported(tuple(plan.values()), tuple(found.said))
+
+
+def _prove(written: Path, named: Path) -> None:
+    """Raises `BadInput`, which names the file as it would have been."""
+    try:
+        read_sweep(written)
+    except BadInput as error:
+        raise BadInput(str(error).replace(str(written), str(named))) from None
 
 
 def _names(target: Path, counts: dict[str, int]) -> dict[tuple[str, int], Path]:
@@ -129,7 +144,7 @@ def _sweep_text(sweeps: list[Columns]) -> str:
     table = one_table(sweeps)
     whole = {column.name for column in understood() if column.whole}
     rows = (
-        ",".join(str(int(v)) if n in whole else repr(float(v)) for n, v in zip(table, row, strict=True))
+        ",".join(f"{v:.0f}" if n in whole else repr(float(v)) for n, v in zip(table, row, strict=True))
         for row in zip(*table.values(), strict=True)
     )
     return "\n".join([",".join(table), *rows]) + "\n"

@@ -247,6 +247,9 @@ def _records(
     motions = [s for s in signals if s.unit.quantity in DERIVATIVE and s.unit.per is None]
     if len(forces) != 1:
         raise BadInput(f"{source}: {', '.join(s.name for s in forces)}: which is the force? expected one")
+    for signal in (*forces, *motions):
+        if np.iscomplexobj(signal.values):
+            raise BadInput(f"{source}: {signal.name}: complex samples in time, expected real ones")
     length = forces[0].values.shape[0]
     responses = [s for s in motions if s.values.shape == forces[0].values.shape]
     if not responses:
@@ -265,5 +268,5 @@ def _records(
 
 def _hits(values: NDArray[Any]) -> list[Array]:
     """Columns of a matrix; a vector is one."""
-    x = np.asarray(values.real, float)
+    x = np.asarray(values, float)
     return [x] if x.ndim == 1 else [x[:, k] for k in range(x.shape[1])]

@@ -4,8 +4,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from fitting.plugins import NoPlugin, Registry
 from instrument.errors import BadInput
+from instrument.files.guard import LARGEST, checked_frf, checked_hits, said_of
 from instrument.interchange.found import Found
 from instrument.interchange.provenance import one_line
 
@@ -54,13 +57,26 @@ def read_foreign(path: Path) -> Found:
 def _read(reader: Reader, path: Path) -> Found:
     """What a reader finds; another package's may fail in ways that ours do not."""
     try:
-        return reader(path)
+        with said_of(path):
+            return _checked(path, reader(path))
     except BadInput:
         raise
     except Exception as error:
         if READERS.is_own(_ending(path)):
             raise
         raise BadInput(f"{path}: its reader failed: {type(error).__name__}: {one_line(str(error))}") from None
+
+
+def _checked(path: Path, found: Found) -> Found:
+    checked_hits(path, found.hits)
+    for name, frf, _ in found.frfs:
+        checked_frf(path, name, frf)
+    for sweep in found.sweeps:
+        for name, values in sweep.items():
+            size = np.abs(np.asarray(values, dtype=float))
+            if not np.all(size <= LARGEST):
+                raise BadInput(f"{path}: {name}: values that are none, or beyond {LARGEST:g}")
+    return found
 
 
 def is_foreign(path: Path) -> bool:

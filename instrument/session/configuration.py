@@ -1,10 +1,12 @@
 """What a session is kept with: experiment, rig and specimen as they were, versions, and what follows."""
 
+import re
 from dataclasses import dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
+from typing import Annotated
 
-from pydantic import BaseModel
+from pydantic import AfterValidator, BaseModel
 
 from fitting.plugins import packages
 from fitting.specimen import Specimen
@@ -14,11 +16,21 @@ from instrument.files.rig_file import RigDocument
 from instrument.files.specimen_file import SpecimenDocument, read_specimen_document, specimen_of
 from instrument.files.toml import read_document
 
+_NOT_IN_NAMES = re.compile(r"[/\\:\x00-\x1f\x7f]")
+_LONGEST_NAME = 200
+
+
+def _plain(name: str) -> str:
+    """A name from a file is a name, never a path: files are called by it."""
+    if name.startswith(".") or _NOT_IN_NAMES.search(name) or len(name) > _LONGEST_NAME:
+        raise ValueError("expected a plain name without folders")
+    return name
+
 
 class Configuration(BaseModel):
     """Kept in every session. The rig's `[simulation]` never is."""
 
-    name: str
+    name: Annotated[str, AfterValidator(_plain)]
     created_utc: str
     versions: dict[str, str]
     experiment: ExperimentDocument

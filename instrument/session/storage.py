@@ -36,6 +36,8 @@ from instrument.stream.raw import BlockAcquired
 FORMAT = "viscorig session"
 LAYOUT_VERSION = 1
 
+_MOST_PACKED = 1100
+"""No deflated byte stands for more."""
 _ROOM, _OVERHEAD_BYTES = 1.1, 1_000_000
 """A session takes as much as its parts and a little more."""
 
@@ -145,8 +147,9 @@ class SessionFile:
                 yield event
         except ValidationError as error:
             raise BadInput(f"{self.path}: damaged: {one_line(error)}") from None
-        except (OSError, RuntimeError, ValueError) as error:
-            raise BadInput(f"{self.path}: damaged: {str(error).splitlines()[0][:_LONGEST]}") from None
+        except _BY_WRONG_VALUES as error:
+            said = (str(error).splitlines() or [type(error).__name__])[0][:_LONGEST]
+            raise BadInput(f"{self.path}: damaged: {said}") from None
 
     @cached_property
     def _part_names(self) -> list[str]:
@@ -214,6 +217,8 @@ def _events(group: Any, with_samples: bool) -> Iterator[Event]:
         if isinstance(event, BlockAcquired) and samples is not None:
             counts = samples[:, at : at + event.samples]
             at += event.samples
+            if not 0 <= event.samples == counts.shape[1]:
+                raise ValueError(f"samples: {counts.shape[1]} in a block of {event.samples}")
             facts = {**event.facts(), "counts": counts}
             event = BlockAcquired(**facts)
         yield event
@@ -224,6 +229,9 @@ def _array(group: Any, name: str, dimensions: int) -> Any:
     found = group.get(name) if isinstance(group, h5py.Group) else None
     if not isinstance(found, h5py.Dataset) or found.ndim != dimensions:
         raise ValueError(f"{name}: expected a data set with {dimensions} dimension{'s'[: dimensions - 1]}")
+    claimed, held = found.size * found.dtype.itemsize, found.id.get_storage_size()
+    if claimed > _MOST_PACKED * held + _OVERHEAD_BYTES:
+        raise ValueError(f"{name}: claims {claimed} bytes, holds {held}")
     return found[()]
 
 
