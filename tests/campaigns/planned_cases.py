@@ -13,8 +13,8 @@ from fitting.planning.sensitivity import ReadingNoise
 from fitting.specimen import Specimen
 from fitting.sweep import Integers, Sweep
 from instrument.campaign.plates.cases import PlateTruth, draw_case
-from instrument.campaign.plates.simulate import Channel, built, moduli_of, reading
-from instrument.campaign.plates.stated import Tolerances, draw_stated, specimen_from, toml
+from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, reading
+from instrument.campaign.plates.stated import CampaignTolerances, draw_stated, specimen_from, toml
 from instrument.campaign.schedule import Schedule
 
 _SHARES = (0.1, 0.4)
@@ -31,7 +31,7 @@ class PlannedCase:
     truth: PlateTruth
     specimen: Specimen
     noise: ReadingNoise
-    channel: Channel
+    channel: ChannelError
 
     def measured(
         self,
@@ -65,11 +65,11 @@ def planned_case(seed: int) -> PlannedCase:
     truth = draw_case("none", seed).truth
     rng = np.random.default_rng([seed, 18])
     share = float(rng.uniform(*_SHARES))
-    usual = Tolerances()
-    tolerances = Tolerances(**{k: share * v for k, v in vars(usual).items()})
+    usual = CampaignTolerances()
+    tolerances = CampaignTolerances(**{k: share * v for k, v in vars(usual).items()})
     stated = draw_stated(rng, truth.plate, tolerances)
     off = rng.standard_normal(2)
-    channel = Channel(float(np.exp(tolerances.gain * off[0])), tolerances.delay_s * off[1])
+    channel = ChannelError(float(np.exp(tolerances.gain * off[0])), tolerances.delay_s * off[1])
     specimen = specimen_from(toml(stated, tolerances, truth.resonances_hz[1]))
     law = _stated_law(specimen, truth, rng)
     noise = ReadingNoise(float(10 ** rng.uniform(-6, -5)), float(rng.uniform(1e-3, 4e-3)))
