@@ -37,7 +37,7 @@ def exact_problem(
         time_s=time_s,
     )
     rational = rational_sweep(reduced, sweep.omega)
-    nodes = Nodes.of(sweep.omega, count)
+    nodes = _every_point(sweep.omega)
     grid = NodeGrid(nodes, rational)
     return DiagnosisProblem(
         sweep=sweep,
@@ -51,3 +51,11 @@ def exact_problem(
         dense=nodes,
         nuisances=nuisances_of(specimen, plate, has_phase=True),
     )
+
+
+def _every_point(omega: Array) -> Nodes:
+    """A node at every point: nothing is interpolated."""
+    count, none = len(omega), np.empty(0, dtype=np.intp)
+    one = np.eye(count)
+    cluster = np.zeros(count, dtype=np.intp)
+    return Nodes(omega, omega, one, one, cluster, np.empty(0, complex), none)

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from instrument.files.experiment_file import ExperimentDocument
-from instrument.stream.derived import HitJudged, HitRevised
+from instrument.stream.derived import HitJudged, HitRevised, StepsChosen
 from instrument.stream.event import Event
 from instrument.stream.raw import (
     AcquisitionBegan,
@@ -64,6 +64,8 @@ class Run:
     """Long work that goes on: its name and the fraction done, where that is known."""
     segment: SegmentBegan | None = None
     step: StepBegan | None = None
+    choice: StepsChosen | None = None
+    """What a sweep that chooses its own steps decided last."""
     good_hits: int = 0
     _hits: dict[int, bool] = field(default_factory=dict)
     _segments_ended: int = 0
@@ -87,6 +89,8 @@ class Run:
                 self.state = "preparing"
             case SegmentBegan():
                 self.segment = event
+            case StepsChosen():
+                self.choice = event
             case StepBegan():
                 self.state = "calibration" if event.sweep == 0 else "sweep"
                 self.step = event
@@ -153,9 +157,12 @@ class Run:
                 return f"loop check at {f}"
             case "sentinel":
                 return f"sentinel at {f}"
-        return f"step at {f}"
+        why = self.choice.why if self.choice is not None and self.step.sweep > 0 else ""
+        return f"step at {f}" + (f": {why}" if why else "")
 
     @property
     def _sweep_is_whole(self) -> bool:
         sweep = self.experiment.sweep
+        if sweep is not None and sweep.plan == "adaptive":
+            return self.choice is not None and self.choice.ended
         return sweep is not None and self._segments_ended >= len(sweep.segments) * sweep.sweeps

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from fitting.gravity import PUBLISHED_G_M_S2
-from instrument.check.forecast import Forecast, distinct, planned_segment
+from instrument.check.forecast import Forecast, distinct, planned_segment, sections_of
 from instrument.errors import BadInput
 from instrument.files.devices import ranges_of
 from instrument.session.configuration import Experiment
@@ -55,11 +55,14 @@ def _sweep(experiment: Experiment, forecast: Forecast) -> Iterator[str]:
     table, path = experiment.document.sweep, experiment.path
     if table is None:
         return
+    if table.plan == "adaptive" and experiment.the_specimen().core is None:
+        yield f'{path}: sweep.plan = "adaptive": the specimen has no [core] to find a law of'
+        return
     ranges = distinct(ranges_of(experiment.rig.vibrometer))
     highest = experiment.rig.front_end.sample_rate_hz / _SAMPLES_A_CYCLE
     frequencies: list[tuple[str, float]] = []
-    for number, segment in enumerate(table.segments, start=1):
-        place = f"sweep.segments, number {number}"
+    for number, segment in enumerate(sections_of(forecast, table), start=1):
+        place = f"sweep.segments, number {number}" if table.segments else "sweep.adaptive"
         try:
             planned = planned_segment(forecast, segment, number, table, ranges)
             frequencies.append((place, max(planned.frequencies_hz)))

@@ -130,13 +130,23 @@ def planned_segment(
     return PlannedSegment(number, 1, f, (level,) * len(f), name)
 
 
+def sections_of(forecast: Forecast, sweep: SweepTable) -> list[SegmentSection]:
+    """The file's segments; of a sweep that chooses its own steps, its band with the resonances in it."""
+    if sweep.adaptive is None:
+        return sweep.segments
+    low, high = sweep.adaptive.band_hz
+    inside = [round(float(f), 3) for f in forecast.mode_hz if low < f < high]
+    return [SegmentSection(frequencies_hz=sorted({low, *inside, high}))]
+
+
 def planned_segments(
     forecast: Forecast, sweep: SweepTable, ranges: tuple[Range, ...]
 ) -> tuple[list[PlannedSegment], tuple[float, str] | None]:
     """Every segment of every sweep with its range, and the sentinel. Raises `BadInput`."""
-    once = [planned_segment(forecast, s, k, sweep, ranges) for k, s in enumerate(sweep.segments, start=1)]
+    sections = sections_of(forecast, sweep)
+    once = [planned_segment(forecast, s, k, sweep, ranges) for k, s in enumerate(sections, start=1)]
     whole = [replace(s, sweep=turn) for turn in range(1, sweep.sweeps + 1) for s in once]
-    if sweep.sentinel is None:
+    if sweep.sentinel is None or sweep.plan == "adaptive":
         return whole, None
     first = whole[0]
     sentinel = sweep.sentinel.frequency_hz or first.frequencies_hz[len(first.frequencies_hz) // 2]

@@ -22,6 +22,9 @@ _MOUNT_S, _AIM_S, _STRIKE_S = 180.0, 60.0, 3.0
 _FIT_S, _DIAGNOSIS_S = 8.0, 60.0
 """The computer's; what it really takes shows in the run."""
 
+_ADAPTIVE_TURNS = 3
+"""Steps of an adaptive sweep for every resonance and end of its band: a guess, nobody knows before."""
+
 
 @dataclass(frozen=True)
 class Work:
@@ -68,6 +71,6 @@ def _sweep(experiment: Experiment, forecast: Forecast, person: bool) -> list[Wor
         found += [Work("aim", _AIM_S)] * person
         found += [step("calibration", f) for s in calibration for f in s.frequencies_hz]
     found += [Work("aim", _AIM_S)] * person + watch
-    for segment in segments:
+    for segment in segments * (_ADAPTIVE_TURNS if table.plan == "adaptive" else 1):
         found += [step("step", f) for f in segment.frequencies_hz] + watch
     return [*found, Work("fit", _FIT_S), Work("diagnosis", _DIAGNOSIS_S)]

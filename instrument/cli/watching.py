@@ -15,6 +15,7 @@ from instrument.stream.derived import (
     LimitWarned,
     PointMeasured,
     SentinelCompared,
+    StepsChosen,
 )
 from instrument.stream.event import Event
 from instrument.stream.raw import DiagnosisStarted, SegmentBegan
@@ -86,11 +87,24 @@ def said_of(event: Event) -> str | None:
             return f"{event.frequency_hz:g} Hz: {'; '.join(event.remarks)}"
         case FitUpdated():
             return _fit_said(event)
+        case StepsChosen():
+            return choice_words(event)
         case DiagnosisStarted():
             return "tracing what the fit cannot explain"
         case DiagnosisFound():
             return verdict_line(event.result) if event.result else f"no diagnosis: {event.message}"
     return None
+
+
+def choice_words(event: StepsChosen) -> str:
+    """What an adaptive sweep measures next, and why."""
+    if event.ended:
+        return f"the sweep ends: {event.why}"
+    if not event.frequencies_hz:
+        return event.why
+    if len(event.frequencies_hz) > 1:
+        return event.why
+    return f"next {event.frequencies_hz[0]:g} Hz: {event.why}"
 
 
 def _fit_said(event: FitUpdated) -> str:

@@ -13,6 +13,8 @@ from instrument.stepped_sine.settings import Dwell, LevelControl, Settle
 
 Count = Annotated[int, Field(ge=1, le=1000)]
 Frequency = Annotated[float, Field(ge=0.5, le=1e5)]
+_LEAST_RATIO = 1.05
+"""Of the ends of a band."""
 _CONTROL, _SETTLE, _DWELL = LevelControl(), Settle(), Dwell()
 
 
@@ -131,12 +133,35 @@ class CalibrationTable(TomlTable):
     level_g: Annotated[float, Field(ge=1e-4, le=1e3)] = 1.0
 
 
+class AdaptiveTable(TomlTable):
+    """When a sweep that chooses its own steps ends."""
+
+    band_hz: Annotated[list[Frequency], Field(min_length=2, max_length=2)]
+    """Where G' and the loss factor are to be known."""
+    target_percent: Annotated[float, Field(ge=0.01, le=100)] = 2.0
+    """Standard error of both, everywhere in the band."""
+    causes_percent: Annotated[float, Field(ge=0, le=80)] = 25.0
+    """Of rig time, for steps that separate what the model may lack."""
+    most_s: Annotated[float, Field(ge=10, le=1e5)] = 1800.0
+    """Of rig time, whatever is known by then."""
+
+    @model_validator(mode="after")
+    def _ordered(self) -> "AdaptiveTable":
+        low, high = self.band_hz
+        if low * _LEAST_RATIO > high:
+            raise ValueError(f"band_hz = [{low:g}, {high:g}], expected low and high at least 5 % apart")
+        return self
+
+
 class SweepTable(TomlTable):
     """The stepped sine."""
 
+    plan: Literal["fixed", "adaptive"] = "fixed"
+    """fixed: the segments as they stand; adaptive: each step by what is known so far."""
     level_g: Annotated[float, Field(ge=1e-4, le=1e3)] = 1.0
     sweeps: Count = 1
-    segments: Annotated[list[SegmentSection], Field(min_length=1, max_length=100)]
+    segments: Annotated[list[SegmentSection], Field(default_factory=list, max_length=100)]
+    adaptive: AdaptiveTable | None = None
     control: ControlTable = ControlTable()
     settle: SettleTable = SettleTable()
     dwell: DwellTable = DwellTable()
@@ -153,6 +178,20 @@ class SweepTable(TomlTable):
             return given
         off = {k: None for k in ("sentinel", "calibration") if given.get(k) is False}
         return {**given, **off}
+
+    @model_validator(mode="after")
+    def _one_plan(self) -> "SweepTable":
+        if self.plan == "fixed":
+            if self.adaptive is not None:
+                raise ValueError('adaptive: unknown beside plan = "fixed", expected plan = "adaptive"')
+            if not self.segments:
+                raise ValueError("segments: missing, expected at least one")
+            return self
+        if self.adaptive is None:
+            raise ValueError('plan = "adaptive": expected [sweep.adaptive] with band_hz')
+        if self.segments or self.sweeps != 1:
+            raise ValueError('plan = "adaptive" chooses its own steps, expected neither segments nor sweeps')
+        return self
 
 
 class ExperimentDocument(TomlTable):

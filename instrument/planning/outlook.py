@@ -107,14 +107,14 @@ def outlook_of(
     low, high = band_hz or usual_band(setup, resonances_hz(poles, *_WIDEST_HZ))
     every = resonances_hz(poles, min(low, _WIDEST_HZ[0]), high)
     f = candidate_frequencies(every, low, high)
-    seen = every[_visible(setup, every)]
+    seen = every[visible(setup, every)]
     candidates = Candidates(f, regions(f, seen), dwell_seconds(f, settings), step_seconds(f, every, settings))
     return Outlook(setup.specimen, setup, every, (float(f[0]), float(f[-1])), candidates)
 
 
 def usual_band(setup: SetUp, poles_hz: Complex) -> Band:
     """Around the first three poles, shape (any,), that the spot sees. Raises `OutsideModel` without any."""
-    seen = poles_hz[_visible(setup, poles_hz)][:_USUAL]
+    seen = poles_hz[visible(setup, poles_hz)][:_USUAL]
     if not len(seen):
         raise OutsideModel(
             f"no resonance between {_WIDEST_HZ[0]:g} and {_WIDEST_HZ[1]:g} Hz: give the band to be measured"
@@ -124,7 +124,7 @@ def usual_band(setup: SetUp, poles_hz: Complex) -> Band:
     return round(low.real * (1 - below), 2), round(high.real * (1 + above), 2)
 
 
-def _visible(setup: SetUp, poles_hz: Complex) -> Array:
+def visible(setup: SetUp, poles_hz: Complex) -> Array:
     """Which resonances stand out at the spot. Shape of `poles_hz`, true or false."""
     if not len(poles_hz):
         return np.zeros(0, dtype=bool)

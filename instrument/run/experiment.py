@@ -27,6 +27,7 @@ from instrument.progress import Progress, quiet
 from instrument.run.analysis import Analysis
 from instrument.run.companion import Companion
 from instrument.run.control import RunControl
+from instrument.run.live_choice import Chooser, LiveChoice
 from instrument.run.live_diagnosis import Diagnoser, apart, diagnose_points
 from instrument.run.live_fit import Fitter, LiveFit, fit_points
 from instrument.run.rig import Rig, open_rig
@@ -36,10 +37,25 @@ from instrument.session.journal import SessionJournal
 from instrument.session.recorder import Recorder
 from instrument.session.setup import setup_of
 from instrument.session.storage import part_events, write_session
-from instrument.stepped_sine.plan import Done, Planner
-from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated, HitJudged, PointMeasured
+from instrument.stepped_sine.adaptive import AdaptivePlanner
+from instrument.stepped_sine.plan import Done, PlannedSegment
+from instrument.stream.derived import (
+    DampingFound,
+    DiagnosisFound,
+    FitUpdated,
+    HitJudged,
+    PointMeasured,
+    StepsChosen,
+)
 from instrument.stream.event import Derived, Event
-from instrument.stream.raw import BlockAcquired, DiagnosisStarted, SegmentEnded, SessionBegan, SessionEnded
+from instrument.stream.raw import (
+    BlockAcquired,
+    ChoiceStarted,
+    DiagnosisStarted,
+    SegmentEnded,
+    SessionBegan,
+    SessionEnded,
+)
 
 log = logging.getLogger(__name__)
 
@@ -120,7 +136,9 @@ def _run(
     for event in earlier:
         if not isinstance(event, BlockAcquired):
             companion.happened(event)
-    session = _Session(experiment, journal, forecast, control, earlier, parts, fit, diagnose, companion)
+    session = _Session(
+        experiment, journal, forecast, control, earlier, parts, fit, diagnose, companion, progress
+    )
     try:
         with Recorder(journal, entries, watch) as recorder:
             session.run(recorder)
@@ -167,7 +185,9 @@ class _Session:
         fit: Fitter,
         diagnose: Diagnoser,
         companion: Companion,
+        progress: Progress,
     ) -> None:
+        self._progress = progress
         self._fitter, self._diagnoser = fit, diagnose
         self._companion, self._in_order = companion, threading.Lock()
         self._experiment, self._forecast, self._control = experiment, forecast, control
@@ -177,6 +197,9 @@ class _Session:
         self.analysis = Analysis(self._setup)
         for event in earlier:
             self.analysis.restore(event)
+        self._earlier_choices = [e for e in earlier if isinstance(e, StepsChosen)]
+        self._chooser: Chooser | None = None
+        self._choosing: LiveChoice | None = None
         self._last_step = max((getattr(e, "step", 0) for e in earlier), default=0)
         self._calibration_points = tuple(
             e for e in earlier if isinstance(e, PointMeasured) and e.purpose == "calibration"
@@ -189,6 +212,7 @@ class _Session:
         """Everything that needs the rig; the recorder hears of its end whatever it is."""
         self._recorder = recorder
         try:
+            self._prepare()
             document = self._experiment.document
             with (
                 open_rig(self._experiment.rig, self._experiment.rig_path, document.hammer) as bare,
@@ -208,6 +232,16 @@ class _Session:
             raise
         self._end("done", "")
 
+    def _prepare(self) -> None:
+        """Models that choices are made with, before anything moves; a hammer test changes little of them."""
+        table = self._experiment.document.sweep
+        if "sweep" not in self._parts or table is None or table.plan != "adaptive":
+            return
+        with self._progress("models of the adaptive sweep"):
+            specimen = self._configuration.the_specimen()
+            self._chooser = Chooser(specimen, table, self._setup.sweep, self._earlier_choices)
+            self._chooser.ground(self.analysis.damping)
+
     def _go(self, rig: Rig) -> None:
         self._emit(
             SessionBegan(
@@ -219,7 +253,8 @@ class _Session:
             )
         )
         _clear_heartbeat_alarm(rig)
-        runner = Runner(rig, self.analysis, self._emit, self._control, self._setup.sweep.control.ramp_s)
+        ramp_s = self._setup.sweep.control.ramp_s
+        runner = Runner(rig, self.analysis, self._emit, self._control, ramp_s, self._choice)
         if "hammer" in self._parts and self.analysis.damping is None:
             self._hammer(rig, runner)
         if "sweep" in self._parts:
@@ -244,7 +279,7 @@ class _Session:
         used = [s.range_name for s in segments] + ([sentinel[1]] if sentinel else [])
         names = [n for n in with_next_coarser(used, ranges) if n not in self.analysis.calibrations]
         done = Done((*self.analysis.points, *self._calibration_points))
-        planner = Planner(settings, self._forecast.decay_1_s, sentinel, self._last_step + 1, done)
+        planner = AdaptivePlanner(settings, self._forecast.decay_1_s, sentinel, self._last_step + 1, done)
         calibration = calibration_segments(table, names, ranges)
         if calibration:
             self._emit(rig.operator.aim("base"))
@@ -252,9 +287,26 @@ class _Session:
         self._emit(rig.operator.aim("pickup"))
         self._live = LiveFit(self._configuration.the_specimen(), self._record, self._fitter)
         with self._live:
-            runner.sweep("sweep", planner.plan(segments))
+            if table.plan == "adaptive":
+                self._adaptive(runner, planner, segments[0])
+            else:
+                runner.sweep("sweep", planner.plan(segments))
             self._live.offer(self.analysis.points, self.analysis.damping)
         self.fit = self._live.latest
+
+    def _adaptive(self, runner: Runner, planner: AdaptivePlanner, band: PlannedSegment) -> None:
+        """A sweep that chooses its own steps; all in the range that has room for the band's resonances."""
+        chooser = self._chooser
+        assert chooser is not None
+        chooser.ground(self.analysis.damping)
+        planner.level_m_s2, planner.chosen = band.level_m_s2[0], dict(chooser.chosen)
+        planner.range_of = lambda frequency_hz: band.range_name
+        with LiveChoice(chooser, self._record) as self._choosing:
+            runner.sweep("sweep", planner.adaptive())
+
+    def _choice(self, number: int, patience_s: float) -> StepsChosen | None:
+        assert self._choosing is not None
+        return self._choosing.take(number, patience_s)
 
     def _diagnose(self) -> None:
         """What the whole sweep's fit cannot explain; where there is no law there is nothing to ask."""
@@ -276,6 +328,8 @@ class _Session:
             self._record(one)
         if isinstance(event, SegmentEnded) and self.analysis.points and event.sweep > 0:
             self._live.offer(self.analysis.points, self.analysis.damping)
+        if isinstance(event, ChoiceStarted) and self._choosing is not None:
+            self._choosing.start(event, self.analysis.points, self.analysis.damping)
         return derived
 
     def _record(self, event: Event) -> None:

@@ -7,15 +7,17 @@ from time import monotonic, sleep
 from threadpoolctl import threadpool_limits
 
 from instrument.run.analysis import Analysis
+from instrument.run.live_choice import Chooser
 from instrument.run.live_diagnosis import Diagnoser, diagnose_points
 from instrument.run.live_fit import Fitter, fit_points
 from instrument.session.setup import setup_of
 from instrument.session.storage import SessionFile
-from instrument.stream.derived import DiagnosisFound, FitUpdated, PointMeasured
+from instrument.stream.derived import DiagnosisFound, FitUpdated, PointMeasured, StepsChosen
 from instrument.stream.event import Derived, Event, from_line, to_line
 from instrument.stream.raw import (
     AcquisitionBegan,
     BlockAcquired,
+    ChoiceStarted,
     DiagnosisStarted,
     FitStarted,
     SessionBegan,
@@ -63,13 +65,16 @@ def _replay(
     configuration = session.configuration
     analysis = Analysis(setup_of(configuration))
     specimen = configuration.the_specimen()
+    setup, table = setup_of(configuration), configuration.experiment.sweep
+    adaptive = table is not None and table.plan == "adaptive"
+    chooser = Chooser(specimen, table, setup.sweep, []) if adaptive and table is not None else None
     again = Replayed()
     expected: list[Derived] = []
     apart: dict[tuple[type[Derived], int], Derived] = {}
     ended = False
     for event in session.events():
         pace.wait(event)
-        if isinstance(event, FitUpdated | DiagnosisFound):
+        if isinstance(event, FitUpdated | DiagnosisFound | StepsChosen):
             # Recorded whenever its thread was done: paired with its computation by number.
             _compare(again, apart.pop((type(event), event.number), None), event)
             continue
@@ -86,6 +91,10 @@ def _replay(
             again.fit = fit(event.number, event.last_step, analysis.points, analysis.damping, specimen)
             apart[FitUpdated, event.number] = again.fit
             derived = [*derived, again.fit]
+        elif isinstance(event, ChoiceStarted) and chooser is not None:
+            chosen = chooser.choose(event, analysis.points, analysis.damping)
+            apart[StepsChosen, event.number] = chosen
+            derived = [*derived, chosen]
         elif isinstance(event, DiagnosisStarted):
             a = analysis
             again.diagnosis = diagnose(

@@ -17,7 +17,7 @@ from instrument.errors import RigStopped
 from instrument.run.analysis import Analysis
 from instrument.run.control import RunControl
 from instrument.run.rig import Rig
-from instrument.stepped_sine.plan import Plan, RangeWanted, Result
+from instrument.stepped_sine.plan import Action, ChoiceWanted, Plan, RangeWanted, Result
 from instrument.stream.derived import (
     DriveRequested,
     HitJudged,
@@ -25,6 +25,7 @@ from instrument.stream.derived import (
     LoopChecked,
     PointMeasured,
     RangeRequested,
+    StepsChosen,
 )
 from instrument.stream.event import Derived, Event
 from instrument.stream.raw import (
@@ -34,8 +35,6 @@ from instrument.stream.raw import (
     Held,
     Part,
     RangeSet,
-    SegmentBegan,
-    SegmentEnded,
     ShakerCommanded,
     SignalLevelRead,
     StepBegan,
@@ -47,6 +46,8 @@ _LONGEST_READ_S = 0.5
 """A call of the front-end: in between the heartbeat, limits and a person's word have their turn."""
 _REST_S, _LOOK_S = 5.0, 0.01
 """After a stop, before the run says that the shaker does not obey; and how often it looks."""
+_CHOICE_LOOK_S = 0.05
+"""Within a wait for a choice, the heartbeat has its turn this often."""
 
 
 class Runner:
@@ -59,7 +60,10 @@ class Runner:
         emit: Callable[[Event], list[Derived]],
         control: RunControl,
         ramp_s: float,
+        choice: Callable[[int, float], StepsChosen | None] | None = None,
     ) -> None:
+        """`choice` gives the choice of a number within so many seconds, for an adaptive sweep."""
+        self._choice = choice
         self._rig, self._analysis, self._emit, self._control = rig, analysis, emit, control
         self._ramp_s = ramp_s
         self._range: Range | None = None
@@ -118,14 +122,27 @@ class Runner:
 
     # One action
 
-    def _do(self, action: RangeWanted | SegmentBegan | StepBegan | SegmentEnded) -> Result:
+    def _do(self, action: Action) -> Result:
         if isinstance(action, RangeWanted):
             self._set_range(action.name)
+        elif isinstance(action, ChoiceWanted):
+            return self._chosen(action.number)
         elif isinstance(action, StepBegan):
             return self._measure(action)
         else:
             _stop_at_a_limit(self._emit(action))
         return None
+
+    def _chosen(self, number: int) -> StepsChosen:
+        """The choice, as a rule made while the last step was measured; samples and heartbeat go on."""
+        assert self._choice is not None
+        while True:
+            for _ in range(round(_LONGEST_READ_S / _CHOICE_LOOK_S)):
+                found = self._choice(number, _CHOICE_LOOK_S)
+                if found is not None:
+                    return found
+                self._watch()
+            self._read(round(_LONGEST_READ_S * self._rig.front_end.sample_rate_hz))
 
     def _measure(self, began: StepBegan) -> Result:
         """One step, again from its beginning after a hold."""

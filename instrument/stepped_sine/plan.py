@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 
 from instrument.stepped_sine.drive import DriveModel
 from instrument.stepped_sine.settings import SweepSettings
-from instrument.stream.derived import LoopChecked, PointMeasured
-from instrument.stream.raw import Purpose, SegmentBegan, SegmentEnded, StepBegan
+from instrument.stream.derived import LoopChecked, PointMeasured, StepsChosen
+from instrument.stream.raw import ChoiceStarted, Purpose, SegmentBegan, SegmentEnded, StepBegan
 
 
 @dataclass(frozen=True)
@@ -17,6 +17,13 @@ class RangeWanted:
     """The vibrometer's range for what follows."""
 
     name: str
+
+
+@dataclass(frozen=True)
+class ChoiceWanted:
+    """What a sweep that chooses its own steps decided under a number, once it is there."""
+
+    number: int
 
 
 @dataclass(frozen=True)
@@ -48,8 +55,8 @@ class Done:
         return None
 
 
-Action = RangeWanted | SegmentBegan | StepBegan | SegmentEnded
-Result = LoopChecked | PointMeasured | None
+Action = RangeWanted | SegmentBegan | StepBegan | SegmentEnded | ChoiceStarted | ChoiceWanted
+Result = LoopChecked | PointMeasured | StepsChosen | None
 Plan = Generator[Action, Result, None]
 
 

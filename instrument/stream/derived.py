@@ -207,6 +207,39 @@ class DampingFound(Derived):
 
 
 @dataclass(frozen=True)
+class StepsChosen(Derived):
+    """What an adaptive sweep measures next, and why: by the points, the specimen and the choice before."""
+
+    number: int
+    last_step: int
+    frequencies_hz: tuple[float, ...]
+    """In this order; none where the sweep ends, or where the step being measured may be the last."""
+    segments: tuple[int, ...]
+    """Resonance region of each."""
+    teaches: str
+    """`coarse`, `law`, `causes`; empty where nothing is chosen."""
+    ended: bool
+    why: str
+    """For people."""
+    worst_percent: float | None
+    """Largest relative standard error of G' and eta in the band, the step being measured counted in."""
+    limit_percent: float | None
+    """What would be left of it though every candidate were measured."""
+    law: tuple[float, ...] = ()
+    """Logarithms of the law's parameters and bend, as these points have them; empty before any."""
+    stated: tuple[float, ...] = ()
+    """The stated numbers, in standard deviations of their tolerances."""
+    grid_law: tuple[float, ...] = ()
+    """The law that the candidates were laid out for."""
+    grid_stated: tuple[float, ...] = ()
+    """The stated numbers that they were laid out for."""
+    grid_hz: tuple[float, ...] = ()
+    """Frequencies measured or begun by then: they are among the candidates."""
+    causes_s: float = 0.0
+    """Rig time chosen so far for steps that separate causes."""
+
+
+@dataclass(frozen=True)
 class FitUpdated(Derived):
     """The live identification's result: that of `viscorig identify` without its seconds."""
 

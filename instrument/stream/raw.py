@@ -163,6 +163,17 @@ class FitStarted(Event):
 
 
 @dataclass(frozen=True)
+class ChoiceStarted(Event):
+    """A sweep that chooses its own steps took up the points there were."""
+
+    number: int
+    last_step: int
+    """Points of this and all earlier steps take part."""
+    pending_hz: float | None
+    """Measured meanwhile: it counts as taken. None where nothing is."""
+
+
+@dataclass(frozen=True)
 class DiagnosisStarted(Event):
     """The sweep is whole, and what its fit cannot explain is being traced."""
 

@@ -45,12 +45,14 @@ def _standing(
 ) -> SegmentStatus:
     plan = state.plan
     runs = {key: run for key, run in plan.begun.items() if key[0] > 0 and key[1] == number}
-    turns = plan.sweep.sweeps if plan.sweep is not None else max(1, len(runs))
+    adaptive = plan.sweep is not None and plan.sweep.plan == "adaptive"
+    turns = plan.sweep.sweeps if plan.sweep is not None and not adaptive else max(1, len(runs))
     mine = (points.segment == number) & ~points.sentinel
     done = sum(plan.done.get(key, 0) for key in runs)
     wanted = planned.points if planned is not None else None
     for run in runs.values():
-        wanted = run.steps
+        # How many an adaptive sweep makes of a region nobody knows.
+        wanted = None if adaptive else run.steps
     most = f" of {wanted * turns}" if wanted is not None else ""
     passes = f", pass {len(runs)} of {turns}" if turns > 1 and runs else ""
     levels = np.unique(np.round(points.level_m_s2[mine], 6)).tolist()
@@ -78,4 +80,6 @@ def _band(planned: SegmentSection | None, begun: list[tuple[float, float]]) -> s
         return f"{min(low for low, _ in begun):.4g} to {max(high for _, high in begun):.4g} Hz"
     if planned is None or planned.mode is not None:
         return f"around mode {planned.mode}" if planned is not None else ""
+    if planned.frequencies_hz is not None:
+        return f"{min(planned.frequencies_hz):.4g} to {max(planned.frequencies_hz):.4g} Hz"
     return f"{planned.low_hz:.4g} to {planned.high_hz:.4g} Hz"
