@@ -4,9 +4,9 @@ python tests/campaigns/adaptive_time.py --cases 20
 
 Both measure the same specimens with the same noise, by the same rules of settling and dwell; time is
 virtual. The adaptive sweep is walked by its own plan and choices, as on a rig. The fixed one has as many
-steps around each of the first three resonances as `--points` says, in ascending order; it is identified after every
-few steps, and has met the target at the first at which its stated errors are within it, everywhere in the
-adaptive sweep's band. Where it never does, its whole time counts.
+steps around each of the first three resonances as `--points` says, in ascending order; it is identified
+after every few steps, and has met the target at the first at which its stated errors are within it,
+everywhere in the adaptive sweep's band. Where it never does, its whole time counts.
 """
 
 import argparse
