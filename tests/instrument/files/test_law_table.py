@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from conftest import TABLE_4
 
+import viscorig
 from fitting.structures.small_modes import small_modes
 from instrument.cli.main import run
 from instrument.errors import BadInput
@@ -136,6 +137,15 @@ def test_a_session_s_specimen_holds_the_rows(folder):
     law = specimen_of(kept).core.law
     np.testing.assert_allclose(law.frequency_hz, FREQUENCY_HZ)
     assert specimen_of(kept) == specimen_of(document)
+
+
+def test_a_notebook_s_specimen_holds_the_rows_too(folder):
+    (folder / "plate.toml").write_text(PLATE)
+    read = viscorig.load_specimen(folder / "plate.toml")
+    (folder / "tables/law.csv").unlink()
+    thicker = read.but(core={"thickness_mm": 0.6})
+    assert thicker.model.core.law == read.model.core.law
+    assert viscorig.Specimen(**read.as_dict()).model == read.model
 
 
 FAULTS = {
