@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from drivers.chamber.registers import TemperatureRegisters
 from drivers.simulated.drive import DrivePiece
 from drivers.simulated.rig import SimulatedRig
 from drivers.simulated.sensors import SimulatedSensor
@@ -35,6 +36,17 @@ response_x_mm = 270.0
 response_y_mm = 170.0
 record_s = 6.0
 """
+
+
+CHAMBER = """
+[chamber]
+address = "{address}"
+temperature_register = 100
+set_point_register = 300
+type = "int16"
+scale_c = 0.1
+"""
+CHAMBER_REGISTERS = TemperatureRegisters(100, 300, "int16", 0.1)
 
 
 class FormulaPlate:
@@ -100,8 +112,16 @@ class FormulaBare:
 
 
 @contextmanager
-def formula_rig(folder: Path, *, sweep: str = SWEEP, hammer: bool = False, virtual: bool = True, **options):
-    """The rig and an experiment on it."""
+def formula_rig(
+    folder: Path,
+    *,
+    sweep: str = SWEEP,
+    hammer: bool = False,
+    virtual: bool = True,
+    temperature: str = "",
+    **options,
+):
+    """The rig and an experiment on it; `temperature` is what stands in its table of that name."""
     inputs = {
         1: SimulatedSensor("base_acceleration", 0.01, 1e-5, 10.0),
         2: SimulatedSensor("laser", 1.0, 1e-3, 10.0),
@@ -113,10 +133,12 @@ def formula_rig(folder: Path, *, sweep: str = SWEEP, hammer: bool = False, virtu
     )
     rig = SimulatedRig(world, model="OFV-5000", signal_level=0.8, delay_s={}, limit_v=5.0, **options)
     with rig as addresses:
-        yield rig, write_experiment(folder, addresses, sweep, hammer, virtual)
+        yield rig, write_experiment(folder, addresses, sweep, hammer, virtual, temperature)
 
 
-def write_experiment(folder: Path, addresses, sweep: str, hammer: bool, virtual: bool) -> Experiment:
+def write_experiment(
+    folder: Path, addresses, sweep: str, hammer: bool, virtual: bool, temperature: str = ""
+) -> Experiment:
     """Files as a lab would have them, with these addresses."""
     rig = case_file("rig.toml").read_text().split("\n[simulation]")[0]
     for device, address in (
@@ -126,6 +148,8 @@ def write_experiment(folder: Path, addresses, sweep: str, hammer: bool, virtual:
     ):
         head, tail = rig.split(device)
         rig = head + device + tail.replace('"simulated"', f'"{address}"', 1)
+    if addresses.get("chamber_tcp"):
+        rig += CHAMBER.format(address=addresses["chamber_tcp"])
     if virtual:
         rig = rig.replace("[front_end]", "[front_end]\npaced_by_reader = true")
     (folder / "rig.toml").write_text(rig)
@@ -133,6 +157,7 @@ def write_experiment(folder: Path, addresses, sweep: str, hammer: bool, virtual:
     (folder / "experiment.toml").write_text(
         'specimen = "specimen.toml"\nrig = "rig.toml"\n'
         + (HAMMER if hammer else "")
+        + (f"[temperature]\n{temperature}\n" if temperature else "")
         + "[sweep]\nsentinel = false\ncalibration = false\n"
         + sweep
     )

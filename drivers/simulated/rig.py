@@ -186,7 +186,8 @@ class SimulatedRig:
         server = ModbusServer(
             served, "simulated chamber", lock=world.lock, port=self._ports.chamber, unit=self._chamber.unit
         )
-        host, port = stack.enter_context(server).address
+        self.chamber = stack.enter_context(server)
+        host, port = self.chamber.address
         return f"{host}:{port}"
 
     def _tick(self) -> None:

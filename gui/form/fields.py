@@ -25,7 +25,7 @@ Off = Literal["never", "left out", "false"]
 _UNITS = {
     "_mv_per_unit": "mV a unit", "_m_s2": "m/s²", "_m_s": "m/s", "_kg_m3": "kg/m³", "_n_m": "N m",
     "_percent": "%", "_gpa": "GPa", "_mpa": "MPa", "_rad_s": "rad/s", "_mm": "mm", "_hz": "Hz", "_kg": "kg",
-    "_s": "s", "_g": "g", "_v": "V", "_m": "m",
+    "_c": "°C", "_s": "s", "_g": "g", "_v": "V", "_m": "m",
 }  # fmt: skip
 _NOT_ASKED = {"effects", "core", "log"}
 """Of a simulated rig: what it hides is not for whoever measures on it."""

@@ -56,7 +56,10 @@ from instrument.stream.raw import (
     SessionEnded,
     ShakerCommanded,
     SignalLevelRead,
+    SoakBegan,
+    SoakEnded,
     StepBegan,
+    TemperatureRead,
 )
 from instrument.stream.scaling import Scaling
 
@@ -73,6 +76,9 @@ _TOPICS: dict[type[Event], tuple[Topic, ...]] = {
     BlockAcquired: ("samples",),
     RangeSet: ("step",),
     SignalLevelRead: ("step",),
+    SoakBegan: ("run",),
+    TemperatureRead: ("run",),
+    SoakEnded: ("run",),
     SegmentBegan: ("run",),
     SegmentEnded: ("run",),
     StepBegan: ("run", "step", "samples"),
@@ -153,6 +159,8 @@ class SessionState:
         self._clock.take(event)
         if isinstance(event, BlockAcquired):
             self._now_s = self._clock.at(event.first_sample + event.samples)
+        elif isinstance(event, SoakBegan | TemperatureRead):
+            self._now_s = max(self._now_s, self._clock.end_s)
         self._keep(event)
         self.run.take(event)
         self.plan.take(event)

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from instrument.files.experiment_file import ExperimentDocument
+from instrument.stepped_sine.soak import Soak
 from instrument.stream.derived import HitJudged, HitRevised, StepsChosen
 from instrument.stream.event import Event
 from instrument.stream.raw import (
@@ -17,7 +18,10 @@ from instrument.stream.raw import (
     SegmentEnded,
     SessionBegan,
     SessionEnded,
+    SoakBegan,
+    SoakEnded,
     StepBegan,
+    TemperatureRead,
 )
 
 State = Literal[
@@ -25,6 +29,7 @@ State = Literal[
     "preparing",
     "hammer",
     "calibration",
+    "soaking",
     "sweep",
     "held",
     "identifying",
@@ -37,6 +42,7 @@ WORDS: dict[State, str] = {
     "preparing": "preparing",
     "hammer": "hammer test",
     "calibration": "calibration",
+    "soaking": "soaking",
     "sweep": "sweep",
     "held": "held",
     "identifying": "identifying",
@@ -46,7 +52,7 @@ WORDS: dict[State, str] = {
 }
 OVER: tuple[State, ...] = ("idle", "done", "stopped")
 """States in which nothing is going on."""
-_MEASURING: tuple[State, ...] = ("hammer", "calibration", "sweep", "held")
+_MEASURING: tuple[State, ...] = ("hammer", "calibration", "soaking", "sweep", "held")
 
 
 @dataclass
@@ -66,6 +72,8 @@ class Run:
     step: StepBegan | None = None
     choice: StepsChosen | None = None
     """What a sweep that chooses its own steps decided last."""
+    soak: Soak | None = None
+    """The one in progress, or the last."""
     good_hits: int = 0
     _hits: dict[int, bool] = field(default_factory=dict)
     _segments_ended: int = 0
@@ -94,6 +102,12 @@ class Run:
             case StepBegan():
                 self.state = "calibration" if event.sweep == 0 else "sweep"
                 self.step = event
+            case SoakBegan():
+                self.state, self.soak = "soaking", Soak(event)
+            case TemperatureRead() if event.soak_s is not None and self.soak is not None:
+                self.soak.take(event)
+            case SoakEnded():
+                self.state = "preparing"
             case Held():
                 self.state = "held"
             case FitStarted() if self._sweep_is_whole:
@@ -135,7 +149,10 @@ class Run:
                     return f"strike once and let it ring: {self.good_hits} of {wanted} good hits"
                 return f"{self.good_hits} good hits: use them, or strike again"
             case "held":
-                return "the shaker is silent; resume measures the step again"
+                again = "soaks again" if self._soaks else "measures the step again"
+                return f"the shaker is silent; resume {again}"
+            case "soaking":
+                return self.soak.words if self.soak is not None else ""
             case "calibration" | "sweep":
                 return self._step_words()
             case "done":
@@ -159,6 +176,11 @@ class Run:
                 return f"sentinel at {f}"
         why = self.choice.why if self.choice is not None and self.step.sweep > 0 else ""
         return f"step at {f}" + (f": {why}" if why else "")
+
+    @property
+    def _soaks(self) -> bool:
+        """Whether a soak has begun and not ended."""
+        return self.soak is not None and not self.soak.done
 
     @property
     def _sweep_is_whole(self) -> bool:

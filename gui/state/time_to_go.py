@@ -18,6 +18,8 @@ from instrument.stream.raw import (
     HammerTestEnded,
     Held,
     OperatorDid,
+    SoakBegan,
+    SoakEnded,
     StepBegan,
 )
 
@@ -84,6 +86,10 @@ class TimeToGo:
                 self._session_s = session_s
             case Held():
                 self._held = True
+            case SoakBegan():
+                self._held, self._session_s = False, session_s
+            case SoakEnded():
+                self._finish("soak", event.seconds, session_s, wall_s)
             case StepBegan() if self._held:
                 # Nobody's pace is the worse for a pause.
                 self._held, self._session_s = False, session_s

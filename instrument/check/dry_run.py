@@ -19,7 +19,7 @@ from instrument.check.forecast import (
     with_next_coarser,
 )
 from instrument.errors import BadInput
-from instrument.facts.check import CheckResult, SegmentForecast
+from instrument.facts.check import CheckResult, SegmentForecast, SoakForecast
 from instrument.files.devices import ranges_of
 from instrument.files.experiment_file import experiment_faults, read_experiment
 from instrument.files.rig_file import RigDocument
@@ -46,6 +46,7 @@ class DryRun:
     seconds: float
     specimen: Specimen
     warnings: tuple[str, ...]
+    temperature: SoakForecast | None = None
 
     @property
     def result(self) -> CheckResult:
@@ -54,6 +55,7 @@ class DryRun:
             segments=self.segments,
             modes_hz=self.mode_hz,
             hammer_record_s=self.hammer_record_s,
+            temperature=self.temperature,
             seconds=self.seconds,
             exact=self.specimen.exact,
             tolerances=tolerances_used(self.specimen),
@@ -101,6 +103,8 @@ def dry_run(path: Path) -> DryRun:
         warnings += [f"with the law to start from, {remark}"] if remark else []
     if hammer is not None:
         seconds += hammer.hits * (hammer.record_s + _HIT_AND_RING_S)
+    asked = experiment.document.temperature if experiment.document.sweep is not None else None
+    seconds += asked.soak_s if asked is not None else 0.0
     return DryRun(
         segments,
         tuple(float(f) for f in forecast.mode_hz),
@@ -108,6 +112,7 @@ def dry_run(path: Path) -> DryRun:
         seconds,
         specimen,
         tuple(warnings),
+        SoakForecast(**asked.model_dump()) if asked is not None else None,
     )
 
 

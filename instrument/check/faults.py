@@ -24,7 +24,7 @@ def experiment_objections(experiment: Experiment, forecast: Forecast, parts: tup
     if "hammer" in parts:
         found += _hammer(experiment)
     if "sweep" in parts:
-        found += _sweep(experiment, forecast)
+        found += [*_temperature(experiment), *_sweep(experiment, forecast)]
     return found
 
 
@@ -32,6 +32,17 @@ def _parts(experiment: Experiment, parts: tuple[str, ...]) -> Iterator[str]:
     there = [p for p in parts if getattr(experiment.document, p) is not None]
     if not there:
         yield f"{experiment.path}: has no [{'] and no ['.join(parts)}], nothing would be measured"
+
+
+def _temperature(experiment: Experiment) -> Iterator[str]:
+    asked, chamber = experiment.document.temperature, experiment.rig.chamber
+    if asked is None:
+        return
+    place = f"{experiment.path}: temperature.set_point_c = {asked.set_point_c:g}"
+    if chamber is None:
+        yield f"{place}: {experiment.rig_path} has no [chamber], expected one with a set point"
+    elif not chamber.has_set_point:
+        yield f"{place}: [chamber] of {experiment.rig_path} is a thermometer, expected one with a set point"
 
 
 def _hammer(experiment: Experiment) -> Iterator[str]:

@@ -16,7 +16,7 @@ from instrument.files.devices import ranges_of
 from instrument.session.configuration import Experiment
 from instrument.session.setup import hammer_settings, setup_of
 
-Kind = Literal["mount", "aim", "hit", "calibration", "step", "sentinel", "fit", "diagnosis"]
+Kind = Literal["mount", "aim", "hit", "calibration", "soak", "step", "sentinel", "fit", "diagnosis"]
 _MOUNT_S, _AIM_S, _STRIKE_S = 180.0, 60.0, 3.0
 """A person's time."""
 _FIT_S, _DIAGNOSIS_S = 8.0, 60.0
@@ -70,7 +70,12 @@ def _sweep(experiment: Experiment, forecast: Forecast, person: bool) -> list[Wor
     if calibration:
         found += [Work("aim", _AIM_S)] * person
         found += [step("calibration", f) for s in calibration for f in s.frequencies_hz]
-    found += [Work("aim", _AIM_S)] * person + watch
+    found += [Work("aim", _AIM_S)] * person
+    temperature = experiment.document.temperature
+    if temperature is not None:
+        # How long the chamber takes to its set point nobody knows before.
+        found.append(Work("soak", temperature.soak_s))
+    found += watch
     for segment in segments * (_ADAPTIVE_TURNS if table.plan == "adaptive" else 1):
         found += [step("step", f) for f in segment.frequencies_hz] + watch
     return [*found, Work("fit", _FIT_S), Work("diagnosis", _DIAGNOSIS_S)]

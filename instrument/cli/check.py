@@ -51,6 +51,9 @@ def check(experiment: Path, insist: bool, json_path: str | None) -> None:
     out.say("modes expected at " + ", ".join(f"{f:.4g}" for f in run.mode_hz) + " Hz")
     if run.hammer_record_s is not None:
         out.say(f"hammer: records of {run.hammer_record_s:g} s")
+    if (t := run.temperature) is not None:
+        near = f"{t.set_point_c:g} °C within {t.within_c:g} °C for {t.soak_s:g} s"
+        out.say(f"chamber: {near}, given up after {t.most_s:g} s; its way there is not in the time below")
     out.say(f"about {run.seconds:.0f} s in all, with calibration, sentinel and hits where there are any")
     out.say("tolerances: " + ", ".join(" ".join(row) for row in tolerance_rows(run.specimen)))
     for warning in run.warnings:

@@ -6,6 +6,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from instrument.results.diagnosis_words import verdict_line
+from instrument.stepped_sine.soak import Soak
 from instrument.stream.derived import (
     CalibrationFound,
     DampingFound,
@@ -18,7 +19,7 @@ from instrument.stream.derived import (
     StepsChosen,
 )
 from instrument.stream.event import Event
-from instrument.stream.raw import DiagnosisStarted, SegmentBegan
+from instrument.stream.raw import DiagnosisStarted, SegmentBegan, SoakBegan, SoakEnded, TemperatureRead
 
 
 class Watcher:
@@ -36,6 +37,7 @@ class Watcher:
             disable=not self._console.is_terminal,
         )
         self._task = self._bars.add_task("", total=1, visible=False)
+        self._soak: Soak | None = None
 
     def __enter__(self) -> Callable[[list[Event]], None]:
         self._bars.start()
@@ -58,6 +60,14 @@ class Watcher:
                 )
             elif isinstance(event, PointMeasured) and event.purpose != "sentinel":
                 self._bars.advance(self._task)
+            elif isinstance(event, SoakBegan):
+                self._soak = Soak(event)
+                self._bars.reset(self._task, total=event.soak_s, description=self._soak.words, visible=True)
+            elif isinstance(event, TemperatureRead) and event.soak_s is not None and self._soak is not None:
+                self._soak.take(event)
+                self._bars.update(
+                    self._task, completed=round(self._soak.near_s), description=self._soak.words
+                )
             line = said_of(event)
             if line:
                 self._console.print(line, markup=False, soft_wrap=True)
@@ -83,6 +93,11 @@ def said_of(event: Event) -> str | None:
         case LimitWarned():
             value = f"{event.value:.4g} of {event.limit:.4g} {event.unit}"
             return f"warning: step {event.step}: {event.what} {value}"
+        case SoakBegan():
+            goal = f"{event.set_point_c:g} °C, within {event.within_c:g} °C for {event.soak_s:g} s"
+            return f"soaking at {goal}"
+        case SoakEnded():
+            return f"soaked: at the set point after {event.seconds:.0f} s"
         case PointMeasured() if event.remarks:
             return f"{event.frequency_hz:g} Hz: {'; '.join(event.remarks)}"
         case FitUpdated():

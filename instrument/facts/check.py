@@ -29,6 +29,17 @@ class ToleranceUsed(Result):
     source: Literal["named", "typical"]
 
 
+class SoakForecast(Result):
+    """What the chamber is asked before the sweep."""
+
+    set_point_c: Number
+    within_c: Number
+    soak_s: Number
+    """To stay within, once it is there."""
+    most_s: Number
+    """For all of it."""
+
+
 class CheckResult(Result):
     """A run that was not made."""
 
@@ -36,8 +47,10 @@ class CheckResult(Result):
     modes_hz: tuple[Number, ...]
     hammer_record_s: MaybeNumber = None
     """None without a hammer test."""
+    temperature: SoakForecast | None = None
+    """None where the experiment asks for no temperature."""
     seconds: Number
-    """In all."""
+    """In all; of a soak its own time, not the chamber's way to its set point."""
     exact: bool = False
     """Whether everything stated is taken as exact."""
     tolerances: tuple[ToleranceUsed, ...] = ()

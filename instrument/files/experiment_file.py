@@ -194,6 +194,24 @@ class SweepTable(TomlTable):
         return self
 
 
+class TemperatureTable(TomlTable):
+    """The chamber's set point for the sweep, and how long the plate soaks there first."""
+
+    set_point_c: Annotated[float, Field(ge=-100, le=400)]
+    within_c: Annotated[float, Field(ge=0.01, le=20)] = 0.5
+    """So near counts as there."""
+    soak_s: Annotated[float, Field(ge=0, le=1e5)] = 600.0
+    """To stay there without a break: the plate follows the air more slowly than the chamber's thermometer."""
+    most_s: Annotated[float, Field(gt=0, le=1e6)] = 7200.0
+    """For all of it, before the run gives up."""
+
+    @model_validator(mode="after")
+    def _possible(self) -> "TemperatureTable":
+        if self.soak_s >= self.most_s:
+            raise ValueError(f"soak_s = {self.soak_s:g} is not below most_s = {self.most_s:g}")
+        return self
+
+
 class ExperimentDocument(TomlTable):
     """EXPERIMENT.toml. Paths are relative to it."""
 
@@ -203,6 +221,7 @@ class ExperimentDocument(TomlTable):
     rig: str
     mounting: Mounting = Mounting()
     hammer: Hammer | None = None
+    temperature: TemperatureTable | None = None
     sweep: SweepTable | None = None
 
 

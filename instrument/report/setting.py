@@ -76,7 +76,24 @@ def rig_section(contents: Contents) -> ReportSection:
         named |= {"vibrometer's model in the rig file": c.rig.vibrometer.model_name}
         rows = tuple((k.replace("_", " "), v) for k, v in named.items() if v)
         instruments = FactsBlock(f"Instruments of {c.rig.name!r}", rows)
-    return ReportSection("Rig", (instruments, _sensors(contents), FactsBlock("Mounting", tuple(mounting))))
+    blocks = (instruments, _sensors(contents), FactsBlock("Mounting", tuple(mounting)))
+    return ReportSection("Rig", (*blocks, *_temperature(contents)))
+
+
+def _temperature(contents: Contents) -> tuple[Block, ...]:
+    """What was asked of the chamber, and what it or the thermometer read."""
+    asked, read = contents.configuration.experiment.temperature, contents.temperatures
+    rows = []
+    if asked is not None:
+        rows.append(("set point", f"{asked.set_point_c:g} °C, within {asked.within_c:g} °C"))
+        rows += [("soaked", f"{s.seconds:.0f} s, the last {asked.soak_s:g} s within") for s in contents.soaks]
+    if read:
+        values = [r.value_c for r in read]
+        rows.append(("before the steps", f"{min(values):.2f} to {max(values):.2f} °C, {len(read)} readings"))
+        analog = contents.configuration.rig.channels.temperature is not None
+        source = "the front-end's channel" if analog else "the reading before it"
+        rows.append(("a point's temperature", source))
+    return (FactsBlock("Temperature", tuple(rows)),) if rows else ()
 
 
 def _rates(contents: Contents) -> str:

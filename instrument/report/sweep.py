@@ -66,7 +66,7 @@ def _sentinels(contents: Contents) -> list[Block]:
         temperature = format_number(timed.point.temperature_c, 4) if timed else "-"
         change = (signed(s.change_percent, 3), signed(s.change_degree, 3))
         rows.append((str(s.step), f"{s.frequency_hz:g}", when, *change, temperature))
-    columns = ("step", "f / Hz", "after / min", "amplitude / %", "phase / degree", "plate / °C")
+    columns = ("step", "f / Hz", "after / min", "amplitude / %", "phase / degree", "T / °C")
     return [TableBlock("Drift of the sentinel, against its first time", columns, tuple(rows))]
 
 

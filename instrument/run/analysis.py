@@ -29,6 +29,7 @@ from instrument.stream.raw import (
     ShakerCommanded,
     SignalLevelRead,
     StepBegan,
+    TemperatureRead,
 )
 from instrument.stream.scaling import Scaling
 
@@ -46,6 +47,7 @@ class Analysis:
         self._range_names: tuple[str, ...] = ()
         self._utc = ""
         self._signal_level: float | None = None
+        self._temperature_c: float | None = None
         self._latest = 0
         self._calibration_points: list[PointMeasured] = []
         self.step: StepAnalysis | None = None
@@ -96,6 +98,8 @@ class Analysis:
                 return self.step.range_set(event, self._wider()) if self.step is not None else []
             case SignalLevelRead():
                 self._signal_level = event.value
+            case TemperatureRead():
+                self._temperature_c = event.value_c
             case Held():
                 self.step = None
             case SegmentEnded():
@@ -156,6 +160,7 @@ class Analysis:
             None if began.purpose == "calibration" else self._calibration,
             self._signal_level,
             self._latest,
+            self._temperature_c,
         )
 
     def _calibration(self, range_name: str) -> Calibration | None:

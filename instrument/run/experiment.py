@@ -285,6 +285,8 @@ class _Session:
             self._emit(rig.operator.aim("base"))
             runner.sweep("calibration", planner.plan(calibration))
         self._emit(rig.operator.aim("pickup"))
+        if self._experiment.document.temperature is not None:
+            runner.soak(self._experiment.document.temperature)
         self._live = LiveFit(self._configuration.the_specimen(), self._record, self._fitter)
         with self._live:
             if table.plan == "adaptive":

@@ -14,9 +14,11 @@ from drivers.front_end import Block, InputChannel
 from drivers.shaker import Alarm
 from drivers.vibrometer import Range
 from instrument.errors import RigStopped
+from instrument.files.experiment_file import TemperatureTable
 from instrument.run.analysis import Analysis
 from instrument.run.control import RunControl
 from instrument.run.rig import Rig
+from instrument.run.soaking import Soaking, read_temperature
 from instrument.stepped_sine.plan import Action, ChoiceWanted, Plan, RangeWanted, Result
 from instrument.stream.derived import (
     DriveRequested,
@@ -105,6 +107,10 @@ class Runner:
                     break
         self._emit(HammerTestEnded())
 
+    def soak(self, wanted: TemperatureTable) -> None:
+        """Bring the chamber there and wait. Raises `RigStopped`, `DriverError`."""
+        Soaking(self._rig, self._emit, self._control, self._watch).run(wanted)
+
     def silence(self) -> None:
         """The shaker to zero, whatever state it is in. Raises `DriverError` where nobody answers."""
         self._drive_v = 0.0
@@ -147,6 +153,8 @@ class Runner:
     def _measure(self, began: StepBegan) -> Result:
         """One step, again from its beginning after a hold."""
         while True:
+            if (read := read_temperature(self._rig)) is not None:
+                self._emit(read)
             self._emit(SignalLevelRead(self._rig.vibrometer.signal_level()))
             self._emit(began)
             self._command(began.frequency_hz, began.drive_v)

@@ -34,6 +34,8 @@ from instrument.stream.raw import (
     SegmentEnded,
     SessionBegan,
     SessionEnded,
+    SoakEnded,
+    TemperatureRead,
 )
 from instrument.stream.scaling import Scaling
 
@@ -110,6 +112,9 @@ class Contents:
     diagnosis: DiagnosisFound | None = None
     limits: list[LimitWarned | LimitExceeded] = field(default_factory=list)
     operator: list[OperatorDid] = field(default_factory=list)
+    temperatures: list[TemperatureRead] = field(default_factory=list)
+    """Of the chamber or thermometer, before the steps; those of a soak are not among them."""
+    soaks: list[SoakEnded] = field(default_factory=list)
 
     @property
     def specimen(self) -> Specimen:
@@ -185,6 +190,10 @@ class Gather:
                 c.limits.append(event)
             case OperatorDid():
                 c.operator.append(event)
+            case TemperatureRead() if event.soak_s is None:
+                c.temperatures.append(event)
+            case SoakEnded():
+                c.soaks.append(event)
 
     def _acquire(self, event: AcquisitionBegan) -> None:
         if event.part == "hammer":

@@ -55,12 +55,15 @@ class StepAnalysis:
         calibration: Callable[[str], Calibration | None] | None,
         signal_level: float | None,
         latest: int,
+        temperature_c: float | None = None,
     ) -> None:
         self._began, self._settings, self._scaling = began, settings, scaling
         self._rate = sample_rate_hz
         self._range, self._wider = vibrometer, wider
         self._calibration = calibration
         self._signal_level = signal_level
+        # Before the step, where no input of the front-end has it during the dwell.
+        self._read_c = temperature_c
         self._guard = Guard(began, settings)
         self._samples = Samples(3)
         self._command: ShakerCommanded | None = None
@@ -215,7 +218,7 @@ class StepAnalysis:
             velocity_distortion_percent=100 * float(fit.distortion[1]),
             range_name=self._range.name,
             signal_level=self._signal_level,
-            temperature_c=float(fit.mean[2]) if self._scaling.has("temperature") else None,
+            temperature_c=float(fit.mean[2]) if self._scaling.has("temperature") else self._read_c,
             remarks=tuple(self._remarks),
         )
 

@@ -84,6 +84,37 @@ class SignalLevelRead(Event):
 
 
 @dataclass(frozen=True)
+class SoakBegan(Event):
+    """The chamber has its set point, and is waited for, the shaker silent."""
+
+    set_point_c: float
+    """As the chamber read it back."""
+    within_c: float
+    soak_s: float
+    """To stay within, without a break."""
+    most_s: float
+
+
+@dataclass(frozen=True)
+class TemperatureRead(Event):
+    """Of the chamber or the thermometer: before every step, and again and again in a soak."""
+
+    value_c: float
+    set_point_c: float | None
+    """As the chamber keeps it; None for a thermometer."""
+    soak_s: float | None = None
+    """Since the soak began; None outside of one."""
+
+
+@dataclass(frozen=True)
+class SoakEnded(Event):
+    """The temperature stayed long enough."""
+
+    seconds: float
+    """Since the soak began."""
+
+
+@dataclass(frozen=True)
 class SegmentBegan(Event):
     """A resonance region begins."""
 

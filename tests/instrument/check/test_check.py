@@ -6,6 +6,17 @@ from instrument.check.dry_run import all_faults, dry_run
 from instrument.cli.main import run
 from instrument.simulated_case import EFFECTS, write_case
 
+CHAMBER = """
+[chamber]
+address = "simulated"
+temperature_register = 100
+set_point_register = 300
+type = "int16"
+scale_c = 0.1
+
+[channels.base]"""
+SERIAL = '[chamber]\nkind = "serial"\naddress = "simulated"\n[channels.base]'
+
 
 def edited(folder, name="experiment.toml", **changes):
     """The simulated case with texts replaced in one of its files."""
@@ -55,6 +66,17 @@ def test_everything_wrong_is_said_at_once(tmp_path):
         ("rig.toml", 'kind = "modbus-tcp"', "registers = { foo = 3 }", "foo"),
         ("rig.toml", 'model = "OFV-5000"', 'model = "OFV-1"', "OFV-1"),
         ("rig.toml", "input = 2", "input = 1", "input 1 is given to both"),
+        ("experiment.toml", "[hammer]", "[temperature]\nset_point_c = 30.0\n[hammer]", "has no [chamber]"),
+        (
+            "experiment.toml",
+            "[hammer]",
+            "[temperature]\nset_point_c = 30.0\nsoak_s = 9e3\n[hammer]",
+            "soak_s = 9000 is not below most_s = 7200",
+        ),
+        ("rig.toml", "[channels.base]", CHAMBER.replace('"int16"', '"int32"'), "chamber.type: 'int32'"),
+        ("rig.toml", "[channels.base]", CHAMBER.replace("scale_c = 0.1\n", ""), "scale_c: missing"),
+        ("rig.toml", "[channels.base]", CHAMBER.replace('"simulated"', '"a:1"'), "for all devices or none"),
+        ("rig.toml", "[channels.base]", SERIAL, "chamber.kind: 'serial' is not simulated"),
         ("experiment.toml", "points = 25", "step_hz = 1e-300", "step_hz"),
         ("experiment.toml", "span_percent = 50.0", 'range = "7mm/s/V"', "7mm/s/V"),
         ("experiment.toml", "[hammer]", "[hammer]\npre_trigger_s = 5.0", "pre_trigger_s"),
@@ -69,6 +91,15 @@ def test_a_fault_in_any_file_is_found_by_check_and_refused_by_run(tmp_path, caps
     assert error.startswith("viscorig: ")
     assert error.count("\n") == 1
     assert not (tmp_path / "out").exists()
+
+
+def test_a_soak_is_said_and_counted(tmp_path, capsys):
+    plain = dry_run(write_case(tmp_path)).seconds
+    path = edited(tmp_path, "rig.toml", texts={"[channels.base]": CHAMBER})
+    path.write_text(path.read_text().replace("[hammer]", "[temperature]\nset_point_c = 30.0\n[hammer]"))
+    assert run(["check", str(path)]) == 0
+    assert "chamber: 30 °C within 0.5 °C for 600 s, given up after 7200 s" in capsys.readouterr().out
+    assert dry_run(path).seconds == pytest.approx(plain + 600.0)
 
 
 def test_a_part_that_the_experiment_does_not_have_is_refused(tmp_path, capsys):
