@@ -24,7 +24,6 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 
 from layout_faults import layout_faults, places, word
 from openers import close_all, close_popups, dialogs, openers
-from PIL import Image
 from PySide6.QtCore import QSettings
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QApplication, QWidget
@@ -45,7 +44,6 @@ IN_DOCS = {"run", "sweep", "hammer", "material", "diagnosis"}
 _DARK = "sweep"
 PATIENCE_S = 600.0
 _LEAVING = ("&Quit", "&Close session")
-_COLORS = 96
 _LOOKS_S = 0.7
 """Without any work: then a page has computed and read what it shows."""
 
@@ -127,11 +125,9 @@ def _dialogs(window: Window) -> dict[str, QWidget]:
 @contextmanager
 def _nothing_runs() -> Iterator[None]:
     """A button pressed to see what it opens does nothing else."""
-    kept = {
-        (of, name): getattr(of, name) for of, name in ((BackgroundCommand, "start"), (AppController, "start"))
-    }
-    for of, name in kept:
-        setattr(of, name, lambda *_, **__: None)
+    kept = {of: of.start for of in (BackgroundCommand, AppController)}
+    for of in kept:
+        of.start = lambda *_, **__: None
     try:
         yield
     finally:
@@ -166,7 +162,8 @@ def _rest(window: Window) -> None:
     def rested() -> bool:
         nonlocal last
         works = (*window.findChildren(BackgroundTask), *window.findChildren(BackgroundCommand))
-        if not all(work.over for work in works):
+        drawn = all(getattr(pane, "drawn", True) for pane in window.findChildren(QWidget) if pane.isVisible())
+        if not (drawn and all(work.over for work in works)):
             last = time.monotonic()
         return time.monotonic() - last > _LOOKS_S
 
@@ -174,13 +171,10 @@ def _rest(window: Window) -> None:
 
 
 def _save(seen: QWidget, path: Path) -> None:
-    """In few colours, which keeps it small."""
+    """As it is seen."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    shot = seen.grab().toImage().convertToFormat(QImage.Format.Format_RGB888)
-    size, row = (shot.width(), shot.height()), shot.bytesPerLine()
-    whole = Image.frombuffer("RGB", size, bytes(shot.constBits()), "raw", "RGB", row, 1)
-    few = whole.quantize(_COLORS, method=Image.Quantize.MAXCOVERAGE, dither=Image.Dither.NONE)
-    few.save(path, optimize=True)
+    if not seen.grab().toImage().convertToFormat(QImage.Format.Format_RGB888).save(str(path), "PNG", 0):
+        sys.exit(f"{path}: cannot be written")
     print(f"{path}: {path.stat().st_size / 1e3:.0f} kB")
 
 

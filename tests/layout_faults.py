@@ -30,6 +30,8 @@ from gui.window import Window
 
 _SLACK_PX = 1
 _TAG = re.compile(r"<[a-z]|&\w+;")
+_TITLE_MARGIN_PX = 5
+"""That a plot's title has around it."""
 _FIELD_MARGIN_PX = 4
 """That a field keeps between its edge and its text, both sides together."""
 _HOLDERS = (QTabWidget, QAbstractScrollArea, QComboBox)
@@ -164,7 +166,10 @@ def _plot(plot: Plot) -> list[str]:
         if axis.label.isVisible():
             wanted = plot.fontMetrics().horizontalAdvance(axis.label.toPlainText().strip())
             has = axis.boundingRect().width() if side == "bottom" else axis.boundingRect().height()
-            if wanted > has + _SLACK_PX:
+            label = axis.label.sceneBoundingRect()
+            low, high = (label.left(), label.right()) if side == "bottom" else (label.top(), label.bottom())
+            edge = plot.width() if side == "bottom" else plot.height()
+            if wanted > has + _SLACK_PX or low < -_TITLE_MARGIN_PX or high > edge + _TITLE_MARGIN_PX:
                 found.append(
                     f"{_place(plot)}: axis {axis.label.toPlainText()!r} has {has:.0f} and wants {wanted:.0f}"
                 )

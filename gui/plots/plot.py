@@ -308,6 +308,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
             axis.setTextPen(pg.mkPen(theme.text))
             axis.setStyle(tickFont=self.font())
             axis.setLabel(self._title(side, shown), **{"font-size": size, "color": theme.text})
+            axis.resizeEvent()
         if self._legend is not None:
             self._legend.setBrush(theme.color("base", _LEGEND_ALPHA))
             self._legend.setLabelTextColor(theme.text)
@@ -328,6 +329,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
             axis, title = self.getAxis(side), self._title(side, shown)
             if axis.labelText != title:
                 axis.setLabel(title, **axis.labelStyle)
+            axis.resizeEvent()  # or the title stays where another one had its middle
 
     def _title(self, side: str, shown: Axis) -> str:
         room = self.width() if side == "bottom" else self.height()
