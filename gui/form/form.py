@@ -76,6 +76,13 @@ class Form(QTreeWidget):
         """The row of a place. Raises `KeyError`."""
         return self._items[place]
 
+    def type_into(self, place: Place, text: str) -> None:
+        """As a person would; nothing where there is no such field."""
+        editor = self._editors.get(place)
+        if isinstance(editor, QLineEdit):
+            editor.setText(text)
+            editor.textEdited.emit(text)
+
     def judge(self) -> None:
         """Say what is wrong, each fault at its place or at the next one around it."""
         said: dict[Place, str] = {}

@@ -5,7 +5,7 @@ import time
 import httpx
 import pytest
 from engine_cases import LONG, drive_v, engine_rig, is_silent
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QMessageBox
 from quick_engine import QUICK_ENGINE
 
@@ -286,3 +286,25 @@ def test_one_press_goes_to_the_tab_and_the_field_that_is_wrong(qtbot, window, pa
     qtbot.mouseClick(page.files.faults_button, LEFT)
     assert page.files.tabs.currentWidget() is page.files.forms["rig"]
     assert editor.hasFocus()
+
+
+def test_the_plate_is_drawn_to_scale_and_what_is_dragged_goes_into_its_fields(qtbot, window, page, tmp_path):
+    with engine_rig(tmp_path, sweep=LONG) as (_, experiment):
+        opened(qtbot, window, page, experiment)
+    view, specimen = page.plate, page.files.forms["specimen"]
+    page.tabs.setCurrentWidget(view)
+    length, width = view.size_mm
+    corner, far = view.to_screen((0.0, 0.0)), view.to_screen((length, width))
+    assert (far.x() - corner.x()) / length == pytest.approx((corner.y() - far.y()) / width)
+    (spot,) = [mark for mark in view.marks if mark.name == "spot"]
+    start, wanted = view.to_screen(spot.at_mm).toPoint(), view.to_screen((100.0, 40.0)).toPoint()
+    qtbot.mousePress(view, Qt.MouseButton.LeftButton, pos=start)
+    qtbot.mouseMove(view, wanted)
+    qtbot.mouseRelease(view, Qt.MouseButton.LeftButton, pos=wanted)
+    typed = [float(specimen.editor("pickup", key).text()) for key in ("x_mm", "y_mm")]
+    assert typed == pytest.approx([100.0, 40.0], abs=2.0)
+    assert specimen.draft.value(("pickup", "x_mm")) == typed[0]
+    assert page.files.changed
+    qtbot.mousePress(view, Qt.MouseButton.LeftButton, pos=wanted)
+    qtbot.mouseMove(view, QPoint(1, 1))
+    assert specimen.draft.value(("pickup", "x_mm")) == 0.0

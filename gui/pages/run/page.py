@@ -10,11 +10,13 @@ from PySide6.QtWidgets import QHBoxLayout, QMenu, QSplitter, QTabWidget, QVBoxLa
 from gui.background_task import BackgroundTask, Progress
 from gui.controller import AppController
 from gui.export import Export
+from gui.form.fields import Place
 from gui.page import Page
 from gui.pages.run.banner import Banner
 from gui.pages.run.check import Check, CheckPane
 from gui.pages.run.files_panel import FilesPanel
 from gui.pages.run.now import NowPane
+from gui.pages.run.plate_view import PlateView
 from gui.pages.run.start_panel import StartPanel
 from gui.state import SessionState
 from gui.widgets import button
@@ -34,7 +36,7 @@ class RunPage(Page):
         super().__init__(controller)
         self.files, self.starting = FilesPanel(), StartPanel()
         self.banner, self.now = Banner(), NowPane(controller)
-        self.check, self.checked = Check(self), CheckPane()
+        self.check, self.checked, self.plate = Check(self), CheckPane(), PlateView()
         self.export = Export(controller, self)
         self.report_button = button("Report...", "One self-contained page of the session", "report")
         self.export_button = button("Export", "The session's data for other programs", "export")
@@ -97,6 +99,7 @@ class RunPage(Page):
 
     def _opened(self) -> None:
         self._forget_check()
+        self.plate.show_drafts(self.files.drafts)
         self.starting.show_experiment(self.files.drafts)
         path = self.files.path
         if path is not None:
@@ -104,8 +107,13 @@ class RunPage(Page):
             self._look_for_broken_off()
         self._show_what_may_be_done()
 
+    def _mark_moved(self, file: str, place: Place, text: str) -> None:
+        if not self.controller.running:
+            self.files.forms[file].type_into(place, text)
+
     def _edited(self) -> None:
         self._forget_check()
+        self.plate.show_drafts(self.files.drafts)
         self.starting.show_experiment(self.files.drafts)
 
     def _saved(self) -> None:
@@ -177,6 +185,7 @@ class RunPage(Page):
         files.chose.connect(controller.open)
         files.opened.connect(self._opened)
         files.edited.connect(self._edited)
+        self.plate.moved.connect(self._mark_moved)
         files.saved.connect(self._saved)
         files.failed.connect(self._failed)
         files.said.connect(controller.said)
@@ -203,6 +212,7 @@ class RunPage(Page):
         self.tabs.setDocumentMode(True)
         self.tabs.addTab(self.now, "State")
         self.tabs.addTab(self.checked, "Dry run")
+        self.tabs.addTab(self.plate, "Plate")
         below = QHBoxLayout()
         below.setContentsMargins(6, 0, 6, 6)
         below.addStretch(1)

@@ -1,0 +1,188 @@
+"""The plate as the forms have it, to scale: clamp, spots, hit, sensor. What is dragged goes into a field."""
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import QPointF, QRectF, Qt, Signal
+from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPalette, QPen
+from PySide6.QtWidgets import QSizePolicy, QWidget
+
+from gui.form.draft import Draft, Drafts
+from gui.form.fields import Place
+from gui.theme import Role, Theme, current_theme
+
+_ROOM_PX = 44
+_MARK_PX = 7
+_NEAR_PX = 14
+"""A press so near a mark takes it."""
+_HATCH_PX = 8
+_NOTHING = "The plate of the experiment appears here, drawn to scale: clamp, laser spot, hit, sensor."
+
+
+@dataclass(frozen=True)
+class PlateMark:
+    """A point of the plate, in mm from the clamp and from a long edge."""
+
+    name: str
+    file: str
+    """Which form holds it: `specimen` or `experiment`."""
+    x: Place
+    y: Place
+    at_mm: tuple[float, float]
+    role: Role
+
+
+class PlateView(QWidget):
+    """Drawn from the drafts at every change.
+
+    Signals
+    -------
+    moved : (str, object, str)
+        A mark was dragged: the form, the field's place, its new text; once for x, once for y.
+    """
+
+    moved = Signal(str, object, str)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.size_mm: tuple[float, float] | None = None
+        self.marks: tuple[PlateMark, ...] = ()
+        self._clamped = False
+        self._held: int | None = None
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.setToolTip("Drag the spot, the hit or the sensor: their fields follow")
+
+    def show_drafts(self, drafts: Drafts | None) -> None:
+        """As they are now; nothing where they hold no plate."""
+        files = drafts.all if drafts is not None else {}
+        specimen, experiment = files.get("specimen"), files.get("experiment")
+        self.size_mm, self.marks = None, ()
+        if specimen is not None:
+            self.size_mm = _pair(specimen, ("plate", "length_mm"), ("plate", "width_mm"))
+            self._clamped = specimen.value(("plate", "boundary")) in (None, "cantilever")
+            self.marks = (*_spots(specimen), *(_of_hammer(experiment) if experiment is not None else ()))
+        self.update()
+
+    def to_screen(self, at_mm: tuple[float, float]) -> QPointF:
+        """Where a point of the plate is drawn; x to the right, y up."""
+        plate, (length, width) = self._plate(), self._size
+        return QPointF(
+            plate.left() + at_mm[0] / length * plate.width(),
+            plate.bottom() - at_mm[1] / width * plate.height(),
+        )
+
+    def from_screen(self, at: QPointF) -> tuple[float, float]:
+        """Point of the plate there, kept on it, to half a millimetre."""
+        plate, (length, width) = self._plate(), self._size
+        x = (at.x() - plate.left()) / plate.width() * length
+        y = (plate.bottom() - at.y()) / plate.height() * width
+        return _half(min(max(x, 0.0), length)), _half(min(max(y, 0.0), width))
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Plate, clamp, marks and the two lengths."""
+        painter, theme = QPainter(self), current_theme()
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        if self.size_mm is None:
+            painter.setPen(theme.color("faint"))
+            painter.drawText(self.rect(), Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap, _NOTHING)
+        else:
+            self._draw_plate(painter, theme)
+            for mark in self.marks:
+                self._draw_mark(painter, theme, mark)
+        painter.end()
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        """Take the nearest mark."""
+        at = event.position()
+        near = [
+            (distance, k)
+            for k, mark in enumerate(self.marks)
+            if (distance := (self.to_screen(mark.at_mm) - at).manhattanLength()) < _NEAR_PX
+        ]
+        self._held = min(near)[1] if near else None
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """It follows."""
+        if self._held is None or self._held >= len(self.marks):
+            return
+        mark, (x, y) = self.marks[self._held], self.from_screen(event.position())
+        self.moved.emit(mark.file, mark.x, f"{x:.1f}")
+        self.moved.emit(mark.file, mark.y, f"{y:.1f}")
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """It stays."""
+        self._held = None
+
+    @property
+    def _size(self) -> tuple[float, float]:
+        return self.size_mm if self.size_mm is not None else (1.0, 1.0)
+
+    def _plate(self) -> QRectF:
+        """As large as there is room, to scale."""
+        length, width = self._size
+        room = QRectF(self.rect()).adjusted(_ROOM_PX, _ROOM_PX, -_ROOM_PX, -_ROOM_PX)
+        scale = max(min(room.width() / length, room.height() / width), 1e-6)
+        plate = QRectF(0.0, 0.0, scale * length, scale * width)
+        plate.moveCenter(room.center())
+        return plate
+
+    def _draw_plate(self, painter: QPainter, theme: Theme) -> None:
+        plate, (length, width) = self._plate(), self._size
+        painter.setPen(QPen(theme.color("text"), 1.5))
+        painter.setBrush(self.palette().color(QPalette.ColorRole.Base))
+        painter.drawRect(plate)
+        if self._clamped:
+            clamp = QRectF(plate.left() - 2 * _HATCH_PX, plate.top(), 2 * _HATCH_PX, plate.height())
+            painter.fillRect(clamp, theme.color("grid"))
+            painter.fillRect(clamp, Qt.BrushStyle.BDiagPattern)
+        painter.setPen(theme.color("faint"))
+        below, beside = plate.translated(0, plate.height() + 4), plate.translated(plate.width() + 4, 0)
+        painter.drawText(below, Qt.AlignmentFlag.AlignHCenter, f"{length:g} mm")
+        painter.drawText(beside, Qt.AlignmentFlag.AlignVCenter, f"{width:g}")
+
+    def _draw_mark(self, painter: QPainter, theme: Theme, mark: PlateMark) -> None:
+        at = self.to_screen(mark.at_mm)
+        painter.setPen(QPen(theme.color(mark.role), 2.0))
+        painter.setBrush(theme.color(mark.role, 0.3))
+        painter.drawEllipse(at, _MARK_PX, _MARK_PX)
+        painter.setPen(theme.color("text"))
+        words = f"{mark.name} {mark.at_mm[0]:g}, {mark.at_mm[1]:g}"
+        beyond = at.x() + _NEAR_PX + self.fontMetrics().horizontalAdvance(words) > self.width()
+        left = (
+            at.x() - _NEAR_PX - self.fontMetrics().horizontalAdvance(words) if beyond else at.x() + _NEAR_PX
+        )
+        painter.drawText(QPointF(left, at.y() - 4), words)
+
+
+def _spots(specimen: Draft) -> tuple[PlateMark, ...]:
+    given = specimen.value(("pickup",))
+    several = isinstance(given, list)
+    stems: list[Place] = [("pickup", k) for k in range(len(given))] if several else [("pickup",)]
+    found = []
+    for k, stem in enumerate(stems):
+        x, y = (*stem, "x_mm"), (*stem, "y_mm")
+        at = _pair(specimen, x, y)
+        if at is not None:
+            found.append(PlateMark(f"spot {k}" if several else "spot", "specimen", x, y, at, "data"))
+    return tuple(found)
+
+
+def _of_hammer(experiment: Draft) -> tuple[PlateMark, ...]:
+    kinds: tuple[tuple[str, str, Role], ...] = (("hit", "hit", "model"), ("sensor", "response", "second"))
+    found = []
+    for name, key, role in kinds:
+        x, y = ("hammer", f"{key}_x_mm"), ("hammer", f"{key}_y_mm")
+        at = _pair(experiment, x, y)
+        if at is not None:
+            found.append(PlateMark(name, "experiment", x, y, at, role))
+    return tuple(found)
+
+
+def _pair(draft: Draft, x: Place, y: Place) -> tuple[float, float] | None:
+    values = [draft.value(place) for place in (x, y)]
+    if all(isinstance(v, int | float) and not isinstance(v, bool) and 0 <= v < 1e5 for v in values):
+        return float(values[0]), float(values[1])
+    return None
+
+
+def _half(mm: float) -> float:
+    return round(2.0 * mm) / 2.0
