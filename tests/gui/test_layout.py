@@ -27,12 +27,12 @@ def at_rest(window):
     )
 
 
-@pytest.mark.parametrize("size", [(1366, 768), (1280, 720)])
+@pytest.mark.parametrize("size", [(1366, 768), pytest.param((1280, 720), marks=pytest.mark.long)])
 def test_nothing_is_cut_and_nothing_overlaps(qtbot, opened, size):
     opened.resize(*size)
     faults = []
     for place in places(opened):
-        qtbot.waitUntil(lambda: at_rest(opened), timeout=60_000)
+        qtbot.waitUntil(lambda: at_rest(opened), timeout=240_000)
         faults += [f"{place}: {fault}" for fault in layout_faults(opened)]
     assert faults == []
 
