@@ -8,11 +8,8 @@ import scipy.linalg as la
 from fitting.arrays import Array
 from fitting.element import DOFS, THETA_X, THETA_Y
 from fitting.linear import factorise
-from fitting.plate import Plate, element_matrices
+from fitting.plate import EDGE_WIDTH, Plate, element_matrices
 from fitting.real_modes import RealModes, lowest_scale, real_modes
-
-_EDGE_WIDTH = 0.63 / 2
-"""Of the thickness, at each free edge."""
 
 
 @dataclass(frozen=True)
@@ -67,6 +64,9 @@ def edge_softening(plate: Plate, modes: RealModes) -> Array:
     # kappa_xy along an edge is how fast the slope across it changes; the sign of a rotation does not matter.
     at_x0, at_y0, at_length, at_width = plate.specimen.edges
     lost = np.zeros(len(modes.omega))
+    if not plate.specimen.only_even:
+        # The plate has it in its stiffness.
+        return lost
     for edge, along, step in (
         (at_y0, slope[:, 0, 0], a),
         (at_width, slope[:, -1, 0], a),
@@ -75,7 +75,7 @@ def edge_softening(plate: Plate, modes: RealModes) -> Array:
     ):
         if edge == "free":
             lost = lost + _edge_integral(along, step)
-    return np.asarray(_EDGE_WIDTH * h * twisting * lost / modes.omega**2)
+    return np.asarray(EDGE_WIDTH * h * twisting * lost / modes.omega**2)
 
 
 def _edge_integral(slope: Array, step_m: float) -> Array:

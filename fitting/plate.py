@@ -22,6 +22,9 @@ Indices = NDArray[np.intp]
 
 _STILL = 1e-9
 """A reading row below this reads nothing but rounding."""
+EDGE_WIDTH = 0.63 / 2
+"""Of the thickness: so wide a strip carries no twist at a free edge (decision 13). In `K_0` where motions
+odd in y take part, which twist the plate."""
 _SUPPORTED = {"x": (V_C, V_B, W, THETA_X), "y": (U_C, U_B, W, THETA_Y)}
 """What a simple support holds of the nodes on an edge of constant x or y."""
 _RIGID = 1e-9
@@ -172,7 +175,40 @@ class Plate:
         faces = self.K_substrate + self.K_constraining
         if loss_b or loss_c:
             faces = faces + 1j * (loss_b * self.K_substrate + loss_c * self.K_constraining)
+        if not s.only_even:
+            faces = faces - self.edge_twist
         self.K_0 = faces.tocsc()
+
+    @cached_property
+    def edge_twist(self) -> sp.csr_array:
+        """Stiffness that the faces' free edges lack in twist, `EDGE_WIDTH` of it. Shape (n, n).
+
+        2 E h^3 / (12 (1 + nu)) int kappa_xy^2 ds over a width of `EDGE_WIDTH` h, at each free edge.
+        """
+        s, mesh = self.specimen, self.mesh
+        node = np.arange(mesh.nodes).reshape(mesh.n_x + 1, mesh.n_y + 1)
+        a, b = mesh.sides_m
+        along = (
+            (node[0], THETA_Y, b),
+            (node[:, 0], THETA_X, a),
+            (node[-1], THETA_Y, b),
+            (node[:, -1], THETA_X, a),
+        )
+        found = sp.csr_array((mesh.nodes * DOFS,) * 2)
+        faces = [face for face in (s.substrate, s.constraining) if face is not None]
+        lacking = sum(
+            2 * EDGE_WIDTH * f.thickness_m * f.young_pa * f.thickness_m**3 / (12 * (1 + f.poisson))
+            for f in faces
+        )
+        for edge, (nodes, dof, step) in zip(s.edges, along, strict=True):
+            if edge == "free":
+                slope = sp.csr_array(
+                    (np.ones(len(nodes)), (np.arange(len(nodes)), nodes * DOFS + dof)),
+                    shape=(len(nodes), mesh.nodes * DOFS),
+                )
+                turn = slope[1:] - slope[:-1]
+                found = found + lacking / step * (turn.T @ turn)
+        return sp.csr_array(found[self.free][:, self.free])
 
     def scatter(self, Ae: Array, elements: NDArray[np.intp] | slice = slice(None)) -> sp.csc_array:
         """An element's matrix (28, 28) assembled over some elements. Shape (n, n)."""

@@ -9,6 +9,7 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.of_files import OfFiles
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import ROUGH, Refitted, refit
 from fitting.diagnosis.response import SweepResponse
@@ -71,7 +72,8 @@ def moves(
 ) -> Complex:
     """How the phasors move from `v` as the last effect comes in from each start. Shape (starts, points)."""
     effect = response.effects[-1]
-    if has_place(effect) and type(effect).change is not Effect.change:
+    form = effect.inner if isinstance(effect, OfFiles) else effect
+    if has_place(effect) and type(form).change is not Effect.change:
         # Many places to be tried: one adjoint serves all of them.
         return response.signatures(law, known, starts)
     with np.errstate(all="ignore"):

@@ -14,6 +14,8 @@ _ALL = -1
 """In the place of a file's number: common to all of them."""
 _OF_A_SPOT = ("observation", "channel")
 """Where an effect enters that may be of one spot alone."""
+_OF_THE_PLATE = ("stiffness", "damping", "core law")
+"""Where it enters that is of the plate itself, however it is driven."""
 
 
 class Place(NamedTuple):
@@ -25,10 +27,14 @@ class Place(NamedTuple):
     """From 0; None where the file has one spot."""
 
 
-def among(effect: Effect, files: int, spots: Sequence[int]) -> Effect:
-    """An effect among so many files, of which some have several spots."""
+def among(effect: Effect, files: int, spots: Sequence[int], *, one_plate: bool = False) -> Effect:
+    """An effect among so many files, of which some have several spots.
+
+    Of `one_plate`, driven elsewhere in every file, what is of the plate itself is of all of them.
+    """
     by_spot = tuple(spots) if effect.enters in _OF_A_SPOT else ()
-    return OfFiles(effect, files, spots=by_spot) if files > 1 or by_spot else effect
+    apart = not (one_plate and effect.enters in _OF_THE_PLATE)
+    return OfFiles(effect, files, spots=by_spot, apart=apart) if files > 1 or by_spot else effect
 
 
 class OfFiles(Effect):
@@ -38,8 +44,17 @@ class OfFiles(Effect):
     """
 
     def __init__(
-        self, inner: Effect, files: int, file: int = 0, spots: tuple[int, ...] = (), spot: int = _ALL
+        self,
+        inner: Effect,
+        files: int,
+        file: int = 0,
+        spots: tuple[int, ...] = (),
+        spot: int = _ALL,
+        *,
+        apart: bool = True,
     ) -> None:
+        """`apart`: whether it may be of one file alone."""
+        self.apart = apart
         self.inner, self.files, self.file, self.spots, self.spot = inner, files, file, spots, spot
         where = [EffectParameter(FILE, "1", 0.0, float(files), float(file), neutral=None, fixed=True)]
         if spots:
@@ -77,7 +92,7 @@ class OfFiles(Effect):
 
     def variants(self) -> tuple[Effect, ...]:
         forms = self.inner.variants()
-        files = range(self.files + 1) if self.files > 1 else range(1)
+        files = range(self.files + 1) if self.files > 1 and self.apart else range(1)
         found = [OfFiles(form, self.files, k, self.spots) for k in files for form in forms]
         found += [OfFiles(form, self.files, 0, self.spots, k) for k in self.spots for form in forms]
         return tuple(found)

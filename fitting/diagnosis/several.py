@@ -169,9 +169,15 @@ class SeveralResponse(SweepResponse):
         return np.concatenate(found), rows
 
     def signatures(self, law: CoreLaw, known: Array, starts: Sequence[Array]) -> Complex:
-        """What the last effect changes as it comes in. Shape (starts, points)."""
-        plain = SeveralResponse(self.problem, self.effects[:-1], coarse=self._coarse).velocity(law, known)
-        return np.array([self.velocity(law, np.concatenate([known, u])) - plain for u in starts])
+        """As `SweepResponse.signatures`, of every member that has the last effect. Shape (starts, points)."""
+        found = np.zeros((len(starts), len(self.problem.sweep)), complex)
+        count = len(self.nuisances) + sum(len(e.parameters) for e in self.effects[:-1])
+        for (response, at), part in zip(self._of_member, self.problem.starts_at, strict=True):
+            own = at[at < count]
+            if len(own) < len(at):
+                its = [u[at[len(own) :] - count] for u in starts]
+                found[:, part] = response.signatures(law, known[own], its)
+        return found
 
     def beside(self, effect: Effect) -> "SeveralResponse":
         """The same with one more effect."""

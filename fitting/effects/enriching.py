@@ -127,7 +127,7 @@ def _project(
     return EnrichedReducedPlate(
         group=np.array([name for half in halves for name in half.names]),
         M=np.tensordot(stated.M, M, axes=1),
-        K_0=np.tensordot(stated.K_0, K_0, axes=1),
+        K_0=np.tensordot(stated.K_0, K_0, axes=1) - _edges(full, V),
         K_1=np.tensordot(stated.K_1, K_1, axes=1),
         U=V.T @ (loose.M @ _over_mass(full)),
         d=full.damping.d,
@@ -146,6 +146,14 @@ def _project(
         load_part=of_load,
         layers=layers_of(s),
     )
+
+
+def _edges(full: FullPlate, V: Array) -> Array | float:
+    """What `Plate.K_0` lacks beside its parts. Shape (k, k)."""
+    if full.only_even:
+        return 0.0
+    W = full.lift.T @ V
+    return np.asarray(W.T @ (full.held.edge_twist @ W))
 
 
 def _in_blocks(parts: Sequence[Array]) -> Array:

@@ -287,6 +287,7 @@ def diagnose_together(
         numbers = numbers_of(files)
         count = max(numbers)
         spots = sorted({f.pickup for f in files if f.pickup is not None})
+        same = _one_plate(files)
         for k, file in enumerate(files):
             used, seen, _ = seen_in_channels(file.sweep, effects)
             work.used[k] &= used
@@ -297,7 +298,10 @@ def diagnose_together(
             work.without_glitches()
             channels += [_fixture(one, count) for one in work.aside]
             problem, noise = work.problem()
-            tried = [e if e.replaces_law or len(files) == 1 else among(e, count, spots) for e in effects]
+            tried = [
+                e if e.replaces_law or len(files) == 1 else among(e, count, spots, one_plate=same)
+                for e in effects
+            ]
             result = diagnose_task(
                 problem,
                 None,
@@ -323,6 +327,13 @@ def diagnose_together(
 
 def _all(files: Sequence[File]) -> Sweep:
     return joined([f.sweep for f in files])
+
+
+def _one_plate(files: Sequence[File]) -> bool:
+    """Whether the specimens differ in the point of a force and in the spot alone."""
+    plates = [f.specimen for f in files if isinstance(f.specimen, Specimen) and f.specimen.drive == "force"]
+    whole = [replace(s, force_m=(0.0, 0.0), pickup_m=None) for s in plates]
+    return len(whole) == len(files) and all(s == whole[0] for s in whole)
 
 
 def _with_file(one: FoundEffect, file: int, files: int) -> FoundEffect:

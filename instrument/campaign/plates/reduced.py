@@ -28,6 +28,8 @@ MODULI_PA = (0.2e6, 0.8e6, 2.2e6, 6e6)
 """Of clean plates, for any law of the campaign."""
 _INDEPENDENT = 1e-6
 """A direction whose share of strain energy is below the square of this adds nothing."""
+_FREE_RAD_S = 2 * np.pi * 50.0
+"""A choice: a free plate is measured by stiffness and by inertia at this frequency, below its first mode."""
 _AIR_PANELS = 1400
 
 
@@ -109,6 +111,9 @@ def reduced(
     M, K_0 = solid.M[free][:, free], solid.K_0[free][:, free]
     treated = solid.plate.core is not None
     K_1 = solid.K_1[free][:, free] if treated else None
+    if solid.build.free:
+        # Six motions strain nothing: what is spanned answers a plate on a soft ground.
+        K_0 = K_0 + _FREE_RAD_S**2 * M
     others = [A[free][:, free] for A in stirred]
     lattice = _Air.of(solid, air_density_kg_m3) if air_density_kg_m3 else None
     order = sorted(moduli_pa, key=lambda g: abs(np.log(g / moduli_pa[len(moduli_pa) // 2])))
@@ -120,9 +125,13 @@ def reduced(
         if not columns:
             operator = LinearOperator(K.shape, matvec=solve, dtype=float)
             start = np.sin(np.arange(1, len(free) + 1))
-            _, shapes = eigsh(K, modes, M, sigma=0.0, OPinv=operator, v0=start)
-            columns.append(shapes)
-        forces = [loads[free], extra[free]] if len(columns) == 1 else [loads[free], M @ shapes]
+            # Of a free plate the rigid motions are the first six.
+            count = modes + (6 if solid.build.free else 0)
+            _, shapes = eigsh(K, count, M, sigma=0.0, OPinv=operator, v0=start)
+            columns += [solid.rigid[free], shapes] if solid.build.free else [shapes]
+        first = g == order[0] or not treated
+        forces = [loads[free], extra[free]] if first else [loads[free], M @ shapes]
+        forces += [extra[free]] if solid.build.free and not first else []
         forces += [K_1 @ shapes] if K_1 is not None else []
         forces += [A @ shapes for A in others]
         forces += [lattice.force(shapes, free)] if lattice is not None else []

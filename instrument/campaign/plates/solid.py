@@ -51,6 +51,8 @@ class Build:
     constraining_factor: Field | None = None
     root: RootSprings | None = None
     """None: the root does not move."""
+    free: bool = False
+    """No edge is held, the root neither."""
     treatment_from_m: float | None = None
     """None: core and constraining layer are gripped with the substrate. Else they begin here, free."""
     patches: tuple[Patch, ...] = ()
@@ -214,7 +216,7 @@ class Solid:
         i, k = columns[:, 0][:, None, None], np.arange(nz)[:, None]
         dof = 3 * ((i * ny + columns[:, 1][:, None, None]) * nz + k) + np.arange(3)
         # Rigid, or sprung along x and z.
-        held = (i == 0) & ((self.build.root is None) | (np.arange(3) == 1)) & (k >= 0)
+        held = (i == 0) & ((self.build.root is None) | (np.arange(3) == 1)) & (k >= 0) & (not self.build.free)
         begin = self.build.treatment_from_m
         if begin is not None:
             above = k > 2

@@ -1,0 +1,78 @@
+"""A free solid plate struck at points: the solid itself, and the model beside it."""
+
+import numpy as np
+import pytest
+from scipy.sparse.linalg import splu
+
+from fitting.damping import viscous_damping
+from fitting.direct import displacement_direct
+from fitting.plate import Plate
+from instrument.campaign.plates.geometry import plate_named
+from instrument.campaign.plates.grid import Fineness
+from instrument.campaign.plates.materials import PlateMaterialLaw
+from instrument.campaign.plates.solid import Build, Patch, Solid
+from instrument.campaign.plates.struck import mobilities
+from instrument.files.specimen_file import read_specimen
+
+COARSE = Fineness(5, 3, (0.5, 2.0), (1.0,))
+P2 = plate_named("P2")
+LAW = PlateMaterialLaw("fractional-zener", (0.4e6, 8e6, 2e-4, 0.7))
+FORCES_M = [(0.03, 0.02), (0.31, 0.16), (0.18, 0.17)]
+SPOTS_M = [(0.05, 0.15), (0.27, 0.03)]
+MASS = Patch(8e-3, 0.241, 0.052, 0.01)
+
+
+def test_the_basis_answers_as_the_whole_solid_does():
+    f = np.array([40.0, 150.0, 310.0])
+    found = mobilities(P2, LAW, f, FORCES_M[:1], SPOTS_M[1:], (MASS,), COARSE)[0, 0]
+    solid = Solid(P2, Build(free=True, patches=(MASS,)), COARSE)
+    push, read = (solid.displacement(*at).toarray().ravel()[solid.free] for at in (FORCES_M[0], SPOTS_M[1]))
+    for k, w in enumerate(2 * np.pi * f):
+        A = (solid.K_0 + LAW.modulus(w) * solid.K_1 - w**2 * solid.M)[solid.free][:, solid.free]
+        whole = 1j * w * (read @ splu(A.tocsc().astype(complex)).solve(push.astype(complex)))
+        assert found[k] == pytest.approx(whole, rel=3e-4)
+
+
+def test_points_may_change_places_and_slow_pushes_move_it_as_one():
+    f = np.array([2.0, 200.0])
+    there = mobilities(P2, LAW, f, FORCES_M[:1], SPOTS_M[:1], fineness=COARSE)[0, 0]
+    back = mobilities(P2, LAW, f, SPOTS_M[:1], FORCES_M[:1], fineness=COARSE)[0, 0]
+    assert there[1] == pytest.approx(back[1], rel=1e-6)
+    layers = (P2.substrate, P2.core, P2.constraining)
+    mass = P2.length_m * P2.width_m * sum(x.thickness_m * x.density_kg_m3 for x in layers)
+    lever = 1.0
+    for side, a, b in zip((P2.length_m, P2.width_m), FORCES_M[0], SPOTS_M[0], strict=True):
+        lever += 12 * (a - side / 2) * (b - side / 2) / side**2
+    assert there[0] * 2j * np.pi * f[0] == pytest.approx(lever / mass, rel=3e-3)
+
+
+def specimen(force_m):
+    """What is stated of it: exactly so, but for the law, which is a start, and the mass."""
+    spots = "".join(f"[[pickup]]\nx_mm = {1e3 * x:.6g}\ny_mm = {1e3 * y:.6g}\n" for x, y in SPOTS_M)
+    faces = "".join(
+        f"[{name}]\nthickness_mm = {1e3 * face.thickness_m:.6g}\nyoung_gpa = {face.young_pa / 1e9:.6g}\n"
+        f"poisson = {face.poisson}\ndensity_kg_m3 = {face.density_kg_m3}\n"
+        for name, face in (("substrate", P2.substrate), ("constraining", P2.constraining))
+    )
+    return f"""
+[plate]
+length_mm = {1e3 * P2.length_m:.6g}
+width_mm = {1e3 * P2.width_m:.6g}
+boundary = "free"
+{faces}[core]
+thickness_mm = {1e3 * P2.core.thickness_m:.6g}
+poisson = {P2.core.poisson}
+density_kg_m3 = {P2.core.density_kg_m3}
+[core.law]
+kind = "fractional-zener"
+g0_mpa = 0.5
+ginf_mpa = 6.0
+tau_s = 2.5e-4
+alpha = 0.65
+[tolerances]
+exact = true
+{spots}[excitation]
+kind = "force"
+x_mm = {1e3 * force_m[0]:.6g}
+y_mm = {1e3 * force_m[1]:.6g}
+"""
