@@ -2,12 +2,16 @@
 
 from collections.abc import Iterator
 
+from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
 from instrument.check.forecast import Forecast, distinct, planned_segment, sections_of
 from instrument.errors import BadInput
 from instrument.files.devices import ranges_of
+from instrument.files.specimen_file import read_specimen
+from instrument.models.set_up import check_like
 from instrument.session.configuration import Experiment
 from instrument.session.setup import sweep_settings
+from instrument.simulated_case import case_file
 from instrument.simulated_case.simulation import refuse_simulation
 
 _SAMPLES_A_CYCLE = 4.0
@@ -21,11 +25,26 @@ def experiment_objections(experiment: Experiment, forecast: Forecast, parts: tup
         refuse_simulation(experiment.rig, experiment.rig_path)
     except BadInput as error:
         found.append(str(error))
+    found += _simulated_plate(experiment)
     if "hammer" in parts:
         found += _hammer(experiment)
     if "sweep" in parts:
         found += [*_temperature(experiment), *_sweep(experiment, forecast)]
     return found
+
+
+def _simulated_plate(experiment: Experiment) -> Iterator[str]:
+    """The simulated rig has one plate: another specimen would be fitted to that one's response."""
+    if experiment.rig.simulation is None:
+        return
+    try:
+        check_like(experiment.the_specimen(), read_specimen(case_file("specimen.toml")))
+    except OutsideModel as error:
+        said = str(error).partition(", expected")[0]
+        yield (
+            f"{experiment.specimen_path}: the simulated rig has the published plate (300.2 x 199.9 mm), no "
+            f"other: {said}; expected that plate's specimen, or a real rig"
+        )
 
 
 def _parts(experiment: Experiment, parts: tuple[str, ...]) -> Iterator[str]:

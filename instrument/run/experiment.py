@@ -13,6 +13,8 @@ from threadpoolctl import threadpool_limits
 
 from drivers.errors import DriverError
 from drivers.shaker import Alarm
+from fitting.errors import TooFewPoints
+from fitting.identification.bare_plate import match_modes
 from instrument.check.faults import experiment_objections
 from instrument.check.forecast import (
     Forecast,
@@ -23,6 +25,7 @@ from instrument.check.forecast import (
 )
 from instrument.check.work import planned_work
 from instrument.errors import BadInput, RigStopped, StoppedByUser
+from instrument.files.hammer_file import accepted_modes
 from instrument.progress import Progress, quiet
 from instrument.run.analysis import Analysis
 from instrument.run.companion import Companion
@@ -58,6 +61,9 @@ from instrument.stream.raw import (
 )
 
 log = logging.getLogger(__name__)
+
+_MODES_TO_TELL = 3
+"""Fewer modes do not tell one plate from another."""
 
 Part = Literal["hammer", "sweep"]
 Watch = Callable[[list[Event]], None]
@@ -268,6 +274,21 @@ class _Session:
         runner.hammer(settings.hits, hammer.wait_s)
         if self.analysis.damping is None:
             raise RigStopped(f"no good hit within {hammer.wait_s:g} s: is the hammer's channel connected?")
+        if "sweep" in self._parts:
+            self._question_plate(self.analysis.damping)
+
+    def _question_plate(self, found: DampingFound) -> None:
+        """Stop before a sweep of what is not the stated plate; a run carried on is not asked again."""
+        modes = accepted_modes(found.result)
+        if modes is None or len(modes.frequency_hz) < _MODES_TO_TELL:
+            return
+        try:
+            match_modes(self._configuration.the_specimen(), *modes)
+        except TooFewPoints as error:
+            raise RigStopped(
+                f"stopped before the sweep: {error} Right the specimen's file or mount the right plate and "
+                "begin again; or carry on as it is with --resume"
+            ) from None
 
     def _sweep(self, rig: Rig, runner: Runner) -> None:
         table = self._experiment.document.sweep
