@@ -60,7 +60,7 @@ class Watched(Companion):
 
 
 def no_fit(number, last_step, points, damping, specimen):
-    return FitUpdated(number, last_step, {}, "not fitted")
+    return FitUpdated(number, last_step, None, "not fitted")
 
 
 def told_of(folder, parts, seed, change=lambda text: text) -> Watched:
@@ -153,7 +153,7 @@ def test_a_person_who_is_waited_for_and_the_diagnosis_count():
     assert to_go.beside_s(130.0) == 68.0
     to_go.take(AcquisitionBegan(1, "sweep", 8192.0, ("base", "velocity")), 0.0, 130.0)
     to_go.take(FitStarted(1, 1), 1.0, 131.0)
-    to_go.take(FitUpdated(1, 1, {}, ""), 1.0, 151.0)
+    to_go.take(FitUpdated(1, 1, None, ""), 1.0, 151.0)
     # The last fit will take as long as this one.
     assert to_go.beside_s(151.0) == 80.0
     measured(to_go, [2.3, 2.3])
@@ -161,5 +161,5 @@ def test_a_person_who_is_waited_for_and_the_diagnosis_count():
     assert to_go.measuring_s(4.6) == 0.0
     to_go.computed(0.25)
     assert to_go.beside_s(210.0) == pytest.approx(30.0)
-    to_go.take(DiagnosisFound(1, 2, {}, ""), 4.6, 240.0)
+    to_go.take(DiagnosisFound(1, 2, None, ""), 4.6, 240.0)
     assert to_go.fraction(4.6, 240.0) == 1.0
