@@ -1,4 +1,6 @@
-"""A free solid plate struck at points: the solid itself, and the model beside it."""
+"""A free solid plate struck at points: the solid itself, and what is found of a mass hidden on it."""
+
+import json
 
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ from instrument.campaign.plates.grid import Fineness
 from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.solid import Build, Patch, Solid
 from instrument.campaign.plates.struck import mobilities
+from instrument.cli.main import run
 from instrument.files.specimen_file import read_specimen
 
 COARSE = Fineness(5, 3, (0.5, 2.0), (1.0,))
@@ -20,6 +23,7 @@ LAW = PlateMaterialLaw("fractional-zener", (0.4e6, 8e6, 2e-4, 0.7))
 FORCES_M = [(0.03, 0.02), (0.31, 0.16), (0.18, 0.17)]
 SPOTS_M = [(0.05, 0.15), (0.27, 0.03)]
 MASS = Patch(8e-3, 0.241, 0.052, 0.01)
+NOISE = 2e-3
 
 
 def test_the_basis_answers_as_the_whole_solid_does():
@@ -78,6 +82,27 @@ y_mm = {1e3 * force_m[1]:.6g}
 """
 
 
+def written(folder, patches):
+    """A hammer at three points, a laser at two: a file for each point of the hammer."""
+    f = np.concatenate([np.linspace(a, b, 16) for a, b in ((105, 150), (205, 290), (320, 420))])
+    H = mobilities(P2, LAW, f, FORCES_M, SPOTS_M, patches)
+    rng = np.random.default_rng(1)
+    line = []
+    for n, force_m in enumerate(FORCES_M):
+        (folder / f"{n}.toml").write_text(specimen(force_m))
+        rows = ["pickup,frequency_hz,velocity_re_m_s,velocity_im_m_s,force_re_n,force_im_n,velocity_std_m_s"]
+        for k in range(len(SPOTS_M)):
+            std = NOISE * np.abs(H[n, k]) / np.sqrt(2)
+            v = H[n, k] + std * (rng.normal(size=len(f)) + 1j * rng.normal(size=len(f)))
+            table = np.column_stack([v.real, v.imag, np.ones(len(f)), np.zeros(len(f)), std])
+            rows += [
+                ",".join([str(k), *map(repr, map(float, (a, *row)))]) for a, row in zip(f, table, strict=True)
+            ]
+        (folder / f"{n}.csv").write_text("\n".join(rows))
+        line.append(str(folder / f"{n}.csv"))
+    return line + [part for n in range(3) for part in ("--specimen", str(folder / f"{n}.toml"))]
+
+
 @pytest.mark.long
 @pytest.mark.parametrize(("force", "spot"), [(0, 1), (2, 0)])
 def test_the_model_of_a_struck_plate_is_near_the_solid(tmp_path, force, spot):
@@ -89,3 +114,20 @@ def test_the_model_of_a_struck_plate_is_near_the_solid(tmp_path, force, spot):
     model = 1j * omega * displacement_direct(plate, viscous_damping(plate), omega, LAW.modulus(omega))
     # Without the twist that free edges lack it is 1 to 4 % off.
     assert np.abs(model / solid - 1).max() < 6e-3
+
+
+@pytest.mark.long
+def test_a_mass_on_a_struck_free_plate_is_placed_and_taken_off_the_law(tmp_path, capsys):
+    assert run(["diagnose", *written(tmp_path, (MASS,)), "--accept", "added_mass", "--json", "-"]) == 0
+    result = json.loads(capsys.readouterr().out)
+    assert result["verdict"] == "effect"
+    (effect,) = result["effects"]
+    at = {key: p["value"] for key, p in effect["parameters"].items()}
+    assert effect["name"] == "added_mass"
+    assert at["file"] == 0
+    assert np.hypot(at["x"] - MASS.x_m, at["y"] - MASS.y_m) < 0.010
+    assert at["mass"] == pytest.approx(MASS.mass_kg, rel=0.05)
+    for row in result["after"]["law"]:
+        G = LAW.modulus(2 * np.pi * row["frequency_hz"])
+        assert row["storage_modulus_pa"] == pytest.approx(G.real, rel=0.01)
+        assert row["loss_factor"] == pytest.approx(G.imag / G.real, rel=0.01)
