@@ -131,6 +131,7 @@ class Draft:
     def remove(self, place: Place) -> None:
         """Whatever is there."""
         inside = self._at(place[:-1])
+        inside = _first(inside) if isinstance(place[-1], str) else inside
         if inside is not None and self._at(place) is not None:
             del inside[place[-1]]
 
@@ -149,6 +150,7 @@ class Draft:
             if isinstance(key, int):
                 found = found[key] if isinstance(found, list) and key < len(found) else None
             else:
+                found = _first(found)
                 found = found.get(key) if isinstance(found, dict) else None
             if found is None:
                 return None
@@ -157,12 +159,14 @@ class Draft:
     def _set(self, place: Place, value: Any) -> None:
         inside: Any = self._toml
         for key in place[:-1]:
+            inside = _first(inside) if isinstance(key, str) else inside
             if isinstance(key, str) and not isinstance(inside.get(key), dict | list):
                 if key in inside:
                     del inside[key]
                 inside[key] = tomlkit.table()
             inside = inside[key]
-        inside[place[-1]] = value
+        last = place[-1]
+        (_first(inside) if isinstance(last, str) else inside)[last] = value
 
 
 @dataclass
@@ -240,6 +244,11 @@ class Drafts:
             self.experiment.write((name,), Field(name, "text"), to.name)
         self.experiment.save(path)
         return path
+
+
+def _first(found: Any) -> Any:
+    """Of `[[pickup]]` the form shows the first; the others stay as the file has them."""
+    return found[0] if isinstance(found, AoT) and len(found) else found
 
 
 def _value(field: Field, text: str) -> Any:

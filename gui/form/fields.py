@@ -29,6 +29,8 @@ _UNITS = {
 }  # fmt: skip
 _NOT_ASKED = {"effects", "core", "log"}
 """Of a simulated rig: what it hides is not for whoever measures on it."""
+_NOT_IN_FILES = {"further_pickups"}
+"""What a document holds of `[[pickup]]` after the first: no key of a file."""
 
 
 @dataclass(frozen=True)
@@ -88,6 +90,8 @@ def section_of(
     sections: list[FormSection] = []
     for name, info in model.model_fields.items():
         if model.__name__ == "Simulation" and name in _NOT_ASKED:
+            continue
+        if name in _NOT_IN_FILES:
             continue
         table = _table_in(info.annotation)
         if table is not None:

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from fitting.errors import OutsideModel
+from fitting.gravity import PUBLISHED_G_M_S2
 from instrument.errors import BadInput
 from instrument.files.specimen_file import law_of
 from instrument.files.text import read_text
@@ -52,7 +53,7 @@ _SIZE = {
     "length_mm": Usual(5.0, 5_000.0, "plates 50 to 1000", _LENGTH),
     "width_mm": Usual(2.0, 5_000.0, "plates 10 to 1000", _LENGTH),
 }
-_BASE = {"acceleration_m_s2": Usual(1e-3, 2_000.0, "1 g is 9.81", {"mm/s^2": 1e-3})}
+_BASE = {"acceleration_m_s2": Usual(1e-3, 2_000.0, f"1 g is {PUBLISHED_G_M_S2:g}", {"mm/s^2": 1e-3})}
 
 
 def question_specimen(path: Path, *, insist: bool = False) -> None:

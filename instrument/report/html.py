@@ -10,8 +10,13 @@ from instrument.report.blocks import ReportSection
 _TEMPLATE = "page.html"
 
 
-def html_page(title: str, header: Sequence[tuple[str, str]], sections: Sequence[ReportSection]) -> str:
-    """`header` are names and values under the title. All is escaped: much of it is foreign text."""
+def html_page(
+    title: str, header: Sequence[tuple[str, str]], sections: Sequence[ReportSection], *, signed: bool = False
+) -> str:
+    """`header` are names and values under the title; a page to be `signed` ends with room for it.
+
+    All is escaped: much of it is foreign text.
+    """
     environment = Environment(
         loader=FileSystemLoader(Path(__file__).parent),
         autoescape=True,
@@ -19,4 +24,6 @@ def html_page(title: str, header: Sequence[tuple[str, str]], sections: Sequence[
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    return environment.get_template(_TEMPLATE).render(title=title, header=header, sections=sections)
+    return environment.get_template(_TEMPLATE).render(
+        title=title, header=header, sections=sections, signed=signed
+    )

@@ -35,7 +35,7 @@ def report_page(contents: Contents, progress: Progress = quiet) -> str:
         ("specimen file", c.experiment.specimen),
         ("result", result_in_short(contents, fitted)),
     ]
-    return html_page(c.experiment.title or c.name, header, sections)
+    return html_page(c.experiment.title or c.name, header, sections, signed=True)
 
 
 def sections_of(contents: Contents, fitted: ReportedFit) -> list[ReportSection]:

@@ -150,3 +150,15 @@ def test_what_is_no_toml_is_refused_in_one_line(tmp_path):
     bad.write_text("a = = 1")
     with pytest.raises(BadInput, match="not TOML"):
         Drafts.of(bad)
+
+
+def test_of_several_spots_the_form_shows_and_writes_the_first(tmp_path):
+    text = case_file("specimen.toml").read_text()
+    start = text.index("[pickup]")
+    several = text[:start] + text[start:].replace("[pickup]", "[[pickup]]", 1)
+    several += "\n[[pickup]]\nx_mm = 200.0\ny_mm = 50.0\n"
+    edited = Draft(tmp_path / "plate.toml", MODELS["specimen"], several)
+    assert edited.faults() == {}
+    edited.write(("pickup", "x_mm"), Field("x_mm", "number"), "61.0")
+    assert edited.shown(("pickup", "x_mm"), "number") == "61.0"
+    assert [p["x_mm"] for p in edited.plain()["pickup"]] == [61.0, 200.0]

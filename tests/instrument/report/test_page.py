@@ -86,7 +86,10 @@ def test_it_is_well_formed(page):
 
 
 def test_every_section_is_there_in_order(page):
-    assert tuple(unescape(t) for t in re.findall(r"<h2>(.*?)</h2>", page)) == SECTIONS
+    assert tuple(unescape(t) for t in re.findall(r"<h2>(.*?)</h2>", page)) == (
+        *SECTIONS,
+        "Notes and signature",
+    )
 
 
 def test_it_fetches_nothing(page):
