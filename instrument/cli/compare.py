@@ -73,10 +73,15 @@ def _cells(c: Comparison) -> list[str]:
     de = c.loss_factor_difference[np.argmax(np.abs(c.loss_factor_difference))]
     return [
         f"{c.frequency_hz[0]:.4g} to {c.frequency_hz[-1]:.4g}",
-        f"{100 * dG:+.2f}",
-        f"{de:+.4f}",
-        f"{c.chi2:.2f}",
-        f"{c.dof:.1f}",
-        f"{c.p_value:.3g}",
+        *(
+            format(value, spec) if np.isfinite(value) else "not known"
+            for value, spec in (
+                (100 * dG, "+.2f"),
+                (de, "+.4f"),
+                (c.chi2, ".2f"),
+                (c.dof, ".1f"),
+                (c.p_value, ".3g"),
+            )
+        ),
         _SAYS[c.differs],
     ]
