@@ -14,7 +14,7 @@ from fitting.diagnosis.pairs import Pairs
 from fitting.diagnosis.prediction import over_noise
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.resampling import Again, Resampled, gain, resampled_of
-from fitting.diagnosis.result import Candidate, Diagnosis, FoundEffect, ParameterEstimate
+from fitting.diagnosis.result import Candidate, Diagnosis, FoundEffect, ParameterEstimate, Rivals
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.singles import Singles
 from fitting.diagnosis.stage import few_of_law, found_effects, mixed_band, stage_of
@@ -126,6 +126,7 @@ def diagnose_task(
         by_hand=judgement.by_hand,
         p_value=resampled.p_value,
         nested_held_out_rms_percent=resampled.nested_rms_percent,
+        rivals=_rivals(problem, search, judgement),
     )
 
 
@@ -162,6 +163,13 @@ def _noise_left(search: Search, scored_fits: Sequence[ScoredFit]) -> float:
     parts = 2 if search.evidence.has_phase else 1
     rough = roughness(search.problem.sweep, best.residuals[: best.data], parts)
     return float(np.nanmin([best.chi2_per_dof, rough]))
+
+
+def _rivals(problem: DiagnosisProblem, search: Search, judgement: Judgement) -> Rivals | None:
+    if not judgement.group or judgement.by_hand:
+        return None
+    each = tuple((scored.fitted, share) for scored, share in judgement.group)
+    return Rivals(problem, search.evidence, each, search.temper(judgement.group[0][0]))
 
 
 def _cost(scored: ScoredFit) -> float:

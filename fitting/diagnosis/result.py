@@ -8,6 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array
+from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.problem import DiagnosisProblem
+from fitting.diagnosis.refit import Refitted
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.result import LawBand
 from fitting.identification.validation import Validation, rms
@@ -89,6 +92,23 @@ class Stage:
         return float(np.max(np.abs(self.difference_percent)))
 
 
+@dataclass(frozen=True, eq=False)
+class Rivals:
+    """What explains the data up to 95 %, as it was fitted: where a next measurement begins."""
+
+    problem: DiagnosisProblem
+    evidence: Evidence
+    each: tuple[tuple[Refitted, float], ...]
+    """With their probabilities, which add up to one; the likeliest first."""
+    temper: float = 1.0
+    """How much less a difference in chi-square says (`fitting.diagnosis.predictive.temper`)."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """`none`, an effect, or two joined by " + "."""
+        return tuple(" + ".join(e.name for e in f.effects) or "none" for f, _ in self.each)
+
+
 @dataclass(frozen=True)
 class Diagnosis:
     """The whole answer."""
@@ -117,3 +137,5 @@ class Diagnosis:
     """Chance that data without any effect gain as much, by resampling; None where not asked for."""
     nested_held_out_rms_percent: float | None = None
     """Held out with the selection repeated."""
+    rivals: Rivals | None = field(default=None, compare=False, repr=False)
+    """None where nothing was weighed."""

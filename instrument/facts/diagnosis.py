@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from math import nan
 from typing import Literal
 
+from instrument.facts.follow_up import FollowUp
 from instrument.facts.number import MaybeNumber, Number
 from instrument.facts.result import Result
 from instrument.facts.rows import AdjustedNumber, HeldOut, LawRow, StretchSetAside
@@ -134,6 +135,8 @@ class DiagnosisResult(Result):
     nested_held_out_rms_percent: MaybeNumber = None
     """Held out with the selection repeated."""
     next_measurement: str = ""
+    next_measurements: tuple[FollowUp, ...] = ()
+    """What would tell the explanations left apart, best first; empty where one is left."""
     explanation: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
     by_hand: bool = False

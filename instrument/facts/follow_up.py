@@ -1,0 +1,40 @@
+"""A measurement that would tell rival explanations of a sweep apart."""
+
+from typing import Literal
+
+from instrument.facts.number import MaybeNumber, Number
+from instrument.facts.result import Result
+
+FollowUpKind = Literal[
+    "frequencies", "level", "reversed", "spot", "added_mass", "bare_hammer", "damped_struck", "clamping"
+]
+
+
+class FollowUp(Result):
+    """One measurement that has not been made, what it costs and what it would tell."""
+
+    kind: FollowUpKind
+    needs_hands: bool
+    """False: the rig can do it as it stands."""
+    frequencies_hz: tuple[Number, ...] = ()
+    """Steps in the order in which they are to be made; empty where none is (a blow)."""
+    segments: tuple[int, ...] = ()
+    """Of each step: its resonance region, numbered as in the sweep that was diagnosed; new ones follow."""
+    level_g: MaybeNumber = None
+    spot_mm: tuple[Number, Number] | None = None
+    """Where the laser is to point, x from the clamp and y from a long edge."""
+    mass_kg: MaybeNumber = None
+    """To be put on the plate."""
+    mass_at_mm: tuple[Number, Number] | None = None
+    seconds: Number
+    """Of rig time, and of hands where it needs them."""
+    separation: Number
+    """Expected gain of what explains the data over the nearest rival: nats of log Bayes factor."""
+    probability_resolved: Number
+    """Chance that one explanation holds 95 % afterwards."""
+    between: tuple[str, ...]
+    """Explanations that it separates, the likeliest first: `none`, an effect, two joined by " + "."""
+    why: str
+    """One sentence for a person."""
+    todo: str
+    """One sentence for a person."""
