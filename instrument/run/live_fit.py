@@ -66,7 +66,10 @@ class LiveFit:
     Use as a context around the sweep.
     """
 
-    def __init__(self, specimen: Specimen, emit: Callable[[Event], object], fit: Fitter) -> None:
+    def __init__(
+        self, specimen: Specimen, emit: Callable[[Event], object], fit: Fitter, number: int = 0
+    ) -> None:
+        """`number` is that of the last fit before."""
         self._specimen, self._emit = specimen, emit
         self._fit = fit
         self._wake = threading.Condition()
@@ -74,7 +77,7 @@ class LiveFit:
         self._ended = False
         self._failure: Exception | None = None
         self.latest: FitUpdated | None = None
-        self._number = 0
+        self.number = number
         self._thread = threading.Thread(target=self._work, name="live fit", daemon=True)
         self._thread.start()
 
@@ -106,9 +109,9 @@ class LiveFit:
                 last = max(p.step for p in points)
                 if self.latest is not None and self.latest.last_step == last:
                     continue
-                self._number += 1
-                self._emit(FitStarted(self._number, last))
-                self.latest = self._fit(self._number, last, points, damping, self._specimen)
+                self.number += 1
+                self._emit(FitStarted(self.number, last))
+                self.latest = self._fit(self.number, last, points, damping, self._specimen)
                 self._emit(self.latest)
         except Exception as error:  # raised on leaving: a fit must not end a measurement
             self._failure = error

@@ -1,0 +1,73 @@
+"""The folder of a running session: begun, taken up again, put together at the end, whatever the end is."""
+
+import re
+from datetime import UTC, datetime
+from pathlib import Path
+
+from instrument.errors import BadInput
+from instrument.session.configuration import Configuration, Experiment
+from instrument.session.journal import SessionJournal
+from instrument.session.storage import part_events, write_session
+from instrument.stream.derived import HitJudged, PointMeasured
+
+
+def open_journal(experiment: Experiment, out: Path, resume: Path | None) -> tuple[SessionJournal, str]:
+    """The folder of a new session, or of one to carry on, locked; and its name. Raises `BadInput`."""
+    now = datetime.now(UTC)
+    if resume is not None:
+        journal = SessionJournal(resume)
+        name = resume.name.removesuffix(".running")
+        before = journal.configuration()
+        _refuse_another(before, experiment.configuration(before.name, before.created_utc))
+        journal.lock()
+        journal.truncate(journal.entries())
+        return journal, name
+    stem = re.sub(r"[^A-Za-z0-9_-]+", "-", experiment.path.stem).strip("-") or "session"
+    name = f"{stem}-{now:%Y%m%dT%H%M%SZ}"
+    journal = SessionJournal(out / f"{name}.running")
+    journal.begin(experiment.configuration(name, now.isoformat(timespec="seconds")))
+    journal.lock()
+    return journal, name
+
+
+def finish_session(journal: SessionJournal, path: Path) -> int:
+    """Put a session file together from what is sealed and remove the folder; how many parts there were.
+
+    Raises `BadInput` where nothing is sealed.
+    """
+    entries = journal.entries()
+    if not entries:
+        raise BadInput(f"{journal.folder}: nothing was completed, there is no session to put together")
+    write_session(path, journal.configuration(), [journal.folder / e.file for e in entries])
+    journal.remove()
+    return len(entries)
+
+
+def kept(journal: SessionJournal, path: Path) -> str:
+    """Put together what is complete, and say where it is. A run without anything complete leaves nothing."""
+    try:
+        entries = journal.entries()
+        events = [e for entry in entries for e in part_events(journal.folder / entry.file)]
+        if not any(isinstance(e, PointMeasured | HitJudged) for e in events):
+            journal.remove()
+            return "nothing was measured"
+        write_session(path, journal.configuration(), [journal.folder / e.file for e in entries])
+        steps = sum(len(e.steps) for e in entries)
+        hits = sum(isinstance(e, HitJudged) for e in events)
+        done = " and ".join(f"{n} {what}" for n, what in ((hits, "hits"), (steps, "steps")) if n)
+        return f"{done} kept in {path}; to go on: --resume {journal.folder}"
+    except (OSError, ValueError, RuntimeError):
+        return f"what is complete is in {journal.folder}: viscorig recover {journal.folder}"
+
+
+def _refuse_another(before: Configuration, now: Configuration) -> None:
+    """A session is of one experiment; only where the instruments answer may differ."""
+    for part in ("experiment", "specimen", "rig"):
+        then, given = (getattr(c, part) for c in (before, now))
+        if part == "rig":
+            then, given = (r.anywhere() for r in (then, given))
+        if then != given:
+            raise BadInput(
+                f"{before.name}: the {part} file is not the one this run was begun with: "
+                "resume with it as it was, or begin a new run"
+            )

@@ -1,0 +1,198 @@
+"""One run of a session: what needs the rig, recorded and analysed as it happens, then the diagnosis."""
+
+import threading
+from datetime import UTC, datetime
+from typing import Literal
+
+from drivers.errors import DriverError
+from drivers.shaker import Alarm
+from fitting.errors import TooFewPoints
+from fitting.identification.bare_plate import match_modes
+from instrument.check.forecast import Forecast, distinct
+from instrument.errors import RigStopped
+from instrument.files.hammer_file import accepted_modes
+from instrument.progress import Progress
+from instrument.run.analysis import Analysis
+from instrument.run.companion import Companion
+from instrument.run.control import RunControl
+from instrument.run.live_diagnosis import Diagnoser, apart
+from instrument.run.live_fit import Fitter
+from instrument.run.rig import Rig, open_rig
+from instrument.run.runner import Runner
+from instrument.run.sweep_part import SweepPart
+from instrument.session.configuration import Experiment
+from instrument.session.journal import SessionJournal
+from instrument.session.recorder import Recorder
+from instrument.session.setup import setup_of
+from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated
+from instrument.stream.event import Derived, Event
+from instrument.stream.raw import DiagnosisStarted, SessionBegan, SessionEnded
+
+_MODES_TO_TELL = 3
+"""Fewer modes do not tell one plate from another."""
+
+Part = Literal["hammer", "sweep"]
+
+
+class SessionRun:
+    """Of a new session, or of one that is carried on."""
+
+    def __init__(
+        self,
+        experiment: Experiment,
+        journal: SessionJournal,
+        forecast: Forecast,
+        control: RunControl,
+        earlier: list[Event],
+        parts: tuple[Part, ...],
+        fit: Fitter,
+        diagnose: Diagnoser,
+        companion: Companion,
+        progress: Progress,
+    ) -> None:
+        self._progress = progress
+        self._diagnoser = diagnose
+        self._companion, self._in_order = companion, threading.Lock()
+        self._experiment, self._control = experiment, control
+        self._parts, self._resumed = parts, bool(earlier)
+        self._configuration = journal.configuration()
+        self._setup = setup_of(self._configuration)
+        self.analysis = Analysis(self._setup)
+        for event in earlier:
+            self.analysis.restore(event)
+        self._sweep = (
+            SweepPart(
+                experiment,
+                self._configuration.the_specimen(),
+                self._setup,
+                forecast,
+                self.analysis,
+                earlier,
+                self._record,
+                fit,
+            )
+            if "sweep" in parts and experiment.document.sweep is not None
+            else None
+        )
+        self._diagnoses = sum(isinstance(e, DiagnosisStarted) for e in earlier)
+        self.diagnosis: DiagnosisFound | None = None
+
+    @property
+    def fit(self) -> FitUpdated | None:
+        """Of all points."""
+        return self._sweep.fit if self._sweep is not None else None
+
+    def run(self, recorder: Recorder) -> None:
+        """Everything that needs the rig; the recorder hears of its end whatever it is."""
+        self._recorder = recorder
+        try:
+            self._prepare()
+            document = self._experiment.document
+            with (
+                open_rig(self._experiment.rig, self._experiment.rig_path, document.hammer) as bare,
+                self._companion.with_rig(bare) as rig,
+            ):
+                self._go(rig)
+            # The rig is let go of first: nothing of it is needed any more.
+            self._diagnose()
+        except (RigStopped, DriverError) as error:
+            self._end("stopped safely", " ".join(str(error).split()))
+            raise
+        except KeyboardInterrupt:
+            self._end("stopped by the user", "")
+            raise
+        except Exception as error:
+            self._end("stopped safely", f"internal error, {type(error).__name__}")
+            raise
+        self._end("done", "")
+
+    def _prepare(self) -> None:
+        if self._sweep is not None and self._sweep.table.plan == "adaptive":
+            with self._progress("models of the adaptive sweep"):
+                self._sweep.prepare()
+
+    def _go(self, rig: Rig) -> None:
+        self._emit(
+            SessionBegan(
+                datetime.now(UTC).isoformat(timespec="seconds"),
+                self._configuration.versions["viscorig"],
+                rig.identities(),
+                tuple(r.name for r in distinct(rig.vibrometer.ranges)),
+                self._resumed,
+            )
+        )
+        _clear_heartbeat_alarm(rig)
+        ramp_s = self._setup.sweep.control.ramp_s
+        runner = Runner(
+            rig, self.analysis, self._emit, self._control, ramp_s, self._sweep.choice if self._sweep else None
+        )
+        if "hammer" in self._parts and self.analysis.damping is None:
+            self._hammer(rig, runner)
+        if self._sweep is not None:
+            self._sweep.run(rig, runner, self._emit)
+
+    def _hammer(self, rig: Rig, runner: Runner) -> None:
+        settings, hammer = self._setup.hammer, self._experiment.document.hammer
+        if settings is None or hammer is None:
+            return
+        self._emit(rig.operator.mount("bare"))
+        runner.hammer(settings.hits, hammer.wait_s)
+        if self.analysis.damping is None:
+            raise RigStopped(f"no good hit within {hammer.wait_s:g} s: is the hammer's channel connected?")
+        if self._sweep is not None:
+            self._question_plate(self.analysis.damping)
+
+    def _question_plate(self, found: DampingFound) -> None:
+        """Stop before a sweep of what is not the stated plate; a run carried on is not asked again."""
+        modes = accepted_modes(found.result)
+        if modes is None or len(modes.frequency_hz) < _MODES_TO_TELL:
+            return
+        try:
+            match_modes(self._configuration.the_specimen(), *modes)
+        except TooFewPoints as error:
+            raise RigStopped(
+                f"stopped before the sweep: {error} Right the specimen's file or mount the right plate and "
+                "begin again; or carry on as it is with --resume"
+            ) from None
+
+    def _diagnose(self) -> None:
+        """What the whole sweep's fit cannot explain; where there is no law there is nothing to ask."""
+        if self.fit is None or self.fit.message:
+            return
+        a, number, last = self.analysis, self._diagnoses + 1, self.fit.last_step
+        self._record(DiagnosisStarted(number, last))
+        specimen = self._configuration.the_specimen()
+        self.diagnosis = apart(
+            lambda: self._diagnoser(number, last, a.points, a.times_s, a.damping, specimen)
+        )
+        self._record(self.diagnosis)
+
+    def _emit(self, event: Event) -> list[Derived]:
+        """Into the stream: recorded, analysed, what follows recorded too."""
+        self._record(event)
+        derived = self.analysis.feed(event)
+        for one in derived:
+            self._record(one)
+        if self._sweep is not None:
+            self._sweep.happened(event)
+        return derived
+
+    def _record(self, event: Event) -> None:
+        """Onto the disk, and told; the fit's thread does so too, and the order is the same for both."""
+        with self._in_order:
+            self._recorder.record(event)
+            self._companion.happened(event)
+
+    def _end(self, why: Literal["done", "stopped by the user", "stopped safely"], message: str) -> None:
+        try:
+            self._record(SessionEnded(why, message))
+        except RigStopped:
+            # The recorder itself is what failed; its own message is on the way already.
+            return
+
+
+def _clear_heartbeat_alarm(rig: Rig) -> None:
+    """A heartbeat that stopped with an earlier program is back. Other alarms are a person's matter."""
+    if rig.shaker.status().alarm == Alarm.HEARTBEAT:
+        rig.shaker.beat()
+        rig.shaker.reset_alarm()
