@@ -11,7 +11,6 @@ from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
 
 from fitting.arrays import Array
 from fitting.noise import FEWEST, Noise, groups_of, local_model
@@ -189,6 +188,9 @@ def _in_group(f: Array, v: NDArray[Any], std: Array, aside: Points) -> _Deviatio
     variance = std**2 + np.sum(np.abs(solve[:, 0] * denominator * std[near]) ** 2, axis=1)
     z2 = np.abs(v - curve) ** 2 / variance
     parts = 2 if np.iscomplexobj(v) else 1
+    # Loaded where it is needed: it is a tenth of the window's start.
+    from scipy import stats
+
     scale2 = np.median(z2[quiet]) / stats.chi2.median(parts)
     if not scale2 > 0:
         return None
@@ -210,6 +212,8 @@ def _neighbours(f: Array, middle: Array, quiet: Points) -> NDArray[np.intp] | No
 
 def _freedom(count: int, parts: int) -> float:
     """Degrees of freedom a variance by the median is worth: 2 / (its relative variance)."""
+    from scipy import stats
+
     median = float(stats.chi2.median(parts))
     density = float(stats.chi2.pdf(median, parts))
     return 8 * count * (density * median) ** 2

@@ -3,14 +3,15 @@
 import os
 import signal
 import sys
+from functools import partial
 from pathlib import Path
 
+from PySide6.QtCore import QTimer
 from PySide6.QtWidgets import QApplication
 
-from gui.garbage import Collector
 from gui.settings import Settings
+from gui.splash import splash
 from gui.theme import Appearance
-from gui.window import Window
 from instrument.errors import BadInput
 
 
@@ -20,13 +21,22 @@ def run(session: Path | None) -> int:
     application = QApplication(sys.argv[:1])
     application.setApplicationName("viscorig")
     settings = Settings()
-    window = Window(Appearance(application, settings.mode, settings.scale), settings)
+    appearance = Appearance(application, settings.mode, settings.scale)
+    first = splash()
+    first.show()
+    application.processEvents()
+    # The window brings everything that computes along: most of a start is loading it.
+    from gui.garbage import Collector
+    from gui.window import Window
+
+    window = Window(appearance, settings)
     # Python sees a signal between two turns of the window's timer.
     signal.signal(signal.SIGINT, lambda *_: window.close())
     collector = Collector(application)
     window.show()
+    first.finish(window)
     if session is not None:
-        window.open(session)
+        QTimer.singleShot(0, window, partial(window.open, session))
     status = application.exec()
     collector.stop()
     return status

@@ -75,9 +75,9 @@ class Menus(QObject):
 
     def _pages(self) -> None:
         menu = self._window.menuBar().addMenu("&Page")
-        for number, page in enumerate(self._window.pages):
+        for number, (name, title) in enumerate(self._window.page_titles.items()):
             keys = [key] if (key := key_of(number)) else []
-            self._add(menu, page.title, self._show_page, *keys).setData(page.objectName())
+            self._add(menu, title, self._show_page, *keys).setData(name)
 
     def _view(self) -> None:
         menu = self._window.menuBar().addMenu("&View")

@@ -1,4 +1,7 @@
-"""The pages of one window, each made and fed on its own: another package's takes no other one down."""
+"""The pages of one window, each made and fed on its own: another package's takes no other one down.
+
+The window's own pages are made when they are wanted: making all of them takes longer than showing the first.
+"""
 
 from gui.controller import AppController
 from gui.page import Page
@@ -10,21 +13,47 @@ MOST_KEYS = 9
 
 
 class PageSet:
-    """Made once, in the order of `PAGES`; a page's object name is its name there."""
+    """In the order of `PAGES`; a page's object name is its name there.
+
+    Another package's are made at once: what cannot be made is left out before anything is shown of it.
+
+    Attributes
+    ----------
+    kinds : dict
+        Class of each page, by name: its title and hint are known before it is made.
+    made : dict
+        Pages there are so far, by name.
+    """
 
     def __init__(self, controller: AppController) -> None:
-        made = ((name, _made(name, controller)) for name in PAGES)
-        self.by_name: dict[str, Page] = {name: page for name, page in made if page is not None}
-        self._fed = dict(self.by_name)
+        self._controller = controller
+        self.kinds: dict[str, type[Page]] = {name: PAGES[name] for name in PAGES}
+        self.made: dict[str, Page] = {}
+        self._state: SessionState | None = None
+        for name in [n for n in self.kinds if not PAGES.is_own(n)]:
+            try:
+                self.page(name)
+            except Exception as error:
+                PAGES.leave_out(name, error)
+                del self.kinds[name]
+        self._fed = set(self.kinds)
 
-    @property
-    def all(self) -> tuple[Page, ...]:
-        """In the order of their keys."""
-        return tuple(self.by_name.values())
+    def page(self, name: str) -> Page:
+        """Of this name; made now where it was not. Raises `KeyError`."""
+        if name not in self.made:
+            page = self.kinds[name](self._controller)
+            page.setObjectName(name)
+            self.made[name] = page
+            if self._state is not None:
+                page.show_state(self._state)
+        return self.made[name]
 
     def show_state(self, state: SessionState | None) -> None:
-        """To every page. Another package's that fails is told nothing any more."""
-        for name, page in list(self._fed.items()):
+        """To every page there is. Another package's that fails is told nothing any more."""
+        self._state = state
+        for name, page in list(self.made.items()):
+            if name not in self._fed:
+                continue
             try:
                 page.show_state(state)
             except Exception as error:
@@ -32,21 +61,9 @@ class PageSet:
                     raise
                 PAGES.leave_out(name, error)
                 page.setEnabled(False)
-                del self._fed[name]
+                self._fed.discard(name)
 
 
 def key_of(number: int) -> str | None:
     """Of a page, counted from 0; None for one beyond the keys there are."""
     return f"Ctrl+{number + 1}" if number < MOST_KEYS else None
-
-
-def _made(name: str, controller: AppController) -> Page | None:
-    try:
-        page = PAGES[name](controller)
-    except Exception as error:
-        if PAGES.is_own(name):
-            raise
-        PAGES.leave_out(name, error)
-        return None
-    page.setObjectName(name)
-    return page

@@ -20,7 +20,16 @@ class Shell(QMainWindow):
     settings: Settings
     appearance: Appearance
     log: LogPane
-    pages: tuple[Page, ...]
+
+    @property
+    def pages(self) -> tuple[Page, ...]:
+        """All of them, in the order of their keys."""
+        raise NotImplementedError
+
+    @property
+    def page_titles(self) -> dict[str, str]:
+        """By the pages' names, in the order of their keys."""
+        raise NotImplementedError
 
     def open(self, path: Path) -> None:
         """A session, an experiment, or other data; returns at once."""

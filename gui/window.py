@@ -3,7 +3,7 @@
 from pathlib import Path
 from time import monotonic
 
-from PySide6.QtCore import Qt, QTimer
+from PySide6.QtCore import QSignalBlocker, Qt, QTimer
 from PySide6.QtGui import (
     QCloseEvent,
     QDragEnterEvent,
@@ -22,6 +22,7 @@ from gui.controller import SESSION_ENDINGS, AppController
 from gui.log_pane import LogPane
 from gui.menus import Menus
 from gui.notice import Notice
+from gui.page import Page
 from gui.page_set import PageSet, key_of
 from gui.replay_bar import ReplayBar
 from gui.settings import Arrangement, Settings
@@ -52,15 +53,16 @@ class Window(Shell):
         self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
         self._page_set = PageSet(self.controller)
-        self.pages = self._page_set.all
         self.replay = ReplayBar()
         self.log = LogPane()
         self._guard = StopGuard(self.bar.stop, self.controller.stop, self._escaped)
         self._closing = False
         self._asked: QMessageBox | None = None
         """Whether to close although a run goes on."""
-        self._undrawn = list(self.pages)
+        self._undrawn = list(reversed(self._page_set.kinds))
         self._arrange()
+        # Files and what is run with them are its matter, whichever page is seen.
+        self._page("run")
         self.menus = Menus(self)
         self._shortcuts()
         self.controller.changed.connect(self._changed)
@@ -95,18 +97,30 @@ class Window(Shell):
             if self._closing:
                 self.close()
 
+    @property
+    def pages(self) -> tuple[Page, ...]:
+        """All of them, in the order of their keys; those not made yet are made."""
+        return tuple(self._page(name) for name in self._page_set.kinds)
+
+    @property
+    def page_titles(self) -> dict[str, str]:
+        """By the pages' names, in the order of their keys."""
+        return {name: kind.title for name, kind in self._page_set.kinds.items()}
+
     def open(self, path: Path) -> None:
         """A session, an experiment, or other data; returns at once."""
+        assert self.pages, "what is opened is told to every page"
         self.controller.open(path)
 
     def show_page(self, name: str) -> None:
         """As `gui.pages` calls it; the first one where there is none of this name."""
-        self.tabs.setCurrentWidget(self._page_set.by_name.get(name, self.pages[0]))
+        known = name if name in self._page_set.kinds else next(iter(self._page_set.kinds))
+        self.tabs.setCurrentWidget(self._page(known))
 
     # What Qt tells
 
     def showEvent(self, event: QShowEvent) -> None:
-        """Draw every page once now: the first time takes longest, and must not fall into a run."""
+        """Make and draw every page once now: the first time takes longest, and must not fall into a run."""
         super().showEvent(event)
         self._first_drawing.start()
 
@@ -168,16 +182,15 @@ class Window(Shell):
         if not self._undrawn:
             self._first_drawing.stop()
             return
-        page, shown = self._undrawn.pop(), self.tabs.currentWidget()
+        page, shown = self._page(self._undrawn.pop()), self.tabs.currentWidget()
         if page is not shown:
             page.resize(shown.size())
             page.grab()
 
     def _arrange(self) -> None:
-        for number, page in enumerate(self.pages):
-            key = key_of(number)
-            index = self.tabs.addTab(page, page.title)
-            self.tabs.setTabToolTip(index, f"{page.hint} ({key})" if key else page.hint)
+        for number, (name, kind) in enumerate(self._page_set.kinds.items()):
+            self._put(number, self._page_set.made.get(name) or _room_for(name), kind)
+        self.tabs.currentChanged.connect(self._tab_chosen)
         whole = QWidget()
         column = QVBoxLayout(whole)
         column.setContentsMargins(0, 0, 0, 0)
@@ -189,8 +202,31 @@ class Window(Shell):
         # Over the page's foot: what comes and goes moves nothing.
         self.notice.float_over(self.tabs)
         self.addDockWidget(Qt.DockWidgetArea.BottomDockWidgetArea, self.log)
-        self.resize(1280, 700)
+        self.resize(1280, 720)
         self.resizeDocks([self.log], [76], Qt.Orientation.Vertical)
+
+    def _page(self, name: str) -> Page:
+        """Of this name, in its tab."""
+        page = self._page_set.page(name)
+        at = list(self._page_set.kinds).index(name)
+        room = self.tabs.widget(at)
+        if room is not page:
+            shown = self.tabs.currentIndex()
+            with QSignalBlocker(self.tabs):
+                self._put(at, page, type(page))
+                self.tabs.removeTab(at + 1)
+                self.tabs.setCurrentIndex(shown)
+            if room is not None:
+                room.deleteLater()
+        return page
+
+    def _put(self, at: int, widget: QWidget, kind: type[Page]) -> None:
+        key = key_of(at)
+        self.tabs.insertTab(at, widget, kind.title)
+        self.tabs.setTabToolTip(at, f"{kind.hint} ({key})" if key else kind.hint)
+
+    def _tab_chosen(self, at: int) -> None:
+        self._page(list(self._page_set.kinds)[at])
 
     def _restore(self, before: Arrangement) -> None:
         if before.geometry is not None:
@@ -228,8 +264,8 @@ class Window(Shell):
 
     def _compare(self, path: Path) -> None:
         """Shown where laws are drawn beside each other."""
-        self.controller.comparison_wanted.emit(path)
         self.show_page("material")
+        self.controller.comparison_wanted.emit(path)
 
     def _changed(self) -> None:
         recorded = self.controller.recorded
@@ -250,3 +286,10 @@ class Window(Shell):
     def _leave(self) -> None:
         self._closing = True
         self.controller.stop()
+
+
+def _room_for(name: str) -> QWidget:
+    """Of a page that is not made yet."""
+    room = QWidget()
+    room.setObjectName(name)
+    return room

@@ -8,7 +8,8 @@ from typing import Self
 from instrument.files.rig_file import RigDocument
 from instrument.files.toml import read_document
 from instrument.progress import bar
-from instrument.run.experiment import Part, run_experiment
+from instrument.run.experiment import run_experiment
+from instrument.run.part import Part
 from instrument.session.configuration import Experiment, read_whole_experiment
 from viscorig.session import Session, load_session
 

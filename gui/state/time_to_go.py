@@ -8,7 +8,7 @@ person and computing by the wall's.
 from collections import deque
 from dataclasses import dataclass, field
 
-from instrument.check.work import Kind, Work
+from instrument.check.piece import Kind, Work
 from instrument.stream.derived import DiagnosisFound, FitUpdated, HitJudged, PointMeasured
 from instrument.stream.event import Event
 from instrument.stream.raw import (

@@ -1,8 +1,5 @@
 """All the work of a run, piece by piece, with the time each will take: what a time to go is made of."""
 
-from dataclasses import dataclass
-from typing import Literal
-
 import numpy as np
 
 from instrument.check.forecast import (
@@ -12,11 +9,11 @@ from instrument.check.forecast import (
     planned_segments,
     with_next_coarser,
 )
+from instrument.check.piece import Kind, Work
 from instrument.files.devices import ranges_of
 from instrument.session.configuration import Experiment
 from instrument.session.setup import hammer_settings, setup_of
 
-Kind = Literal["mount", "aim", "hit", "calibration", "soak", "step", "sentinel", "fit", "diagnosis"]
 _MOUNT_S, _AIM_S, _STRIKE_S = 180.0, 60.0, 3.0
 """A person's time."""
 _FIT_S, _DIAGNOSIS_S = 8.0, 60.0
@@ -24,16 +21,6 @@ _FIT_S, _DIAGNOSIS_S = 8.0, 60.0
 
 _ADAPTIVE_TURNS = 3
 """Steps of an adaptive sweep for every resonance and end of its band: a guess, nobody knows before."""
-
-
-@dataclass(frozen=True)
-class Work:
-    """One piece: two parts of its time, since only the second is a guess of the plate."""
-
-    kind: Kind
-    fixed_s: float
-    settling_s: float = 0.0
-    """From scratch to the tolerance; a step begins near its end and takes less."""
 
 
 def planned_work(experiment: Experiment, forecast: Forecast, parts: tuple[str, ...]) -> tuple[Work, ...]:

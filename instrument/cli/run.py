@@ -12,7 +12,8 @@ from instrument.cli.watching import Watcher
 from instrument.files.plausible import question_specimen
 from instrument.progress import bar
 from instrument.run.control import RunControl
-from instrument.run.experiment import Part, run_experiment
+from instrument.run.experiment import run_experiment
+from instrument.run.part import Part
 from instrument.session.configuration import read_whole_experiment
 
 out_option = click.option(

@@ -16,7 +16,7 @@ from time import monotonic, sleep
 from typing import BinaryIO
 
 from drivers.errors import DriverError
-from instrument.check.work import Work
+from instrument.check.piece import Work
 from instrument.engine.asking import HelpedOperator, RemoteOperator
 from instrument.engine.interruption import Interruption
 from instrument.engine.mailbox import Mailbox

@@ -5,9 +5,9 @@ from pathlib import Path
 from time import monotonic
 from typing import ClassVar, Literal
 
-from instrument.check.work import Work
+from instrument.check.piece import Work
 from instrument.files.rig_file import Shaker
-from instrument.run.experiment import Part
+from instrument.run.part import Part
 from instrument.stream.event import Event
 
 Why = Literal["done", "bad input", "stopped safely", "stopped by the user", "died"]

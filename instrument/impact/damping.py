@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.ndimage import median_filter
-from scipy.signal import find_peaks
 from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array
@@ -173,6 +172,9 @@ def _peaks(plain: Frf, fine: Frf, band: tuple[float, float]) -> list[tuple[float
     inside = fine.between(*band)
     if len(inside.H) < 5 or len(plain.between(*band).H) < 5:
         raise BadInput(f"band {band[0]:g} to {band[1]:g} Hz holds {len(inside.H)} lines, expected 5 or more")
+    # Loaded here: with what it brings along it takes as long as a third of the window's start.
+    from scipy.signal import find_peaks
+
     where, facts = find_peaks(np.abs(inside.H), prominence=0)
     height = facts["prominences"] / _scatter(plain, inside.frequency_hz[where])
     best = [k for k in np.argsort(-height)[:MOST_MODES] if height[k] > PROMINENCE]

@@ -3,7 +3,7 @@
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 
-from instrument.check.work import Work
+from instrument.check.piece import Work
 from instrument.run.rig import Rig
 from instrument.stream.event import Event
 

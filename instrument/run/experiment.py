@@ -18,15 +18,14 @@ from instrument.run.control import RunControl
 from instrument.run.keeping import finish_session, kept, open_journal
 from instrument.run.live_diagnosis import Diagnoser, diagnose_points
 from instrument.run.live_fit import Fitter, fit_points
-from instrument.run.session_run import Part, SessionRun
+from instrument.run.part import Part
+from instrument.run.session_run import SessionRun
 from instrument.session.configuration import Experiment
 from instrument.session.recorder import Recorder
 from instrument.session.storage import part_events
 from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated, PointMeasured
 from instrument.stream.event import Event
 from instrument.stream.raw import BlockAcquired
-
-__all__ = ["Finished", "Part", "Watch", "run_experiment"]
 
 log = logging.getLogger(__name__)
 

@@ -17,6 +17,7 @@ from instrument.run.companion import Companion
 from instrument.run.control import RunControl
 from instrument.run.live_diagnosis import Diagnoser, apart
 from instrument.run.live_fit import Fitter
+from instrument.run.part import Part
 from instrument.run.rig import Rig, open_rig
 from instrument.run.runner import Runner
 from instrument.run.sweep_part import SweepPart
@@ -30,8 +31,6 @@ from instrument.stream.raw import DiagnosisStarted, SessionBegan, SessionEnded
 
 _MODES_TO_TELL = 3
 """Fewer modes do not tell one plate from another."""
-
-Part = Literal["hammer", "sweep"]
 
 
 class SessionRun:

@@ -19,7 +19,7 @@ from gui.asking import ask_folder
 from gui.form.draft import Drafts
 from gui.widgets import button
 from instrument.engine import Order
-from instrument.run.experiment import Part
+from instrument.run.part import Part
 
 _WORDS: dict[Part, str] = {"hammer": "hammer test", "sweep": "sweep"}
 _ANEW = "a new session"

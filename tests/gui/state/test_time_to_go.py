@@ -6,7 +6,7 @@ import pytest
 from sessions import point
 
 from gui.state.time_to_go import TimeToGo
-from instrument.check.work import Work
+from instrument.check.piece import Work
 from instrument.run.companion import Companion
 from instrument.run.experiment import run_experiment
 from instrument.session.configuration import read_whole_experiment

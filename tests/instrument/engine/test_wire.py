@@ -8,7 +8,7 @@ import pytest
 from result_cases import identification
 
 from drivers.shaker.modbus_driver import ModbusTcpOptions
-from instrument.check.work import Work
+from instrument.check.piece import Work
 from instrument.engine.messages import (
     Answered,
     BlocksDropped,

@@ -1,0 +1,16 @@
+"""A piece of a run's work."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+Kind = Literal["mount", "aim", "hit", "calibration", "soak", "step", "sentinel", "fit", "diagnosis"]
+
+
+@dataclass(frozen=True)
+class Work:
+    """One piece: two parts of its time, since only the second is a guess of the plate."""
+
+    kind: Kind
+    fixed_s: float
+    settling_s: float = 0.0
+    """From scratch to the tolerance; a step begins near its end and takes less."""

@@ -1,0 +1,5 @@
+"""What a run may consist of."""
+
+from typing import Literal
+
+Part = Literal["hammer", "sweep"]
