@@ -4,6 +4,7 @@ import threading
 from collections.abc import Callable
 
 from instrument.engine.messages import Answered, Decided, Message, OperatorAsked
+from instrument.run.control import RunControl
 from instrument.run.operator import Operator
 from instrument.stream.raw import OperatorDid
 
@@ -66,6 +67,9 @@ class RemoteOperator:
             self._content_asked = True
             return "content" in self._answers
 
+    def overrule(self, control: RunControl) -> None:
+        """What is said to the sweep comes by messages of its own."""
+
     def forget_content(self) -> None:
         """Another hit is wanted: what was said of those before does not hold for it."""
         with self._changed:
@@ -116,6 +120,9 @@ class HelpedOperator:
     def decided(self) -> list[OperatorDid]:
         """What the client has decided since the last time."""
         return self._deciding.decided()
+
+    def overrule(self, control: RunControl) -> None:
+        """What is said to the sweep comes by messages of its own."""
 
     def content(self, good: int) -> bool:
         """Whether the client is. In virtual time this waits: samples nobody needs would come in masses."""

@@ -9,17 +9,19 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from time import monotonic
-from typing import IO
+from typing import IO, Literal
 
 from instrument.engine.mailbox import Mailbox
 from instrument.engine.messages import (
     AbortWanted,
     Answered,
     Decided,
+    DeclineWanted,
     Ended,
     HoldWanted,
     Message,
     Order,
+    OverruleWanted,
     RecordingBegan,
     ResumeWanted,
     RigClosed,
@@ -123,6 +125,14 @@ class Engine:
     def resume(self) -> None:
         """Go on; the step the run was held at is measured again."""
         self._commands.put(ResumeWanted())
+
+    def decline(self) -> None:
+        """Leave out the step that is being measured."""
+        self._commands.put(DeclineWanted())
+
+    def overrule(self, what: Literal["add", "end"], frequency_hz: float | None = None) -> None:
+        """To a sweep that chooses its own steps: a step next, or none any more."""
+        self._commands.put(OverruleWanted(what, frequency_hz))
 
     def abort(self) -> None:
         """End the run in order, as Ctrl-C does. What is complete is kept."""

@@ -24,10 +24,12 @@ from instrument.engine.messages import (
     AbortWanted,
     Answered,
     Decided,
+    DeclineWanted,
     Happened,
     HoldWanted,
     Logged,
     Message,
+    OverruleWanted,
     Planned,
     Progressed,
     RecordingBegan,
@@ -135,6 +137,10 @@ class Host(Companion):
                 self.control.hold()
             case ResumeWanted():
                 self.control.resume()
+            case DeclineWanted():
+                self.control.decline()
+            case OverruleWanted():
+                self.control.overrule(message.what, message.frequency_hz)
             case Answered() | Decided():
                 self._operator.answer(message)
             case AbortWanted() | StopWanted():

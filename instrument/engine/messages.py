@@ -54,6 +54,19 @@ class ResumeWanted(Message):
 
 
 @dataclass(frozen=True)
+class DeclineWanted(Message):
+    """Leave out the step that is being measured."""
+
+
+@dataclass(frozen=True)
+class OverruleWanted(Message):
+    """A word to a sweep that chooses its own steps: a step next, or none any more."""
+
+    what: Literal["add", "end"]
+    frequency_hz: float | None = None
+
+
+@dataclass(frozen=True)
 class AbortWanted(Message):
     """End the run, as Ctrl-C does on a terminal. What is complete is kept."""
 

@@ -108,7 +108,8 @@ def _chosen(
     if started.pending_hz is not None:
         taken[_place(c.frequency_hz, started.pending_hz)] = 1.0
     spent = sum(p.dwell_s + p.settle_s for p in used)
-    ahead = _Ahead(grid, _sensitivity(grid, measured, fitted, ground), fitted, taken, ground, goal, spent)
+    s = _sensitivity(grid, measured, fitted, ground)
+    ahead = _Ahead(grid, s, fitted, taken, ground, goal, spent, started.declined_hz)
     causes_s = before.causes_s if before is not None else 0.0
     index, teaches, why = ahead.next(causes_s)
     steps = () if index is None else (index,)
@@ -155,13 +156,17 @@ def _layout(
     before: StepsChosen | None,
     ground: Ground,
 ) -> Layout:
-    """That of the choice before, unless the law has moved far from it."""
+    """That of the choice before, unless the law has moved far from it, or a step is not among its own."""
+    pending = set() if started.pending_hz is None else {started.pending_hz}
+    there = {p.frequency_hz for p in used} | pending
     if before is not None and before.grid_law:
         laid_out = ground.law.with_logs(np.array(before.grid_law))
         if not far(law, laid_out, ground.band_hz, _MOVED):
-            return Layout(before.grid_law, before.grid_stated, before.grid_hz)
-    there = {p.frequency_hz for p in used} | ({started.pending_hz} - {None})
-    return Layout(_logs(law), tuple(z.tolist()), tuple(sorted(f for f in there if f is not None)))
+            layout = Layout(before.grid_law, before.grid_stated, before.grid_hz)
+            if there.issubset(_grid(ground, layout).candidates.frequency_hz.tolist()):
+                return layout
+            return replace(layout, measured_hz=tuple(sorted({*layout.measured_hz, *there})))
+    return Layout(_logs(law), tuple(z.tolist()), tuple(sorted(there)))
 
 
 @lru_cache(maxsize=4)
@@ -192,6 +197,7 @@ class _Ahead:
         ground: Ground,
         goal: Goal,
         spent_s: float,
+        declined_hz: tuple[float, ...],
     ) -> None:
         self._grid, self._s, self._taken, self._goal = grid, s, taken, goal
         self._aims = Aims.over(fitted.law, *ground.band_hz)
@@ -199,8 +205,9 @@ class _Ahead:
         self._wider = float(np.sqrt(max(1.0, np.nan_to_num(fitted.chi2_per_dof, nan=1.0))))
         self.worst = self._wider * float(self._aims.errors(s.covariance(taken)).max())
         self.limit = self._wider * limit_of(s, self._aims)
-        left = goal.most_s - spent_s
-        self._seconds = np.where(grid.candidates.seconds <= left, grid.candidates.seconds, np.inf)
+        c, left = grid.candidates, goal.most_s - spent_s
+        possible = (c.seconds <= left) & ~np.isin(c.frequency_hz, declined_hz)
+        self._seconds = np.where(possible, c.seconds, np.inf)
 
     def next(self, causes_s: float) -> tuple[int | None, str, str]:
         """Candidate, what it teaches, why."""

@@ -29,6 +29,7 @@ from instrument.stream.raw import (
     ShakerCommanded,
     SignalLevelRead,
     StepBegan,
+    StepDeclined,
     TemperatureRead,
 )
 from instrument.stream.scaling import Scaling
@@ -100,7 +101,7 @@ class Analysis:
                 self._signal_level = event.value
             case TemperatureRead():
                 self._temperature_c = event.value_c
-            case Held():
+            case Held() | StepDeclined():
                 self.step = None
             case SegmentEnded():
                 self.step = None

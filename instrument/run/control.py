@@ -1,6 +1,8 @@
 """What a person may ask of a run while it goes on, from any thread."""
 
 import threading
+from collections import deque
+from typing import Literal
 
 
 class RunControl:
@@ -9,6 +11,8 @@ class RunControl:
     def __init__(self) -> None:
         self._held = threading.Event()
         self._abort: str | None = None
+        self._declines = threading.Event()
+        self._words: deque[tuple[Literal["add", "end"], float | None]] = deque()
 
     def hold(self) -> None:
         """Silence the shaker and wait; the step begun is measured again on resuming."""
@@ -21,6 +25,24 @@ class RunControl:
     def abort(self, why: str) -> None:
         """End the run safely."""
         self._abort = why
+
+    def decline(self) -> None:
+        """Leave out the step that is being measured."""
+        self._declines.set()
+
+    def overrule(self, what: Literal["add", "end"], frequency_hz: float | None = None) -> None:
+        """A word to a sweep that chooses its own steps: another step next, or none any more."""
+        self._words.append((what, frequency_hz))
+
+    def declined(self) -> bool:
+        """Whether the step is to be left out; asked once, said once."""
+        said = self._declines.is_set()
+        self._declines.clear()
+        return said
+
+    def word(self) -> tuple[Literal["add", "end"], float | None] | None:
+        """The next word to the plan; None where there is none."""
+        return self._words.popleft() if self._words else None
 
     @property
     def held(self) -> bool:

@@ -8,9 +8,11 @@ import click
 import httpx
 
 from instrument.errors import RigStopped
+from instrument.run.control import RunControl
 from instrument.stream.raw import OperatorDid
 
 _PATIENCE_S = 10.0
+_MOST_HZ = 1e5
 
 
 class Operator(Protocol):
@@ -36,6 +38,10 @@ class Operator(Protocol):
         """Whether the hits may be used, now that there are enough. Does not wait."""
         ...
 
+    def overrule(self, control: RunControl) -> None:
+        """Pass on what was said to the sweep since the last time. Does not wait."""
+        ...
+
 
 def decision(line: str) -> OperatorDid | None:
     """What a typed line means; None where it means nothing."""
@@ -48,6 +54,29 @@ def decision(line: str) -> OperatorDid | None:
     if not 1 <= len(words) <= 2 or words[0] not in meanings or not all(w.isdecimal() for w in words[1:]):
         return None
     return OperatorDid(meanings[words[0]], "", int(words[1]) if len(words) == 2 else 0)
+
+
+def overruling(line: str, control: RunControl) -> bool:
+    """Do what a typed line asks of a sweep; False where it means nothing."""
+    words = line.split()
+    match words:
+        case ["s"]:
+            control.decline()
+        case ["e"]:
+            control.overrule("end")
+        case ["+", said] if _frequency(said) is not None:
+            control.overrule("add", _frequency(said))
+        case _:
+            return False
+    return True
+
+
+def _frequency(said: str) -> float | None:
+    try:
+        found = float(said)
+    except ValueError:
+        return None
+    return found if 0 < found < _MOST_HZ else None
 
 
 def _at_a_terminal() -> bool:
@@ -103,6 +132,15 @@ class Person:
             click.echo(f"{good} good hits: Enter to go on ({_TYPED})", err=True)
         return self._content
 
+    def overrule(self, control: RunControl) -> None:
+        """Lines typed meanwhile: s leaves the step out, + 45.2 adds one, e ends the sweep."""
+        while _at_a_terminal() and select.select([sys.stdin], [], [], 0)[0]:
+            line = sys.stdin.readline()
+            if not line:
+                return
+            if line.strip() and not overruling(line, control):
+                click.echo("expected s (leave this step out), + 45.2 (add a step) or e (end)", err=True)
+
     def _ask(self, text: str) -> None:
         click.echo(f"{text} ... ", err=True, nl=False)
         try:
@@ -139,6 +177,9 @@ class SimulatedOperator:
     def content(self, good: int) -> bool:
         """Always."""
         return True
+
+    def overrule(self, control: RunControl) -> None:
+        """Never: what is chosen is measured."""
 
     def _put(self, what: str, body: dict[str, object]) -> None:
         try:

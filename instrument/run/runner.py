@@ -19,7 +19,7 @@ from instrument.run.analysis import Analysis
 from instrument.run.control import RunControl
 from instrument.run.rig import Rig
 from instrument.run.soaking import Soaking, read_temperature
-from instrument.stepped_sine.plan import Action, ChoiceWanted, Plan, RangeWanted, Result
+from instrument.stepped_sine.plan import Action, ChoiceWanted, Plan, RangeWanted, Result, WordWanted
 from instrument.stream.derived import (
     DriveRequested,
     HitJudged,
@@ -36,10 +36,12 @@ from instrument.stream.raw import (
     HammerTestEnded,
     Held,
     Part,
+    PlanOverruled,
     RangeSet,
     ShakerCommanded,
     SignalLevelRead,
     StepBegan,
+    StepDeclined,
 )
 
 _BEAT_S = 0.2
@@ -133,6 +135,8 @@ class Runner:
             self._set_range(action.name)
         elif isinstance(action, ChoiceWanted):
             return self._chosen(action.number)
+        elif isinstance(action, WordWanted):
+            return self._word(action.number)
         elif isinstance(action, StepBegan):
             return self._measure(action)
         else:
@@ -150,8 +154,18 @@ class Runner:
                 self._watch()
             self._read(round(_LONGEST_READ_S * self._rig.front_end.sample_rate_hz))
 
+    def _word(self, number: int) -> PlanOverruled | None:
+        """What a person has said to the plan, recorded as it is obeyed."""
+        word = self._control.word()
+        if word is None:
+            return None
+        said = PlanOverruled(number, *word)
+        self._emit(said)
+        return said
+
     def _measure(self, began: StepBegan) -> Result:
         """One step, again from its beginning after a hold."""
+        self._control.declined()
         while True:
             if (read := read_temperature(self._rig)) is not None:
                 self._emit(read)
@@ -159,6 +173,10 @@ class Runner:
             self._emit(began)
             self._command(began.frequency_hz, began.drive_v)
             while not self._control.held:
+                if self._declined(began):
+                    declined = StepDeclined(began.step, began.segment, began.sweep, began.frequency_hz)
+                    self._emit(declined)
+                    return declined
                 for event in self._read(self._analysis.wanted):
                     if isinstance(event, DriveRequested):
                         self._command(began.frequency_hz, event.drive_v)
@@ -167,6 +185,11 @@ class Runner:
                     elif isinstance(event, PointMeasured | LoopChecked):
                         return event
             self._hold()
+
+    def _declined(self, began: StepBegan) -> bool:
+        """Whether a person would not have this step, the loop check before it included."""
+        self._rig.operator.overrule(self._control)
+        return began.sweep > 0 and began.purpose in ("step", "loop-check") and self._control.declined()
 
     def _hold(self) -> None:
         """Silent until resumed. Samples go on, so that nothing times out."""

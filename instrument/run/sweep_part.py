@@ -2,6 +2,8 @@
 
 from collections.abc import Callable
 
+import numpy as np
+
 from fitting.specimen import Specimen
 from instrument.check.forecast import (
     Forecast,
@@ -22,7 +24,7 @@ from instrument.stepped_sine.adaptive import AdaptivePlanner
 from instrument.stepped_sine.plan import Done, Plan, PlannedSegment
 from instrument.stream.derived import FitUpdated, PointMeasured, StepsChosen
 from instrument.stream.event import Event
-from instrument.stream.raw import ChoiceStarted, SegmentEnded
+from instrument.stream.raw import ChoiceStarted, PlanOverruled, SegmentEnded, StepDeclined
 
 
 class SweepPart:
@@ -54,8 +56,10 @@ class SweepPart:
             e for e in earlier if isinstance(e, PointMeasured) and e.purpose == "calibration"
         )
         last_step = max((getattr(e, "step", 0) for e in earlier), default=0)
-        done = Done((*analysis.points, *self._calibration_points))
+        declined = tuple(e for e in earlier if isinstance(e, StepDeclined))
+        done = Done((*analysis.points, *self._calibration_points), declined)
         self._planner = AdaptivePlanner(setup.sweep, forecast.decay_1_s, next_step=last_step + 1, done=done)
+        self._planner.overruled = [e for e in earlier if isinstance(e, PlanOverruled)]
         self._chosen = [e for e in earlier if isinstance(e, StepsChosen)]
         self._chooser: Chooser | None = None
         self._choosing: LiveChoice | None = None
@@ -113,9 +117,10 @@ class SweepPart:
         """A sweep that chooses its own steps; all in the range that has room for the band's resonances."""
         chooser, planner = self._chooser, self._planner
         assert chooser is not None
-        chooser.ground(self._analysis.damping)
+        ground = chooser.ground(self._analysis.damping)
         planner.level_m_s2, planner.chosen = band.level_m_s2[0], dict(chooser.chosen)
         planner.range_of = lambda frequency_hz: band.range_name
+        planner.region_of = lambda frequency_hz: int(ground.region(np.array([frequency_hz]))[0])
         with LiveChoice(chooser, self._record) as self._choosing:
             self._measured(runner, planner.adaptive())
 

@@ -9,7 +9,15 @@ from dataclasses import dataclass, field, replace
 from instrument.stepped_sine.drive import DriveModel
 from instrument.stepped_sine.settings import SweepSettings
 from instrument.stream.derived import LoopChecked, PointMeasured, StepsChosen
-from instrument.stream.raw import ChoiceStarted, Purpose, SegmentBegan, SegmentEnded, StepBegan
+from instrument.stream.raw import (
+    ChoiceStarted,
+    PlanOverruled,
+    Purpose,
+    SegmentBegan,
+    SegmentEnded,
+    StepBegan,
+    StepDeclined,
+)
 
 
 @dataclass(frozen=True)
@@ -22,6 +30,13 @@ class RangeWanted:
 @dataclass(frozen=True)
 class ChoiceWanted:
     """What a sweep that chooses its own steps decided under a number, once it is there."""
+
+    number: int
+
+
+@dataclass(frozen=True)
+class WordWanted:
+    """What a person says to the steps chosen under a number, where anybody has said anything."""
 
     number: int
 
@@ -44,6 +59,18 @@ class Done:
     """What a run that was broken off has behind it."""
 
     points: tuple[PointMeasured, ...] = ()
+    declined: tuple[StepDeclined, ...] = ()
+
+    def is_declined(self, planned: PlannedSegment, frequency_hz: float) -> bool:
+        """Whether a person would not have a step."""
+        wanted = (planned.segment, planned.sweep, frequency_hz)
+        return planned.purpose == "step" and any(
+            (d.segment, d.sweep, d.frequency_hz) == wanted for d in self.declined
+        )
+
+    def settles(self, planned: PlannedSegment, frequency_hz: float) -> bool:
+        """Whether nothing is left to do about a step."""
+        return self.find(planned, frequency_hz) is not None or self.is_declined(planned, frequency_hz)
 
     def find(self, planned: PlannedSegment, frequency_hz: float) -> PointMeasured | None:
         """The point of a step, where it is there already."""
@@ -55,8 +82,8 @@ class Done:
         return None
 
 
-Action = RangeWanted | SegmentBegan | StepBegan | SegmentEnded | ChoiceStarted | ChoiceWanted
-Result = LoopChecked | PointMeasured | StepsChosen | None
+Action = RangeWanted | SegmentBegan | StepBegan | SegmentEnded | ChoiceStarted | ChoiceWanted | WordWanted
+Result = LoopChecked | PointMeasured | StepsChosen | PlanOverruled | StepDeclined | None
 Plan = Generator[Action, Result, None]
 
 
@@ -86,12 +113,12 @@ class Planner:
 
     def _segment(self, planned: PlannedSegment) -> Plan:
         f = planned.frequencies_hz
-        if all(self.done.find(planned, x) for x in f):
+        if all(self.done.settles(planned, x) for x in f):
             return
         yield RangeWanted(planned.range_name)
         yield SegmentBegan(planned.segment, planned.sweep, min(f), max(f), len(f))
         for frequency, level in zip(f, planned.level_m_s2, strict=True):
-            if self.done.find(planned, frequency) is None:
+            if not self.done.settles(planned, frequency):
                 yield from self._step(planned, planned.purpose, frequency, level)
         yield SegmentEnded(planned.segment, planned.sweep)
 
@@ -109,16 +136,22 @@ class Planner:
         region = replace(near[0] if near else planned, sweep=planned.sweep)
         yield from self._step(region, "sentinel", frequency, planned.level_m_s2[0])
 
-    def _step(self, planned: PlannedSegment, purpose: Purpose, frequency: float, level: float) -> Plan:
+    def _step(
+        self, planned: PlannedSegment, purpose: Purpose, frequency: float, level: float
+    ) -> Generator[Action, Result, bool]:
+        """Whether it was measured: a person may decline it."""
         if not self.drive.knows(frequency):
             check = self.settings.control.check_share * self.settings.limits.drive_v
             found = yield self._began(planned, "loop-check", frequency, None, check)
+            if isinstance(found, StepDeclined):
+                return False
             if isinstance(found, LoopChecked):
                 self.drive.learn(frequency, found.gain_m_s2_v)
         drive = min(self.drive.drive_v(frequency, level), self.settings.limits.drive_v)
         point = yield self._began(planned, purpose, frequency, level, drive)
         if isinstance(point, PointMeasured) and point.drive_v > 0:
             self.drive.learn(frequency, abs(point.base_m_s2) / point.drive_v)
+        return not isinstance(point, StepDeclined)
 
     def _began(
         self, planned: PlannedSegment, purpose: Purpose, frequency: float, level: float | None, drive: float

@@ -202,6 +202,30 @@ class ChoiceStarted(Event):
     """Points of this and all earlier steps take part."""
     pending_hz: float | None
     """Measured meanwhile: it counts as taken. None where nothing is."""
+    declined_hz: tuple[float, ...] = ()
+    """Steps that a person would not have: they are not chosen again."""
+
+
+@dataclass(frozen=True)
+class StepDeclined(Event):
+    """A person would not have this step; nothing of it is kept."""
+
+    step: int
+    segment: int
+    sweep: int
+    frequency_hz: float
+
+
+@dataclass(frozen=True)
+class PlanOverruled(Event):
+    """A person's word to a sweep that chooses its own steps; it holds once this choice is there."""
+
+    number: int
+    """Of the choice."""
+    what: Literal["add", "end"]
+    """A step of their own before those chosen; or none any more."""
+    frequency_hz: float | None = None
+    """Of the step added."""
 
 
 @dataclass(frozen=True)

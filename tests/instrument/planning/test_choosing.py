@@ -158,3 +158,20 @@ def test_a_misfit_is_said_and_widens_what_is_stated(begun, ground):
     found = choose_steps(ChoiceStarted(2, points[-1].step, None), wrong, first, ground, goal)
     assert "errors are widened" in found.why
     assert found.worst_percent > second.worst_percent
+
+
+def test_a_step_declined_is_not_chosen_again(begun, ground):
+    goal, first, points, second = begun
+    (f,) = second.frequencies_hz
+    again = choose_steps(ChoiceStarted(2, points[-1].step, None, (f,)), points, first, ground, goal)
+    assert again.frequencies_hz != (f,)
+
+
+def test_a_step_of_a_persons_own_counts_where_it_lies(begun, ground):
+    goal, _, points, second = begun
+    own = replace(second, frequencies_hz=(50.123,), segments=(int(ground.region(np.array([50.123]))[0]),))
+    known = [*points, *measured(ground, own, points[-1].step + 1)]
+    found = choose_steps(ChoiceStarted(3, known[-1].step, None), known, second, ground, goal)
+    assert 50.123 in found.grid_hz
+    assert "scatter" not in found.why
+    assert found.worst_percent < second.worst_percent

@@ -11,12 +11,13 @@ from run_at_point import RunAtPoint
 
 from drivers.simulated.rig import SimulatedRig
 from instrument.errors import RigStopped
+from instrument.run.companion import Companion
 from instrument.run.control import RunControl
 from instrument.run.experiment import run_experiment
 from instrument.run.replay import replay
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import FitUpdated, PointMeasured
-from instrument.stream.raw import SessionEnded
+from instrument.stream.raw import SessionEnded, StepBegan
 
 HEARTBEAT_S = 2.0
 
@@ -198,3 +199,45 @@ def test_a_watcher_that_fails_does_not_stop_the_measurement(tmp_path):
     with formula_rig(tmp_path) as (_, experiment):
         finished = run(experiment, tmp_path, ("sweep",), watch=fail)
     assert len(finished.points) == 15
+
+
+def test_a_step_that_a_person_declines_is_left_out_for_good(tmp_path):
+    with formula_rig(tmp_path) as (_, experiment):
+        control, stop = RunControl(), RunControl()
+        first = run(
+            experiment, tmp_path, ("sweep",), control=control, companion=AtStep(98.0, control.decline)
+        )
+        assert len(first.points) == 14
+        assert 98.0 not in [p.frequency_hz for p in first.points]
+        both = AtStep(98.0, stop.decline), RunAtPoint(5, lambda: stop.abort("broken off"))
+        with pytest.raises(RigStopped, match="broken off"):
+            run(experiment, tmp_path, ("sweep",), control=stop, companion=Both(both))
+        (folder,) = tmp_path.glob("*.running")
+        carried_on = run(experiment, tmp_path, ("sweep",), resume=folder)
+    kept = [p.frequency_hz for p in carried_on.points]
+    assert kept == [p.frequency_hz for p in first.points]
+    with SessionFile(carried_on.session) as file:
+        assert replay(file, fit=no_fit).differences == []
+
+
+class AtStep(Companion):
+    """Does something as soon as a step at a frequency has begun."""
+
+    def __init__(self, frequency_hz, do):
+        self._frequency_hz, self._do = frequency_hz, do
+
+    def happened(self, event):
+        step = isinstance(event, StepBegan) and event.purpose == "step"
+        if step and event.frequency_hz == self._frequency_hz:
+            self._do()
+
+
+class Both(Companion):
+    """Told of everything, each of them."""
+
+    def __init__(self, each):
+        self._each = each
+
+    def happened(self, event):
+        for one in self._each:
+            one.happened(event)

@@ -3,7 +3,8 @@
 import pytest
 
 from instrument.errors import RigStopped
-from instrument.run.operator import Person, decision
+from instrument.run.control import RunControl
+from instrument.run.operator import Person, decision, overruling
 from instrument.stream.raw import OperatorDid
 
 
@@ -30,3 +31,18 @@ def test_nobody_at_the_terminal_ends_the_run_with_what_was_asked(monkeypatch):
         Person().mount("bare")
     assert Person().decided() == []
     assert Person().content(3)
+
+
+def test_typed_words_overrule_a_sweep():
+    control = RunControl()
+    assert all(overruling(typed, control) for typed in ("s\n", "+ 45.2\n", "e\n"))
+    assert control.declined()
+    assert not control.declined()
+    assert [control.word(), control.word(), control.word()] == [("add", 45.2), ("end", None), None]
+
+
+@pytest.mark.parametrize("typed", ["", "x", "+", "+ -3", "+ nan", "+ 1 2", "s 3"])
+def test_other_words_overrule_nothing(typed):
+    control = RunControl()
+    assert not overruling(typed, control)
+    assert control.word() is None

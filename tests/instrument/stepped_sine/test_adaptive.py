@@ -6,10 +6,17 @@ import pytest
 from sessions import point
 
 from instrument.stepped_sine.adaptive import AdaptivePlanner
-from instrument.stepped_sine.plan import ChoiceWanted, Done
+from instrument.stepped_sine.plan import ChoiceWanted, Done, WordWanted
 from instrument.stepped_sine.settings import SweepSettings
 from instrument.stream.derived import LoopChecked, StepsChosen
-from instrument.stream.raw import ChoiceStarted, SegmentBegan, SegmentEnded, StepBegan
+from instrument.stream.raw import (
+    ChoiceStarted,
+    PlanOverruled,
+    SegmentBegan,
+    SegmentEnded,
+    StepBegan,
+    StepDeclined,
+)
 
 SCRIPT = {
     1: ((20.0, 21.0, 100.0), (1, 1, 2)),
@@ -31,8 +38,12 @@ def planner(**options):
     return AdaptivePlanner(SweepSettings(), lambda f: 10.0, level_m_s2=9.81, **options)
 
 
-def walk(plan, stop_after=None):
-    """Actions, points and choices; broken off after so many points."""
+def walk(plan, stop_after=None, words=(), declines=()):
+    """Actions, points and choices; broken off after so many points.
+
+    `words` are said in this order, each as soon as its choice is there; `declines` are frequencies.
+    """
+    words = list(words)
     actions, points, choices, started, result = [], [], {}, None, None
     while True:
         try:
@@ -46,6 +57,12 @@ def walk(plan, stop_after=None):
                 started = action
             case ChoiceWanted():
                 result = choices[action.number] = choice(started)
+            case WordWanted() if words and words[0].number == action.number:
+                result = words.pop(0)
+                actions.append(result)
+            case StepBegan(purpose="step") if action.frequency_hz in declines:
+                result = StepDeclined(action.step, action.segment, action.sweep, action.frequency_hz)
+                actions.append(result)
             case StepBegan(purpose="loop-check"):
                 result = LoopChecked(action.step, action.frequency_hz, 5.0, 100.0)
             case StepBegan():
@@ -126,3 +143,54 @@ def test_a_point_of_another_pass_is_not_taken_for_a_step():
     moved = [replace(p, sweep=9) if p.frequency_hz == 22.0 else p for p in points]
     actions, _, _ = walk(planner(chosen=choices, done=Done(tuple(moved))).adaptive())
     assert steps(actions) == [22.0]
+
+
+ADD, END = PlanOverruled(2, "add", 50.0), PlanOverruled(3, "end")
+
+
+def measured(points):
+    return [p.frequency_hz for p in points]
+
+
+def test_a_step_of_a_persons_own_comes_before_the_one_chosen_and_the_next_choice_knows_it():
+    actions, points, _ = walk(planner(region_of=lambda f: 7).adaptive(), words=[ADD])
+    assert measured(points) == [20.0, 21.0, 100.0, 50.0, 22.0, 101.0, 102.0]
+    assert points[3].segment == 7
+    third = next(a for a in actions if isinstance(a, ChoiceStarted) and a.number == 3)
+    assert third.last_step == points[3].step
+
+
+def test_a_person_ends_it():
+    _, points, _ = walk(planner().adaptive(), words=[END])
+    assert measured(points) == [20.0, 21.0, 100.0, 22.0]
+
+
+def test_a_step_added_at_the_end_is_followed_by_a_choice_more():
+    actions, points, _ = walk(planner().adaptive(), words=[PlanOverruled(6, "add", 50.0)])
+    assert measured(points)[-1] == 50.0
+    assert max(a.number for a in actions if isinstance(a, ChoiceStarted)) == 7
+
+
+@pytest.mark.parametrize("frequency", [21.0, 22.0])
+def test_a_step_declined_is_said_to_every_later_choice(frequency):
+    actions, points, _ = walk(planner().adaptive(), declines=[frequency])
+    assert frequency not in measured(points)
+    after = next(k for k, a in enumerate(actions) if isinstance(a, StepDeclined))
+    later = [a for a in actions[after:] if isinstance(a, ChoiceStarted)]
+    assert later
+    assert all(a.declined_hz == (frequency,) for a in later)
+
+
+@pytest.mark.parametrize("after", range(1, 6))
+def test_overruled_and_broken_off_it_goes_on_as_if_never_stopped(after):
+    _, all_points, _ = walk(planner().adaptive(), words=[ADD], declines=[21.0])
+    actions, points, choices = walk(planner().adaptive(), after, [ADD], [21.0])
+    again = planner(
+        chosen=choices,
+        overruled=[a for a in actions if isinstance(a, PlanOverruled)],
+        done=Done(tuple(points), tuple(a for a in actions if isinstance(a, StepDeclined))),
+        next_step=points[-1].step + 1,
+    )
+    unsaid = [] if ADD in actions else [ADD]
+    _, further, _ = walk(again.adaptive(), words=unsaid, declines=[21.0])
+    assert measured(points + further) == measured(all_points)
