@@ -3,7 +3,8 @@
 A first pass lies around the resonances of the stated law. From then on law, bend and stated numbers are
 fitted to what there is, from where the last choice left them; the candidate that lowers the criterion of
 `fitting.planning.choice` fastest comes next, or, for a stated share of the rig time, one that separates
-causes. What is being measured while this is decided counts as taken.
+causes. What is being measured while this is decided counts as taken. Candidates are laid out for one law
+and kept until the law has moved far: a choice says what the next one's are, so that they can be made ahead.
 """
 
 from dataclasses import dataclass, replace
@@ -69,7 +70,7 @@ def choose_steps(
 ) -> StepsChosen:
     """What comes next. The same for the same arguments, to the bit."""
     used = [p for p in points if p.purpose == "step" and p.step <= started.last_step]
-    if not used:
+    if not used or before is None:
         return _first_pass(started, ground)
     # One thread: sums in another order would differ in the last bit.
     with threadpool_limits(1):
@@ -84,22 +85,36 @@ def _first_pass(started: ChoiceStarted, ground: Ground) -> StepsChosen:
     low, high = ground.band_hz
     around = [share * p.real for p in ground.centres_hz for share in COARSE]
     f = np.unique(np.round([low, *(x for x in around if low < x < high), high], 3))
+    f = f[~np.isin(f, started.declined_hz)]
     why = f"first pass: {len(f)} steps around {len(ground.centres_hz)} resonances of the stated law"
     number, last = started.number, started.last_step
     regions = tuple(int(k) for k in ground.region(f))
-    return StepsChosen(number, last, tuple(f.tolist()), regions, "coarse", False, why, None, None)
+    return StepsChosen(
+        number=number,
+        last_step=last,
+        frequencies_hz=tuple(f.tolist()),
+        segments=regions,
+        teaches="coarse",
+        ended=not len(f),
+        why=why,
+        worst_percent=None,
+        limit_percent=None,
+        grid_law=_logs(ground.law),
+        grid_stated=(0.0,) * len(ground.problem(np.array(ground.band_hz)).nuisances.each),
+        grid_hz=tuple(f.tolist()),
+    )
 
 
 def _chosen(
     started: ChoiceStarted,
     used: list[PointMeasured],
-    before: StepsChosen | None,
+    before: StepsChosen,
     ground: Ground,
     goal: Goal,
 ) -> StepsChosen:
     sweep = sweep_of(used)
     law, z = _start(sweep, before, ground)
-    layout = _layout(law, z, started, used, before, ground)
+    layout = _layout(started, used, before, ground)
     grid = _grid(ground, layout)
     c = grid.candidates
     measured = on_grid(sweep, c.frequency_hz)
@@ -110,9 +125,11 @@ def _chosen(
     spent = sum(p.dwell_s + p.settle_s for p in used)
     s = _sensitivity(grid, measured, fitted, ground)
     ahead = _Ahead(grid, s, fitted, taken, ground, goal, spent, started.declined_hz)
-    causes_s = before.causes_s if before is not None else 0.0
+    causes_s = before.causes_s
     index, teaches, why = ahead.next(causes_s)
     steps = () if index is None else (index,)
+    there = _there(started, used).union(c.frequency_hz[list(steps)].tolist())
+    further = _next_layout(layout, fitted.law, fitted.z, there, ground)
     return StepsChosen(
         number=started.number,
         last_step=started.last_step,
@@ -125,16 +142,16 @@ def _chosen(
         limit_percent=100 * ahead.limit,
         law=_logs(fitted.law),
         stated=tuple(fitted.z.tolist()),
-        grid_law=layout.law,
-        grid_stated=layout.stated,
-        grid_hz=layout.measured_hz,
+        grid_law=further.law,
+        grid_stated=further.stated,
+        grid_hz=further.measured_hz,
         causes_s=causes_s + (float(c.seconds[index]) if index is not None and teaches == "causes" else 0.0),
     )
 
 
-def _start(sweep: Sweep, before: StepsChosen | None, ground: Ground) -> tuple[CoreLaw, Array]:
+def _start(sweep: Sweep, before: StepsChosen, ground: Ground) -> tuple[CoreLaw, Array]:
     """Where the last choice left law and stated numbers; or a fit from the stated law."""
-    if before is not None and before.law:
+    if before.law:
         return ground.law.with_logs(np.array(before.law)), np.array(before.stated)
     assert ground.specimen.core is not None
     once = on_grid(sweep, f := np.unique(sweep.frequency_hz))
@@ -148,25 +165,33 @@ def _start(sweep: Sweep, before: StepsChosen | None, ground: Ground) -> tuple[Co
     return ground.law.with_values(straight), begun.none.z
 
 
-def _layout(
-    law: CoreLaw,
-    z: Array,
-    started: ChoiceStarted,
-    used: list[PointMeasured],
-    before: StepsChosen | None,
-    ground: Ground,
-) -> Layout:
-    """That of the choice before, unless the law has moved far from it, or a step is not among its own."""
-    pending = set() if started.pending_hz is None else {started.pending_hz}
-    there = {p.frequency_hz for p in used} | pending
-    if before is not None and before.grid_law:
-        laid_out = ground.law.with_logs(np.array(before.grid_law))
-        if not far(law, laid_out, ground.band_hz, _MOVED):
-            layout = Layout(before.grid_law, before.grid_stated, before.grid_hz)
-            if there.issubset(_grid(ground, layout).candidates.frequency_hz.tolist()):
-                return layout
-            return replace(layout, measured_hz=tuple(sorted({*layout.measured_hz, *there})))
+def _layout(started: ChoiceStarted, used: list[PointMeasured], before: StepsChosen, ground: Ground) -> Layout:
+    """What the choice before says, with a person's own steps among the candidates."""
+    layout = Layout(before.grid_law, before.grid_stated, before.grid_hz)
+    there = _there(started, used)
+    if there.issubset(_grid(ground, layout).candidates.frequency_hz.tolist()):
+        return layout
+    return replace(layout, measured_hz=tuple(sorted(there.union(layout.measured_hz))))
+
+
+def _next_layout(layout: Layout, law: CoreLaw, z: Array, there: set[float], ground: Ground) -> Layout:
+    """The same, unless the law has moved far from what it was made for."""
+    if not far(law, ground.law.with_logs(np.array(layout.law)), ground.band_hz, _MOVED):
+        return layout
     return Layout(_logs(law), tuple(z.tolist()), tuple(sorted(there)))
+
+
+def _there(started: ChoiceStarted, used: list[PointMeasured]) -> set[float]:
+    """Frequencies measured, or begun."""
+    pending = set() if started.pending_hz is None else {started.pending_hz}
+    return {p.frequency_hz for p in used} | pending
+
+
+def lay_out(chosen: StepsChosen, ground: Ground) -> None:
+    """Make what the choice after this one is going to ask for, so that it has it at once."""
+    if chosen.grid_law and not chosen.ended:
+        with threadpool_limits(1):
+            _grid(ground, Layout(chosen.grid_law, chosen.grid_stated, chosen.grid_hz))
 
 
 @lru_cache(maxsize=4)

@@ -8,7 +8,7 @@ from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Specimen
 from instrument.files.experiment_file import SweepTable
 from instrument.files.hammer_file import accepted_modes
-from instrument.planning.choosing import Goal, choose_steps
+from instrument.planning.choosing import Goal, choose_steps, lay_out
 from instrument.planning.grid import Ground
 from instrument.stepped_sine.settings import SweepSettings
 from instrument.stream.derived import DampingFound, PointMeasured, StepsChosen
@@ -48,6 +48,11 @@ class Chooser:
         self.chosen[found.number] = found
         return found
 
+    def look_ahead(self, going: Future[StepsChosen], damping: DampingFound | None) -> None:
+        """Lay out candidates for the choice after that one, while the rig measures."""
+        if going.exception() is None:
+            lay_out(going.result(), self.ground(damping))
+
 
 class LiveChoice:
     """Of one run. Use as a context around the sweep."""
@@ -68,6 +73,7 @@ class LiveChoice:
     ) -> None:
         """Begin to choose. Returns at once."""
         self._going = self._worker.submit(self._chooser.choose, started, list(points), damping)
+        self._worker.submit(self._chooser.look_ahead, self._going, damping)
 
     def take(self, number: int, patience_s: float) -> StepsChosen | None:
         """The choice of a number, recorded; None where it is not made within a time."""

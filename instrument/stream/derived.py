@@ -230,11 +230,11 @@ class StepsChosen(Derived):
     stated: tuple[float, ...] = ()
     """The stated numbers, in standard deviations of their tolerances."""
     grid_law: tuple[float, ...] = ()
-    """The law that the candidates were laid out for."""
+    """The law that the next choice's candidates are laid out for."""
     grid_stated: tuple[float, ...] = ()
-    """The stated numbers that they were laid out for."""
+    """The stated numbers that they are laid out for."""
     grid_hz: tuple[float, ...] = ()
-    """Frequencies measured or begun by then: they are among the candidates."""
+    """Frequencies measured or chosen when they were laid out: they are among the candidates."""
     causes_s: float = 0.0
     """Rig time chosen so far for steps that separate causes."""
 
