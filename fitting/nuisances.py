@@ -5,7 +5,6 @@ the row that reads the pickup, by the modal ratios and by the velocity channel. 
 derivatives of the response follow from theirs by the chain rule.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
@@ -15,8 +14,9 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.nuisance_sums import Kept, between
 from fitting.parts import CORE, MASS, STIFFNESS, coefficients
-from fitting.specimen import Specimen
+from fitting.specimen import PlacedMass, Specimen
 from fitting.tolerances import PLATE, STATED, Unit, moved, tolerance
 
 _H = 1e-2
@@ -24,8 +24,6 @@ _H = 1e-2
 _UNHEARD = 1e-6
 """Share of a mode that the plate's motions carry, below which its ratio plays no part."""
 _TREATMENT = ("constraining", "core")
-_MOST_KEPT = 64
-"""Changes at places just asked for: one search asks for the same few again and again."""
 Spot = Literal["pickup", "force"]
 _FELT = 0.3
 """Standard deviations from which derivatives to stated numbers are taken to vary."""
@@ -68,6 +66,8 @@ def nuisances_of(
         for r, ratio in enumerate(specimen.modal_ratios[: len(heard)])
         if ratio > 0 and heard[r] and plate.d[r] > 0
     ]
+    weighed = tolerance(specimen, "mass")
+    found += [Nuisance(f"mass_{k + 1}", "mass", weighed) for k in range(len(specimen.masses))]
     found.append(Nuisance("gain", "gain", tolerance(specimen, "gain")))
     if has_phase:
         found.append(Nuisance("delay", "delay", tolerance(specimen, "delay")))
@@ -89,7 +89,12 @@ class Nuisances:
     @property
     def change_nothing(self) -> bool:
         """Whether the plate stays as its model is."""
-        return not self.each and self.like is None
+        return not self.each and self.like is None and not self.masses
+
+    @property
+    def masses(self) -> tuple[PlacedMass, ...]:
+        """That were put on it; a small structure has none apart."""
+        return self.specimen.masses if isinstance(self.specimen, Specimen) else ()
 
     @property
     def reference(self) -> Specimen:
@@ -151,13 +156,13 @@ class Nuisances:
         return c.K_0, c.M
 
     @cached_property
-    def _kept(self) -> "_Kept":
-        return _Kept()
+    def _kept(self) -> "Kept":
+        return Kept()
 
     @cached_property
-    def _kept_differences(self) -> "_Kept":
+    def _kept_differences(self) -> "Kept":
         # They are few, and dear.
-        return _Kept()
+        return Kept()
 
     def coefficients(self, z: Array) -> Array:
         """Of all parts and the load above the reference's. Shape (parts + 1,)."""
@@ -198,14 +203,26 @@ class Nuisances:
             np.tensordot(c[a:b], plate.parts[a:b], axes=1)
             for a, b in ((0, n_0), (n_0, n_0 + n_1), (n_0 + n_1, n_0 + n_1 + n_M))
         )
+        M, load = M.real, self._load(plate, c) + self._force_change(plate, z)
+        for mass, w in self._masses(plate, z):
+            M, load = M + mass * np.outer(w, w), load - mass * w
         return Change(
             K=K,
             K_1=K_1.real,
-            M=M.real,
-            load=self._load(plate, c) + self._force_change(plate, z),
+            M=M,
+            load=load,
             observe=self._row_change(plate, z),
             damping=self._damping(len(plate.d), z),
         )
+
+    def _masses(self, plate: EnrichedReducedPlate, z: Array) -> list[tuple[float, Array]]:
+        """Each mass in kg, and what reads the deflection where it is. Shape (k,)."""
+        found = []
+        for k, m in enumerate(self.masses):
+            at = self._places.get(f"mass_{k + 1}")
+            more = np.exp(self._sigma[at] * z[at]) if at is not None else 1.0
+            found.append((m.mass_kg * float(more), plate.row(m.x_m, m.y_m)))
+        return found
 
     def _load(self, plate: EnrichedReducedPlate, c: Array) -> Array:
         """What the load becomes more. Shape (k,)."""
@@ -283,10 +300,21 @@ class Nuisances:
         """
         found = self._by_matrices(plate, omega, G, q, adjoint, z)
         found -= self._by_load(plate, adjoint, z)
+        if self.specimen.drive == "base":
+            for k, change, w in self._by_masses(plate, z):
+                found[k] -= change * (adjoint @ w)
         if self.specimen.drive == "force":
             for k, row in self._rows_by("force", plate, z).items():
                 found[k] += adjoint @ row
         return found
+
+    def _by_masses(self, plate: EnrichedReducedPlate, z: Array) -> list[tuple[int, float, Array]]:
+        """Which number each mass is, its change in kg by that, and its row."""
+        return [
+            (at, float(self._sigma[at]) * mass, w)
+            for n, (mass, w) in enumerate(self._masses(plate, z))
+            if (at := self._places.get(f"mass_{n + 1}")) is not None
+        ]
 
     def _by_load(self, plate: EnrichedReducedPlate, adjoint: Complex, z: Array) -> Complex:
         return np.asarray(self.by_coefficients(z)[:, -1:].real * (adjoint @ plate.load_part))
@@ -300,14 +328,16 @@ class Nuisances:
     def _by_matrices(
         self, plate: EnrichedReducedPlate, omega: Array, G: Complex, q: Complex, adjoint: Complex, z: Array
     ) -> Complex:
-        between = _between(plate.parts, q, adjoint)
+        each = between(plate.parts, q, adjoint)
         n_0, n_1, n_M = self.counts
-        between[n_0 : n_0 + n_1] *= G
-        between[n_0 + n_1 :] *= -(omega**2)
+        each[n_0 : n_0 + n_1] *= G
+        each[n_0 + n_1 :] *= -(omega**2)
         by = self.by_coefficients(z)[:, : n_0 + n_1 + n_M]
-        found = np.asarray(-(by @ between), dtype=complex)
+        found = np.asarray(-(by @ each), dtype=complex)
         for k, row in self.rows_by(plate, z).items():
             found[k] += q @ row
+        for k, change, w in self._by_masses(plate, z):
+            found[k] += omega**2 * change * (adjoint @ w) * (q @ w)
         factor = self._damping(len(plate.d), z)
         for k, mode in self._damped:
             u = plate.U[:, mode]
@@ -332,29 +362,3 @@ class Nuisances:
         if k is not None:
             found[k] = read * (-1j * omega * self._sigma[k])
         return found
-
-
-def _between(parts: Array, q: Complex, adjoint: Complex) -> Complex:
-    """Adjoint . P q for every part at every point. Shape (parts, points)."""
-    k, n = q.shape[1], len(q)
-    # One real product: a third of the time of a complex one part by part.
-    sides = np.vstack([q.real, q.imag]) @ parts.transpose(1, 0, 2).reshape(k, -1)
-    real, imag = (side.reshape(n, len(parts), k) for side in (sides[:n], sides[n:]))
-    moved = (real + 1j * imag) @ adjoint[:, :, None]
-    return np.asarray(moved[:, :, 0].T.copy())
-
-
-class _Kept:
-    """Results of a few functions, the latest of each."""
-
-    def __init__(self) -> None:
-        self._known: dict[tuple[str, bytes], Array] = {}
-
-    def get(self, name: str, z: Array, make: Callable[[], Array]) -> Array:
-        """What `make` returns for this z."""
-        key = name, z.tobytes()
-        if key not in self._known:
-            while len(self._known) >= _MOST_KEPT:
-                del self._known[next(iter(self._known))]
-            self._known[key] = make()
-        return self._known[key]

@@ -39,6 +39,15 @@ class Core:
     law: CoreLaw
 
 
+@dataclass(frozen=True)
+class PlacedMass:
+    """A small mass of known size that somebody has put on a plate."""
+
+    mass_kg: float
+    x_m: float
+    y_m: float
+
+
 class StatedSpecimen(Protocol):
     """What every specimen says, plate or not."""
 
@@ -111,6 +120,8 @@ class Specimen:
     pickup_m: tuple[float, float] | None = None
     further_pickups_m: tuple[tuple[float, float], ...] = ()
     """Spots beside the first: rows of data say which one they are of; models are of one (`at_pickup`)."""
+    masses: tuple[PlacedMass, ...] = ()
+    """On the constraining layer; models are of the plate without them, a joint fit puts them on."""
     force_m: tuple[float, float] | None = None
     """Where a force along w drives it, its edges at rest; None: the base does."""
     reads: Reading = "relative"
@@ -184,7 +195,7 @@ class Specimen:
     @property
     def bare(self) -> "Specimen":
         """The same plate before its damping treatment."""
-        return replace(self, constraining=None, core=None)
+        return replace(self, constraining=None, core=None, masses=())
 
     def with_law(self, law: CoreLaw) -> "Specimen":
         """The same plate with another core law. Raises `ValueError` for a bare one."""

@@ -104,6 +104,8 @@ def test_a_recorded_session_replays_to_the_same_events(capsys, monkeypatch, file
     equal, apart = found.pop("equal_to_recorded"), found.pop("differences")
     assert found["derived_events"] > 90
     assert found.pop("result")["law"] == at_references(found)
+    # Said since.
+    found["diagnose"].pop("next_measurements", None)
     if storing() or same_arithmetic("replay"):
         assert (equal, apart) == (True, [])
     assert_kept("replay", found, SEARCHED)

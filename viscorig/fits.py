@@ -17,6 +17,7 @@ from instrument.models.identification import Method
 from instrument.models.identification import identify as identify_sweep
 from instrument.models.pointwise import pointwise_of
 from instrument.models.together import diagnose_together, identify_together, spots_of
+from instrument.planning.follow_up import with_follow_ups
 from instrument.progress import bar
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
@@ -103,9 +104,10 @@ def diagnose(
     if points.pickup is not None:
         _whole_sweeps_alone(given)
         spots = spots_of(points, model)
-        return Diagnosis(diagnosed_together_from(diagnose_together(spots, declined, bar, accept), spots))
+        several = diagnose_together(spots, declined, bar, accept)
+        return Diagnosis(with_follow_ups(diagnosed_together_from(several, spots), several.found))
     found = diagnose_sweep(points, model, given.modes, declined, bar, accept, resamples=resamples)
-    return Diagnosis(given.said(diagnosis_from(found, points)))
+    return Diagnosis(given.said(with_follow_ups(diagnosis_from(found, points), found)))
 
 
 def _whole_sweeps_alone(given: Given, *, pointwise: bool = False, method: Method = "direct") -> None:

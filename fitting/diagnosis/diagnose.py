@@ -126,7 +126,7 @@ def diagnose_task(
         by_hand=judgement.by_hand,
         p_value=resampled.p_value,
         nested_held_out_rms_percent=resampled.nested_rms_percent,
-        rivals=_rivals(problem, search, judgement),
+        rivals=_rivals(problem, reduced, search, judgement),
     )
 
 
@@ -165,11 +165,13 @@ def _noise_left(search: Search, scored_fits: Sequence[ScoredFit]) -> float:
     return float(np.nanmin([best.chi2_per_dof, rough]))
 
 
-def _rivals(problem: DiagnosisProblem, search: Search, judgement: Judgement) -> Rivals | None:
+def _rivals(
+    problem: DiagnosisProblem, reduced: ReducedPlate | None, search: Search, judgement: Judgement
+) -> Rivals | None:
     if not judgement.group or judgement.by_hand:
         return None
     each = tuple((scored.fitted, share) for scored, share in judgement.group)
-    return Rivals(problem, search.evidence, each, search.temper(judgement.group[0][0]))
+    return Rivals(problem, search.evidence, each, reduced, search.temper(judgement.group[0][0]))
 
 
 def _cost(scored: ScoredFit) -> float:

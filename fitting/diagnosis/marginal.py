@@ -25,22 +25,33 @@ def cost(fitted: Refitted, plate: EnrichedReducedPlate) -> float:
     """-2 ln of prior times marginal likelihood. Where the noise is unknown its size is integrated too."""
     law_widths = fitted.law.search_widths
     priors = [_prior(q, lower, upper, u) for q, lower, upper, u in _free(fitted, plate)]
-    widths = np.array([*law_widths, *(width for _, width in priors)])
     densities = np.array([*np.log(1 / (law_widths * np.sqrt(_UNIFORM))), *(density for density, _ in priors)])
-    n, bend_count = len(law_widths), fitted.law.bend_count
     J = fitted.jacobian
     if not fitted.noise_known:
         # Of the readings: what is stated is as well known as it is said.
         J = J.copy()
         J[: fitted.data] /= np.sqrt(_mean_square(fitted))
     H = J.T @ J
-    # What the data leave open, the prior still bounds.
-    bounded = np.concatenate([np.arange(n), np.arange(n + bend_count + fitted.stated, len(H))])
-    H[bounded, bounded] += 1 / widths**2
+    H += np.diag(prior_precision(fitted, plate))
     _, logdet = np.linalg.slogdet(H)
-    k = len(widths)
+    k = len(densities)
     paid = float(logdet) - k * np.log(2 * np.pi) - 2 * float(densities.sum())
     return _misfit(fitted) + paid + sum(_odds(e) for e in fitted.effects)
+
+
+def prior_precision(fitted: Refitted, plate: EnrichedReducedPlate) -> Array:
+    """What is known of each fitted number without the rows of its Jacobian. Shape (columns,).
+
+    What the data leave open, the prior still bounds: the law's ranges, the effects' expected sizes. A bend
+    and the stated numbers have rows of their own.
+    """
+    effects = [_prior(q, lower, upper, u)[1] for q, lower, upper, u in _free(fitted, plate)]
+    widths = fitted.law.search_widths
+    found = np.zeros(fitted.jacobian.shape[1])
+    found[: len(widths)] = 1 / widths**2
+    if effects:
+        found[-len(effects) :] = 1 / np.array(effects) ** 2
+    return found
 
 
 def _misfit(fitted: Refitted) -> float:

@@ -1,17 +1,23 @@
 """An effect among several files or spots: common to all of them, or of one."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fitting.arrays import Array
-from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.base import CLAMP, BarePlateModes, Effect, EffectParameter, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 FILE, PICKUP = "file", "pickup"
 _ALL = -1
-"""In the place of a file's number: common to all of them."""
+"""In the place of a spot's number: common to all of them."""
+ALIKE, EACH = 0, -1
+"""In the place of a file's number: the same in all of them; in each of its own size."""
+_ONE_CHANNEL = 1 / 30
+"""Chance that a channel is at fault at one spot alone, over that it is at all: one channel reads them all."""
 _OF_A_SPOT = ("observation", "channel")
 """Where an effect enters that may be of one spot alone."""
 _OF_THE_PLATE = ("stiffness", "damping", "core law")
@@ -30,7 +36,7 @@ class Place(NamedTuple):
 def among(effect: Effect, files: int, spots: Sequence[int], *, one_plate: bool = False) -> Effect:
     """An effect among so many files, of which some have several spots.
 
-    Of `one_plate`, driven elsewhere in every file, what is of the plate itself is of all of them.
+    Of `one_plate`, measured again in every file, what is of the plate itself is of all of them.
     """
     by_spot = tuple(spots) if effect.enters in _OF_A_SPOT else ()
     apart = not (one_plate and effect.enters in _OF_THE_PLATE)
@@ -40,7 +46,8 @@ def among(effect: Effect, files: int, spots: Sequence[int], *, one_plate: bool =
 class OfFiles(Effect):
     """`inner` in every file (`file` 0) or in one, counted from 1; the forms are tried apart.
 
-    With `spots` also at one of them in every file (`pickup`, -1 for all).
+    With `spots` also at one of them in every file (`pickup`, -1 for all). What comes of a mounting is also
+    tried with a size of its own in each file (`file` -1): those of further files have their number behind.
     """
 
     def __init__(
@@ -56,7 +63,12 @@ class OfFiles(Effect):
         """`apart`: whether it may be of one file alone."""
         self.apart = apart
         self.inner, self.files, self.file, self.spots, self.spot = inner, files, file, spots, spot
-        where = [EffectParameter(FILE, "1", 0.0, float(files), float(file), neutral=None, fixed=True)]
+        where = [EffectParameter(FILE, "1", float(EACH), float(files), float(file), neutral=None, fixed=True)]
+        self._copies = files if file == EACH else 1
+        further = [
+            replace(q, key=f"{q.key}_{k + 1}") for k in range(1, self._copies) for q in inner.parameters
+        ]
+        one_spot = inner.enters == "channel" and spot != _ALL
         if spots:
             last = float(max(spots))
             where.append(EffectParameter(PICKUP, "1", _ALL, last, float(spot), neutral=None, fixed=True))
@@ -65,40 +77,61 @@ class OfFiles(Effect):
             name=inner.name,
             enters=inner.enters,
             source=inner.source,
-            chance=inner.chance,
+            chance=inner.chance * (_ONE_CHANNEL if one_spot else 1.0),
             unexplained_share=inner.unexplained_share,
             discriminating_test=inner.discriminating_test,
-            parameters=(*inner.parameters, *where),
+            parameters=(*inner.parameters, *further, *where),
             spans=inner.spans,
         )
 
     def holds(self, place: Place) -> bool:
         """Whether some data have it."""
-        return self.file in (0, place.file) and self.spot in (_ALL, place.pickup)
+        return self.file in (EACH, ALIKE, place.file) and self.spot in (_ALL, place.pickup)
+
+    def places(self, place: Place) -> NDArray[np.intp]:
+        """Which of its unknowns are those of `inner` for some data. Shape (parameters of inner,)."""
+        count = len(self.inner.parameters)
+        return (place.file - 1 if self.file == EACH else 0) * count + np.arange(count)
+
+    def bare_shift(self, bare: BarePlateModes, u: Array) -> Array:
+        # The bare plate is that of the first file.
+        if not self.holds(Place(1, 0 if self.spots else None)):
+            return super().bare_shift(bare, u)
+        return self.inner.bare_shift(bare, u[: len(self.inner.parameters)])
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return self.inner.objection(points, plate)
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        return [np.append(u, self._where) for u in self.inner.starts(plate, points)]
+        return [np.append(np.tile(u, self._copies), self._where) for u in self.inner.starts(plate, points)]
 
     def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
         low, high = self.inner.limits(plate)
-        where = self.parameters[len(low) :]
+        where = self.parameters[-len(self._where) :]
+        low, high = np.tile(low, self._copies), np.tile(high, self._copies)
         return np.append(low, [q.lower for q in where]), np.append(high, [q.upper for q in where])
 
     def scaled(self, u: Array, a: float) -> Array:
-        return np.append(self.inner.scaled(u[: -len(self._where)], a), self._where)
+        each = np.split(u[: -len(self._where)], self._copies)
+        return np.concatenate([*(self.inner.scaled(one, a) for one in each), self._where])
+
+    @property
+    def needs_mounting(self) -> bool:
+        """Whether it is another one with every mounting."""
+        return self.inner.needs >= CLAMP
 
     def variants(self) -> tuple[Effect, ...]:
         forms = self.inner.variants()
         files = range(self.files + 1) if self.files > 1 and self.apart else range(1)
-        found = [OfFiles(form, self.files, k, self.spots) for k in files for form in forms]
+        numbers = [*files, EACH] if self.files > 1 and self.needs_mounting else files
+        found = [OfFiles(form, self.files, k, self.spots) for k in numbers for form in forms]
         found += [OfFiles(form, self.files, 0, self.spots, k) for k in self.spots for form in forms]
         return tuple(found)
 
     def story(self, u: Mapping[str, float]) -> str:
-        where = "in every file" if not u[FILE] else f"in file {u[FILE]:.0f}"
+        where = "in every file" if u[FILE] <= ALIKE else f"in file {u[FILE]:.0f}"
+        if u[FILE] == EACH:
+            where = "in every file, in each of another size (that of the first is said),"
         if u.get(PICKUP, _ALL) != _ALL:
             where = f"at pickup {u[PICKUP]:.0f}"
         elif self.files == 1:

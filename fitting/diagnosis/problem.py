@@ -122,6 +122,14 @@ class DiagnosisProblem:
         return replace(self, plate=plate)
 
     @property
+    def pickup_x_m(self) -> float:
+        """How far from the clamp it is stated to be read; the plate's own pickup may be another one's."""
+        stated = self.nuisances.specimen
+        if isinstance(stated, Specimen) and stated.pickup_m is not None:
+            return stated.pickup_m[0]
+        return float(self.plate.pickup[0])
+
+    @property
     def freedom(self) -> float:
         """How much more than usual the law may bend."""
         return 1.0

@@ -16,6 +16,7 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.plate_answer import answer, core_strain
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid
+from fitting.effects.added_mass import AddedMassEffect
 from fitting.effects.base import Effect, EffectParameter, ModulusAt
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -48,6 +49,8 @@ class SweepResponse:
             *(u for e in effects for u in e.parameters),
         )
         spans = {s.name: s for e in effects for s in e.spans}
+        if self.nuisances.masses:
+            spans |= {s.name: s for s in AddedMassEffect.spans}
         self.plate: EnrichedReducedPlate = problem.plate.take(spans.values())
         self._stated = slice(0, count)
         self._slices, start = [], count
@@ -145,7 +148,7 @@ class SweepResponse:
                 h = self.effects[k].pitch(omega, self._of(k, u))
                 pitch = pitch + (h if h is not None else 0.0)
         per_x: Complex = np.asarray(1j * omega * a, dtype=complex)
-        lever = float(self.plate.pickup[0]) * a / (1j * omega)
+        lever = self.problem.pickup_x_m * a / (1j * omega)
         raw = per_x * (x + pitch * turned) + lever * pitch
         if points.reads == "absolute":
             raw = raw + a / (1j * omega)

@@ -15,6 +15,7 @@ from fitting.identification.adjusted import Adjusted
 from fitting.identification.result import LawBand
 from fitting.identification.validation import Validation, rms
 from fitting.laws import CoreLaw
+from fitting.reduced import ReducedPlate
 
 Verdict = Literal["none", "effect", "ambiguous", "unknown"]
 
@@ -100,6 +101,8 @@ class Rivals:
     evidence: Evidence
     each: tuple[tuple[Refitted, float], ...]
     """With their probabilities, which add up to one; the likeliest first."""
+    reduced: ReducedPlate | None = None
+    """For what the model gets wrong; None for what knows its own error."""
     temper: float = 1.0
     """How much less a difference in chi-square says (`fitting.diagnosis.predictive.temper`)."""
 

@@ -5,7 +5,8 @@ for all files or for one of them (`OfFiles`).
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -81,7 +82,7 @@ class SeveralProblem(DiagnosisProblem):
             grid,
             grid,
             nodes,
-            Nuisances(first.nuisances.specimen, each),
+            SharedNuisances(first.nuisances.specimen, each, first=first.nuisances, places=places[0]),
             tuple(members),
             tuple(reduced),
             places,
@@ -131,6 +132,24 @@ class SeveralProblem(DiagnosisProblem):
         return tuple(found)
 
 
+@dataclass(frozen=True)
+class SharedNuisances(Nuisances):
+    """Of all files; a hammer test is of the first one's bare plate."""
+
+    first: Nuisances = field(kw_only=True, compare=False)
+    places: NDArray[np.intp] = field(kw_only=True, compare=False)
+    """Of the first file's among all."""
+
+    @cached_property
+    def of_bare_plate(self) -> list[int]:
+        """Those that a hammer test of the bare plate feels."""
+        return [int(self.places[k]) for k in self.first.of_bare_plate]
+
+    def bare_coefficients(self, z: Array) -> tuple[Complex, Array]:
+        """As `Nuisances.bare_coefficients`, of the first file's plate."""
+        return self.first.bare_coefficients(z[self.places])
+
+
 class SeveralResponse(SweepResponse):
     """What all members read under one law."""
 
@@ -148,7 +167,8 @@ class SeveralResponse(SweepResponse):
                 form = e.inner if isinstance(e, OfFiles) else e
                 if not isinstance(e, OfFiles) or e.holds(problem.belongs[k]):
                     inner.append(form)
-                    places.append(start + np.arange(len(form.parameters)))
+                    own = e.places(problem.belongs[k]) if isinstance(e, OfFiles) else None
+                    places.append(start + (np.arange(len(form.parameters)) if own is None else own))
                 start += len(e.parameters)
             response = SweepResponse(m, inner, m.coarse if coarse else None)
             self._of_member.append((response, np.concatenate(places)))

@@ -67,6 +67,8 @@ def stated_number(specimen: StatedSpecimen, n: Nuisance) -> tuple[float, float, 
         return place["xy".index(n.name[-1])], 1e3, "mm"
     if n.kind == "damping":
         return specimen.modal_ratios[int(n.name.split("_")[1]) - 1], 1e2, "%"
+    if n.kind == "mass":
+        return specimen.masses[int(n.name.split("_")[1]) - 1].mass_kg, 1e3, "g"
     if n.kind == "gain":
         return 1.0, 1.0, "1"
     if n.kind == "delay":

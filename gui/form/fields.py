@@ -29,8 +29,9 @@ _UNITS = {
 }  # fmt: skip
 _NOT_ASKED = {"effects", "core", "log"}
 """Of a simulated rig: what it hides is not for whoever measures on it."""
-_NOT_IN_FILES = {"further_pickups"}
-"""What a document holds of `[[pickup]]` after the first: no key of a file."""
+_NOT_SHOWN = {"further_pickups", "mass"}
+"""What a document holds of `[[pickup]]` after the first, no key of a file; and masses put on for one sweep,
+which stay as the file has them."""
 
 
 @dataclass(frozen=True)
@@ -91,7 +92,7 @@ def section_of(
     for name, info in model.model_fields.items():
         if model.__name__ == "Simulation" and name in _NOT_ASKED:
             continue
-        if name in _NOT_IN_FILES:
+        if name in _NOT_SHOWN:
             continue
         table = _table_in(info.annotation)
         if table is not None:

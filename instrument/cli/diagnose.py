@@ -13,6 +13,7 @@ from instrument.cli.print_run import print_result
 from instrument.cli.reading import are_tables, read_each, reading_options, together
 from instrument.models.diagnosis import diagnose as diagnose_sweep
 from instrument.models.together import diagnose_together
+from instrument.planning.follow_up import with_follow_ups
 from instrument.progress import bar
 from instrument.results.diagnosis_figures import save_diagnosis_figures
 from instrument.results.diagnosis_from import diagnosis_from
@@ -69,18 +70,18 @@ def diagnose(
             )
         diagnose_modes(out, data, specimen, frozenset(without))
         return
-    every = read_each(out, data, specimen, hammer, no_hammer=no_hammer, insist=insist)
+    every = read_each(out, data, specimen, hammer, no_hammer=no_hammer, insist=insist, one_plate=True)
     declined, accepted = frozenset(without), _accepted(accept)
     files, given = together(every, data), every[0]
     if files is not None:
-        several = diagnose_together(files, declined, bar, accepted)
-        result = diagnosed_together_from(several, files)
+        several = diagnose_together(files, declined, bar, accepted, given.modes)
+        result = with_follow_ups(diagnosed_together_from(several, files), several.found)
     else:
         assert isinstance(given.specimen, Specimen)
         found = diagnose_sweep(
             given.sweep, given.specimen, given.modes, declined, bar, accepted, resamples=resamples
         )
-        result = diagnosis_from(found, given.sweep)
+        result = with_follow_ups(diagnosis_from(found, given.sweep), found)
     result = given.said(result)
     print_diagnosis(out, result)
     if files is None:

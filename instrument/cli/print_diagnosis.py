@@ -17,6 +17,7 @@ from instrument.results.diagnosis_words import (
 
 _MOST_CANDIDATES = 8
 _WIDTH = 100
+_MOST_NEXT = 3
 
 
 def print_diagnosis(out: Output, found: DiagnosisResult) -> None:
@@ -46,6 +47,24 @@ def print_story(out: Output, found: DiagnosisResult) -> None:
         out.say(textwrap.fill(f"Set aside: {listed} Hz.", _WIDTH))
     if found.next_measurement:
         out.say(textwrap.fill(f"Next measurement: {found.next_measurement}", _WIDTH))
+    _print_next(out, found)
+
+
+def _print_next(out: Output, found: DiagnosisResult) -> None:
+    """The best few measurements, with what they cost and what they would tell."""
+    shown = found.next_measurements[:_MOST_NEXT]
+    if not shown:
+        return
+    rows = [
+        [f.todo, f"{f.seconds:.0f}", f"{100 * f.probability_resolved:.0f} %", f"{f.separation:.1f}"]
+        for f in shown
+    ]
+    out.say()
+    columns = ["what to measure", "s of rig and hands", "settles it", "nats apart"]
+    out.table("what would tell the explanations apart, best first", columns, rows)
+    for f in shown:
+        names = ", ".join("no effect" if n == "none" else n for n in f.between)
+        out.say(textwrap.fill(f"{f.kind}: {f.why} It separates {names}.", _WIDTH))
 
 
 def print_before_after(out: Output, found: DiagnosisResult) -> None:

@@ -53,8 +53,11 @@ def read_each(
     *,
     no_hammer: bool,
     insist: bool,
+    one_plate: bool = False,
 ) -> list[Given]:
     """Read every file with its specimen, paired in order; one specimen serves all. Raises as `read_data`.
+
+    With `one_plate` a hammer test may come with several files, and is the first one's.
 
     Stated numbers and data that no such plate has are questioned, unless someone insists.
     """
@@ -62,7 +65,7 @@ def read_each(
         raise click.UsageError(
             f"{len(specimens)} times --specimen for {len(data)} files, expected one for each or one for all"
         )
-    if len(data) > 1 and hammer is not None:
+    if len(data) > 1 and hammer is not None and not one_plate:
         raise click.UsageError("--hammer with several files: expected one file")
     paired = list(specimens) if len(specimens) == len(data) else [*specimens, None][:1] * len(data)
     for specimen in dict.fromkeys(paired):
@@ -71,15 +74,27 @@ def read_each(
             read_structure(specimen)
             question_specimen(specimen, insist=insist)
     given = [
-        read_data(out, one, specimen, hammer, no_hammer=no_hammer or len(data) > 1)
-        for one, specimen in zip(data, paired, strict=True)
+        read_data(
+            out,
+            one,
+            specimen,
+            None if k else hammer,
+            no_hammer=no_hammer or (len(data) > 1 and (hammer is None or k > 0)),
+        )
+        for k, (one, specimen) in enumerate(zip(data, paired, strict=True))
     ]
     if hammer is not None and not isinstance(given[0].specimen, Specimen):
         raise click.UsageError(f"--hammer with a {given[0].specimen.kind}: expected a plate")
+    if hammer is not None and len({_bare(one) for one in given}) > 1:
+        raise click.UsageError("--hammer with plates of unlike substrates: expected one bare plate")
     if not insist:
         for one, path in zip(given, data, strict=True):
             question_data(one, path)
     return given
+
+
+def _bare(given: Given) -> object:
+    return given.specimen.substrate if isinstance(given.specimen, Specimen) else None
 
 
 def are_tables(data: Sequence[Path], specimens: Sequence[Path]) -> bool:
@@ -109,7 +124,7 @@ def question_data(given: Given, path: Path) -> None:
     plate = given.specimen
     if given.session or not isinstance(plate, Specimen) or plate.core is None or plate.pickup_m is None:
         return
-    if plate.force_m is not None or plate.further_pickups_m:
+    if plate.force_m is not None or plate.further_pickups_m or plate.masses:
         return
     doubt = data_doubt(given.sweep, plate, bar)
     if doubt:

@@ -10,7 +10,7 @@ from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import LAWS, CoreLaw
 from fitting.laws.table import Tabulated
-from fitting.specimen import Core, Drive, Face, Reading, Specimen
+from fitting.specimen import Core, Drive, Face, PlacedMass, Reading, Specimen
 from instrument.errors import BadInput
 from instrument.files.law_table import with_rows
 from instrument.files.toml import NotNegative, Percent, Positive, TomlTable, one_line, read_document
@@ -67,6 +67,14 @@ class _Pickup(TomlTable):
     x_mm: NotNegative
     y_mm: NotNegative
     reads: Reading = "relative"
+
+
+class _Mass(TomlTable):
+    """A known mass that was put on the plate."""
+
+    mass_kg: Positive
+    x_mm: NotNegative
+    y_mm: NotNegative
 
 
 class _BaseSection(TomlTable):
@@ -134,6 +142,10 @@ _MOST_PICKUPS = 20
 """A bound on what one file asks for."""
 
 
+_MOST_MASSES = 10
+"""The same."""
+
+
 class SpecimenDocument(TomlTable):
     """SPECIMEN.toml."""
 
@@ -145,6 +157,7 @@ class SpecimenDocument(TomlTable):
     pickup: _Pickup | None = None
     further_pickups: list[_Pickup] | None = None
     """Of `[[pickup]]`, those after the first."""
+    mass: list[_Mass] | None = Field(default=None, max_length=_MOST_MASSES)
     base: _BaseSection = _BaseSection(acceleration_m_s2=PUBLISHED_G_M_S2)
     excitation: _Excitation | None = None
     mesh: _Mesh | None = None
@@ -179,7 +192,8 @@ class SpecimenDocument(TomlTable):
             raise ValueError('[base] with [excitation] kind = "force", expected one of them')
         if len({p.reads for p in self.pickups}) > 1:
             raise ValueError("pickups that read relative and absolute, expected one of them")
-        for table, spot in (*(("pickup", p) for p in self.pickups), ("excitation", self.excitation)):
+        placed = [("pickup", p) for p in self.pickups] + [("mass", m) for m in self.mass or ()]
+        for table, spot in (*placed, ("excitation", self.excitation)):
             for name, side in (("x_mm", self.plate.length_mm), ("y_mm", self.plate.width_mm)):
                 at = getattr(spot, name, None)
                 if at is not None and at > side:
@@ -216,6 +230,7 @@ def specimen_of(d: SpecimenDocument) -> Specimen:
         pickup_m=(d.pickup.x_mm * 1e-3, d.pickup.y_mm * 1e-3) if d.pickup else None,
         further_pickups_m=tuple((p.x_mm * 1e-3, p.y_mm * 1e-3) for p in d.pickups[1:]),
         reads=d.pickup.reads if d.pickup else "relative",
+        masses=tuple(PlacedMass(m.mass_kg, m.x_mm * 1e-3, m.y_mm * 1e-3) for m in d.mass or ()),
         force_m=d.force_m,
         base_acceleration_m_s2=d.base.acceleration_m_s2,
         tolerances=tolerances_of(d.tolerances),

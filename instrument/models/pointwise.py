@@ -47,6 +47,8 @@ def pointwise_of(found: Identified, sweep: Sweep) -> Pointwise:
     phase_is_kept(sweep)
     if found.joint is None:
         raise OutsideModel("band by band: the paper's method has no joint fit, expected the direct one")
+    if found.joint.begun.problem.nuisances.masses:
+        raise OutsideModel("band by band: known masses are put on by the joint fit, expected no [[mass]]")
     with threadpool_limits(1, "blas"):
         law = _law(found, found.joint, sweep)
         try:

@@ -74,11 +74,13 @@ def set_up(
     if hammer is not None:
         modes = match_modes(specimen, *hammer)
         specimen = replace(specimen, modal_ratios=modes.ratios)
-        bare = _bare(modes, specimen)
+        bare = bare_of(modes, specimen)
     if like is not None:
         check_like(specimen, like)
     count = max(_USUAL_MODES, len(specimen.modal_ratios))
-    usual = replace(like or specimen, modal_ratios=(_USUAL_RATIO,) * count)
+    usual = replace(like or specimen, modal_ratios=(_USUAL_RATIO,) * count, masses=())
+    # Masses are put on by the fit, which needs the motions that they stir.
+    with_effects = with_effects or bool(specimen.masses)
     models = models or Models.of(usual, sweep.frequency_hz, progress)
     factor = np.zeros(len(usual.modal_ratios))
     factor[: len(specimen.modal_ratios)] = np.array(specimen.modal_ratios) / _USUAL_RATIO
@@ -154,7 +156,8 @@ def _spanned(models: Models) -> EnrichedReducedPlate:
     return cached("spanned", [models.without_law, models.domain], EnrichedReducedPlate, build, span_modules())
 
 
-def _bare(modes: MatchedModes, specimen: Specimen) -> BareModes:
+def bare_of(modes: MatchedModes, specimen: Specimen) -> BareModes:
+    """A hammer test beside the bare plate's model, for the joint fit."""
     return BareModes(
         shift=modes.shift,
         softness=modes.softness,

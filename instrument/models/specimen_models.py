@@ -39,6 +39,10 @@ class Models:
         Raises `OutsideModel` for a specimen that no base moves or no pickup sees, and beyond what the mesh
         resolves.
         """
+        if specimen.masses:
+            raise OutsideModel(
+                "[[mass]] is for the joint fit of 'identify' and 'diagnose' alone: expected a plate without"
+            )
         if specimen.pickup_m is None:
             raise OutsideModel("[pickup] is missing, expected x_mm and y_mm of the measured spot")
         if specimen.boundary == "free" and specimen.drive == "base":

@@ -15,6 +15,7 @@ from fitting.arrays import Mask
 from fitting.diagnosis.begin import Begun, begin
 from fitting.diagnosis.confounded import in_light_of_the_law
 from fitting.diagnosis.diagnose import diagnose_task, seen_in_channels
+from fitting.diagnosis.evidence import BareModes
 from fitting.diagnosis.glitch import Glitch, glitches
 from fitting.diagnosis.joint import fit_of
 from fitting.diagnosis.of_files import Place, among
@@ -37,7 +38,7 @@ from instrument.models.diagnosis import Diagnosed, effects_on
 from instrument.models.identification import Identified
 from instrument.models.remarks import remarks_on_law, remarks_on_noise
 from instrument.models.second_process import executor
-from instrument.models.set_up import set_up
+from instrument.models.set_up import Hammer, set_up
 from instrument.models.theory import theory_over
 from instrument.progress import Progress, quiet
 
@@ -60,6 +61,8 @@ class File:
     """Of the file, from 1; in order where it is not said: several spots of one file share it."""
     pickup: int | None = None
     """Which spot of the file, where it has several."""
+    like: Specimen | None = None
+    """As `instrument.models.set_up.set_up` takes it."""
 
 
 def spots_of(sweep: Sweep, specimen: AnySpecimen, name: str = "", number: int = 0) -> list[File]:
@@ -128,6 +131,9 @@ class _Work:
     files: Sequence[File]
     progress: Progress
     with_effects: bool
+    hammer: Hammer | None = None
+    """Of the bare plate, which is then that of every file."""
+    bare: BareModes | None = None
     used: list[Mask] = field(default_factory=list)
     misfit: list[float] = field(default_factory=list)
     aside: list[SetAside] = field(default_factory=list)
@@ -145,7 +151,15 @@ class _Work:
             sweep = file.sweep.take(used)
             noise = noise_of(sweep)
             if isinstance(file.specimen, Specimen):
-                ready = set_up(sweep, file.specimen, None, self.progress, with_effects=self.with_effects)
+                ready = set_up(
+                    sweep,
+                    file.specimen,
+                    self.hammer,
+                    self.progress,
+                    with_effects=self.with_effects,
+                    like=file.like,
+                )
+                self.bare = self.bare or ready.bare
                 members.append(ready.problem)
                 reduced.append(ready.reduced)
             else:
@@ -176,7 +190,7 @@ class _Work:
         """The fit of what is no local disturbance."""
         for _ in range(_ROUNDS):
             problem, noise = self.problem()
-            begun = begin(problem, None, noise, None, self.start)
+            begun = begin(problem, None, noise, self.bare, self.start)
             if not self._set_aside(begun):
                 break
         return begun, noise
@@ -268,10 +282,11 @@ def diagnose_together(
     without: Collection[str] = frozenset(),
     progress: Progress = quiet,
     accept: Sequence[str] | None = None,
+    hammer: Hammer | None = None,
 ) -> DiagnosedTogether:
     """What one law cannot explain, traced to an effect of all files or of one.
 
-    Raises as `identify_together`.
+    `hammer` is the test of the bare plate that all files are of. Raises as `identify_together`.
     """
     began = perf_counter()
     kinds = {f.specimen.kind for f in files}
@@ -281,7 +296,7 @@ def diagnose_together(
         )
     standing = [{e.name for e in effects_on(f.specimen, without, accept)} for f in files]
     effects = [e for e in effects_on(files[0].specimen, without) if e.name in set.intersection(*standing)]
-    work = _Work(files, progress, with_effects=True)
+    work = _Work(files, progress, with_effects=True, hammer=hammer)
     with threadpool_limits(1, "blas"), executor() as workers:
         channels: list[FoundEffect] = []
         numbers = numbers_of(files)
@@ -307,7 +322,7 @@ def diagnose_together(
                 None,
                 tried,
                 noise,
-                None,
+                work.bare,
                 work.start,
                 tuple(channels),
                 np.concatenate(work.used),
@@ -330,9 +345,9 @@ def _all(files: Sequence[File]) -> Sweep:
 
 
 def _one_plate(files: Sequence[File]) -> bool:
-    """Whether the specimens differ in the point of a force and in the spot alone."""
-    plates = [f.specimen for f in files if isinstance(f.specimen, Specimen) and f.specimen.drive == "force"]
-    whole = [replace(s, force_m=(0.0, 0.0), pickup_m=None) for s in plates]
+    """Whether the specimens differ in what drives them, in the spot and in masses put on them alone."""
+    plates = [f.specimen for f in files if isinstance(f.specimen, Specimen)]
+    whole = [replace(s, force_m=None, pickup_m=None, further_pickups_m=(), masses=()) for s in plates]
     return len(whole) == len(files) and all(s == whole[0] for s in whole)
 
 

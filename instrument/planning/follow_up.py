@@ -1,22 +1,32 @@
 """Which measurement would tell the explanations of a sweep apart, for its noise and its cost."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
+from math import sqrt
 
-import numpy as np
-
-from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.sweep import Sweep
+from fitting.diagnosis.result import Rivals
+from fitting.diagnosis.thresholds import VERDICT
+from fitting.planning.further import Expecting
+from fitting.planning.rivalry import Forecast, Outcome, outcome
+from fitting.specimen import Specimen
+from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.follow_up import FollowUp
 from instrument.models.diagnosis import Diagnosed
-from instrument.planning.costs import step_seconds
+from instrument.planning.measurable import Measurable, Template
+from instrument.planning.struck import bare_modes_expected
 from instrument.stepped_sine.settings import SweepSettings
 
-__all__ = ["FollowUp", "Possible", "rank_follow_ups"]
+__all__ = ["FollowUp", "Possible", "rank_follow_ups", "with_follow_ups"]
 
-HANDS_S = {"spot": 120.0, "added_mass": 180.0}
-"""Of a person's time. A choice."""
-_SETTLED_BY = 0.003
-"""Loss of a pole where none is known: half the loss factor of bare metal."""
+_MOST_RIVALS = 6
+"""The likeliest: a bound on time; what is less likely than five others does not decide what to measure."""
+_TELLS = 3.0
+"""Nats from which two explanations count as told apart: odds of twenty."""
+_EVEN = 0.5
+_WORTH = 0.02
+"""Nats of the entropy of which is right, below which a measurement is not offered."""
+_ALWAYS_S = 60.0
+"""That any further measurement costs, whatever it is: to decide, to start, to diagnose again. A choice."""
 
 
 @dataclass(frozen=True)
@@ -26,37 +36,69 @@ class Possible:
     settings: SweepSettings = field(default_factory=SweepSettings)
     hands: bool = True
     """Whether somebody is there."""
+    mass_kg: float | None = 5e-3
+    """A known mass at hand, of a small accelerometer's size; None for none."""
 
 
-def rank_follow_ups(
-    diagnosed: Diagnosed, sweep: Sweep, possible: Possible | None = None
-) -> tuple[FollowUp, ...]:
-    """Next measurements, best first; none where one explanation is left.
+def rank_follow_ups(diagnosed: Diagnosed, possible: Possible | None = None) -> tuple[FollowUp, ...]:
+    """Next measurements, best first: the best of each kind; none where one explanation is left.
 
-    `sweep` is the whole one that was diagnosed.
+    Ordered by the expected fall of the entropy of which explanation is right, over the root of the time it
+    takes: of two that tell as much the shorter, and no long one for little.
     """
     possible = possible or Possible()
     rivals = diagnosed.result.rivals
-    if rivals is None or len(rivals.each) < 2:
+    if rivals is None or not _doubtful(diagnosed, rivals):
         return ()
-    time = sweep.time_s if sweep.time_s is not None else sweep.frequency_hz
-    order = np.argsort(-time, kind="stable")
-    f, segments = sweep.frequency_hz[order], sweep.segment[order]
-    poles = np.asarray(np.unique(f) * (1 + 1j * _SETTLED_BY), dtype=complex)
-    seconds = float(step_seconds(f, poles, possible.settings).sum())
-    level = float(sweep.commanded_m_s2.max()) / PUBLISHED_G_M_S2
-    return (
-        FollowUp(
-            kind="reversed",
-            needs_hands=False,
-            frequencies_hz=tuple(f.tolist()),
-            segments=tuple(segments.tolist()),
-            level_g=level,
-            seconds=seconds,
-            separation=0.0,
-            probability_resolved=0.0,
-            between=rivals.names,
-            why="What drifts in time is not what varies over frequency.",
-            todo="Sweep the same steps backwards.",
-        ),
-    )
+    expecting = Expecting(rivals, _MOST_RIVALS)
+    found: dict[str, tuple[float, FollowUp]] = {}
+    for measurable, forecasts in _asked(expecting, possible):
+        told = outcome(forecasts, expecting.probabilities, expecting.temper, VERDICT.credible)
+        score = told.information / sqrt(measurable.seconds + _ALWAYS_S)
+        if told.information > _WORTH and score > found.get(measurable.kind, (0.0, None))[0]:
+            found[measurable.kind] = score, measurable.follow_up(expecting.names, *_said(told, expecting))
+    return tuple(one for _, one in sorted(found.values(), key=lambda f: -f[0]))
+
+
+def with_follow_ups(
+    result: DiagnosisResult, diagnosed: Diagnosed, possible: Possible | None = None
+) -> DiagnosisResult:
+    """The result of a diagnosis with what would tell explanations apart; as it is where one is left."""
+    ranked = rank_follow_ups(diagnosed, possible)
+    return result.but(next_measurements=ranked) if ranked else result
+
+
+def _doubtful(diagnosed: Diagnosed, rivals: Rivals) -> bool:
+    """Whether several explanations are left of which one matters."""
+    if len(rivals.each) < 2 or not rivals.evidence.scale_known:
+        return False
+    stated = rivals.problem.nuisances.specimen
+    if not isinstance(stated, Specimen) or stated.drive != "base":
+        # Of beams, shear pairs and what a force drives nothing is foretold.
+        return False
+    result = diagnosed.result
+    # Where nothing is named it is worth asking where something is likelier than nothing.
+    none = sum(share for f, share in rivals.each if not f.effects)
+    return result.verdict == "ambiguous" or (result.verdict == "none" and none < _EVEN)
+
+
+def _asked(expecting: Expecting, possible: Possible) -> Iterator[tuple[Measurable, list[Forecast]]]:
+    template = Template.of(expecting, possible.settings)
+    for measurable in template.measurable(possible.mass_kg):
+        if possible.hands or not measurable.needs_hands:
+            yield measurable, expecting.forecasts(measurable.further, template.noise)
+    if possible.hands and expecting.evidence.bare is None:
+        bare = bare_modes_expected(expecting.member)
+        if bare is not None:
+            yield template.struck(), expecting.struck(bare)
+
+
+def _said(told: Outcome, expecting: Expecting) -> tuple[float, float, tuple[str, ...]]:
+    """Separation of the two best that it separates best, chance to resolve, and who is told from whom."""
+    count = len(expecting.names)
+    p = expecting.probabilities
+    pairs = [(i, j) for i in range(count) for j in range(i)]
+    i, j = max(pairs, key=lambda one: p[one[0]] * p[one[1]] * min(told.between(*one), _TELLS))
+    apart = [k for k in range(count) if any(told.between(k, m) > _TELLS for m in range(count) if m != k)]
+    names = sorted({i, j, *apart})
+    return told.between(i, j), told.resolved, tuple(expecting.names[k] for k in names)

@@ -12,6 +12,7 @@ from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.files.hammer_file import accepted_modes
 from instrument.models.diagnosis import diagnose
+from instrument.planning.follow_up import with_follow_ups
 from instrument.progress import Progress, quiet
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.session.points import sweep_of, uncalibrated
@@ -53,7 +54,8 @@ def _result(
 ) -> DiagnosisResult:
     hammer = accepted_modes(damping.result) if damping is not None else None
     sweep = sweep_of(points, times_s)
-    result = diagnosis_from(diagnose(sweep, specimen, hammer, progress=progress), sweep).untimed
+    found = diagnose(sweep, specimen, hammer, progress=progress)
+    result = with_follow_ups(diagnosis_from(found, sweep), found).untimed
     return result.but(warnings=(*result.warnings, *uncalibrated(points)))
 
 

@@ -5,12 +5,14 @@ import json
 import numpy as np
 import pytest
 from conftest import DATA
-from diagnosis_cases import diagnosis
+from diagnosis_cases import diagnosed, diagnosis
+from diagnosis_cases import sweep as some_sweep
 from session_cases import RATE, whole_session
 from uff_files import ratio_set, write_sets
 
 import instrument.cli.diagnose as command
 from instrument.cli.main import run
+from instrument.facts.follow_up import FollowUp
 from instrument.paper_case import case_file
 from instrument.report.diagnosis import diagnosis_sections
 from instrument.session.contents import contents_of
@@ -34,6 +36,7 @@ def given(monkeypatch):
 
     def stub(sweep, specimen, hammer, without, progress, accept, **how):
         seen.update(sweep=sweep, specimen=specimen, hammer=hammer, without=without, accept=accept, **how)
+        return diagnosed(some_sweep())
 
     monkeypatch.setattr(command, "diagnose_sweep", stub)
     monkeypatch.setattr(command, "diagnosis_from", lambda found, sweep: diagnosis())
@@ -87,6 +90,37 @@ def test_effects_can_be_left_out(capsys, given):
     names = ("--without", "added_mass", "--without", "spot_offset")
     assert call(capsys, "diagnose", TABLE5, "--specimen", ZN1, *names)[0] == 0
     assert given["without"] == {"added_mass", "spot_offset"}
+
+
+def test_what_would_tell_rivals_apart_is_listed_with_its_cost(capsys, given, monkeypatch, tmp_path):
+    one = FollowUp(
+        kind="spot",
+        needs_hands=True,
+        frequencies_hz=(20.0, 21.0),
+        segments=(1, 1),
+        level_g=1.0,
+        spot_mm=(285.0, 24.0),
+        seconds=209.0,
+        separation=5.7,
+        probability_resolved=0.92,
+        between=("gain_error", "none"),
+        why="A gain is the same at every spot.",
+        todo="Point the laser at (285, 24) mm and make the same steps.",
+    )
+    ranked = (one, *(one.but(kind=kind) for kind in ("level", "frequencies", "clamping")))
+    monkeypatch.setattr(
+        command, "with_follow_ups", lambda result, found: result.but(next_measurements=ranked)
+    )
+    path = tmp_path / "found.json"
+    status, out, err = call(capsys, "diagnose", TABLE5, "--specimen", ZN1, "--json", path)
+    assert (status, err) == (0, "")
+    assert "Point the laser at (285, 24) mm" in out
+    assert "spot: A gain is the same at every spot. It separates gain_error, no effect." in out
+    assert "92 %" in out
+    assert "clamping:" not in out
+    found = json.loads(path.read_text())
+    assert [f["kind"] for f in found["next_measurements"]] == ["spot", "level", "frequencies", "clamping"]
+    assert found["next_measurements"][0]["spot_mm"] == [285.0, 24.0]
 
 
 @pytest.mark.parametrize(

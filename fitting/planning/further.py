@@ -1,0 +1,312 @@
+"""What rivals expect of a further measurement: the posterior of each, carried to readings not yet made.
+
+The unknowns of a rival are those of its fit and the model's own errors in each segment, which it shares with
+further passes of the same segments: what a fit took for the plate's error at one level it expects at another.
+Everything is linear about the rival's mode.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+import scipy.linalg as la
+from numpy.typing import NDArray
+
+from fitting.arrays import Array, Complex
+from fitting.diagnosis.evidence import BareModes, Evidence
+from fitting.diagnosis.marginal import expected_size, prior_precision
+from fitting.diagnosis.model_error import model_error
+from fitting.diagnosis.of_files import OfFiles, Place
+from fitting.diagnosis.problem import DiagnosisProblem
+from fitting.diagnosis.refit import Refitted
+from fitting.diagnosis.response import SweepResponse
+from fitting.diagnosis.responses import response_of
+from fitting.diagnosis.result import Rivals
+from fitting.diagnosis.several import SeveralProblem
+from fitting.diagnosis.whitening import SHARE
+from fitting.effects.base import Effect
+from fitting.planning.known_mass import KnownMass
+from fitting.planning.rivalry import Forecast
+from fitting.planning.sensitivity import ReadingNoise
+from fitting.specimen import Specimen
+
+Places = NDArray[np.intp]
+
+
+@dataclass(frozen=True)
+class Further:
+    """Readings at frequencies of a sweep that was made, otherwise than they were made."""
+
+    member: DiagnosisProblem
+    """The sweep's, at another level, time or spot. All its points; those not in `at` are not asked for."""
+    at: Places
+    """Points that are read."""
+    dwell_s: Array
+    """Of each of these."""
+    same_errors: bool = True
+    """Whether the model errs as in the first sweep, in proportion to what it reads; else anew."""
+    new: frozenset[str] = frozenset()
+    """Kinds of stated numbers that are others (`fitting.tolerances`): as uncertain as they are stated."""
+    without: frozenset[str] = frozenset()
+    """Effects that are not in it."""
+    about: Mapping[str, float] = field(default_factory=dict)
+    """Effects that are there anew, and by what each of their numbers may differ: in its logarithm, or in
+    expected sizes."""
+    mass: KnownMass | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Known:
+    """What one rival has learnt."""
+
+    fitted: Refitted
+    root: Array
+    """Covariance is R R^T: of the fitted numbers, then of the model's errors. Shape (k, k)."""
+    errors: Array
+    """Their posterior mean, in standard deviations. Shape (errors,)."""
+    by_level: tuple[Complex, Complex] | None
+    """Velocity and derivatives at the first file's points, where they go in proportion to the level."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Raw:
+    """Phasors that a rival expects, and how they vary."""
+
+    v: Complex
+    """Shape (points,)."""
+    by_known: Complex
+    """One standard deviation each. Shape (k, points)."""
+    by_new: Complex
+    """The same, of what is new. Shape (any, points)."""
+
+
+class Expecting:
+    """The rivals of a diagnosis, asked about measurements one after the other."""
+
+    def __init__(self, rivals: Rivals, most: int) -> None:
+        """`most`: how many rivals are asked, the likeliest first."""
+        self.problem, self.evidence, self.temper = rivals.problem, rivals.evidence, rivals.temper
+        each = rivals.each[:most]
+        self.names = rivals.names[:most]
+        self.probabilities = np.array([p for _, p in each]) / sum(p for _, p in each)
+        first = each[0][0]
+        self._errors = model_error(self.problem, rivals.reduced, first.law, first.velocity_m_s)
+        self.known = [self._learnt(fitted) for fitted, _ in each]
+
+    @cached_property
+    def member(self) -> DiagnosisProblem:
+        """The first sweep of the first file."""
+        return self.problem.members[0] if isinstance(self.problem, SeveralProblem) else self.problem
+
+    @cached_property
+    def read_m(self) -> tuple[tuple[float, float], ...]:
+        """Spots that were read, as stated."""
+        every = self.problem.members if isinstance(self.problem, SeveralProblem) else (self.problem,)
+        stated = [m.nuisances.specimen for m in every]
+        return tuple(s.pickup_m for s in stated if isinstance(s, Specimen) and s.pickup_m is not None)
+
+    @property
+    def in_time(self) -> bool:
+        """Whether a rival has an effect that changes with time."""
+        return any(e.enters == "time" for known in self.known for e in known.fitted.effects)
+
+    @cached_property
+    def part(self) -> slice:
+        """Its points among all."""
+        if isinstance(self.problem, SeveralProblem):
+            return self.problem.starts_at[0]
+        return slice(0, len(self.problem.sweep))
+
+    def forecasts(self, further: Further, noise: ReadingNoise) -> list[Forecast]:
+        """Of each rival."""
+        raw = [self._raw(known, further) for known in self.known]
+        v = raw[0].v
+        sigma = np.hypot(noise.std_m_s(v, further.dwell_s), SHARE * np.abs(v))
+        return [self._over(one, sigma) for one in raw]
+
+    def struck(self, bare: BareModes) -> list[Forecast]:
+        """Of each rival, of a hammer test of the bare plate. Only its frequencies are asked."""
+        return [self._struck(known, bare) for known in self.known]
+
+    def _learnt(self, fitted: Refitted) -> Known:
+        response = response_of(self.problem, fitted.effects)
+        v, dv = response.with_derivatives(fitted.law, fitted.u)
+        A = self.evidence.over_sigma(v, self._columns(fitted, dv)).T
+        B = self.evidence.B
+        left = self.evidence.over_sigma(v, _rest(self.evidence, v))
+        rest = fitted.jacobian[fitted.data :]
+        k, errors = A.shape[1], B.shape[1]
+        P = np.zeros((k + errors, k + errors))
+        P[:k, :k] = A.T @ A + rest.T @ rest + np.diag(prior_precision(fitted, self.problem.plate))
+        P[:k, k:], P[k:, :k] = A.T @ B, B.T @ A
+        P[k:, k:] = B.T @ B + np.eye(errors)
+        chi2 = fitted.chi2_per_dof
+        # As a fit's covariance: a misfit widens, a good fit narrows nothing.
+        wider = np.sqrt(max(1.0, chi2)) if np.isfinite(chi2) else 1.0
+        d = 1 / np.sqrt(np.diag(P))
+        L = np.linalg.cholesky(P * np.outer(d, d) + 1e-12 * np.eye(len(P)))
+        root = wider * d[:, None] * la.solve_triangular(L, np.eye(len(P)), lower=True).T
+        mean = np.asarray(np.linalg.solve(B.T @ B + np.eye(errors), B.T @ left), dtype=float)
+        effects, places, _ = self._effects(fitted, frozenset(), {})
+        by_level = None
+        if not any(type(e).modulus is not Effect.modulus for e in effects):
+            u = np.concatenate([fitted.u[self._stated], *(fitted.u[p] for p in places)])
+            by_level = SweepResponse(self.member, effects).with_derivatives(fitted.law, u)
+        return Known(fitted, root, mean, by_level)
+
+    def _columns(self, fitted: Refitted, dv: Complex) -> Complex:
+        """Derivatives to what is fitted, as it is fitted. Shape (columns, points)."""
+        n = len(fitted.law.names)
+        scale = _scales(fitted)
+        return np.concatenate([dv[:n], (dv[n:] * scale[:, None])[fitted.free]])
+
+    def _raw(self, known: Known, further: Further) -> _Raw:
+        fitted, member = known.fitted, further.member
+        n, count = len(fitted.law.names), len(member.nuisances)
+        stated = self._stated
+        effects, places, anew = self._effects(fitted, further.without, further.about)
+        u = np.concatenate([fitted.u[stated], *(fitted.u[p] for p in places)])
+        if further.mass is not None:
+            effects = [*effects, further.mass]
+            u = np.concatenate([u, further.mass.values])
+        new = [k for k, q in enumerate(member.nuisances.each) if q.kind in further.new]
+        u[new] = 0.0
+        v, dv = self._response(known, further, effects, u)
+        column = np.cumsum(fitted.free) - 1 + n
+        by = np.zeros((n + int(fitted.free.sum()), len(v)), complex)
+        by[:n] = dv[:n]
+        scale, fresh = _scales(fitted), []
+        for k, g in enumerate(stated):
+            if k in new:
+                fresh.append(dv[n + k])
+            else:
+                by[column[g]] += dv[n + k]
+        at = n + count
+        for effect, place in zip(effects, places, strict=False):
+            for m, g in enumerate(place):
+                if fitted.free[g]:
+                    by[column[g]] += scale[g] * dv[at + m]
+                    if effect in anew:
+                        fresh.append(_step(effect, m, scale[g], further.about[effect.name]) * dv[at + m])
+            at += len(place)
+        if further.mass is not None:
+            fresh.append(further.mass.sigma_kg * dv[at])
+        e = self._errors[:, self.part][:, further.at]
+        first = fitted.velocity_m_s[self.part][further.at]
+        e = e * (v / first)
+        k = len(by)
+        if further.same_errors:
+            mean, by_known = v + known.errors @ e, known.root.T @ np.concatenate([by, e])
+        else:
+            mean, by_known = v, known.root[:k].T @ by
+            fresh += list(e[np.any(e != 0, axis=1)])
+        by_new = np.array(fresh) if fresh else np.zeros((0, len(v)), complex)
+        return _Raw(mean, by_known, by_new)
+
+    def _response(
+        self, known: Known, further: Further, effects: Sequence[Effect], u: Array
+    ) -> tuple[Complex, Complex]:
+        """At the points that are read, as `SweepResponse.with_derivatives`."""
+        member, at = further.member, further.at
+        same = member.nuisances is self.member.nuisances and further.mass is None and not further.new
+        if known.by_level is not None and same:
+            v, dv = known.by_level
+            level = member.points.acceleration_m_s2[at] / self.member.points.acceleration_m_s2[at]
+            return v[at] * level, dv[:, at] * level
+        v, dv = SweepResponse(member, effects).with_derivatives(known.fitted.law, u)
+        return v[at], dv[:, at]
+
+    @property
+    def _stated(self) -> Places:
+        """Where the member's stated numbers are among all."""
+        if isinstance(self.problem, SeveralProblem):
+            return self.problem.places[0]
+        return np.arange(len(self.problem.nuisances))
+
+    def _effects(
+        self, fitted: Refitted, without: frozenset[str], about: Mapping[str, float]
+    ) -> tuple[list[Effect], list[Places], list[Effect]]:
+        """Effects that the readings have, where their unknowns are, and which of them are there anew."""
+        effects, places, anew, start = [], [], [], fitted.stated
+        for e in fitted.effects:
+            inner = e.inner if isinstance(e, OfFiles) else e
+            here = not isinstance(e, OfFiles) or e.holds(self._place)
+            if here and inner.name not in without:
+                effects.append(inner)
+                own = e.places(self._place) if isinstance(e, OfFiles) else np.arange(len(e.parameters))
+                places.append(start + own)
+                if inner.name in about:
+                    anew.append(inner)
+            start += len(e.parameters)
+        return effects, places, anew
+
+    @property
+    def _place(self) -> Place:
+        return self.problem.belongs[0] if isinstance(self.problem, SeveralProblem) else Place(1)
+
+    def _over(self, raw: _Raw, sigma: Array) -> Forecast:
+        """In standard deviations of the noise, parts side by side."""
+        both = np.concatenate([raw.by_known, raw.by_new])
+        if self.evidence.has_phase:
+            mean, root = raw.v / sigma, both / sigma
+            return Forecast(np.r_[mean.real, mean.imag], np.hstack([root.real, root.imag]).T)
+        size = np.abs(raw.v)
+        return Forecast(size / sigma, (np.real(np.conj(raw.v) * both) / (size * sigma)).T)
+
+    def _struck(self, known: Known, bare: BareModes) -> Forecast:
+        fitted, nuisances = known.fitted, self.member.nuisances
+        n, z = len(fitted.law.names), fitted.u[self._stated]
+        shift = bare.stated_shift(nuisances, z)
+        column = np.cumsum(fitted.free) - 1 + n
+        by = np.zeros((n + int(fitted.free.sum()), len(shift)))
+        by_z = bare.by_stated(nuisances, z)
+        for k, g in enumerate(self._stated):
+            by[column[g]] += by_z[k]
+        scale, fresh, start = _scales(fitted), [], fitted.stated
+        for e in fitted.effects:
+            inner = e.inner if isinstance(e, OfFiles) else e
+            u = fitted.u[start : start + len(inner.parameters)]
+            felt = _felt(inner, u)
+            shifts = np.array([inner.bare_shift(bare, one) for one in felt])
+            shift = shift + shifts.mean(axis=0)
+            if len(felt) > 1:
+                fresh.append((shifts[1] - shifts[0]) / 2)
+            for m, q in enumerate(inner.parameters):
+                if fitted.free[start + m]:
+                    h = 1e-4 * (abs(u[m]) if q.logarithmic else q.typical or 1.0)
+                    moved = [np.where(np.arange(len(u)) == m, one + h, one) for one in felt]
+                    there = np.mean([inner.bare_shift(bare, one) for one in moved], axis=0)
+                    by[column[start + m]] += scale[start + m] * (there - shifts.mean(axis=0)) / h
+            start += len(e.parameters)
+        rows = known.root[: len(by)].T @ by
+        rows = np.concatenate([rows, np.array(fresh)]) if fresh else rows
+        return Forecast(bare.whitened_change(shift), bare.whitened_change(rows.T))
+
+
+def _rest(evidence: Evidence, v: Complex) -> Complex:
+    """Measured less predicted, such that `over_sigma` puts it over the noise. Shape (points,)."""
+    if evidence.has_phase:
+        return np.asarray(evidence.measured_m_s - v)
+    return np.asarray((evidence.measured_m_s - np.abs(v)) * v / np.abs(v))
+
+
+def _scales(fitted: Refitted) -> Array:
+    """Derivative of u to u as it is fitted. Shape of `u`."""
+    q = [q for e in fitted.effects for q in e.parameters]
+    logarithmic = np.array([False] * fitted.stated + [one.logarithmic for one in q], dtype=bool)
+    return np.where(logarithmic, fitted.u, 1.0)
+
+
+def _step(effect: Effect, m: int, scale: float, about: float) -> float:
+    q = effect.parameters[m]
+    return about * (scale if q.logarithmic else expected_size(q))
+
+
+def _felt(effect: Effect, u: Array) -> list[Array]:
+    """Forms of an effect that nobody knows of which to expect on a bare plate."""
+    found = [u]
+    for k, q in enumerate(effect.parameters):
+        if q.fixed and q.key == "bare_plate_too":
+            found = [np.where(np.arange(len(u)) == k, value, u) for value in (q.lower, q.upper)]
+    return found

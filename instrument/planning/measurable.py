@@ -1,0 +1,294 @@
+"""What may be measured after a sweep, with what it costs: the same steps otherwise, or more of them."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.arrays import Array
+from fitting.diagnosis.plate_poles import PlatePoles
+from fitting.diagnosis.problem import DiagnosisProblem
+from fitting.diagnosis.several import OF_EACH_FILE, OF_EACH_SPOT
+from fitting.gravity import PUBLISHED_G_M_S2
+from fitting.planning.candidates import resonances_hz
+from fitting.planning.further import Expecting, Further
+from fitting.planning.known_mass import KnownMass
+from fitting.planning.measured import noise_seen
+from fitting.planning.sensitivity import ReadingNoise
+from fitting.specimen import Specimen
+from fitting.tolerances import STATED
+from instrument.facts.follow_up import FollowUp, FollowUpKind
+from instrument.planning.costs import dwell_seconds, step_seconds
+from instrument.stepped_sine.settings import SweepSettings
+
+STEPS_A_SEGMENT = 20
+"""Of a further sweep: enough that scatter shows its noise (15 are needed), a third of a usual segment."""
+HANDS_S = {"spot": 120.0, "added_mass": 180.0, "clamping": 300.0, "bare_hammer": 600.0}
+"""Of a person's time, and of the laser's; a choice."""
+LEVELS = (0.25, 0.5, 2.0, 4.0)
+"""Times the level of the sweep."""
+_SPOTS = [(0.95, 0.5), (0.6, 0.5), (0.3, 0.5), (0.95, 0.12), (0.5, 0.12)]
+"""Of length and width. A base that heaves moves the plate evenly; on the axis twist does not show."""
+_MASS_AT = [(0.95, 0.5), (0.6, 0.5)]
+_ELSEWHERE_M = 0.03
+"""A spot nearer than this to one that was read tells little else."""
+_PAUSE_S = 60.0
+"""Between two sweeps."""
+_CLAMPED_ANEW = 1.0
+"""By how much a clamp's stiffness differs from one mounting to the next, in its logarithm."""
+OF_THE_CLAMP = ("clamp_compliance", "clamp_friction", "uneven_clamp", "clamp_line", "treatment_not_gripped")
+OF_THE_SPOT = frozenset({"spot_offset"})
+_LEAST_HZ, _MOST_HZ = 5.0, 2000.0
+
+_WHY = {
+    "level": "Only what depends on the amplitude differs between two levels.",
+    "reversed": "What drifts in time is not what varies over frequency.",
+    "frequencies": "The same steps once more halve the noise.",
+    "spot": "A gain is the same at every spot, an offset and the plate's own motion are not.",
+    "added_mass": "A known mass moves each resonance by what the plate's own mass and stiffness say.",
+    "clamping": "Clamped anew the clamp is another one, the plate is the same.",
+    "bare_hammer": "The bare plate's frequencies know nothing of core, air film or laser, only of the metal.",
+}
+
+
+@dataclass(frozen=True)
+class Measurable:
+    """One measurement that could be made."""
+
+    kind: FollowUpKind
+    further: Further
+    frequencies_hz: tuple[float, ...]
+    segments: tuple[int, ...]
+    level_g: float
+    seconds: float
+    todo: str
+    needs_hands: bool = False
+    spot_m: tuple[float, float] | None = None
+    mass: KnownMass | None = None
+
+    def follow_up(
+        self, names: tuple[str, ...], separation: float, resolved: float, between: tuple[str, ...]
+    ) -> FollowUp:
+        """As it is offered."""
+        given = {
+            "kind": self.kind,
+            "needs_hands": self.needs_hands,
+            "frequencies_hz": self.frequencies_hz,
+            "segments": self.segments,
+            "level_g": self.level_g if self.frequencies_hz else None,
+            "seconds": self.seconds,
+            "separation": separation,
+            "probability_resolved": resolved,
+            "between": between,
+            "why": _WHY[self.kind],
+            "todo": self.todo,
+        }
+        if self.spot_m is not None:
+            given["spot_mm"] = tuple(1e3 * s for s in self.spot_m)
+        if self.mass is not None:
+            given["mass_kg"] = float(self.mass.values[0])
+            given["mass_at_mm"] = tuple((1e3 * self.mass.values[1:]).tolist())
+        return FollowUp.model_validate(given)
+
+
+@dataclass(frozen=True)
+class Template:
+    """The steps of the first sweep, thinned, as they would be made again."""
+
+    member: DiagnosisProblem
+    at: NDArray[np.intp]
+    """Of its points, in the order in which they would be made."""
+    settings: SweepSettings
+    noise: ReadingNoise
+    seconds: Array
+    """Of each step."""
+    read_m: tuple[tuple[float, float], ...]
+    """Spots that were read."""
+    in_time: bool
+    """Whether a rival changes with time: else the order of the steps tells nothing."""
+
+    @classmethod
+    def of(cls, expecting: Expecting, settings: SweepSettings) -> "Template":
+        """Of the first file's sweep."""
+        member, first = expecting.member, expecting.known[0].fitted
+        sweep = member.sweep
+        at = _thinned(member)
+        f = sweep.frequency_hz[at]
+        # Poles as the likeliest law has them, without its effects: good for a time of settling.
+        poles = resonances_hz(
+            PlatePoles(member.plate, first.law), max(_LEAST_HZ, 0.5 * f.min()), min(1.2 * f.max(), _MOST_HZ)
+        )
+        dwell = dwell_seconds(sweep.frequency_hz, settings)
+        part = expecting.part
+        noise = noise_seen(first.velocity_m_s[part], expecting.evidence.noise_m_s[part], dwell)
+        return cls(
+            member, at, settings, noise, step_seconds(f, poles, settings), expecting.read_m, expecting.in_time
+        )
+
+    @property
+    def level_m_s2(self) -> float:
+        """Of the first sweep, its highest."""
+        return float(self.member.sweep.commanded_m_s2[self.at].max())
+
+    def measurable(self, mass_kg: float | None) -> Iterator[Measurable]:
+        """Everything that is worth asking about."""
+        yield from self._levels()
+        yield self._again("frequencies", self.at, "Make the same sweep once more.")
+        if self.in_time:
+            latest = self.at[np.argsort(-self._time(self.at), kind="stable")]
+            yield self._again("reversed", latest, "Make the same steps once more, the last ones first.")
+        specimen = self.member.nuisances.specimen
+        if isinstance(specimen, Specimen):
+            yield from self._spots(specimen)
+            if mass_kg is not None:
+                yield from self._masses(specimen, mass_kg)
+            if specimen.boundary == "cantilever":
+                yield self._clamping()
+
+    def struck(self) -> Measurable:
+        """The bare plate's hammer test."""
+        todo = "Clamp the bare plate and strike it: viscorig damping, then diagnose with --hammer."
+        nothing = Further(self.member, self.at[:0], np.zeros(0))
+        return Measurable("bare_hammer", nothing, (), (), 0.0, HANDS_S["bare_hammer"], todo, needs_hands=True)
+
+    def _levels(self) -> Iterator[Measurable]:
+        done = np.unique(np.round(self.member.sweep.commanded_m_s2, 9))
+        for times in LEVELS:
+            level = times * self.level_m_s2
+            if np.any(np.abs(done / level - 1) < 0.01) or self._exceeds(level, times):
+                continue
+            member = _at_level(self.member, level)
+            level_g = level / PUBLISHED_G_M_S2
+            todo = f"Make the same steps at {level_g:.3g} g."
+            yield self._measurable(
+                "level", Further(self._later(member, self.at), *self._read(self.at)), self.at, level_g, todo
+            )
+
+    def _again(self, kind: FollowUpKind, order: NDArray[np.intp], todo: str) -> Measurable:
+        further = Further(self._later(self.member, order), *self._read(order))
+        return self._measurable(kind, further, order, self.level_m_s2 / PUBLISHED_G_M_S2, todo)
+
+    def _spots(self, specimen: Specimen) -> Iterator[Measurable]:
+        for x, y in _SPOTS:
+            spot = (x * specimen.length_m, y * specimen.width_m)
+            if min(np.hypot(spot[0] - a, spot[1] - b) for a, b in self.read_m) < _ELSEWHERE_M:
+                continue
+            further = Further(
+                _read_at(self.member, specimen, spot),
+                *self._read(self.at),
+                same_errors=False,
+                new=frozenset(OF_EACH_SPOT),
+                without=OF_THE_SPOT,
+            )
+            todo = f"Point the laser at {_words(spot)} and make the same steps."
+            yield self._measurable("spot", further, self.at, self._level_g, todo, spot=spot)
+
+    def _masses(self, specimen: Specimen, mass_kg: float) -> Iterator[Measurable]:
+        for x, y in _MASS_AT:
+            mass = KnownMass(mass_kg, (x * specimen.length_m, y * specimen.width_m), STATED["mass"].typical)
+            further = Further(
+                self._later(self.member, self.at),
+                *self._read(self.at),
+                same_errors=False,
+                new=frozenset({*OF_EACH_SPOT, *OF_EACH_FILE}),
+                mass=mass,
+            )
+            place = _words((mass.values[1], mass.values[2]))
+            grams = f"{1e3 * mass_kg:.3g} g"
+            todo = f"Put {grams} on the plate at {place}, state it as [[mass]], make the same steps."
+            yield self._measurable("added_mass", further, self.at, self._level_g, todo, mass=mass)
+
+    def _clamping(self) -> Measurable:
+        further = Further(
+            self._later(self.member, self.at),
+            *self._read(self.at),
+            same_errors=False,
+            new=frozenset({*OF_EACH_SPOT, *OF_EACH_FILE}),
+            about=dict.fromkeys(OF_THE_CLAMP, _CLAMPED_ANEW),
+        )
+        todo = "Loosen the clamp, clamp the plate anew with another torque, and make the same steps."
+        return self._measurable("clamping", further, self.at, self._level_g, todo)
+
+    def _measurable(
+        self,
+        kind: FollowUpKind,
+        further: Further,
+        order: NDArray[np.intp],
+        level_g: float,
+        todo: str,
+        spot: tuple[float, float] | None = None,
+        mass: KnownMass | None = None,
+    ) -> Measurable:
+        sweep = self.member.sweep
+        return Measurable(
+            kind,
+            further,
+            tuple(sweep.frequency_hz[order].tolist()),
+            tuple(sweep.segment[order].tolist()),
+            level_g,
+            float(self.seconds.sum()) + HANDS_S.get(kind, 0.0),
+            todo,
+            kind in HANDS_S,
+            spot,
+            mass,
+        )
+
+    @property
+    def _level_g(self) -> float:
+        return self.level_m_s2 / PUBLISHED_G_M_S2
+
+    def _read(self, order: NDArray[np.intp]) -> tuple[NDArray[np.intp], Array]:
+        return order, dwell_seconds(self.member.sweep.frequency_hz[order], self.settings)
+
+    def _time(self, at: NDArray[np.intp]) -> Array:
+        return self.member.points.time_s[at]
+
+    def _later(self, member: DiagnosisProblem, order: NDArray[np.intp]) -> DiagnosisProblem:
+        """Its steps made after everything that was measured, in an order."""
+        where = {int(k): n for n, k in enumerate(self.at)}
+        seconds = np.array([self.seconds[where[int(k)]] for k in order])
+        begins = float(self.member.points.time_s.max()) + _PAUSE_S
+        time = np.full(len(member.sweep), begins)
+        time[order] = begins + np.cumsum(seconds)
+        return replace(member, points=replace(member.points, time_s=time))
+
+    def _exceeds(self, level_m_s2: float, times: float) -> bool:
+        limits, sweep = self.settings.limits, self.member.sweep
+        travel = level_m_s2 / float(sweep.omega.min()) ** 2
+        fastest = times * float(np.abs(sweep.response_m_s[self.at]).max())
+        share = limits.warn
+        return (
+            level_m_s2 > share * limits.base_m_s2
+            or travel > share * limits.travel_m
+            or fastest > share * limits.velocity_m_s
+        )
+
+
+def _thinned(member: DiagnosisProblem) -> NDArray[np.intp]:
+    """Points of one pass of each segment, at the highest level, evenly thinned, in the order of time."""
+    sweep, found = member.sweep, []
+    for number in np.unique(sweep.segment):
+        inside = np.flatnonzero(sweep.segment == number)
+        high = inside[sweep.commanded_m_s2[inside] > 0.999 * sweep.commanded_m_s2[inside].max()]
+        _, first = np.unique(sweep.frequency_hz[high], return_index=True)
+        one = high[first]
+        found.append(one[np.unique(np.linspace(0, len(one) - 1, STEPS_A_SEGMENT).round().astype(int))])
+    at = np.concatenate(found)
+    return at[np.argsort(member.points.time_s[at], kind="stable")]
+
+
+def _words(place_m: tuple[float, float]) -> str:
+    return f"({1e3 * place_m[0]:.0f}, {1e3 * place_m[1]:.0f}) mm"
+
+
+def _at_level(member: DiagnosisProblem, level_m_s2: float) -> DiagnosisProblem:
+    level = np.full(len(member.sweep), level_m_s2)
+    return replace(member, points=replace(member.points, acceleration_m_s2=level))
+
+
+def _read_at(member: DiagnosisProblem, specimen: Specimen, spot_m: tuple[float, float]) -> DiagnosisProblem:
+    """The same plate read at another spot; its own basis is good to 1e-3 there."""
+    nuisances = member.nuisances
+    moved = replace(nuisances, specimen=replace(specimen, pickup_m=spot_m), like=nuisances.reference)
+    return replace(member, nuisances=moved)

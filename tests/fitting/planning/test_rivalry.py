@@ -1,0 +1,64 @@
+"""How far apart rivals predict data, against formulas of the normal distribution."""
+
+import numpy as np
+import pytest
+from scipy.stats import norm
+
+from fitting.planning.rivalry import Forecast, outcome
+
+EVEN = np.array([0.5, 0.5])
+
+
+def sharp(*mean):
+    """A rival that knows what it expects."""
+    return Forecast(np.array(mean, float), np.zeros((len(mean), 1)))
+
+
+def test_two_sharp_rivals_are_half_their_squared_distance_apart():
+    found = outcome([sharp(0, 0), sharp(3, 4)], EVEN)
+    assert found.between(0, 1) == pytest.approx(12.5)
+    assert np.diag(found.divergence) == pytest.approx([0, 0], abs=1e-12)
+
+
+def test_a_divergence_of_spreads_is_kullbacks():
+    narrow, wide = sharp(0), Forecast(np.zeros(1), np.array([[3.0]]))
+    found = outcome([narrow, wide], EVEN)
+    # N(0, 1) against N(0, 10).
+    assert found.divergence[0, 1] == pytest.approx((0.1 - 1 + np.log(10)) / 2)
+    assert found.divergence[1, 0] == pytest.approx((10 - 1 - np.log(10)) / 2)
+
+
+def test_what_no_rival_knows_separates_none():
+    # Both expect another mean, and neither knows the gain that would move one to the other.
+    gain = np.array([[1e3], [0.0]])
+    found = outcome([Forecast(np.array([0.0, 0.0]), gain), Forecast(np.array([5.0, 0.0]), gain)], EVEN)
+    assert found.between(0, 1) < 1e-4
+    assert found.information < 0.01
+    assert found.resolved == 0
+
+
+def test_the_chance_to_resolve_is_that_of_the_normal_distribution():
+    d = 3.0
+    found = outcome([sharp(0), sharp(d)], EVEN)
+    # ln odds of the true one are normal about d^2/2 with standard deviation d; 95 % are odds of 19.
+    wanted = norm.sf((np.log(19) - d**2 / 2) / d) + norm.cdf((-np.log(19) - d**2 / 2) / d)
+    assert found.resolved == pytest.approx(wanted, abs=0.06)
+
+
+def test_information_never_exceeds_what_is_unknown():
+    p = np.array([0.7, 0.3])
+    found = outcome([sharp(0), sharp(40)], p)
+    assert found.information == pytest.approx(-np.sum(p * np.log(p)), abs=1e-6)
+    assert found.resolved == pytest.approx(1.0)
+
+
+def test_tempering_is_worth_fewer_data():
+    plain = outcome([sharp(0), sharp(3)], EVEN)
+    tempered = outcome([sharp(0), sharp(3)], EVEN, temper=4.0)
+    assert tempered.information < plain.information
+    assert tempered.between(0, 1) == pytest.approx(plain.between(0, 1) / 4)
+
+
+def test_the_same_data_give_the_same_chances():
+    one, again = (outcome([sharp(0), sharp(2)], EVEN) for _ in range(2))
+    assert (one.information, one.resolved) == (again.information, again.resolved)

@@ -1,0 +1,83 @@
+"""A mass of known size that somebody put on the plate: stated, not looked for."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fitting.diagnosis.response import SweepResponse
+from fitting.effects import CATALOGUE
+from fitting.errors import OutsideModel
+from fitting.specimen import PlacedMass
+from instrument.errors import BadInput
+from instrument.files.specimen_file import read_specimen
+from instrument.files.sweep_file import read_sweep
+from instrument.models.set_up import set_up
+from instrument.models.specimen_models import Models
+from instrument.simulated_case import case_file
+from tests.conftest import DATA
+
+MASS = PlacedMass(8e-3, 0.21, 0.05)
+
+
+@pytest.fixture(scope="module")
+def problems():
+    """Of the same sweep, without a mass and with one."""
+    sweep = read_sweep(DATA / "practice-005.csv").sweep(9.81).take(np.arange(0, 240, 8))
+    plain = replace(read_specimen(case_file("specimen.toml")), tolerances={}, exact=False)
+    heavy = replace(plain, masses=(MASS,))
+    return [set_up(sweep, s).problem for s in (plain, heavy)]
+
+
+def test_it_does_what_a_mass_found_there_does(problems):
+    plain, heavy = problems
+    law = plain.stated_law
+    found = SweepResponse(plain, [CATALOGUE["added_mass"]])
+    u = np.concatenate([plain.as_stated, [MASS.mass_kg, MASS.x_m, MASS.y_m]])
+    stated = SweepResponse(heavy, ())
+    v = stated.velocity(law, heavy.as_stated)
+    assert np.abs(v / found.velocity(law, u) - 1).max() < 1e-9
+    bare = SweepResponse(plain, ()).velocity(law, plain.as_stated)
+    assert np.abs(v / bare - 1).max() > 0.05
+
+
+def test_its_tolerance_is_an_unknown_with_a_derivative(problems):
+    heavy = problems[1]
+    names = [n.name for n in heavy.nuisances.each]
+    k, law = names.index("mass_1"), heavy.stated_law
+    response = SweepResponse(heavy, ())
+    z = heavy.as_stated
+    _, by = response.with_derivatives(law, z)
+    h = 0.05 * np.eye(len(z))[k]
+    slope = (response.velocity(law, z + h) - response.velocity(law, z - h)) / 0.1
+    mine = by[len(law.names) + k]
+    assert np.abs(mine - slope).max() < 0.01 * np.abs(slope).max()
+    stated = heavy.adjusted(z, np.ones(len(z)))[k]
+    assert (stated.stated, stated.tolerance, stated.unit) == pytest.approx((8.0, 0.16, "g"))
+
+
+def test_other_commands_say_that_they_do_not_know_it(problems):
+    with pytest.raises(OutsideModel, match=r"\[\[mass\]\]"):
+        Models.of(problems[1].specimen, np.array([20.0, 100.0]))
+
+
+@pytest.mark.parametrize(
+    ("more", "found"),
+    [
+        ("\n[[mass]]\nmass_kg = 0.005\nx_mm = 900\ny_mm = 20\n", "mass.x_mm = 900 is off the plate"),
+        ("\n[[mass]]\nmass_kg = -1\nx_mm = 10\ny_mm = 20\n", "mass"),
+    ],
+)
+def test_a_mass_that_cannot_be_is_refused_in_one_line(tmp_path, more, found):
+    path = tmp_path / "specimen.toml"
+    path.write_text(case_file("specimen.toml").read_text() + more)
+    with pytest.raises(BadInput, match=found.replace(".", r"\.")):
+        read_specimen(path)
+
+
+def test_a_file_states_it_in_its_units(tmp_path):
+    path = tmp_path / "specimen.toml"
+    path.write_text(
+        case_file("specimen.toml").read_text() + "\n[[mass]]\nmass_kg = 0.005\nx_mm = 210\ny_mm = 50\n"
+    )
+    assert read_specimen(path).masses == (PlacedMass(0.005, 0.21, 0.05),)
