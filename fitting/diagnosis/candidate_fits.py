@@ -106,7 +106,8 @@ class CandidateFits:
         there = [self._beside(bare, c.effect) for c in self.candidates[name]]
         for candidate, from_there in zip(self.candidates[name], there, strict=True):
             able = from_there.is_open or from_there.promise > SEARCH.able * (bare.chi2 - best.chi2)
-            candidate.learn(Known(near=from_there.near if able else candidate.briefly()))
+            near = [*candidate.briefly(), *(from_there.near if able else [])]
+            candidate.learn(Known(near=sorted(near, key=lambda f: f.chi2)))
         return FirstLook(name, [f for c in self.candidates[name] for f in c.near], self.state(name))
 
     def plain(self, one: tuple[str, State]) -> State:
@@ -120,6 +121,11 @@ class CandidateFits:
         """The best of an effect's rough fits, or none."""
         fits = [((name, k), f) for k, c in enumerate(self.candidates[name]) for f in c.near]
         return sorted(fits, key=lambda one: one[1].chi2)[:1]
+
+    def on_the_way(self, name: str) -> list[tuple[Form, Refitted]]:
+        """The best of an effect's rough fits that had not come to their end, or none."""
+        fits = [((name, k), f) for k, c in enumerate(self.candidates[name]) for f in c.near]
+        return sorted((one for one in fits if not one[1].converged), key=lambda one: one[1].chi2)[:1]
 
     def finished(self, one: tuple[Form, Refitted]) -> Refitted:
         """A rough fit followed to the end."""

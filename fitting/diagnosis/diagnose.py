@@ -138,12 +138,11 @@ def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, lis
         # What scatters from point to point need not be noise: a drift does, in a sweep that jumps about.
         search = search.with_evidence(search.evidence.scaled(float(np.sqrt(share))))
         singles = Singles(search, lambda x: report(0.5)).best()
+    leading = [t for t in singles if t.cost < singles[0].cost + SEARCH.near]
+    # Two masses may have found a better place for one than it found alone, a pair for one of its effects.
+    singles = _bettered(singles, [one for t in leading for one in search.simpler(t)])
     pairs = _pairs(search, singles, lambda x: report(0.5 + 0.3 * x))
-    for scored in [one for pair in pairs[:1] for one in search.alone(pair)]:
-        # A pair may have found a better place for one effect than it found alone.
-        singles = sorted(
-            [*(t for t in singles if t.names != scored.names or t.cost < scored.cost), scored], key=_cost
-        )
+    singles = _bettered(singles, [one for pair in pairs[:1] for one in search.alone(pair)])
     scored_fits = sorted([*singles, *pairs], key=_cost)
     judgement = judge(
         search.none,
@@ -153,6 +152,15 @@ def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, lis
         held_out=lambda scored: over_noise(search.validation(scored)),
     )
     return search, [t for t in scored_fits if t.names in judgement.probability], judgement
+
+
+def _bettered(known: Sequence[ScoredFit], found: Sequence[ScoredFit]) -> list[ScoredFit]:
+    """The cheapest fit of each explanation, best first."""
+    cheapest: dict[tuple[str, ...], ScoredFit] = {}
+    for scored in (*known, *found):
+        if scored.names not in cheapest or scored.cost < cheapest[scored.names].cost:
+            cheapest[scored.names] = scored
+    return sorted(cheapest.values(), key=_cost)
 
 
 def _noise_left(search: Search, scored_fits: Sequence[ScoredFit]) -> float:

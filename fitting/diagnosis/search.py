@@ -109,6 +109,17 @@ class Search:
             for e in pair.effects
         ]
 
+    def simpler(self, scored: ScoredFit) -> list[ScoredFit]:
+        """What an effect contains, fitted from where the effect was found."""
+        fitted, known = scored.fitted, {e.name for e in self.effects}
+        parts = [one for e in fitted.effects[:1] for one in e.within(fitted.of(e)) if one[0].name in known]
+        if len(fitted.effects) != 1:
+            return []
+        return [
+            self.judged(polished(self.problem, [e], self.evidence, fitted.law, np.concatenate([fitted.z, u])))
+            for e, u in parts
+        ]
+
     def determined(self, fitted: Refitted) -> bool:
         """Whether the data leave over what a fit needs."""
         return fitted.parameter_count <= self.evidence.count - _SPARE

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Sequence
 
-from fitting.diagnosis.candidate_fits import FirstLook
+from fitting.diagnosis.candidate_fits import FirstLook, Form
 from fitting.diagnosis.candidates import has_place
 from fitting.diagnosis.refit import Refitted
 from fitting.diagnosis.search import ScoredFit, Search
@@ -27,6 +27,7 @@ class Singles:
         self._first_pass()
         ahead = [best for name in self._ahead() for best in self._work.best_near(name)]
         self._keep(self._each(self._work.finished, ahead, self._part(0.4, 0.2)))
+        self._keep(self._each(self._work.finished, self._dismissed_on_the_way(), self._part(0.6, 0.1)))
         self._second_pass()
         places = [(name, self._work.state(name)) for name in self._misplaced()]
         for fits in self._each(self._work.everywhere, places, self._part(0.9, 0.1)):
@@ -51,7 +52,7 @@ class Singles:
         while left:
             some, left = (left[: SEARCH.at_a_time], left[SEARCH.at_a_time :]) if astray else (left, [])
             tasks = [(name, work.state(name), astray) for name in some]
-            for fits in self._each(work.thorough, tasks, self._part(0.6, 0.2)):
+            for fits in self._each(work.thorough, tasks, self._part(0.7, 0.1)):
                 self._keep(fits)
             if astray and self._settle(self._part(0.8, 0.1)):
                 break
@@ -128,6 +129,12 @@ class Singles:
             ]
         names = {t.names[0] for t in near[: 2 * SEARCH.leaders]}
         return [name for name in self._effects if name in names]
+
+    def _dismissed_on_the_way(self) -> list[tuple[Form, Refitted]]:
+        """Rough fits that had not come to their end, where an effect explains much: none loses unheard."""
+        if not self._gains(self._order()):
+            return []
+        return [one for name in self._effects for one in self._work.on_the_way(name)]
 
     def _gains(self, order: Sequence[ScoredFit]) -> bool:
         return bool(order) and self._search.none.cost - order[0].cost >= SEARCH.promising

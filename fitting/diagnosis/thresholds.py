@@ -104,7 +104,7 @@ class SearchThresholds:
     """Of an effect's starts, how many are fitted roughly ..."""
     followed_places: int = 4
     """... and of one with a place to be found."""
-    more_places: int = 6
+    more_places: int = 36
     """Further starts of the latter, in a thorough search ..."""
     most_places: int = 30
     """... and of the rest, where all that lead lean."""

@@ -46,6 +46,9 @@ class AddedMassesEffect(Effect):
         lower, upper = super().limits(plate)
         return lower, np.minimum(upper, [np.inf, plate.length_m, plate.width_m] * 2)
 
+    def within(self, u: Array) -> tuple[tuple[Effect, Array], ...]:
+        return tuple((AddedMassEffect(), u[k : k + 3]) for k in (0, 3))
+
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         one, other = (AddedMassEffect().change(plate, u[k : k + 3]) for k in (0, 3))
         return one.and_then(other)

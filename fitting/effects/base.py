@@ -167,6 +167,14 @@ class Effect:
         """Further laws to be tried, beside the one of `laws` that does best."""
         return []
 
+    def within(self, u: Array) -> tuple[tuple[Effect, Array], ...]:
+        """Simpler effects that this one contains, each with the unknowns it would have here.
+
+        A fit of this one that ends where only a simpler one acts has found a place for that. Shapes
+        (parameters,) each.
+        """
+        return ()
+
     def scaled(self, u: Array, a: float) -> Array:
         """`u` with the effect `a` times as strong, by a linear guess. Shape (parameters,)."""
         found = u.copy()

@@ -36,6 +36,9 @@ class ClampFrictionEffect(Effect):
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [np.array([k, 0.1]) for k in (5e13, 1.5e13)]
 
+    def within(self, u: Array) -> tuple[tuple[Effect, Array], ...]:
+        return ((ClampComplianceEffect(), u[:1]),)
+
     def scaled(self, u: Array, a: float) -> Array:
         return np.array([u[0] / a, u[1]])
 

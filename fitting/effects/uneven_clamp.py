@@ -75,6 +75,9 @@ class UnevenClampEffect(Effect):
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [np.array([k, slope]) for k in (5e13, 1.5e13) for slope in (0.6, -0.6)]
 
+    def within(self, u: Array) -> tuple[tuple[Effect, Array], ...]:
+        return ((ClampComplianceEffect(), u[:1]),)
+
     def scaled(self, u: Array, a: float) -> Array:
         return np.array([u[0] / a, u[1]])
 

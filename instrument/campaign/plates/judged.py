@@ -6,6 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from fitting.effects import CATALOGUE
 from fitting.specimen import Specimen
 from instrument.campaign.plates.answers import Answer, answer_from
 from instrument.campaign.plates.cases import PlateCase
@@ -24,7 +25,7 @@ def diagnosed(case: PlateCase) -> Answer:
 
 def diagnosed_without_the_truth(case: PlateCase) -> Answer:
     """With all of it but what is really there."""
-    return _diagnosed(case, case.truth.names)
+    return _diagnosed(case, [name for name in case.truth.names if name in CATALOGUE])
 
 
 def _diagnosed(case: PlateCase, without: Collection[str] = ()) -> Answer:

@@ -46,3 +46,22 @@ def test_starts_lie_within_limits(full, form):
     assert all((lower <= u).all() and (u <= upper).all() for u in starts)
     assert len(starts) <= 40
     assert all(np.isfinite(u).all() for u in starts)
+
+
+@pytest.mark.parametrize("form", [f for f in FORMS if f.within(np.ones(len(f.parameters)))], ids=ids)
+def test_what_an_effect_contains_stands_in_the_catalogue(form):
+    u = np.arange(1.0, len(form.parameters) + 1)
+    for simpler, its in form.within(u):
+        assert simpler.name == form.extends
+        assert simpler.name in CATALOGUE
+        assert its.shape == (len(simpler.parameters),)
+        assert set(its) <= set(u)
+
+
+def test_one_of_two_masses_is_what_both_are_without_the_other(full):
+    form = CATALOGUE["added_masses"]
+    u = form.starts(full.spanned, None)[0]
+    for number, (one, its) in enumerate(form.within(u)):
+        without = u.copy()
+        without[3 * (1 - number)] = 0.0
+        assert np.allclose(form.change(full.spanned, without).M, one.change(full.spanned, its).M)

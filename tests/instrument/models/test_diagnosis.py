@@ -10,6 +10,7 @@ from fitting.effects import CATALOGUE
 from fitting.errors import OutsideModel
 from fitting.laws.fractional_zener import FractionalZener
 from instrument.campaign.cases import draw
+from instrument.campaign.plates.cases import draw_case
 from instrument.errors import BadInput
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
@@ -88,6 +89,22 @@ def test_where_all_that_lead_fail_every_place_is_tried():
     place = mass.parameters["x"].value, mass.parameters["y"].value
     truth = case.truth.effects["added_mass"]
     assert np.hypot(place[0] - truth["x_m"], place[1] - truth["y_m"]) < 5e-3
+
+
+def test_one_mass_is_not_taken_for_two():
+    """From the law without it a single mass ends elsewhere; a search for two comes upon its place."""
+    found = diagnose(practice("007"), specimen(), without=all_but("added_mass", "added_masses")).result
+    (mass,) = found.effects
+    assert (found.verdict, mass.name) == ("effect", "added_mass")
+    assert np.hypot(mass.parameters["x"].value - 0.27, mass.parameters["y"].value - 0.06) < 4e-3
+
+
+@pytest.mark.long
+def test_a_rival_that_promises_little_by_a_linear_step_is_followed_all_the_same():
+    """Beside a tether that explains everything a drift promises nothing, and then explains more."""
+    case = draw_case("temperature_drift", 700038)
+    found = diagnose(case.sweep, case.specimen, without=all_but("tether", "temperature_drift")).result
+    assert [e.name for e in found.effects] == ["temperature_drift"]
 
 
 def test_a_second_process_changes_nothing(monkeypatch):
