@@ -122,7 +122,9 @@ def _popup(window: Window, show: Callable[[], object]) -> QWidget | None:
     show()
     popup = QApplication.activePopupWidget()
     stop = window.bar.stop
-    if popup is None or popup.geometry().intersects(stop.rect().translated(stop.mapToGlobal(stop.pos()) - stop.pos())):
+    if popup is None or popup.geometry().intersects(
+        stop.rect().translated(stop.mapToGlobal(stop.pos()) - stop.pos())
+    ):
         close_popups()
         return None
     return popup
@@ -160,7 +162,9 @@ def stop_once(window: Window, folder: Path, place: Place, by_key: bool, wait_s: 
 
 def main() -> int:
     """The worst of them, and how many took too long."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("--stops", type=int, default=200)
     parser.add_argument("--seed", type=int, default=15)
     given = parser.parse_args()
