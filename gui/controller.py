@@ -15,6 +15,7 @@ from instrument.engine import Engine, Order, Stopped
 from instrument.engine.client import ENGINE
 from instrument.engine.messages import Ended
 from instrument.interchange.found import Found
+from instrument.interchange.read_session import read_session
 from instrument.interchange.readers import foreign_endings, read_foreign
 from instrument.session.configuration import Configuration, read_whole_experiment
 
@@ -57,7 +58,7 @@ class AppController(QObject):
         super().__init__(parent)
         self.feed: Feed | None = None
         self.beside: dict[Path, Found] = {}
-        """Other programs' data, to be drawn beside the session's."""
+        """Other programs' data and other sessions' sweeps, to be drawn beside the session's."""
         self.rediagnosis = Rediagnosis(self)
         self.changed.connect(self.rediagnosis.forget)
         self.ending: Ended | None = None
@@ -112,6 +113,11 @@ class AppController(QObject):
         else:
             known = ", ".join((EXPERIMENT_ENDING, *SESSION_ENDINGS, *foreign_endings()))
             self.refused.emit(f"{path}: ending {path.suffix!r}, expected one of {known}")
+
+    def compare(self, path: Path) -> None:
+        """Lay another session beside this one: its law and its sweep. Returns at once."""
+        self.comparison_wanted.emit(path)
+        self._read_beside(path)
 
     def leave(self) -> None:
         """Close the session shown."""
@@ -287,11 +293,12 @@ class _Starting(BackgroundTask[Configuration]):
 
 
 class _ForeignReading(BackgroundTask[Found]):
-    """Of another program's file."""
+    """Of another program's file, or another session."""
 
     def __init__(self, path: Path, parent: QObject) -> None:
         super().__init__(self._read_file, parent)
         self.path = path
 
     def _read_file(self, _: Progress) -> Found:
-        return read_foreign(self.path)
+        ours = self.path.suffix.lower() in SESSION_ENDINGS
+        return read_session(self.path) if ours else read_foreign(self.path)

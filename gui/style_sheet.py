@@ -24,6 +24,10 @@ QPushButton#stop:hover { border-color: $stop_text; }
 QPushButton#stop:pressed { background: $text; color: $base; }
 QPushButton#stop:disabled { background: $window; color: $faint; border-color: $grid; }
 QToolButton:hover { background: $grid; border-radius: 4px; }
+QCheckBox::indicator:unchecked, QTreeView::indicator:unchecked { border: 1px solid $faint; }
+QCheckBox::indicator:unchecked, QTreeView::indicator:unchecked { background: $base; border-radius: 3px; }
+QCheckBox::indicator:unchecked, QTreeView::indicator:unchecked { width: 12px; height: 12px; }
+QCheckBox::indicator:unchecked:disabled { border-color: $grid; }
 QTabWidget::pane { border: none; border-top: 1px solid $grid; }
 QTabBar { qproperty-drawBase: 0; }
 QTabBar::tab { color: $faint; padding: 5px 12px; border: none; border-bottom: 2px solid transparent; }

@@ -265,7 +265,7 @@ class Window(Shell):
     def _compare(self, path: Path) -> None:
         """Shown where laws are drawn beside each other."""
         self.show_page("material")
-        self.controller.comparison_wanted.emit(path)
+        self.controller.compare(path)
 
     def _changed(self) -> None:
         recorded = self.controller.recorded

@@ -19,7 +19,7 @@ class Watched(Companion):
         self.to_go, self.clock, self.now_s = TimeToGo(), SessionClock(), 0.0
         self.told: list[tuple[float, float, float]] = []
 
-    def planned(self, work):
+    def planned(self, work, regions):
         self.to_go.plan(work, 0.0)
         self.note()
 

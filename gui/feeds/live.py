@@ -154,6 +154,7 @@ class LiveFeed(Feed):
                 self.state.work("" if message.ended else message.what, message.fraction)
             case Planned():
                 self.state.time_to_go.plan(message.work, monotonic())
+                self.state.foresee(message.regions)
             case BlocksDropped():
                 self.blocks_dropped += message.count
                 self.state.say(f"{message.count} blocks not shown; the session has them", "warning")

@@ -254,8 +254,6 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         for item in curve.items:
             item.setZValue(_BELOW if role == "faint" else 0)
             self.addItem(item)
-        if kind == "trace":
-            _thin_out(curve.items[0])
         self._curves[name] = curve
         return curve
 
@@ -273,7 +271,11 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         name = next(n for n, c in self._curves.items() if c is curve)
         curve.columns = {"": x, name: y}
         self._style(curve)
-        curve.items[0].setData(x, y, antialias=len(x) <= _SMOOTH)
+        few = len(x) <= _SMOOTH
+        if curve.kind == "trace":
+            # Extremes of a few samples each would make stairs of a slope.
+            _thin_out(curve.items[0], few)
+        curve.items[0].setData(x, y, antialias=few)
 
     def _style(self, curve: _Curve) -> None:
         shape = (curve.symbol, curve.size, curve.width, curve.dashed, curve.hollow)
@@ -352,8 +354,9 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
             self.picked.emit(name, int(points[0].index()))
 
 
-def _thin_out(item: pg.PlotDataItem) -> None:
-    """Two points a pixel; after it is in the plot, which sets its own wishes on what is added."""
-    item.setDownsampling(auto=True, method="peak")
-    item.opts["autoDownsampleFactor"] = 1.0
-    item.setClipToView(True)
+def _thin_out(item: pg.PlotDataItem, few: bool) -> None:
+    """Two points a pixel of many; after it is in the plot, which sets its own wishes on what is added."""
+    if item.opts["autoDownsample"] == few or not item.opts["clipToView"]:
+        item.setDownsampling(auto=not few, method="peak")
+        item.opts["autoDownsampleFactor"] = 1.0
+        item.setClipToView(True)

@@ -17,6 +17,7 @@ from gui.state.readings import Readings
 from gui.state.run import Run
 from gui.state.step import Step
 from gui.state.time_to_go import TimeToGo
+from instrument.check.piece import Region
 from instrument.cli.watching import said_of
 from instrument.errors import BadInput
 from instrument.impact.record import Hit, ResponseChannel
@@ -176,6 +177,11 @@ class SessionState:
         """A line for the log, at this moment of the session."""
         self.log.add(self._now_s, text, kind)
         self._changed("log")
+
+    def foresee(self, regions: tuple[Region, ...]) -> None:
+        """What is going to be swept."""
+        self.plan.foreseen = regions
+        self._changed("run")
 
     def ask(self, question: str) -> None:
         """The run waits for a person; empty once it no longer does."""

@@ -1,4 +1,4 @@
-"""A piece of a run's work."""
+"""What a run is made of, before it begins."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -14,3 +14,7 @@ class Work:
     fixed_s: float
     settling_s: float = 0.0
     """From scratch to the tolerance; a step begins near its end and takes less."""
+
+
+Region = tuple[int, float, float]
+"""A segment's number, its lowest and its highest frequency in Hz."""

@@ -9,7 +9,7 @@ from instrument.check.forecast import (
     planned_segments,
     with_next_coarser,
 )
-from instrument.check.piece import Kind, Work
+from instrument.check.piece import Kind, Region, Work
 from instrument.files.devices import ranges_of
 from instrument.session.configuration import Experiment
 from instrument.session.setup import hammer_settings, setup_of
@@ -66,3 +66,12 @@ def _sweep(experiment: Experiment, forecast: Forecast, person: bool) -> list[Wor
     for segment in segments * (_ADAPTIVE_TURNS if table.plan == "adaptive" else 1):
         found += [step("step", f) for f in segment.frequencies_hz] + watch
     return [*found, Work("fit", _FIT_S), Work("diagnosis", _DIAGNOSIS_S)]
+
+
+def planned_regions(experiment: Experiment, forecast: Forecast) -> tuple[Region, ...]:
+    """Of every segment, once; none without a sweep. Raises `BadInput`."""
+    table = experiment.document.sweep
+    if table is None:
+        return ()
+    segments, _ = planned_segments(forecast, table, distinct(ranges_of(experiment.rig.vibrometer)))
+    return tuple((s.segment, min(s.frequencies_hz), max(s.frequencies_hz)) for s in segments if s.sweep == 1)

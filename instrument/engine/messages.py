@@ -5,7 +5,7 @@ from pathlib import Path
 from time import monotonic
 from typing import ClassVar, Literal
 
-from instrument.check.piece import Work
+from instrument.check.piece import Region, Work
 from instrument.files.rig_file import Shaker
 from instrument.run.part import Part
 from instrument.stream.event import Event
@@ -112,6 +112,8 @@ class Planned(Message):
     """All the work of the run, before it begins."""
 
     work: tuple[Work, ...]
+    regions: tuple[Region, ...] = ()
+    """Swept, each once."""
 
 
 @dataclass(frozen=True)

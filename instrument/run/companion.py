@@ -3,7 +3,7 @@
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 
-from instrument.check.piece import Work
+from instrument.check.piece import Region, Work
 from instrument.run.rig import Rig
 from instrument.stream.event import Event
 
@@ -14,8 +14,8 @@ class Companion:
     def recording(self, folder: Path, session: Path) -> None:
         """The run is recorded in this folder, which becomes that session file at the end."""
 
-    def planned(self, work: tuple[Work, ...]) -> None:
-        """All there is to do, and how long each piece is going to take."""
+    def planned(self, work: tuple[Work, ...], regions: tuple[Region, ...]) -> None:
+        """All there is to do and how long each piece is going to take; the regions that are swept."""
 
     def happened(self, event: Event) -> None:
         """Told of an event when it happens, on the thread it happens on; it may not be on the disk yet.

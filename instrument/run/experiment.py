@@ -10,7 +10,7 @@ from threadpoolctl import threadpool_limits
 from drivers.errors import DriverError
 from instrument.check.faults import experiment_objections
 from instrument.check.forecast import Forecast
-from instrument.check.work import planned_work
+from instrument.check.work import planned_regions, planned_work
 from instrument.errors import BadInput, RigStopped, StoppedByUser
 from instrument.progress import Progress, quiet
 from instrument.run.companion import Companion
@@ -101,7 +101,8 @@ def _run(
     earlier = [event for e in entries for event in part_events(journal.folder / e.file)]
     path = journal.folder.parent / f"{name}.h5"
     companion.recording(journal.folder, path)
-    companion.planned(planned_work(experiment, forecast, parts))
+    swept = planned_regions(experiment, forecast) if "sweep" in parts else ()
+    companion.planned(planned_work(experiment, forecast, parts), swept)
     for event in earlier:
         if not isinstance(event, BlockAcquired):
             companion.happened(event)

@@ -2,7 +2,7 @@
 
     python tests/campaigns/time_to_go.py [--runs 10] [--seed 100]
 
-Every run has a plan of its own by chance: segments, points, level, sweeps, hammer test, sentinel, calibration.
+Every run has a plan of its own by chance: points, width, level, sweeps, hammer test, sentinel, calibration.
 Printed is how far off each forecast was; exit status 1 where one was off by over 15 %.
 """
 

@@ -8,12 +8,10 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from gui.pages.sweep.points import Index, PointsMeasured
+from instrument.check.piece import Region
 from instrument.facts.identification import PointFitted
 from instrument.facts.prediction import PredictionResult
 from instrument.session.contents import SegmentRun
-
-Region = tuple[int, float, float]
-"""Segment, lowest and highest frequency in Hz."""
 
 STANDARD_ERRORS = 2.0
 """Half width of the band."""
@@ -51,10 +49,11 @@ class Curve:
 
     @classmethod
     def of(cls, found: PredictionResult, acceleration_m_s2: float, regions: list[Region]) -> Self:
-        """From what `viscorig predict --fit` says at the frequencies of `grid`."""
+        """From what `viscorig predict` says at the frequencies of `grid`, of the first spot."""
         begin, stretches = 0, []
+        points = [p for p in found.points if not p.pickup]
         for (segment, _, _), f in zip(regions, grid(regions), strict=True):
-            mine = found.points[begin : begin + len(f)]
+            mine = points[begin : begin + len(f)]
             begin += len(f)
             v = np.array([complex(p.velocity_re_m_s, p.velocity_im_m_s) for p in mine], dtype=np.complex128)
             std = np.array([p.velocity_standard_error_m_s for p in mine], dtype=float)

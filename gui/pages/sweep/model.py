@@ -1,4 +1,4 @@
-"""The fitted model's curve: `viscorig predict --fit` in a process of its own, for the latest fit."""
+"""The model's curves: `viscorig predict` in a process of its own, for the latest fit and before any."""
 
 import json
 from pathlib import Path
@@ -6,10 +6,12 @@ from pathlib import Path
 from PySide6.QtCore import QObject, QTemporaryDir, QTimer, Signal
 
 from gui.background_task import BackgroundCommand
-from gui.pages.sweep.curve import Curve, Region, grid, regions_of
+from gui.pages.sweep.curve import Curve, grid, regions_of
 from gui.state import SessionState
+from instrument.check.piece import Region
 from instrument.facts.prediction import PredictionResult
 from instrument.interchange.specimen_toml import specimen_toml
+from instrument.session.configuration import Configuration
 from instrument.session.contents import Contents
 from instrument.stream.derived import FitUpdated
 
@@ -17,8 +19,8 @@ _PAUSE_MS = 250
 """Somebody who drags through a recording passes many fits."""
 
 
-class ModelCurve(QObject):
-    """Of one fit at a time; the last wish counts.
+class ResponseCurve(QObject):
+    """One at a time; the last wish counts.
 
     Signals
     -------
@@ -31,8 +33,6 @@ class ModelCurve(QObject):
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         self.curve: Curve | None = None
-        self.fit: FitUpdated | None = None
-        """The one the curve is of, or is being computed of."""
         self.failure = ""
         self._regions: list[Region] = []
         self._contents: Contents | None = None
@@ -48,51 +48,34 @@ class ModelCurve(QObject):
         """Whether a curve is being computed."""
         return self._command is not None or self._soon.isActive()
 
-    def want(self, state: SessionState | None) -> None:
-        """The curve of the session's latest fit, over the segments begun so far.
-
-        Another fit's curve is gone at once; `changed` comes with the new one.
-        """
-        contents = state.contents if state is not None else None
-        fit = contents.fit if contents is not None and contents.fit is not None else None
-        if fit is not None and fit.result is None:
-            fit = None
-        regions = regions_of(contents.segments) if contents is not None else []
-        if fit == self.fit and regions == self._regions:
-            return
-        if fit != self.fit:
-            self.curve = None
-        self.rest()
-        self.fit, self._regions, self._contents, self.failure = fit, regions, contents, ""
-        if fit is not None and regions:
-            self._soon.start()
-
     def rest(self) -> None:
-        """Compute nothing any more."""
+        """Compute nothing any more; wanted again, it is computed again."""
         self._soon.stop()
         if self._command is not None:
             self._command.close()
             self._command.deleteLater()
             self._command = None
-            # Wanted again, it is computed again.
-            self.fit, self._regions = None, []
+            self._forget()
+
+    def _forget(self) -> None:
+        self._regions = []
+
+    def _ask(self, contents: Contents, regions: list[Region]) -> None:
+        self._contents, self._regions, self.failure = contents, regions, ""
+        self._soon.start()
+
+    def _asked(self, contents: Contents, folder: Path) -> list[str]:
+        """What `predict` is asked beside the frequencies."""
+        specimen = folder / "specimen.toml"
+        specimen.write_text(specimen_toml(contents), encoding="utf-8")
+        # Whoever ran it has answered for what it states.
+        return ["predict", str(specimen), "--force"]
 
     def _start(self) -> None:
-        assert self.fit is not None
-        assert self.fit.result is not None
         assert self._contents is not None
-        folder = Path(self._folder.path())
-        specimen, fit = folder / "specimen.toml", folder / "fit.json"
-        specimen.write_text(specimen_toml(self._contents), encoding="utf-8")
-        fit.write_text(json.dumps(self.fit.result.as_json()), encoding="utf-8")
         frequencies = ",".join(repr(float(f)) for one in grid(self._regions) for f in one)
-        asked = ["predict", str(specimen), "--fit", str(fit), "--frequencies", frequencies]
-        damping = self._contents.damping
-        if damping is not None and self.fit.result.hammer is not None:
-            hammer = folder / "hammer.json"
-            hammer.write_text(json.dumps(damping.result.as_json()), encoding="utf-8")
-            asked += ["--hammer", str(hammer)]
-        self._command = BackgroundCommand(asked, PredictionResult, self)
+        asked = self._asked(self._contents, Path(self._folder.path()))
+        self._command = BackgroundCommand([*asked, "--frequencies", frequencies], PredictionResult, self)
         self._command.done.connect(self._done)
         self._command.failed.connect(self._failed)
         self._command.start()
@@ -112,3 +95,73 @@ class ModelCurve(QObject):
             self._command.deleteLater()
             self._command = None
         self.changed.emit()
+
+
+class ModelCurve(ResponseCurve):
+    """Of the latest fit."""
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        self.fit: FitUpdated | None = None
+        """The one the curve is of, or is being computed of."""
+
+    def want(self, state: SessionState | None) -> None:
+        """The curve of the session's latest fit, over the segments begun so far.
+
+        Another fit's curve is gone at once; `changed` comes with the new one.
+        """
+        contents = state.contents if state is not None else None
+        fit = contents.fit if contents is not None and contents.fit is not None else None
+        if fit is not None and fit.result is None:
+            fit = None
+        regions = regions_of(contents.segments) if contents is not None else []
+        if fit == self.fit and regions == self._regions:
+            return
+        if fit != self.fit:
+            self.curve = None
+        self.rest()
+        self.fit, self._regions, self.failure = fit, regions, ""
+        if fit is not None and regions and contents is not None:
+            self._ask(contents, regions)
+
+    def _forget(self) -> None:
+        super()._forget()
+        self.fit = None
+
+    def _asked(self, contents: Contents, folder: Path) -> list[str]:
+        assert self.fit is not None
+        assert self.fit.result is not None
+        fit = folder / "fit.json"
+        fit.write_text(json.dumps(self.fit.result.as_json()), encoding="utf-8")
+        asked = [*super()._asked(contents, folder), "--fit", str(fit)]
+        damping = contents.damping
+        if damping is not None and self.fit.result.hammer is not None:
+            hammer = folder / "hammer.json"
+            hammer.write_text(json.dumps(damping.result.as_json()), encoding="utf-8")
+            asked += ["--hammer", str(hammer)]
+        return asked
+
+
+class ForeseenCurve(ResponseCurve):
+    """Of the specimen as stated, with the law to start from: known before anything is measured."""
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        self._of: Configuration | None = None
+
+    def want(self, state: SessionState | None) -> None:
+        """Over every segment that is known of, begun or not."""
+        configuration = state.configuration if state is not None else None
+        regions = list(state.plan.regions) if state is not None else []
+        if configuration is self._of and regions == self._regions:
+            return
+        if configuration is not self._of:
+            self.curve = None
+        self.rest()
+        self._of, self._regions = configuration, regions
+        if state is not None and regions:
+            self._ask(state.contents, regions)
+
+    def _forget(self) -> None:
+        super()._forget()
+        self._of = None

@@ -6,12 +6,13 @@ from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QHideEvent, QKeySequence, QShortcut, QShowEvent
 from PySide6.QtWidgets import QCheckBox, QSplitter, QStackedLayout, QTabWidget, QVBoxLayout, QWidget
 
+from fitting.gravity import PUBLISHED_G_M_S2
 from gui.controller import AppController
 from gui.page import Page
 from gui.pages.sweep.chooser import Chooser
-from gui.pages.sweep.curve import Region, predictions, regions_of
+from gui.pages.sweep.curve import predictions
 from gui.pages.sweep.drift import DriftPane
-from gui.pages.sweep.model import ModelCurve
+from gui.pages.sweep.model import ForeseenCurve, ModelCurve
 from gui.pages.sweep.nyquist import NyquistPane
 from gui.pages.sweep.overlay import besides
 from gui.pages.sweep.pane_scheduler import PaneScheduler
@@ -25,6 +26,7 @@ from gui.pages.sweep.segments import standings
 from gui.pages.sweep.step import StepPane
 from gui.state import SessionState
 from gui.widgets import hint
+from instrument.check.piece import Region
 from instrument.session.configuration import Configuration
 from instrument.stepped_sine.settings import SweepSettings
 
@@ -56,7 +58,7 @@ class SweepPage(Page):
         self.response, self.step = ResponsePane(), StepPane()
         self.nyquist, self.quality = NyquistPane(), QualityPane()
         self.drift, self.samples = DriftPane(), SamplesPane()
-        self.model = ModelCurve(self)
+        self.model, self.foreseen = ModelCurve(self), ForeseenCurve(self)
         self.tabs = QTabWidget()
         self.seen = PaneContents(PointsMeasured.of((), SweepSettings()))
         self._looked_at: int | None = None
@@ -74,8 +76,8 @@ class SweepPage(Page):
         if state.configuration is not self._configuration:
             self._configuration = state.configuration
             self._looked_at = self._running = None
-        self.model.want(state)
-        regions = tuple(regions_of(state.contents.segments))
+        self._want_curves(state)
+        regions = state.plan.regions
         if self.news("points", "sentinels", "fits", "damping") or regions != self.seen.regions:
             self._look_again(state, regions)
         if self.news("run"):
@@ -88,7 +90,7 @@ class SweepPage(Page):
     def clear(self) -> None:
         """There is no session any more."""
         self._layers.setCurrentIndex(1 if self.seen.beside else 0)
-        self.model.want(None)
+        self._want_curves(None)
         self.seen = PaneContents(
             PointsMeasured.of((), SweepSettings()), way=self.response.way, beside=self.seen.beside
         )
@@ -100,7 +102,7 @@ class SweepPage(Page):
         """Go on where hiding broke off: in a run pane by pane, all at once it would hold up the window."""
         super().showEvent(event)
         if not self.controller.running:
-            self.model.want(self._state)
+            self._want_curves(self._state)
             self._draw_all()
 
     def changeEvent(self, event: QEvent) -> None:
@@ -113,6 +115,7 @@ class SweepPage(Page):
         """Nothing is computed for a page that nobody sees."""
         super().hideEvent(event)
         self.model.rest()
+        self.foreseen.rest()
 
     # From a person
 
@@ -130,10 +133,16 @@ class SweepPage(Page):
 
     # Inside
 
+    def _want_curves(self, state: SessionState | None) -> None:
+        """One computation at a time; the fit's comes first."""
+        self.model.want(state)
+        if not self.model.busy:
+            self.foreseen.want(state)
+
     def _look_again(self, state: SessionState, regions: tuple[Region, ...]) -> None:
         """Points, fits or regions are others."""
         points = self.seen.points.up_to(state.contents.points, state.limits)
-        fit = state.contents.fit
+        fit, sweep = state.contents.fit, state.plan.sweep
         rows = fit.result.points if fit is not None and fit.result is not None else ()
         predicted = Predicted(*predictions(points, rows, fit.last_step)) if fit is not None else Predicted()
         self.seen = self.seen.but(
@@ -144,6 +153,8 @@ class SweepPage(Page):
             predicted=predicted,
             fit=fit.number if fit is not None else 0,
             curve=self.model.curve,
+            foreseen=self.foreseen.curve,
+            planned_m_s2=sweep.level_g * PUBLISHED_G_M_S2 if sweep is not None else PUBLISHED_G_M_S2,
         )
         self._mark_all()
 
@@ -171,7 +182,8 @@ class SweepPage(Page):
         self._draw_all()
 
     def _model_changed(self) -> None:
-        self.seen = self.seen.but(curve=self.model.curve)
+        self._want_curves(self._state)
+        self.seen = self.seen.but(curve=self.model.curve, foreseen=self.foreseen.curve)
         self._mark_all()
         self.turns.go_on()
 
@@ -241,7 +253,9 @@ class SweepPage(Page):
         self.chooser.chosen.connect(self._segment_chosen)
         self.response.way_changed.connect(self._way_changed)
         self.record.stepped.connect(self.walk)
-        self.model.changed.connect(self._model_changed)
+        for curve in (self.model, self.foreseen):
+            curve.changed.connect(self._model_changed)
+        self.response.segment_wanted.connect(self.chooser.choose)
         self.tabs.currentChanged.connect(self._tab_changed)
         for pane in (self.response, self.nyquist, self.quality, self.drift):
             pane.chosen.connect(self.choose)

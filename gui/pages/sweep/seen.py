@@ -6,9 +6,11 @@ from typing import Literal, Self
 import numpy as np
 
 from fitting.arrays import Array, Complex, Mask
-from gui.pages.sweep.curve import Curve, Region
+from fitting.gravity import PUBLISHED_G_M_S2
+from gui.pages.sweep.curve import Curve
 from gui.pages.sweep.overlay import OverlaidSweep
 from gui.pages.sweep.points import Index, PointsMeasured
+from instrument.check.piece import Region
 
 Quantity = Literal["ratio", "velocity"]
 
@@ -58,15 +60,19 @@ class PaneContents:
     segment: int | None = None
     """None: all of them."""
     regions: tuple[Region, ...] = ()
-    """Of the segments begun so far."""
+    """Of the segments known of, begun or not."""
     curve: Curve | None = None
     predicted: Predicted = field(default_factory=Predicted)
+    foreseen: Curve | None = None
+    """Of the specimen as it is stated, known before anything is measured."""
     fit: int = 0
     """Number of the fit `curve` and `predicted` are of."""
     beside: tuple[OverlaidSweep, ...] = ()
     chosen: int | None = None
     """Number of the point looked at."""
     way: Way = field(default_factory=Way)
+    planned_m_s2: float = PUBLISHED_G_M_S2
+    """Level of the sweep as its file has it."""
     reads: str = "relative"
     """What the laser reads: velocity relative to the base, or absolute."""
 
@@ -87,14 +93,24 @@ class PaneContents:
         return mine[0] if mine else None
 
     @property
+    def chosen_here(self) -> int | None:
+        """The point looked at, where it is one of those wanted."""
+        return self.chosen if self.chosen is not None and self.wanted[self.chosen] else None
+
+    @property
     def shown(self) -> Complex:
         """Response of every point, in the unit of the way chosen. Shape (points,)."""
         return np.asarray(self.points.over_base_s * self.way.factor(self.points.level_m_s2))
 
     def levels(self, segment: int) -> Array:
-        """Levels of a segment's points in m/s^2; of all where it has none yet. Shape (levels,)."""
+        """Levels of a segment's points in m/s^2; of all, or the one planned, where it has none yet.
+
+        Shape (levels,).
+        """
         p = self.points
         mine = p.segment == segment
+        if not len(p):
+            return np.array([self.planned_m_s2])
         return np.unique(np.round(p.level_m_s2[mine] if mine.any() else p.level_m_s2, 6))
 
     def neighbour(self, by: int) -> int | None:

@@ -6,6 +6,8 @@ from sessions import point
 
 from gui.controller import AppController
 from gui.pages.sweep import SweepPage
+from gui.pages.sweep.curve import Curve, CurveStretch, grid
+from gui.pages.sweep.drawing import FORESEEN
 from gui.state import SessionState
 from instrument.stepped_sine.sine_fit import sine_fit
 from instrument.stream.derived import StepSettled
@@ -21,6 +23,7 @@ def page(opened):
     """Of the session at its end."""
     opened.resize(1366, 768)
     opened.show_page("sweep")
+    opened.pages[1].response.apart.setChecked(False)
     return opened.pages[1]
 
 
@@ -29,6 +32,7 @@ def alone(qtbot):
     """A page and a picture to be filled by hand."""
     controller = AppController()
     page = SweepPage(controller)
+    page.response.apart.setChecked(False)
     qtbot.addWidget(page)
     page.resize(1366, 500)
     page.show()
@@ -311,3 +315,79 @@ def test_back_in_time_there_are_fewer_points(qtbot, opened, page):
     assert page.seen.curve is None
     feed.jump(feed.length_s)
     qtbot.waitUntil(lambda: len(page.seen.points) == 31, timeout=5000)
+
+
+# A pane for each resonance
+
+
+def test_each_resonance_has_a_pane_with_its_own_points(opened, page):
+    page.response.apart.setChecked(True)
+    panes = page.response.resonances
+    assert panes.isVisible()
+    assert list(panes.plots) == [number for number, _, _ in page.seen.regions] == [1, 2, 3]
+    p = page.seen.points
+    for number, low, high in page.seen.regions:
+        x, y = shown(panes.plots[number], "good")
+        mine = (p.segment == number) & ~p.sentinel & (p.quality == 0)
+        np.testing.assert_array_equal(x, p.frequency_hz[mine])
+        np.testing.assert_allclose(y, 1e3 * np.abs(p.over_base_s[mine]))
+        left, right = panes.plots[number].viewRange()[0]
+        assert left < low < high < right
+
+
+def test_the_heading_of_a_pane_shows_that_resonance_alone(qtbot, page):
+    page.response.apart.setChecked(True)
+    heading = page.response.resonances._headings[2]
+    qtbot.mouseClick(heading, LEFT)
+    assert page.chooser.segment == 2
+    assert page.response.amplitude.isVisible()
+
+
+def foreseen_of(page, regions):
+    """A curve as `predict` would give it, of 1 (mm/s)/(m/s^2)."""
+    stretches = []
+    for (number, _, _), f in zip(regions, grid(regions), strict=True):
+        none = np.full(len(f), np.nan)
+        stretches.append(CurveStretch(number, f, np.full(len(f), 1e-3 + 0j), none, none))
+    return Curve(tuple(stretches))
+
+
+def test_what_is_foreseen_stands_in_every_pane_before_anything_is_measured(qtbot, alone, monkeypatch):
+    page, state = alone
+    page.response.apart.setChecked(True)
+    monkeypatch.setattr(page.foreseen, "_start", lambda: None)
+    regions = ((1, 18.0, 22.0), (2, 108.0, 130.0))
+    state.foresee(regions)
+    page.show_state(state)
+    assert page.seen.regions[:2] == regions
+    assert page.foreseen.busy
+    page.foreseen.curve = foreseen_of(page, list(page.seen.regions))
+    page.foreseen.rest()
+    page.foreseen.changed.emit()
+    panes = page.response.resonances.plots
+    qtbot.waitUntil(lambda: all(FORESEEN in panes[number].names for number, _, _ in regions))
+    for number, _, _ in regions:
+        _, y = shown(page.response.resonances.plots[number], FORESEEN)
+        np.testing.assert_allclose(y, 1.0)
+    assert FORESEEN.split(",")[0] in page.response.resonances.key.text()
+
+
+@pytest.mark.long
+def test_the_foreseen_curve_is_what_predict_says_of_the_stated_specimen(qtbot, page):
+    qtbot.waitUntil(lambda: page.foreseen.curve is not None, timeout=PATIENCE_MS)
+    assert page.foreseen.failure == ""
+    assert all(np.isnan(s.amplitude_std_s).all() for s in page.foreseen.curve.stretches)
+    assert FORESEEN in page.response.amplitude.names
+
+
+def test_another_sessions_sweep_is_laid_beside_this_one_and_taken_away(qtbot, opened, page, session_path):
+    opened.controller.compare(session_path)
+    qtbot.waitUntil(lambda: bool(page.seen.beside), timeout=PATIENCE_MS)
+    name = session_path.name
+    x, y = shown(page.response.amplitude, name)
+    p = page.seen.points
+    steps = ~p.sentinel
+    np.testing.assert_allclose(np.sort(x), np.sort(p.frequency_hz[steps]))
+    np.testing.assert_allclose(np.sort(y), np.sort(1e3 * np.abs(p.over_base_s[steps])), rtol=1e-9)
+    page.response.others.setChecked(False)
+    assert name not in page.response.amplitude.names

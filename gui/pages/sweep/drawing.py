@@ -1,0 +1,148 @@
+"""Draws the response of what is seen into plots: foreseen, measured, fitted, and that of other files."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from gui.pages.sweep.curve import STANDARD_ERRORS, Curve, CurveStretch, joined
+from gui.pages.sweep.panes import BESIDE, CHOSEN, Pointed
+from gui.pages.sweep.seen import PaneContents
+from gui.plots import Axis
+
+FREQUENCY = Axis("Frequency", "Hz")
+FORESEEN = "foreseen, law to start from"
+
+
+def draw_amplitude(plot: Pointed, seen: PaneContents) -> None:
+    """Over frequency, with the model's band."""
+    way = seen.way
+    plot.show_axes(replace(FREQUENCY, log=way.log_frequency), Axis(way.label, way.unit, way.log_amplitude))
+    names = _foreseen_amplitude(plot, seen) + _model_amplitude(plot, seen)
+    for group in seen.points.groups(seen.wanted):
+        plot.show_points(group, seen.points.frequency_hz[group.index], np.abs(seen.shown[group.index]))
+        names.append(group.name)
+    for one in seen.beside:
+        mine = one.inside(seen.band_hz)
+        size = np.abs(one.over_base_s[mine]) * way.factor(one.level_m_s2[mine])
+        plot.points(one.name, one.frequency_hz[mine], size, **BESIDE)
+        names.append(one.name)
+    plot.keep((*names, CHOSEN))
+    at = seen.chosen_here
+    plot.point_out(
+        float(seen.points.frequency_hz[at]) if at is not None else None,
+        float(np.abs(seen.shown[at])) if at is not None else None,
+    )
+    plot.frame(seen.band_hz)
+
+
+def draw_phase(plot: Pointed, seen: PaneContents) -> None:
+    """Over frequency, with the model's band."""
+    plot.show_axes(replace(FREQUENCY, log=seen.way.log_frequency), plot.y)
+    names = []
+    if stretches := _stretches(seen.foreseen, seen):
+        _phase_line(plot, FORESEEN, stretches, seen, foreseen=True)
+        names.append(FORESEEN)
+    if stretches := _stretches(seen.curve, seen):
+        _phase_line(plot, _model_name(seen), stretches, seen)
+        names.append(_model_name(seen))
+        for number, s in _with_band(stretches):
+            phase, half = s.phase_deg(seen.points), STANDARD_ERRORS * s.phase_std_deg
+            plot.band(f"band {number}", s.frequency_hz, phase - half, phase + half)
+            names.append(f"band {number}")
+    p = seen.points
+    for group in p.groups(seen.wanted):
+        plot.show_points(group, p.frequency_hz[group.index], p.phase_deg[group.index])
+        names.append(group.name)
+    for one in (one for one in seen.beside if one.has_phase):
+        mine = one.inside(seen.band_hz)
+        phase = np.unwrap(np.degrees(np.angle(one.over_base_s[mine])), period=360.0)
+        plot.points(one.name, one.frequency_hz[mine], phase, **BESIDE)
+        names.append(one.name)
+    plot.keep((*names, CHOSEN))
+    at = seen.chosen_here
+    plot.point_out(
+        float(p.frequency_hz[at]) if at is not None else None,
+        float(p.phase_deg[at]) if at is not None else None,
+    )
+    plot.frame(seen.band_hz)
+
+
+def _model_name(seen: PaneContents) -> str:
+    return f"model, fit {seen.fit}, \u00b1{STANDARD_ERRORS:g} s.e."
+
+
+def _stretches(curve: Curve | None, seen: PaneContents) -> list[CurveStretch]:
+    return list(curve.of_segments(seen.segment)) if curve is not None else []
+
+
+def _with_band(stretches: list[CurveStretch]) -> list[tuple[int, CurveStretch]]:
+    known = (s for s in stretches if np.isfinite(s.amplitude_std_s).all())
+    return list(enumerate(known, start=1))
+
+
+def _phase_line(
+    plot: Pointed, name: str, stretches: list[CurveStretch], seen: PaneContents, *, foreseen: bool = False
+) -> None:
+    plot.line(
+        name,
+        joined([s.frequency_hz for s in stretches]),
+        joined([s.phase_deg(seen.points) for s in stretches]),
+        "faint" if foreseen else "model",
+        dashed=foreseen,
+    )
+
+
+def _foreseen_amplitude(plot: Pointed, seen: PaneContents) -> list[str]:
+    stretches = _stretches(seen.foreseen, seen)
+    if not stretches:
+        return []
+    drawn = [(s, f) for s in stretches for f in seen.way.factor(seen.levels(s.segment))]
+    plot.line(
+        FORESEEN,
+        joined([s.frequency_hz for s, _ in drawn]),
+        joined([f * np.abs(s.over_base_s) for s, f in drawn]),
+        "faint",
+        dashed=True,
+    )
+    return [FORESEEN]
+
+
+def _model_amplitude(plot: Pointed, seen: PaneContents) -> list[str]:
+    """Names of what is drawn."""
+    if seen.curve is None:
+        return _predicted_amplitude(plot, seen)
+    stretches = _stretches(seen.curve, seen)
+    if not stretches:
+        return []
+    name = _model_name(seen)
+    names = [name]
+    drawn = [(s, f) for s in stretches for f in seen.way.factor(seen.levels(s.segment))]
+    for number, (s, factor) in enumerate(drawn, start=1):
+        if not np.isfinite(s.amplitude_std_s).all():
+            continue
+        names.append(f"band {number}")
+        size, half = np.abs(s.over_base_s), STANDARD_ERRORS * s.amplitude_std_s
+        low = np.maximum(size - half, 1e-3 * size)
+        plot.band(names[-1], s.frequency_hz, factor * low, factor * (size + half))
+    plot.line(
+        name,
+        joined([s.frequency_hz for s, _ in drawn]),
+        joined([f * np.abs(s.over_base_s) for s, f in drawn]),
+    )
+    return names
+
+
+def _predicted_amplitude(plot: Pointed, seen: PaneContents) -> list[str]:
+    """Until there is a curve: what the fit itself says, at the points it took."""
+    p, predicted = seen.points, seen.predicted
+    mine = seen.wanted[predicted.index] & ~p.sentinel[predicted.index]
+    if not mine.any():
+        return []
+    k, size = predicted.index[mine], predicted.amplitude_m_s[mine] / p.level_m_s2[predicted.index[mine]]
+    f, y, breaks = p.frequency_hz[k], size * seen.way.factor(p.level_m_s2[k]), p.segment[k]
+    order = np.lexsort((f, breaks))
+    f, y, breaks = f[order], y[order], breaks[order]
+    gaps = np.flatnonzero(np.diff(breaks)) + 1
+    name = f"model at the points, fit {seen.fit}"
+    plot.line(name, joined(np.split(f, gaps)), joined(np.split(y, gaps)))
+    return [name]

@@ -1,0 +1,89 @@
+"""One pane for each resonance: what is foreseen, measured, and fitted of it."""
+
+from functools import partial
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QGridLayout, QPushButton, QVBoxLayout, QWidget
+
+from gui.pages.sweep.drawing import FORESEEN, FREQUENCY, draw_amplitude
+from gui.pages.sweep.panes import SIGNS, Key, Pointed
+from gui.pages.sweep.seen import PaneContents
+from gui.plots import Axis
+from gui.theme import Role
+from instrument.check.piece import Region
+
+_A_ROW = 3
+"""More panes beside each other have no room for their numbers."""
+
+
+class ResonancePanes(QWidget):
+    """Amplitudes, side by side, each with axes of its own.
+
+    Signals
+    -------
+    chosen : int
+        A point was clicked.
+    segment_wanted : int
+        The heading of a pane was.
+    """
+
+    chosen = Signal(int)
+    segment_wanted = Signal(int)
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.key = Key()
+        self.plots: dict[int, Pointed] = {}
+        self._headings: dict[int, QPushButton] = {}
+        self._grid = QGridLayout()
+        self._grid.setSpacing(2)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(self.key)
+        column.addLayout(self._grid, 1)
+
+    def show_seen(self, seen: PaneContents) -> None:
+        """Draw all of them."""
+        self._lay_out(seen.regions)
+        for number, low, high in seen.regions:
+            self._headings[number].setText(f"{number}   {low:.4g} to {high:.4g} Hz")
+            draw_amplitude(self.plots[number], seen.but(segment=number))
+        entries: list[tuple[str, Role, str]] = [
+            (g.name, g.role, SIGNS[g.symbol]) for g in seen.points.groups(seen.wanted)
+        ]
+        if seen.curve is not None:
+            entries.append((f"fit {seen.fit}", "model", "\u2500"))
+        if seen.foreseen is not None:
+            entries.append((FORESEEN, "faint", "- -"))
+        entries += [(one.name, "third", "\u25c7") for one in seen.beside]
+        self.key.show_key(entries)
+
+    def _lay_out(self, regions: tuple[Region, ...]) -> None:
+        numbers = [number for number, _, _ in regions]
+        if numbers == list(self.plots):
+            return
+        for gone in (*self.plots.values(), *self._headings.values()):
+            gone.hide()
+            gone.deleteLater()
+        self.plots, self._headings = {}, {}
+        for k, number in enumerate(numbers):
+            row, column = 2 * (k // _A_ROW), k % _A_ROW
+            self._grid.addWidget(self._heading(number), row, column)
+            self._grid.addWidget(self._plot(number), row + 1, column)
+        for k in range(max(self._grid.rowCount(), 1)):
+            self._grid.setRowStretch(k, 1 if k % 2 and k < 2 * (-(-len(numbers) // _A_ROW)) else 0)
+
+    def _heading(self, number: int) -> QPushButton:
+        made = QPushButton()
+        made.setFlat(True)
+        made.setToolTip("This segment alone, with its phase")
+        made.clicked.connect(partial(self.segment_wanted.emit, number))
+        self._headings[number] = made
+        return made
+
+    def _plot(self, number: int) -> Pointed:
+        made = Pointed(FREQUENCY, Axis("|v/a|"), legend=False)
+        made.chosen.connect(self.chosen)
+        self.plots[number] = made
+        return made
