@@ -63,7 +63,8 @@ class ResonancePanes(QWidget):
         numbers = [number for number, _, _ in regions]
         if numbers == list(self.plots):
             return
-        for gone in (*self.plots.values(), *self._headings.values()):
+        before: list[QWidget] = [*self.plots.values(), *self._headings.values()]
+        for gone in before:
             gone.hide()
             gone.deleteLater()
         self.plots, self._headings = {}, {}
