@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.every_point import EveryPoint
+from fitting.diagnosis.member_laws import by_all, law_at
 from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.of_files import OfFiles, Place
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid
@@ -28,6 +29,8 @@ from fitting.sweep import Sweep
 
 OF_EACH_SPOT = ("gain", "delay", "pickup")
 """Kinds of stated numbers that are another one at every spot, though they are stated alike."""
+CHANNELS = ("gain", "delay")
+"""What a mounting does not keep."""
 OF_EACH_FILE = ("mass", "force", "damping", "length", "width")
 """And in every file, its spots sharing them."""
 Places = tuple[NDArray[np.intp], ...]
@@ -52,10 +55,13 @@ class SeveralProblem(DiagnosisProblem):
         members: Sequence[DiagnosisProblem],
         reduced: Sequence[ReducedPlate | None],
         of: Sequence[Place] = (),
+        *,
+        one_mounting: bool = False,
     ) -> "SeveralProblem":
         """One task of several, `of` these files, a file each by default.
 
-        Raises `OutsideModel` where they cannot be fitted together.
+        `one_mounting`: one plate that stayed where it is, spot and all, so that only the channels are
+        another matter each time. Raises `OutsideModel` where they cannot be fitted together.
         """
         of = tuple(of) or tuple(Place(k + 1) for k in range(len(members)))
         if len({m.points.reads for m in members}) > 1:
@@ -66,7 +72,9 @@ class SeveralProblem(DiagnosisProblem):
             raise OutsideModel("some files hold phasors, others amplitudes, expected one of them")
         if len({m.specimen.exact for m in members}) > 1:
             raise OutsideModel("some specimens are exact, others not, expected one of them")
-        each, places, owners = _together(members, of)
+        each, places, owners = _together(
+            members, of, CHANNELS if one_mounting else (*OF_EACH_SPOT, *OF_EACH_FILE)
+        )
         sweep = joined([m.sweep for m in members])
         rational = _side_by_side([m.rational for m in members])
         nodes = EveryPoint.at(sweep.omega)
@@ -103,17 +111,18 @@ class SeveralProblem(DiagnosisProblem):
 
     def condensed(self, law: CoreLaw) -> "SeveralProblem":
         """Every member condensed."""
-        return replace(self, members=tuple(m.condensed(law) for m in self.members))
+        return replace(self, members=tuple(m.condensed(law_at(law, k)) for k, m in enumerate(self.members)))
 
     def around(self, law: CoreLaw) -> "SeveralProblem":
         """Every member's grids made for a law."""
-        return replace(self, members=tuple(m.around(law) for m in self.members))
+        return replace(self, members=tuple(m.around(law_at(law, k)) for k, m in enumerate(self.members)))
 
     def model_error(self, law: CoreLaw, v: Complex) -> Complex:
         """Each member's own. Shape (any, points)."""
         rows = []
-        for m, reduced, part in zip(self.members, self.reduced, self.starts_at, strict=True):
-            own = model_error(m, reduced, law, v[part])
+        each = zip(self.members, self.reduced, self.starts_at, strict=True)
+        for k, (m, reduced, part) in enumerate(each):
+            own = model_error(m, reduced, law_at(law, k), v[part])
             block = np.zeros((len(own), len(v)), complex)
             block[:, part] = own
             rows.append(block)
@@ -175,28 +184,34 @@ class SeveralResponse(SweepResponse):
 
     def velocity(self, law: CoreLaw, u: Array) -> Complex:
         """Phasors in m/s, member after member. Shape (points,)."""
-        return np.concatenate([r.velocity(law, u[at]) for r, at in self._of_member])
+        return np.concatenate(
+            [r.velocity(law_at(law, k), u[at]) for k, (r, at) in enumerate(self._of_member)]
+        )
 
     def with_derivatives(self, law: CoreLaw, u: Array) -> tuple[Complex, Complex]:
         """Phasors and derivatives as `Response.with_derivatives` gives them."""
         n = len(law.names)
         found, rows = [], np.zeros((n + len(u), len(self.problem.sweep)), complex)
-        for (response, at), part in zip(self._of_member, self.problem.starts_at, strict=True):
-            v, dv = response.with_derivatives(law, u[at])
+        each = zip(self._of_member, self.problem.starts_at, strict=True)
+        for k, ((response, at), part) in enumerate(each):
+            own = law_at(law, k)
+            v, dv = response.with_derivatives(own, u[at])
             found.append(v)
-            rows[:n, part] = dv[:n]
-            rows[n + at, part] = dv[n:]
+            of_law = len(own.names)
+            rows[:n, part] = by_all(law, k, dv[:of_law])
+            rows[n + at, part] = dv[of_law:]
         return np.concatenate(found), rows
 
     def signatures(self, law: CoreLaw, known: Array, starts: Sequence[Array]) -> Complex:
         """As `SweepResponse.signatures`, of every member that has the last effect. Shape (starts, points)."""
         found = np.zeros((len(starts), len(self.problem.sweep)), complex)
         count = len(self.nuisances) + sum(len(e.parameters) for e in self.effects[:-1])
-        for (response, at), part in zip(self._of_member, self.problem.starts_at, strict=True):
+        each = zip(self._of_member, self.problem.starts_at, strict=True)
+        for k, ((response, at), part) in enumerate(each):
             own = at[at < count]
             if len(own) < len(at):
                 its = [u[at[len(own) :] - count] for u in starts]
-                found[:, part] = response.signatures(law, known[own], its)
+                found[:, part] = response.signatures(law_at(law, k), known[own], its)
         return found
 
     def beside(self, effect: Effect) -> "SeveralResponse":
@@ -241,10 +256,12 @@ def _points(each: Sequence[Points]) -> Points:
 
 
 def _together(
-    members: Sequence[DiagnosisProblem],
-    of: Sequence[Place],
+    members: Sequence[DiagnosisProblem], of: Sequence[Place], apart: Sequence[str]
 ) -> tuple[tuple[Nuisance, ...], Places, tuple[tuple[int, ...], ...]]:
-    """All stated numbers, those of the same thing once: where each member's are, and whose each is."""
+    """All stated numbers, those of the same thing once: where each member's are, and whose each is.
+
+    Kinds `apart` are another thing in every file or at every spot.
+    """
     keys: dict[tuple[object, ...], int] = {}
     each: list[Nuisance] = []
     owners: list[list[int]] = []
@@ -253,7 +270,9 @@ def _together(
         at = []
         for n in m.nuisances.each:
             key: tuple[object, ...] = (n.name, n.sigma, stated_number(m.specimen, n)[0])
-            if n.kind in OF_EACH_SPOT:
+            if n.kind not in apart:
+                pass
+            elif n.kind in OF_EACH_SPOT:
                 key = (n.name, of[k])
             elif n.kind in OF_EACH_FILE:
                 key = (n.name, of[k].file)

@@ -1,9 +1,10 @@
-"""Law, shifts and stated numbers fitted to the responses of all temperatures at once.
+"""One law, its shifts and the stated numbers fitted to the responses of all temperatures at once.
 
-    chi2 = sum over sweeps of |whitened readings - prediction|^2 + |z|^2 + |b|^2
+    chi2 = |whitened readings of all sweeps - prediction|^2 + |hammer test|^2 + |z|^2 + |b|^2
 
-with G*_k(omega) = b_k G*(a_T omega) at temperature k. The plate is one, its stated numbers are counted once;
-gain and delay are each sweep's own.
+with G*_k(omega) = b_k G*(a_T omega) at temperature k. The plate and its mounting are one, their stated
+numbers are counted once; gain and delay are each sweep's own. A law for each temperature is fitted to the
+same with the same plate: what tells both apart is then the material alone.
 """
 
 from collections.abc import Sequence
@@ -11,217 +12,257 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.optimize import least_squares
 from scipy.stats import chi2 as chi_square
 
 from fitting.arrays import Array
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.begin import Begun
-from fitting.diagnosis.response import SweepResponse
-from fitting.identification.uncertainty import limits_reached
+from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.refit import Refitted, refit
+from fitting.diagnosis.responses import response_of
+from fitting.diagnosis.several import SeveralProblem
+from fitting.diagnosis.thresholds import SEARCH
+from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
-from fitting.temperature.shifted_law import ShiftedLaw
+from fitting.temperature.one_law import OneLaw, OwnLaws
 from fitting.temperature.shifts import Shift
 from fitting.temperature.start import start_of
 
-_OF_EACH_SWEEP = ("gain", "delay")
-_MOST_EVALUATIONS = 60
-"""A bound on time; what has not come to its end by then says `converged = False`."""
-_VERTICAL = 0.5
-"""Largest ln b looked at."""
+_ROUNDS = 4
+"""Of a fit's most evaluations: a bound on time; what has not come to its end by then says so."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """All temperatures side by side."""
+
+    problem: SeveralProblem
+    evidence: Evidence
+    shift: Shift
+    vertical: bool
+
+    @classmethod
+    def of(cls, begun: Sequence[Begun], shift: Shift, *, vertical: bool) -> "Task":
+        """From the fits of each temperature by itself."""
+        # Each has its model's error already; a common evidence only joins them.
+        problem = SeveralProblem.of_members(
+            [b.problem for b in begun], [None] * len(begun), one_mounting=True
+        )
+        return cls(problem, _side_by_side(begun), shift, vertical)
+
+    def with_members(self, begun: Sequence[Begun]) -> "Task":
+        """The same readings, their members' models others."""
+        return Task.of(begun, self.shift, vertical=self.vertical)
+
+    @property
+    def points(self) -> tuple[int, ...]:
+        """Of each sweep."""
+        return tuple(len(m.sweep) for m in self.problem.members)
+
+    @property
+    def bands_hz(self) -> list[tuple[float, float]]:
+        """Of each sweep."""
+        f = [m.sweep.frequency_hz for m in self.problem.members]
+        return [(float(one.min()), float(one.max())) for one in f]
+
+    def one_law(self, laws: Sequence[CoreLaw]) -> OneLaw:
+        """One law that lies near those of each temperature by itself: where the fit starts."""
+        shift, bands = self.shift, self.bands_hz
+        plain, log_a = start_of(laws, bands, shift.temperature_c, shift.reference_c)
+        p = shift.near(log_a)
+        law: CoreLaw = plain
+        if not self.problem.specimen.exact:
+            a = np.exp(shift.log_shift(p))
+            law = BentLaw.over(plain, np.array([f * k for b, k in zip(bands, a, strict=True) for f in b]))
+        b = (1.0,) * (shift.moved_count if self.vertical else 0)
+        return OneLaw(law, shift, tuple(shift.positive(p).tolist()), self.points, b)
+
+    def fitted(self, law: CoreLaw, z: Array, effects: Sequence[Effect] = ()) -> Refitted:
+        """The best from here. `z` of shape (unknowns,): the stated numbers, then those of the effects."""
+        problem = self.problem.around(law)
+        response = response_of(problem, effects)
+        for _ in range(_ROUNDS):
+            found = refit(response, self.evidence, law, z)
+            law, z = found.law, found.u
+            if found.converged or found.chi2_per_dof > SEARCH.hopeless:
+                break
+        return found
+
+    def stated(self, each: Sequence[Array]) -> Array:
+        """The mean of what sweeps say by themselves of the stated numbers. Shape (numbers,)."""
+        total, count = np.zeros(len(self.problem.nuisances)), np.zeros(len(self.problem.nuisances))
+        for z, at in zip(each, self.problem.places, strict=True):
+            total[at] += z
+            count[at] += 1
+        return total / count
+
+
+def _side_by_side(begun: Sequence[Begun]) -> Evidence:
+    """What all readings are worth; the hammer test, which is the same for all, once."""
+    each = [b.evidence for b in begun]
+    parts = 2 if each[0].has_phase else 1
+    points = [len(e.sigma_m_s) for e in each]
+    starts = np.concatenate([[0], np.cumsum(points)])
+    B = np.zeros((parts * starts[-1], sum(e.B.shape[1] for e in each)))
+    column = 0
+    for e, start in zip(each, starts, strict=False):
+        n, m = len(e.sigma_m_s), e.B.shape[1]
+        for part in range(parts):
+            rows = slice(part * starts[-1] + start, part * starts[-1] + start + n)
+            B[rows, column : column + m] = e.B[part * n : (part + 1) * n]
+        column += m
+    return Evidence(
+        np.concatenate([e.measured_m_s for e in each]),
+        np.concatenate([e.sigma_m_s for e in each]),
+        np.concatenate([e.noise_m_s for e in each]),
+        B,
+        all(e.scale_known for e in each),
+        each[0].bare,
+    )
 
 
 @dataclass(frozen=True)
 class ShiftedFit:
-    """Where the joint fit ended."""
+    """One law shifted, beside a law for each temperature, both with the same plate and the same causes."""
 
-    law: CoreLaw
-    """At the reference temperature."""
-    shift: Shift
-    parameters: Array
-    """Of the shift."""
-    parameter_errors: Array
-    log_shift: Array
-    """Ln a_T of every sweep."""
-    log_shift_errors: Array
-    log_vertical: Array
-    log_vertical_errors: Array
-    law_covariance: Array
-    """Of the law's log parameters."""
-    chi2: float
-    chi2_free: float
-    """Of the sweeps, each with a law of its own."""
-    degrees: float
-    """How many effective parameters fewer one law has, those with priors by what the data ask of them."""
-    noise_known: bool
-    converged: bool
+    one: Refitted
+    own: Refitted
+    bands_hz: list[tuple[float, float]]
+    """Of each sweep."""
+
+    @property
+    def joint(self) -> OneLaw:
+        """The law found, with its shifts."""
+        assert isinstance(self.one.law, OneLaw)
+        return self.one.law
+
+    @property
+    def law(self) -> CoreLaw:
+        """At the reference temperature."""
+        return self.joint.law
+
+    @property
+    def shift(self) -> Shift:
+        """Its form."""
+        return self.joint.shift
+
+    @property
+    def parameters(self) -> Array:
+        """Of the shift. Shape (parameters,)."""
+        return self.joint.parameters
+
+    @cached_property
+    def _covariance(self) -> Array:
+        return self.one.covariance[: len(self.joint.names), : len(self.joint.names)]
+
+    def _of(self, wanted: slice) -> Array:
+        return self._covariance[wanted, wanted]
+
+    @property
+    def _own(self) -> int:
+        return len(self.law.names) - self.law.bend_count
+
+    @property
+    def _shifts(self) -> slice:
+        return slice(self._own, self._own + len(self.joint.theta))
+
+    @property
+    def parameter_errors(self) -> Array:
+        """Shape (parameters,)."""
+        size = self.shift.by_log(self.parameters)
+        return np.asarray(np.abs(size) * np.sqrt(np.diag(self._of(self._shifts))))
+
+    @property
+    def log_shift(self) -> Array:
+        """Ln a_T of every sweep. Shape (sweeps,)."""
+        return self.joint.log_shift
+
+    @property
+    def log_shift_errors(self) -> Array:
+        """Shape (sweeps,)."""
+        slope = self.joint.shift_slope
+        return np.sqrt(np.maximum(np.einsum("ki,ij,kj->k", slope, self._of(self._shifts), slope), 0.0))
+
+    @property
+    def log_vertical(self) -> Array:
+        """Ln b_T of every sweep. Shape (sweeps,)."""
+        return self._vertical(np.log(np.array(self.joint.b)))
+
+    @property
+    def log_vertical_errors(self) -> Array:
+        """Shape (sweeps,)."""
+        stop = self._shifts.stop
+        return self._vertical(np.sqrt(np.diag(self._of(slice(stop, stop + len(self.joint.b))))))
+
+    def _vertical(self, each: Array) -> Array:
+        places = [self.joint.vertical_place(k) for k in range(len(self.joint.points))]
+        return np.array([0.0 if at is None else each[at] for at in places])
+
+    @property
+    def law_covariance(self) -> Array:
+        """Of the law's log parameters, its bend's among them. Shape (names, names)."""
+        v = self._shifts.stop + len(self.joint.b)
+        at = [*range(self._own), *range(v, len(self.joint.names))]
+        return self._covariance[np.ix_(at, at)]
+
+    def own_law(self, sweep: int) -> CoreLaw:
+        """Of one temperature by itself, the plate shared with all others."""
+        assert isinstance(self.own.law, OwnLaws)
+        return self.own.law.laws[sweep]
+
+    @property
+    def chi2(self) -> float:
+        """Of the one law, priors counted in."""
+        return self.one.chi2
+
+    @property
+    def chi2_own(self) -> float:
+        """Of a law for each temperature."""
+        return self.own.chi2
+
+    @cached_property
+    def degrees(self) -> float:
+        """How many effective parameters fewer one law has, those with priors by what the data ask of them."""
+        return max(1.0, _effective(self.own) - _effective(self.one))
+
+    @property
+    def noise_known(self) -> bool:
+        """Whether chi-square means anything."""
+        return self.one.noise_known
+
+    @property
+    def converged(self) -> bool:
+        """Whether the fit of one law came to its end."""
+        return self.one.converged
 
     @property
     def p_value(self) -> float:
-        """Chance that one law fits so much worse than many, were there one."""
+        """Chance that one law fits so much worse than many, were there one; NaN where the noise is unknown.
+
+        What the many leave beyond noise is taken for noise: it is not the one law's fault.
+        """
         if not self.noise_known:
             return float("nan")
-        return float(chi_square.sf(max(self.chi2 - self.chi2_free, 0.0), self.degrees))
+        scale = max(1.0, self.own.chi2_per_dof)
+        return float(chi_square.sf(max(self.chi2 - self.chi2_own, 0.0) / scale, self.degrees))
 
 
-class _Joint:
-    def __init__(self, begun: Sequence[Begun], law: CoreLaw, shift: Shift, *, vertical: bool) -> None:
-        self.begun, self.law, self.shift = begun, law, shift
-        self.responses = [SweepResponse(b.problem, ()) for b in begun]
-        self.n, self.m = len(law.names), len(shift.names)
-        reference = np.abs(shift.temperature_c - shift.reference_c)
-        moved = sorted({float(t) for t in shift.temperature_c} - {_nearest(shift, reference)})
-        self.vertical = [moved.index(float(t)) if t in moved else -1 for t in shift.temperature_c]
-        self.v = len(moved) if vertical else 0
-        keys: dict[tuple[str, int], int] = {}
-        self.places = []
-        for k, b in enumerate(begun):
-            at = [
-                keys.setdefault((q.name, k if q.kind in _OF_EACH_SWEEP else -1), len(keys))
-                for q in b.problem.nuisances.each
-            ]
-            self.places.append(np.array(at, dtype=np.intp))
-        self.z = len(keys)
-        self._last: tuple[bytes, Array, Array] | None = None
-
-    @cached_property
-    def limits(self) -> tuple[Array, Array]:
-        low, high = self.law.log_limits
-        s = self.shift.scales
-        return (
-            np.concatenate([low, self.shift.lowest / s, np.full(self.v, -_VERTICAL), np.full(self.z, -12.0)]),
-            np.concatenate([high, self.shift.highest / s, np.full(self.v, _VERTICAL), np.full(self.z, 12.0)]),
-        )
-
-    def start(self, p: Array) -> Array:
-        z = np.zeros(self.z)
-        for b, at in zip(self.begun, self.places, strict=True):
-            z[at] += b.none.z / len(self.begun)
-        return np.concatenate([np.log(self.law.values), p / self.shift.scales, np.zeros(self.v), z])
-
-    def vertical_of(self, x: Array) -> Array:
-        found = np.zeros(len(self.begun))
-        if self.v:
-            own = x[self.n + self.m : self.n + self.m + self.v]
-            found = np.array([own[k] if k >= 0 else 0.0 for k in self.vertical])
-        return found
-
-    def both(self, x: Array) -> tuple[Array, Array]:
-        key = x.tobytes()
-        if self._last is None or self._last[0] != key:
-            self._last = key, *self._both(x)
-        return self._last[1:]
-
-    def _both(self, x: Array) -> tuple[Array, Array]:
-        n, m, v = self.n, self.m, self.v
-        law, p = self.law.with_logs(x[:n]), x[n : n + m] * self.shift.scales
-        log_a, slope = self.shift.log_shift(p), self.shift.slope(p) * self.shift.scales
-        log_b, z = self.vertical_of(x), x[n + m + v :]
-        rows, blocks = [], []
-        for k, (b, response, at) in enumerate(zip(self.begun, self.responses, self.places, strict=True)):
-            here = ShiftedLaw(law, float(np.exp(log_a[k])), float(np.exp(log_b[k])))
-            read, dv = response.with_derivatives(here, z[at])
-            J = b.evidence.jacobian(read, dv)
-            block = np.zeros((len(J), len(x)))
-            block[:, :n] = J[:, :n]
-            block[:, n : n + m] = np.outer(J[:, n], slope[k])
-            if v and self.vertical[k] >= 0:
-                block[:, n + m + self.vertical[k]] = J[:, n + 1]
-            block[:, n + m + v + at] = J[:, n + 2 :]
-            rows.append(b.evidence.residuals(read))
-            blocks.append(block)
-        prior = np.zeros((self.z, len(x)))
-        prior[:, n + m + v :] = np.eye(self.z)
-        bend = np.zeros((law.bend_count, len(x)))
-        bend[:, n - law.bend_count : n] = np.eye(law.bend_count)
-        rows += [z, x[n - law.bend_count : n]]
-        return np.concatenate(rows), np.vstack([*blocks, prior, bend])
-
-
-def _nearest(shift: Shift, off: Array) -> float:
-    return float(shift.temperature_c[int(np.argmin(off))])
-
-
-def fit_shifted(begun: Sequence[Begun], shift: Shift, *, vertical: bool = False) -> ShiftedFit:
-    """One law and its shifts; `begun` are the fits of each sweep by itself."""
-    bands = [
-        (float(b.problem.sweep.frequency_hz.min()), float(b.problem.sweep.frequency_hz.max())) for b in begun
-    ]
-    plain, log_a = start_of([b.none.law for b in begun], bands, shift.temperature_c, shift.reference_c)
-    p = shift.near(log_a)
-    law: CoreLaw = plain
-    if not begun[0].problem.specimen.exact:
-        a = np.exp(shift.log_shift(p))
-        reduced = np.array([f * a_k for band, a_k in zip(bands, a, strict=True) for f in band])
-        law = BentLaw.over(plain, reduced)
-    joint = _Joint(begun, law, shift, vertical=vertical)
-    low, high = joint.limits
-    found = least_squares(
-        lambda x: joint.both(x)[0],
-        np.clip(joint.start(p), low + 1e-12, high - 1e-12),
-        jac=lambda x: joint.both(x)[1],
-        bounds=(low, high),
-        x_scale="jac",
-        ftol=1e-6,
-        xtol=1e-6,
-        max_nfev=_MOST_EVALUATIONS,
-    )
-    return _result(joint, found.x, converged=bool(found.status > 0))
-
-
-def _result(joint: _Joint, x: Array, *, converged: bool) -> ShiftedFit:
-    r, J = joint.both(x)
-    n, m, v = joint.n, joint.m, joint.v
-    law, p = joint.law.with_logs(x[:n]), x[n : n + m] * joint.shift.scales
-    own = len(law.plain.names)
-    data = sum(b.evidence.count for b in joint.begun)
-    dof = max(data - own - m - v, 1)
-    known = all(b.evidence.scale_known for b in joint.begun)
-    misfit = float(np.sum(r[:data] ** 2) / dof)
-    scale = max(1.0, misfit) if known else misfit
-    C = _covariance(J / np.sqrt(scale), law)
-    at_p = C[n : n + m, n : n + m] * np.outer(joint.shift.scales, joint.shift.scales)
-    slope = joint.shift.slope(p)
-    vertical_errors = np.zeros(len(joint.begun))
-    if v:
-        sizes = np.sqrt(np.diag(C)[n + m : n + m + v])
-        vertical_errors = np.array([sizes[k] if k >= 0 else 0.0 for k in joint.vertical])
-    return ShiftedFit(
-        law,
-        joint.shift,
-        p,
-        np.sqrt(np.diag(at_p)),
-        joint.shift.log_shift(p),
-        np.sqrt(np.maximum(np.einsum("ki,ij,kj->k", slope, at_p, slope), 0.0)),
-        joint.vertical_of(x),
-        vertical_errors,
-        C[:n, :n],
-        float(r @ r),
-        float(sum(b.none.chi2 for b in joint.begun)),
-        max(1.0, sum(_effective(b.none.jacobian, b.none.data) for b in joint.begun) - _effective(J, data)),
-        known,
-        converged,
-    )
-
-
-def _effective(J: Array, data: int) -> float:
+def _effective(fit: Refitted) -> float:
     """Trace of the hat matrix of the readings."""
+    J = fit.jacobian
     size = np.linalg.norm(J, axis=0)
     U, s, _ = np.linalg.svd(J / np.where(size > 0, size, 1.0), full_matrices=False)
-    return float(np.sum(U[:data, s > 1e-12 * s.max()] ** 2))
+    return float(np.sum(U[: fit.data, s > 1e-12 * s.max()] ** 2))
 
 
-def _covariance(J: Array, law: CoreLaw) -> Array:
-    """Of what is not at its limit; the law's ranges of search bound what the data leave open."""
-    fixed = limits_reached(law)
-    kept = np.array([name not in fixed for name in law.names] + [True] * (J.shape[1] - len(law.names)))
-    ranges = np.zeros((len(law.search_widths), J.shape[1]))
-    ranges[:, : len(ranges)] = np.diag(1 / law.search_widths)
-    J = np.vstack([J, ranges])[:, kept]
-    size = np.linalg.norm(J, axis=0)
-    size = np.where(size > 0, size, 1.0)
-    _, s, Vt = np.linalg.svd(J / size, full_matrices=False)
-    root = Vt.T / np.maximum(s, 1e-12 * s.max()) / size[:, None]
-    found = np.zeros((len(kept), len(kept)))
-    found[np.ix_(kept, kept)] = root @ root.T
-    return found
+def fit_shifted(
+    task: Task, laws: Sequence[CoreLaw], z: Array, effects: Sequence[Effect] = (), u: Array | None = None
+) -> ShiftedFit:
+    """One law and a law for each, from the laws and numbers that each temperature has by itself.
+
+    Shapes: `z` (stated numbers,), `u` (unknowns of `effects`,).
+    """
+    start = np.concatenate([z, np.empty(0) if u is None else u])
+    own = task.fitted(OwnLaws(tuple(laws), task.points), start, effects)
+    one = task.fitted(task.one_law(laws), start, effects)
+    return ShiftedFit(one, own, task.bands_hz)

@@ -98,6 +98,28 @@ class Shift:
             found.append((self.log_shift(up) - self.log_shift(down)) / (2 * h))
         return np.array(found).T.reshape(len(self.temperature_c), len(p))
 
+    def positive(self, p: Array) -> Array:
+        """The parameters as a fit in logarithms has them: free ones as factors. Shape (parameters,)."""
+        return np.exp(p) if self.kind == "free" else np.asarray(p)
+
+    def from_positive(self, theta: Array) -> Array:
+        """And back. Shape (parameters,)."""
+        return np.log(theta) if self.kind == "free" else np.asarray(theta)
+
+    def by_log(self, p: Array) -> Array:
+        """Derivatives of the parameters to the logarithms of `positive`. Shape (parameters,)."""
+        return np.ones(len(p)) if self.kind == "free" else np.asarray(p)
+
+    def place_of(self, sweep: int) -> int | None:
+        """Which of the temperatures that are not the reference's a sweep has."""
+        moved, t = self._moved, float(self.temperature_c[sweep])
+        return moved.index(t) if t in moved else None
+
+    @property
+    def moved_count(self) -> int:
+        """How many temperatures are not the reference's."""
+        return len(self._moved)
+
     def near(self, log_shift: Array) -> Array:
         """The parameters nearest to some factors, to start from. Shapes (parameters,), of (sweeps,)."""
         if self.kind == "free":

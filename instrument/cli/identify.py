@@ -160,10 +160,22 @@ def identify(
         return
     if bare is not None:
         raise click.UsageError("--bare: expected a table of modes of a beam")
-    every = read_each(out, data, specimen, hammer, no_hammer=no_hammer, insist=insist)
+    at_temperatures = shift is not None
+    every = read_each(
+        out,
+        data,
+        specimen,
+        hammer,
+        no_hammer=no_hammer,
+        insist=insist,
+        one_plate=at_temperatures,
+        own_hammer=at_temperatures and hammer is None,
+    )
     if shift is not None:
         if pointwise or method == "paper" or no_viscous_damping or dma is not None or with_budget or depths:
-            raise click.UsageError("--shift goes with --reference-c, --vertical and --figures alone")
+            raise click.UsageError(
+                "--shift goes with --reference-c, --vertical, --hammer and --figures alone"
+            )
         identify_shifted(out, data, every, shift, reference_c, figures, vertical=vertical)
         return
     files = together(every, data)

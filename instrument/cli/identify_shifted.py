@@ -41,7 +41,11 @@ def identify_shifted(
         if one.temperature_c is None:
             raise BadInput(f"{path}: no temperature, expected a column temperature_c")
         sweeps.append(AtTemperature(one.sweep, one.temperature_c, path.name))
-    found = identify_at_temperatures(sweeps, plate, kind, reference_c, bar, vertical=vertical)
+    tested = next(((one.modes, path) for one, path in zip(given, data, strict=True) if one.modes), None)
+    if tested is not None and any(one.session for one in given):
+        out.say(f"the hammer test is that of {tested[1]}\n")
+    modes = tested[0] if tested is not None else None
+    found = identify_at_temperatures(sweeps, plate, kind, reference_c, bar, vertical=vertical, hammer=modes)
     if figures is not None:
         for path in save_shifted_figures(found, figures):
             out.say(f"saved {path}")

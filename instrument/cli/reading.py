@@ -54,10 +54,12 @@ def read_each(
     no_hammer: bool,
     insist: bool,
     one_plate: bool = False,
+    own_hammer: bool = False,
 ) -> list[Given]:
     """Read every file with its specimen, paired in order; one specimen serves all. Raises as `read_data`.
 
-    With `one_plate` a hammer test may come with several files, and is the first one's.
+    With `one_plate` a hammer test may come with several files, and is the first one's; with `own_hammer`
+    sessions keep their own.
 
     Stated numbers and data that no such plate has are questioned, unless someone insists.
     """
@@ -79,7 +81,7 @@ def read_each(
             one,
             specimen,
             None if k else hammer,
-            no_hammer=no_hammer or (len(data) > 1 and (hammer is None or k > 0)),
+            no_hammer=no_hammer or (len(data) > 1 and (hammer is None or k > 0) and not own_hammer),
         )
         for k, (one, specimen) in enumerate(zip(data, paired, strict=True))
     ]

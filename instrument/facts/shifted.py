@@ -2,6 +2,7 @@
 
 from typing import Literal
 
+from instrument.facts.diagnosis import EffectFound
 from instrument.facts.number import Number
 from instrument.facts.result import Result
 from instrument.facts.rows import LawRow
@@ -36,7 +37,10 @@ class ShiftedResult(Result):
     law: tuple[LawRow, ...]
     """Over reduced frequency, at the reference temperature."""
     simple: bool | None
-    """Whether one shifted law serves; None where the noise is unknown."""
+    """Whether one shifted law serves; None where that cannot be told: the noise is unknown, or the plate or
+    its rig may be what sets temperatures apart."""
+    common_cause: EffectFound | None = None
+    """An effect that all sweeps seem to have in common; it is counted in."""
     p_value: Number
     chi2: Number
     chi2_each_alone: Number

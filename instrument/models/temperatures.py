@@ -16,11 +16,14 @@ from fitting.identification.uncertainty import Uncertainty
 from fitting.noise import noise_of
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
-from fitting.temperature.joint import ShiftedFit, fit_shifted
+from fitting.temperature.causes import Alone, Cause, causes_of, common
+from fitting.temperature.joint import ShiftedFit, Task, fit_shifted
 from fitting.temperature.shifts import Kind, Shift
-from fitting.temperature.simple import Verdict, judge
+from fitting.temperature.simple import Verdict, in_doubt, judge, serving
 from instrument.errors import BadInput
-from instrument.models.set_up import set_up
+from instrument.models.diagnosis import effects_on
+from instrument.models.second_process import executor
+from instrument.models.set_up import Hammer, set_up
 from instrument.models.theory import theory_over
 from instrument.progress import Progress, quiet
 
@@ -46,6 +49,8 @@ class Shifted:
     """Over reduced frequency, at the reference temperature."""
     begun: tuple[Begun, ...]
     """Each temperature by itself."""
+    cause: Cause | None
+    """Counted in, because all sweeps seem to have it in common."""
     seconds: float
 
     @property
@@ -69,8 +74,12 @@ def identify_shifted(
     progress: Progress = quiet,
     *,
     vertical: bool = False,
+    hammer: Hammer | None = None,
 ) -> Shifted:
-    """One law and its shifts. Raises `BadInput`, `FittingError`; the verdict is left to the caller."""
+    """One law and its shifts. Raises `BadInput`, `FittingError`; the verdict is left to the caller.
+
+    `hammer` is the bare plate's test, one for all sweeps.
+    """
     if specimen.core is None:
         raise OutsideModel("a bare plate has no core to identify, expected [core] and [constraining]")
     T = np.array([one.temperature_c for one in sweeps])
@@ -82,17 +91,58 @@ def identify_shifted(
         raise BadInput("some sweeps hold phasors, others amplitudes, expected one of them")
     reference = float(np.sort(T)[(len(T) - 1) // 2]) if reference_c is None else reference_c
     began = perf_counter()
-    begun = []
-    with threadpool_limits(1, "blas"), progress("each temperature by itself") as report:
-        for k, one in enumerate(sweeps):
-            ready = set_up(one.sweep, specimen, with_effects=False)
-            found = begin(ready.problem, ready.reduced, noise_of(one.sweep), None, specimen.core.law)
-            theory_over(specimen, found.none.law, one.sweep.frequency_hz)
-            begun.append(found)
-            report((k + 1) / len(sweeps))
-    with threadpool_limits(1, "blas"), progress("one law for all"):
-        fit = fit_shifted(begun, Shift(kind, T, reference), vertical=vertical)
-    return Shifted(fit, judge(fit, begun), _band(fit, begun), tuple(begun), perf_counter() - began)
+    asked = _Asked(sweeps, specimen, hammer, Shift(kind, T, reference), vertical, progress)
+    with threadpool_limits(1, "blas"):
+        alone, task, fit = asked.fitted(with_effects=False)
+        causes = asked.common_causes(alone, task, fit) if in_doubt(fit) else []
+    begun = tuple(a.begun for a in alone)
+    verdict = judge(fit, causes)
+    cause = next(iter(serving(causes)), None)
+    fit = cause.fit if cause is not None else fit
+    for k, one in enumerate(sweeps):
+        theory_over(specimen, fit.own_law(k), one.sweep.frequency_hz)
+    return Shifted(fit, verdict, _band(fit, begun), begun, cause, perf_counter() - began)
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """What is to be fitted."""
+
+    sweeps: Sequence[AtTemperature]
+    specimen: Specimen
+    hammer: Hammer | None
+    shift: Shift
+    vertical: bool
+    progress: Progress
+
+    def fitted(self, *, with_effects: bool) -> tuple[list[Alone], Task, ShiftedFit]:
+        """Each temperature by itself, then all of them; with models that effects can change, or without."""
+        assert self.specimen.core is not None
+        alone = []
+        with self.progress("each temperature by itself") as report:
+            for k, one in enumerate(self.sweeps):
+                ready = set_up(one.sweep, self.specimen, self.hammer, with_effects=with_effects)
+                noise = noise_of(one.sweep)
+                found = begin(ready.problem, ready.reduced, noise, ready.bare, self.specimen.core.law)
+                alone.append(Alone(found, ready.reduced, noise))
+                report((k + 1) / len(self.sweeps))
+        with self.progress("one law for all"):
+            begun = [a.begun for a in alone]
+            task = Task.of(begun, self.shift, vertical=self.vertical)
+            fit = fit_shifted(task, [b.none.law for b in begun], task.stated([b.none.z for b in begun]))
+        return alone, task, fit
+
+    def common_causes(self, alone: Sequence[Alone], task: Task, fit: ShiftedFit) -> list[Cause]:
+        """What all sweeps may have in common: channels first, which ask for no other model of the plate."""
+        effects = common(effects_on(self.specimen))
+        with executor() as workers:
+            with self.progress("a common cause in the channels") as report:
+                found = causes_of(alone, task, fit, [e for e in effects if not e.spans], workers, report)
+            if any(c.serves for c in found):
+                return found
+            spanned, task, fit = self.fitted(with_effects=True)
+            with self.progress("a common cause in plate and rig") as report:
+                return causes_of(spanned, task, fit, effects, workers, report)
 
 
 def _band(fit: ShiftedFit, begun: Sequence[Begun]) -> LawBand:

@@ -4,8 +4,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from fitting.temperature.causes import Cause
+from instrument.facts.diagnosis import EffectFound
 from instrument.facts.shifted import ShiftAt, ShiftedResult
 from instrument.models.temperatures import AtTemperature, Shifted
+from instrument.results.diagnosis_from import parameters_from
 from instrument.results.rows_from import law_rows_from
 
 
@@ -35,11 +38,16 @@ def shifted_from(found: Shifted, sweeps: Sequence[AtTemperature]) -> ShiftedResu
         standard_errors=dict(zip(law.names, errors.tolist(), strict=True)),
         law=law_rows_from(found.band),
         simple=verdict.simple,
+        common_cause=_cause_from(found.cause) if found.cause is not None else None,
         p_value=verdict.p_value,
         chi2=fit.chi2,
-        chi2_each_alone=fit.chi2_free,
+        chi2_each_alone=fit.chi2_own,
         wicket_percent=verdict.wicket_percent,
         words=verdict.words,
         warnings=found.warnings,
         seconds=found.seconds,
     )
+
+
+def _cause_from(cause: Cause) -> EffectFound:
+    return EffectFound(name=cause.effect.name, parameters=parameters_from(cause.found))

@@ -8,6 +8,8 @@ import pytest
 from json_schema import faults
 from temperature_cases import LAW, NOISE, REFERENCE, OneProcess, T, TwoProcesses, arrhenius, sweeps, wlf
 
+from fitting.bare_modes import bare_modes
+from fitting.plate import Plate
 from fitting.temperature.shifts import Shift
 from instrument.cli.main import run
 from instrument.errors import BadInput
@@ -57,13 +59,6 @@ def test_a_vertical_shift_is_found_beside_the_horizontal_one(coarse):
     found = identify_shifted(sweeps(coarse, laws), coarse, "wlf", REFERENCE, vertical=True)
     off = found.fit.log_vertical[4] - np.log(1.05)
     assert abs(off) < 3 * found.fit.log_vertical_errors[4]
-
-
-def test_two_processes_of_different_activation_are_refused(plate):
-    laws = [TwoProcesses(a, b) for a, b in zip(arrhenius(4e4), arrhenius(1.6e5), strict=True)]
-    found = identify_shifted(sweeps(plate, laws), plate, "free", REFERENCE)
-    assert found.verdict.simple is False
-    assert "not thermorheologically simple" in found.verdict.words
 
 
 def test_too_few_temperatures_for_a_form_are_refused(plate):
@@ -116,8 +111,22 @@ def test_the_command_fits_draws_and_says_so(tmp_path, given, capsys):
     assert faults(json.loads(result.read_text()), schema_of("identify-shift")) == []
 
 
+@pytest.mark.long
 def test_the_command_refuses_in_one_line(tmp_path, given, capsys):
     laws = [TwoProcesses(a, b) for a, b in zip(arrhenius(4e4), arrhenius(1.6e5), strict=True)]
+    given.write_text(given.read_text().replace("exact = true", "exact = false"))
     paths = write(tmp_path, read_specimen(given), laws)
     assert run(["identify", *paths, "--specimen", str(given), "--shift", "free"]) == 2
     assert "not thermorheologically simple" in capsys.readouterr().err
+
+
+def test_a_hammer_test_of_the_bare_plate_takes_part_once_for_all(plate):
+    modes, edge = bare_modes(Plate(plate.bare), 12, None)
+    test = ((modes.omega * (1 - edge))[:8] / (2 * np.pi), np.array(plate.modal_ratios))
+    made = sweeps(plate, [OneProcess(a) for a in arrhenius()], points=30)[::4]
+    found = identify_shifted(made, plate, "arrhenius", REFERENCE, hammer=test)
+    assert found.verdict.simple
+    without = identify_shifted(made, plate, "arrhenius", REFERENCE)
+    assert found.fit.one.residuals.size == without.fit.one.residuals.size + 8
+    errors = [np.sqrt(f.fit.law_covariance[0, 0]) for f in (found, without)]
+    assert errors[0] < errors[1]

@@ -1,0 +1,210 @@
+"""The two things a set of temperatures is asked: one law shifted, or a law for each.
+
+Either holds all its numbers as parameters of one law, so that every fit of several sweeps can take it.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.arrays import Array
+from fitting.diagnosis.member_laws import MemberLaws
+from fitting.laws.base import CoreLaw, Quantity
+from fitting.temperature.shifted_law import ShiftedLaw
+from fitting.temperature.shifts import Shift
+
+_LEAST, _MOST = float(np.exp(-0.5)), float(np.exp(0.5))
+_VERTICAL = Quantity("", 1.0, _LEAST, _MOST, (_LEAST, _MOST))
+"""A factor on the modulus: beyond a half it is no vertical shift of one material."""
+
+
+@dataclass(frozen=True)
+class OneLaw(MemberLaws):
+    """G*_k(omega) = b_k G*(a_k omega): parameters are the law's, the shift's, the b_k, then the bend."""
+
+    law: CoreLaw
+    """At the reference temperature."""
+    shift: Shift
+    theta: tuple[float, ...]
+    """Of the shift, as `Shift.positive` has them."""
+    points: tuple[int, ...]
+    b: tuple[float, ...] = ()
+    """Of each temperature but the reference; none where no vertical shift is asked for."""
+
+    @property
+    def kind(self) -> str:  # type: ignore[override]
+        """Of the law that is shifted."""
+        return self.law.kind
+
+    @property
+    def lengths(self) -> tuple[int, ...]:
+        """Points of each sweep."""
+        return self.points
+
+    @property
+    def bend_count(self) -> int:
+        """Of the law that is shifted."""
+        return self.law.bend_count
+
+    @property
+    def _own(self) -> int:
+        return len(self.law.names) - self.bend_count
+
+    @property
+    def names(self) -> list[str]:
+        """The law's own, the shift's, vertical factors, the bend."""
+        own, n = self.law.names, self._own
+        return [*own[:n], *self.shift.names, *(f"vertical_{k + 1}" for k in range(len(self.b))), *own[n:]]
+
+    @property
+    def values(self) -> Array:
+        """In the order of `names`."""
+        own, n = self.law.values, self._own
+        return np.concatenate([own[:n], self.theta, self.b, own[n:]])
+
+    @property
+    def limits(self) -> list[Quantity]:
+        """In the order of `names`."""
+        own, n = self.law.limits, self._own
+        low, high = self.shift.positive(self.shift.lowest), self.shift.positive(self.shift.highest)
+        shifts = [Quantity("", 1.0, a, b, (a, b)) for a, b in zip(low.tolist(), high.tolist(), strict=True)]
+        return [*own[:n], *shifts, *(_VERTICAL,) * len(self.b), *own[n:]]
+
+    @property
+    def search_widths(self) -> Array:
+        """Of all but the bend: a shift is as likely anywhere within its limits."""
+        low, high = np.log([q.search for q in self.limits[: len(self.names) - self.bend_count]]).T
+        return np.asarray((high - low) / np.sqrt(12.0))
+
+    def with_values(self, values: Array) -> Self:
+        """The same with other parameters. Shape (names,)."""
+        n, m, v = self._own, len(self.theta), len(self.b)
+        law = self.law.with_values(np.concatenate([values[:n], values[n + m + v :]]))
+        theta, b = (tuple(part.tolist()) for part in (values[n : n + m], values[n + m : n + m + v]))
+        return replace(self, law=law, theta=theta, b=b)
+
+    @property
+    def parameters(self) -> Array:
+        """Of the shift, as it names them. Shape (parameters,)."""
+        return self.shift.from_positive(np.array(self.theta))
+
+    @property
+    def log_shift(self) -> Array:
+        """Ln a of every sweep. Shape (sweeps,)."""
+        return self.shift.log_shift(self.parameters)
+
+    @property
+    def shift_slope(self) -> Array:
+        """Derivatives of `log_shift` to the logarithms of `theta`. Shape (sweeps, parameters)."""
+        return self.shift.slope(self.parameters) * self.shift.by_log(self.parameters)
+
+    def vertical_place(self, member: int) -> int | None:
+        """Which of `b` a sweep has."""
+        at = self.shift.place_of(member)
+        return at if self.b and at is not None else None
+
+    def at(self, member: int) -> CoreLaw:
+        """Shifted to one sweep's temperature."""
+        place = self.vertical_place(member)
+        b = 1.0 if place is None else self.b[place]
+        return ShiftedLaw(self.law, float(np.exp(self.log_shift[member])), b)
+
+    def chain(self, member: int) -> Array:
+        """As `MemberLaws.chain`. Shape (names of the sweep's law, names)."""
+        n, m, v, whole = self._own, len(self.theta), len(self.b), len(self.law.names)
+        found = np.zeros((whole + 2, whole + m + v))
+        found[:n, :n] = np.eye(n)
+        found[n:whole, n + m + v :] = np.eye(whole - n)
+        found[whole, n : n + m] = self.shift_slope[member]
+        place = self.vertical_place(member)
+        if place is not None:
+            found[whole + 1, n + m + place] = 1.0
+        return found
+
+
+@dataclass(frozen=True)
+class OwnLaws(MemberLaws):
+    """A law for each sweep: parameters are those of all of them, then the bends of all of them."""
+
+    laws: tuple[CoreLaw, ...]
+    points: tuple[int, ...]
+
+    @property
+    def kind(self) -> str:  # type: ignore[override]
+        """Of every one of them."""
+        return self.laws[0].kind
+
+    @property
+    def lengths(self) -> tuple[int, ...]:
+        """Points of each sweep."""
+        return self.points
+
+    @property
+    def bend_count(self) -> int:
+        """Of all of them."""
+        return sum(law.bend_count for law in self.laws)
+
+    def _places(self) -> list[tuple[NDArray[np.intp], NDArray[np.intp]]]:
+        """Where each law's own parameters are, and its bend."""
+        own, bend, found = 0, sum(len(law.names) - law.bend_count for law in self.laws), []
+        for law in self.laws:
+            n, m = len(law.names) - law.bend_count, law.bend_count
+            found.append((np.arange(own, own + n), np.arange(bend, bend + m)))
+            own, bend = own + n, bend + m
+        return found
+
+    def _spread(self, each: list[Array]) -> Array:
+        found = np.zeros(sum(len(e) for e in each))
+        for (own, bend), values in zip(self._places(), each, strict=True):
+            found[own], found[bend] = values[: len(own)], values[len(own) :]
+        return found
+
+    @property
+    def names(self) -> list[str]:
+        """Each with its sweep's number."""
+        found = [""] * sum(len(law.names) for law in self.laws)
+        for k, ((own, bend), law) in enumerate(zip(self._places(), self.laws, strict=True)):
+            for at, name in zip([*own, *bend], law.names, strict=True):
+                found[at] = f"{name} [{k + 1}]"
+        return found
+
+    @property
+    def values(self) -> Array:
+        """In the order of `names`."""
+        return self._spread([law.values for law in self.laws])
+
+    @property
+    def limits(self) -> list[Quantity]:
+        """In the order of `names`."""
+        each = [law.limits for law in self.laws]
+        found = [each[0][0]] * sum(len(e) for e in each)
+        for (own, bend), limits in zip(self._places(), each, strict=True):
+            for at, q in zip([*own, *bend], limits, strict=True):
+                found[at] = q
+        return found
+
+    @property
+    def search_widths(self) -> Array:
+        """Of the laws' own parameters."""
+        return np.concatenate([law.search_widths for law in self.laws])
+
+    def with_values(self, values: Array) -> Self:
+        """The same with other parameters. Shape (names,)."""
+        laws = [
+            law.with_values(np.concatenate([values[own], values[bend]]))
+            for (own, bend), law in zip(self._places(), self.laws, strict=True)
+        ]
+        return replace(self, laws=tuple(laws))
+
+    def at(self, member: int) -> CoreLaw:
+        """Of one sweep."""
+        return self.laws[member]
+
+    def chain(self, member: int) -> Array:
+        """As `MemberLaws.chain`. Shape (names of the sweep's law, names)."""
+        own, bend = self._places()[member]
+        found = np.zeros((len(own) + len(bend), sum(len(law.names) for law in self.laws)))
+        found[np.arange(len(found)), np.concatenate([own, bend])] = 1.0
+        return found
