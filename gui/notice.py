@@ -1,13 +1,16 @@
-"""One message across the window, until it is read; nothing is blocked by it."""
+"""One message beside the tabs, until it is read: over nothing that can be pressed."""
 
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QTabWidget, QWidget
 
 from gui.theme import Role, current_theme
 from gui.widgets import tool
 
 _EDGE_PX = 4
+_GAP_PX = 12
+_FOOT_PX = 2
+"""Of the row of tabs stays in view."""
 
 
 class Notice(QFrame):
@@ -16,6 +19,7 @@ class Notice(QFrame):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._role: Role = "good"
+        self._tabs: QTabWidget | None = None
         self._label = QLabel()
         self._label.setWordWrap(True)
         self._label.setTextFormat(Qt.TextFormat.PlainText)
@@ -28,23 +32,27 @@ class Notice(QFrame):
         row.addWidget(close)
         self.hide()
 
-    def float_over(self, page: QWidget) -> None:
-        """Lie on this widget's lower edge, and follow it."""
-        self.setParent(page)
-        page.installEventFilter(self)
+    def float_beside(self, tabs: QTabWidget) -> None:
+        """Lie in the row of these tabs, right of the last one, and follow it; a long text grows downwards."""
+        self.setParent(tabs)
+        self._tabs = tabs
+        tabs.installEventFilter(self)
         self.hide()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """The widget below has another size."""
+        """The tabs have another size."""
         if event.type() == QEvent.Type.Resize:
             self._place()
         return False
 
     def _place(self) -> None:
-        page = self.parentWidget()
-        if page is not None:
-            height = self._row.totalHeightForWidth(page.width())
-            self.setGeometry(0, page.height() - height, page.width(), height)
+        if self._tabs is None:
+            return
+        bar, whole = self._tabs.tabBar(), self._tabs.width()
+        last = bar.mapTo(self._tabs, bar.tabRect(bar.count() - 1).topRight()).x()
+        left = min(last + _GAP_PX, whole // 2)
+        height = max(bar.height() - _FOOT_PX, self._row.totalHeightForWidth(whole - left))
+        self.setGeometry(left, 0, whole - left, height)
 
     @property
     def text(self) -> str:

@@ -199,8 +199,8 @@ class Window(Shell):
         column.addWidget(self.tabs, 1)
         column.addWidget(self.replay)
         self.setCentralWidget(whole)
-        # Over the page's foot: what comes and goes moves nothing.
-        self.notice.float_over(self.tabs)
+        # What comes and goes moves nothing, and covers nothing that can be pressed.
+        self.notice.float_beside(self.tabs)
         self.addDockWidget(Qt.DockWidgetArea.BottomDockWidgetArea, self.log)
         self.resize(1280, 720)
         self.resizeDocks([self.log], [76], Qt.Orientation.Vertical)

@@ -6,12 +6,34 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 import pytest
 from PySide6.QtCore import QEvent, QSettings
+from pytestqt.qtbot import QtBot
 from session_cases import whole_session
 
 from gui.garbage import Collector
 from gui.settings import Settings
 from gui.theme import Appearance
 from gui.window import Window
+
+PATIENCE_MS = 120_000
+"""Of a wait that would fail the test: a machine with other work to do is slow, and shows nothing by it."""
+
+
+class PatientBot(QtBot):
+    """Waits longer than pytest-qt's five seconds, unless told how long."""
+
+    def waitUntil(self, callback, *, timeout=PATIENCE_MS):
+        super().waitUntil(callback, timeout=timeout)
+
+    def waitSignal(self, signal, *, timeout=PATIENCE_MS, **options):
+        return super().waitSignal(signal, timeout=timeout, **options)
+
+    def waitExposed(self, widget, *, timeout=PATIENCE_MS):
+        return super().waitExposed(widget, timeout=timeout)
+
+
+@pytest.fixture
+def qtbot(qapp, request):
+    return PatientBot(request)
 
 
 @pytest.fixture(scope="session")
@@ -61,5 +83,5 @@ def end_run(window):
 def opened(qtbot, window, session_path):
     """The window with the session in it, at its end."""
     window.open(session_path)
-    qtbot.waitUntil(lambda: window.controller.recorded is not None, timeout=10_000)
+    qtbot.waitUntil(lambda: window.controller.recorded is not None)
     return window

@@ -4,6 +4,8 @@ import re
 
 import numpy as np
 import pytest
+from PySide6.QtCore import QPoint, QRect
+from PySide6.QtWidgets import QAbstractButton
 
 from gui.channels import ClipLights, role_of, words_of
 from gui.state.readings import Readings
@@ -52,6 +54,25 @@ def test_nothing_moves_when_a_message_comes(window):
     assert window.notice.isVisible()
     assert window.notice.height() < 2.5 * window.fontMetrics().height()
     assert (window.tabs.geometry(), window.bar.geometry()) == before
+
+
+def test_a_message_covers_no_button_on_any_page(opened):
+    opened.resize(1366, 768)
+    opened.notice.say("saved experiment.toml")
+    covered = []
+    for page in opened.pages:
+        opened.show_page(page.objectName())
+        over = QRect(opened.notice.mapToGlobal(QPoint()), opened.notice.size())
+        for one in opened.findChildren(QAbstractButton):
+            at = QRect(one.mapToGlobal(QPoint()), one.size())
+            if one.isVisible() and not opened.notice.isAncestorOf(one) and over.contains(at.center()):
+                covered.append(f"{page.objectName()}: {one.text() or one.toolTip()}")
+    assert covered == []
+    bar = opened.tabs.tabBar()
+    tabs = [
+        QRect(bar.mapToGlobal(bar.tabRect(k).topLeft()), bar.tabRect(k).size()) for k in range(bar.count())
+    ]
+    assert not any(tab.intersects(over) for tab in tabs)
 
 
 def test_the_log_has_the_time_of_day(opened):

@@ -106,7 +106,7 @@ def test_a_point_that_is_clicked_is_told_by_its_number(qtbot, plot):
     plot.autoRange()
     QApplication.processEvents()
     at = plot.mapFromScene(plot.getViewBox().mapViewToScene(QPointF(2.0, 3.0)))
-    with qtbot.waitSignal(plot.picked, timeout=5000) as picked:
+    with qtbot.waitSignal(plot.picked) as picked:
         qtbot.mouseMove(plot.viewport(), at)
         qtbot.mouseClick(plot.viewport(), Qt.MouseButton.LeftButton, pos=at)
     assert picked.args == ["measured", 1]

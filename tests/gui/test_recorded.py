@@ -39,7 +39,7 @@ def test_playing_shows_everything_to_the_end(qtbot, opened):
     feed = opened.controller.recorded
     at_end = shown(feed.state)
     feed.play(None)
-    with qtbot.waitSignal(feed.ended, timeout=10_000):
+    with qtbot.waitSignal(feed.ended):
         pass
     assert shown(feed.state) == at_end
     assert not feed.playing
@@ -51,7 +51,7 @@ def test_speed_is_kept(qtbot, opened):
     feed.jump(0.0)
     qtbot.waitUntil(lambda: feed.state is not None and feed.state.run.state != "done")
     feed.play(20.0)
-    with qtbot.waitSignal(feed.ended, timeout=20_000), qtbot.assertNotEmitted(feed.renewed):
+    with qtbot.waitSignal(feed.ended), qtbot.assertNotEmitted(feed.renewed):
         qtbot.waitUntil(lambda: feed.position_s > 10.0)
         begun = feed.position_s
         qtbot.wait(200)

@@ -150,6 +150,7 @@ def test_a_hit_is_rejected_and_taken_back_while_the_run_waits(qtbot, window, pag
     assert [(e.what, e.hit) for e in said] == [("rejected", 1), ("undone", 1)]
 
 
+@pytest.mark.timing
 def test_stop_silences_a_shaker_whose_acquisition_hangs(qtbot, window, page, tmp_path):
     with engine_rig(tmp_path, sweep=LONG, virtual=False) as (rig, experiment):
         slow = (tmp_path / "rig.toml").read_text().replace("[shaker]", "[shaker]\nheartbeat_timeout_s = 10.0")

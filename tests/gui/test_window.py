@@ -82,7 +82,7 @@ def test_nonsense_in_the_settings_counts_as_nothing(settings):
 
 def test_a_dropped_session_opens_at_its_end(qtbot, window, session_path):
     drop(window, session_path)
-    qtbot.waitUntil(lambda: window.controller.recorded is not None, timeout=10_000)
+    qtbot.waitUntil(lambda: window.controller.recorded is not None)
     assert window.controller.state.run.state == "done"
     assert window.replay.isVisible()
     assert window.settings.recent == [session_path]
@@ -100,7 +100,7 @@ def test_a_bad_file_gives_one_message_and_leaves_the_session(qtbot, opened, tmp_
     bad = tmp_path / name
     bad.write_bytes(content)
     drop(opened, bad)
-    qtbot.waitUntil(lambda: bool(said), timeout=5000)
+    qtbot.waitUntil(lambda: bool(said))
     opened.turn()
     assert len(said) == 1
     assert name in opened.notice.text
@@ -112,7 +112,7 @@ def test_a_session_cut_short_is_refused(qtbot, window, session_path, tmp_path):
     bad = tmp_path / "cut.h5"
     bad.write_bytes(session_path.read_bytes()[:200_000])
     window.open(bad)
-    qtbot.waitUntil(lambda: "cut.h5" in window.notice.text, timeout=5000)
+    qtbot.waitUntil(lambda: "cut.h5" in window.notice.text)
     assert window.controller.feed is None
 
 
@@ -121,7 +121,7 @@ def test_other_programs_data_is_laid_beside_the_session(qtbot, opened, tmp_path)
     rows = "".join(f"{f},{0.01 * f},0.002\n" for f in range(15, 25))
     sweep.write_text("frequency_hz,velocity_re_m_s,velocity_im_m_s\n" + rows)
     drop(opened, sweep)
-    qtbot.waitUntil(lambda: "1 sweep" in opened.notice.text, timeout=5000)
+    qtbot.waitUntil(lambda: "1 sweep" in opened.notice.text)
     assert list(opened.controller.beside) == [sweep]
     assert opened.controller.recorded is not None
 
@@ -148,6 +148,6 @@ def test_a_session_that_was_broken_off_says_why(qtbot, window, tmp_path):
     index.sweep((1,), steps=4)
     index.end("stopped safely", "interlock open")
     window.open(index.save(tmp_path))
-    qtbot.waitUntil(lambda: window.controller.recorded is not None, timeout=10_000)
+    qtbot.waitUntil(lambda: window.controller.recorded is not None)
     assert "stopped" in window.bar.state.text()
     assert "interlock open" in window.bar.next.text()

@@ -54,6 +54,7 @@ class ResponsePane(QWidget):
         self.model = QLabel()
         self.model.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         self.model.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.model.setWordWrap(True)
         self.amplitude = Pointed(FREQUENCY, Axis("|v/a|"))
         self.phase = Pointed(FREQUENCY, Axis("Phase of v/a", "\u00b0"), legend=False)
         self.phase.setXLink(self.amplitude)

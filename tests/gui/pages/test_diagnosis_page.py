@@ -27,7 +27,7 @@ def shown(qtbot, window, path):
     page = page_of(window, DiagnosisPage)
     window.tabs.setCurrentWidget(page)
     window.open(path)
-    qtbot.waitUntil(lambda: window.controller.recorded is not None, timeout=10_000)
+    qtbot.waitUntil(lambda: window.controller.recorded is not None)
     window.turn()
     return page
 
@@ -89,7 +89,7 @@ def test_quantity_and_segment_are_chosen_by_key(qtbot, page):
     seen = [(1, "before"), (1, "after")]
     plots = page.residual.plots
     qtbot.waitUntil(lambda: [key for key, plot in plots.items() if plot.isVisible()] == seen)
-    assert page.residual.plots[1, "before"].y.unit == ""
+    qtbot.waitUntil(lambda: page.residual.plots[1, "before"].y.unit == "")
 
 
 def test_the_error_is_shown_beside_noise(qtbot, page):
@@ -195,7 +195,7 @@ def test_other_data_can_be_diagnosed_without_a_session(qtbot, window, tmp_path):
     rows = "".join(f"{f},{0.01 * f},0.002\n" for f in range(15, 25))
     sweep.write_text("frequency_hz,velocity_re_m_s,velocity_im_m_s\n" + rows)
     window.open(sweep)
-    qtbot.waitUntil(page.others.isVisible, timeout=5000)
+    qtbot.waitUntil(page.others.isVisible)
     assert [action.text() for action in page.others.menu().actions()] == ["sweep.csv ..."]
     with qtbot.waitSignal(window.controller.refused, timeout=LONG_MS) as refused:
         window.controller.rediagnosis.start(DiagnosisAsked(sweep, tmp_path / "none.toml"))
@@ -214,7 +214,7 @@ def test_another_session_lets_go_of_what_was_made_here(qtbot, window, page, sess
     )
     before = window.controller.feed
     window.open(session_path)
-    qtbot.waitUntil(lambda: window.controller.feed is not before, timeout=10_000)
+    qtbot.waitUntil(lambda: window.controller.feed is not before)
     assert not window.controller.rediagnosis.running
     assert page.finding.verdict.said == "This session holds no diagnosis"
 

@@ -27,7 +27,7 @@ def page(qtbot, window, diagnosed_path):
     (page,) = (p for p in window.pages if isinstance(p, MaterialPage))
     window.tabs.setCurrentWidget(page)
     window.open(diagnosed_path)
-    qtbot.waitUntil(lambda: window.controller.recorded is not None, timeout=10_000)
+    qtbot.waitUntil(lambda: window.controller.recorded is not None)
     window.turn()
     return page
 
@@ -105,7 +105,7 @@ def test_a_fit_without_a_diagnosis_says_what_it_is_made_of(qtbot, window, page, 
         "fractional-zener law, fit 2 of 31 points, rms "
     )
     window.open(session_path)
-    qtbot.waitUntil(lambda: page.said.text().endswith("not diagnosed"), timeout=10_000)
+    qtbot.waitUntil(lambda: page.said.text().endswith("not diagnosed"))
     assert page.plots.names[-1] == "identified"
 
 
@@ -137,7 +137,7 @@ def test_the_papers_law_comes_and_goes(qtbot, page):
 
 def test_another_session_is_dropped_drawn_and_removed(qtbot, page, session_path):
     page.tabs.setCurrentWidget(page.comparison)
-    with qtbot.waitSignal(page.comparison.changed, timeout=10_000):
+    with qtbot.waitSignal(page.comparison.changed):
         drop(page.comparison, session_path)
     assert session_path.stem in page.plots.names
     table = page.comparison.table
@@ -148,7 +148,7 @@ def test_another_session_is_dropped_drawn_and_removed(qtbot, page, session_path)
 
 
 def test_a_session_with_a_diagnosis_brings_both_laws(qtbot, page, diagnosed_path):
-    with qtbot.waitSignal(page.comparison.changed, timeout=10_000):
+    with qtbot.waitSignal(page.comparison.changed):
         page.comparison.read(diagnosed_path)
     assert [law.name for law in page.comparison.laws] == [
         diagnosed_path.stem,
@@ -161,7 +161,7 @@ def test_a_session_with_a_diagnosis_brings_both_laws(qtbot, page, diagnosed_path
 def test_a_bad_file_is_refused_in_a_line(qtbot, page, tmp_path):
     bad = tmp_path / "bad.h5"
     bad.write_bytes(b"nothing")
-    with qtbot.waitSignal(page.controller.refused, timeout=10_000) as refused:
+    with qtbot.waitSignal(page.controller.refused) as refused:
         drop(page.comparison, bad)
     assert "bad.h5" in refused.args[0]
     assert page.comparison.laws == []

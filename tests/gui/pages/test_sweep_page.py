@@ -272,7 +272,7 @@ def test_a_step_is_followed_to_its_rest(qtbot, alone):
     state = SessionState(index.configuration)
     fed(page, state, index.events[: settled + 1])
     page.tabs.setCurrentWidget(page.step)
-    qtbot.waitUntil(lambda: "dwelling" in page.step.words.text(), timeout=5000)
+    qtbot.waitUntil(lambda: "dwelling" in page.step.words.text())
     assert page.step.facts["Level"].text().startswith("4.91")
     assert page.step.facts["Drive"].text() == "0.5 V of 5 V"
     seconds, left = shown(page.step.settling, "left")
@@ -303,7 +303,7 @@ def test_a_sweep_of_another_file_is_drawn_even_without_a_session(qtbot, window, 
     window.show_page("sweep")
     page = window.pages[1]
     window.open(path)
-    qtbot.waitUntil(lambda: "other.csv" in page.response.amplitude.names, timeout=5000)
+    qtbot.waitUntil(lambda: "other.csv" in page.response.amplitude.names)
     assert page._layers.currentIndex() == 1
 
 
@@ -311,10 +311,10 @@ def test_back_in_time_there_are_fewer_points(qtbot, opened, page):
     feed = opened.controller.recorded
     page.walk(1)
     feed.jump(0.7 * feed.length_s)
-    qtbot.waitUntil(lambda: 0 < len(page.seen.points) < 30, timeout=5000)
+    qtbot.waitUntil(lambda: 0 < len(page.seen.points) < 30)
     assert page.seen.curve is None
     feed.jump(feed.length_s)
-    qtbot.waitUntil(lambda: len(page.seen.points) == 31, timeout=5000)
+    qtbot.waitUntil(lambda: len(page.seen.points) == 31)
 
 
 # A pane for each resonance
