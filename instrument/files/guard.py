@@ -21,11 +21,14 @@ _FAULTS = (ArithmeticError, AttributeError, LookupError, MemoryError, TypeError,
 
 @contextmanager
 def said_of(path: Path) -> Iterator[None]:
-    """Say what a reader met of its file, in one line. Raises `BadInput`."""
+    """Say what a reader met of its file, in one line; what numpy would warn of, too. Raises `BadInput`."""
     try:
-        yield
+        with np.errstate(divide="raise", over="raise", invalid="raise"):
+            yield
     except BadInput:
         raise
+    except FloatingPointError as error:
+        raise BadInput(f"{path}: values that are none, or beyond {LARGEST:g}") from error
     except _FAULTS as error:
         said = " ".join(str(error).split())[:_LONGEST]
         raise BadInput(f"{path}: not as its format has it: {type(error).__name__}: {said}") from error

@@ -172,6 +172,23 @@ def test_no_memory_is_taken_for_samples_that_are_not_there(capsys, here):
     refused(capsys, here, "report small.h5 --out out.html", "claims")
 
 
+@pytest.mark.parametrize("number", ["inf", "1e400", "1e308"])
+@pytest.mark.parametrize(
+    "names", ["velocity_mm_s", "velocity_re_mm_s,velocity_im_mm_s", "velocity_mm_s,Base [g]", "FRF (g/N)"]
+)
+def test_a_number_too_large_to_compute_with_is_refused_in_one_line(capsys, here, names, number):
+    before = "1," * names.count(",")
+    rows = [f"{f},{before}{number}" for f in range(10, 14)]
+    (here / "new.csv").write_text("\n".join([f"frequency_hz,{names}", *rows]) + "\n")
+    refused(capsys, here, "import new.csv --out out.csv", "new.csv: ")
+
+
+def test_an_endless_phase_is_refused_in_one_line(capsys, here):
+    rows = [f"{f},1,inf" for f in range(10, 14)]
+    (here / "new.csv").write_text("\n".join(["frequency_hz,velocity_mm_s,velocity_phase_deg", *rows]) + "\n")
+    refused(capsys, here, "import new.csv --out out.csv", "new.csv: values that are none")
+
+
 def test_a_refused_import_leaves_nothing(capsys, here):
     lines = (here / "sweep.csv").read_text().splitlines()
     (here / "sweep.csv").write_text("\n".join([*lines, lines[-1]]) + "\n")
