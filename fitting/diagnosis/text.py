@@ -57,6 +57,11 @@ def explain(
         others = [n for n in group if n not in (name, NONE)]
         if others:
             said.append(f"These data cannot tell {name} from {', '.join(others)}.")
+    if not judgement.confirmed:
+        said.append(
+            "Two effects may stand in for one that is not known: segments that were held out are predicted "
+            "no better than without them."
+        )
     if any(NONE in group for group in judgement.equivalent.values()):
         said.append(f"That there is no effect at all keeps {_percent(judgement.probability[()])}.")
     said.append(

@@ -30,6 +30,11 @@ class Judgement:
     """Every explanation up to 95 %, none too where it may be; their probabilities add up to one."""
     probability: Mapping[tuple[str, ...], float] = field(default_factory=dict)
     """Of every explanation, by its effects' names."""
+    confirmed: bool = True
+    """False for two effects that predict what was held out no better than none does.
+
+    Two effects have so many numbers that together they come near to a third: a fit alone is no proof.
+    """
     by_hand: bool = False
     """Accepted on someone's word, not by the data's."""
     refused: tuple[str, ...] = ()
@@ -103,7 +108,8 @@ def judge(
         return _unknown(judgement, named[0], ranked, _against(none, named[0], held_out))
     best = standing[0]
     alone = all(set(best.names) <= set(t.names) for t, _ in group)
-    return judgement("effect" if alone else "ambiguous", best)
+    sure = len(best.names) < 2 or held_out(best) < held_out(none)
+    return judgement("effect" if alone and sure else "ambiguous", best, confirmed=sure)
 
 
 def _unknown(

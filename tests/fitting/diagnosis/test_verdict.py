@@ -190,6 +190,14 @@ def test_another_law_that_does_not_predict_is_refused(off, none_off):
     assert judged(POOR_NONE, law, off={("core_law",): 0.9 * VERDICT.poor, (): none_off}).verdict == "effect"
 
 
+@pytest.mark.parametrize(("off", "verdict"), [(2.0, "effect"), (3.0, "ambiguous"), (np.nan, "ambiguous")])
+def test_two_effects_are_sure_only_where_they_predict_what_was_held_out(off, verdict):
+    names = ("fixture_resonance", "base_roll")
+    said = judged(POOR_NONE, scored(*names, cost=0.0), off={names: off, (): 2.8})
+    assert (said.verdict, said.accepted.names) == (verdict, names)
+    assert said.confirmed == (verdict == "effect")
+
+
 def test_what_two_segments_cannot_place_is_believed_all_the_same():
     said = judged(POOR_NONE, scored("added_mass", cost=0.0), off={("added_mass",): 30.0})
     assert said.verdict == "effect"
