@@ -26,8 +26,28 @@ _SAYS = {True: "differ", False: "agree", None: "cannot be told"}
     is_flag=True,
     help="Also the spread between specimens, told from the uncertainty of each: three laws or more.",
 )
+@click.option(
+    "--remounts",
+    is_flag=True,
+    help="FILES are one specimen, mounted anew for each: also the repeatability from mount to mount, told "
+    "from the uncertainty of each law: three or more.",
+)
+@click.option(
+    "--repeatability",
+    "repeatability_percent",
+    type=click.FloatRange(0, 100),
+    default=0.0,
+    metavar="PERCENT",
+    help="Of G' and of eta from mount to mount, where it is known: counted in beside each law's own errors.",
+)
 @json_option
-def compare(files: tuple[Path, ...], with_spread: bool, json_path: str | None) -> None:
+def compare(
+    files: tuple[Path, ...],
+    with_spread: bool,
+    remounts: bool,
+    repeatability_percent: float,
+    json_path: str | None,
+) -> None:
     """Where the laws in FILES differ beyond their joint uncertainties: two or more, each with each.
 
     FILES are sessions (.h5) or the JSON of `identify` or `diagnose`. Laws are compared on the band that both
@@ -35,9 +55,13 @@ def compare(files: tuple[Path, ...], with_spread: bool, json_path: str | None) -
     """
     if len(files) < 2:
         raise click.UsageError(f"{files[0]}: one file, expected two or more to compare")
+    if remounts and (with_spread or repeatability_percent):
+        raise click.UsageError(
+            "--remounts finds the repeatability: expected neither --spread nor --repeatability"
+        )
     out = Output(json_path)
     laws = [read_law(path, bar) for path in files]
-    found = [compare_laws(a, b) for a, b in combinations(laws, 2)]
+    found = [compare_laws(a, b, repeatability_percent / 100) for a, b in combinations(laws, 2)]
     names = _names(files)
     pairs = list(combinations(names, 2))
     out.table(
@@ -57,6 +81,10 @@ def compare(files: tuple[Path, ...], with_spread: bool, json_path: str | None) -
         spread = spread_of(laws)
         out.say(spread.words)
         result = result.but(spread=spread_result(spread))
+    if remounts:
+        spread = spread_of(laws, "mounts")
+        out.say(spread.words)
+        result = result.but(repeatability=spread_result(spread))
     out.result(result)
 
 

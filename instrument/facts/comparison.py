@@ -35,6 +35,8 @@ class ComparedPair(Result):
     """None where it cannot be told."""
     covariance: str | None
     """Whence that of the curves is: `posterior` of both fits, or `standard errors` of one of them."""
+    repeatability_percent: Number = 0.0
+    """Standard deviation from mount to mount, counted in for either law; zero where none was stated."""
     storage_modulus_differs_hz: tuple[Range, ...]
     """Where it does beyond 1.96 joint standard errors."""
     loss_factor_differs_hz: tuple[Range, ...]
@@ -42,7 +44,7 @@ class ComparedPair(Result):
 
 
 class SpreadSize(Result):
-    """A relative standard deviation between specimens; zero where none is needed."""
+    """A relative standard deviation between specimens or mounts; zero where none is needed."""
 
     percent: Number
     interval_95_percent: Range
@@ -62,9 +64,10 @@ class SpreadAt(Result):
 
 
 class SpreadResult(Result):
-    """The spread between specimens, told from the uncertainty of each."""
+    """The spread between specimens, or between mounts of one, told from the uncertainty of each."""
 
     specimens: tuple[str, ...]
+    """Files."""
     frequencies: tuple[SpreadAt, ...]
 
 
@@ -74,3 +77,5 @@ class CompareResult(Result):
     pairs: tuple[ComparedPair, ...]
     spread: SpreadResult | None = None
     """Where it was asked for."""
+    repeatability: SpreadResult | None = None
+    """Between mounts of one specimen, where the files are those."""

@@ -39,6 +39,8 @@ class Comparison:
     p_value: float
     covariance: str
     """Whence the curves' covariance is: `posterior` of both fits, or `standard errors` of one of them."""
+    repeatability: float = 0.0
+    """Standard deviation from mount to mount of either law, relative, counted in beside their own errors."""
 
     @property
     def differs(self) -> bool | None:
@@ -50,8 +52,11 @@ class Comparison:
         return _ranges(self.frequency_hz, np.abs(np.nan_to_num(z)) > SURELY)
 
 
-def compare(a: MaterialLaw, b: MaterialLaw) -> Comparison:
-    """On the band that both have. Taken as independent: a tolerance that both share makes this cautious."""
+def compare(a: MaterialLaw, b: MaterialLaw, repeatability: float = 0.0) -> Comparison:
+    """On the band that both have. Taken as independent: a tolerance that both share makes this cautious.
+
+    `repeatability` is the relative standard deviation of G' and of eta from one mount to the next.
+    """
     low, high = (max(a.band_hz[0], b.band_hz[0]), min(a.band_hz[1], b.band_hz[1]))
     if not low < high:
         nothing = np.zeros(0)
@@ -60,12 +65,14 @@ def compare(a: MaterialLaw, b: MaterialLaw) -> Comparison:
     (storage_a, eta_a), (storage_b, eta_b) = _curves(a, f), _curves(b, f)
     difference = np.concatenate([np.log(storage_b / storage_a), eta_b - eta_a])
     errors = [_errors(law, f) for law in (a, b)]
-    joint = np.sqrt(errors[0] ** 2 + errors[1] ** 2)
+    mounts = [repeatability * np.concatenate([np.ones(len(f)), eta]) for eta in (eta_a, eta_b)]
+    joint = np.sqrt(sum(e**2 for e in (*errors, *mounts)))
     with np.errstate(divide="ignore", invalid="ignore"):
         z = np.where(joint > 0, difference / joint, np.nan)
     found = [_covariance(law, f, error) for law, error in zip((a, b), errors, strict=True)]
     floor = np.repeat([RESOLUTION, RESOLUTION * float(np.mean(np.abs(eta_a)))], len(f))
-    statistic, dof = _chi2(difference, found[0] + found[1], floor)
+    found += [_together(f, size) for size in mounts]
+    statistic, dof = _chi2(difference, np.sum(found, axis=0), floor)
     own = a.posterior is not None and b.posterior is not None
     return Comparison(
         a,
@@ -79,6 +86,7 @@ def compare(a: MaterialLaw, b: MaterialLaw) -> Comparison:
         dof,
         float(chi2.sf(statistic, dof)) if dof > 0 else float("nan"),
         "posterior" if own else "standard errors",
+        repeatability,
     )
 
 
@@ -96,6 +104,7 @@ def compared_pair(c: Comparison, a: str, b: str) -> ComparedPair:
         p_value=c.p_value,
         differs=c.differs,
         covariance=c.covariance or None,
+        repeatability_percent=100 * c.repeatability,
         storage_modulus_differs_hz=tuple(c.where(c.storage_z)),
         loss_factor_differs_hz=tuple(c.where(c.loss_factor_z)),
         frequencies=tuple(
@@ -132,6 +141,11 @@ def _covariance(law: MaterialLaw, f: Array, errors: Array) -> Array:
     """Of the curve: the fit's own, else errors that go together over as far as a law's bend does."""
     if law.posterior is not None:
         return law.posterior.curve(f)
+    return _together(f, errors)
+
+
+def _together(f: Array, errors: Array) -> Array:
+    """Of errors of G' and of eta that go together over as far as a law's bend does, each for itself."""
     x = np.log(f)
     near = np.exp(-0.5 * ((x[:, None] - x) / REACH) ** 2)
     nothing = np.zeros_like(near)

@@ -73,6 +73,8 @@ class MaterialLaw:
     temperature_c: float | None = None
     poisson: float | None = None
     """Of the core, as stated."""
+    remount: int | None = None
+    """Which mount of its specimen it was, where a session says so."""
     posterior: LawPosterior | None = None
     """Where the source holds the covariance of the whole curve."""
 
@@ -158,6 +160,7 @@ def _of_session(path: Path, progress: Progress) -> MaterialLaw:
         found,
         specimen=contents.configuration.experiment.specimen,
         temperature_c=float(np.mean(temperatures)) if temperatures else None,
+        remount=contents.configuration.experiment.mounting.remount,
         poisson=specimen.core.poisson if specimen.core is not None else None,
     )
 

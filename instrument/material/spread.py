@@ -8,7 +8,8 @@ frequency is asked for. tau is found by restricted maximum likelihood (Patterson
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
@@ -18,8 +19,11 @@ from instrument.facts.comparison import SpreadAt, SpreadResult, SpreadSize
 from instrument.material.comparing import RESOLUTION, covariance_of
 from instrument.material.found_law import MaterialLaw
 
+Between = Literal["specimens", "mounts"]
+"""What the laws are of: several specimens, or one that was mounted several times."""
 FEWEST = 3
 """Laws: of two nothing but their difference is seen."""
+_CALLED: dict[Between, str] = {"specimens": "spread between", "mounts": "repeatability over"}
 FREQUENCIES = 7
 """Of the common band, each by itself."""
 _SIZES = np.geomspace(3e-4, 2.0, 121)
@@ -52,6 +56,7 @@ class Spread:
     storage: tuple[Size, ...]
     loss: tuple[Size, ...]
     """Of G' and of eta at every frequency."""
+    between: Between = "specimens"
 
     @property
     def words(self) -> str:
@@ -62,13 +67,15 @@ class Spread:
             for what, s in (("G'", self.storage[k]), ("loss factor", self.loss[k]))
         ]
         return (
-            f"spread between {len(self.names)} specimens at {self.frequency_hz[k]:.4g} Hz, standard "
-            f"deviation: {', '.join(said)}"
+            f"{_CALLED[self.between]} {len(self.names)} {self.between} at {self.frequency_hz[k]:.4g} Hz, "
+            f"standard deviation: {', '.join(said)}"
         )
 
 
-def spread_of(laws: Sequence[MaterialLaw]) -> Spread:
-    """By restricted maximum likelihood. Raises `BadInput`."""
+def spread_of(laws: Sequence[MaterialLaw], between: Between = "specimens") -> Spread:
+    """By restricted maximum likelihood. Raises `BadInput`, also for two laws of one mount."""
+    if between == "mounts":
+        _check_mounts(laws)
     if len(laws) < FEWEST:
         raise BadInput(f"{len(laws)} laws, expected {FEWEST} or more to tell a spread from")
     low, high = max(law.band_hz[0] for law in laws), min(law.band_hz[1] for law in laws)
@@ -87,7 +94,24 @@ def spread_of(laws: Sequence[MaterialLaw]) -> Spread:
             raise BadInput(f"{law.source}: no standard errors, expected a law that says how well it is known")
         curves.append(np.concatenate([np.log(G.real), np.log(eta)]))
         each.append(error)
-    return spread_of_curves(tuple(law.source for law in laws), f, np.array(curves), np.array(each))
+    names = tuple(law.source for law in laws)
+    return replace(spread_of_curves(names, f, np.array(curves), np.array(each)), between=between)
+
+
+def _check_mounts(laws: Sequence[MaterialLaw]) -> None:
+    """Sessions say which mount they were; one that counts twice would make the rig look better than it is."""
+    seen: dict[int, str] = {}
+    for law in laws:
+        if law.remount is None:
+            continue
+        if law.remount in seen:
+            raise BadInput(
+                f"{seen[law.remount]} and {law.source}: both remount = {law.remount}, expected a mount each"
+            )
+        seen[law.remount] = law.source
+    stated = {law.specimen for law in laws if law.remount is not None}
+    if len(stated) > 1:
+        raise BadInput(f"mounts of {' and '.join(sorted(stated))}, expected one specimen")
 
 
 def spread_of_curves(names: tuple[str, ...], frequency_hz: Array, curves: Array, errors: Array) -> Spread:
