@@ -19,8 +19,8 @@ from instrument.models.diagnosis import Diagnosed, diagnose
 from instrument.models.set_up import Hammer
 from instrument.models.together import File, diagnose_together
 
-PLATES = ("P2", "P3", "P8")
-"""Three of the campaign's ten: models of further spots are made once a plate."""
+PLATES = ("P2", "P3")
+"""Two of the campaign's ten: models of further spots are made once a plate."""
 _PAUSE_S = 60.0
 _SIDE_M = 8e-3
 """Of a mass that is put on."""
@@ -38,10 +38,10 @@ def weak(kind, rng, plate):
     """An effect of a size that one sweep may not tell from others."""
     sign = float(rng.choice([-1, 1]))
     made = {
-        "substrate_stiffness": lambda: {"scale": 1 + sign * float(rng.uniform(0.02, 0.05))},
-        "gain_error": lambda: {"factor": 1 + sign * float(rng.uniform(0.008, 0.02))},
+        "substrate_stiffness": lambda: {"scale": 1 + sign * float(rng.uniform(0.03, 0.06))},
+        "gain_error": lambda: {"factor": 1 + sign * float(rng.uniform(0.007, 0.014))},
         "air_added_mass": lambda: {"density_kg_m3": float(rng.uniform(1.1, 1.25))},
-        "amplitude_softening": lambda: {"k": float(np.exp(rng.uniform(*np.log([0.02, 0.08])))), "most": 0.5},
+        "amplitude_softening": lambda: {"k": float(np.exp(rng.uniform(*np.log([0.012, 0.04])))), "most": 0.5},
         "spot_offset": lambda: _offset(rng),
         "clamp_compliance": lambda: _clamp(rng, plate),
     }
@@ -49,12 +49,12 @@ def weak(kind, rng, plate):
 
 
 def _offset(rng):
-    size, angle = rng.uniform(1.2e-3, 4e-3), rng.uniform(0, 2 * np.pi)
+    size, angle = rng.uniform(1.6e-3, 3e-3), rng.uniform(0, 2 * np.pi)
     return {"dx_m": float(size * np.cos(angle)), "dy_m": float(size * np.sin(angle))}
 
 
 def _clamp(rng, plate):
-    softness = float(np.exp(rng.uniform(*np.log([6e-4, 4e-3]))))
+    softness = float(np.exp(rng.uniform(*np.log([2e-3, 8e-3]))))
     along_x = plate.substrate.young_pa / (softness * plate.length_m)
     bolts = int(rng.integers(3, 6))
     reach = float(rng.uniform(0.12, 0.25)) * plate.width_m / bolts
