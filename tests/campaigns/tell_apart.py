@@ -14,7 +14,7 @@ from pathlib import Path
 from time import process_time
 
 import numpy as np
-from tell_apart_rig import draw
+from tell_apart_rig import PLATES, draw
 
 from instrument.planning.follow_up import rank_follow_ups
 
@@ -41,9 +41,9 @@ def told(rig, found):
     return {"said": said, "names": names, "group": group}
 
 
-def judged(kind, seed):
+def judged(kind, seed, plates):
     """One case from its first sweep to the last verdict; None where it cannot be drawn."""
-    rig = draw(kind, seed)
+    rig = draw(kind, seed, plates)
     if rig is None:
         return None
     began = process_time()
@@ -100,6 +100,7 @@ def main():
     options.add_argument("--groups", type=int, default=20)
     options.add_argument("--seed", type=int, default=920000)
     options.add_argument("--kinds", default=",".join(KINDS))
+    options.add_argument("--plates", default=",".join(PLATES))
     asked = options.parse_args()
     asked.folder.mkdir(parents=True, exist_ok=True)
     kept = asked.folder / "lines.jsonl"
@@ -108,7 +109,7 @@ def main():
     seed, kinds = asked.seed, asked.kinds.split(",")
     while sum(bool(line["measured"]) for line in lines) < asked.groups:
         for kind in kinds:
-            line = judged(kind, seed) if (kind, seed) not in done else None
+            line = judged(kind, seed, asked.plates.split(",")) if (kind, seed) not in done else None
             if line is not None:
                 lines.append(line)
                 with kept.open("a") as file:

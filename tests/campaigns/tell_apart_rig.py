@@ -1,5 +1,6 @@
 """A solid plate that can be measured again: at another level, at another spot, clamped anew, or bare."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from functools import lru_cache
 
@@ -20,7 +21,7 @@ from instrument.models.set_up import Hammer
 from instrument.models.together import File, diagnose_together
 
 PLATES = ("P2", "P3")
-"""Two of the campaign's ten: models of further spots are made once a plate."""
+"""Two of the campaign's ten by default: models of further spots are made once a plate."""
 _PAUSE_S = 60.0
 _SIDE_M = 8e-3
 """Of a mass that is put on."""
@@ -200,9 +201,9 @@ def _joined(a: Sweep, b: Sweep) -> Sweep:
     return Sweep(**{n: np.concatenate([getattr(a, n), getattr(b, n)]) for n in names})
 
 
-def draw(kind: str, seed: int) -> SimulatedRig | None:
+def draw(kind: str, seed: int, plates: Sequence[str] = PLATES) -> SimulatedRig | None:
     """A case with one sweep at 1 g; None where the draw has several levels."""
-    plate = PLATES[seed % len(PLATES)]
+    plate = plates[seed % len(plates)]
     clean = draw_case("none", seed, plate=plate)
     s = clean.sweep
     if len(np.unique(s.commanded_m_s2)) > 1:

@@ -1,0 +1,54 @@
+"""An effect among files and spots: in all alike, in one, in each of its own size."""
+
+import numpy as np
+import pytest
+
+from fitting.diagnosis.of_files import EACH, OfFiles, Place, among
+from fitting.effects import CATALOGUE
+
+CLAMP, GAIN, STIFFNESS = (CATALOGUE[n] for n in ("clamp_compliance", "gain_error", "substrate_stiffness"))
+
+
+def test_a_clamp_may_be_another_one_in_each_file():
+    forms = among(CLAMP, 2, ()).variants()
+    assert [f.file for f in forms] == [0, 1, 2, EACH]
+    each = forms[-1]
+    assert [q.key for q in each.parameters] == ["k", "k_2", "file"]
+    assert each.places(Place(1)).tolist() == [0]
+    assert each.places(Place(2)).tolist() == [1]
+    assert each.holds(Place(2))
+
+
+def test_a_clamp_of_each_file_starts_scales_and_is_limited_file_by_file():
+    each = OfFiles(CLAMP, 2, EACH)
+    start = each.starts(None, None)[0]
+    assert start.tolist() == [5e13, 5e13, EACH]
+    # Twice as strong is half as stiff.
+    assert each.scaled(start, 2.0).tolist() == [2.5e13, 2.5e13, EACH]
+    low, high = each.limits(None)
+    assert low.tolist() == [1e12, 1e12, EACH]
+    assert high.tolist() == [1e16, 1e16, 2]
+
+
+def test_what_is_of_the_plate_is_in_all_files_of_one_plate():
+    assert [f.file for f in among(STIFFNESS, 2, (), one_plate=True).variants()] == [0]
+    assert [f.file for f in among(CLAMP, 2, (), one_plate=True).variants()] == [0, EACH]
+    assert [f.file for f in among(STIFFNESS, 2, ()).variants()] == [0, 1, 2]
+
+
+def test_one_channel_is_rarely_wrong_at_one_spot_alone():
+    forms = among(GAIN, 1, (0, 1)).variants()
+    assert [f.spot for f in forms] == [-1, 0, 1]
+    assert forms[0].chance == GAIN.chance
+    assert forms[1].chance == pytest.approx(GAIN.chance / 30)
+    spot = among(CATALOGUE["spot_offset"], 1, (0, 1)).variants()
+    assert {f.chance for f in spot} == {CATALOGUE["spot_offset"].chance}
+
+
+def test_a_hammer_test_is_of_the_first_files_plate():
+    class Bare:
+        lowering_per_density = np.zeros(3)
+
+    everywhere, second = OfFiles(STIFFNESS, 2, 0), OfFiles(STIFFNESS, 2, 2)
+    assert everywhere.bare_shift(Bare, np.array([1.1, 0.0])) == pytest.approx(0.5 * np.log(1.1) * np.ones(3))
+    assert second.bare_shift(Bare, np.array([1.1, 2.0])) == pytest.approx(np.zeros(3))

@@ -1,0 +1,137 @@
+"""What tells a gain from a shifted spot: both fitted to one sweep, and asked what they expect of another."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fitting.diagnosis.begin import begin
+from fitting.diagnosis.candidates import polished
+from fitting.diagnosis.response import SweepResponse
+from fitting.diagnosis.result import Rivals
+from fitting.diagnosis.whitening import SHARE
+from fitting.effects import CATALOGUE
+from fitting.noise import noise_of
+from fitting.planning.further import Expecting
+from fitting.planning.rivalry import outcome
+from instrument.files.specimen_file import read_specimen
+from instrument.files.sweep_file import read_sweep
+from instrument.models.diagnosis import Diagnosed
+from instrument.models.set_up import set_up
+from instrument.planning.follow_up import Possible, rank_follow_ups, with_follow_ups
+from instrument.planning.measurable import Template
+from instrument.planning.struck import bare_modes_expected
+from instrument.simulated_case import case_file
+from instrument.stepped_sine.settings import Limits, SweepSettings
+from tests.conftest import DATA
+from tests.diagnosis_cases import diagnosed, diagnosis, sweep
+
+EVEN = np.array([0.5, 0.5])
+
+
+@pytest.fixture(scope="module")
+def rivals():
+    """Of a plate known within tolerances whose channel reads 3 % too much: a gain, or a shifted spot."""
+    steps = read_sweep(DATA / "practice-005.csv").sweep(9.81)
+    specimen = replace(read_specimen(case_file("specimen.toml")), tolerances={}, exact=False)
+    ready = set_up(steps, specimen)
+    law, problem = specimen.core.law.lifted(), ready.problem
+    v = 1.03 * SweepResponse(problem, ()).velocity(law, problem.as_stated)
+    std = 3e-3 * np.abs(v)
+    dice = np.random.default_rng(3).standard_normal((2, len(v)))
+    measured = replace(steps, velocity_m_s=v + std * (dice[0] + 1j * dice[1]), base_m_s2=None, std_m_s=std)
+    problem = replace(problem, sweep=measured)
+    begun = begin(problem, ready.reduced, noise_of(measured), None, law)
+    fits = []
+    for name, u in (("gain_error", [1.0]), ("spot_offset", [0.0, 0.0])):
+        start = np.concatenate([problem.as_stated, u])
+        fits.append(polished(begun.problem, [CATALOGUE[name]], begun.evidence, begun.none.law, start))
+    return Rivals(begun.problem, begun.evidence, tuple((f, 0.5) for f in fits), ready.reduced)
+
+
+@pytest.fixture(scope="module")
+def expecting(rivals):
+    return Expecting(rivals, 6)
+
+
+@pytest.fixture(scope="module")
+def template(expecting):
+    return Template.of(expecting, SweepSettings())
+
+
+@pytest.fixture(scope="module")
+def ranked(rivals):
+    return rank_follow_ups(ambiguous(rivals))
+
+
+def ambiguous(rivals):
+    found = diagnosed(sweep(), verdict="ambiguous")
+    return Diagnosed(replace(found.result, rivals=rivals), 0.0, 0.0)
+
+
+def one(template, kind):
+    return next(m for m in template.measurable(5e-3) if m.kind == kind)
+
+
+def test_the_same_steps_again_are_expected_to_read_the_same(expecting, template):
+    again = one(template, "frequencies")
+    at = again.further.at
+    measured, v = expecting.evidence.measured_m_s[at], expecting.known[0].fitted.velocity_m_s[at]
+    sigma = np.hypot(template.noise.std_m_s(v, again.further.dwell_s), SHARE * np.abs(v))
+    for forecast in expecting.forecasts(again.further, template.noise):
+        off = np.r_[measured.real, measured.imag] / np.tile(sigma, 2) - forecast.mean
+        assert 0.8 < np.sqrt(np.mean(off**2)) < 1.2
+
+
+def test_another_level_is_expected_in_proportion(expecting, template):
+    again, level = one(template, "frequencies"), one(template, "level")
+    assert level.level_g == pytest.approx(0.25)
+    quiet = replace(template.noise, floor_m_s=0.0)
+    a, b = (expecting.forecasts(m.further, quiet)[0] for m in (again, level))
+    # With no floor everything goes with the level, its noise too.
+    assert b.mean == pytest.approx(a.mean, rel=1e-9)
+
+
+def test_another_spot_tells_a_gain_from_a_shifted_spot_and_repeating_does_not(ranked):
+    by_kind = {f.kind: f for f in ranked}
+    assert ranked[0].kind == "spot"
+    assert ranked[0].separation > 3
+    assert ranked[0].probability_resolved > 0.8
+    assert set(ranked[0].between) == {"gain_error", "spot_offset"}
+    for kind in ("frequencies", "bare_hammer"):
+        assert kind not in by_kind or by_kind[kind].separation < 0.3 * ranked[0].separation
+
+
+def test_the_rigs_own_measurements_are_all_that_is_offered_where_nobody_is_there(rivals):
+    alone = rank_follow_ups(ambiguous(rivals), Possible(hands=False))
+    assert not any(f.needs_hands for f in alone)
+
+
+def test_no_level_beyond_the_rigs_limits_is_proposed(expecting):
+    tight = SweepSettings(limits=Limits(base_m_s2=10.0))
+    levels = [m.level_g for m in Template.of(expecting, tight).measurable(None) if m.kind == "level"]
+    assert levels == [0.25, 0.5]
+
+
+def test_a_proposal_is_a_sweep_that_can_be_made(ranked):
+    spot = ranked[0]
+    assert spot.needs_hands
+    assert len(spot.frequencies_hz) == len(spot.segments) == 60
+    assert spot.level_g == pytest.approx(1.0, rel=1e-3)
+    assert f"({spot.spot_mm[0]:.0f}, {spot.spot_mm[1]:.0f}) mm" in spot.todo
+    assert spot.seconds > 120
+
+
+def test_a_bare_plate_says_less_of_gain_and_spot_than_another_spot(expecting, ranked):
+    # Not nothing: a wrong explanation has pulled at the metal's numbers.
+    found = outcome(expecting.struck(bare_modes_expected(expecting.member)), EVEN)
+    assert found.between(0, 1) < 0.5 * ranked[0].separation
+
+
+def test_nothing_is_proposed_where_one_explanation_is_left(rivals):
+    found = ambiguous(rivals)
+    alone = replace(found.result, rivals=replace(rivals, each=rivals.each[:1]))
+    assert rank_follow_ups(replace(found, result=alone)) == ()
+    named = replace(found.result, verdict="effect")
+    assert rank_follow_ups(replace(found, result=named)) == ()
+    assert with_follow_ups(diagnosis(), diagnosed(sweep())) == diagnosis()
