@@ -21,13 +21,13 @@ F12, or Esc twice\tstop the shaker at once
 F9\thold, resume
 Ctrl+F9\tend the run in order
 Ctrl+Return\twhat the run asks for is done
-Ctrl+N\ta new simulated experiment
+Ctrl+N\ta new experiment
 Ctrl+O\topen a session, an experiment or other data
 Ctrl+Space\tplay, pause
 Ctrl+Left, Ctrl+Right\tto the mark before, to the next
 Ctrl++, Ctrl+-, Ctrl+0\tlarger, smaller, usual type
 F11\tfull screen
-right mouse button\ta plot's menu: ranges, export
+right mouse button\ta plot's menu: ranges, cursors, export
 """.strip()
 
 

@@ -18,7 +18,7 @@ from instrument.files.law_table import COLUMNS
 
 Place = tuple[str | int, ...]
 """Where a value stands in a file: keys, and numbers of tables in a list."""
-Kind = Literal["number", "whole", "text", "choice", "switch", "numbers", "toml"]
+Kind = Literal["number", "whole", "text", "choice", "switch", "numbers", "toml", "file"]
 Off = Literal["never", "left out", "false"]
 """How a file says that it has no such table."""
 
@@ -32,6 +32,8 @@ _NOT_ASKED = {"effects", "core", "log"}
 _NOT_SHOWN = {"further_pickups", "mass"}
 """What a document holds of `[[pickup]]` after the first, no key of a file; and masses put on for one sweep,
 which stay as the file has them."""
+_FILES = {"specimen", "rig", "path"}
+"""Keys whose value is the name of a file."""
 
 
 @dataclass(frozen=True)
@@ -136,7 +138,7 @@ def law_fields(kind: object) -> tuple[Field, ...]:
         return ()
     if law is Tabulated:
         tip = f"A CSV with {', '.join(COLUMNS)}, or a material card; relative to this file."
-        return (Field("path", "text", needed=True, tip=tip),)
+        return (Field("path", "file", needed=True, tip=tip),)
     return tuple(
         Field(
             field.file_key,
@@ -154,6 +156,8 @@ def _field(name: str, info: FieldInfo, schema: dict[str, Any], default: object) 
         str(c) for o in options for c in (*o.get("enum", ()), *([o["const"]] if "const" in o else ()))
     )
     kind = _kind(options, choices)
+    if kind == "text" and name in _FILES:
+        kind = "file"
     return Field(
         name,
         kind,

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from functools import partial
+from pathlib import Path
 
 from PySide6.QtCore import QEvent, QObject, QSignalBlocker, Qt, QTimer, Signal
 from PySide6.QtGui import QBrush
@@ -15,6 +16,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from gui.asking import ask_open
 from gui.form.draft import Draft
 from gui.form.fields import Field, FormSection, Place, device_fields, law_fields, section_of
 from gui.theme import current_theme
@@ -200,8 +202,37 @@ class Form(QTreeWidget):
             editor.textEdited.connect(partial(self._typed, place, field))
         editor.setToolTip(field.tip)
         editor.setAccessibleName(".".join(str(key) for key in place))
-        self.setItemWidget(item, _VALUE, editor)
+        self.setItemWidget(item, _VALUE, self._with_picker(place, editor) if field.kind == "file" else editor)
         self._editors[place] = editor
+
+    def _with_picker(self, place: Place, editor: QWidget) -> QWidget:
+        """The field, and a button that asks for a file."""
+        pick = tool("open", "Choose the file")
+        pick.clicked.connect(partial(self._pick_clicked, place))
+        pick.setAccessibleName(f"choose {'.'.join(str(key) for key in place)}")
+        holder = QWidget()
+        row = QHBoxLayout(holder)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.setSpacing(0)
+        row.addWidget(editor, 1)
+        row.addWidget(pick)
+        return holder
+
+    def _pick_clicked(self, place: Place, _: bool = False) -> None:
+        self.pick(*place)
+
+    def pick(self, *place: str | int) -> None:
+        """Ask for the file whose name stands at this place."""
+        folder = self.draft.path.parent
+        known = folder / self.draft.shown(place)
+        start = str(known if known.is_file() else folder)
+        ask_open(self, "Choose a file", start, "", partial(self._picked, place))
+
+    def _picked(self, place: Place, path: Path) -> None:
+        """Named as seen from the file that names it, where it lies beside or below."""
+        folder = self.draft.path.parent.resolve()
+        inside = path.resolve().is_relative_to(folder)
+        self.type_into(place, str(path.resolve().relative_to(folder) if inside else path.resolve()))
 
     def _row(self, above: QTreeWidgetItem | None, place: Place, label: str, tip: str) -> QTreeWidgetItem:
         item = QTreeWidgetItem([label, "", "", ""])

@@ -1,5 +1,6 @@
 """The plots of the window: every one is a `Plot`."""
 
-from gui.plots.plot import Axis, Plot
+from gui.plots.axis import Axis
+from gui.plots.plot import Plot
 
 __all__ = ["Axis", "Plot"]

@@ -16,6 +16,8 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from fitting.arrays import Array
+from gui.plots.axis import Axis
+from gui.plots.cursors import Cursors
 from gui.plots.export import add_export_menu
 from gui.plots.log_axis import LogAxis
 from gui.plots.readout import Readout
@@ -35,29 +37,6 @@ _TITLE_ROOM_PX = 44
 """Of a plot's side that its axis does not have: the other axis, and the edge."""
 _LABEL_AT = 0.08
 """Of a vertical line's height."""
-
-
-@dataclass(frozen=True)
-class Axis:
-    """What an axis shows."""
-
-    label: str
-    unit: str = ""
-    log: bool = False
-    titled: bool = True
-    """Whether it is named beside the axis: of plots in a column the lowest one does for all."""
-
-    @property
-    def title(self) -> str:
-        """As it stands beside the axis."""
-        if not self.titled:
-            return ""
-        return f"{self.label} / {self.unit}" if self.unit else self.label
-
-    @property
-    def column(self) -> str:
-        """As it heads a column of exported data."""
-        return f"{self.label} ({self.unit})" if self.unit else self.label
 
 
 @dataclass
@@ -113,6 +92,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         self.showGrid(x=True, y=True, alpha=0.25)
         self.setMinimumSize(160, 110)
         self._readout = Readout(self)
+        self.cursors = Cursors(self)
         add_export_menu(self)
         self._paint()
 
@@ -203,6 +183,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         if (x, y) == (self.x, self.y):
             return
         self.empty()
+        self.cursors.forget()
         self.x, self.y = x, y
         self.setLogMode(x.log, y.log)
         self.enableAutoRange()
@@ -233,12 +214,18 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
                 found[f"{name}: {self.x.column}" if key == "" else f"{key}: {self.y.column}"] = values
         return found
 
+    @property
+    def curves(self) -> dict[str, tuple[Array, Array]]:
+        """Lines, traces and points shown, by name: x and y. Shape (points,) each."""
+        shown = ((name, c) for name, c in self._curves.items() if c.kind != "band" and "" in c.columns)
+        return {name: (c.columns[""], c.columns[name]) for name, c in shown}
+
     # How
 
     def changeEvent(self, event: QEvent) -> None:
         """Colours and type follow the window's."""
         super().changeEvent(event)
-        if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.FontChange) and hasattr(self, "_readout"):
+        if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.FontChange) and hasattr(self, "cursors"):
             self._paint()
 
     def _curve(
@@ -318,6 +305,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
             for _, label in self._legend.items:
                 label.setText(label.text)
         self._readout.paint(theme)
+        self.cursors.paint(theme)
         for curve in self._curves.values():
             self._style(curve)
         self._style_marks()
@@ -325,7 +313,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
     def resizeEvent(self, event: QResizeEvent | None) -> None:
         """A title that has not room enough beside its axis is shortened to the unit."""
         super().resizeEvent(event)
-        if event is None or not hasattr(self, "_readout") or self.plotItem is None:
+        if event is None or not hasattr(self, "cursors") or self.plotItem is None:
             return
         for side, shown in (("bottom", self.x), ("left", self.y)):
             axis, title = self.getAxis(side), self._title(side, shown)

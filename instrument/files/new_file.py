@@ -11,8 +11,18 @@ TEMPLATES = {
     "shear-pair": Path(__file__).parent / "templates" / "shear-pair.toml",
     "experiment": Path(__file__).parent / "templates" / "experiment.toml",
     "rig": Path(__file__).parents[1] / "simulated_case" / "rig.toml",
+    "real-rig": Path(__file__).parent / "templates" / "rig.toml",
 }
 """Kind of file, and where it is. A rig begins as the simulated one, which says how it becomes a real one."""
+EXPERIMENT = {"specimen.toml": "plate", "rig.toml": "real-rig", "experiment.toml": "experiment"}
+"""Files of an experiment on a real rig, by the names they have there."""
+
+
+def write_real(folder: Path) -> Path:
+    """The files of an experiment on a real rig; the experiment's path. Raises `BadInput`."""
+    for name, kind in EXPERIMENT.items():
+        write_new(kind, folder / name)
+    return folder / "experiment.toml"
 
 
 def write_new(kind: str, path: Path | None) -> Path:

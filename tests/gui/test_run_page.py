@@ -1,6 +1,7 @@
 """From the form to the end of a run: the engine's process, simulated instruments, real wires, real clicks."""
 
 import time
+from pathlib import Path
 
 import httpx
 import pytest
@@ -9,10 +10,11 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QMessageBox
 from quick_engine import QUICK_ENGINE
 
-from gui.pages.run.new_case import NewCase
+from gui.pages.run.new_case import REAL, NewCase
 from instrument.files.rig_file import RigDocument
 from instrument.files.toml import read_document
 from instrument.session.storage import SessionFile
+from instrument.simulated_case import write_case
 from instrument.stream.raw import OperatorDid
 
 LEFT = Qt.MouseButton.LeftButton
@@ -309,3 +311,38 @@ def test_the_plate_is_drawn_to_scale_and_what_is_dragged_goes_into_its_fields(qt
     qtbot.mousePress(view, Qt.MouseButton.LeftButton, pos=wanted)
     qtbot.mouseMove(view, QPoint(1, 1))
     assert specimen.draft.value(("pickup", "x_mm")) == 0.0
+
+
+def test_an_experiment_on_a_real_rig_begins_as_valid_commented_files(qtbot, window, page, tmp_path):
+    dialog = NewCase(tmp_path / "case", page)
+    qtbot.addWidget(dialog)
+    dialog.rig.setCurrentText(REAL)
+    assert not dialog.effect.isEnabled()
+    with qtbot.waitSignal(page.files.opened, timeout=PATIENCE_MS):
+        page.files.make(*dialog.order())
+    rig = read_document(tmp_path / "case" / "rig.toml", RigDocument)
+    assert not rig.is_simulated
+    assert rig.operator.kind == "person"
+    assert set(page.files.forms) == {"experiment", "rig", "specimen"}
+    assert page.files.drafts.fault_count == 0
+
+
+def test_a_file_is_picked_and_named_as_seen_from_the_file_that_names_it(
+    qtbot, window, page, tmp_path, monkeypatch
+):
+    (tmp_path / "here").mkdir()
+    write_case(tmp_path / "here")
+    with qtbot.waitSignal(page.files.opened, timeout=PATIENCE_MS):
+        window.open(tmp_path / "here" / "experiment.toml")
+    form, picked = page.files.forms["experiment"], tmp_path / "here" / "other" / "plate.toml"
+    picked.parent.mkdir()
+    picked.write_text((tmp_path / "here" / "specimen.toml").read_text())
+    asked = []
+    monkeypatch.setattr("gui.form.form.ask_open", lambda *said: (asked.append(said), said[-1](picked)))
+    form.pick("specimen")
+    assert asked[0][2] == str(tmp_path / "here" / "specimen.toml")
+    assert form.draft.value(("specimen",)) == str(Path("other") / "plate.toml")
+    picked_elsewhere = tmp_path / "rig.toml"
+    monkeypatch.setattr("gui.form.form.ask_open", lambda *said: said[-1](picked_elsewhere))
+    form.pick("rig")
+    assert form.draft.value(("rig",)) == str(picked_elsewhere)

@@ -59,7 +59,7 @@ class FilesPanel(QWidget):
         self.name.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.open_button = button("Open...", "An experiment file (Ctrl+O)", "open")
         self.new_button = button(
-            "New simulated...", "Files of an experiment on the simulated rig (Ctrl+N)", "new"
+            "New...", "Files of an experiment, its rig simulated or real (Ctrl+N)", "new"
         )
         self.new_button.setShortcut("Ctrl+N")
         self.save_button = button("Save", "Keep the changes; comments stay (Ctrl+S)", "save")
@@ -69,8 +69,8 @@ class FilesPanel(QWidget):
         self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
         self.nothing = hint(
-            "No experiment is open. Open an EXPERIMENT.toml (or drop one on the window), or make a new "
-            "simulated one: nothing needs to be connected for it."
+            "No experiment is open. Open an EXPERIMENT.toml (or drop one on the window), or make a new one: "
+            "for a simulated rig nothing needs to be connected."
         )
         self._arrange()
         self.open_button.clicked.connect(self._ask_open)
@@ -94,8 +94,8 @@ class FilesPanel(QWidget):
         """Read an experiment and the files it names."""
         self._begin(partial(_read, path), self._take)
 
-    def make(self, folder: Path, effect: str, seed: int) -> None:
-        """Write the files of a simulated experiment and open them."""
+    def make(self, folder: Path, effect: str | None, seed: int) -> None:
+        """Write the files of a new experiment and open them; without an `effect` of a real rig."""
         self._begin(partial(_make, folder, effect, seed), self._made)
 
     def save(self) -> None:
@@ -208,7 +208,7 @@ class FilesPanel(QWidget):
     def _ask_new(self) -> None:
         dialog = NewCase(_free_folder(Path.cwd()), self)
         dialog.accepted.connect(self._make_asked)
-        show(dialog, self, "New simulated experiment")
+        show(dialog, self, "New experiment")
 
     def _make_asked(self) -> None:
         dialog = self.sender()
@@ -250,7 +250,7 @@ def _read(path: Path, _: Progress) -> Drafts:
     return Drafts.of(path)
 
 
-def _make(folder: Path, effect: str, seed: int, _: Progress) -> Path:
+def _make(folder: Path, effect: str | None, seed: int, _: Progress) -> Path:
     return write(folder, effect, seed)
 
 

@@ -1,4 +1,4 @@
-"""A new experiment on the simulated rig: where, and what its plate hides."""
+"""A new experiment: on which rig, where, and what a simulated plate hides."""
 
 from pathlib import Path
 
@@ -17,7 +17,16 @@ from PySide6.QtWidgets import (
 from gui.asking import ask_folder
 from gui.widgets import button
 from instrument.errors import BadInput
+from instrument.files.new_file import EXPERIMENT, write_real
 from instrument.simulated_case import DEFAULT_EFFECT, EFFECTS, FILES, chosen_effect, write_case
+
+SIMULATED, REAL = "simulated instruments", "real instruments"
+_SAID = {
+    SIMULATED: "The published plate behind simulated instruments. What its plate hides stays in the rig "
+    "file: neither the fit nor the session is told.",
+    REAL: "Commented files for a plate on instruments of your own: put addresses, sensors and sizes in, then "
+    "Check. Nothing is connected before Start.",
+}
 
 
 class NewCase(QDialog):
@@ -25,7 +34,10 @@ class NewCase(QDialog):
 
     def __init__(self, folder: Path, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.setWindowTitle("New simulated experiment")
+        self.setWindowTitle("New experiment")
+        self.rig = QComboBox()
+        self.rig.addItems(list(_SAID))
+        self.rig.currentTextChanged.connect(self._rig_chosen)
         self.folder = QLineEdit(str(folder))
         self.folder.setMinimumWidth(360)
         browse = button("", "Choose a folder", "open")
@@ -45,21 +57,27 @@ class NewCase(QDialog):
         row = QHBoxLayout()
         row.addWidget(self.folder, 1)
         row.addWidget(browse)
-        said = QLabel(
-            "The published plate behind simulated instruments. What its plate hides stays in the rig file: "
-            "neither the fit nor the session is told."
-        )
-        said.setWordWrap(True)
+        self.said = QLabel()
+        self.said.setWordWrap(True)
+        self.said.setMinimumHeight(3 * self.fontMetrics().lineSpacing())
         form = QFormLayout(self)
-        form.addRow(said)
+        form.addRow("Rig", self.rig)
+        form.addRow(self.said)
         form.addRow("Folder", row)
         form.addRow("Hidden effect", self.effect)
         form.addRow("Seed", self.seed)
         form.addRow(self.buttons)
+        self._rig_chosen()
 
-    def order(self) -> tuple[Path, str, int]:
-        """Folder, effect and seed."""
-        return Path(self.folder.text()).expanduser(), self.effect.currentText(), self.seed.value()
+    def order(self) -> tuple[Path, str | None, int]:
+        """Folder, effect and seed; no effect for a real rig."""
+        effect = self.effect.currentText() if self.rig.currentText() == SIMULATED else None
+        return Path(self.folder.text()).expanduser(), effect, self.seed.value()
+
+    def _rig_chosen(self) -> None:
+        self.said.setText(_SAID[self.rig.currentText()])
+        for one in (self.effect, self.seed):
+            one.setEnabled(self.rig.currentText() == SIMULATED)
 
     def _browse(self) -> None:
         ask_folder(self, "Folder", self.folder.text(), self._chosen)
@@ -68,13 +86,18 @@ class NewCase(QDialog):
         self.folder.setText(str(folder))
 
 
-def write(folder: Path, effect: str, seed: int) -> Path:
-    """The files; the experiment's path. Raises `BadInput`, also where there are such files already."""
-    there = [name for name in FILES if (folder / name).exists()]
+def write(folder: Path, effect: str | None, seed: int) -> Path:
+    """The files; the experiment's path. Raises `BadInput`, also where there are such files already.
+
+    Without an `effect` they are of a real rig: commented templates, to be filled in.
+    """
+    there = [name for name in (*FILES, *EXPERIMENT) if (folder / name).exists()]
     if there:
         raise BadInput(f"{folder / there[0]}: is there already: choose another folder")
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise BadInput(f"{folder}: {error.strerror or error}") from None
+    if effect is None:
+        return write_real(folder)
     return write_case(folder, seed=seed, effect=chosen_effect(effect, seed))

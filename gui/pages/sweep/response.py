@@ -19,6 +19,7 @@ from gui.pages.sweep.resonances import ResonancePanes
 from gui.pages.sweep.seen import PaneContents, Quantity, Way
 from gui.plots import Axis
 
+_LEAST_LETTERS = 8
 _SHOWN: dict[str, Quantity] = {
     "velocity over base": "ratio",
     "velocity at its level": "velocity",
@@ -36,6 +37,11 @@ class ResponsePane(QWidget):
         super().__init__()
         self.quantity = QComboBox()
         self.quantity.addItems(list(_SHOWN))
+        # In a narrow window its words are cut before anything is pushed out of sight.
+        self.quantity.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.quantity.setMinimumContentsLength(_LEAST_LETTERS)
+        self.quantity.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        self.quantity.setMaximumWidth(QComboBox.sizeHint(self.quantity).width() * 2)
         self.quantity.setToolTip(
             "Velocity over the measured base acceleration; or that times the level commanded, which is what "
             "the fit takes and what its predictions are compared with"
@@ -48,6 +54,7 @@ class ResponsePane(QWidget):
         self.others = QCheckBox("others")
         self.others.setChecked(True)
         self.others.setToolTip("Sweeps of other files and earlier sessions, laid beside this one")
+        self.others.hide()
         self.resonances = ResonancePanes()
         self.resonances.chosen.connect(self.chosen)
         self.resonances.segment_wanted.connect(self.segment_wanted)

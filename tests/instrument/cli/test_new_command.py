@@ -7,7 +7,11 @@ from instrument.files.rig_file import RigDocument
 from instrument.files.structure_file import read_structure
 from instrument.files.toml import read_document
 
-READERS = {"experiment": read_experiment, "rig": lambda path: read_document(path, RigDocument)}
+READERS = {
+    "experiment": read_experiment,
+    "rig": lambda path: read_document(path, RigDocument),
+    "real-rig": lambda path: read_document(path, RigDocument),
+}
 
 
 @pytest.mark.parametrize("kind", TEMPLATES)

@@ -1,0 +1,26 @@
+"""What an axis of a plot shows."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Axis:
+    """What an axis shows."""
+
+    label: str
+    unit: str = ""
+    log: bool = False
+    titled: bool = True
+    """Whether it is named beside the axis: of plots in a column the lowest one does for all."""
+
+    @property
+    def title(self) -> str:
+        """As it stands beside the axis."""
+        if not self.titled:
+            return ""
+        return f"{self.label} / {self.unit}" if self.unit else self.label
+
+    @property
+    def column(self) -> str:
+        """As it heads a column of exported data."""
+        return f"{self.label} ({self.unit})" if self.unit else self.label
