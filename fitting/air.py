@@ -18,7 +18,7 @@ import scipy.linalg as la
 from scipy.special import jv
 
 from fitting.arrays import Array
-from fitting.element import DOFS, THETA_Y, Shape, W
+from fitting.element import THETA_Y, W
 from fitting.plate import Plate
 from fitting.real_modes import RealModes
 
@@ -57,7 +57,7 @@ def still_air(plate: Plate, counts: tuple[int, int] | None = None) -> StillAir:
         counts = (SHORT_SIDE, LONG_SIDE) if wide else (LONG_SIDE, SHORT_SIDE)
     N = _kinetic(mesh.length_m / 2, mesh.width_m / 2, counts)
     L = la.solve_triangular(la.cholesky(N, lower=True), _coupling(plate, counts).T, lower=True).T
-    heave, pitch = np.zeros((2, mesh.nodes, DOFS))
+    heave, pitch = np.zeros((2, mesh.nodes, mesh.dofs))
     heave[:, W] = 1.0
     pitch[:, W] = mesh.node_positions()[:, 0]
     pitch[:, THETA_Y] = -1.0
@@ -78,7 +78,7 @@ def _coupling(plate: Plate, counts: tuple[int, int]) -> Array:
     """C: each degree of freedom's deflection times f_i, integrated; held ones too. Shape (7 nodes, r)."""
     mesh = plate.mesh
     a, b = mesh.sides_m
-    shape = Shape(a, b)
+    shape = mesh.shape
     # An element's deflection is a polynomial: its coefficients are the derivatives at corner one.
     w = np.array(
         [
@@ -89,7 +89,7 @@ def _coupling(plate: Plate, counts: tuple[int, int]) -> Array:
     X, Y = _moments(a, mesh.n_x, counts[0]), _moments(b, mesh.n_y, counts[1])
     each = np.einsum("pqd,pim,qjn->ijdmn", w, X, Y, optimize=True)
     dofs = mesh.element_dofs()
-    C = np.zeros((mesh.nodes * DOFS, counts[0] * counts[1]))
+    C = np.zeros((mesh.size, counts[0] * counts[1]))
     np.add.at(C, dofs, each.reshape(*dofs.shape, -1))
     return C
 

@@ -6,9 +6,10 @@ import numpy as np
 import scipy.linalg as la
 
 from fitting.arrays import Array
-from fitting.element import DOFS, THETA_X, THETA_Y
+from fitting.element import THETA_X, THETA_Y
+from fitting.element_matrices import element_matrices
 from fitting.linear import factorise
-from fitting.plate import EDGE_WIDTH, Plate, element_matrices
+from fitting.plate import EDGE_WIDTH, Plate, twisting_stiffness
 from fitting.real_modes import RealModes, lowest_scale, real_modes
 
 
@@ -57,8 +58,8 @@ def edge_softening(plate: Plate, modes: RealModes) -> Array:
     """
     face, mesh = plate.specimen.substrate, plate.mesh
     h = face.thickness_m
-    twisting = face.young_pa * h**3 / (12 * (1 + face.poisson))
-    grid = plate.on_nodes(modes.shapes).reshape(mesh.n_x + 1, mesh.n_y + 1, DOFS, -1)
+    twisting = twisting_stiffness(face)
+    grid = plate.on_nodes(modes.shapes).reshape(mesh.n_x + 1, mesh.n_y + 1, mesh.dofs, -1)
     slope = grid[:, :, [THETA_X, THETA_Y]]
     a, b = mesh.sides_m
     # kappa_xy along an edge is how fast the slope across it changes; the sign of a rotation does not matter.
@@ -93,9 +94,9 @@ def clamp_softness(plate: Plate, modes: RealModes) -> Array:
     mesh = plate.mesh
     dofs = mesh.element_dofs()
     K = element_matrices(plate.specimen, mesh).K_0
-    moment = np.zeros((mesh.nodes * DOFS, len(modes.omega)))
+    moment = np.zeros((mesh.size, len(modes.omega)))
     np.add.at(moment, dofs, np.einsum("ij,ejk->eik", K, plate.on_elements(modes.shapes)))
-    root = np.arange(mesh.n_y + 1) * DOFS + THETA_Y
+    root = np.arange(mesh.n_y + 1) * mesh.dofs + THETA_Y
     width = np.full(mesh.n_y + 1, mesh.sides_m[1])
     width[[0, -1]] /= 2
     energy = (moment[root] ** 2 / width[:, None]).sum(axis=0) / modes.omega**2

@@ -1,9 +1,11 @@
-"""The paper's layer-wise rectangular element: four nodes, seven degrees of freedom each.
+"""The paper's layer-wise rectangular element: four nodes, seven degrees of freedom each; nine with glue.
 
 Degrees of freedom of a node, in this order: u_c, v_c, u_b, v_b, w, theta_x, theta_y, with
 theta_x = dw/dy and theta_y = -dw/dx. In-plane displacements are bilinear, the deflection is
 the twelve-term polynomial of Adini, Clough and Melosh. The core follows its faces: the
-interfaces are continuous, so its displacement and shear strain follow from the seven.
+interfaces are continuous, so its displacement and shear strain follow from the seven. Thin layers of glue
+beside the core carry its shear and nothing else; how far they slip, along x and y, is two degrees of freedom
+more, behind the seven.
 
 Source: the paper's Eq. (15) to (18), with the thickness restored in Eq. (16) and
 1/(1 - mu) in Eq. (17b).
@@ -17,10 +19,14 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.specimen import Core, Face
 
-U_C, V_C, U_B, V_B, W, THETA_X, THETA_Y = range(7)
-"""Places of a node's degrees of freedom: both faces in their plane, the deflection, its slopes."""
+U_C, V_C, U_B, V_B, W, THETA_X, THETA_Y, G_X, G_Y = range(9)
+"""Places of a node's degrees of freedom: both faces in their plane, w, its slopes, slip of glue."""
 DOFS = 7
 """Of a node."""
+WITH_GLUE = 9
+"""Of a node where glue slips."""
+GLUE_TURNS = 1 / 3
+"""Of the glue's mass: mean square of what moves with one side from 0 to the slip of the other."""
 CORNERS = ((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))
 """Local corners of the element, counter-clockwise, in fractions of its sides."""
 
@@ -62,24 +68,26 @@ class Shape:
     """Shape function vectors of one element of sides `a_m`, `b_m`.
 
     Every method takes local coordinates from corner one and returns rows over the element's
-    28 degrees of freedom.
+    28 degrees of freedom, 36 with glue. Shapes below are without.
     """
 
     a_m: float
     b_m: float
+    dofs: int = DOFS
+    """Of a node."""
 
     def inplane(self, dof: int, x: float, y: float, dx: int = 0, dy: int = 0) -> Array:
         """N_1 to N_4: one of u_c, v_c, u_b, v_b (or its derivative). Shape (28,)."""
-        row = np.zeros(4 * DOFS)
-        row[dof::DOFS] = _bilinear(self.a_m, self.b_m, x, y, dx, dy)
+        row = np.zeros(4 * self.dofs)
+        row[dof :: self.dofs] = _bilinear(self.a_m, self.b_m, x, y, dx, dy)
         return row
 
     def deflection(self, x: float, y: float, dx: int = 0, dy: int = 0) -> Array:
         """N_5: w, or its derivative. Shape (28,)."""
         a, b = self.a_m, self.b_m
         values = (_monomials(x / a, y / b, dx, dy) / (a**dx * b**dy)) @ _UNIT
-        row = np.zeros((4, DOFS))
-        row[:, W:] = values.reshape(4, 3) * (1.0, b, a)
+        row = np.zeros((4, self.dofs))
+        row[:, W:DOFS] = values.reshape(4, 3) * (1.0, b, a)
         return row.ravel()
 
     def membrane(self, u: int, v: int, x: float, y: float) -> Array:
@@ -98,9 +106,33 @@ class Shape:
         return -np.array([w(x, y, dx=2), w(x, y, dy=2), 2 * w(x, y, dx=1, dy=1)])
 
 
+Rectangle = tuple[float, float, float, float]
+"""A part of an element: from and to along x, from and to along y, in m from its first corner."""
+Rectangles = tuple[Rectangle, ...]
+Point = tuple[float, float, float]
+
+
 def plane_stress(modulus: float, poisson: float) -> Array:
     """D of Eq. (17): `modulus` is E/(1 - mu^2), for the core 2 G/(1 - mu). Shape (3, 3)."""
     return modulus * np.array([[1, poisson, 0], [poisson, 1, 0], [0, 0, (1 - poisson) / 2]])
+
+
+def face_plane_stress(face: Face) -> Array:
+    """D of a face about the plate's axes; of an orthotropic one turned from its own. Shape (3, 3).
+
+    Q_11 = E_1/(1 - nu_12 nu_21), Q_22 = E_2/E_1 Q_11, Q_12 = nu_12 Q_22, Q_66 = G_12, turned as a tensor:
+    e.g. Jones, Mechanics of Composite Materials (1999), Eq. (2.61) and (2.80).
+    """
+    if face.rolled is None:
+        return plane_stress(face.young_pa / (1 - face.poisson**2), face.poisson)
+    E_1, E_2, nu = face.young_pa, face.rolled.young_y_pa, face.poisson
+    Q_11 = E_1 / (1 - nu**2 * E_2 / E_1)
+    Q_22 = Q_11 * E_2 / E_1
+    Q = np.array([[Q_11, nu * Q_22, 0], [nu * Q_22, Q_22, 0], [0, 0, face.rolled.shear_pa]])
+    c, s = np.cos(face.rolled.angle_rad), np.sin(face.rolled.angle_rad)
+    # Strains about the face's own axes, of those about the plate's.
+    T = np.array([[c * c, s * s, c * s], [s * s, c * c, -c * s], [-2 * c * s, 2 * c * s, c * c - s * s]])
+    return np.asarray(T.T @ Q @ T)
 
 
 def _gauss(side: float) -> tuple[Array, Array]:
@@ -109,38 +141,54 @@ def _gauss(side: float) -> tuple[Array, Array]:
     return side * (t + 1) / 2, side * weight / 2
 
 
-def _points(shape: Shape) -> list[tuple[float, float, float]]:
-    xs, wx = _gauss(shape.a_m)
-    ys, wy = _gauss(shape.b_m)
-    return [(x, y, px * py) for x, px in zip(xs, wx, strict=True) for y, py in zip(ys, wy, strict=True)]
+def gauss_points(shape: Shape, over: Rectangles | None = None) -> list[Point]:
+    """Points (x, y) and their areas, over the whole element or over parts of it."""
+    found = []
+    for x_0, x_1, y_0, y_1 in ((0.0, shape.a_m, 0.0, shape.b_m),) if over is None else over:
+        xs, wx = _gauss(x_1 - x_0)
+        ys, wy = _gauss(y_1 - y_0)
+        found += [
+            (x_0 + x, y_0 + y, px * py)
+            for x, px in zip(xs, wx, strict=True)
+            for y, py in zip(ys, wy, strict=True)
+        ]
+    return found
 
 
-def face_stiffness(shape: Shape, face: Face, u: int, v: int) -> Array:
+def _square(shape: Shape) -> Array:
+    return np.zeros((4 * shape.dofs, 4 * shape.dofs))
+
+
+def face_stiffness(shape: Shape, face: Face, u: int, v: int, over: Rectangles | None = None) -> Array:
     """Eq. (15a): stretching and bending of a face. Real, loss factor left out. Shape (28, 28)."""
-    D = plane_stress(face.young_pa / (1 - face.poisson**2), face.poisson)
+    D = face_plane_stress(face)
     H = face.thickness_m
-    K = np.zeros((4 * DOFS, 4 * DOFS))
-    for x, y, dA in _points(shape):
+    K = _square(shape)
+    for x, y, dA in gauss_points(shape, over):
         B_i, B = shape.membrane(u, v, x, y), shape.bending(x, y)
         K += (H * B_i.T @ D @ B_i + H**3 / 12 * B.T @ D @ B) * dA
     return K
 
 
-def core_stiffness(shape: Shape, core: Core, substrate: Face, constraining: Face) -> Array:
+def core_stiffness(
+    shape: Shape, core: Core, substrate: Face, constraining: Face, over: Rectangles | None = None
+) -> Array:
     """Eq. (15b) for G* = 1: stretching, bending and transverse shear. Shape (28, 28)."""
     D = plane_stress(2 / (1 - core.poisson), core.poisson)
     H = core.thickness_m
-    K = core_shear_stiffness(shape, core, substrate, constraining)
-    for x, y, dA in _points(shape):
+    K = core_shear_stiffness(shape, core, substrate, constraining, over)
+    for x, y, dA in gauss_points(shape, over):
         B_v, B = _core_membrane(shape, substrate, constraining, x, y), shape.bending(x, y)
         K += (H * B_v.T @ D @ B_v + H**3 / 12 * B.T @ D @ B) * dA
     return K
 
 
-def core_shear_stiffness(shape: Shape, core: Core, substrate: Face, constraining: Face) -> Array:
+def core_shear_stiffness(
+    shape: Shape, core: Core, substrate: Face, constraining: Face, over: Rectangles | None = None
+) -> Array:
     """The transverse shear's part of `core_stiffness`. Shape (28, 28)."""
-    K = np.zeros((4 * DOFS, 4 * DOFS))
-    for x, y, dA in _points(shape):
+    K = _square(shape)
+    for x, y, dA in gauss_points(shape, over):
         N_10, N_11 = core_shear(shape, core, substrate, constraining, x, y)
         K += core.thickness_m * (np.outer(N_10, N_10) + np.outer(N_11, N_11)) * dA
     return K
@@ -149,12 +197,27 @@ def core_shear_stiffness(shape: Shape, core: Core, substrate: Face, constraining
 def core_shear(
     shape: Shape, core: Core, substrate: Face, constraining: Face, x: float, y: float
 ) -> tuple[Array, Array]:
-    """N_10, N_11: transverse shear strains, gamma_xz = (u_c - u_b + d w_x)/H_v. Shape (28,) each."""
+    """N_10, N_11: transverse shear strains, gamma_xz = (u_c - u_b + d w_x)/H_v. Shape (28,) each.
+
+    What the glue slips is taken off.
+    """
     H_v = core.thickness_m
-    d = H_v + (constraining.thickness_m + substrate.thickness_m) / 2
+    d = core.between_faces_m + (constraining.thickness_m + substrate.thickness_m) / 2
     N_10 = shape.inplane(U_C, x, y) - shape.inplane(U_B, x, y) + d * shape.deflection(x, y, dx=1)
     N_11 = shape.inplane(V_C, x, y) - shape.inplane(V_B, x, y) + d * shape.deflection(x, y, dy=1)
+    if shape.dofs == WITH_GLUE:
+        N_10, N_11 = N_10 - shape.inplane(G_X, x, y), N_11 - shape.inplane(G_Y, x, y)
     return N_10 / H_v, N_11 / H_v
+
+
+def glue_stiffness(shape: Shape, over: Rectangles | None = None) -> Array:
+    """Of its slip, for a shear stiffness per area of one. Shape (36, 36)."""
+    K = _square(shape)
+    for x, y, dA in gauss_points(shape, over):
+        for dof in (G_X, G_Y):
+            row = shape.inplane(dof, x, y)
+            K += np.outer(row, row) * dA
+    return K
 
 
 def _core_displacement(
@@ -174,20 +237,27 @@ def _core_membrane(shape: Shape, substrate: Face, constraining: Face, x: float, 
     return (faces - e * shape.bending(x, y)) / 2
 
 
-def face_mass(shape: Shape, face: Face, u: int, v: int) -> Array:
+def face_mass(shape: Shape, face: Face, u: int, v: int, over: Rectangles | None = None) -> Array:
     """Eq. (16a), (16c), times the thickness. Shape (28, 28)."""
-    M = np.zeros((4 * DOFS, 4 * DOFS))
-    for x, y, dA in _points(shape):
+    M = _square(shape)
+    for x, y, dA in gauss_points(shape, over):
         rows = np.array([shape.inplane(u, x, y), shape.inplane(v, x, y), shape.deflection(x, y)])
         M += face.density_kg_m3 * face.thickness_m * rows.T @ rows * dA
     return M
 
 
-def core_mass(shape: Shape, core: Core, substrate: Face, constraining: Face) -> Array:
-    """Eq. (16b), times the thickness. Shape (28, 28)."""
-    M = np.zeros((4 * DOFS, 4 * DOFS))
-    for x, y, dA in _points(shape):
+def core_mass(
+    shape: Shape, core: Core, substrate: Face, constraining: Face, over: Rectangles | None = None
+) -> Array:
+    """Eq. (16b), times the thickness; glue weighs up and down, and as it slips. Shape (28, 28)."""
+    M = _square(shape)
+    glue = core.glue_mass_kg_m2
+    for x, y, dA in gauss_points(shape, over):
         N_8, N_9 = _core_displacement(shape, substrate, constraining, x, y)
         rows = np.array([N_8, N_9, shape.deflection(x, y)])
         M += core.density_kg_m3 * core.thickness_m * rows.T @ rows * dA
+        if glue:
+            M += glue * np.outer(rows[2], rows[2]) * dA
+    if shape.dofs == WITH_GLUE:
+        M += GLUE_TURNS * glue * glue_stiffness(shape, over)
     return M

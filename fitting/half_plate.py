@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
 from fitting.damping import LowRankDamping
-from fitting.element import DOFS
 from fitting.linear import Chain, with_damping
 from fitting.plate import Plate
 
@@ -75,7 +74,7 @@ def _chained(each: Sequence[Indices]) -> Indices:
 
 def _lines(plate: Plate, P: sp.csc_array) -> Indices:
     """Of every column of P the line of nodes it lies on, across the plate or along it: short ones."""
-    node = plate.free[P.indices[P.indptr[:-1]]] // DOFS
+    node = plate.free[P.indices[P.indptr[:-1]]] // plate.mesh.dofs
     i, j = np.divmod(node, plate.mesh.n_y + 1)
     mirrored = np.minimum(j, plate.mesh.n_y - j) if P.shape[1] < plate.size else j
     across, along = (np.unique(line, return_inverse=True)[1] for line in (i, mirrored))

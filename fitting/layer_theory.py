@@ -7,6 +7,8 @@ simply supported plate. Taking k out of the in-plane motions leaves the stiffnes
 order one. Source: the paper's Eq. (15) to (18).
 """
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -61,12 +63,21 @@ def _lambda_and_slope(specimen: Specimen, k: Array, G: NDArray[np.generic]) -> t
     return value * k**4, slope
 
 
+def as_isotropic(face: Face) -> Face:
+    """An orthotropic face's like, of Young's modulus sqrt(E_1 E_2) and the ratio sqrt(nu_12 nu_21)."""
+    if face.rolled is None:
+        return face
+    ratio = face.rolled.young_y_pa / face.young_pa
+    return replace(face, young_pa=face.young_pa * ratio**0.5, poisson=face.poisson * ratio**0.5, rolled=None)
+
+
 def _rigidity(face: Face) -> complex:
     return _plane(face) * face.thickness_m**3 / 12
 
 
 def _plane(face: Face) -> complex:
     """E/(1 - nu^2), complex with the face's loss factor."""
+    face = as_isotropic(face)
     return face.young_pa * (1 + 1j * face.loss_factor) / (1 - face.poisson**2)
 
 
@@ -76,31 +87,38 @@ def _matrices(specimen: Specimen, G: Complex) -> tuple[Complex, Complex, Array, 
     K_0 = np.zeros((len(G), 3, 3), dtype=complex)
     K_shear = np.zeros_like(K_0)
     M_0, M_1 = np.zeros((2, 3, 3))
-    for face, row in ((b, _B), (c, _C)):
+    sides = 2 if specimen.both_sides else 1
+    for face, row, times in ((b, _B, 1), (c, _C, sides)):
         # A bare plate keeps a third degree of freedom that moves by itself.
         at = b if face is None else face
-        K_0 += _plane(at) * at.thickness_m * np.outer(row, row)
-        M_1 += at.density_kg_m3 * at.thickness_m * np.outer(row, row)
+        K_0 += times * _plane(at) * at.thickness_m * np.outer(row, row)
+        M_1 += times * at.density_kg_m3 * at.thickness_m * np.outer(row, row)
         if face is not None:
-            K_0 += _rigidity(face) * np.outer(_W, _W)
-            M_0 += face.density_kg_m3 * face.thickness_m * np.outer(_W, _W)
+            K_0 += times * _rigidity(face) * np.outer(_W, _W)
+            M_0 += times * face.density_kg_m3 * face.thickness_m * np.outer(_W, _W)
     if v is not None and c is not None:
-        _add_core(v, b, c, G, K_0, K_shear)
-        N_8 = _core_motion(b, c)
-        M_0 += v.density_kg_m3 * v.thickness_m * np.outer(_W, _W)
-        M_1 += v.density_kg_m3 * v.thickness_m * np.outer(N_8, N_8)
+        # In a plate treated alike on both sides the substrate's middle does not stretch.
+        U_b = 0 * _B if specimen.both_sides else _B
+        N_8 = _core_motion(b, c, U_b)
+        _add_core(specimen, v, G, N_8, U_b, K_0, K_shear)
+        M_0 += sides * v.density_kg_m3 * v.thickness_m * np.outer(_W, _W)
+        M_0 += sides * v.glue_mass_kg_m2 * np.outer(_W, _W)
+        M_1 += sides * v.density_kg_m3 * v.thickness_m * np.outer(N_8, N_8)
     return K_0, K_shear, M_0, M_1
 
 
-def _add_core(v: Core, b: Face, c: Face, G: Complex, K_0: Complex, K_shear: Complex) -> None:
-    H_v = v.thickness_m
-    d = H_v + (c.thickness_m + b.thickness_m) / 2
-    plane = (2 * G / (1 - v.poisson))[:, None, None]
-    N_8, N_10 = _core_motion(b, c), (_C - _B - d * _W) / H_v
+def _add_core(
+    specimen: Specimen, v: Core, G: Complex, N_8: Array, U_b: Array, K_0: Complex, K_shear: Complex
+) -> None:
+    H_v, sides = v.thickness_m, 2 if specimen.both_sides else 1
+    plane = sides * (2 * G / (1 - v.poisson))[:, None, None]
+    N_10 = (_C - U_b - specimen.apart_m * _W) / H_v
+    # Of glue and core in series, as if all of it were the core's.
+    G = G / (1 + G / (H_v * v.glue_stiffness_pa_m)) if v.glue else G
     K_0 += plane * (H_v * np.outer(N_8, N_8) + H_v**3 / 12 * np.outer(_W, _W))
-    K_shear += G[:, None, None] * H_v * np.outer(N_10, N_10)
+    K_shear += sides * G[:, None, None] * H_v * np.outer(N_10, N_10)
 
 
-def _core_motion(b: Face, c: Face) -> Array:
+def _core_motion(b: Face, c: Face, U_b: Array) -> Array:
     """N_8: the mean of the core's two interfaces, over W, U_b, U_c."""
-    return np.asarray((_C + _B - (c.thickness_m - b.thickness_m) / 2 * _W) / 2)
+    return np.asarray((_C + U_b - (c.thickness_m - b.thickness_m) / 2 * _W) / 2)

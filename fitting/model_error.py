@@ -35,8 +35,11 @@ class ModelError:
 def model_error_at(specimen: Specimen, frequency_hz: Array, G: Complex) -> ModelError:
     """Around some frequencies, the core's modulus there given. Shape (points,) each."""
     found = theory_error(specimen, frequency_hz, G)
-    layers = (specimen.substrate, specimen.core, specimen.constraining)
+    s = specimen
+    layers = (s.substrate, s.core, s.constraining)
     thickness = sum(layer.thickness_m for layer in layers if layer is not None)
+    if s.both_sides and s.core is not None:
+        thickness = 2 * s.apart_m + (layers[2].thickness_m if layers[2] is not None else 0.0)
     edge = (thickness / min(specimen.length_m, specimen.width_m)) ** 2
     return ModelError(
         frequency=np.sqrt(FREQUENCY**2 + found.frequency_error**2 + (EDGE_FREQUENCY * edge) ** 2),

@@ -15,15 +15,15 @@ from fitting.arrays import Array, Complex
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisance_sums import Kept, between
-from fitting.parts import CORE, MASS, STIFFNESS, coefficients
+from fitting.parts import coefficients, loaded, names_of
 from fitting.specimen import PlacedMass, Specimen
-from fitting.tolerances import PLATE, STATED, Unit, moved, tolerance
+from fitting.tolerances import PLATE, STATED, Unit, moved, plate_numbers, tolerance
 
 _H = 1e-2
 """Step of differences, in standard deviations."""
 _UNHEARD = 1e-6
 """Share of a mode that the plate's motions carry, below which its ratio plays no part."""
-_TREATMENT = ("constraining", "core")
+_TREATMENT = ("constraining", "core", "glue", "patch")
 Spot = Literal["pickup", "force"]
 _FELT = 0.3
 """Standard deviations from which derivatives to stated numbers are taken to vary."""
@@ -53,8 +53,7 @@ def nuisances_of(
 
     `plate` is of `reference`, one like it, where that is given.
     """
-    names = [n for n in PLATE if specimen.core is not None or not n.startswith(_TREATMENT)]
-    found = [Nuisance(n, n, tolerance(specimen, n)) for n in names]
+    found = [Nuisance(n, kind, tolerance(specimen, kind)) for n, kind in plate_numbers(specimen)]
     found += [Nuisance(f"pickup_{axis}", "pickup", tolerance(specimen, "pickup")) for axis in "xy"]
     if specimen.force_m is not None:
         found += [Nuisance(f"force_{axis}", "force", tolerance(specimen, "force")) for axis in "xy"]
@@ -116,14 +115,12 @@ class Nuisances:
 
     @cached_property
     def _stated(self) -> Array:
-        c = coefficients(self.reference, self.reference)
-        found = np.concatenate([c.K_0, c.K_1, c.M, [c.load]])
-        return np.asarray(found if np.any(found.imag) else found.real)
+        return np.asarray(coefficients(self.reference, self.reference).all)
 
-    @property
+    @cached_property
     def counts(self) -> tuple[int, int, int]:
         """How many parts K_0, K_1 and M have; those of the load follow them."""
-        return len(STIFFNESS), len(CORE), len(MASS)
+        return names_of(self.reference).counts
 
     @cached_property
     def _places(self) -> dict[str, int]:
@@ -141,9 +138,7 @@ class Nuisances:
 
     def _coefficients(self, z: Array) -> Array:
         """Of all parts, and of the load. Complex where a face has a loss factor. Shape (parts + 1,)."""
-        c = coefficients(self.moved_specimen(z), self.reference)
-        found = np.concatenate([c.K_0, c.K_1, c.M, [c.load]])
-        return np.asarray(found if np.any(found.imag) else found.real)
+        return np.asarray(coefficients(self.moved_specimen(z), self.reference).all)
 
     def bare_coefficients(self, z: Array) -> tuple[Complex, Array]:
         """Of the bare plate's stiffness and mass, its length as stated. Shapes of `STIFFNESS` and `MASS`."""
@@ -226,7 +221,8 @@ class Nuisances:
 
     def _load(self, plate: EnrichedReducedPlate, c: Array) -> Array:
         """What the load becomes more. Shape (k,)."""
-        return np.asarray(-float(np.real(c[-1])) * plate.load_part)
+        load = c[sum(self.counts) :].real
+        return -loaded(float(load[0]) if len(load) == 1 else load, plate.load_part)
 
     def _row_change(self, plate: EnrichedReducedPlate, z: Array) -> Array:
         return self.row(plate, z) - plate.pickup_row
@@ -317,7 +313,10 @@ class Nuisances:
         ]
 
     def _by_load(self, plate: EnrichedReducedPlate, adjoint: Complex, z: Array) -> Complex:
-        return np.asarray(self.by_coefficients(z)[:, -1:].real * (adjoint @ plate.load_part))
+        by = self.by_coefficients(z)[:, sum(self.counts) :].real
+        if plate.load_part.ndim > 1:
+            return np.asarray(by @ (plate.load_part @ adjoint.T))
+        return np.asarray(by * (adjoint @ plate.load_part))
 
     def by_pitch(
         self, plate: EnrichedReducedPlate, omega: Array, G: Complex, p: Complex, adjoint: Complex, z: Array

@@ -5,7 +5,6 @@
 K_0 holds the faces, K_1 the core for unit modulus: G* stays outside. Assembled once a specimen.
 """
 
-from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -14,88 +13,21 @@ from numpy.typing import NDArray
 
 from fitting import element
 from fitting.arrays import Array
-from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
+from fitting.element import G_X, G_Y, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
+from fitting.element_matrices import element_matrices
 from fitting.errors import OutsideModel
-from fitting.specimen import Specimen
-
-Indices = NDArray[np.intp]
+from fitting.mesh import cells_of, mesh_of, treated_nodes
+from fitting.specimen import Face, Specimen
 
 _STILL = 1e-9
 """A reading row below this reads nothing but rounding."""
 EDGE_WIDTH = 0.63 / 2
 """Of the thickness: so wide a strip carries no twist at a free edge (decision 13). In `K_0` where motions
 odd in y take part, which twist the plate."""
-_SUPPORTED = {"x": (V_C, V_B, W, THETA_X), "y": (U_C, U_B, W, THETA_Y)}
+_SUPPORTED = {"x": (V_C, V_B, W, THETA_X, G_Y), "y": (U_C, U_B, W, THETA_Y, G_X)}
 """What a simple support holds of the nodes on an edge of constant x or y."""
 _RIGID = 1e-9
 """Share of a rigid motion at held degrees of freedom, below which it is not held."""
-
-
-@dataclass(frozen=True)
-class Mesh:
-    """A regular grid of elements; node (i, j) has number i (n_y + 1) + j."""
-
-    length_m: float
-    width_m: float
-    n_x: int
-    n_y: int
-
-    @property
-    def nodes(self) -> int:
-        """How many nodes there are."""
-        return (self.n_x + 1) * (self.n_y + 1)
-
-    @property
-    def sides_m(self) -> tuple[float, float]:
-        """Sides of an element."""
-        return self.length_m / self.n_x, self.width_m / self.n_y
-
-    def element_dofs(self) -> Indices:
-        """Degrees of freedom of every element, corners in the element's order. Shape (elements, 28)."""
-        i, j = np.meshgrid(np.arange(self.n_x), np.arange(self.n_y), indexing="ij")
-        stride = self.n_y + 1
-        corners = [(i + int(cx)) * stride + j + int(cy) for cx, cy in element.CORNERS]
-        nodes = np.stack([c.ravel() for c in corners], axis=1)
-        dofs = nodes[:, :, None] * DOFS + np.arange(DOFS)
-        return np.asarray(dofs.reshape(len(nodes), -1), dtype=np.intp)
-
-    def node_positions(self) -> Array:
-        """Positions (x, y) of every node in m. Shape (nodes, 2)."""
-        x, y = np.meshgrid(
-            np.linspace(0, self.length_m, self.n_x + 1),
-            np.linspace(0, self.width_m, self.n_y + 1),
-            indexing="ij",
-        )
-        return np.stack([x.ravel(), y.ravel()], axis=1)
-
-
-@dataclass(frozen=True)
-class ElementMatrices:
-    """Matrices of one element, shape (28, 28); all elements of the regular mesh are alike."""
-
-    M: Array
-    K_substrate: Array
-    K_constraining: Array
-    K_1: Array
-
-    @property
-    def K_0(self) -> Array:
-        """Both faces, loss factors left out."""
-        return self.K_substrate + self.K_constraining
-
-
-def element_matrices(specimen: Specimen, mesh: Mesh) -> ElementMatrices:
-    """The element of a specimen; the treatment's parts are zero for a bare plate."""
-    s, shape = specimen, element.Shape(*mesh.sides_m)
-    M = element.face_mass(shape, s.substrate, U_B, V_B)
-    K_b = element.face_stiffness(shape, s.substrate, U_B, V_B)
-    K_c, K_v = np.zeros_like(K_b), np.zeros_like(K_b)
-    if s.core is not None and s.constraining is not None:
-        M = M + element.face_mass(shape, s.constraining, U_C, V_C)
-        M = M + element.core_mass(shape, s.core, s.substrate, s.constraining)
-        K_c = element.face_stiffness(shape, s.constraining, U_C, V_C)
-        K_v = element.core_stiffness(shape, s.core, s.substrate, s.constraining)
-    return ElementMatrices(M, K_b, K_c, K_v)
 
 
 class Plate:
@@ -106,14 +38,15 @@ class Plate:
     M, K_substrate, K_constraining, K_1 : sparse (n, n), real symmetric
         Mass in kg; stiffness in N/m, the core's for G* = 1 Pa.
     K_0 : sparse (n, n)
-        The faces' stiffness, complex where a face has a loss factor.
+        The faces' stiffness and the glue's, complex where they have a loss factor.
     free : (n,)
         Which of all nodes' degrees of freedom are free.
     """
 
     def __init__(self, specimen: Specimen) -> None:
         self.specimen = specimen
-        self.mesh = Mesh(specimen.length_m, specimen.width_m, *specimen.mesh)
+        self.mesh = mesh_of(specimen)
+        self.cells = cells_of(specimen, self.mesh)
         self.free = np.flatnonzero(~self._held())
         self._assemble()
 
@@ -122,17 +55,29 @@ class Plate:
         """How many degrees of freedom are free."""
         return len(self.free)
 
+    @cached_property
+    def _missing(self) -> NDArray[np.bool_]:
+        """Motions that nothing has: of a layer that is not there, or does not stretch. Shape (nodes, 7)."""
+        s, found = self.specimen, np.zeros((self.mesh.nodes, self.mesh.dofs), dtype=bool)
+        if s.core is None:
+            found[:, [U_C, V_C]] = True
+        if s.both_sides:
+            found[:, [U_B, V_B]] = True
+        if s.patches:
+            bare = np.flatnonzero(~treated_nodes(s, self.mesh))
+            found[bare[:, None], [U_C, V_C, *range(G_X, self.mesh.dofs)]] = True
+        return found
+
     def _held(self) -> NDArray[np.bool_]:
-        held = np.zeros((self.mesh.nodes, DOFS), dtype=bool)
+        held = self._missing.copy()
         x, y = self.mesh.node_positions().T
-        if self.specimen.core is None:
-            held[:, [U_C, V_C]] = True
         nodes = (x == 0, y == 0, x == self.mesh.length_m, y == self.mesh.width_m)
         for edge, on, constant in zip(self.specimen.edges, nodes, ("x", "y", "x", "y"), strict=True):
             if edge == "clamped":
                 held[on] = True
             elif edge == "simply-supported":
-                held[np.ix_(on, _SUPPORTED[constant])] = True
+                dofs = [dof for dof in _SUPPORTED[constant] if dof < self.mesh.dofs]
+                held[np.flatnonzero(on)[:, None], dofs] = True
         return held.ravel()
 
     @cached_property
@@ -140,9 +85,7 @@ class Plate:
         """Motions that strain nothing and are not held, at most six. Shape (n, motions)."""
         s = self.specimen
         x, y = (self.mesh.node_positions() / max(s.length_m, s.width_m)).T
-        apart = 0.0
-        if s.core is not None and s.constraining is not None:
-            apart = s.core.thickness_m + (s.substrate.thickness_m + s.constraining.thickness_m) / 2
+        apart = s.apart_m
         # Turns are scaled to the size of the plate; the upper face turns about the substrate's middle.
         slope = 1 / max(s.length_m, s.width_m)
         one = np.ones_like(x)
@@ -154,27 +97,31 @@ class Plate:
             {W: x, THETA_Y: -slope * one, U_C: -apart * slope * one},
             {W: y, THETA_X: slope * one, V_C: -apart * slope * one},
         ]
-        R = np.zeros((self.mesh.nodes, DOFS, len(motions)))
+        R = np.zeros((self.mesh.nodes, self.mesh.dofs, len(motions)))
         for k, motion in enumerate(motions):
             for dof, values in motion.items():
                 R[:, dof, k] = values
-        if s.core is None:
-            R[:, [U_C, V_C]] = 0.0
+        # A substrate that does not stretch is held; a layer that is not there moves with nobody.
+        R[:, [U_C, V_C]] *= ~self._missing[:, [U_C, V_C], None]
         each = R.reshape(-1, len(motions))
         held = np.delete(each, self.free, axis=0)
         values, vectors = np.linalg.eigh(held.T @ held)
         return each[self.free] @ vectors[:, values < _RIGID * max(1.0, values[-1])]
 
     def _assemble(self) -> None:
-        s, e = self.specimen, element_matrices(self.specimen, self.mesh)
+        s = self.specimen
+        each = [(cell.elements, element_matrices(s, self.mesh, cell)) for cell in self.cells]
         self.M, self.K_substrate, self.K_constraining, self.K_1 = (
-            self.scatter(Ae) for Ae in (e.M, e.K_substrate, e.K_constraining, e.K_1)
+            _sum([self.scatter(getattr(e, name), of) for of, e in each])
+            for name in ("M", "K_substrate", "K_constraining", "K_1")
         )
         loss_b = s.substrate.loss_factor
         loss_c = s.constraining.loss_factor if s.constraining is not None else 0.0
         faces = self.K_substrate + self.K_constraining
         if loss_b or loss_c:
             faces = faces + 1j * (loss_b * self.K_substrate + loss_c * self.K_constraining)
+        if s.has_glue:
+            faces = faces + _sum([self.scatter(np.asarray(e.K_glue), of) for of, e in each])
         if not s.only_even:
             faces = faces - self.edge_twist
         self.K_0 = faces.tocsc()
@@ -183,7 +130,8 @@ class Plate:
     def edge_twist(self) -> sp.csr_array:
         """Stiffness that the faces' free edges lack in twist, `EDGE_WIDTH` of it. Shape (n, n).
 
-        2 E h^3 / (12 (1 + nu)) int kappa_xy^2 ds over a width of `EDGE_WIDTH` h, at each free edge.
+        2 E h^3 / (12 (1 + nu)) int kappa_xy^2 ds over a width of `EDGE_WIDTH` h, at each free edge. Patches
+        have edges of their own; a foil's share is its thickness to the fourth power, and left out.
         """
         s, mesh = self.specimen, self.mesh
         node = np.arange(mesh.nodes).reshape(mesh.n_x + 1, mesh.n_y + 1)
@@ -194,17 +142,18 @@ class Plate:
             (node[-1], THETA_Y, b),
             (node[:, -1], THETA_X, a),
         )
-        found = sp.csr_array((mesh.nodes * DOFS,) * 2)
+        found = sp.csr_array((mesh.size,) * 2)
         faces = [face for face in (s.substrate, s.constraining) if face is not None]
-        lacking = sum(
-            2 * EDGE_WIDTH * f.thickness_m * f.young_pa * f.thickness_m**3 / (12 * (1 + f.poisson))
-            for f in faces
-        )
+        if s.patches:
+            faces = faces[:1]
+        elif s.both_sides:
+            faces += faces[1:]
+        lacking = sum(twisting_stiffness(f, 2 * EDGE_WIDTH * f.thickness_m) for f in faces)
         for edge, (nodes, dof, step) in zip(s.edges, along, strict=True):
             if edge == "free":
                 slope = sp.csr_array(
-                    (np.ones(len(nodes)), (np.arange(len(nodes)), nodes * DOFS + dof)),
-                    shape=(len(nodes), mesh.nodes * DOFS),
+                    (np.ones(len(nodes)), (np.arange(len(nodes)), nodes * mesh.dofs + dof)),
+                    shape=(len(nodes), mesh.size),
                 )
                 turn = slope[1:] - slope[:-1]
                 found = found + lacking / step * (turn.T @ turn)
@@ -215,7 +164,7 @@ class Plate:
         dofs = self.mesh.element_dofs()[elements]
         rows = np.repeat(dofs, dofs.shape[1], axis=1).ravel()
         columns = np.tile(dofs, (1, dofs.shape[1])).ravel()
-        n = self.mesh.nodes * DOFS
+        n = self.mesh.size
         full = sp.coo_array((np.tile(Ae.ravel(), len(dofs)), (rows, columns)), shape=(n, n)).tocsr()
         if len(self.free) < n:
             full = full[self.free][:, self.free]
@@ -233,12 +182,14 @@ class Plate:
         """
         if self.specimen.boundary == "free":
             raise OutsideModel("a free plate has no base to be excited by, expected another boundary")
-        r = np.zeros((self.mesh.nodes, DOFS))
+        r = np.zeros((self.mesh.nodes, self.mesh.dofs))
         r[:, W] = 1.0
         # The held nodes move with the base too: their inertia couples to their neighbours.
         dofs = self.mesh.element_dofs()
-        inertia = np.zeros(self.mesh.nodes * DOFS)
-        np.add.at(inertia, dofs, r.ravel()[dofs] @ element_matrices(self.specimen, self.mesh).M)
+        inertia = np.zeros(self.mesh.size)
+        for cell in self.cells:
+            its = dofs[cell.elements]
+            np.add.at(inertia, its, r.ravel()[its] @ element_matrices(self.specimen, self.mesh, cell).M)
         return -inertia[self.free]
 
     @cached_property
@@ -258,9 +209,9 @@ class Plate:
 
     def on_nodes(self, V: Array) -> Array:
         """Vectors over the free degrees of freedom, node by node, held ones zero. Shape (nodes, 7, k)."""
-        full = np.zeros((self.mesh.nodes * DOFS, V.shape[1]))
+        full = np.zeros((self.mesh.size, V.shape[1]))
         full[self.free] = V
-        return full.reshape(self.mesh.nodes, DOFS, -1)
+        return full.reshape(self.mesh.nodes, self.mesh.dofs, -1)
 
     def on_elements(self, V: Array) -> Array:
         """Vectors over the free degrees of freedom, gathered element by element. Shape (elements, 28, k)."""
@@ -290,21 +241,22 @@ class Plate:
         """Of `carried`, motions that do not couple: of one parity where the long edges are alike."""
         if self.specimen.only_even:
             return (self.even,)
-        at_y0, at_width = self.specimen.edges[1::2]
-        return (self.even, self.odd) if at_y0 == at_width else (sp.eye_array(self.size, format="csc"),)
+        if self.specimen.alike_in_y:
+            return (self.even, self.odd)
+        return (sp.eye_array(self.size, format="csc"),)
 
     def _of_parity(self, parity: float) -> sp.csc_array:
         # In an even motion u_b, u_c, w and theta_y repeat at the mirrored node, v_b, v_c and theta_x turn.
         node = np.arange(self.mesh.nodes)
         i, j = np.divmod(node, self.mesh.n_y + 1)
         mirror = i * (self.mesh.n_y + 1) + self.mesh.n_y - j
-        sign = np.full(DOFS, parity)
-        sign[[V_C, V_B, THETA_X]] *= -1
-        kept = np.repeat(node <= mirror, DOFS)
-        twin = (mirror[:, None] * DOFS + np.arange(DOFS)).ravel()[kept]
+        sign = np.full(self.mesh.dofs, parity)
+        sign[[V_C, V_B, THETA_X, *range(G_Y, self.mesh.dofs)]] *= -1
+        kept = np.repeat(node <= mirror, self.mesh.dofs)
+        twin = (mirror[:, None] * self.mesh.dofs + np.arange(self.mesh.dofs)).ravel()[kept]
         signs = np.tile(sign, self.mesh.nodes)[kept]
         column = np.arange(len(twin))
-        shape = (self.mesh.nodes * DOFS, len(twin))
+        shape = (self.mesh.size, len(twin))
         P = sp.coo_array((np.ones(len(twin)), (np.flatnonzero(kept), column)), shape)
         P = (P + sp.coo_array((signs, (twin, column)), shape)).tocsr()[self.free]
         norm = np.sqrt(np.asarray((P * P).sum(axis=0)))
@@ -340,7 +292,21 @@ class Plate:
         a, b = self.mesh.sides_m
         i = min(int(x_m / a), self.mesh.n_x - 1)
         j = min(int(y_m / b), self.mesh.n_y - 1)
-        row = np.zeros(self.mesh.nodes * DOFS)
+        row = np.zeros(self.mesh.size)
         dofs = self.mesh.element_dofs()[i * self.mesh.n_y + j]
-        row[dofs] = element.Shape(a, b).deflection(x_m - i * a, y_m - j * b)
+        row[dofs] = self.mesh.shape.deflection(x_m - i * a, y_m - j * b)
         return row[self.free]
+
+
+def twisting_stiffness(face: Face, times: float = 1.0) -> float:
+    """G h^3 / 6 of a face about the plate's axes, in N m, times something."""
+    if face.rolled is None:
+        return times * face.young_pa * face.thickness_m**3 / (12 * (1 + face.poisson))
+    return times * float(element.face_plane_stress(face)[2, 2]) * face.thickness_m**3 / 6
+
+
+def _sum(each: list[sp.csc_array]) -> sp.csc_array:
+    found = each[0]
+    for more in each[1:]:
+        found = found + more
+    return sp.csc_array(found)

@@ -20,7 +20,7 @@ from fitting.domain import Domain
 from fitting.element import THETA_X, THETA_Y, W
 from fitting.half_plate import HalfPlate
 from fitting.linear import times
-from fitting.parts import moving_part, projected_parts, stated_steps
+from fitting.part_matrices import moving_part, on_motions, projected_parts, stated_steps
 from fitting.plate import Plate
 
 Point = tuple[float, complex]
@@ -56,7 +56,7 @@ class ReducedPlate:
     parts: Array
     """Of K_0, K_1 and M by what is stated (`fitting.parts`), one after the other. Shape (parts, k, k)."""
     load_part: Array
-    """Shape (k,)."""
+    """Shape (k,); where not all of the plate is treated (loads, k)."""
     deflection: Array
     """w, dw/dy and -dw/dx of every vector at every node. Shape (nodes, 3, k)."""
     gram: Array
@@ -266,7 +266,7 @@ class _Builder:
         V = self.half.P @ self.V
         return (
             projected_parts(plate, V, one_parity=plate.specimen.only_even),
-            V.T @ moving_part(plate.specimen)[plate.free],
+            on_motions(moving_part(plate.specimen)[..., plate.free], V),
             plate.on_nodes(V)[:, [W, THETA_X, THETA_Y]],
         )
 

@@ -5,6 +5,7 @@ Frozen data only. Files and their units are translated at the border (`instrumen
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from math import sin
 from typing import Literal, Protocol
 
 from fitting.edges import Edges, edges_of, named
@@ -16,6 +17,27 @@ Drive = Literal["base", "force"]
 
 DEFAULT_ELEMENTS = 1040
 """Elements of the default mesh: 40 x 26 on a plate of aspect 1.5."""
+_ALIGNED = 1e-9
+"""Of a sine, what rounding makes of axes that are one."""
+_ALIKE = 1e-7
+"""Of an area, what rounding makes of halves that are alike."""
+
+
+@dataclass(frozen=True)
+class Orthotropy:
+    """What an orthotropic face has beside Young's modulus along its own first axis and nu_12."""
+
+    young_y_pa: float
+    """Along its second axis."""
+    shear_pa: float
+    """G_12."""
+    angle_rad: float = 0.0
+    """From the plate's x to its first axis, towards y."""
+
+    @property
+    def aligned(self) -> bool:
+        """Whether its axes are the plate's."""
+        return abs(sin(2 * self.angle_rad)) < _ALIGNED
 
 
 @dataclass(frozen=True)
@@ -24,7 +46,20 @@ class Face:
 
     thickness_m: float
     young_pa: float
+    """Along its own first axis where it is orthotropic."""
     poisson: float
+    density_kg_m3: float
+    loss_factor: float = 0.0
+    rolled: Orthotropy | None = None
+    """None: isotropic."""
+
+
+@dataclass(frozen=True)
+class Glue:
+    """A thin layer between the core and a face: it shears, and weighs."""
+
+    thickness_m: float
+    shear_pa: float
     density_kg_m3: float
     loss_factor: float = 0.0
 
@@ -37,6 +72,41 @@ class Core:
     poisson: float
     density_kg_m3: float
     law: CoreLaw
+    glue: tuple[Glue, ...] = ()
+    """On one or both of its sides; in series, so it does not matter on which."""
+
+    @property
+    def between_faces_m(self) -> float:
+        """Its thickness and the glue's."""
+        return self.thickness_m + sum(g.thickness_m for g in self.glue) if self.glue else self.thickness_m
+
+    @property
+    def glue_mass_kg_m2(self) -> float:
+        """Per area."""
+        return sum(g.density_kg_m3 * g.thickness_m for g in self.glue)
+
+    @property
+    def glue_stiffness_pa_m(self) -> complex:
+        """Shear stress over slip of all glue in series, complex where it loses energy; zero without any."""
+        if not self.glue:
+            return 0.0
+        return 1 / sum(g.thickness_m / (g.shear_pa * (1 + 1j * g.loss_factor)) for g in self.glue)
+
+
+@dataclass(frozen=True)
+class Patch:
+    """A rectangle of the plate that is treated."""
+
+    from_x_m: float
+    to_x_m: float
+    from_y_m: float
+    to_y_m: float
+
+    def common_m2(self, other: "Patch") -> float:
+        """Area they have in common."""
+        x = min(self.to_x_m, other.to_x_m) - max(self.from_x_m, other.from_x_m)
+        y = min(self.to_y_m, other.to_y_m) - max(self.from_y_m, other.from_y_m)
+        return max(x, 0.0) * max(y, 0.0)
 
 
 @dataclass(frozen=True)
@@ -133,6 +203,10 @@ class Specimen:
     """Everything stated is exact: a simulation of this very plate, or a published case."""
     elements: tuple[int, int] | None = None
     """Elements along x and y; None for the default mesh."""
+    patches: tuple[Patch, ...] = ()
+    """Where core and constraining layer are; none: everywhere."""
+    both_sides: bool = False
+    """The same treatment on the other side too: in bending the substrate's middle then does not stretch."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "boundary", named(self.boundary))
@@ -168,14 +242,58 @@ class Specimen:
 
     @property
     def offers(self) -> frozenset[str]:
-        """As `Stated` has it."""
-        base = {"base"} if self.force_m is None else set()
-        return frozenset(base | ({"clamp"} if self.boundary == "cantilever" else set()))
+        """As `StatedSpecimen` has it; `whole`: one treatment all over one side; `isotropic substrate`."""
+        found = {"base"} if self.force_m is None else set()
+        if self.boundary == "cantilever" and self.mirrored:
+            found.add("clamp")
+        if not self.patches and not self.both_sides:
+            found.add("whole")
+        if self.substrate.rolled is None:
+            found.add("isotropic substrate")
+        return frozenset(found)
+
+    @property
+    def mirrored(self) -> bool:
+        """Whether layers and patches are alike on both sides of the plate's axis."""
+        faces = (f for f in (self.substrate, self.constraining) if f is not None)
+        if any(f.rolled is not None and not f.rolled.aligned for f in faces):
+            return False
+        if not self.patches:
+            return True
+        B = self.width_m
+        seen = [Patch(p.from_x_m, p.to_x_m, B - p.to_y_m, B - p.from_y_m) for p in self.patches]
+        # Patches do not overlap: what is treated on both sides of the axis is all of it, or not.
+        common = sum(p.common_m2(q) for p in self.patches for q in seen)
+        return common > self.treated_m2 * (1 - _ALIKE)
+
+    @property
+    def alike_in_y(self) -> bool:
+        """Whether motions even and odd in y do not couple: long edges and what is between them are alike."""
+        return self.edges[1] == self.edges[3] and self.mirrored
 
     @property
     def only_even(self) -> bool:
-        """Whether nothing stirs motions odd in y: the base drives it, and its long edges are alike."""
-        return self.force_m is None and self.edges[1] == self.edges[3]
+        """Whether nothing stirs motions odd in y: the base drives it, and both its halves are alike."""
+        return self.force_m is None and self.alike_in_y
+
+    @property
+    def treated_m2(self) -> float:
+        """Area that is treated, of one side."""
+        if not self.patches:
+            return self.length_m * self.width_m
+        return sum((p.to_x_m - p.from_x_m) * (p.to_y_m - p.from_y_m) for p in self.patches)
+
+    @property
+    def apart_m(self) -> float:
+        """Between the middles of the faces; zero for a bare plate."""
+        if self.core is None or self.constraining is None:
+            return 0.0
+        return self.core.between_faces_m + (self.substrate.thickness_m + self.constraining.thickness_m) / 2
+
+    @property
+    def has_glue(self) -> bool:
+        """Whether glue takes part in the slip."""
+        return self.core is not None and bool(self.core.glue)
 
     @property
     def edges(self) -> Edges:
@@ -195,7 +313,7 @@ class Specimen:
     @property
     def bare(self) -> "Specimen":
         """The same plate before its damping treatment."""
-        return replace(self, constraining=None, core=None, masses=())
+        return replace(self, constraining=None, core=None, patches=(), both_sides=False, masses=())
 
     def with_law(self, law: CoreLaw) -> "Specimen":
         """The same plate with another core law. Raises `ValueError` for a bare one."""

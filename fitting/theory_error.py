@@ -5,8 +5,10 @@ frequency the wave at which the layer-wise plate resonates is put to the exact t
 
     delta = 1/2 ln(lambda_exact / lambda_layerwise),  lambda = omega^2(k, G) at fixed k and G
 
-Re delta is the relative shift of a resonance, 2 Im delta that of its loss factor in absolute terms. On simply
-supported edges this is all there is; clamped and free edges add `EDGE_FREQUENCY` and `EDGE_LOSS`.
+Both theories take a patched plate as treated all over, and an orthotropic face as an isotropic one of the
+mean of its moduli: what is wanted is how far they are from each other. Re delta is the relative shift of a
+resonance, 2 Im delta that of its loss factor in absolute terms. On simply supported edges this is all there
+is; clamped and free edges add `EDGE_FREQUENCY` and `EDGE_LOSS`.
 """
 
 from dataclasses import dataclass, replace
@@ -18,8 +20,8 @@ from fitting.arrays import Array, Complex
 from fitting.errors import OutsideModel
 from fitting.exact_layers import ElasticLayer, exact_lambda
 from fitting.laws import CoreLaw
-from fitting.layer_theory import layerwise_lambda, wavenumber
-from fitting.specimen import Face, Specimen
+from fitting.layer_theory import as_isotropic, layerwise_lambda, wavenumber
+from fitting.specimen import Face, Glue, Specimen
 
 FREQUENCY_LIMIT = 5e-3
 """Largest error of a resonance. A tenth to a third of the stiffness is the core's: G' is then 3 to 10 % off,
@@ -33,6 +35,9 @@ EDGE_FREQUENCY, EDGE_LOSS = 2.0, 10.0
 From cantilever strips 300 mm long in plane strain, solid elements against layer-wise, up to five modes: the
 published section, cores of 0.03 to 5 MPa, a core of 5 mm, a substrate of 20 mm. The largest were 2.1 and 8.
 """
+
+GLUE_POISSON = 0.4
+"""Of an adhesive, where its shear modulus is stated alone; the error hardly depends on it."""
 
 _QUICK_ORDER = 3
 """Parabolic shear in each layer: which assumption is to blame shows in it as it does in ORDER."""
@@ -136,19 +141,48 @@ def stack(specimen: Specimen, G: ArrayLike = 0.0) -> tuple[ElasticLayer, ...]:
     b, c, v = specimen.substrate, specimen.constraining, specimen.core
     if v is None or c is None:
         return (_elastic(b),)
-    return (_elastic(b), ElasticLayer(v.thickness_m, G, v.poisson, v.density_kg_m3), _elastic(c))
+    core = ElasticLayer(v.thickness_m, G, v.poisson, v.density_kg_m3)
+    # Of a glue it matters that it shears: beside the core it may lie on either side.
+    above = (*(_of_glue(g) for g in v.glue[:1]), core, *(_of_glue(g) for g in v.glue[1:]), _elastic(c))
+    below = above[::-1] if specimen.both_sides else ()
+    return (*below, _elastic(b), *above)
 
 
 def held_stack(specimen: Specimen, G: ArrayLike = 0.0) -> tuple[ElasticLayer, ...]:
     """The same layers with all assumptions held but that of a linear core."""
-    last = len(stack(specimen, G)) - 1
+    faces = _faces(specimen)
     return tuple(
-        replace(x, stretches=False, shears=i not in (0, last), turns=False)
+        replace(x, stretches=False, shears=i not in faces, turns=False)
         for i, x in enumerate(stack(specimen, G))
     )
 
 
+def _faces(specimen: Specimen) -> set[int]:
+    """Places of the faces in the stack."""
+    if specimen.core is None:
+        return {0}
+    step = 2 + len(specimen.core.glue)
+    return {0, step, 2 * step} if specimen.both_sides else {0, step}
+
+
+def _cores(specimen: Specimen) -> set[int]:
+    """Places of the core, on one side or both."""
+    if specimen.core is None:
+        return set()
+    above = 1 + min(len(specimen.core.glue), 1)
+    if not specimen.both_sides:
+        return {above}
+    middle = 2 + len(specimen.core.glue)
+    return {middle - above, middle + above}
+
+
+def _of_glue(glue: Glue) -> ElasticLayer:
+    shear = glue.shear_pa * (1 + 1j * glue.loss_factor)
+    return ElasticLayer(glue.thickness_m, shear, GLUE_POISSON, glue.density_kg_m3)
+
+
 def _elastic(face: Face) -> ElasticLayer:
+    face = as_isotropic(face)
     shear = face.young_pa * (1 + 1j * face.loss_factor) / (2 * (1 + face.poisson))
     return ElasticLayer(face.thickness_m, shear, face.poisson, face.density_kg_m3)
 
@@ -173,7 +207,7 @@ def _worst_assumption(specimen: Specimen, k: Array, G: Complex) -> Assumption:
     def made_by(held: tuple[ElasticLayer, ...]) -> float:
         return float(_excess(*_errors(exact_lambda(held, k, _QUICK_ORDER), exact))[0])
 
-    faces = {0, len(layers) - 1}
+    faces, core = _faces(specimen), _cores(specimen)
     made = {
         FACES_STIFF_IN_SHEAR: made_by(
             tuple(replace(x, shears=False) if i in faces else x for i, x in enumerate(layers))
@@ -181,8 +215,9 @@ def _worst_assumption(specimen: Specimen, k: Array, G: Complex) -> Assumption:
         NO_ROTARY_INERTIA: made_by(tuple(replace(x, turns=False) for x in layers)),
     }
     if specimen.core is not None:
-        b, v, c = layers
-        made[FACES_TOGETHER] = made_by((b, replace(v, stretches=False), c))
+        made[FACES_TOGETHER] = made_by(
+            tuple(replace(x, stretches=False) if i in core else x for i, x in enumerate(layers))
+        )
         # What is left once all others are held is how the core moves within.
         rigid = exact_lambda(held_stack(specimen, G), k, _QUICK_ORDER)
         made[CORE_LINEAR] = float(_excess(*_errors(layerwise_lambda(specimen, k, G), rigid))[0])

@@ -7,12 +7,13 @@ in (docs/specimen.md).
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import exp
+from math import exp, radians
 from typing import Any, Literal
 
-from fitting.specimen import Face, Specimen
+from fitting.mesh import is_turned, shift_of, shifts_of
+from fitting.specimen import Face, Orthotropy, Specimen
 
-Unit = Literal["1", "m", "s"]
+Unit = Literal["1", "m", "s", "rad"]
 
 
 @dataclass(frozen=True)
@@ -50,20 +51,57 @@ _STATED = (
     StatedNumber("delay", "s", 2e-6, "decoder against accelerometer, a known delay taken out"),
     StatedNumber("mass", "1", 0.02, "what sits on the plate, on a letter balance"),
     StatedNumber("area", "1", 0.01, "a disc's diameters by caliper"),
+    StatedNumber("substrate_young_y", "1", 0.03, "a laminate's or a rolled sheet's second axis"),
+    StatedNumber("substrate_shear", "1", 0.05, "seldom measured"),
+    StatedNumber("substrate_angle", "rad", radians(1.0), "a laminate cut by a square"),
+    StatedNumber("constraining_young_y", "1", 0.03, "as the substrate's"),
+    StatedNumber("constraining_shear", "1", 0.05, "as the substrate's"),
+    StatedNumber("constraining_angle", "rad", radians(1.0), "as the substrate's"),
+    StatedNumber("glue_thickness", "1", 0.2, "a bond line: hardly ever measured"),
+    StatedNumber("glue_shear", "1", 0.2, "data sheets of adhesives"),
+    StatedNumber("patch", "m", 5e-4, "laid by a rule; each patch, along x and along y"),
 )
 STATED: dict[str, StatedNumber] = {s.name: s for s in _STATED}
 """Every kind of stated number by its name, in the order in which results list them."""
 
-PLATE = tuple(s.name for s in _STATED[:13])
-"""Those that change the plate's matrices."""
+OF_FEW = tuple(s.name for s in _STATED[-9:])
+"""Numbers that only orthotropic faces, glue and patches have."""
+PLATE = (*(s.name for s in _STATED[:13]), *OF_FEW)
+"""Those that change a plate's matrices."""
 _FIELDS = {
     "young": "young_pa",
     "thickness": "thickness_m",
     "density": "density_kg_m3",
     "poisson": "poisson",
+    "young_y": "young_y_pa",
+    "shear": "shear_pa",
+    "angle": "angle_rad",
 }
+_OWN_AXES = ("young_y", "shear", "angle")
+"""Of an orthotropic face alone."""
 _LARGEST_POISSON = 0.4999
 """A moved number stays below one half, where a solid no longer gives in volume."""
+
+
+def plate_numbers(specimen: Specimen) -> list[tuple[str, str]]:
+    """Those of `PLATE` that a specimen has: name, and kind. Every patch has its own."""
+    found = []
+    for kind in PLATE:
+        layer, _, quantity = kind.partition("_")
+        if kind == "patch":
+            found += [(shift.name, kind) for shift in shifts_of(specimen)]
+        elif layer == "glue":
+            found += [(kind, kind)] if specimen.has_glue else []
+        elif layer in ("constraining", "core") and specimen.core is None:
+            continue
+        elif quantity in _OWN_AXES:
+            own = getattr(specimen, layer).rolled
+            # About axes that are the plate's a turn is felt to second order.
+            has = own is not None and (quantity != "angle" or is_turned(specimen))
+            found += [(kind, kind)] if has else []
+        else:
+            found.append((kind, kind))
+    return found
 
 
 def kind_of(name: str) -> str:
@@ -85,7 +123,7 @@ def tolerance(specimen: Specimen, name: str) -> float:
 
 
 def moved(specimen: Specimen, names: Sequence[str], by: Sequence[float]) -> Specimen:
-    """The specimen with some of `PLATE` moved: by a share in the logarithm, or by metres.
+    """The specimen with some of `PLATE` moved: by a share in the logarithm, metres or radians.
 
     The pickup stays where it is stated, so many metres from the clamp.
     """
@@ -98,8 +136,27 @@ def moved(specimen: Specimen, names: Sequence[str], by: Sequence[float]) -> Spec
             # The mesh is kept: its elements stretch.
             sides |= {f"{name}_m": getattr(specimen, f"{name}_m") + step, "elements": specimen.mesh}
             continue
-        layer_name, quantity = name.split("_")
+        layer_name, quantity = name.split("_", 1)
+        if layer_name == "patch":
+            sides["patches"] = shift_of(name).of(specimen, step, sides.get("patches"))
+            continue
+        if layer_name == "glue":
+            glue = changes.get("core", {}).get(
+                "glue", specimen.core.glue if specimen.core is not None else ()
+            )
+            field = _FIELDS[quantity]
+            thicker = tuple(replace(g, **{field: getattr(g, field) * exp(step)}) for g in glue)
+            changes.setdefault("core", {})["glue"] = thicker
+            continue
         layer: Face | None = getattr(specimen, layer_name)
+        if layer is not None and quantity in _OWN_AXES:
+            axes: Orthotropy | None = changes.get(layer_name, {}).get("rolled", layer.rolled)
+            assert axes is not None
+            field = _FIELDS[quantity]
+            value = getattr(axes, field)
+            other = replace(axes, **{field: value + step if quantity == "angle" else value * exp(step)})
+            changes.setdefault(layer_name, {})["rolled"] = other
+            continue
         if layer is not None:
             value = getattr(layer, _FIELDS[quantity]) * exp(step)
             if quantity == "poisson":

@@ -10,7 +10,7 @@ from fitting.effects.base import BASE, Effect, EffectParameter, ModulusAt, Point
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.span import Span
-from fitting.element import Shape, core_shear_stiffness
+from fitting.element import core_shear_stiffness
 
 LEAST = 0.3
 """Of the modulus; softening goes no further."""
@@ -27,8 +27,12 @@ class Strain(Span):
         s = full.specimen
         assert s.core is not None
         assert s.constraining is not None
-        shear = core_shear_stiffness(Shape(*full.loose.mesh.sides_m), s.core, s.substrate, s.constraining)
-        return {"mean_square": full.loose.scatter(shear) / (s.length_m * s.width_m * s.core.thickness_m)}
+        shape, layers = full.loose.mesh.shape, (s.core, s.substrate, s.constraining)
+        shear = [(c.elements, core_shear_stiffness(shape, *layers, c.over)) for c in full.loose.cells]
+        whole = sum(
+            (full.loose.scatter(A, of) for of, A in shear[1:]), full.loose.scatter(shear[0][1], shear[0][0])
+        )
+        return {"mean_square": whole / (s.treated_m2 * s.core.thickness_m)}
 
 
 class AmplitudeSofteningEffect(Effect):

@@ -47,6 +47,7 @@ Entry = Literal["stiffness", "mass", "load", "observation", "channel", "time", "
 
 PLATE_ONLY = frozenset({"plate"})
 BASE, CLAMP = frozenset({"base"}), frozenset({"clamp"})
+WHOLE = frozenset({"whole"})
 EVERY_STRUCTURE = frozenset({"plate", "beam", "shear-pair"})
 
 
@@ -123,7 +124,7 @@ class Effect:
     """Kinds of specimens on which it has a meaning as it is."""
 
     needs: ClassVar[frozenset[str]] = frozenset()
-    """What a specimen must offer: a `base` that moves, a `clamp`."""
+    """What a specimen must offer: a `base` that moves, a `clamp`, one side treated as a `whole`."""
 
     chance: ClassVar[float] = 0.02
     """Prior probability that a laboratory's set-up has it, to be seen or not."""

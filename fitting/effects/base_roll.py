@@ -10,7 +10,7 @@ from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.span import Span
-from fitting.element import DOFS, THETA_X, V_C, W
+from fitting.element import THETA_X, V_C, W
 
 _ON_AXIS_M = 1e-4
 """A pickup so near to the axis hardly sees a roll."""
@@ -36,11 +36,10 @@ class Roll(Span):
 def rolling(full: FullPlate) -> Array:
     """Rigid turn about the plate's axis, w = y - width / 2; the layers move along. Shape (n,)."""
     s = full.specimen
-    r = np.zeros((full.loose.mesh.nodes, DOFS))
+    r = np.zeros((full.loose.mesh.nodes, full.loose.mesh.dofs))
     r[:, W] = full.loose.mesh.node_positions()[:, 1] - s.width_m / 2
     r[:, THETA_X] = 1.0
-    if s.core is not None and s.constraining is not None:
-        r[:, V_C] = -(s.core.thickness_m + (s.substrate.thickness_m + s.constraining.thickness_m) / 2)
+    r[:, V_C] = -s.apart_m
     return np.asarray(r.ravel()[full.loose.free])
 
 

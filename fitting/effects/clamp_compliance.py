@@ -39,11 +39,13 @@ def root_springs(full: FullPlate, axis: str) -> sp.csc_array:
     """Unit springs per area of the root face along an axis, as a stiffness. Shape (n, n)."""
     s = full.specimen
     H_b = s.substrate.thickness_m
-    H_c = s.constraining.thickness_m if s.constraining else 0.0
-    H_v = s.core.thickness_m if s.core else 0.0
+    gripped = not s.patches or any(p.from_x_m == 0 for p in s.patches)
+    H_c = s.constraining.thickness_m if s.constraining and gripped else 0.0
+    H_v = s.core.between_faces_m if s.core and gripped else 0.0
+    sides = 2 if s.both_sides else 1
     local = np.zeros((DOFS, DOFS))
     if axis == "z":
-        local[W, W] = H_b + H_v + H_c
+        local[W, W] = H_b + sides * H_v + sides * H_c
     else:
         along_x = axis == "x"
         u_b, u_c, theta, sign = (U_B, U_C, THETA_Y, 1.0) if along_x else (V_B, V_C, THETA_X, -1.0)
@@ -53,12 +55,13 @@ def root_springs(full: FullPlate, axis: str) -> sp.csc_array:
         rows[2, u_c], rows[3, theta] = np.sqrt(H_c), np.sqrt(H_c**3 / 12)
         rows[4, [u_b, u_c, theta]] = np.sqrt(H_v) * np.array([0.5, 0.5, sign * (H_b - H_c) / 4])
         rows[5, [u_b, u_c, theta]] = np.sqrt(H_v / 12) * np.array([-1.0, 1.0, -sign * (H_b + H_c) / 2])
+        rows[2:] *= np.sqrt(sides)
         local = rows.T @ rows
     n_y, b = full.loose.mesh.n_y, full.loose.mesh.sides_m[1]
     along = sp.diags_array([b / 6, 2 * b / 3, b / 6], offsets=[-1, 0, 1], shape=(n_y + 1, n_y + 1)).tolil()
     along[0, 0] = along[n_y, n_y] = b / 3
-    n = full.loose.mesh.nodes * DOFS
-    block = sp.kron(along, local).tocoo()
+    n, dofs = full.loose.mesh.size, full.loose.mesh.dofs
+    block = sp.kron(along, np.pad(local, (0, dofs - DOFS))).tocoo()
     whole = sp.coo_array((block.data, (block.row, block.col)), (n, n)).tocsr()
     return sp.csc_array(whole[full.loose.free][:, full.loose.free])
 

@@ -25,7 +25,7 @@ class Length(Span):
     columns = 16
 
     def forces(self, full: FullPlate, at: Snapshot) -> Array | Complex:
-        if full.specimen.boundary != "cantilever":
+        if "clamp" not in full.specimen.offers:
             return super().forces(full, at)
         x, y = full.pickup_m
         length = full.specimen.length_m
@@ -41,8 +41,12 @@ class Length(Span):
 
 
 def with_length(specimen: Specimen, length_m: float) -> Specimen:
-    """The plate so long, of as many elements."""
-    return replace(specimen, length_m=length_m, elements=specimen.mesh)
+    """The plate so long, of as many elements; patches are stretched with it."""
+    longer = length_m / specimen.length_m
+    patches = tuple(
+        replace(p, from_x_m=longer * p.from_x_m, to_x_m=longer * p.to_x_m) for p in specimen.patches
+    )
+    return replace(specimen, length_m=length_m, elements=specimen.mesh, patches=patches)
 
 
 class ClampLineEffect(Effect):

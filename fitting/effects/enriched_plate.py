@@ -17,12 +17,12 @@ from fitting.arrays import Array, Complex
 from fitting.effects.change import Change
 from fitting.effects.span import Span
 from fitting.element import DOFS, THETA_X, THETA_Y, Shape, W
+from fitting.mesh import Mesh
 from fitting.parts import (
     Coefficients,
     coefficients,
     specimen_of,
 )
-from fitting.plate import Mesh
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
 
@@ -66,7 +66,7 @@ class EnrichedReducedPlate:
     parts: Array
     """By what is stated (`fitting.parts`). Shape (parts, k, k)."""
     load_part: Array
-    """Shape (k,); of a small structure (parts, k)."""
+    """Shape (k,); of a small structure, and of a plate not treated all over, (parts, k)."""
     layers: Array
     """What is stated of them (`fitting.parts.layers_of`), zero for a plate that carries no effects."""
 
@@ -191,7 +191,7 @@ class EnrichedReducedPlate:
             gram=square(self.gram),
             matrices=square(self.matrices),
             parts=square(self.parts),
-            load_part=T.T @ self.load_part,
+            load_part=T.T @ self.load_part if self.load_part.ndim == 1 else self.load_part @ T,
             U=T.T @ self.U,
             load=T.T @ self.load,
             pitch=T.T @ self.pitch,

@@ -16,14 +16,8 @@ from fitting.effects.leading import Motions, Stirred
 from fitting.effects.span import Span
 from fitting.element import THETA_X, THETA_Y, W
 from fitting.linear import times
-from fitting.parts import (
-    CORE,
-    STIFFNESS,
-    coefficients,
-    layers_of,
-    moving_part,
-    projected_parts,
-)
+from fitting.part_matrices import moving_part, on_motions, projected_parts
+from fitting.parts import coefficients, layers_of, loaded, names_of
 
 SNAPSHOTS = 12
 """Points of frequency and modulus that are solved in full, each a factorisation. A choice; `TOLERANCE` is of
@@ -122,8 +116,8 @@ def _project(
     both = _in_blocks([found.result() for found in parts])
     stated = coefficients(s, s)
     # The inertia of held nodes loads their neighbours.
-    of_load = V.T @ moving_part(s)[loose.free]
-    K_0, K_1, M = np.split(both, np.cumsum([len(STIFFNESS), len(CORE)]))
+    of_load = on_motions(moving_part(s)[..., loose.free], V)
+    K_0, K_1, M = np.split(both, np.cumsum(names_of(s).counts[:2]))
     return EnrichedReducedPlate(
         group=np.array([name for half in halves for name in half.names]),
         M=np.tensordot(stated.M, M, axes=1),
@@ -131,7 +125,7 @@ def _project(
         K_1=np.tensordot(stated.K_1, K_1, axes=1),
         U=V.T @ (loose.M @ _over_mass(full)),
         d=full.damping.d,
-        load=-stated.load * of_load if s.drive == "base" else V.T @ full.drive,
+        load=-loaded(stated.load, of_load) if s.drive == "base" else V.T @ full.drive,
         pitch=-V.T @ (loose.M @ full.pitching) if s.drive == "base" else np.zeros(k),
         observe=V.T @ loose.observe(*full.pickup_m),
         gram=la.block_diag(*(half.gram for half in halves)),

@@ -12,7 +12,7 @@ import scipy.sparse as sp
 from fitting.arrays import Array, Complex
 from fitting.assembly import Assembly
 from fitting.damping import LowRankDamping
-from fitting.element import DOFS, THETA_Y, U_C, W
+from fitting.element import THETA_Y, U_C, W
 from fitting.half_plate import HalfPlate, Parity
 from fitting.linear import times
 from fitting.plate import Plate
@@ -78,10 +78,10 @@ class FullPlate:
 
     def _rigid(self, *, pitch: bool) -> Array:
         s = self.specimen
-        r = np.zeros((self.loose.mesh.nodes, DOFS))
+        r = np.zeros((self.loose.mesh.nodes, self.loose.mesh.dofs))
         r[:, W] = self.loose.mesh.node_positions()[:, 0] if pitch else 1.0
-        if pitch and s.core is not None and s.constraining is not None:
-            r[:, U_C] = -(s.core.thickness_m + (s.substrate.thickness_m + s.constraining.thickness_m) / 2)
+        if pitch:
+            r[:, U_C] = -s.apart_m
         if pitch:
             r[:, THETA_Y] = -1.0
         return np.asarray(r.ravel()[self.loose.free])
@@ -198,7 +198,7 @@ def _loose(specimen: Specimen) -> Specimen:
 
 def _lift(held: Plate, loose: Plate) -> sp.csc_array:
     """Motions of the held plate as motions of the loose one. Shape (n, held)."""
-    place = np.full(loose.mesh.nodes * DOFS, -1)
+    place = np.full(loose.mesh.size, -1)
     place[loose.free] = np.arange(len(loose.free))
     rows = place[held.free]
     return sp.csc_array((np.ones(len(rows)), (rows, np.arange(len(rows)))), (len(loose.free), len(rows)))

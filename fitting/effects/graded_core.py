@@ -6,13 +6,13 @@ import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import Effect, EffectParameter
+from fitting.effects.base import WHOLE, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.partial_debond import strips
 from fitting.effects.span import Span
-from fitting.element import DOFS, Shape, core_shear
+from fitting.element import core_shear
 from fitting.linear import times
 
 _GRADE = 2.0
@@ -61,9 +61,9 @@ def _tilted_element(full: FullPlate, along: str) -> Array:
     s = full.specimen
     assert s.core is not None
     assert s.constraining is not None
-    shape = Shape(*full.loose.mesh.sides_m)
+    shape = full.loose.mesh.shape
     t, weight = np.polynomial.legendre.leggauss(4)
-    found = np.zeros((4 * DOFS, 4 * DOFS))
+    found = np.zeros((4 * shape.dofs, 4 * shape.dofs))
     for tx, wx in zip(t, weight, strict=True):
         for ty, wy in zip(t, weight, strict=True):
             x, y = shape.a_m * (tx + 1) / 2, shape.b_m * (ty + 1) / 2
@@ -78,6 +78,7 @@ class GradedCoreEffect(Effect):
 
     name = "graded_core"
     enters = "stiffness"
+    needs = WHOLE
     source = "first order in the place; the core's shear alone"
     unexplained_share = 0.004
     chance = 0.015

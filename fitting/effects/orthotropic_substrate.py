@@ -11,7 +11,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.other_plates import mixed
 from fitting.effects.span import Span
-from fitting.element import DOFS, U_B, V_B, Shape
+from fitting.element import U_B, V_B, Shape
 from fitting.parts import STIFFNESS
 from fitting.specimen import Face
 
@@ -33,7 +33,7 @@ def _differences(full: FullPlate) -> list[Array]:
     """What an element's stiffness differs by. Shape (28, 28) each."""
 
     def make() -> list[Array]:
-        shape, face = Shape(*full.loose.mesh.sides_m), full.specimen.substrate
+        shape, face = full.loose.mesh.shape, full.specimen.substrate
         changes = [plane_stress(face, ratio) - plane_stress(face, 1.0) for ratio in _RATIOS]
         return [substrate_stiffness(shape, face.thickness_m, D) for D in changes]
 
@@ -55,7 +55,7 @@ def plane_stress(face: Face, ratio: float) -> Array:
 def substrate_stiffness(shape: Shape, thickness_m: float, D: Array) -> Array:
     """Stretching and bending of the substrate's element. Shape (28, 28)."""
     t, weight = np.polynomial.legendre.leggauss(4)
-    K = np.zeros((4 * DOFS, 4 * DOFS))
+    K = np.zeros((4 * shape.dofs, 4 * shape.dofs))
     for tx, wx in zip(t, weight, strict=True):
         for ty, wy in zip(t, weight, strict=True):
             x, y = shape.a_m * (tx + 1) / 2, shape.b_m * (ty + 1) / 2
@@ -82,6 +82,7 @@ class OrthotropicSubstrateEffect(Effect):
 
     name = "orthotropic_substrate"
     enters = "stiffness"
+    needs = frozenset({"isotropic substrate"})
     source = "orthotropic plane stress with Huber's shear modulus, e.g. Szilard, Plates (2004), ch. 4"
     parameters = (EffectParameter("ratio", "1", 0.7, 1.4, 1.03, neutral=1.0, spread=0.03),)
     spans = (Orthotropy(),)

@@ -8,27 +8,35 @@ from fitting.arrays import Array, Complex
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
-from fitting.element import CORNERS
-from fitting.parts import CORE, STIFFNESS, coefficients, stretched
-from fitting.plate import Mesh, element_matrices
+from fitting.element import CORNERS, DOFS
+from fitting.element_matrices import element_matrices
+from fitting.mesh import Mesh
+from fitting.parts import coefficients, loaded, names_of, stretched
 from fitting.specimen import Specimen
 
 
 def differences(full: FullPlate, other: Specimen) -> tuple[Array, Array, Array]:
-    """What an element's K_0, K_1 and M of another plate differ by. Shape (28, 28) each.
+    """What an element's K_0, K_1 and M of another plate differ by. Shape (28, 28) each, or (cells, 28, 28).
 
     Its trial functions are the stated plate's, stretched with it: w(x / length, y / width) stays.
     """
 
     def make() -> tuple[Array, Array, Array]:
         s, mesh = full.specimen, full.loose.mesh
-        t = np.tile(stretched(other, s), len(CORNERS))
-        here = full.once("stated elements", lambda: element_matrices(s, mesh))
-        there = element_matrices(other, Mesh(other.length_m, other.width_m, mesh.n_x, mesh.n_y))
+        t = np.ones(mesh.dofs)
+        t[:DOFS] = stretched(other, s)
+        t = np.tile(t, len(CORNERS))
+        there = Mesh(other.length_m, other.width_m, mesh.n_x, mesh.n_y, mesh.dofs)
+        longer, wider = other.length_m / s.length_m, other.width_m / s.width_m
+        pairs = [
+            (element_matrices(s, mesh, cell), element_matrices(other, there, cell.stretched(longer, wider)))
+            for cell in full.loose.cells
+        ]
         K_0, K_1, M = (
-            t[:, None] * getattr(there, part) * t - getattr(here, part) for part in ("K_0", "K_1", "M")
+            np.array([t[:, None] * getattr(b, part) * t - getattr(a, part) for a, b in pairs])
+            for part in ("K_0", "K_1", "M")
         )
-        return K_0, K_1, M
+        return (K_0, K_1, M) if len(pairs) > 1 else (K_0[0], K_1[0], M[0])
 
     return full.once(f"difference to {other}", make)
 
@@ -45,12 +53,12 @@ def forces(full: FullPlate, at: Snapshot, others: Iterable[Specimen]) -> Complex
 def changed_to(plate: EnrichedReducedPlate, other: Specimen) -> Change:
     """What another plate on the same mesh changes; `other` is `plate.specimen` with something else."""
     c, stated = coefficients(other, plate.specimen), plate.coefficients
-    n_0, n_1 = len(STIFFNESS), len(STIFFNESS) + len(CORE)
+    n_0, n_1, _ = np.cumsum(names_of(plate.specimen).counts)
     return Change(
         K=mixed(c.K_0 - stated.K_0, plate.parts[:n_0]),
         K_1=mixed(c.K_1 - stated.K_1, plate.parts[n_0:n_1]),
         M=mixed(c.M - stated.M, plate.parts[n_1:]),
-        load=-(c.load - stated.load) * plate.load_part,
+        load=-loaded(c.load - stated.load, plate.load_part),
     )
 
 

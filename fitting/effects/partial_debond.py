@@ -6,12 +6,12 @@ import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.base import WHOLE, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.span import Span
-from fitting.element import Shape, core_shear_stiffness
+from fitting.element import core_shear_stiffness
 from fitting.linear import times
 
 LEFT = 0.01
@@ -52,7 +52,7 @@ def strips(full: FullPlate, along: str) -> list[sp.csc_array]:
         mesh, s = full.loose.mesh, full.specimen
         assert s.core is not None
         assert s.constraining is not None
-        Ae = core_shear_stiffness(Shape(*mesh.sides_m), s.core, s.substrate, s.constraining)
+        Ae = core_shear_stiffness(mesh.shape, s.core, s.substrate, s.constraining)
         i, j = np.divmod(np.arange(mesh.n_x * mesh.n_y), mesh.n_y)
         place, count = (i, mesh.n_x) if along == "x" else (j, mesh.n_y)
         return [full.loose.scatter(Ae, np.flatnonzero(place == k)) for k in range(count)]
@@ -66,6 +66,7 @@ class PartialDebondEffect(Effect):
     name = "partial_debond"
     enters = "stiffness"
     source = "shear coupling lost in a strip, e.g. Wang and Wereley, AIAA J. 40 (2002)"
+    needs = WHOLE
     unexplained_share = 0.02
     chance = 0.03
     discriminating_test = "a tap test or ultrasound over the plate; a second spot off the axis"

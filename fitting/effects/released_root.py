@@ -18,7 +18,6 @@ from numpy.typing import NDArray
 from fitting.arrays import Array, Complex
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.span import Span
-from fitting.element import DOFS
 from fitting.linear import times
 
 Indices = NDArray[np.intp]
@@ -114,7 +113,7 @@ def _mirrored(full: FullPlate, X: Array | Complex) -> Array | Complex:
 
 def root_dofs(full: FullPlate, dofs: Sequence[int]) -> Indices:
     """Places of the root nodes' degrees of freedom among the loose plate's. Shape (dofs,)."""
-    wanted = (np.arange(full.loose.mesh.n_y + 1)[:, None] * DOFS + np.asarray(dofs)).ravel()
+    wanted = (np.arange(full.loose.mesh.n_y + 1)[:, None] * full.loose.mesh.dofs + np.asarray(dofs)).ravel()
     return np.asarray(np.searchsorted(full.loose.free, wanted), dtype=np.intp)
 
 
@@ -135,8 +134,8 @@ def along_root(full: FullPlate, weight: Array | None = None) -> sp.csr_array:
 
 def on_root(full: FullPlate, along: sp.sparray, local: Array) -> sp.csc_array:
     """A stiffness per area of the root, or per width, on the loose plate. `local` (7, 7) of a node's."""
-    n = full.loose.mesh.nodes * DOFS
-    block = sp.kron(along, local).tocoo()
+    n, dofs = full.loose.mesh.size, full.loose.mesh.dofs
+    block = sp.kron(along, np.pad(local, (0, dofs - len(local)))).tocoo()
     whole = sp.coo_array((block.data, (block.row, block.col)), (n, n)).tocsr()
     return sp.csc_array(whole[full.loose.free][:, full.loose.free])
 
@@ -151,12 +150,12 @@ class RootSpan(Span):
         raise NotImplementedError
 
     def forces(self, full: FullPlate, at: Snapshot) -> Array | Complex:
-        if full.specimen.boundary != "cantilever":
+        if "clamp" not in full.specimen.offers:
             return super().forces(full, at)
         return root_forces(full, at, self.released)
 
     def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
-        if full.specimen.boundary != "cantilever":
+        if "clamp" not in full.specimen.offers:
             return answers
         odd = self.odd or not full.only_even
         return released(full, at, self.released, answers, odd=odd).answers(full, self.springs(full))

@@ -10,7 +10,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array
-from fitting.effects.base import CLAMP, Effect, EffectParameter, Points
+from fitting.effects.base import CLAMP, WHOLE, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
@@ -49,7 +49,7 @@ class TreatmentNotGrippedEffect(Effect):
     name = "treatment_not_gripped"
     enters = "stiffness"
     source = "free end of a constrained layer, e.g. Plunkett and Lee, J. Acoust. Soc. Am. 48 (1970)"
-    needs = CLAMP
+    needs = CLAMP | WHOLE
     parameters = (EffectParameter("k", "N/m^2", 1e6, 1e12, 1e8, logarithmic=True, neutral=float("inf")),)
     spans = (FreeTreatment(),)
     discriminating_test = (

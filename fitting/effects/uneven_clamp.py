@@ -12,7 +12,7 @@ from fitting.effects.clamp_compliance import ClampComplianceEffect, root_springs
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.released_root import RootSpan, along_root
-from fitting.element import DOFS, THETA_Y, U_B, U_C, W
+from fitting.element import THETA_Y, U_B, U_C, W
 
 _MOST = 0.95
 """Below one: at one the springs of an edge vanish, beyond it they would push."""
@@ -43,7 +43,7 @@ def uneven_springs(full: FullPlate) -> tuple[sp.csc_array, sp.csc_array]:
         even = along_root(full).toarray()
         odd = along_root(full, np.linspace(-1, 1, len(even))).toarray()
         mean = (root_springs(full, "x") + root_springs(full, "z")).tocoo()
-        i, j = (full.loose.free[place] // DOFS for place in mean.coords)
+        i, j = (full.loose.free[place] // full.loose.mesh.dofs for place in mean.coords)
         slope = sp.coo_array((mean.data * odd[i, j] / even[i, j], mean.coords), mean.shape)
         return sp.csc_array(mean), sp.csc_array(slope)
 

@@ -2,11 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import exp
+from math import exp, pi
+from typing import Any
 
 from fitting.arrays import Array
+from fitting.mesh import shift_of
 from fitting.nuisances import Nuisance
-from fitting.specimen import Specimen, StatedSpecimen
+from fitting.specimen import Glue, Specimen, StatedSpecimen
 
 
 @dataclass(frozen=True)
@@ -29,6 +31,9 @@ _LAYERS = {
     "thickness": ("thickness_m", 1e3, "mm"),
     "density": ("density_kg_m3", 1.0, "kg/m^3"),
     "poisson": ("poisson", 1.0, "1"),
+    "young_y": ("young_y_pa", 1e-9, "GPa"),
+    "shear": ("shear_pa", 1e-9, "GPa"),
+    "angle": ("angle_rad", 180 / pi, "deg"),
 }
 
 
@@ -73,6 +78,16 @@ def stated_number(specimen: StatedSpecimen, n: Nuisance) -> tuple[float, float, 
         return 1.0, 1.0, "1"
     if n.kind == "delay":
         return 0.0, 1e6, "us"
+    if n.kind == "patch":
+        return shift_of(n.name).edge_m(specimen), 1e3, "mm"
     layer, _, quantity = n.kind.partition("_")
     field, factor, unit = _LAYERS[quantity]
-    return getattr(getattr(specimen, layer), field), factor, unit
+    stated: Any = _glue(specimen) if layer == "glue" else getattr(specimen, layer)
+    owner = stated if hasattr(stated, field) else stated.rolled
+    return getattr(owner, field), factor, unit
+
+
+def _glue(specimen: Specimen) -> Glue:
+    """The first one: all are moved by the same factor."""
+    assert specimen.core is not None
+    return specimen.core.glue[0]

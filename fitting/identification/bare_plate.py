@@ -17,7 +17,8 @@ from fitting.air import air_lowering
 from fitting.arrays import Array, Complex
 from fitting.bare_modes import CarriedSensor, bare_modes, clamp_softness
 from fitting.errors import TooFewPoints
-from fitting.parts import MASS, STIFFNESS, coefficients, projected_parts
+from fitting.part_matrices import projected_parts
+from fitting.parts import coefficients, names_of
 from fitting.plate import Plate
 from fitting.specimen import Specimen
 from fitting.tolerances import moved, tolerance
@@ -112,7 +113,8 @@ def match_modes(
     which, index = (np.array(side) for side in zip(*pairs, strict=True))
     shapes = modes.shapes[:, index]
     parts = np.einsum("pmm->mp", projected_parts(plate, shapes))
-    of_K, of_M = parts[:, : len(STIFFNESS)], parts[:, -len(MASS) :]
+    n_0, _, n_M = names_of(plate.specimen).counts
+    of_K, of_M = parts[:, :n_0], parts[:, -n_M:]
     row = plate.observe(sensor.x_m, sensor.y_m) if sensor is not None else np.zeros(plate.size)
     return MatchedModes(
         stiffness=of_K.astype(complex),

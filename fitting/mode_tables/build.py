@@ -15,7 +15,8 @@ from fitting.mode_tables.member import Member
 from fitting.mode_tables.table import ModalTable
 from fitting.model_error import model_error_at
 from fitting.nuisances import Nuisances, nuisances_of
-from fitting.parts import layers_of, load_part, projected_parts
+from fitting.part_matrices import load_part, on_motions, projected_parts
+from fitting.parts import layers_of
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
 from fitting.specimen import Specimen
@@ -111,6 +112,6 @@ def _plain(plate: Plate, V: Array) -> EnrichedReducedPlate:
         size=np.array([s.length_m, s.width_m, *s.mesh], dtype=float),
         pickup=np.array(s.pickup_m),
         parts=projected_parts(plate, V),
-        load_part=V.T @ load_part(s)[plate.free],
+        load_part=on_motions(load_part(s)[..., plate.free], V),
         layers=layers_of(s),
     )

@@ -95,6 +95,8 @@ _SANDWICH = "ross-kerwin-ungar"
 
 
 def _method(beam: Beam) -> str:
+    if beam.is_doubled:
+        raise OutsideModel("the standard has no formula for constrained layers on both sides, expected one")
     if beam.constraining is not None:
         return _SANDWICH
     return "van-oort" if beam.both_sides else "oberst"

@@ -49,7 +49,7 @@ class Beam(BaseDriven):
     core: Core | None = None
     """Without a constraining layer it is a free layer."""
     both_sides: bool = False
-    """A free layer on either side, each as thick as the core says."""
+    """The same on either side: a free layer, or core and constraining layer."""
     pickup_m: float | None = None
     reads: Reading = "relative"
     base_acceleration_m_s2: float = PUBLISHED_G_M_S2
@@ -63,6 +63,11 @@ class Beam(BaseDriven):
     def span_m(self) -> float:
         """What vibrates as one piece: half of it where the centre is driven."""
         return self.length_m / 2 if self.boundary == "centre-driven" else self.length_m
+
+    @property
+    def is_doubled(self) -> bool:
+        """Whether a constrained layer is on both sides."""
+        return self.both_sides and self.constraining is not None
 
     @property
     def numbers(self) -> tuple[str, ...]:
@@ -92,11 +97,16 @@ class Beam(BaseDriven):
         E_c, h_c, m_c = _of_face(c)
         H = v["thickness"] if v else 0.0
         m_v = v["density"] * H if v else 0.0
-        K_0 = np.array([E_b * h_b / L, E_c * h_c / L, (E_b * h_b**3 + E_c * h_c**3) / 12 / L**3])
+        # Bending of a beam alike on both sides: its middle does not stretch, and every coating counts twice.
+        twice = 2 if self.is_doubled else 1
+        m_c, m_v = twice * m_c, (twice if c else 1) * m_v
+        K_0 = np.array(
+            [E_b * h_b / L, twice * E_c * h_c / L, (E_b * h_b**3 + twice * E_c * h_c**3) / 12 / L**3]
+        )
         slip, free = np.zeros(3), np.zeros(3)
         d, e = H + (h_b + h_c) / 2, (h_c - h_b) / 2
         if v and c:
-            slip = np.array([L / H, d / H, d**2 / H / L])
+            slip = twice * np.array([L / H, d / H, d**2 / H / L])
             inertia = [m_v / 4 * L, m_v / 4 * e, m_v / 4 * e**2 / L]
             mass = m_b + m_c + m_v
         else:
@@ -222,6 +232,8 @@ def _basis(beam: Beam) -> Array:
     moving = np.ones(3 * ORDER, bool)
     if beam.constraining is None:
         moving[ORDER : 2 * ORDER] = False
+    if beam.is_doubled:
+        moving[:ORDER] = False
     kept = np.flatnonzero(moving)
     square = np.ix_(kept, kept)
     stiff, core, mass = (
@@ -261,7 +273,8 @@ def _parts_of(beam: Beam) -> Parts:
         c = beam.coefficients({})[3:6].real
         shear = np.tensordot(c, project[1][:3], axes=1)
         width = beam.width_m * (2 if beam.boundary == "centre-driven" else 1)
-        strain = {"strain.mean_square": shear / (width * beam.span_m * beam.core.thickness_m)}
+        volume = width * beam.span_m * beam.core.thickness_m * (2 if beam.is_doubled else 1)
+        strain = {"strain.mean_square": shear / volume}
     return Parts(
         K_0=project[0],
         K_1=project[1],

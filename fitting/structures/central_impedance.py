@@ -52,8 +52,12 @@ def mass_per_length(beam: Beam) -> float:
     """Of all layers, kg/m."""
     sides = 2 if beam.both_sides else 1
     core = sides * beam.core.thickness_m * beam.core.density_kg_m3 if beam.core is not None else 0.0
-    faces = [f for f in (beam.substrate, beam.constraining) if f is not None]
-    return beam.width_m * (core + sum(f.thickness_m * f.density_kg_m3 for f in faces))
+    faces = sum(
+        (sides if f is beam.constraining else 1) * f.thickness_m * f.density_kg_m3
+        for f in (beam.substrate, beam.constraining)
+        if f is not None
+    )
+    return beam.width_m * (core + faces)
 
 
 def impedance_of(beam: Beam, frequency_hz: Array) -> Complex:

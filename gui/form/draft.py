@@ -3,6 +3,7 @@
 import os
 import tempfile
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -158,12 +159,14 @@ class Draft:
 
     def _set(self, place: Place, value: Any) -> None:
         inside: Any = self._toml
-        for key in place[:-1]:
+        for key, after in pairwise(place):
             inside = _first(inside) if isinstance(key, str) else inside
             if isinstance(key, str) and not isinstance(inside.get(key), dict | list):
                 if key in inside:
                     del inside[key]
-                inside[key] = tomlkit.table()
+                inside[key] = tomlkit.aot() if isinstance(after, int) else tomlkit.table()
+            elif isinstance(key, int) and key == len(inside):
+                inside.append(tomlkit.table())
             inside = inside[key]
         last = place[-1]
         (_first(inside) if isinstance(last, str) else inside)[last] = value

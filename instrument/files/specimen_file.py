@@ -1,5 +1,6 @@
 """SPECIMEN.toml: its keys, units and limits, and the `Specimen` it describes."""
 
+from math import pi
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -10,12 +11,12 @@ from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import LAWS, CoreLaw
 from fitting.laws.table import Tabulated
-from fitting.specimen import Core, Drive, Face, PlacedMass, Reading, Specimen
+from fitting.specimen import Core, Drive, PlacedMass, Reading, Specimen
 from instrument.errors import BadInput
 from instrument.files.law_table import with_rows
+from instrument.files.layer_tables import GluePart, PatchPart, Poisson, StatedLayer, refuse_patches
 from instrument.files.toml import NotNegative, Percent, Positive, TomlTable, one_line, read_document
 
-Poisson = Annotated[float, Field(gt=-1, lt=0.5, allow_inf_nan=False)]
 Elements = Annotated[int, Field(ge=2, le=400)]
 
 
@@ -30,26 +31,8 @@ class _Plate(TomlTable):
     length_mm: Positive
     width_mm: Positive
     boundary: Annotated[str, AfterValidator(_known)]
-
-
-class StatedLayer(TomlTable):
-    """An elastic layer."""
-
-    thickness_mm: Positive
-    young_gpa: Positive
-    poisson: Poisson
-    density_kg_m3: Positive
-    loss_factor: NotNegative = 0.0
-
-    def face(self) -> Face:
-        """In SI units."""
-        return Face(
-            thickness_m=self.thickness_mm * 1e-3,
-            young_pa=self.young_gpa * 1e9,
-            poisson=self.poisson,
-            density_kg_m3=self.density_kg_m3,
-            loss_factor=self.loss_factor,
-        )
+    both_sides: bool = False
+    """The same core and constraining layer on the other side too."""
 
 
 class _Core(TomlTable):
@@ -129,12 +112,21 @@ class TolerancesSection(TomlTable):
     damping_percent: NotNegative | None = None
     gain_percent: NotNegative | None = None
     delay_us: NotNegative | None = None
+    substrate_young_y_percent: NotNegative | None = None
+    substrate_shear_percent: NotNegative | None = None
+    substrate_angle_deg: NotNegative | None = None
+    constraining_young_y_percent: NotNegative | None = None
+    constraining_shear_percent: NotNegative | None = None
+    constraining_angle_deg: NotNegative | None = None
+    glue_thickness_percent: NotNegative | None = None
+    glue_shear_percent: NotNegative | None = None
+    patch_mm: NotNegative | None = None
     mass_percent: NotNegative | None = None
     area_percent: NotNegative | None = None
     exact: bool = False
 
 
-_UNITS = {"percent": 1e-2, "mm": 1e-3, "us": 1e-6}
+_UNITS = {"percent": 1e-2, "mm": 1e-3, "us": 1e-6, "deg": pi / 180}
 """Of the keys' endings, in what `fitting.tolerances` counts in."""
 _MOST_PERCENT = 50.0
 """A number that uncertain is not known: it should be left to the fit, not stated."""
@@ -153,6 +145,10 @@ class SpecimenDocument(TomlTable):
     substrate: StatedLayer
     constraining: StatedLayer | None = None
     core: _Core | None = None
+    glue: Annotated[list[GluePart], Field(max_length=2)] | None = None
+    """`[[glue]]`: thin layers beside the core."""
+    patch: Annotated[list[PatchPart], Field(min_length=1, max_length=20)] | None = None
+    """`[[patch]]`: where the treatment is; left out: everywhere."""
     damping: _Damping | None = None
     pickup: _Pickup | None = None
     further_pickups: list[_Pickup] | None = None
@@ -188,6 +184,15 @@ class SpecimenDocument(TomlTable):
         if (self.core is None) != (self.constraining is None):
             missing = "constraining" if self.constraining is None else "core"
             raise ValueError(f"[{missing}] is missing, expected [core] and [constraining] both or neither")
+        if self.core is None:
+            for name, given in (
+                ("glue", self.glue),
+                ("patch", self.patch),
+                ("both_sides", self.plate.both_sides),
+            ):
+                if given:
+                    raise ValueError(f"{name} without [core] and [constraining], expected a treated plate")
+        refuse_patches(self.patch or [], self.plate.length_mm, self.plate.width_mm)
         if "base" in self.model_fields_set and self.force_m is not None:
             raise ValueError('[base] with [excitation] kind = "force", expected one of them')
         if len({p.reads for p in self.pickups}) > 1:
@@ -218,7 +223,13 @@ def specimen_of(d: SpecimenDocument) -> Specimen:
     """The specimen a document describes. Raises `OutsideModel`."""
     core = None
     if d.core is not None:
-        core = Core(d.core.thickness_mm * 1e-3, d.core.poisson, d.core.density_kg_m3, law_of(d.core.law))
+        core = Core(
+            d.core.thickness_mm * 1e-3,
+            d.core.poisson,
+            d.core.density_kg_m3,
+            law_of(d.core.law),
+            tuple(g.glue() for g in d.glue or ()),
+        )
     return Specimen(
         length_m=d.plate.length_mm * 1e-3,
         width_m=d.plate.width_mm * 1e-3,
@@ -236,6 +247,8 @@ def specimen_of(d: SpecimenDocument) -> Specimen:
         tolerances=tolerances_of(d.tolerances),
         exact=d.tolerances is not None and d.tolerances.exact,
         elements=(d.mesh.elements_x, d.mesh.elements_y) if d.mesh else None,
+        patches=tuple(p.patch() for p in d.patch or ()),
+        both_sides=d.plate.both_sides,
     )
 
 

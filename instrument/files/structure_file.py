@@ -14,9 +14,8 @@ from fitting.structures.beam import Beam, Ends
 from fitting.structures.shear_pair import ShearPair, disc
 from instrument.errors import BadInput
 from instrument.files.law_table import with_rows
+from instrument.files.layer_tables import Poisson, StatedLayer
 from instrument.files.specimen_file import (
-    Poisson,
-    StatedLayer,
     TolerancesSection,
     law_of,
     read_specimen,
@@ -140,10 +139,13 @@ class BeamDocument(TomlTable):
 
     @model_validator(mode="after")
     def _whole(self) -> "BeamDocument":
+        for name, layer in (("substrate", self.substrate), ("constraining", self.constraining)):
+            if layer is not None and layer.young_gpa is None:
+                raise ValueError(f"{name}.young_x_gpa, expected young_gpa: along the beam")
         if self.constraining is not None and self.core is None:
             raise ValueError("[core] is missing, expected one between [substrate] and [constraining]")
-        if self.beam.both_sides and (self.core is None or self.constraining is not None):
-            raise ValueError("both_sides = true, expected [core] without [constraining]: a free layer a side")
+        if self.beam.both_sides and self.core is None:
+            raise ValueError("both_sides = true, expected [core]: a layer on either side")
         reach = self.beam.length_mm / (2 if self.beam.boundary == "centre-driven" else 1)
         if self.pickup is not None and self.pickup.x_mm > reach:
             raise ValueError(f"pickup.x_mm = {self.pickup.x_mm:g} is off the beam, expected 0 to {reach:g}")

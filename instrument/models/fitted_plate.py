@@ -10,9 +10,9 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.mesh import Mesh
 from fitting.moved_plate import moved_plate
 from fitting.nuisances import Nuisances
-from fitting.plate import Mesh
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
 from instrument.models.specimen_models import Models

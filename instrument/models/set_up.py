@@ -15,7 +15,7 @@ from fitting.effects.enriching import enriched
 from fitting.effects.full_plate import FullPlate
 from fitting.errors import OutsideModel
 from fitting.identification.bare_plate import CLAMP, MatchedModes, match_modes
-from fitting.plate import Mesh
+from fitting.mesh import Mesh
 from fitting.rational import RationalSweep, rational_sweep
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
@@ -118,8 +118,17 @@ def check_like(specimen: Specimen, like: Specimen) -> None:
             )
     if specimen.boundary != like.boundary:
         raise OutsideModel(f"boundary {specimen.boundary!r} is not the model's {like.boundary!r}")
+    if _form(specimen) != _form(like):
+        raise OutsideModel("patches, sides, glue or a face's own axes are not the model's, expected the same")
     if specimen.drive != like.drive:
         raise OutsideModel(f"driven by a {specimen.drive}, the model by a {like.drive}")
+
+
+def _form(specimen: Specimen) -> tuple[object, ...]:
+    """What stated numbers do not move."""
+    faces = (f.rolled for f in (specimen.substrate, specimen.constraining) if f is not None)
+    glue = specimen.core.glue if specimen.core is not None else ()
+    return specimen.patches, specimen.both_sides, glue, *faces
 
 
 def _numbers(specimen: Specimen, like: Specimen) -> list[tuple[str, float, float]]:

@@ -1,21 +1,26 @@
 """The tolerances that a specimen's numbers are taken with: named in its file, typical, or none at all."""
 
+from math import pi
+
 from fitting.specimen import Specimen
-from fitting.tolerances import STATED, tolerance
+from fitting.tolerances import PLATE, STATED, plate_numbers, tolerance
 from instrument.facts.check import ToleranceUsed
 
-_UNITS = {"1": ("percent", "%", 1e2), "m": ("mm", "mm", 1e3), "s": ("us", "µs", 1e6)}
+_UNITS = {
+    "1": ("percent", "%", 1e2),
+    "m": ("mm", "mm", 1e3),
+    "s": ("us", "µs", 1e6),
+    "rad": ("deg", "°", 180 / pi),
+}
 """Ending of the file's key, unit for people, factor."""
 _NOT_OF_A_SWEEP = ("mass", "area")
-_OF_TREATMENT = ("constraining_", "core_")
 
 
 def asked(specimen: Specimen) -> list[str]:
     """Kinds of stated numbers that a sweep of this plate can feel."""
+    of_plate = {kind for _, kind in plate_numbers(specimen)}
     return [
-        name
-        for name in STATED
-        if name not in _NOT_OF_A_SWEEP and (specimen.core is not None or not name.startswith(_OF_TREATMENT))
+        name for name in STATED if name not in _NOT_OF_A_SWEEP and (name not in PLATE or name in of_plate)
     ]
 
 

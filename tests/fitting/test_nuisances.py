@@ -13,11 +13,12 @@ from fitting.direct import displacement_direct
 from fitting.domain import domain_of
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.mesh import Mesh
 from fitting.nuisances import nuisances_of
-from fitting.plate import Mesh, Plate
+from fitting.plate import Plate
 from fitting.rational import rational_sweep
 from fitting.reduced import reduce_plate
-from fitting.tolerances import PLATE, STATED, tolerance
+from fitting.tolerances import OF_FEW, PLATE, STATED, tolerance
 from instrument.campaign.bench import GRID_HZ, synthetic_sweep
 
 OMEGA = 2 * np.pi * np.array([19.5, 62.0, 100.0, 281.0])
@@ -86,7 +87,7 @@ def test_the_moved_plate_answers_as_one_built_anew(moved):
     assert max(off) > 0.02
 
 
-@pytest.mark.parametrize("name", PLATE)
+@pytest.mark.parametrize("name", [n for n in PLATE if n not in OF_FEW])
 def test_each_stated_number_moves_the_plate_as_one_built_anew(moved, name):
     (k,) = (k for k, n in enumerate(moved.nuisances.each) if n.name == name)
     for by in (-3.0, 3.0):

@@ -9,18 +9,18 @@ from hypothesis import strategies as st
 
 from fitting.element import DOFS, core_shear_stiffness
 from fitting.element import Shape as ElementShape
+from fitting.element_matrices import element_matrices
 from fitting.laws.constant import ConstantModulus
+from fitting.mesh import Mesh
+from fitting.part_matrices import element_parts, load_part, projected_parts
 from fitting.parts import (
     CORE,
     MASS,
     STIFFNESS,
     coefficients,
-    element_parts,
-    load_part,
-    projected_parts,
     stretched,
 )
-from fitting.plate import Mesh, Plate, element_matrices
+from fitting.plate import Plate
 from fitting.specimen import Core, Face, Specimen
 
 LAW = ConstantModulus(1e6, 0.0)

@@ -1,4 +1,4 @@
-"""The plate as the forms have it, to scale: clamp, spots, hit, sensor. What is dragged goes into a field."""
+"""The plate as the forms have it, to scale: clamp, patches, spots. What is dragged goes into a field."""
 
 from dataclasses import dataclass
 
@@ -46,6 +46,8 @@ class PlateView(QWidget):
         super().__init__(parent)
         self.size_mm: tuple[float, float] | None = None
         self.marks: tuple[PlateMark, ...] = ()
+        self.patches_mm: tuple[tuple[float, float, float, float], ...] | None = None
+        """From and to along x, along y; None where all of the plate is treated, or nothing."""
         self._clamped = False
         self._held: int | None = None
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
@@ -58,6 +60,7 @@ class PlateView(QWidget):
         self.size_mm, self.marks = None, ()
         if specimen is not None:
             self.size_mm = _pair(specimen, ("plate", "length_mm"), ("plate", "width_mm"))
+            self.patches_mm = _patches(specimen)
             self._clamped = specimen.value(("plate", "boundary")) in (None, "cantilever")
             self.marks = (*_spots(specimen), *(_of_hammer(experiment) if experiment is not None else ()))
         self.update()
@@ -78,7 +81,7 @@ class PlateView(QWidget):
         return _half(min(max(x, 0.0), length)), _half(min(max(y, 0.0), width))
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Plate, clamp, marks and the two lengths."""
+        """Plate, patches, clamp, marks and the two lengths."""
         painter, theme = QPainter(self), current_theme()
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         if self.size_mm is None:
@@ -130,6 +133,11 @@ class PlateView(QWidget):
         painter.setPen(QPen(theme.color("text"), 1.5))
         painter.setBrush(self.palette().color(QPalette.ColorRole.Base))
         painter.drawRect(plate)
+        for x_0, x_1, y_0, y_1 in self.patches_mm or ():
+            patch = QRectF(self.to_screen((x_0, y_1)), self.to_screen((x_1, y_0)))
+            painter.setBrush(theme.color("data", 0.15))
+            painter.setPen(QPen(theme.color("faint"), 1.0))
+            painter.drawRect(patch)
         if self._clamped:
             clamp = QRectF(plate.left() - 2 * _HATCH_PX, plate.top(), 2 * _HATCH_PX, plate.height())
             painter.fillRect(clamp, theme.color("grid"))
@@ -164,6 +172,18 @@ def _spots(specimen: Draft) -> tuple[PlateMark, ...]:
         if at is not None:
             found.append(PlateMark(f"spot {k}" if several else "spot", "specimen", x, y, at, "data"))
     return tuple(found)
+
+
+def _patches(specimen: Draft) -> tuple[tuple[float, float, float, float], ...] | None:
+    given = specimen.value(("patch",))
+    found = []
+    for k in range(len(given) if isinstance(given, list) else 0):
+        x, y = (
+            _pair(specimen, ("patch", k, f"from_{axis}_mm"), ("patch", k, f"to_{axis}_mm")) for axis in "xy"
+        )
+        if x is not None and y is not None:
+            found.append((*x, *y))
+    return tuple(found) or None
 
 
 def _of_hammer(experiment: Draft) -> tuple[PlateMark, ...]:

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy.linalg as la
@@ -36,7 +38,7 @@ def test_driven_in_its_centre_it_is_two_cantilevers():
     assert np.allclose(small_velocity(whole, f), small_velocity(half, f))
 
 
-def sixth_order(beam, G, guess):
+def sixth_order(beam, G, guess, *, stretches=True):
     """Complex frequency of a clamped-free sandwich, Mead and Markus' equations as a first-order system.
 
     E_b h_b u_b'' = -tau, E_c h_c u_c'' = tau, D w'''' = d tau' + m w^2 w, tau = G (u_c - u_b + d w')/H.
@@ -46,6 +48,7 @@ def sixth_order(beam, G, guess):
     D = (b.young_pa * b.thickness_m**3 + c.young_pa * c.thickness_m**3) / 12
     m = sum(x.density_kg_m3 * x.thickness_m for x in (b, c, v))
     k_b, k_c = b.young_pa * b.thickness_m, c.young_pa * c.thickness_m
+    k_b *= 1 if stretches else 1e6
     g = G / H
 
     def transfer(omega):
@@ -75,6 +78,21 @@ def test_a_sandwich_is_mead_and_markus(G, loss):
     beam = Beam(0.2, 0.02, "clamped-free", ALUMINIUM, STEEL, core)
     for mode in small_modes(beam, core.law, 3):
         exact = sixth_order(beam, G * (1 + 1j * loss), np.sqrt(mode.eigenvalue)) ** 2
+        assert mode.frequency_hz == pytest.approx(np.sqrt(exact.real) / (2 * np.pi), rel=2e-3)
+        assert mode.loss_factor == pytest.approx(exact.imag / exact.real, rel=1e-2)
+
+
+@pytest.mark.parametrize("G", [2e5, 2e6, 2e7])
+def test_treated_on_both_sides_it_is_mead_and_markus_of_five_layers(G):
+    """The halves mirror each other: half the middle layer, which does not stretch, under one foil."""
+    core = Core(0.5e-3, 0.49, 1000.0, ConstantModulus(G, 0.8))
+    beam = Beam(0.2, 0.02, "clamped-free", ALUMINIUM, STEEL, core, both_sides=True)
+    # As stiff in bending and as heavy as half of it; so stiff in its plane that it stays.
+    lighter = replace(ALUMINIUM, young_pa=35e9, density_kg_m3=1350.0)
+    half = replace(beam, both_sides=False, substrate=lighter)
+    for mode in small_modes(beam, core.law, 3):
+        guess = np.sqrt(mode.eigenvalue)
+        exact = sixth_order(half, G * (1 + 0.8j), guess, stretches=False) ** 2
         assert mode.frequency_hz == pytest.approx(np.sqrt(exact.real) / (2 * np.pi), rel=2e-3)
         assert mode.loss_factor == pytest.approx(exact.imag / exact.real, rel=1e-2)
 

@@ -1,8 +1,10 @@
 import re
 
+import numpy as np
 import pytest
 
 from fitting.laws import LAWS
+from fitting.specimen import Glue, Orthotropy, Patch
 from fitting.tolerances import STATED, tolerance
 from instrument.errors import BadInput
 from instrument.files.specimen_file import read_specimen
@@ -107,7 +109,7 @@ def test_what_names_no_tolerance_has_a_typical_one(tmp_path):
 
 
 def test_tolerances_are_read_in_their_units_and_the_others_are_typical(tmp_path):
-    units = {"1": ("percent", 1e-2), "m": ("mm", 1e-3), "s": ("us", 1e-6)}
+    units = {"1": ("percent", 1e-2), "m": ("mm", 1e-3), "s": ("us", 1e-6), "rad": ("deg", np.pi / 180)}
     keys = {name: units[one.unit] for name, one in STATED.items()}
     table = "".join(f"{name}_{unit} = {n + 1}.5\n" for n, (name, (unit, _)) in enumerate(keys.items()))
     s = read_specimen(write(tmp_path, f"{STATED_ALONE}\n[tolerances]\n{table}"))
@@ -211,3 +213,57 @@ def test_missing_file_and_folder_are_refused(tmp_path):
     for path in (tmp_path / "none.toml", tmp_path):
         with pytest.raises(BadInput, match=re.escape(str(path))):
             read_specimen(path)
+
+
+LAYERS = """
+[[glue]]
+thickness_mm = 0.05
+shear_mpa = 400.0
+density_kg_m3 = 1100.0
+[[patch]]
+from_x_mm = 0.0
+to_x_mm = 120.0
+from_y_mm = 20.0
+to_y_mm = 180.0
+[[patch]]
+from_x_mm = 150.0
+to_x_mm = 200.0
+from_y_mm = 20.0
+to_y_mm = 180.0
+"""
+OWN_AXES = "young_x_gpa = 72.0\nyoung_y_gpa = 66.0\nshear_gpa = 25.0\nangle_deg = 30.0"
+
+
+def test_patches_glue_sides_and_own_axes_are_read(tmp_path):
+    text = GOOD.replace("young_gpa = 68.9", OWN_AXES).replace(
+        'boundary = "cantilever"', 'boundary = "cantilever"\nboth_sides = true'
+    )
+    s = read_specimen(write(tmp_path, text + LAYERS))
+    assert s.both_sides
+    assert s.patches[1] == Patch(0.15, 0.2, 0.02, pytest.approx(0.18))
+    assert s.core.glue == (Glue(pytest.approx(5e-5), 400e6, 1100.0),)
+    assert s.substrate.young_pa == 72e9
+    assert s.substrate.rolled == Orthotropy(66e9, 25e9, np.radians(30))
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (("to_x_mm = 120.0", "to_x_mm = 160.0"), "overlap"),
+        (("to_x_mm = 200.0", "to_x_mm = 400.0"), "off the plate"),
+        (("from_x_mm = 150.0", "from_x_mm = 250.0"), "less than"),
+        (("young_gpa = 68.9", "young_gpa = 68.9\nangle_deg = 3.0"), "one or the other"),
+        (("young_gpa = 68.9", "young_x_gpa = 68.9"), "young_y_gpa"),
+        (("young_gpa = 68.9", "young_x_gpa = 1.0\nyoung_y_gpa = 90.0\nshear_gpa = 3.0"), "sqrt"),
+    ],
+)
+def test_layers_that_cannot_be_are_refused_in_one_line(tmp_path, change, said):
+    with pytest.raises(BadInput, match=said) as refused:
+        read_specimen(write(tmp_path, (GOOD + LAYERS).replace(*change)))
+    assert "\n" not in str(refused.value)
+
+
+def test_a_bare_plate_has_no_patches(tmp_path):
+    text = GOOD[: GOOD.index("[constraining]")] + LAYERS[LAYERS.index("[[patch]]") :]
+    with pytest.raises(BadInput, match="treated plate"):
+        read_specimen(write(tmp_path, text))

@@ -1,0 +1,114 @@
+"""Tables of a specimen file that say what layers there are, and where: faces, glue, patches."""
+
+from collections.abc import Sequence
+from itertools import combinations
+from math import radians
+from typing import Annotated
+
+from pydantic import Field, model_validator
+
+from fitting.specimen import Face, Glue, Orthotropy, Patch
+from instrument.files.toml import NotNegative, Positive, TomlTable
+
+Poisson = Annotated[float, Field(gt=-1, lt=0.5, allow_inf_nan=False)]
+_OWN_AXES = ("young_x_gpa", "young_y_gpa", "shear_gpa")
+
+
+class StatedLayer(TomlTable):
+    """An elastic layer: isotropic, or orthotropic about axes of its own."""
+
+    thickness_mm: Positive
+    young_gpa: Positive | None = None
+    poisson: Poisson
+    """Of an orthotropic layer nu_xy: how much narrower it gets as it is stretched along its own x."""
+    density_kg_m3: Positive
+    loss_factor: NotNegative = 0.0
+    young_x_gpa: Positive | None = None
+    """With the next two in the place of `young_gpa`: of a rolled sheet or a laminate."""
+    young_y_gpa: Positive | None = None
+    shear_gpa: Positive | None = None
+    angle_deg: Annotated[float, Field(ge=-180, le=180, allow_inf_nan=False)] | None = None
+    """From the plate's x to the layer's own, towards y."""
+
+    @model_validator(mode="after")
+    def _elastic(self) -> "StatedLayer":
+        own = [name for name in _OWN_AXES if getattr(self, name) is not None]
+        if self.young_gpa is not None and (own or self.angle_deg is not None):
+            raise ValueError(f"young_gpa with {(own or ['angle_deg'])[0]}, expected one or the other")
+        if self.young_gpa is None and len(own) < len(_OWN_AXES):
+            raise ValueError(
+                f"expected young_gpa, or {', '.join(_OWN_AXES)}"
+                + (f"; found {', '.join(own)}" if own else "")
+            )
+        if self.young_x_gpa and self.young_y_gpa and self.poisson**2 * self.young_y_gpa >= self.young_x_gpa:
+            most = (self.young_x_gpa / self.young_y_gpa) ** 0.5
+            raise ValueError(f"poisson = {self.poisson:g}, expected below sqrt(young_x/young_y) = {most:.3g}")
+        return self
+
+    def face(self) -> Face:
+        """In SI units."""
+        young = self.young_gpa if self.young_gpa is not None else self.young_x_gpa
+        assert young is not None
+        return Face(
+            thickness_m=self.thickness_mm * 1e-3,
+            young_pa=young * 1e9,
+            poisson=self.poisson,
+            density_kg_m3=self.density_kg_m3,
+            loss_factor=self.loss_factor,
+            rolled=self._own_axes(),
+        )
+
+    def _own_axes(self) -> Orthotropy | None:
+        if self.young_y_gpa is None or self.shear_gpa is None:
+            return None
+        return Orthotropy(self.young_y_gpa * 1e9, self.shear_gpa * 1e9, radians(self.angle_deg or 0.0))
+
+
+class GluePart(TomlTable):
+    """A thin layer between the core and a face."""
+
+    thickness_mm: Positive
+    shear_mpa: Positive
+    density_kg_m3: Positive
+    loss_factor: NotNegative = 0.0
+
+    def glue(self) -> Glue:
+        """In SI units."""
+        return Glue(self.thickness_mm * 1e-3, self.shear_mpa * 1e6, self.density_kg_m3, self.loss_factor)
+
+
+class PatchPart(TomlTable):
+    """A rectangle that is treated, from the clamp and from a long edge."""
+
+    from_x_mm: NotNegative
+    to_x_mm: Positive
+    from_y_mm: NotNegative
+    to_y_mm: Positive
+
+    def patch(self) -> Patch:
+        """In SI units."""
+        return Patch(*(1e-3 * v for v in (self.from_x_mm, self.to_x_mm, self.from_y_mm, self.to_y_mm)))
+
+
+def refuse_patches(patches: Sequence[PatchPart], length_mm: float, width_mm: float) -> None:
+    """Raises `ValueError` for patches that are none, off the plate or over each other."""
+    for k, p in enumerate(patches):
+        for axis, low, high, side in (
+            ("x", p.from_x_mm, p.to_x_mm, length_mm),
+            ("y", p.from_y_mm, p.to_y_mm, width_mm),
+        ):
+            if low >= high:
+                raise ValueError(
+                    f"patch.{k}.from_{axis}_mm = {low:g}, expected less than to_{axis}_mm = {high:g}"
+                )
+            if high > side:
+                raise ValueError(
+                    f"patch.{k}.to_{axis}_mm = {high:g} is off the plate, expected 0 to {side:g}"
+                )
+    for (i, p), (k, q) in combinations(enumerate(patches), 2):
+        if p.patch().common_m2(q.patch()) > _TOUCH_M2:
+            raise ValueError(f"patch.{i} and patch.{k} overlap, expected patches beside each other")
+
+
+_TOUCH_M2 = 1e-12
+"""A square micrometre is rounding."""

@@ -1,0 +1,40 @@
+"""The drawing of the plate on the page Run."""
+
+import pytest
+
+from gui.form.draft import Draft, Drafts
+from gui.pages.run.plate_view import PlateView
+from instrument.files.experiment_file import ExperimentDocument
+from instrument.files.specimen_file import SpecimenDocument
+from instrument.simulated_case import case_file
+
+PATCH = "\n[[patch]]\nfrom_x_mm = 100.0\nto_x_mm = 200.0\nfrom_y_mm = 20.0\nto_y_mm = 120.0\n"
+
+
+def test_patches_are_drawn_where_they_are(qtbot, tmp_path):
+    path = tmp_path / "specimen.toml"
+    path.write_text(case_file("specimen.toml").read_text() + PATCH)
+    experiment = Draft.of(case_file("experiment.toml"), ExperimentDocument)
+    view = PlateView()
+    qtbot.addWidget(view)
+    view.resize(600, 420)
+    view.show_drafts(Drafts(experiment, None, Draft.of(path, SpecimenDocument)))
+    assert view.patches_mm == ((100.0, 200.0, 20.0, 120.0),)
+    picture = view.grab().toImage()
+
+    def colour(x_mm, y_mm):
+        at = view.to_screen((x_mm, y_mm))
+        return picture.pixelColor(int(at.x()), int(at.y())).getRgb()
+
+    inside, outside = [(105, 25), (195, 25), (105, 115)], [(95, 25), (205, 115), (105, 130)]
+    assert len({colour(*p) for p in inside}) == len({colour(*p) for p in outside}) == 1
+    assert colour(*inside[0]) != colour(*outside[0])
+
+
+def test_a_plate_without_patches_has_none_drawn(qtbot):
+    view = PlateView()
+    qtbot.addWidget(view)
+    experiment = Draft.of(case_file("experiment.toml"), ExperimentDocument)
+    view.show_drafts(Drafts(experiment, None, Draft.of(case_file("specimen.toml"), SpecimenDocument)))
+    assert view.patches_mm is None
+    assert view.size_mm == pytest.approx((300.2, 199.9))
