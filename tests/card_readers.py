@@ -24,6 +24,10 @@ def abaqus(text):
     (young, nu) = blocks["*ELASTIC,MODULI=INSTANTANEOUS"][0]
     g, k, tau = np.array(blocks["*VISCOELASTIC,TIME=PRONY"]).T
     assert any(key.startswith("*MATERIAL,NAME=") for key in blocks)
+    for reference_c, c1, c2 in blocks.get("*TRS,DEFINITION=WLF", []):
+        assert -100 < reference_c < 200
+        assert c1 > 0
+        assert c2 > 0
     assert np.all(g > 0)
     assert g.sum() < 1
     np.testing.assert_array_equal(g, k)

@@ -33,10 +33,14 @@ class Card:
         """Lines without the format's comment sign."""
         law, (low, high) = self.law, self.law.band_hz
         warm = "not measured" if law.temperature_c is None else f"{law.temperature_c:.1f} degrees C"
+        band, shift = "band", []
+        if law.shift is not None:
+            band, shift = "band in reduced frequency f a_T", [f"shift: {law.shift.words}"]
         lines = [
             f"viscorig {version('viscorig')}: complex shear modulus of a viscoelastic core",
             f"source: {law.source}; specimen: {law.specimen}",
-            f"band: {low:g} to {high:g} Hz, not to be used outside; temperature: {warm}",
+            f"{band}: {low:g} to {high:g} Hz, not to be used outside; temperature: {warm}",
+            *shift,
             f"verdict: {law.verdict}",
         ]
         if law.verdict == "unknown":

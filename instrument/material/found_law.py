@@ -16,6 +16,7 @@ from instrument.facts.identification import IdentificationResult
 from instrument.files.text import read_text
 from instrument.interchange.given import is_session
 from instrument.interchange.identified import identify_session
+from instrument.material.found_shift import FoundShift
 from instrument.material.knowledge import LawPosterior, posterior_of
 from instrument.progress import Progress, quiet
 from instrument.results.identification_from import identification_from
@@ -73,6 +74,8 @@ class MaterialLaw:
     temperature_c: float | None = None
     poisson: float | None = None
     """Of the core, as stated."""
+    shift: FoundShift | None = None
+    """Of a law over several temperatures: its frequencies are reduced ones."""
     remount: int | None = None
     """Which mount of its specimen it was, where a session says so."""
     posterior: LawPosterior | None = None
@@ -117,6 +120,8 @@ def _of_facts(path: Path, facts: Any) -> MaterialLaw | None:
     """Of a diagnosis where there is one, else of an identification."""
     if not isinstance(facts, dict):
         return None
+    if "shift" in facts:
+        return _shifted(path, facts)
     for read in (_diagnosed, _identified):
         for inside in (facts, facts.get("diagnose"), facts.get("identify")):
             if isinstance(inside, dict) and (found := read(path, inside)) is not None:
@@ -130,6 +135,16 @@ def _diagnosed(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
     except ValidationError:
         return None
     return _law(path, found.after, found.verdict)
+
+
+def _shifted(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
+    """Of the JSON of `identify --shift`."""
+    try:
+        shift = FoundShift.model_validate(facts)
+        found = _law(path, _LawFound.model_validate(facts), shift.verdict)
+    except ValidationError:
+        return None
+    return replace(found, shift=shift, temperature_c=shift.reference_c) if found is not None else None
 
 
 def law_of_result(path: Path, result: IdentificationResult) -> MaterialLaw | None:

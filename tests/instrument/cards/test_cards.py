@@ -167,3 +167,53 @@ def test_a_series_is_found_again():
     assert found.max_error < 1e-3
     assert found.g_inf_pa == pytest.approx(3e5, rel=0.05)
     assert found.g_0_pa == pytest.approx(3.3e6, rel=0.01)
+
+
+SHIFT = {
+    "shift": "wlf",
+    "reference_c": 20.0,
+    "shift_parameters": {"c1": 4.0, "c2_k": 60.0},
+    "temperatures": [
+        {"temperature_c": 5.0, "log10_shift": 1.3333},
+        {"temperature_c": 20.0, "log10_shift": 0.0},
+        {"temperature_c": 36.0, "log10_shift": -0.8421},
+    ],
+    "simple": True,
+}
+
+
+@pytest.mark.parametrize("to", FORMATS)
+def test_a_law_over_temperatures_says_its_reference_its_reduced_band_and_its_shift(tmp_path, to):
+    path = tmp_path / "shifted.json"
+    path.write_text(json.dumps(facts(**SHIFT)), encoding="utf-8")
+    text = card(path, to)
+    assert "band in reduced frequency f a_T: 14 to 300 Hz" in text
+    assert "temperature: 20.0 degrees C" in text
+    assert "log10 a_T = -4 (T - 20) / (60 + T - 20)" in text
+    assert "measured from 5 to 36 degrees C" in text
+    assert "verdict: thermorheologically simple" in text
+
+
+def test_abaqus_shifts_by_wlf_itself_as_the_law_does(tmp_path):
+    path = tmp_path / "shifted.json"
+    path.write_text(json.dumps(facts(**SHIFT)), encoding="utf-8")
+    lines = card(path, "abaqus").splitlines()
+    reference, c1, c2 = map(float, lines[lines.index("*TRS, DEFINITION=WLF") + 1].split(","))
+    for at in SHIFT["temperatures"]:
+        off = at["temperature_c"] - reference
+        assert -c1 * off / (c2 + off) == pytest.approx(at["log10_shift"], abs=1e-4)
+    readers.abaqus("\n".join(lines))
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({"shift": "arrhenius", "shift_parameters": {"activation_energy_j_mol": 1.2e5}}, "ln a_T = 120000"),
+        ({"shift": "free", "shift_parameters": {}}, "log10 a_T = 1.3333 at 5 degrees C, 0.0000 at 20"),
+        ({"simple": None}, "WARNING: verdict unknown"),
+    ],
+)
+def test_other_shifts_and_doubts_are_said_in_the_header(tmp_path, changed, said):
+    path = tmp_path / "shifted.json"
+    path.write_text(json.dumps(facts(**{**SHIFT, **changed})), encoding="utf-8")
+    assert said in card(path, "abaqus")

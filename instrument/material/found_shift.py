@@ -1,0 +1,40 @@
+"""How a law found over several temperatures goes from one to another, as its file says it."""
+
+from typing import Literal
+
+from pydantic import BaseModel, Field
+
+
+class _At(BaseModel):
+    temperature_c: float
+    log10_shift: float
+
+
+class FoundShift(BaseModel):
+    """Of the JSON of `identify --shift`: a law at the reference, its band in reduced frequency."""
+
+    shift: Literal["wlf", "arrhenius", "free"]
+    reference_c: float
+    shift_parameters: dict[str, float]
+    temperatures: list[_At] = Field(min_length=2)
+    simple: bool | None
+
+    @property
+    def verdict(self) -> str:
+        """As results call it: a law that may not be one is not known to be what it looks like."""
+        return "thermorheologically simple" if self.simple else "unknown"
+
+    @property
+    def words(self) -> str:
+        """The shift as a line of text, log10 a_T by the temperature T."""
+        p, T0 = self.shift_parameters, self.reference_c
+        low, high = (f(at.temperature_c for at in self.temperatures) for f in (min, max))
+        if self.shift == "wlf":
+            form = f"log10 a_T = -{p['c1']:.6g} (T - {T0:g}) / ({p['c2_k']:.6g} + T - {T0:g}), T in degrees C"
+        elif self.shift == "arrhenius":
+            form = f"ln a_T = {p['activation_energy_j_mol']:.6g} / 8.314463 (1/T - 1/{T0 + 273.15:g}), T in K"
+        else:
+            form = "log10 a_T = " + ", ".join(
+                f"{at.log10_shift:.4f} at {at.temperature_c:g} degrees C" for at in self.temperatures
+            )
+        return f"{form}; measured from {low:g} to {high:g} degrees C"
