@@ -8,7 +8,7 @@ from collections.abc import Callable
 from time import monotonic
 
 from PySide6.QtCore import QEvent, QObject, Qt
-from PySide6.QtGui import QKeyEvent, QMouseEvent, QWindow
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QShowEvent, QWindow
 from PySide6.QtWidgets import QApplication, QDialog, QPushButton
 
 _TWICE_S = 1.0
@@ -45,12 +45,13 @@ class StopGuard(QObject):
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """True where the event has done its work here."""
-        kind = event.type()
-        if kind in _KEYS and isinstance(event, QKeyEvent):
-            return self._key(watched, event)
-        if kind == QEvent.Type.Show and isinstance(watched, QDialog) and watched.isModal():
-            watched.setWindowModality(Qt.WindowModality.NonModal)
-        elif kind == QEvent.Type.MouseButtonPress and isinstance(event, QMouseEvent):
+        # By class: asking every event of a busy window for its type would cost more than all else here.
+        if isinstance(event, QKeyEvent):
+            return event.type() in _KEYS and self._key(watched, event)
+        if isinstance(event, QShowEvent):
+            if isinstance(watched, QDialog) and watched.isModal():
+                watched.setWindowModality(Qt.WindowModality.NonModal)
+        elif isinstance(event, QMouseEvent) and event.type() == QEvent.Type.MouseButtonPress:
             self._pressed(event)
         return False
 
