@@ -72,6 +72,7 @@ def files_of(room):
     return found
 
 
+@cache
 def without_a_test(room):
     said = {pair for path in files_of(room) for pair in imports(path)}
     return set(modules(room)) - {m for module, name in said for m in reached(room, module, name)}
