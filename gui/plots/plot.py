@@ -90,7 +90,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         for side in ("bottom", "left"):
             self.getAxis(side).enableAutoSIPrefix(False)
         self.showGrid(x=True, y=True, alpha=0.25)
-        self.setMinimumSize(160, 110)
+        self.setMinimumSize(120, 80)
         self._readout = Readout(self)
         self.cursors = Cursors(self)
         add_export_menu(self)
@@ -217,8 +217,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
     @property
     def curves(self) -> dict[str, tuple[Array, Array]]:
         """Lines, traces and points shown, by name: x and y. Shape (points,) each."""
-        shown = ((name, c) for name, c in self._curves.items() if c.kind != "band" and "" in c.columns)
-        return {name: (c.columns[""], c.columns[name]) for name, c in shown}
+        return {n: (c.columns[""], c.columns[n]) for n, c in self._curves.items() if n in c.columns}
 
     # How
 
@@ -285,7 +284,9 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
             item.setSymbolBrush(None if curve.hollow else current_theme().color(curve.role, 0.6))
         else:
             style = Qt.PenStyle.DashLine if curve.dashed else Qt.PenStyle.SolidLine
-            curve.items[0].setPen(pg.mkPen(color, width=curve.width, style=style))
+            # In pixels of the screen: at scale 2 a line of one would be half as thick.
+            wide = curve.width * (self.devicePixelRatioF() if curve.kind == "line" else 1.0)
+            curve.items[0].setPen(pg.mkPen(color, width=wide, style=style))
 
     def _paint(self) -> None:
         theme = current_theme()
