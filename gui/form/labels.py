@@ -55,5 +55,13 @@ LABELS = {
     "base_m_s2": "most acceleration of the base",
     "velocity_m_s": "most velocity",
     "travel_m": "most travel of the base",
+    "calibrated": "calibrated on",
+    "calibrated_until": "calibration valid until",
+    "sensitivity_mv_per_unit": "sensitivity",
+    "iepe": "powered by the input (IEPE)",
+    "invert": "turned the other way",
+    "serial": "serial number",
+    "range_v": "range of the input",
+    "input": "on input number",
     "warn": "alarm from this share on",
 }

@@ -35,8 +35,7 @@ _BELOW = -1
 _RING_WIDTH = 2.0
 _TITLE_ROOM_PX = 44
 """Of a plot's side that its axis does not have: the other axis, and the edge."""
-_LABEL_AT = 0.08
-"""Of a vertical line's height."""
+_LABEL_AT = 0.08  # of a vertical line's height
 
 
 @dataclass
@@ -216,7 +215,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
 
     @property
     def curves(self) -> dict[str, tuple[Array, Array]]:
-        """Lines, traces and points shown, by name: x and y. Shape (points,) each."""
+        """Shown, by name, without bands: x and y. Shape (points,) each."""
         return {n: (c.columns[""], c.columns[n]) for n, c in self._curves.items() if n in c.columns}
 
     # How

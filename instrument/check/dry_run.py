@@ -2,6 +2,7 @@
 
 import tomllib
 from dataclasses import dataclass
+from datetime import date
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,7 @@ from instrument.check.forecast import (
     planned_segments,
     with_next_coarser,
 )
+from instrument.check.sensors import sensor_remarks
 from instrument.errors import BadInput
 from instrument.facts.check import CheckResult, SegmentForecast, SoakForecast
 from instrument.files.devices import ranges_of
@@ -95,6 +97,7 @@ def dry_run(path: Path) -> DryRun:
         segments, seconds, warnings = _sweep(experiment, forecast, settings)
     except FittingError as error:
         raise BadInput(f"{path}: {error}") from None
+    warnings += sensor_remarks(experiment.rig, date.today())
     band = np.array([f for s in segments for f in (s.low_hz, s.high_hz)])
     if len(band) and specimen.core is not None:
         outside = specimen.core.law.outside(band)

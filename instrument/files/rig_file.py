@@ -32,6 +32,9 @@ Chamber = Annotated[SerializeAsAny[ChamberOptions], by_kind("chamber")]
 """The chamber's table, as its driver has it."""
 
 
+_FEBRUARY = 2
+
+
 class SensorSection(TomlTable):
     """What hangs on an input."""
 
@@ -44,6 +47,16 @@ class SensorSection(TomlTable):
     """The sensor's positive direction is the other way."""
     serial: str = ""
     calibrated: date | None = None
+    calibrated_until: date | None = None
+    """Where it is not said, a year after `calibrated`."""
+
+    @property
+    def valid_until(self) -> date | None:
+        """Last day of its calibration; None where nothing is said of one."""
+        if self.calibrated_until is not None or self.calibrated is None:
+            return self.calibrated_until
+        year, month, day = self.calibrated.year + 1, self.calibrated.month, self.calibrated.day
+        return date(year, month, min(day, 28) if month == _FEBRUARY else day)
 
     @property
     def units_per_volt(self) -> float:

@@ -1,5 +1,7 @@
 """What was measured with what: specimen, rig, sensors, mounting, versions."""
 
+from datetime import date
+
 from instrument.files.rig_file import ResponseSection, SensorSection
 from instrument.files.specimen_file import SpecimenDocument
 from instrument.models.tolerance_words import tolerance_rows
@@ -102,12 +104,13 @@ def _rates(contents: Contents) -> str:
 
 
 def _sensors(contents: Contents) -> TableBlock:
-    rows = [_sensor(name, s) for name, s in contents.configuration.rig.channels.named().items()]
+    measured = date.fromisoformat(contents.configuration.created_utc[:10])
+    rows = [_sensor(name, s, measured) for name, s in contents.configuration.rig.channels.named().items()]
     columns = ("channel", "input", "sensitivity", "range / V", "IEPE", "inverted", "serial", "calibrated")
     return TableBlock("Sensors", columns, tuple(rows))
 
 
-def _sensor(name: str, s: SensorSection) -> tuple[str, ...]:
+def _sensor(name: str, s: SensorSection, measured: date) -> tuple[str, ...]:
     unit = _SENSITIVITY_UNITS.get(name)
     sensitivity = f"{s.sensitivity_mv_per_unit:g} {unit}" if unit else "by the vibrometer's range"
     mass = f" ({s.mass_g:g} g)" if isinstance(s, ResponseSection) and s.mass_g else ""
@@ -119,8 +122,15 @@ def _sensor(name: str, s: SensorSection) -> tuple[str, ...]:
         "yes" if s.iepe else "no",
         "yes" if s.invert else "no",
         s.serial or "not stated",
-        s.calibrated.isoformat() if s.calibrated else "not stated",
+        _calibrated(s, measured),
     )
+
+
+def _calibrated(s: SensorSection, measured: date) -> str:
+    until = s.valid_until
+    expired = f"expired {until.isoformat()}" if until is not None and until < measured else ""
+    said = s.calibrated.isoformat() if s.calibrated is not None else "not stated"
+    return f"{said}, {expired}" if expired else said
 
 
 def versions_section(contents: Contents, now: dict[str, str]) -> ReportSection:

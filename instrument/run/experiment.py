@@ -3,6 +3,7 @@
 import logging
 from collections.abc import Callable
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from pathlib import Path
 
 from threadpoolctl import threadpool_limits
@@ -10,6 +11,7 @@ from threadpoolctl import threadpool_limits
 from drivers.errors import DriverError
 from instrument.check.faults import experiment_objections
 from instrument.check.forecast import Forecast
+from instrument.check.sensors import sensor_remarks
 from instrument.check.work import planned_regions, planned_work
 from instrument.errors import BadInput, RigStopped, StoppedByUser
 from instrument.progress import Progress, quiet
@@ -101,6 +103,8 @@ def _run(
     earlier = [event for e in entries for event in part_events(journal.folder / e.file)]
     path = journal.folder.parent / f"{name}.h5"
     companion.recording(journal.folder, path)
+    for remark in sensor_remarks(experiment.rig, datetime.now(UTC).date()):
+        log.warning("%s", remark)
     swept = planned_regions(experiment, forecast) if "sweep" in parts else ()
     companion.planned(planned_work(experiment, forecast, parts), swept)
     for event in earlier:
