@@ -23,6 +23,7 @@ _MOST_RIVALS = 6
 _TELLS = 3.0
 """Nats from which two explanations count as told apart: odds of twenty."""
 _EVEN = 0.5
+"""Probability of none up to which something is likelier than nothing."""
 _WORTH = 0.02
 """Nats of the entropy of which is right, below which a measurement is not offered."""
 _ALWAYS_S = 60.0
