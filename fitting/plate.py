@@ -278,6 +278,13 @@ class Plate:
             raise OutsideModel(f"pickup ({x:g}, {y:g}) mm lies on a held edge, expected a point that moves")
         return row
 
+    @cached_property
+    def further(self) -> Array:
+        """Rows that read w at the further spots; unit forces there too. Shape (n, spots)."""
+        return (
+            np.array([self.observe(*at) for at in self.specimen.further_pickups_m]).reshape(-1, self.size).T
+        )
+
     def observe(self, x_m: float, y_m: float) -> Array:
         """The row that reads w at a point, by the shape functions; a unit force there too. Shape (n,).
 

@@ -58,6 +58,31 @@ def rational_sweep(
     plate: ReducedPlate, omega: Array, progress: Callable[[float], None] = lambda fraction: None
 ) -> RationalSweep:
     """Diagonalise the reduced plate at each frequency of `omega` (rad/s, shape (points,))."""
+    return rational_sweeps(plate, omega, progress).of(0, 1)
+
+
+@dataclass(frozen=True)
+class RationalSweeps:
+    """The same between any two of a reduced plate's `sides`."""
+
+    omega: Array
+    G_ref: complex
+    c: Complex
+    """Driven at one and read at another of them. Shape (driven, read, points, terms)."""
+    mu: Complex
+
+    def of(self, driven: int, read: int) -> RationalSweep:
+        """Between two of them."""
+        return RationalSweep(self.omega, self.G_ref, self.c[driven, read], self.mu)
+
+
+def rational_sweeps(
+    plate: ReducedPlate, omega: Array, progress: Callable[[float], None] = lambda fraction: None
+) -> RationalSweeps:
+    """Diagonalise the reduced plate at each frequency of `omega` (rad/s, shape (points,)).
+
+    Driven at the load alone where there are no further spots.
+    """
     size = np.sqrt(plate.domain.modulus[0] * plate.domain.modulus[1])
     # A lossy reference: A_ref is then far from every resonance.
     G_ref = complex(size * (1 + 1j) / np.sqrt(2))
@@ -67,9 +92,9 @@ def rational_sweep(
         for part in pool.map(lambda part: _diagonalise(plate, part, G_ref), parts):
             done.append(part)
             progress(len(done) / len(parts))
-    c = np.concatenate([d[0] for d in done])
+    c = np.concatenate([d[0] for d in done], axis=2)
     mu = np.concatenate([d[1] for d in done])
-    return RationalSweep(np.asarray(omega, dtype=float), G_ref, c, mu)
+    return RationalSweeps(np.asarray(omega, dtype=float), G_ref, c, mu)
 
 
 def _diagonalise(plate: ReducedPlate, omega: Array, G_ref: complex) -> tuple[Complex, Complex]:
@@ -79,19 +104,21 @@ def _diagonalise(plate: ReducedPlate, omega: Array, G_ref: complex) -> tuple[Com
     # A is complex symmetric: transposes, not conjugates, keep the error quadratic.
     A = Wt @ plate.matrices(omega, np.full(len(omega), G_ref)) @ W
     K_1 = Wt @ (plate.K_1 @ W)
-    load, observe = Wt @ plate.load, Wt @ plate.observe
-    solved = np.linalg.solve(A, np.concatenate([K_1, load[:, :, None]], axis=2))
-    mu, Y = np.linalg.eig(solved[:, :, :-1])
-    weights = np.linalg.solve(Y, solved[:, :, -1:])[:, :, 0]
-    return np.einsum("pk,pkm->pm", observe, Y) * weights, mu
+    sides = [Wt @ side for side in plate.sides]
+    driven = sides if len(plate.further) else sides[:1]
+    solved = np.linalg.solve(A, np.concatenate([K_1, *(side[:, :, None] for side in driven)], axis=2))
+    mu, Y = np.linalg.eig(solved[:, :, : -len(driven)])
+    weights = np.linalg.solve(Y, solved[:, :, -len(driven) :])
+    rows = [np.einsum("pk,pkm->pm", side, Y) for side in sides]
+    return np.array([[row * weights[:, :, k] for row in rows] for k in range(len(driven))]), mu
 
 
 def _span(plate: ReducedPlate, omega: Array) -> Complex:
-    """Responses to base and pickup at moduli over the domain, orthonormal. Shape (points, k, vectors)."""
+    """Responses to all `sides` at moduli over the domain, orthonormal. Shape (points, k, vectors)."""
     low, high = plate.domain.modulus
     count = max(1, int(np.ceil(NODES_A_DECADE * np.log10(high / low))))
     moduli = np.geomspace(low, high, count) * np.exp(1j * _NODE_ANGLE)
-    sides = np.stack([plate.load, plate.observe], axis=1).astype(complex)
+    sides = plate.sides.T.astype(complex)
     both = np.broadcast_to(sides, (len(omega), *sides.shape))
     found = [np.linalg.solve(plate.matrices(omega, np.full(len(omega), g)), both) for g in moduli]
     whole = np.concatenate(found, axis=2)

@@ -1,13 +1,14 @@
 """The reduced model: the plate projected once on a few certified vectors, G* still outside.
 
-The basis holds responses to what drives it and to the pickup (the adjoint) over a whole domain of
-frequency and modulus, so one basis serves every law. What is missed is judged by
+The basis holds responses to what drives it and to the pickup (the adjoint), of further spots too, over a
+whole domain of frequency and modulus, so one basis serves every law. What is missed is judged by
 the residuals of both: the pickup's error is r_adjoint^T A^-1 r, quadratic in what the basis lacks.
 """
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,6 +53,8 @@ class ReducedPlate:
     """Which of the stated ratios each column of U has, from 0."""
     load: Array
     observe: Array
+    further: Array
+    """Rows of the specimen's further spots, forces there too. Shape (spots, k)."""
     domain: Domain
     parts: Array
     """Of K_0, K_1 and M by what is stated (`fitting.parts`), one after the other. Shape (parts, k, k)."""
@@ -60,7 +63,7 @@ class ReducedPlate:
     deflection: Array
     """w, dw/dy and -dw/dx of every vector at every node. Shape (nodes, 3, k)."""
     gram: Array
-    """Inner products, in the inverse stiffness, of load, pickup, M V, K_0' V, K_0'' V, K_1 V and U."""
+    """Inner products, in the inverse stiffness, of `sides`, M V, K_0' V, K_0'' V, K_1 V and U."""
     V: Array
     """The basis over `Plate.carried`. Shape (carried, k)."""
 
@@ -73,6 +76,23 @@ class ReducedPlate:
         each = np.stack([self.K_0, self.K_1, self.M, C_1]).astype(complex).reshape(4, -1)
         return np.asarray((factors @ each).reshape(len(w), *self.M.shape))
 
+    @property
+    def sides(self) -> Array:
+        """What drives it, the pickup and the further spots. Shape (2 + spots, k)."""
+        return np.vstack([self.load, self.observe, self.further])
+
+    def between(self, driven: int, read: int) -> "ReducedPlate":
+        """The same on one of `sides`, read at another."""
+        sides, count = self.sides, 2 + len(self.further)
+        kept = np.array([driven, read, *range(count, len(self.gram))])
+        return replace(
+            self,
+            load=sides[driven],
+            observe=sides[read],
+            further=self.further[:0],
+            gram=self.gram[np.ix_(kept, kept)],
+        )
+
     def displacement(self, omega: Array, G: Complex) -> Complex:
         """Relative displacement at the pickup for a base acceleration of 1 m/s^2 or a force of 1 N, in m.
 
@@ -81,7 +101,10 @@ class ReducedPlate:
         return np.asarray(self._solve(omega, G)[0])
 
     def estimated_error(self, omega: Array, G: Complex) -> Array:
-        """Estimated relative error of `displacement`, by its residuals. Shape (points,)."""
+        """Estimated relative error of `displacement`, the largest between any two of `sides`, by residuals.
+
+        Shape (points,).
+        """
         return np.asarray(self._solve(omega, G)[1])
 
     def by_frequency(self, omega: Array, G: Complex) -> Complex:
@@ -97,21 +120,26 @@ class ReducedPlate:
 
     def _solve(self, omega: Array, G: Complex) -> tuple[Complex, Array]:
         displacement, error = [], []
+        sides = self.sides
         for start in range(0, len(omega), 256):
             w, g = np.asarray(omega)[start : start + 256], np.asarray(G)[start : start + 256]
-            rhs = np.stack([self.load, self.observe], axis=1).astype(complex)
+            rhs = sides.T.astype(complex)
             both = np.broadcast_to(rhs, (len(w), *rhs.shape))
             q: Complex = np.linalg.solve(self.matrices(w, g), both).astype(complex, copy=False)
             x = q[:, :, 0] @ self.observe
             displacement.append(x)
-            norms = [self._residual_norm(w, g, q[:, :, side], side) for side in (0, 1)]
-            error.append(norms[0] * norms[1] / np.abs(x))
+            norms = [self._residual_norm(w, g, q[:, :, side], side) for side in range(len(sides))]
+            worst = norms[0] * norms[1] / np.abs(x)
+            for i, k in combinations(range(len(sides)), 2):
+                if k > 1:
+                    worst = np.maximum(worst, norms[i] * norms[k] / np.abs(q[:, :, i] @ sides[k]))
+            error.append(worst)
         return np.concatenate(displacement), np.concatenate(error)
 
     def _residual_norm(self, omega: Array, G: Complex, q: Complex, side: int) -> Array:
-        """Norm of load (side 0) or pickup (side 1) minus A V q in the inverse stiffness."""
+        """Norm of one of `sides` minus A V q in the inverse stiffness."""
         w, g = omega[:, None], G[:, None]
-        given = np.zeros((len(omega), 2))
+        given = np.zeros((len(omega), 2 + len(self.further)))
         given[:, side] = 1.0
         C_1q = 1j * w * (q @ self.U) * self.d
         c = np.concatenate([given, w**2 * q, -q, -1j * q, -g * q, -C_1q], axis=1)
@@ -155,9 +183,11 @@ class _Builder:
         half = HalfPlate(plate, "carried")
         self.plate, self.half, self.domain = plate, half, domain
         self.damping = damping.projected(half.P)
+        self.given = np.column_stack([half.down @ plate.load, half.down @ plate.pickup])
+        if plate.further.shape[1]:
+            self.given = np.hstack([self.given, half.down @ plate.further])
         self.most = LARGEST_BASIS if plate.specimen.only_even else 2 * LARGEST_BASIS
-        self.load = np.asarray(half.down @ plate.load)
-        self.observe = np.asarray(half.down @ plate.pickup)
+        self.most = self.most * self.given.shape[1] // 2
         self.stiffness = half.K_0.real + np.sqrt(domain.modulus[0] * domain.modulus[1]) * half.K_1
         if plate.rigid.shape[1]:
             # What moves freely has no stiffness to be measured by.
@@ -166,11 +196,11 @@ class _Builder:
         self.spread = [
             domain.point((0.5 + k * 0.7549) % 1, (0.5 + k * 0.5698) % 1, 0.5) for k in range(_SPREAD)
         ]
-        self.V = np.empty((len(self.load), 0))
+        self.V = np.empty((len(self.given), 0))
         # What residuals are made of, the inverse stiffness on it, and of which kind each column is.
-        self.columns = self.unloaded = np.empty((len(self.load), 0))
+        self.columns = self.unloaded = np.empty((len(self.given), 0))
         self.kind = np.empty(0, dtype=np.intp)
-        self._keep(_GIVEN, np.column_stack([self.load, self.observe]))
+        self._keep(_GIVEN, self.given)
         self._keep(_DAMPED, self.damping.U)
         self.training = domain.grid(40, 7, (0.02, 0.2, 1.0))
         self.steps, self.everywhere = stated_steps(plate.specimen, _FACES), Assembly(plate)
@@ -186,11 +216,11 @@ class _Builder:
         return found
 
     def snapshot(self, point: Point) -> Complex:
-        """Responses to base and pickup, in full. Shape (n, 2)."""
-        return self.solver(point)(np.column_stack([self.load, self.observe]))
+        """Responses to what drives it, pickup and further spots, in full. Shape (n, 2 + spots)."""
+        return self.solver(point)(self.given)
 
     def stirred(self, point: Point) -> Complex:
-        """What tolerances of the faces change of both responses, over their size. Shape (n, any)."""
+        """What tolerances of the faces change of the responses, over their size. Shape (n, any)."""
         omega, G = point
         X = self.snapshot(point)
         size = np.real(np.einsum("ij,ij->j", X.conj(), self.half.chain.times(self.stiffness, X)))
@@ -242,7 +272,8 @@ class _Builder:
         order = np.argsort(self.kind, kind="stable")
         gram = self.columns[:, order].T @ self.unloaded[:, order]
         M, K_0, loss, K_1 = (V.T @ self.columns[:, self.kind == k] for k in (_M, _K_0, _LOSS, _K_1))
-        parts, load, deflection = self._parts() if final else (np.empty(0),) * 3
+        parts, load_part, deflection = self._parts() if final else (np.empty(0),) * 3
+        load, observe, *further = (V.T @ np.ascontiguousarray(side) for side in self.given.T)
         return ReducedPlate(
             M=M,
             K_0=K_0 + 1j * loss,
@@ -250,11 +281,12 @@ class _Builder:
             U=V.T @ U,
             d=self.damping.d,
             mode=self.damping.mode,
-            load=V.T @ self.load,
-            observe=V.T @ self.observe,
+            load=load,
+            observe=observe,
+            further=np.array(further).reshape(-1, V.shape[1]),
             domain=self.domain,
             parts=parts,
-            load_part=load,
+            load_part=load_part,
             deflection=deflection,
             gram=(gram + gram.T) / 2,
             V=V[self.half.place],

@@ -189,7 +189,8 @@ class Specimen:
     """Remaining viscous damping, fractions of critical, in frequency order (Table 3)."""
     pickup_m: tuple[float, float] | None = None
     further_pickups_m: tuple[tuple[float, float], ...] = ()
-    """Spots beside the first: rows of data say which one they are of; models are of one (`at_pickup`)."""
+    """Spots beside the first: rows of data say which one they are of (`at_pickup`); a model read at the first
+    serves them too, and a force there."""
     masses: tuple[PlacedMass, ...] = ()
     """On the constraining layer; models are of the plate without them, a joint fit puts them on."""
     force_m: tuple[float, float] | None = None

@@ -13,10 +13,11 @@ from instrument.facts.identification import IdentificationResult
 from instrument.files.hammer_file import HammerModes
 from instrument.interchange.given import at_its_spot
 from instrument.models.diagnosis import diagnose as diagnose_sweep
+from instrument.models.files import spots_of
 from instrument.models.identification import Method
 from instrument.models.identification import identify as identify_sweep
 from instrument.models.pointwise import pointwise_of
-from instrument.models.together import diagnose_together, identify_together, spots_of
+from instrument.models.together import diagnose_together, identify_together
 from instrument.planning.follow_up import with_follow_ups
 from instrument.progress import bar
 from instrument.results.diagnosis_from import diagnosis_from

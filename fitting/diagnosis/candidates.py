@@ -124,6 +124,10 @@ class CandidateFit:
             self._known.starts = look(self.problem, self.evidence, self.before, self.effect)
         return self._known.starts
 
+    def __getstate__(self) -> dict[str, object]:
+        # Another process makes its own response: with its plates it is far larger than all that is known.
+        return {name: value for name, value in vars(self).items() if name != "_response"}
+
     @cached_property
     def _response(self) -> SweepResponse:
         return response_of(self.problem, [*self.before.effects, self.effect], self.problem.coarse)

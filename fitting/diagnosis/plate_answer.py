@@ -3,7 +3,9 @@
 A q = load,   A z = observe,   x = observe . q,   dx = z . (dload - dA q) + dobserve . q
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,6 +52,113 @@ class PlateAnswer:
     """Where the poles that were asked for have gone, rad/s."""
 
 
+@dataclass(frozen=True)
+class Asked:
+    """What is to be solved: a plate as something changes it, at some nodes."""
+
+    plate: EnrichedReducedPlate
+    omega: Array
+    """Shape (nodes,)."""
+    G: Complex
+    change: Change
+    pole_node: NDArray[np.intp]
+    """A node near every pole that is wanted. Shape (poles,)."""
+    modulus: ModulusNear | None
+    """What is near them; None: no poles are wanted."""
+    with_pitch: bool
+
+    @property
+    def sides(self) -> list[Array]:
+        """Load, row that reads, and the load of a turning base. Shape (k,) each."""
+        found = [self.plate.load + self.change.load, self.plate.observe + self.change.observe]
+        return [*found, self.plate.pitch] if self.with_pitch else found
+
+    @cached_property
+    def matrices(self) -> tuple[Complex, Array, Array, Array]:
+        """K_0, K_1, M and C_1 as changed. Shape (k, k) each."""
+        plate, change = self.plate, self.change
+        C_1 = (plate.U * (plate.d * change.damping)) @ plate.U.T
+        return plate.K_0 + change.K, plate.K_1 + change.K_1, plate.M + change.M, C_1
+
+    def alike(self, other: "Asked") -> bool:
+        """Whether another asks for the same matrix at the same nodes, but for what drives and reads it."""
+        pairs = [(getattr(self, n), getattr(other, n)) for n in ("omega", "G", "pole_node")]
+        pairs += list(zip(self.matrices, other.matrices, strict=True))
+        return (
+            (self.modulus is None) == (other.modulus is None)
+            and self.with_pitch == other.with_pitch
+            and all(np.array_equal(a, b) for a, b in pairs)
+        )
+
+
+@dataclass(frozen=True)
+class Motions:
+    """Of the plate asked for: to its load, to a unit force at its pickup, and to a turning base.
+
+    Shape (nodes, k) each.
+    """
+
+    q: Complex
+    z: Complex
+    p: Complex | None
+    poles: Complex
+    """Where the poles that were asked for have gone, rad/s."""
+
+
+def motions(asked: Sequence[Asked]) -> list[Motions]:
+    """Of each; those that differ in what drives or reads them are solved with one another."""
+    found: dict[int, Motions] = {}
+    for k, one in enumerate(asked):
+        if k not in found:
+            same = [n for n in range(k, len(asked)) if n not in found and (n == k or one.alike(asked[n]))]
+            found |= dict(zip(same, _together([asked[n] for n in same]), strict=True))
+    return [found[k] for k in range(len(asked))]
+
+
+def _together(asked: Sequence[Asked]) -> list[Motions]:
+    one = asked[0]
+    K_0, K_1, M, C_1 = one.matrices
+    A = _dynamic(K_0, K_1, M, C_1, one.omega, one.G)
+    each: list[Array] = []
+    places = []
+    travel = -1 / one.omega**2
+    for a in asked:
+        rows = [np.broadcast_to(side, (len(a.omega), len(side))) for side in a.sides]
+        if np.any(a.change.travel_load):
+            rows[0] = rows[0] + travel[:, None] * a.change.travel_load
+        places.append([_place(row, each) for row in rows])
+    solved = np.asarray(np.linalg.solve(A, np.stack(each, axis=2).astype(complex)), dtype=np.complex128)
+    columns = [solved[:, :, n] for n in range(len(each))]
+    poles = np.empty(0, complex)
+    if one.modulus is not None and len(one.pole_node):
+        loaded = np.array([columns[n] for n in dict.fromkeys(at[0] for at in places)])[:, one.pole_node]
+        # Of several loads the one that stirs a mode most.
+        most = np.argmax(np.linalg.norm(loaded, axis=2), axis=0)
+        poles = poles_near(
+            K_0,
+            K_1,
+            M,
+            C_1,
+            loaded[most, np.arange(len(most))],
+            one.omega[one.pole_node].astype(complex),
+            one.modulus,
+            _POLE_STEPS,
+        )[0]
+    return [
+        Motions(columns[at[0]], columns[at[1]], columns[at[2]] if one.with_pitch else None, poles)
+        for at in places
+    ]
+
+
+def _place(row: Array, each: list[Array]) -> int:
+    """Of a side among those to be solved, itself added where it is new."""
+    for n, other in enumerate(each):
+        if np.array_equal(row, other):
+            return n
+    each.append(row)
+    return len(each) - 1
+
+
 def answer(
     plate: EnrichedReducedPlate,
     omega: Array,
@@ -62,24 +171,29 @@ def answer(
     with_pitch: bool,
     nuisances: tuple[Nuisances, Array] | None = None,
 ) -> PlateAnswer:
-    """Solve the nodes.
+    """Solve the nodes, and read. As `Asked` and `read_off` have it.
 
-    `pole_node` has a node near every pole wanted, `modulus` what is near them; `nearby` for every unknown the
-    changes a step above and below, and the step between them. `nuisances` with where they are: `change` has
-    what they change in it. Shape (nodes,) for `omega` and `G`, (poles,) for `pole_node`.
+    Shape (nodes,) for `omega` and `G`, (poles,) for `pole_node`.
     """
-    C_1 = (plate.U * (plate.d * change.damping)) @ plate.U.T
-    K_1 = plate.K_1 + change.K_1
-    A = _dynamic(plate.K_0 + change.K, K_1, plate.M + change.M, C_1, omega, G)
-    load, observe = plate.load + change.load, plate.observe + change.observe
-    sides = [load, observe, plate.pitch] if with_pitch else [load, observe]
-    rhs = np.stack(sides, axis=1).astype(complex)
-    sides_by_node = np.array(np.broadcast_to(rhs, (len(omega), *rhs.shape)))
+    asked = Asked(plate, omega, G, change, pole_node, modulus, with_pitch)
+    return read_off(asked, motions([asked])[0], nearby, nuisances)
+
+
+def read_off(
+    asked: Asked,
+    moved: Motions,
+    nearby: list[tuple[Change, Change, float]],
+    nuisances: tuple[Nuisances, Array] | None = None,
+) -> PlateAnswer:
+    """What is read of the motions of what was asked for. Shape (nodes,) of the plate's every answer.
+
+    `nearby` has for every unknown the changes a step above and below, and the step between them. `nuisances`
+    with where they are: the change has what they change in it.
+    """
+    plate, omega, G, change = asked.plate, asked.omega, asked.G, asked.change
+    q, z, p = moved.q, moved.z, moved.p
+    K_1, observe = asked.matrices[1], plate.observe + change.observe
     travel = -1 / omega**2
-    sides_by_node[:, :, 0] += travel[:, None] * change.travel_load
-    solved = np.asarray(np.linalg.solve(A, sides_by_node), dtype=np.complex128)
-    q, z = solved[:, :, 0], solved[:, :, 1]
-    p = solved[:, :, 2] if with_pitch else None
     step = _Step(plate, omega, G, z)
     pairs = [(_between(up, down, 1 / h)) for up, down, h in nearby]
     none = np.zeros((0, len(omega)), complex)
@@ -98,18 +212,7 @@ def answer(
         else np.zeros((len(pairs), len(omega)), complex),
         heave_by_z=by_z,
         pitch_by_z=pitch_by_z,
-        poles=poles_near(
-            plate.K_0 + change.K,
-            K_1,
-            plate.M + change.M,
-            C_1,
-            q[pole_node],
-            omega[pole_node].astype(complex),
-            modulus,
-            _POLE_STEPS,
-        )[0]
-        if modulus is not None and len(pole_node)
-        else np.empty(0, complex),
+        poles=moved.poles,
     )
 
 

@@ -1,6 +1,6 @@
 """Everything about one set of data that does not change from candidate to candidate."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -106,19 +106,24 @@ class DiagnosisProblem:
         assert self.specimen.core is not None
         return self.specimen.core.law.lifted()
 
-    def condensed(self, law: CoreLaw) -> "DiagnosisProblem":
-        """The same, its plate condensed to moduli within a decade or so of a law, and to the tolerances."""
-        if not len(self.plate.names):
+    def condensed(self, law: CoreLaw, sides: Sequence[Array] = ()) -> "DiagnosisProblem":
+        """The same, its plate condensed to moduli within a decade or so of a law, and to the tolerances.
+
+        `sides` are further loads that it shall answer. Shape (k,) each.
+        """
+        if not len(self.plate.names) and not sides:
             # Nothing but what is stated changes this plate: it is small as it is.
             return self
-        omega = self.coarse.nodes.omega[::_EVERY]
+        # With several sides each point has as many answers: fewer points have as much to say.
+        omega = self.coarse.nodes.omega[:: _EVERY * max(2, len(sides)) // 2]
         size = np.abs(law.modulus(omega))
         factors = [s * np.exp(1j * angle) for s in _SIZES for angle in _ANGLES]
         G = np.concatenate([size * f for f in factors])
         random = np.random.default_rng(_PLACES_SEED)
         places = _REACH * random.standard_normal((_PLACES if self.nuisances else 0, len(self.nuisances)))
         changes = [self.nuisances.change(self.plate, z) for z in places]
-        plate = self.plate.condensed(np.tile(omega, len(factors)), G, changes, omega, law.modulus(omega))
+        around = np.tile(omega, len(factors))
+        plate = self.plate.condensed(around, G, changes, omega, law.modulus(omega), sides)
         return replace(self, plate=plate)
 
     @property
@@ -153,9 +158,12 @@ class DiagnosisProblem:
         """Where every stated number is what it is stated to be. Shape (numbers,)."""
         return np.zeros(len(self.nuisances))
 
-    def around(self, law: CoreLaw) -> "DiagnosisProblem":
-        """The same, its grids made for the poles that the plate has under a law."""
-        found = PlatePoles(self.plate, law)
+    def around(self, law: CoreLaw, poles: PlatePoles | None = None) -> "DiagnosisProblem":
+        """The same, its grids made for the poles that the plate has under a law.
+
+        `poles` where they are at hand.
+        """
+        found = poles or PlatePoles(self.plate, law)
 
         def made_for(grid: NodeGrid) -> NodeGrid:
             return replace(grid, nodes=grid.nodes.around(found.near), poles=found)
@@ -178,4 +186,7 @@ def points_of(sweep: Sweep, specimen: StatedSpecimen) -> Points:
         has_phase=sweep.has_phase,
         reads=specimen.reads,
         drive=specimen.drive,
+        force_n=np.abs(sweep.base_m_s2)
+        if specimen.drive == "force" and sweep.base_m_s2 is not None
+        else None,
     )

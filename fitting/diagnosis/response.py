@@ -14,23 +14,20 @@ from functools import reduce
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.diagnosis.plate_answer import answer, core_strain
+from fitting.diagnosis.plate_answer import Asked, Motions, motions, read_off
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid
+from fitting.diagnosis.strains import Reference, Strains
 from fitting.effects.added_mass import AddedMassEffect
 from fitting.effects.base import Effect, EffectParameter, ModulusAt
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.gravity import PUBLISHED_G_M_S2
+from fitting.effects.span import Span
 from fitting.laws import CoreLaw
 
 _H = 1e-4
 """Step of differences, of an unknown's typical size."""
 _SMALL = 1e-6
 """Of the velocity: the step along which a derivative of it is read."""
-_SOFTENED = np.array([-0.3, 0.0, 0.25, 0.5])
-"""Shares by which the core softens where its strain is computed: a cubic through them serves all between."""
-_KEPT = 8
-"""Tables of the core's strain for unknowns just asked for; more are begun anew. A choice."""
 
 
 class SweepResponse:
@@ -40,18 +37,22 @@ class SweepResponse:
     """
 
     def __init__(
-        self, problem: DiagnosisProblem, effects: Sequence[Effect], grid: NodeGrid | None = None
+        self,
+        problem: DiagnosisProblem,
+        effects: Sequence[Effect],
+        grid: NodeGrid | None = None,
+        plate: EnrichedReducedPlate | None = None,
+        reference: Reference | None = None,
     ) -> None:
+        """Where they are at hand: `plate`, as far as these effects need it, and softening's `reference`."""
         self.problem, self.effects, self.nuisances = problem, tuple(effects), problem.nuisances
         count = len(self.nuisances)
         self.parameters: tuple[EffectParameter, ...] = (
             *(STATED_NUMBER,) * count,
             *(u for e in effects for u in e.parameters),
         )
-        spans = {s.name: s for e in effects for s in e.spans}
-        if self.nuisances.masses:
-            spans |= {s.name: s for s in AddedMassEffect.spans}
-        self.plate: EnrichedReducedPlate = problem.plate.take(spans.values())
+        spans = spans_of(problem, effects)
+        self.plate: EnrichedReducedPlate = plate or problem.plate.take(spans)
         self._stated = slice(0, count)
         self._slices, start = [], count
         for effect in self.effects:
@@ -67,9 +68,9 @@ class SweepResponse:
             grid = problem.passes
         self.grid = grid
         self._last: tuple[bytes, _ByChange, Complex] | None = None
-        self._strains: dict[bytes, Array] = {}
-        self._strained = bool(self._shifting) and "strain" in spans
-        self._largest: float | None = None
+        self._ready: tuple[bytes, Asked, Motions] | None = None
+        self._strains = Strains(problem, self.plate, reference or Reference())
+        self._strained = bool(self._shifting) and any(s.name == "strain" for s in spans)
 
     def velocity(self, law: CoreLaw, u: Array) -> Complex:
         """Phasors in m/s. Shape (points,)."""
@@ -104,16 +105,9 @@ class SweepResponse:
         if not self.nuisances.change_nothing:
             found.append(self.nuisances.change(self.plate, known[self._stated]))
         G, _ = others._bearing(law, law.modulus(self.problem.points.omega), at.G)
-        solved = answer(
-            self.plate,
-            nodes.omega,
-            G,
-            reduce(Change.and_then, found, Change()),
-            [(self._moving(last.change(self.plate, u)), Change(), 1.0) for u in starts],
-            nodes.pole_node,
-            self.grid.modulus_near_poles(G),
-            with_pitch=bool(self._pitching),
-        )
+        asked = self._asked(G, reduce(Change.and_then, found, Change()))
+        by_start = [(self._moving(last.change(self.plate, u)), Change(), 1.0) for u in starts]
+        solved = read_off(asked, motions([asked])[0], by_start)
         by_u = nodes.spread(np.stack([solved.heave_by_u, solved.pitch_by_u]), solved.poles, solved.poles)
         raw = at.per_x * (by_u[0] + at.pitch * by_u[1])
         return others._read_along(at, raw, known)
@@ -136,7 +130,7 @@ class SweepResponse:
         pitch = np.zeros(len(omega), complex)
         turned = np.zeros(len(omega), complex)
         found = None
-        if self._changing or self._pitching or not self.nuisances.change_nothing:
+        if self._moves:
             G_nodes, smooth = self._bearing(law, G_law, G)
             found, (moved, turned, changed_slope) = self._answer(u, G_nodes, derivatives)
             x = x + moved
@@ -165,11 +159,14 @@ class SweepResponse:
 
     def _answer(self, u: Array, G: Complex, derivatives: bool) -> tuple["_ByChange", Complex]:
         """At every point its derivatives; and the change of x, the answer to pitch, and dx/dG."""
-        changing = [u[self._stated], *(self._of(k, u) for k in self._changing)]
-        key = G.tobytes() + b"".join(c.tobytes() for c in changing)
-        key += b"d" * derivatives
-        if self._last is None or self._last[0] not in (key, key + b"d"):
-            changes = self._changes(u)
+        key = self._key(u, G)
+        if not self._is_known(key, derivatives=derivatives):
+            if self._ready is not None and self._ready[0] == key:
+                _, asked, moved = self._ready
+            else:
+                asked = self._asked(G, self._changes(u))
+                (moved,) = motions([asked])
+            self._ready = None
             nearby = []
             for k in self._changing if derivatives else ():
                 part = self._slices[k]
@@ -178,17 +175,8 @@ class SweepResponse:
                     up, down = (self._change(k, _moved(u, n, s * h), self.plate) for s in (1, -1))
                     nearby.append((up, down, 2 * h))
             nodes = self.grid.nodes
-            solved = answer(
-                self.plate,
-                nodes.omega,
-                G,
-                changes,
-                nearby,
-                nodes.pole_node,
-                self.grid.modulus_near_poles(G),
-                with_pitch=bool(self._pitching),
-                nuisances=(self.nuisances, u[self._stated]) if self.nuisances and derivatives else None,
-            )
+            stated = (self.nuisances, u[self._stated]) if self.nuisances and derivatives else None
+            solved = read_off(asked, moved, nearby, stated)
             changed = np.array([solved.heave - self.grid.rational.displacement(G), solved.pitch])
             simple = nodes.spread(changed, self.grid.unchanged_poles(G), solved.poles)
             # A derivative has every pole twice, and only those of the changed plate.
@@ -199,8 +187,42 @@ class SweepResponse:
             heaves = len(solved.heave_by_z) + len(solved.heave_by_u)
             heave, turned = spread[1 : 1 + heaves], spread[1 + heaves :]
             by = _ByChange(heave, turned if self._pitching else np.zeros_like(heave))
-            self._last = key, by, np.array([*simple, spread[0]])
+            self._last = key + b"d" * derivatives, by, np.array([*simple, spread[0]])
+        assert self._last is not None
         return self._last[1], self._last[2]
+
+    @property
+    def _moves(self) -> bool:
+        """Whether anything changes the plate or the base's motion."""
+        return bool(self._changing or self._pitching or not self.nuisances.change_nothing)
+
+    def _key(self, u: Array, G: Complex) -> bytes:
+        changing = [u[self._stated], *(self._of(k, u) for k in self._changing)]
+        return G.tobytes() + b"".join(c.tobytes() for c in changing)
+
+    def _is_known(self, key: bytes, *, derivatives: bool) -> bool:
+        known = self._last[0] if self._last is not None else b""
+        return known == key + b"d" or (known == key and not derivatives)
+
+    def _asked(self, G: Complex, change: Change) -> Asked:
+        nodes = self.grid.nodes
+        modulus = self.grid.modulus_near_poles(G)
+        pitching = bool(self._pitching)
+        return Asked(self.plate, nodes.omega, G, change, nodes.pole_node, modulus, pitching)
+
+    def asked(self, law: CoreLaw, u: Array, *, derivatives: bool) -> Asked | None:
+        """What has to be solved there; None: nothing. `u` of shape (unknowns,)."""
+        if not self._moves:
+            return None
+        G_law = law.modulus(self.problem.points.omega)
+        G, _ = self._bearing(law, G_law, self._modulus(law, u, G_law))
+        if self._is_known(self._key(u, G), derivatives=derivatives):
+            return None
+        return self._asked(G, self._changes(u))
+
+    def know(self, asked: Asked, moved: Motions, u: Array) -> None:
+        """The motions asked for there. `u` of shape (unknowns,)."""
+        self._ready = self._key(u, asked.G), asked, moved
 
     def _changes(self, u: Array) -> Change:
         found = [self._change(k, u, self.plate) for k in self._changing]
@@ -240,30 +262,9 @@ class SweepResponse:
         return np.array(found)
 
     def _strain(self, law: CoreLaw, u: Array, softened: Array) -> Array:
-        """Of the core at every point, softened by a share, over the largest at 1 g."""
-        table = self._strain_table(law, u)
-        logs_here = ((table[0] * softened + table[1]) * softened + table[2]) * softened + table[3]
-        assert self._largest is not None
-        return np.asarray(np.exp(logs_here) * self.problem.points.acceleration_m_s2 / self._largest)
-
-    def _strain_table(self, law: CoreLaw, u: Array) -> Array:
-        """Ln strain at every point as a cubic of the softening. Shape (4, points)."""
-        key = law.values.tobytes() + b"".join(self._of(k, u).tobytes() for k in self._changing)
-        key += u[self._stated].tobytes()
-        if key not in self._strains:
-            nodes = self.problem.dense
-            G, changes = law.modulus(nodes.omega), self._changes(u)
-            square = self.plate.matrix("strain.mean_square")
-            logs = [
-                np.log(core_strain(self.plate, nodes.omega, G * (1 - s), square, changes)) for s in _SOFTENED
-            ]
-            table = np.linalg.solve(np.vander(_SOFTENED), np.array(logs) @ nodes.plain.T).astype(float)
-            if len(self._strains) > _KEPT:
-                self._strains.clear()
-            self._strains[key] = table
-            if self._largest is None:
-                self._largest = float(np.exp(table[-1]).max()) * PUBLISHED_G_M_S2
-        return self._strains[key]
+        """Of the core at every point, softened by a share, over the reference. Shape (points,) both."""
+        key = b"".join(self._of(k, u).tobytes() for k in self._changing) + u[self._stated].tobytes()
+        return self._strains.at(law, key, lambda: self._changes(u), softened)
 
     def _read(self, v: Complex, u: Array) -> Complex:
         for k, effect in enumerate(self.effects):
@@ -337,6 +338,14 @@ class SweepResponse:
             return np.zeros(len(raw), complex)
         h = self._step(n, u)
         return (self._read(raw, _moved(u, n, h)) - self._read(raw, _moved(u, n, -h))) / (2 * h)
+
+
+def spans_of(problem: DiagnosisProblem, effects: Sequence[Effect]) -> list[Span]:
+    """What a task's plate must span for some effects and for what is stated to sit on it."""
+    spans = {s.name: s for e in effects for s in e.spans}
+    if problem.nuisances.masses:
+        spans |= {s.name: s for s in AddedMassEffect.spans}
+    return list(spans.values())
 
 
 STATED_NUMBER = EffectParameter("stated", "1", -12.0, 12.0, 1.0)

@@ -12,12 +12,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
+from fitting.diagnosis import one_plate
 from fitting.diagnosis.every_point import EveryPoint
 from fitting.diagnosis.member_laws import by_all, law_at
 from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.of_files import OfFiles, Place
+from fitting.diagnosis.one_plate import Taken
+from fitting.diagnosis.plate_answer import motions
+from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid
-from fitting.diagnosis.response import STATED_NUMBER, SweepResponse
+from fitting.diagnosis.response import STATED_NUMBER, SweepResponse, spans_of
+from fitting.diagnosis.strains import Reference
 from fitting.effects.base import Effect, Points
 from fitting.errors import OutsideModel
 from fitting.identification.adjusted import Adjusted, stated_number
@@ -31,8 +36,10 @@ OF_EACH_SPOT = ("gain", "delay", "pickup")
 """Kinds of stated numbers that are another one at every spot, though they are stated alike."""
 CHANNELS = ("gain", "delay")
 """What a mounting does not keep."""
-OF_EACH_FILE = ("mass", "force", "damping", "length", "width")
+OF_EACH_FILE = ("force",)
 """And in every file, its spots sharing them."""
+OF_EACH_PLATE = ("mass", "damping", "length", "width")
+"""And in every file, but of one plate that is struck elsewhere: it was not mounted anew."""
 Places = tuple[NDArray[np.intp], ...]
 
 
@@ -48,6 +55,9 @@ class SeveralProblem(DiagnosisProblem):
     """Members that each stated number belongs to."""
     belongs: tuple[Place, ...] = ()
     """File and spot of each member."""
+    plates: one_plate.Plates = ()
+    """Which of them are one plate, driven and read at several points."""
+    taken: Taken = field(default_factory=Taken, init=False, compare=False, repr=False)
 
     @classmethod
     def of_members(
@@ -72,9 +82,9 @@ class SeveralProblem(DiagnosisProblem):
             raise OutsideModel("some files hold phasors, others amplitudes, expected one of them")
         if len({m.specimen.exact for m in members}) > 1:
             raise OutsideModel("some specimens are exact, others not, expected one of them")
-        each, places, owners = _together(
-            members, of, CHANNELS if one_mounting else (*OF_EACH_SPOT, *OF_EACH_FILE)
-        )
+        plates = one_plate.plates_of(members)
+        apart = CHANNELS if one_mounting else (*OF_EACH_SPOT, *OF_EACH_FILE, *OF_EACH_PLATE)
+        each, places, owners = _together(members, of, apart, plates)
         sweep = joined([m.sweep for m in members])
         rational = _side_by_side([m.rational for m in members])
         nodes = EveryPoint.at(sweep.omega)
@@ -96,7 +106,12 @@ class SeveralProblem(DiagnosisProblem):
             places,
             owners,
             of,
+            plates,
         )
+
+    def __getstate__(self) -> dict[str, object]:
+        # Another process fits effects: the reduced plates have said by then what the model gets wrong.
+        return {**vars(self), "reduced": ()}
 
     @property
     def starts_at(self) -> list[slice]:
@@ -109,13 +124,16 @@ class SeveralProblem(DiagnosisProblem):
         """As much as any member asks for."""
         return max(m.freedom for m in self.members)
 
-    def condensed(self, law: CoreLaw) -> "SeveralProblem":
+    def condensed(self, law: CoreLaw, sides: Sequence[Array] = ()) -> "SeveralProblem":
         """Every member condensed."""
-        return replace(self, members=tuple(m.condensed(law_at(law, k)) for k, m in enumerate(self.members)))
+        laws = [law_at(law, k) for k in range(len(self.members))]
+        members = one_plate.condensed(self.members, self.plates, laws)
+        return replace(self, members=members, plate=members[0].plate)
 
-    def around(self, law: CoreLaw) -> "SeveralProblem":
+    def around(self, law: CoreLaw, poles: PlatePoles | None = None) -> "SeveralProblem":
         """Every member's grids made for a law."""
-        return replace(self, members=tuple(m.around(law_at(law, k)) for k, m in enumerate(self.members)))
+        laws = [law_at(law, k) for k in range(len(self.members))]
+        return replace(self, members=one_plate.around(self.members, self.plates, laws))
 
     def model_error(self, law: CoreLaw, v: Complex) -> Complex:
         """Each member's own. Shape (any, points)."""
@@ -170,6 +188,7 @@ class SeveralResponse(SweepResponse):
         self._stated = slice(0, count)
         self._of_member: list[tuple[SweepResponse, NDArray[np.intp]]] = []
         self._coarse = coarse
+        references: dict[int, Reference] = {}
         for k, m in enumerate(problem.members):
             places, inner, start = [problem.places[k]], [], count
             for e in effects:
@@ -179,11 +198,28 @@ class SeveralResponse(SweepResponse):
                     own = e.places(problem.belongs[k]) if isinstance(e, OfFiles) else None
                     places.append(start + (np.arange(len(form.parameters)) if own is None else own))
                 start += len(e.parameters)
-            response = SweepResponse(m, inner, m.coarse if coarse else None)
+            number = problem.plates[k]
+            plate = reference = None
+            if problem.plates.count(number) > 1:
+                plate = problem.taken.of(number, m, spans_of(m, inner))
+                reference = references.setdefault(number, Reference())
+            response = SweepResponse(m, inner, m.coarse if coarse else None, plate, reference)
             self._of_member.append((response, np.concatenate(places)))
+
+    def _solve(self, law: CoreLaw, u: Array, *, derivatives: bool) -> None:
+        """What several members ask of one plate, all at once."""
+        plates = self.problem.plates
+        for number in {k for k in plates if plates.count(k) > 1}:
+            its = [
+                (r, law_at(law, k), u[at]) for k, (r, at) in enumerate(self._of_member) if plates[k] == number
+            ]
+            asked = [(r, v, one) for r, own, v in its if (one := r.asked(own, v, derivatives=derivatives))]
+            for (r, v, one), moved in zip(asked, motions([one for *_, one in asked]), strict=True):
+                r.know(one, moved, v)
 
     def velocity(self, law: CoreLaw, u: Array) -> Complex:
         """Phasors in m/s, member after member. Shape (points,)."""
+        self._solve(law, u, derivatives=False)
         return np.concatenate(
             [r.velocity(law_at(law, k), u[at]) for k, (r, at) in enumerate(self._of_member)]
         )
@@ -191,6 +227,7 @@ class SeveralResponse(SweepResponse):
     def with_derivatives(self, law: CoreLaw, u: Array) -> tuple[Complex, Complex]:
         """Phasors and derivatives as `Response.with_derivatives` gives them."""
         n = len(law.names)
+        self._solve(law, u, derivatives=True)
         found, rows = [], np.zeros((n + len(u), len(self.problem.sweep)), complex)
         each = zip(self._of_member, self.problem.starts_at, strict=True)
         for k, ((response, at), part) in enumerate(each):
@@ -244,6 +281,7 @@ def joined(sweeps: Sequence[Sweep]) -> Sweep:
 
 
 def _points(each: Sequence[Points]) -> Points:
+    forces = [p.force_n for p in each if p.force_n is not None]
     return Points(
         omega=np.concatenate([p.omega for p in each]),
         acceleration_m_s2=np.concatenate([p.acceleration_m_s2 for p in each]),
@@ -252,11 +290,15 @@ def _points(each: Sequence[Points]) -> Points:
         has_phase=each[0].has_phase,
         reads=each[0].reads,
         drive=each[0].drive,
+        force_n=np.concatenate(forces) if len(forces) == len(each) else None,
     )
 
 
 def _together(
-    members: Sequence[DiagnosisProblem], of: Sequence[Place], apart: Sequence[str]
+    members: Sequence[DiagnosisProblem],
+    of: Sequence[Place],
+    apart: Sequence[str],
+    plates: one_plate.Plates,
 ) -> tuple[tuple[Nuisance, ...], Places, tuple[tuple[int, ...], ...]]:
     """All stated numbers, those of the same thing once: where each member's are, and whose each is.
 
@@ -274,6 +316,8 @@ def _together(
                 pass
             elif n.kind in OF_EACH_SPOT:
                 key = (n.name, of[k])
+            elif n.kind in OF_EACH_PLATE:
+                key = (n.name, of[plates[k] if m.points.drive == "force" else k].file)
             elif n.kind in OF_EACH_FILE:
                 key = (n.name, of[k].file)
             if key not in keys:

@@ -1,11 +1,13 @@
 """The task of one sweep of a small structure: exact at every point, no grid between."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from fitting.arrays import Complex
+from fitting.arrays import Array, Complex
 from fitting.diagnosis.every_point import EveryPoint
+from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid, points_of
 from fitting.laws import CoreLaw
 from fitting.model_error import DRIFT, GAIN
@@ -47,11 +49,11 @@ class SmallProblem(DiagnosisProblem):
         stated = nuisances_of(specimen, parts, has_phase=sweep.has_phase)
         return cls(sweep, specimen, system, points, rational, grid, grid, grid, nodes, stated)
 
-    def condensed(self, law: CoreLaw) -> "SmallProblem":
+    def condensed(self, law: CoreLaw, sides: Sequence[Array] = ()) -> "SmallProblem":
         """It is small as it is."""
         return self
 
-    def around(self, law: CoreLaw) -> "SmallProblem":
+    def around(self, law: CoreLaw, poles: PlatePoles | None = None) -> "SmallProblem":
         """The same under any law."""
         return self
 

@@ -6,7 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import BASE, Effect, EffectParameter, ModulusAt, Points
+from fitting.effects.base import Effect, EffectParameter, ModulusAt, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.span import Span
@@ -14,6 +14,8 @@ from fitting.element import core_shear_stiffness
 
 LEAST = 0.3
 """Of the modulus; softening goes no further."""
+_LEVELS = 1.2
+"""Of the largest force over the least: over less, strain is a function of frequency, as the law is."""
 _ITERATIONS = 60
 """Half steps halve the distance where strain hardly falls: 1e-10 is reached in 34. A bound."""
 
@@ -41,7 +43,6 @@ class AmplitudeSofteningEffect(Effect):
     name = "amplitude_softening"
     enters = "level"
     source = "Payne, J. Appl. Polym. Sci. 6 (1962), first order in the strain amplitude"
-    needs = BASE
     parameters = (EffectParameter("k", "1", -0.5, 0.8, 0.1, spread=0.15),)
     spans = (Strain(),)
     unexplained_share = 0.004
@@ -50,6 +51,14 @@ class AmplitudeSofteningEffect(Effect):
 
     def on(self, kind: str) -> Effect | None:
         return SofteningBySizeEffect() if kind in ("shear-pair", "beam") else super().on(kind)
+
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
+        if points.drive == "base":
+            return None
+        if points.force_n is None:
+            return "nothing says how large the force was"
+        several = points.force_n.max() > _LEVELS * points.force_n.min()
+        return None if several else "one size of the force does not tell softening from the law"
 
     def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex:
         softened = np.zeros(len(points.omega))
@@ -65,6 +74,7 @@ class AmplitudeSofteningEffect(Effect):
     def story(self, u: Mapping[str, float]) -> str:
         return (
             f"the core softens with strain, by {100 * u['k']:.2g} % at the largest strain of the sweep at 1 g"
+            " (of a force: at 1 N)"
         )
 
 

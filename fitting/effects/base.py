@@ -89,6 +89,8 @@ class Points:
     has_phase: bool
     reads: Reading
     drive: Drive = "base"
+    force_n: Array | None = None
+    """Amplitude of the force that was measured, where one drives and its size is told."""
 
     @property
     def levels(self) -> int:

@@ -27,15 +27,19 @@ class Length(Span):
     def forces(self, full: FullPlate, at: Snapshot) -> Array | Complex:
         if "clamp" not in full.specimen.offers:
             return super().forces(full, at)
-        x, y = full.pickup_m
         length = full.specimen.length_m
-        places = [place for scale in _SCALES for place in (x / scale, (x + (scale - 1) * length) / scale)]
-        rows = np.column_stack([full.loose.observe(min(place, length), y) for place in places])
+        places = [
+            (place, y)
+            for x, y in full.specimen.pickups_m
+            for scale in _SCALES
+            for place in (x / scale, (x + (scale - 1) * length) / scale)
+        ]
+        rows = np.column_stack([full.loose.observe(min(x, length), y) for x, y in places])
         others = [with_length(full.specimen, scale * length) for scale in _SCALES]
         return np.hstack([forces(full, at, others), rows])
 
     def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
-        few = 2 * len(_SCALES)
+        few = at.both.shape[1] * len(_SCALES)
         rows = full.unit(answers[:, few:])
         return np.hstack([answers[:, :few], 0.3 * rows])
 

@@ -27,6 +27,8 @@ from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
 
 Names = NDArray[np.str_]
+Place = tuple[float, float]
+"""On the plate, in m."""
 
 CONDENSED = 1e-4
 """Of the largest singular value, what a condensed plate may leave out; its reading is then off by 1e-5."""
@@ -133,26 +135,31 @@ class EnrichedReducedPlate:
         changes: Sequence[Change] = (),
         changed_omega: Array | None = None,
         changed_G: Complex | None = None,
+        sides: Sequence[Array] = (),
     ) -> "EnrichedReducedPlate":
         """Its own even columns as far as they answer at some frequencies and moduli; others as they are.
 
         `changes` are of the plate, on its columns: answers with each of them at `changed_omega` and
-        `changed_G` are kept too. Shape (points,) for `omega` and `G`, and for the changed ones.
+        `changed_G` are kept too. Shape (points,) for `omega` and `G`, and for the changed ones. `sides` are
+        further loads to be answered, or rows that read it. Shape (k,) each.
         """
         own = np.flatnonzero(self.group == "plate")
-        found = [self._answers(own, omega, G, Change())]
+        found = [self._answers(own, omega, G, Change(), sides)]
         if changed_omega is not None and changed_G is not None:
-            found += [self._answers(own, changed_omega, changed_G, c) for c in changes]
+            found += [self._answers(own, changed_omega, changed_G, c, sides) for c in changes]
         X = np.concatenate(found, axis=1)
         V, size, _ = np.linalg.svd(np.hstack([X.real, X.imag]), full_matrices=False)
-        V = V[:, size > CONDENSED * size[0]]
+        # Motions that effects stir are of several sides more of its own and less beside them.
+        V = V[:, size > CONDENSED / max(1.0, len(sides) / 2) * size[0]]
         rest = np.flatnonzero(self.group != "plate")
         T = np.zeros((len(self.group), V.shape[1] + len(rest)))
         T[own, : V.shape[1]] = V
         T[rest, V.shape[1] + np.arange(len(rest))] = 1.0
         return self._on(T, np.concatenate([np.full(V.shape[1], "plate"), self.group[rest]]))
 
-    def _answers(self, own: NDArray[np.intp], omega: Array, G: Complex, change: Change) -> Complex:
+    def _answers(
+        self, own: NDArray[np.intp], omega: Array, G: Complex, change: Change, further: Sequence[Array]
+    ) -> Complex:
         """Of its own columns to base, pickup and pitch, of unit size. Shape (k, any)."""
         square = np.ix_(own, own)
         K_0, K_1, M = (
@@ -162,7 +169,7 @@ class EnrichedReducedPlate:
         C_1 = (self.U[own] * (self.d * change.damping)) @ self.U[own].T
         A = K_0 + G[:, None, None] * K_1
         A = A - (omega**2)[:, None, None] * M + 1j * omega[:, None, None] * C_1
-        given = [self.load + change.load, self.observe + change.observe, self.pitch]
+        given = [self.load + change.load, self.observe + change.observe, self.pitch, *further]
         sides = np.stack([side[own] for side in given if np.any(side)], axis=1).astype(complex)
         X = np.linalg.solve(A, np.broadcast_to(sides, (len(omega), *sides.shape)))
         return np.concatenate(X / np.linalg.norm(X, axis=1, keepdims=True), axis=1)
@@ -230,6 +237,12 @@ class EnrichedReducedPlate:
     def pickup_row(self) -> Array:
         """`row` where it is stated to be read. Shape (k,)."""
         return self.row(*self.pickup)
+
+    def at(self, force_m: Place | None, pickup_m: Place) -> "EnrichedReducedPlate":
+        """The same driven by a force at a point, or as it is, and read at another point."""
+        observe = self.row(*pickup_m)
+        load = self.load if force_m is None else self.row(*force_m)
+        return replace(self, load=load, observe=observe, pickup=np.array(pickup_m))
 
     @property
     def length_m(self) -> float:

@@ -41,12 +41,14 @@ def enriched(
             found.append(answers)
             progress(0.8 * len(found) / SNAPSHOTS)
         own = [first.orthonormal(first.of(full.lift @ basis))]
-        own += [odd.leading([each[1]["plate"] for each in found], None, 1e-4, 40) for odd in halves[1:]]
+        most = _MOST_ODD * (full.loads.shape[1] - 1)
+        own += [odd.leading([each[1]["plate"] for each in found], None, 1e-4, most) for odd in halves[1:]]
         for half, ending, known in zip(halves, _ENDINGS, own, strict=False):
             half.groups[f"plate{ending}"] = known
 
         def motions(span: Span) -> list[Array]:
             count = span.columns if full.only_even else 2 * span.columns
+            count = count * full.loads.shape[1] // 2
             return [
                 half.leading([each[n][span.name] for each in found], own[n], TOLERANCE, count)
                 for n, half in enumerate(halves[: 2 if span.odd else 1])
@@ -59,6 +61,8 @@ def enriched(
         return _project(full, halves, spans, pool)
 
 
+_MOST_ODD = 40
+"""Motions odd in y beside a plate's own even ones, for each spot: a bound on time."""
 _ENDINGS = ("", "/odd")
 """Of a group's name, by the parity of its motions."""
 
@@ -84,7 +88,7 @@ def _responses(
     """To the pickup and of each span, by its name: even motions, and odd ones where it has any."""
     at = full.snapshot(*point)
     size = np.sqrt(np.real(np.vdot(at.x, times(full.scale, at.x))))
-    at = replace(at, x=at.x / size, z=at.both[:, 1] / size)
+    at = replace(at, x=at.x / size, z=at.both[:, 1:] / size)
     forces = [span.forces(full, at) for span in spans]
     answers = at.answers(forces, [span.odd or not full.only_even for span in spans])
     found = {span.name: span.responses(full, at, X) for span, X in zip(spans, answers, strict=True)}

@@ -103,14 +103,15 @@ class FullPlate:
         odd = second.solver(omega, G) if second is not None else _nothing
         X, Z = even(self.loads), odd(self.loads[:, 1:] if self.only_even else self.loads)
         x = X[:, 0] if self.only_even else X[:, 0] + Z[:, 0]
-        return Snapshot(omega, G, x, X[:, 1] + Z[:, -1], even, odd)
+        spots = self.loads.shape[1] - 1
+        return Snapshot(omega, G, x, X[:, 1:] + Z[:, -spots:], even, odd)
 
     @property
     def loads(self) -> Array:
-        """Of a unit of what drives it, and a unit force at the pickup. Shape (n, 2)."""
+        """Of a unit of what drives it, and a unit force at each spot. Shape (n, 1 + spots)."""
 
         def make() -> Array:
-            return np.column_stack([self.drive, self.loose.observe(*self.pickup_m)])
+            return np.column_stack([self.drive, *(self.loose.observe(*at) for at in self.specimen.pickups_m)])
 
         return self.once("loads", make)
 
@@ -155,7 +156,7 @@ class Snapshot:
     x: Complex
     """Response to a unit of what drives it. Shape (n,)."""
     z: Complex
-    """Response to a unit force at the pickup, odd motions too. Shape (n,)."""
+    """Response to a unit force at each spot, odd motions too. Shape (n, spots)."""
     even: Solver
     """Forces, (n, m), to even responses of the held plate; to all where its long edges are not alike."""
     odd: Solver
@@ -177,8 +178,9 @@ class Snapshot:
 
     @cached_property
     def both(self) -> Complex:
-        """X and z side by side, z of the size of x. Shape (n, 2)."""
-        return np.column_stack([self.x, self.z * (np.linalg.norm(self.x) / np.linalg.norm(self.z))])
+        """X and z side by side, each z of the size of x. Shape (n, 1 + spots)."""
+        size = np.linalg.norm(self.x)
+        return np.column_stack([self.x, *(z * (size / np.linalg.norm(z)) for z in self.z.T)])
 
 
 def _side_by_side(solve: Solver, forces: Sequence[Array | Complex]) -> list[Complex]:

@@ -21,12 +21,13 @@ class Spot(Span):
     name = "spot"
 
     def forces(self, full: FullPlate, at: Snapshot) -> Array:
-        s, (x, y) = full.specimen, full.pickup_m
+        s = full.specimen
         return np.column_stack(
             [
                 full.loose.observe(
                     float(np.clip(x + dx, 0, s.length_m)), float(np.clip(y + dy, 0, s.width_m))
                 )
+                for x, y in s.pickups_m
                 for dx, dy in _AROUND_M
             ]
         )

@@ -11,13 +11,9 @@ B complex and per beam, mu its mass per length,
     B_i = mu l^4 omega_i^2 / lambda_i^4,   eta_i that of the mode.
 """
 
-from dataclasses import replace
-
 import numpy as np
 
-from fitting.arrays import Array, Complex
 from fitting.structures.beam import Beam
-from fitting.structures.small import displacement, system_of
 
 _FIRST = (1.875104069, 4.694091133, 7.854757438, 10.99554073, 14.13716839)
 """Roots of 1 + cos x cosh x; beyond them the cosine's zeros, to 1e-7."""
@@ -26,20 +22,6 @@ _FIRST = (1.875104069, 4.694091133, 7.854757438, 10.99554073, 14.13716839)
 def half_beam_root(mode: int) -> float:
     """lambda_i: root of 1 + cos x cosh x, counted from 1."""
     return _FIRST[mode - 1] if mode <= len(_FIRST) else float(np.pi * (mode - 0.5))
-
-
-def impedance(
-    frequency_hz: Array, stiffness_n_m2: complex | Complex, mass_kg_m: float, length_m: float
-) -> Complex:
-    """Z in N s/m of a uniform beam of the whole length; the stiffness may depend on frequency.
-
-    Shape (points,).
-    """
-    omega, half = 2 * np.pi * np.asarray(frequency_hz, dtype=float), length_m / 2
-    x = half * (mass_kg_m * omega**2 / np.asarray(stiffness_n_m2, complex)) ** 0.25
-    # Over cosh x, which overflows.
-    ratio = (np.sin(x) + np.cos(x) * np.tanh(x)) / (x * (1 / np.cosh(x) + np.cos(x)))
-    return np.asarray(1j * omega * 2 * mass_kg_m * half * ratio)
 
 
 def bending_stiffness(mode: int, frequency_hz: float, mass_kg_m: float, length_m: float) -> float:
@@ -58,16 +40,3 @@ def mass_per_length(beam: Beam) -> float:
         if f is not None
     )
     return beam.width_m * (core + faces)
-
-
-def impedance_of(beam: Beam, frequency_hz: Array) -> Complex:
-    """Z of a beam that is driven in its centre, by its full matrices and law. Shape (points,).
-
-    F/a = mass - omega^2 times the integral of mass times what moves more than the centre.
-    """
-    omega = 2 * np.pi * np.asarray(frequency_hz, dtype=float)
-    G = beam.core.law.modulus(omega) if beam.core is not None else np.zeros(len(omega), complex)
-    system = system_of(beam, beam.parts())
-    # The load of a unit acceleration is minus that integral.
-    moved = displacement(replace(system, observe=system.load), omega, G)
-    return np.asarray(1j * omega * (mass_per_length(beam) * beam.length_m + omega**2 * moved))

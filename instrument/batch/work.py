@@ -16,10 +16,11 @@ from instrument.facts.identification import IdentificationResult
 from instrument.files.specimen_file import read_specimen
 from instrument.interchange.given import Given, read_given
 from instrument.models.diagnosis import diagnose
+from instrument.models.files import spots_of
 from instrument.models.identification import identify
 from instrument.models.second_process import VARIABLE as PROCESSES
 from instrument.models.sharing import serves
-from instrument.models.together import diagnose_together, identify_together, spots_of
+from instrument.models.together import diagnose_together, identify_together
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
 from instrument.results.together_from import diagnosed_together_from, identified_together_from

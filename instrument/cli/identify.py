@@ -29,10 +29,12 @@ from instrument.files.dma_file import DmaTable, read_dma
 from instrument.material.beside import beside, beside_table
 from instrument.material.found_law import law_of_result
 from instrument.material.overlay import save_overlay
+from instrument.models.files import File
 from instrument.models.identification import Identified, Method
 from instrument.models.identification import identify as identify_sweep
 from instrument.models.pointwise import pointwise_of
-from instrument.models.together import File, identify_together
+from instrument.models.set_up import Hammer
+from instrument.models.together import identify_together
 from instrument.progress import bar
 from instrument.results.budget_from import budget, budget_from
 from instrument.results.identification_from import identification_from
@@ -168,7 +170,7 @@ def identify(
         hammer,
         no_hammer=no_hammer,
         insist=insist,
-        one_plate=at_temperatures,
+        one_plate=True,
         own_hammer=at_temperatures and hammer is None,
     )
     if shift is not None:
@@ -180,13 +182,15 @@ def identify(
         return
     files = together(every, data)
     if files is not None:
-        if pointwise or method == "paper" or no_viscous_damping or dma is not None or with_budget:
+        if pointwise or method == "paper" or no_viscous_damping or dma is not None:
             raise click.UsageError(
-                "--pointwise, --method, --no-viscous-damping, --with, --budget: expected one plate's data"
+                "--pointwise, --method, --no-viscous-damping, --with: expected one plate read at one spot"
             )
-        if depths:
-            raise click.UsageError("--uncertainty with several files: expected one plate's data")
-        _identify_together(out, files)
+        if set(depths) - {"profile"}:
+            raise click.UsageError(
+                "--uncertainty posterior and bootstrap with several files or spots: expected profile"
+            )
+        _identify_together(out, files, every[0].modes, depths, with_budget=with_budget)
         return
     given = every[0]
     read = given.specimen
@@ -268,7 +272,23 @@ def _beside(
     return said
 
 
-def _identify_together(out: Output, files: Sequence[File]) -> None:
-    found = identify_together(files, bar)
-    print_identification(out, found.found, found.sweep, files[0].specimen)
-    out.result(identified_together_from(found, files))
+def _identify_together(
+    out: Output,
+    files: Sequence[File],
+    hammer: Hammer | None,
+    depths: Sequence[Depth],
+    *,
+    with_budget: bool,
+) -> None:
+    together = identify_together(files, bar, hammer)
+    found, plate = together.found, files[0].specimen
+    print_identification(out, found, together.sweep, plate)
+    if found.bare is not None and isinstance(plate, Specimen):
+        print_bare_plate(out, found.bare, plate)
+    result = identified_together_from(together, files)
+    if with_budget:
+        result = result.but(budget=_budget(out, found))
+    if depths:
+        looked = [one for d in dict.fromkeys(depths) for one in _in_depth(out, found, d, SAMPLES)]
+        result = result.but(uncertainty=tuple(looked))
+    out.result(result)

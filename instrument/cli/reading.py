@@ -15,8 +15,8 @@ from instrument.files.modal_table import is_modal_table, read_modal_table
 from instrument.files.plausible import INSIST, question_specimen
 from instrument.files.structure_file import read_structure
 from instrument.interchange.given import Given, read_given
+from instrument.models.files import File, spots_of
 from instrument.models.quick_look import data_doubt
-from instrument.models.together import File, spots_of
 from instrument.progress import bar
 
 _OPTIONS = (

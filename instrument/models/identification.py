@@ -41,8 +41,8 @@ class Joint:
     """The joint fit itself and the plate it was made with."""
 
     begun: Begun
-    reduced: ReducedPlate
-    """As stated."""
+    reduced: ReducedPlate | None
+    """As stated; None where several were fitted together."""
 
 
 @dataclass(frozen=True)

@@ -84,6 +84,8 @@ def _velocity_of(joint: Joint, sweep: Sweep) -> VelocityOf:
 
 def _rational(joint: Joint) -> RationalSweep:
     problem = joint.begun.problem
+    if joint.reduced is None:
+        raise OutsideModel("band by band: several were fitted together, expected one plate read at one spot")
     plate = moved_plate(joint.reduced, problem.nuisances, problem.plate, joint.begun.none.z)
     return rational_sweep(plate, np.unique(problem.sweep.omega))
 

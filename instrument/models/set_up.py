@@ -1,7 +1,8 @@
 """What `identify` and `diagnose` share before they fit: the models of a specimen for one sweep."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from fitting.effects.full_plate import FullPlate
 from fitting.errors import OutsideModel
 from fitting.identification.bare_plate import CLAMP, MatchedModes, match_modes
 from fitting.mesh import Mesh
-from fitting.rational import RationalSweep, rational_sweep
+from fitting.rational import RationalSweep, RationalSweeps, rational_sweep, rational_sweeps
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
@@ -70,28 +71,13 @@ def set_up(
     `like` is a specimen that differs in stated values by a few percent at most: its models serve this one.
     Raises `TooFewPoints` where the hammer test is not of this plate.
     """
-    bare = None
-    if hammer is not None:
-        modes = match_modes(specimen, *hammer)
-        specimen = replace(specimen, modal_ratios=modes.ratios)
-        bare = bare_of(modes, specimen)
+    specimen, bare = with_hammer(specimen, hammer)
     if like is not None:
         check_like(specimen, like)
-    count = max(_USUAL_MODES, len(specimen.modal_ratios))
-    usual = replace(like or specimen, modal_ratios=(_USUAL_RATIO,) * count, masses=())
     # Masses are put on by the fit, which needs the motions that they stir.
     with_effects = with_effects or bool(specimen.masses)
-    models = models or Models.of(usual, sweep.frequency_hz, progress)
-    factor = np.zeros(len(usual.modal_ratios))
-    factor[: len(specimen.modal_ratios)] = np.array(specimen.modal_ratios) / _USUAL_RATIO
-    reduced = models.reduced
-    # Only modes even in y are in the reduced plate.
-    reduced = replace(reduced, d=reduced.d * factor[reduced.mode])
-    if with_effects:
-        plate = _spanned(models)
-        plate = replace(plate, d=plate.d * factor)
-    else:
-        plate = _plain(reduced, usual)
+    models = models or Models.of(_usual(like or specimen, specimen), sweep.frequency_hz, progress)
+    reduced, plate = _damped(models, specimen, with_effects=with_effects)
 
     def rational(omega: Array) -> RationalSweep:
         def build() -> RationalSweep:
@@ -106,6 +92,94 @@ def set_up(
 
     problem = DiagnosisProblem.of(sweep, specimen, plate, rational, like)
     return SetUp(problem, reduced, models, bare, remade)
+
+
+def with_hammer(specimen: Specimen, hammer: Hammer | None) -> tuple[Specimen, BareModes | None]:
+    """The specimen with the ratios of its bare plate's test, and what else that says.
+
+    Raises `TooFewPoints` where the test is not of this plate.
+    """
+    if hammer is None:
+        return specimen, None
+    modes = match_modes(specimen, *hammer)
+    specimen = replace(specimen, modal_ratios=modes.ratios)
+    return specimen, bare_of(modes, specimen)
+
+
+def set_up_spots(
+    sweeps: Sequence[Sweep],
+    specimens: Sequence[Specimen],
+    progress: Progress = quiet,
+    *,
+    with_effects: bool = True,
+) -> list[tuple[DiagnosisProblem, ReducedPlate]]:
+    """Models for several sweeps of one plate, driven or read at several points: one basis for all of them.
+
+    The specimens differ in these points alone.
+    """
+    first = specimens[0]
+    with_effects = with_effects or bool(first.masses)
+    places = [s.force_m for s in specimens if s.force_m is not None]
+    places += [s.pickup_m for s in specimens if s.pickup_m is not None]
+    spots = tuple(dict.fromkeys(place for place in places if place != first.force_m))
+    shared = replace(_usual(first, first), pickup_m=spots[0], further_pickups_m=spots[1:])
+    models = Models.of(shared, np.concatenate([s.frequency_hz for s in sweeps]), progress)
+    reduced, plate = _damped(models, first, with_effects=with_effects)
+    known: dict[bytes, RationalSweeps] = {}
+
+    def side(place: tuple[float, float] | None) -> int:
+        return 0 if place in (None, first.force_m) else 1 + spots.index(place)
+
+    def rational(omega: Array) -> RationalSweeps:
+        def build() -> RationalSweeps:
+            with progress("preparing the frequency grid") as report:
+                return rational_sweeps(reduced, omega, report)
+
+        key = omega.tobytes()
+        if key not in known:
+            depends_on = [models.without_law, models.domain, list(first.modal_ratios), omega]
+            known[key] = cached("rationals", depends_on, RationalSweeps, build)
+        return known[key]
+
+    found = []
+    for sweep, specimen in zip(sweeps, specimens, strict=True):
+        between = side(specimen.force_m), side(specimen.pickup_m)
+        assert specimen.pickup_m is not None
+        problem = DiagnosisProblem.of(
+            sweep,
+            specimen,
+            plate.at(specimen.force_m, specimen.pickup_m),
+            partial(_between, rational, between),
+        )
+        found.append((problem, reduced.between(*between)))
+    return found
+
+
+def _between(
+    rational: Callable[[Array], RationalSweeps], sides: tuple[int, int], omega: Array
+) -> RationalSweep:
+    return rational(omega).of(*sides)
+
+
+def _usual(plate: Specimen, specimen: Specimen) -> Specimen:
+    """A plate with usual damping ratios: as many models are made of, whatever the specimen's are."""
+    count = max(_USUAL_MODES, len(specimen.modal_ratios))
+    return replace(plate, modal_ratios=(_USUAL_RATIO,) * count, masses=())
+
+
+def _damped(
+    models: Models, specimen: Specimen, *, with_effects: bool
+) -> tuple[ReducedPlate, EnrichedReducedPlate]:
+    """The reduced plates of some models, with a specimen's own damping ratios."""
+    factor = np.zeros(len(models.specimen.modal_ratios))
+    factor[: len(specimen.modal_ratios)] = np.array(specimen.modal_ratios) / _USUAL_RATIO
+    reduced = models.reduced
+    # Only modes even in y are in the reduced plate.
+    reduced = replace(reduced, d=reduced.d * factor[reduced.mode])
+    if not with_effects:
+        return reduced, _plain(reduced, models.specimen)
+    plate = _spanned(models)
+    return reduced, replace(plate, d=plate.d * factor)
 
 
 def check_like(specimen: Specimen, like: Specimen) -> None:

@@ -25,20 +25,21 @@ from fitting.diagnosis.result import FoundEffect, ParameterEstimate
 from fitting.diagnosis.several import SeveralProblem, joined
 from fitting.diagnosis.small_problem import DEAF, SmallProblem
 from fitting.errors import OutsideModel
+from fitting.identification.bare_plate import fit_bare_plate
 from fitting.identification.result import summarise
 from fitting.identification.validation import rms
 from fitting.laws import CoreLaw
 from fitting.noise import Noise, noise_of
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
-from fitting.structures import AnySpecimen
 from fitting.structures.shear_pair import ShearPair
 from fitting.sweep import Sweep
 from instrument.models.diagnosis import Diagnosed, effects_on
-from instrument.models.identification import Identified
+from instrument.models.files import File, name_of, numbers_of, one_plate, plates_of
+from instrument.models.identification import Identified, Joint
 from instrument.models.remarks import remarks_on_law, remarks_on_noise
 from instrument.models.second_process import executor
-from instrument.models.set_up import Hammer, set_up
+from instrument.models.set_up import Hammer
 from instrument.models.theory import theory_over
 from instrument.progress import Progress, quiet
 
@@ -48,41 +49,6 @@ _MISFIT = 3.0
 """Chi-square per degree of freedom from which a misfit is more than noise."""
 _WORTH_SAYING = 0.01
 """Of the modulus: a correction that is left out."""
-
-
-@dataclass(frozen=True)
-class File:
-    """One set of data and what it was measured on."""
-
-    sweep: Sweep
-    specimen: AnySpecimen
-    name: str = ""
-    number: int = 0
-    """Of the file, from 1; in order where it is not said: several spots of one file share it."""
-    pickup: int | None = None
-    """Which spot of the file, where it has several."""
-    like: Specimen | None = None
-    """As `instrument.models.set_up.set_up` takes it."""
-
-
-def spots_of(sweep: Sweep, specimen: AnySpecimen, name: str = "", number: int = 0) -> list[File]:
-    """A file's data, each of its spots for itself."""
-    if sweep.pickup is None or not isinstance(specimen, Specimen):
-        return [File(sweep, specimen, name, number)]
-    return [
-        File(replace(sweep.take(sweep.pickup == k), pickup=None), specimen.at_pickup(k), name, number, k)
-        for k in np.unique(sweep.pickup).tolist()
-    ]
-
-
-def numbers_of(files: Sequence[File]) -> list[int]:
-    """Of each of them the number of its file."""
-    return [f.number or k + 1 for k, f in enumerate(files)]
-
-
-def name_of(files: Sequence[File], number: int) -> str:
-    """Of a file by its number."""
-    return files[numbers_of(files).index(number)].name
 
 
 @dataclass(frozen=True)
@@ -144,26 +110,21 @@ class _Work:
 
     def problem(self) -> tuple[SeveralProblem, Noise]:
         """Of the points in use."""
+        sweeps = [file.sweep.take(used) for file, used in zip(self.files, self.used, strict=True)]
+        plates, self.bare = plates_of(
+            self.files, sweeps, self.hammer, self.progress, with_effects=self.with_effects
+        )
         members: list[DiagnosisProblem] = []
         reduced: list[ReducedPlate | None] = []
         noises = []
-        for file, used, misfit in zip(self.files, self.used, self.misfit, strict=True):
-            sweep = file.sweep.take(used)
+        for k, (file, sweep) in enumerate(zip(self.files, sweeps, strict=True)):
             noise = noise_of(sweep)
             if isinstance(file.specimen, Specimen):
-                ready = set_up(
-                    sweep,
-                    file.specimen,
-                    self.hammer,
-                    self.progress,
-                    with_effects=self.with_effects,
-                    like=file.like,
-                )
-                self.bare = self.bare or ready.bare
-                members.append(ready.problem)
-                reduced.append(ready.reduced)
+                member, of_it = plates[k]
+                members.append(member)
+                reduced.append(of_it)
             else:
-                small = replace(SmallProblem.of_small(sweep, file.specimen), misfit=misfit)
+                small = replace(SmallProblem.of_small(sweep, file.specimen), misfit=self.misfit[k])
                 noise = small.noise(noise)
                 members.append(small)
                 reduced.append(None)
@@ -243,10 +204,17 @@ class _Work:
     _deaf_taken: bool = False
 
 
-def identify_together(files: Sequence[File], progress: Progress = quiet) -> Together:
-    """One law from all files, each with its own plate and channels. Raises `FittingError`, `BadInput`."""
+def identify_together(
+    files: Sequence[File], progress: Progress = quiet, hammer: Hammer | None = None
+) -> Together:
+    """One law from all files, each with its own plate and channels. Raises `FittingError`, `BadInput`.
+
+    `hammer` is the test of the bare plate that all files are of.
+    """
     began = perf_counter()
-    work = _Work(files, progress, with_effects=False)
+    plate = files[0].specimen
+    bare = fit_bare_plate(plate, *hammer) if hammer is not None and isinstance(plate, Specimen) else None
+    work = _Work(files, progress, with_effects=False, hammer=hammer)
     with threadpool_limits(1, "blas"), progress("fitting"):
         work.problem()
         ready = perf_counter()
@@ -273,7 +241,8 @@ def identify_together(files: Sequence[File], progress: Progress = quiet) -> Toge
     sweep = begun.problem.sweep
     further += (*_remarks(files), *(one.words(files) for one in work.aside))
     result = summarise("direct", sweep, noise, fit, validation, further)
-    found = Identified(result, ready - began, seconds, perf_counter() - checked)
+    validated = perf_counter() - checked
+    found = Identified(result, ready - began, seconds, validated, joint=Joint(begun, None), bare=bare)
     return Together(found, sweep, tuple(work.aside))
 
 
@@ -302,7 +271,7 @@ def diagnose_together(
         numbers = numbers_of(files)
         count = max(numbers)
         spots = sorted({f.pickup for f in files if f.pickup is not None})
-        same = _one_plate(files)
+        same = one_plate(files)
         for k, file in enumerate(files):
             used, seen, _ = seen_in_channels(file.sweep, effects)
             work.used[k] &= used
@@ -342,13 +311,6 @@ def diagnose_together(
 
 def _all(files: Sequence[File]) -> Sweep:
     return joined([f.sweep for f in files])
-
-
-def _one_plate(files: Sequence[File]) -> bool:
-    """Whether the specimens differ in what drives them, in the spot and in masses put on them alone."""
-    plates = [f.specimen for f in files if isinstance(f.specimen, Specimen)]
-    whole = [replace(s, force_m=None, pickup_m=None, further_pickups_m=(), masses=()) for s in plates]
-    return len(whole) == len(files) and all(s == whole[0] for s in whole)
 
 
 def _with_file(one: FoundEffect, file: int, files: int) -> FoundEffect:

@@ -7,7 +7,8 @@ import numpy as np
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.identification import IdentificationResult, PointFitted
 from instrument.facts.rows import StretchSetAside
-from instrument.models.together import DiagnosedTogether, File, SetAside, Together, name_of, numbers_of
+from instrument.models.files import File, name_of, numbers_of
+from instrument.models.together import DiagnosedTogether, SetAside, Together
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
 

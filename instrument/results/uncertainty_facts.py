@@ -32,7 +32,10 @@ class InDepth:
 def in_depth(
     found: Identified, method: Depth, samples: int = SAMPLES, progress: Progress = quiet
 ) -> InDepth | None:
-    """At the band's ends and reference frequencies inside; None for the paper's method, or without errors."""
+    """At the band's ends and reference frequencies inside; None for the paper's method, or without errors.
+
+    Of several fitted together by profile alone.
+    """
     if found.joint is None or np.isnan(found.result.uncertainty.covariance).any():
         return None
     f = found.result.band.frequency_hz
@@ -42,6 +45,8 @@ def in_depth(
     with threadpool_limits(1, "blas"), progress(f"uncertainty by {method}") as report:
         if method == "profile":
             return InDepth((profile(quantities, report),))
+        if found.joint.reduced is None:
+            return None
         many = ManyResiduals(quantities.task, found.joint.reduced)
         if method == "bootstrap":
             return InDepth((bootstrap(quantities, many), bootstrap(quantities, many, "segments")))

@@ -17,8 +17,9 @@ from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, 
 from instrument.campaign.plates.stated import CAREFUL, CampaignTolerances, draw_stated, specimen_from, toml
 from instrument.campaign.schedule import Schedule
 from instrument.models.diagnosis import Diagnosed, diagnose
+from instrument.models.files import File
 from instrument.models.set_up import Hammer
-from instrument.models.together import File, diagnose_together
+from instrument.models.together import diagnose_together
 
 PLATES = ("P2", "P3")
 """Two of the campaign's ten by default: models of further spots are made once a plate."""

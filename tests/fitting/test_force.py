@@ -1,23 +1,31 @@
 """Plates driven by a force at a point, and plates whose long edges are not alike, beside full solves."""
 
+import pickle
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import scipy.sparse as sp
 
 from fitting.damping import viscous_damping
+from fitting.diagnosis.candidates import CandidateFit
+from fitting.diagnosis.of_files import Place
+from fitting.diagnosis.plate_answer import core_strain
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.response import SweepResponse
+from fitting.diagnosis.several import SeveralProblem, SeveralResponse
 from fitting.direct import displacement_direct, solve_direct
 from fitting.domain import domain_of
 from fitting.effects import CATALOGUE
 from fitting.effects.added_mass import PointMass
+from fitting.effects.amplitude_softening import Strain
+from fitting.effects.change import Change
 from fitting.effects.enriching import enriched
 from fitting.effects.full_plate import FullPlate
 from fitting.errors import OutsideModel
 from fitting.plate import Plate
-from fitting.rational import rational_sweep
+from fitting.rational import rational_sweep, rational_sweeps
 from fitting.reduced import reduce_plate
 from fitting.sweep import Sweep
 from fitting.tolerances import tolerance
@@ -25,6 +33,7 @@ from fitting.tolerances import tolerance
 F_HZ = np.array([31.0, 58.0, 104.0, 161.0, 247.0])
 OMEGA = 2 * np.pi * F_HZ
 FORCE_M, OTHER_FORCE_M = (0.27, 0.03), (0.271, 0.0305)
+FURTHER_FORCE_M, FURTHER_SPOT_M = (0.04, 0.16), (0.22, 0.17)
 MASS = np.array([5e-3, 0.12, 0.16])
 
 
@@ -36,7 +45,7 @@ class Driven:
         self.damping = viscous_damping(self.plate)
         self.reduced = reduce_plate(self.plate, self.damping, domain_of(specimen, F_HZ))
         full = FullPlate(self.plate, self.damping)
-        self.widened = enriched(full, self.plate.carried @ self.reduced.V, [PointMass()])
+        self.widened = enriched(full, self.plate.carried @ self.reduced.V, [PointMass(), Strain()])
         self.law = specimen.core.law
         self.G = self.law.modulus(OMEGA)
 
@@ -57,9 +66,9 @@ class Driven:
             ]
         )
 
-    def response(self, effects):
+    def response(self, effects, force_n=None):
         ones = np.ones(len(OMEGA))
-        sweep = Sweep(F_HZ, ones + 0j, ones, np.arange(len(OMEGA)), np.ones(len(OMEGA), int))
+        sweep = Sweep(F_HZ, ones + 0j, ones, np.arange(len(OMEGA)), np.ones(len(OMEGA), int), force_n)
         problem = DiagnosisProblem.of(
             sweep, self.specimen, self.widened, lambda omega: rational_sweep(self.reduced, omega)
         )
@@ -125,6 +134,154 @@ def test_the_point_of_the_force_is_a_stated_number(free):
         np.testing.assert_allclose(by[len(free.law.names) + k], difference, atol=5e-3 * size)
 
 
+PAIRS = [(FORCE_M, 0), (FORCE_M, 1), (FURTHER_FORCE_M, 0), (FURTHER_FORCE_M, 1)]
+"""Force, and number of the spot."""
+
+
+class Spots:
+    """A free plate struck at two points and read at two: one model."""
+
+    def __init__(self, specimen):
+        further = (FURTHER_SPOT_M, FURTHER_FORCE_M)
+        self.driven = Driven(replace(specimen, boundary="free", force_m=FORCE_M, further_pickups_m=further))
+        self.specimens = [
+            replace(self.driven.specimen.at_pickup(k), force_m=force, exact=False) for force, k in PAIRS
+        ]
+        self.law, self.G = self.driven.law, self.driven.G
+        sweeps = rational_sweeps(self.driven.reduced, OMEGA)
+        sides = [(0 if force == FORCE_M else 3, 1 + k) for force, k in PAIRS]
+        self.reduced = [self.driven.reduced.between(*side) for side in sides]
+        self.rational = [sweeps.of(*side) for side in sides]
+
+    def members(self):
+        def member(specimen, reduced):
+            ones = np.ones(len(OMEGA))
+            sweep = Sweep(F_HZ, ones + 0j, ones, np.ones(len(OMEGA), int), np.ones(len(OMEGA), int))
+            plate = self.driven.widened.at(specimen.force_m, specimen.pickup_m)
+            return DiagnosisProblem.of(sweep, specimen, plate, lambda omega: rational_sweep(reduced, omega))
+
+        return [member(s, reduced) for s, reduced in zip(self.specimens, self.reduced, strict=True)]
+
+    def several(self):
+        files = [Place(1, 0), Place(1, 1), Place(2, 0), Place(2, 1)]
+        return SeveralProblem.of_members(self.members(), self.reduced, files)
+
+
+@pytest.fixture(scope="module")
+def spots(coarse):
+    return Spots(coarse)
+
+
+def test_one_basis_serves_every_force_and_spot(spots):
+    for specimen, reduced, rational in zip(spots.specimens, spots.reduced, spots.rational, strict=True):
+        full = displacement_direct(Plate(specimen), spots.driven.damping, OMEGA, spots.G)
+        np.testing.assert_allclose(reduced.displacement(OMEGA, spots.G), full, rtol=1e-6)
+        np.testing.assert_allclose(rational.displacement(spots.G), full, rtol=1e-6)
+        assert reduced.estimated_error(OMEGA, spots.G).max() < 1e-4
+
+
+def test_members_of_one_plate_share_its_matrices_condensed_or_not(spots):
+    problem = spots.several()
+    assert problem.plates == (0, 0, 0, 0)
+    condensed = problem.condensed(spots.law)
+    for some in (problem, condensed):
+        assert len({id(m.plate.matrices) for m in some.members}) == 1
+        assert len({m.plate.observe.tobytes() for m in some.members}) == 2
+        assert len({m.plate.load.tobytes() for m in some.members}) == 2
+    assert len(condensed.members[0].plate.group) < len(problem.members[0].plate.group)
+
+
+def test_another_process_is_sent_one_plate_and_makes_the_rest_itself(spots):
+    problem = spots.several().condensed(spots.law)
+    fit = CandidateFit(problem, None, SimpleNamespace(effects=()), CATALOGUE["added_mass"])
+    plain = len(pickle.dumps(fit))
+    assert fit._response.problem is problem
+    assert len(pickle.dumps(fit)) == plain
+    assert plain < 1.2 * len(pickle.dumps(problem.members[0]))
+    there = pickle.loads(pickle.dumps(problem))
+    assert len({id(m.plate.matrices) for m in there.members}) == 1
+
+
+def test_what_is_of_a_struck_plate_itself_is_one_number_and_what_is_of_a_spot_several(spots):
+    names = [n.name for n in spots.several().nuisances.each]
+    assert {
+        "length",
+        "width",
+        "force_x [1]",
+        "force_x [2]",
+        "gain [1, pickup 0]",
+        "gain [2, pickup 1]",
+    } < set(names)
+    assert not {n for n in names if n.startswith(("length [", "width [", "damping_1 ["))}
+
+
+def test_members_solved_together_read_what_each_reads_alone(spots):
+    mass = CATALOGUE["added_mass"]
+    problem = spots.several().condensed(spots.law).around(spots.law)
+    together = SeveralResponse(problem, [mass])
+    z = 0.5 * np.random.default_rng(2).standard_normal(len(problem.nuisances))
+    u = np.concatenate([z, MASS])
+    v, by = together.with_derivatives(spots.law, u)
+    n = len(spots.law.names)
+    for k, (m, part) in enumerate(zip(problem.members, problem.starts_at, strict=True)):
+        alone = SweepResponse(m, [mass])
+        expected, derivatives = alone.with_derivatives(
+            spots.law, np.concatenate([z[problem.places[k]], MASS])
+        )
+        np.testing.assert_allclose(v[part], expected, rtol=1e-8)
+        at = np.concatenate([np.arange(n), n + problem.places[k], n + len(z) + np.arange(3)])
+        size = np.abs(derivatives).max(axis=1, keepdims=True)
+        np.testing.assert_allclose((by[at][:, part] / size).real, (derivatives / size).real, atol=1e-6)
+    direct = spots.driven.full(MASS[0], MASS[1:])
+    u[: len(z)] = 0.0
+    found = together.velocity(spots.law, u)[problem.starts_at[0]]
+    np.testing.assert_allclose(found, 1j * OMEGA * direct, rtol=2e-3)
+
+
+def test_one_matrix_is_solved_once_for_all_that_drives_and_reads_it(spots, monkeypatch):
+    problem = spots.several().condensed(spots.law).around(spots.law)
+    together = SeveralResponse(problem, [CATALOGUE["added_mass"]])
+    solved = []
+    solve = np.linalg.solve
+
+    def counted(A, b):
+        solved.append(b.shape)
+        return solve(A, b)
+
+    monkeypatch.setattr(np.linalg, "solve", counted)
+    together.velocity(spots.law, np.concatenate([np.zeros(len(problem.nuisances)), MASS]))
+    # Two forces and two spots, at every node.
+    assert [shape for shape in solved if shape[-1] == 4] == [(len(OMEGA), solved[0][1], 4)]
+
+
+def test_a_core_softens_with_what_a_force_strains_it(free):
+    """At the softened modulus the plate is strained by so much that this is its softened modulus."""
+    softening, k = CATALOGUE["amplitude_softening"], 0.04
+    forces = np.array([1.0, 2.0, 3.0, 1.0, 2.0])
+    response = free.response([softening], forces + 0j)
+    assert softening.objection(response.problem.points, response.plate) is None
+    u = np.append(np.zeros(len(response.nuisances)), k)
+    v = response.velocity(free.law, u)
+    square = free.widened.matrix("strain.mean_square")
+
+    def strain(G):
+        return core_strain(free.widened, OMEGA, G, square, Change())
+
+    reference = strain(free.G).max()
+    softened = np.zeros(len(forces))
+    for _ in range(80):
+        softened = 0.5 * (softened + k * strain(free.G * (1 - softened)) * forces / reference)
+    assert softened.max() > 0.05
+    expected = 1j * OMEGA * free.reduced.displacement(OMEGA, free.G * (1 - softened))
+    np.testing.assert_allclose(v, expected, rtol=2e-3)
+
+
+@pytest.mark.parametrize(("force_n", "why"), [(None, "how large"), (np.full(5, 2.0 + 0j), "one size")])
+def test_softening_is_not_judged_from_one_size_of_the_force(free, force_n, why):
+    points = free.response([], force_n).problem.points
+    assert why in CATALOGUE["amplitude_softening"].objection(points, free.widened)
+
+
 @pytest.mark.parametrize("force_m", [None, FORCE_M])
 def test_long_edges_that_are_not_alike(coarse, force_m):
     driven = Driven(replace(coarse, boundary="clamped-clamped-free-free", force_m=force_m))
@@ -142,7 +299,7 @@ def test_effects_stand_where_there_is_what_they_need(coarse):
     base = {"absolute_velocity", "base_rocking", "base_roll", "fixture_resonance"}
     clamp = {"clamp_compliance", "clamp_friction", "clamp_line", "uneven_clamp", "treatment_not_gripped"}
     assert names["coarse"] == set(CATALOGUE)
-    assert names["coarse"] - names["struck"] == base | {"level_error", "amplitude_softening"}
+    assert names["coarse"] - names["struck"] == base | {"level_error"}
     assert names["struck"] - names["free"] == clamp
     assert {"added_mass", "spot_offset", "gain_error", "channel_delay", "air_added_mass"} < names["free"]
 

@@ -8,7 +8,8 @@ from fitting.sweep import Sweep, segments_by_gap
 from instrument.cli.main import run
 from instrument.errors import BadInput
 from instrument.files.structure_file import read_structure
-from instrument.models.together import File, diagnose_together, identify_together
+from instrument.models.files import File
+from instrument.models.together import diagnose_together, identify_together
 
 BEAM = """
 [beam]

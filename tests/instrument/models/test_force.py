@@ -139,6 +139,33 @@ def test_spots_are_fitted_together_each_with_its_own_gain_and_place(two_spots, c
     assert abs(row["storage_modulus_pa"] - G.real) < 3 * row["storage_modulus_standard_error_pa"]
 
 
+def test_several_spots_have_a_budget_and_profiles(two_spots, capsys):
+    line = ["identify", str(two_spots / "two.csv"), "--specimen", str(two_spots / "two.toml"), "--budget"]
+    assert run([*line, "--uncertainty", "profile", "--json", "-"]) == 0
+    result = json.loads(capsys.readouterr().out)
+    sources = {s["source"] for s in result["budget"][0]["sources"]}
+    assert {"noise", "gain [pickup 0]", "gain [pickup 1]", "core_thickness"} < sources
+    (looked,) = result["uncertainty"]
+    row = next(r for r in result["law"] if r["frequency_hz"] == 100.0)
+    at = next(q for q in looked["quantities"] if q["quantity"] == "storage_modulus_pa at 100 Hz")
+    half = (at["interval_68_percent"][1] - at["interval_68_percent"][0]) / 2
+    assert half == pytest.approx(row["storage_modulus_standard_error_pa"], rel=0.2)
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["--uncertainty", "bootstrap"], "expected profile"),
+        (["--pointwise"], "read at one spot"),
+        (["--method", "paper"], "read at one spot"),
+    ],
+)
+def test_what_several_spots_do_not_have_is_refused(two_spots, capsys, options, said):
+    line = ["identify", str(two_spots / "two.csv"), "--specimen", str(two_spots / "two.toml")]
+    assert run([*line, *options]) == 2
+    assert said in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("change", "said"),
     [

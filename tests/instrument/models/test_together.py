@@ -10,7 +10,8 @@ from instrument.cli.main import run
 from instrument.errors import BadInput
 from instrument.files.structure_file import read_structure
 from instrument.files.sweep_file import read_sweep
-from instrument.models.together import File, diagnose_together, identify_together
+from instrument.models.files import File
+from instrument.models.together import diagnose_together, identify_together
 
 REAL = Path(__file__).parents[3].parent / "shared/data/real/shear"
 AT_100_HZ = (6.11e6, 0.65)
