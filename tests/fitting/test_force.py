@@ -11,10 +11,12 @@ import scipy.sparse as sp
 from fitting.damping import viscous_damping
 from fitting.diagnosis.candidates import CandidateFit
 from fitting.diagnosis.of_files import Place
+from fitting.diagnosis.one_plate import plates_of
 from fitting.diagnosis.plate_answer import core_strain
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.several import SeveralProblem, SeveralResponse
+from fitting.diagnosis.strains import Reference, Strains
 from fitting.direct import displacement_direct, solve_direct
 from fitting.domain import domain_of
 from fitting.effects import CATALOGUE
@@ -182,7 +184,7 @@ def test_one_basis_serves_every_force_and_spot(spots):
 
 def test_members_of_one_plate_share_its_matrices_condensed_or_not(spots):
     problem = spots.several()
-    assert problem.plates == (0, 0, 0, 0)
+    assert problem.plates == plates_of(problem.members) == (0, 0, 0, 0)
     condensed = problem.condensed(spots.law)
     for some in (problem, condensed):
         assert len({id(m.plate.matrices) for m in some.members}) == 1
@@ -274,6 +276,17 @@ def test_a_core_softens_with_what_a_force_strains_it(free):
     assert softened.max() > 0.05
     expected = 1j * OMEGA * free.reduced.displacement(OMEGA, free.G * (1 - softened))
     np.testing.assert_allclose(v, expected, rtol=2e-3)
+
+
+def test_strain_is_told_over_the_largest_at_a_newton_and_goes_with_the_force(free):
+    forces, reference = np.array([1.0, 2.0, 3.0, 1.0, 2.0]), Reference()
+    response = free.response([CATALOGUE["amplitude_softening"]], forces + 0j)
+    strains = Strains(response.problem, response.plate, reference)
+    at = strains.at(free.law, b"", Change, np.zeros(len(forces)))
+    assert (at / forces).max() == pytest.approx(1.0, rel=1e-6)
+    square = free.widened.matrix("strain.mean_square")
+    largest = core_strain(free.widened, OMEGA, free.G, square, Change()).max()
+    assert reference.strain == pytest.approx(largest, rel=1e-6)
 
 
 @pytest.mark.parametrize(("force_n", "why"), [(None, "how large"), (np.full(5, 2.0 + 0j), "one size")])
