@@ -18,8 +18,13 @@ def late(sweep):
     return replace(sweep, velocity_m_s=sweep.velocity_m_s * np.exp(-1j * sweep.omega * DELAY_S))
 
 
-def loud(sweep):
-    return replace(sweep, velocity_m_s=sweep.velocity_m_s * GAIN, std_m_s=sweep.std_m_s * GAIN)
+def loud(sweep, gain=GAIN):
+    return replace(sweep, velocity_m_s=sweep.velocity_m_s * gain, std_m_s=sweep.std_m_s * gain)
+
+
+def far_too_loud(sweep):
+    # Tolerances of all stated numbers together hide a few percent.
+    return loud(sweep, 1.1)
 
 
 def as_it_is(sweep):
@@ -85,7 +90,7 @@ def test_laws_of_another_form_at_each_temperature_are_refused(exact):
 
 @pytest.mark.long
 @pytest.mark.parametrize(
-    ("spoiled", "cause"), [(late, "channel_delay"), (loud, "gain_error")], ids=["delay", "gain"]
+    ("spoiled", "cause"), [(late, "channel_delay"), (far_too_loud, "gain_error")], ids=["delay", "gain"]
 )
 def test_channels_are_told_from_the_material_where_stated_numbers_may_move(tolerant, spoiled, cause):
     found = asked(tolerant, SIMPLE, spoiled)
