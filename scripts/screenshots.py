@@ -168,6 +168,8 @@ def _rest(window: Window) -> None:
         return time.monotonic() - last > _LOOKS_S
 
     _wait(PATIENCE_S, rested)
+    # On a machine that is behind, what was made last has yet to be laid out.
+    _wait(_LOOKS_S)
 
 
 def _save(seen: QWidget, path: Path) -> None:

@@ -55,18 +55,21 @@ def save_diagnosis_figures(found: DiagnosisResult, folder: Path) -> list[Path]:
 
 
 def residual_figure(found: DiagnosisResult) -> Figure:
-    """What is left over frequency: a row a segment, before on the left, after on the right."""
+    """What is left over frequency: a row a segment, before on the left, after on the right.
+
+    Each has a scale of its own: on the other's, what the effects leave would be a line.
+    """
     points = found.points
     numbers = sorted({p.segment for p in points})[:_MOST_SEGMENTS]
     rows = len(numbers)
     figure = Figure(figsize=(WIDTH_IN, 1.2 + 1.75 * rows), layout="constrained")
-    axes = figure.subplots(rows, 2, squeeze=False, sharex="row", sharey="row")
+    axes = figure.subplots(rows, 2, squeeze=False, sharex="row")
     for number, pair in zip(numbers, axes, strict=True):
         mine = _together([p for p in points if p.segment == number])
         for ax, stage in zip(pair, STAGES, strict=True):
             _draw_residual(ax, mine, stage)
             rms = found.stage(stage).rms_percent
-            first = f"{stage}: {rms:.2g} % rms in amplitude" if number == numbers[0] else ""
+            first = f"{stage}: {rms:.2g} % rms in amplitude, own scale" if number == numbers[0] else ""
             label(ax, title=first, x="Frequency / Hz" if number == numbers[-1] else "")
         label(pair[0], y=f"Segment {number}\nresidual / %")
     legend_above(figure, axes[0, 0])

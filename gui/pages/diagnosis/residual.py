@@ -8,7 +8,7 @@ import numpy as np
 
 from fitting.arrays import Array
 from gui.pages.law.curve import together
-from instrument.facts.diagnosis import STAGES, DiagnosisResult, PointLeft, StageName
+from instrument.facts.diagnosis import DiagnosisResult, PointLeft, StageName
 from instrument.facts.result import Result
 
 Quantity = Literal["both", "real", "imaginary", "amplitude", "whitened"]
@@ -95,9 +95,9 @@ def panel(found: DiagnosisResult, segment: int, stage: StageName, quantity: Quan
     return Panel(series, _noise(points))
 
 
-def limits(found: DiagnosisResult, segment: int, quantity: Quantity) -> float:
-    """Height of the axis that before and after share."""
-    return max(panel(found, segment, stage, quantity).highest for stage in STAGES)
+def limit(found: DiagnosisResult, segment: int, stage: StageName, quantity: Quantity) -> float:
+    """Height of the axis: what effects leave would be a line on the scale of what was before."""
+    return panel(found, segment, stage, quantity).highest
 
 
 def _noise(points: Sequence[PointLeft]) -> tuple[NoiseBand, ...]:

@@ -1,11 +1,11 @@
-"""The residual before and after, side by side on the same axes, a row a segment."""
+"""The residual before and after, side by side, each on a scale of its own, a row a segment."""
 
 from typing import Any
 
 from PySide6.QtCore import QEvent, QObject, QTimer
 from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
 
-from gui.pages.diagnosis.residual import NAMES, Panel, limits, panel, quantities, segments
+from gui.pages.diagnosis.residual import NAMES, Panel, limit, panel, quantities, segments
 from gui.plots import Axis, Plot
 from gui.plots.plot import Symbol
 from gui.theme import Role, current_theme
@@ -95,7 +95,7 @@ class ResidualPlots(QWidget):
         plot.show_axes(Axis("Frequency", "Hz", titled=titled), Axis(f"Segment {number}", unit))
         shown = panel(self._found, number, stage, quantity)
         _draw_panel(plot, shown)
-        height = _ROOM * limits(self._found, number, quantity)
+        height = _ROOM * limit(self._found, number, stage, quantity)
         plot.setRange(xRange=shown.range_hz, yRange=(-height, height), padding=0)
         if number == self._numbers[0]:
             # Above the points: a legend among them would hide some.
@@ -104,7 +104,7 @@ class ResidualPlots(QWidget):
             plot.getPlotItem().setTitle(None)
 
     def _plot(self, number: int, stage: StageName) -> Plot:
-        """Before and after are linked."""
+        """Before and after are linked in frequency."""
         if (number, stage) not in self.plots:
             plot = Plot(Axis("Frequency", "Hz"), Axis(f"Segment {number}"), legend=False)
             plot.setMinimumHeight(_LEAST_HEIGHT_PX)
@@ -123,7 +123,7 @@ class ResidualPlots(QWidget):
             above.addWidget(QLabel(text))
             above.addWidget(box)
         above.addStretch(1)
-        above.addWidget(QLabel("grey: noise, ± 2 standard deviations"))
+        above.addWidget(QLabel("own scales; grey: noise, ± 2 standard deviations"))
         titles = QHBoxLayout()
         for label in (self._before, self._after):
             titles.addWidget(label, 1)
@@ -139,7 +139,7 @@ class ResidualPlots(QWidget):
 
 
 class _Twins(QObject):
-    """Two plots that show the same ranges, whichever is moved.
+    """Two plots that show the same frequencies, whichever is moved.
 
     The library's own link aligns by place on the screen: plots that are laid out anew drift apart.
     """
@@ -148,12 +148,12 @@ class _Twins(QObject):
         super().__init__(other)
         self._boxes = one.getViewBox(), other.getViewBox()
         for box in self._boxes:
-            box.sigRangeChanged.connect(self._follow)
+            box.sigXRangeChanged.connect(self._follow)
 
     def _follow(self, moved: Any) -> None:
         for box in self._boxes:
-            if box is not moved and box.viewRange() != moved.viewRange():
-                box.setRange(xRange=moved.viewRange()[0], yRange=moved.viewRange()[1], padding=0)
+            if box is not moved and box.viewRange()[0] != moved.viewRange()[0]:
+                box.setXRange(*moved.viewRange()[0], padding=0)
 
 
 def _draw_panel(plot: Plot, shown: Panel) -> None:

@@ -19,7 +19,7 @@ from gui.pages.sweep.resonances import ResonancePanes
 from gui.pages.sweep.seen import PaneContents, Quantity, Way
 from gui.plots import Axis
 
-_LEAST_LETTERS = 8
+_LEAST_PX = 80
 _SHOWN: dict[str, Quantity] = {
     "velocity over base": "ratio",
     "velocity at its level": "velocity",
@@ -38,10 +38,7 @@ class ResponsePane(QWidget):
         self.quantity = QComboBox()
         self.quantity.addItems(list(_SHOWN))
         # In a narrow window its words are cut before anything is pushed out of sight.
-        self.quantity.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self.quantity.setMinimumContentsLength(_LEAST_LETTERS)
-        self.quantity.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        self.quantity.setMaximumWidth(QComboBox.sizeHint(self.quantity).width() * 2)
+        self.quantity.setMinimumWidth(_LEAST_PX)
         self.quantity.setToolTip(
             "Velocity over the measured base acceleration; or that times the level commanded, which is what "
             "the fit takes and what its predictions are compared with"

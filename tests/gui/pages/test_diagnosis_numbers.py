@@ -4,7 +4,7 @@ from diagnosis_cases import AFTER, BEFORE, diagnosis
 
 from fitting.effects import CATALOGUE
 from gui.pages.diagnosis.ranking import Decisions, about, group_words, ranked
-from gui.pages.diagnosis.residual import limits, panel, quantities, segments
+from gui.pages.diagnosis.residual import limit, panel, quantities, segments
 from gui.pages.diagnosis.stages import compared
 
 
@@ -65,10 +65,11 @@ def test_residuals_are_those_of_the_result():
     assert panel(found, 1, "before", "both").noise[0].height == pytest.approx(np.full(10, 0.2))
 
 
-def test_before_and_after_share_their_limits():
+def test_before_and_after_have_scales_of_their_own():
     found = diagnosis()
-    assert limits(found, 1, "both") == pytest.approx(100 * BEFORE.real)
-    assert limits(found, 1, "whitened") == panel(found, 1, "before", "whitened").highest
+    assert limit(found, 1, "before", "both") == pytest.approx(100 * BEFORE.real)
+    assert limit(found, 1, "after", "both") < 0.5 * limit(found, 1, "before", "both")
+    assert limit(found, 1, "after", "whitened") == panel(found, 1, "after", "whitened").highest
 
 
 def test_amplitudes_alone_have_no_parts():

@@ -65,8 +65,9 @@ def test_before_and_after_stand_on_the_same_axes(qtbot, page):
     qtbot.waitUntil(lambda: page.residual.drawn)
     for number in (1, 2, 3):
         before, after = (page.residual.plots[number, stage] for stage in ("before", "after"))
-        assert before.viewRange() == after.viewRange()
+        assert before.viewRange()[0] == after.viewRange()[0]
         assert before.viewRange()[1] == pytest.approx([-11.2, 11.2])
+        assert after.viewRange()[1][1] < 5.0
         assert before.columns()[f"real part: Segment {number} (%)"] == pytest.approx(10.0)
         assert {"noise 1"} < set(after.names)
 
@@ -75,10 +76,10 @@ def test_whichever_is_zoomed_the_other_follows(qtbot, window, page):
     qtbot.waitUntil(lambda: page.residual.drawn)
     before, after = (page.residual.plots[2, stage] for stage in ("before", "after"))
     after.setRange(xRange=(90, 95), yRange=(-1, 2), padding=0)
-    assert before.viewRange() == [pytest.approx([90, 95]), pytest.approx([-1, 2])]
+    assert before.viewRange() == [pytest.approx([90, 95]), pytest.approx([-11.2, 11.2])]
     window.resize(1000, 900)
     window.resize(1366, 768)
-    qtbot.waitUntil(lambda: before.viewRange() == after.viewRange())
+    qtbot.waitUntil(lambda: before.viewRange()[0] == after.viewRange()[0])
     assert after.viewRange()[1] == pytest.approx([-1, 2])
 
 

@@ -142,11 +142,12 @@ def test_figures_into_a_file_are_refused_in_a_line(tmp_path, result):
         save_diagnosis_figures(result, tmp_path / "taken")
 
 
-def test_the_residual_is_drawn_before_and_after_on_one_scale(result):
+def test_the_residual_is_drawn_before_and_after_each_on_its_own_scale(result):
     axes = residual_figure(result).axes
     assert len(axes) == 6
     for left, right in zip(axes[::2], axes[1::2], strict=True):
-        assert left.get_ylim() == right.get_ylim()
+        assert left.get_xlim() == right.get_xlim()
+        assert left.get_ylim() != right.get_ylim()
         assert left.get_xlim() == right.get_xlim()
     assert "10" in axes[0].get_title()
 
