@@ -137,8 +137,12 @@ def moved(specimen: Specimen, names: Sequence[str], by: Sequence[float]) -> Spec
             sides |= {f"{name}_m": getattr(specimen, f"{name}_m") + step, "elements": specimen.mesh}
             continue
         layer_name, quantity = name.split("_", 1)
+        if layer_name == "patch" and not specimen.patches:
+            continue
         if layer_name == "patch":
             sides["patches"] = shift_of(name).of(specimen, step, sides.get("patches"))
+            continue
+        if layer_name == "glue" and not specimen.has_glue:
             continue
         if layer_name == "glue":
             glue = changes.get("core", {}).get(
@@ -151,7 +155,8 @@ def moved(specimen: Specimen, names: Sequence[str], by: Sequence[float]) -> Spec
         layer: Face | None = getattr(specimen, layer_name)
         if layer is not None and quantity in _OWN_AXES:
             axes: Orthotropy | None = changes.get(layer_name, {}).get("rolled", layer.rolled)
-            assert axes is not None
+            if axes is None:
+                continue
             field = _FIELDS[quantity]
             value = getattr(axes, field)
             other = replace(axes, **{field: value + step if quantity == "angle" else value * exp(step)})

@@ -31,7 +31,7 @@ class _Plate(TomlTable):
     length_mm: Positive
     width_mm: Positive
     boundary: Annotated[str, AfterValidator(_known)]
-    both_sides: bool = False
+    both_sides: bool | None = None
     """The same core and constraining layer on the other side too."""
 
 
@@ -248,7 +248,7 @@ def specimen_of(d: SpecimenDocument) -> Specimen:
         exact=d.tolerances is not None and d.tolerances.exact,
         elements=(d.mesh.elements_x, d.mesh.elements_y) if d.mesh else None,
         patches=tuple(p.patch() for p in d.patch or ()),
-        both_sides=d.plate.both_sides,
+        both_sides=bool(d.plate.both_sides),
     )
 
 

@@ -13,7 +13,17 @@ def specimen_toml(contents: Contents) -> str:
     if "pickup" in tables:
         tables["pickup"]["reads"] = contents.configuration.rig.vibrometer.reads
     head = "".join(f"# {line}\n" for line in provenance(contents))
-    return head + "".join(_table(name, table) for name, table in tables.items())
+    further = tables.pop("further_pickups", [])
+    if further:
+        tables["pickup"] = [tables["pickup"], *further]
+    return head + "".join(_tables(name, table) for name, table in tables.items())
+
+
+def _tables(name: str, given: dict[str, Any] | list[dict[str, Any]]) -> str:
+    """One, or each of a list."""
+    if isinstance(given, dict):
+        return _table(name, given)
+    return "".join(_table(name, table).replace(f"[{name}]", f"[[{name}]]", 1) for table in given)
 
 
 def _table(name: str, table: dict[str, Any]) -> str:

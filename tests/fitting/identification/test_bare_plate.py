@@ -22,11 +22,11 @@ from fitting.identification.bare_plate import (
 from fitting.nuisances import Nuisance, Nuisances
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
-from fitting.tolerances import STATED, moved
+from fitting.tolerances import STATED, moved, plate_numbers
 from instrument.campaign.bench import synthetic_sweep
 from instrument.cli.main import run
 from instrument.models.identification import identify
-from instrument.models.set_up import _bare
+from instrument.models.set_up import bare_of
 from instrument.paper_case import case_file
 
 OMEGA = 2 * np.pi * np.array([20.0, 100.0, 280.0])
@@ -203,11 +203,9 @@ def bare_test(zn1):
     """A hammer test with a sensor on the plate, and the stated numbers, each with its typical tolerance."""
     sensor = CarriedSensor(2e-3, 0.25, 0.03)
     modes = match_modes(zn1, frequencies_hz(zn1, sensor), np.array(zn1.modal_ratios), sensor)
-    names = [
-        n for n in STATED if n.startswith(("substrate", "constraining", "core_")) or n in ("length", "width")
-    ]
+    names = [n for n, _ in plate_numbers(zn1)]
     return (
-        _bare(modes, replace(zn1, exact=False)),
+        bare_of(modes, replace(zn1, exact=False)),
         Nuisances(zn1, tuple(Nuisance(n, n, STATED[n].typical) for n in names)),
         sensor,
     )
