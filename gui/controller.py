@@ -153,6 +153,26 @@ class AppController(QObject):
         if self.live is not None:
             self.live.answer()
 
+    def decline(self) -> None:
+        """Not what the run offers to measure."""
+        if self.live is not None:
+            self.live.answer(False)
+
+    def leave_out(self) -> None:
+        """The step that is being measured."""
+        if self.live is not None and self.running:
+            self.live.engine.decline()
+
+    def add_step(self, frequency_hz: float) -> None:
+        """To a sweep that chooses its own steps."""
+        if self.live is not None and self.running:
+            self.live.engine.overrule("add", frequency_hz)
+
+    def end_sweep(self) -> None:
+        """One that chooses its own steps: the run goes on with what is measured."""
+        if self.live is not None and self.running:
+            self.live.engine.overrule("end")
+
     def abort(self) -> None:
         """End the run in order."""
         if self.live is not None and self.running:

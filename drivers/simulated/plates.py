@@ -1,12 +1,14 @@
 """The plant's plates as the world mounts them: outputs by the names of what hangs on them."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from drivers.arrays import Array
 from drivers.simulated.climate import AMBIENT_C, Climate
 from drivers.simulated.drive import DrivePiece
 from drivers.simulated.plant.bare import Pulse, StruckPlate
-from drivers.simulated.plant.effects import Effects
+from drivers.simulated.plant.effects import AddedMass, ByHand, Effects
 from drivers.simulated.plant.shaken import ShakenPlate
 
 _OUTPUTS = {"velocity": "spot_velocity", "response_acceleration": "acceleration"}
@@ -23,10 +25,31 @@ class DampedPlate:
     def __init__(self, effects: Effects, climate: Climate | None = None) -> None:
         self.plant = ShakenPlate(effects, climate=climate)
         self._drift, self._climate = effects.temperature_drift, climate
+        self._effects, self._by_hand = effects, ByHand()
 
     def drive(self, piece: DrivePiece) -> None:
         """The shaker's output from now on."""
         self.plant.drive(piece)
+
+    def look_at(self, spot_m: tuple[float, float] | None) -> None:
+        """Another spot than the specimen's; None for that. What still rings is at rest then.
+
+        Raises `ValueError` for one off the plate.
+        """
+        self._change(replace(self._by_hand, spot_m=spot_m))
+
+    def load(self, mass_kg: float, at_m: tuple[float, float]) -> None:
+        """A known mass on it, and no other. Raises `ValueError` for one off the plate."""
+        self._change(replace(self._by_hand, mass=AddedMass(mass_kg, *at_m)))
+
+    def unload(self) -> None:
+        """Nothing on it but what it hides."""
+        self._change(replace(self._by_hand, mass=None))
+
+    def _change(self, by_hand: ByHand) -> None:
+        if by_hand != self._by_hand:
+            self.plant = ShakenPlate(self._effects, climate=self._climate, by_hand=by_hand)
+            self._by_hand = by_hand
 
     def at(self, output: str, first_s: float, step_s: float, count: int) -> Array:
         """An output by its name; force and response are not there. Shape (count,)."""

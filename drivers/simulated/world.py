@@ -162,27 +162,45 @@ class World:
             plate.drive(piece)
 
     def at_side_door(self, name: str, body: Any) -> None:
-        """What only a person can do: mount a plate, aim the laser, hit. Raises `Refused`, `KeyError`."""
+        """What only a person can do: mount, aim, load, hit. Raises `Refused`, `KeyError`."""
         with self.lock:
             if name == "mount":
                 self._mount(body["plate"])
                 self._place(body)
             elif name == "aim":
                 self.laser.aimed_at = self._aim(body["point"])
+                self._look_at(body.get("at_m"))
+            elif name == "load":
+                self._load(float(body["mass_kg"]), (float(body["at_m"][0]), float(body["at_m"][1])))
             elif name == "hit":
                 self._hit()
             else:
-                raise Refused(f"no {name!r} at the side door, expected mount, aim or hit")
+                raise Refused(f"no {name!r} at the side door, expected mount, aim, load or hit")
 
     def _aim(self, point: str) -> str:
         if point not in ("base", "pickup"):
             raise Refused(f"no point {point!r} to aim at, expected base or pickup")
         return point
 
+    def _look_at(self, at_m: Any) -> None:
+        """Another spot of the plate, or the one that it always is."""
+        look_at = getattr(self.plates[self.mounted], "look_at", None)
+        if look_at is not None and self.laser.aimed_at == "pickup":
+            look_at(None if at_m is None else (float(at_m[0]), float(at_m[1])))
+
     def _mount(self, plate: str) -> None:
         if plate not in self.plates:
             raise Refused(f"no plate {plate!r} here, expected one of {', '.join(self.plates)}")
         self.mounted = plate
+        unload = getattr(self.plates[plate], "unload", None)
+        if unload is not None:
+            unload()
+
+    def _load(self, mass_kg: float, at_m: tuple[float, float]) -> None:
+        """A known mass on the mounted plate."""
+        load = getattr(self.plates[self.mounted], "load", None)
+        if load is not None:
+            load(mass_kg, at_m)
 
     def _place(self, body: dict[str, Any]) -> None:
         place = getattr(self.plates[self.mounted], "place", None)

@@ -40,6 +40,8 @@ _QUESTIONS: dict[str, Callable[[OperatorAsked], str]] = {
     ),
     "hit": lambda a: "",
     "content": lambda a: f"{a.good} good hits: use them, or decide otherwise",
+    "follow-up": lambda a: a.detail,
+    "change": lambda a: a.detail,
 }
 
 
@@ -110,8 +112,8 @@ class LiveFeed(Feed):
             if len(messages) < _AT_ONCE:
                 return
 
-    def answer(self) -> None:
-        """The operator has done what was asked for."""
+    def answer(self, agreed: bool = True) -> None:
+        """The operator has done what was asked for, or says whether an offer is to be measured."""
         if self.question is None:
             return
         match self.question.what:
@@ -121,6 +123,10 @@ class LiveFeed(Feed):
                 self.engine.aimed()
             case "content":
                 self.engine.content()
+            case "change":
+                self.engine.changed()
+            case "follow-up":
+                self.engine.agree(agreed)
         self._ask(None)
 
     def stop(self) -> None:

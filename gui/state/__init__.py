@@ -40,6 +40,7 @@ from instrument.stream.derived import (
     RangeRequested,
     SentinelCompared,
     SettlingTimedOut,
+    StepsChosen,
     StepSettled,
 )
 from instrument.stream.event import Event
@@ -48,8 +49,12 @@ from instrument.stream.raw import (
     BlockAcquired,
     DiagnosisStarted,
     FitStarted,
+    FollowUpDecided,
+    FollowUpEnded,
+    FollowUpProposed,
     HammerTestEnded,
     Held,
+    PlanOverruled,
     RangeSet,
     SegmentBegan,
     SegmentEnded,
@@ -60,6 +65,7 @@ from instrument.stream.raw import (
     SoakBegan,
     SoakEnded,
     StepBegan,
+    StepDeclined,
     TemperatureRead,
 )
 from instrument.stream.scaling import Scaling
@@ -101,6 +107,12 @@ _TOPICS: dict[type[Event], tuple[Topic, ...]] = {
     DiagnosisStarted: ("run", "diagnosis"),
     DiagnosisFound: ("run", "diagnosis"),
     LimitWarned: ("limits",),
+    StepsChosen: ("run",),
+    StepDeclined: ("run", "step"),
+    PlanOverruled: ("run",),
+    FollowUpProposed: ("run", "diagnosis"),
+    FollowUpDecided: ("run", "diagnosis"),
+    FollowUpEnded: ("run",),
     LimitExceeded: ("limits",),
 }
 

@@ -11,6 +11,9 @@ from instrument.stream.raw import (
     AcquisitionBegan,
     DiagnosisStarted,
     FitStarted,
+    FollowUpDecided,
+    FollowUpEnded,
+    FollowUpProposed,
     HammerTestEnded,
     Held,
     OperatorDid,
@@ -76,6 +79,9 @@ class Run:
     """The one in progress, or the last."""
     good_hits: int = 0
     _hits: dict[int, bool] = field(default_factory=dict)
+    proposed: FollowUpProposed | None = None
+    """What would tell the explanations of the last diagnosis apart, as far as the run can do it."""
+    _following: bool = False
     _segments_ended: int = 0
 
     def take(self, event: Event) -> None:
@@ -92,7 +98,13 @@ class Run:
                 self.good_hits = sum(self._hits.values())
             case HammerTestEnded():
                 self.state = "preparing"
-            case OperatorDid() if event.what in ("mounted", "aimed"):
+            case FollowUpProposed():
+                self.state, self.proposed = "preparing", event
+            case FollowUpDecided():
+                self.question, self._following = "", event.agreed
+            case FollowUpEnded():
+                self._following = False
+            case OperatorDid() if event.what in ("mounted", "aimed", "changed"):
                 self.question = ""
                 self.state = "preparing"
             case SegmentBegan():
@@ -110,7 +122,7 @@ class Run:
                 self.state = "preparing"
             case Held():
                 self.state = "held"
-            case FitStarted() if self._sweep_is_whole:
+            case FitStarted() if self._sweep_is_whole and not self._following:
                 self.state = "identifying"
             case DiagnosisStarted():
                 self.state = "diagnosing"
@@ -174,6 +186,8 @@ class Run:
                 return f"loop check at {f}"
             case "sentinel":
                 return f"sentinel at {f}"
+        if self._following and self.proposed is not None:
+            return f"{f}, to tell {' from '.join(self.proposed.offers[0].between)}"
         why = self.choice.why if self.choice is not None and self.step.sweep > 0 else ""
         return f"step at {f}" + (f": {why}" if why else "")
 

@@ -7,10 +7,12 @@ import numpy as np
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_before_after, print_story
 from instrument.facts.damping import METHODS, RatioFound
+from instrument.facts.follow_up import FollowedUp
 from instrument.facts.rows import LawRow
 from instrument.facts.run import RunResult
 from instrument.facts.session_result import SessionResult
 from instrument.results.error_words import ratio_words
+from instrument.results.followed import followed_lines, followed_of
 from instrument.results.session_result import BEFORE_DIAGNOSIS, result_of_events
 from instrument.run.experiment import Finished
 from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated, PointMeasured
@@ -25,8 +27,14 @@ def run_result(finished: Finished) -> RunResult:
         damping=finished.damping.result if finished.damping is not None else None,
         identify=finished.fit.result if finished.fit is not None else None,
         diagnose=finished.diagnosis.result if finished.diagnosis is not None else None,
+        **_followed(finished),
         result=result_of_events(finished.fit, finished.diagnosis, finished.points) if swept else None,
     )
+
+
+def _followed(finished: Finished) -> dict[str, tuple[FollowedUp, ...]]:
+    followed = followed_of(finished.following)
+    return {"followed": followed} if followed else {}
 
 
 def print_finished(out: Output, finished: Finished) -> None:
@@ -36,6 +44,8 @@ def print_finished(out: Output, finished: Finished) -> None:
     if finished.points:
         print_quality(out, list(finished.points))
     print_found(out, finished.fit, finished.diagnosis, finished.points)
+    for line in followed_lines(followed_of(finished.following)):
+        out.say(line)
     out.say(f"session: {finished.session}")
 
 

@@ -19,7 +19,17 @@ from instrument.stream.derived import (
     StepsChosen,
 )
 from instrument.stream.event import Event
-from instrument.stream.raw import DiagnosisStarted, SegmentBegan, SoakBegan, SoakEnded, TemperatureRead
+from instrument.stream.raw import (
+    DiagnosisStarted,
+    FollowUpDecided,
+    FollowUpProposed,
+    PlanOverruled,
+    SegmentBegan,
+    SoakBegan,
+    SoakEnded,
+    StepDeclined,
+    TemperatureRead,
+)
 
 
 class Watcher:
@@ -106,6 +116,17 @@ def said_of(event: Event) -> str | None:
             return choice_words(event)
         case DiagnosisStarted():
             return "tracing what the fit cannot explain"
+        case FollowUpProposed():
+            best = event.offers[0]
+            return f"to tell {' from '.join(best.between)}: {best.todo} {best.why}"
+        case FollowUpDecided():
+            said = "measured next" if event.agreed else "declined"
+            return f"follow-up {event.number}: {said}, by the {event.by}'s word"
+        case PlanOverruled():
+            added = f"a person adds {event.frequency_hz:g} Hz" if event.frequency_hz is not None else ""
+            return added or "a person ends the sweep"
+        case StepDeclined():
+            return f"{event.frequency_hz:g} Hz: left out on a person's word"
         case DiagnosisFound():
             return verdict_line(event.result) if event.result else f"no diagnosis: {event.message}"
     return None

@@ -2,10 +2,12 @@
 
 import threading
 from collections.abc import Callable
+from typing import Literal
 
 from instrument.engine.messages import Answered, Decided, Message, OperatorAsked
+from instrument.facts.follow_up import FollowUp
 from instrument.run.control import RunControl
-from instrument.run.operator import Operator
+from instrument.run.operator import Operator, follow_up_words
 from instrument.stream.raw import OperatorDid
 
 
@@ -46,6 +48,17 @@ class RemoteOperator:
         self._ask(OperatorAsked("aim", point), "aimed")
         return OperatorDid("aimed", point)
 
+    def agree(self, offer: FollowUp) -> bool:
+        """Ask, and wait for the answer."""
+        said = f"{offer.todo} {offer.why} {follow_up_words(offer)}."
+        question = _about("follow-up", said, offer)
+        return self._ask(question, "agreed", "declined") == "agreed"
+
+    def change(self, offer: FollowUp) -> OperatorDid:
+        """Ask, and wait for the answer."""
+        self._ask(_about("change", offer.todo, offer), "changed")
+        return OperatorDid("changed", offer.todo)
+
     def hit(self, good: int, wanted: int) -> None:
         """Ask for a blow."""
         self.forget_content()
@@ -81,11 +94,12 @@ class RemoteOperator:
         with self._changed:
             self._changed.wait_for(lambda: self._decisions or "content" in self._answers)
 
-    def _ask(self, question: OperatorAsked, answer: str) -> None:
+    def _ask(self, question: OperatorAsked, *answers: str) -> str:
         with self._changed:
-            self._answers.discard(answer)
+            self._answers.difference_update(answers)
             self._put(question)
-            self._changed.wait_for(lambda: answer in self._answers)
+            self._changed.wait_for(lambda: self._answers.intersection(answers))
+            return next(a for a in answers if a in self._answers)
 
 
 class HelpedOperator:
@@ -112,6 +126,14 @@ class HelpedOperator:
         """The rig does it."""
         return self._acting.aim(point)
 
+    def agree(self, offer: FollowUp) -> bool:
+        """The client decides."""
+        return self._deciding.agree(offer)
+
+    def change(self, offer: FollowUp) -> OperatorDid:
+        """The rig does it."""
+        return self._acting.change(offer)
+
     def hit(self, good: int, wanted: int) -> None:
         """The rig strikes."""
         self._deciding.forget_content()
@@ -130,3 +152,10 @@ class HelpedOperator:
         if not content and self._in_virtual_time:
             self._deciding.wait()
         return self._deciding.content(good)
+
+
+def _about(what: Literal["follow-up", "change"], said: str, offer: FollowUp) -> OperatorAsked:
+    """With where it is to be done, and what goes there."""
+    if offer.mass_kg is not None:
+        return OperatorAsked(what, said, at_mm=offer.mass_at_mm, mark=f"{1e3 * offer.mass_kg:g} g")
+    return OperatorAsked(what, said, at_mm=offer.spot_mm, mark="laser")

@@ -146,6 +146,14 @@ class Engine:
         """The laser points where it was asked to."""
         self._commands.put(Answered("aimed"))
 
+    def changed(self) -> None:
+        """What was asked for is changed."""
+        self._commands.put(Answered("changed"))
+
+    def agree(self, agreed: bool) -> None:
+        """Whether what is offered is to be measured."""
+        self._commands.put(Answered("agreed" if agreed else "declined"))
+
     def accept(self, hit: int = 0) -> None:
         """Use this hit, whatever its verdict; 0 is the last one."""
         self._commands.put(Decided("accepted", hit))

@@ -78,9 +78,9 @@ class StopWanted(Message):
 
 @dataclass(frozen=True)
 class Answered(Message):
-    """The operator has mounted or aimed what was asked for, or is content with the hits."""
+    """What was asked for is done, the hits may be used, or an offer is to be measured or not."""
 
-    what: Literal["mounted", "aimed", "content"]
+    what: Literal["mounted", "aimed", "changed", "content", "agreed", "declined"]
 
 
 @dataclass(frozen=True)
@@ -137,13 +137,17 @@ class Progressed(Message):
 class OperatorAsked(Message):
     """The operator is asked for something.
 
-    "mount" and "aim" wait for `Answered`. "hit" waits for a blow; "content" for `Answered("content")` or for
-    a decision about a hit.
+    "mount", "aim", "change" and "follow-up" wait for `Answered`. "hit" waits for a blow; "content" for
+    `Answered("content")` or for a decision about a hit.
     """
 
-    what: Literal["mount", "aim", "hit", "content"]
+    what: Literal["mount", "aim", "hit", "content", "follow-up", "change"]
     detail: str = ""
-    """The plate ("bare", "damped") or the point ("base", "pickup")."""
+    """The plate ("bare", "damped"), the point ("base", "pickup"), or what there is to do."""
+    at_mm: tuple[float, float] | None = None
+    """Where on the plate: x from the clamp, y from a long edge."""
+    mark: str = ""
+    """What goes there."""
     good: int = 0
     """Good hits so far."""
     wanted: int = 0

@@ -38,3 +38,14 @@ class FollowUp(Result):
     """One sentence for a person."""
     todo: str
     """One sentence for a person."""
+
+
+class FollowedUp(Result):
+    """A measurement that a run made after a diagnosis, and what came of it."""
+
+    measured: FollowUp
+    agreed_by: Literal["experiment", "person"]
+    verdict_before: str
+    """In words."""
+    verdict_after: str = ""
+    """Empty where no diagnosis followed."""

@@ -2,6 +2,7 @@
 
 from instrument.facts.damping import DampingResult
 from instrument.facts.diagnosis import DiagnosisResult
+from instrument.facts.follow_up import FollowedUp
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.result import Result
 from instrument.facts.session_result import SessionResult
@@ -17,6 +18,9 @@ class RunResult(Result):
     identify: IdentificationResult | None = None
     """Before the diagnosis, where there is one."""
     diagnose: DiagnosisResult | None = None
+    """The last one, of everything that was measured."""
+    followed: tuple[FollowedUp, ...] = ()
+    """What was measured because a diagnosis before it ended in a group."""
     result: SessionResult | None = None
     """The law to sign; None without a sweep."""
     report: str | None = None

@@ -212,6 +212,18 @@ class TemperatureTable(TomlTable):
         return self
 
 
+class DiagnosisTable(TomlTable):
+    """What a run does where its diagnosis ends in a group of explanations."""
+
+    follow_up: Literal["none", "offer", "do"] = "none"
+    """none: it says what would tell them apart; offer: a person is asked, then it is measured; do: what the
+    rig can do alone is measured at once, a person is asked for the rest."""
+    follow_up_at_most: Annotated[int, Field(ge=1, le=10)] = 2
+    """Measurements, one after the other, each followed by a diagnosis of everything."""
+    follow_up_most_s: Annotated[float, Field(ge=10, le=1e5)] = 1800.0
+    """For all of them, hands included."""
+
+
 class ExperimentDocument(TomlTable):
     """EXPERIMENT.toml. Paths are relative to it."""
 
@@ -223,6 +235,7 @@ class ExperimentDocument(TomlTable):
     hammer: Hammer | None = None
     temperature: TemperatureTable | None = None
     sweep: SweepTable | None = None
+    diagnosis: DiagnosisTable = DiagnosisTable()
 
 
 def read_experiment(path: Path) -> ExperimentDocument:

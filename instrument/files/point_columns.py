@@ -30,6 +30,11 @@ def _both(value: complex, unit: str) -> str:
     return f"{value.real:.5g}, {value.imag:.5g} {unit}"
 
 
+def _spot(row: ColumnPoint) -> str:
+    at = row.point.spot_mm
+    return f"{row.point.pickup}" + (f" at {at[0]:g}, {at[1]:g} mm" if at is not None else "")
+
+
 def _place(row: ColumnPoint) -> str:
     p = row.point
     return "sentinel" if p.purpose == "sentinel" else f"{p.sweep}.{p.segment}"
@@ -114,7 +119,17 @@ COLUMNS: tuple[Column, ...] = (
         record=ShownQuantity("Base re, im", lambda r: _both(r.point.base_m_s2, "m/s\u00b2"), _PHASOR),
     ),
     plain("base_accel_im_m_s2", "m/s^2", given="if known"),
-    Column("pickup", "1", given="if known", whole=True, identity=True),
+    Column(
+        "pickup",
+        "1",
+        numbers("pickup"),
+        "pickup",
+        "if known",
+        whole=True,
+        identity=True,
+        record=ShownQuantity("Spot", _spot, "0 is the specimen file's own"),
+    ),
+    plain("mass_kg", "kg", record=said("Known mass", "mass_kg", ".4g", " g", "Put on the plate", 1e3)),
     Column("force_re_n", "N", given="if known"),
     Column("force_im_n", "N", given="if known"),
     Column(

@@ -13,6 +13,7 @@ from instrument.results.diagnosis_words import (
     verdict_line,
     with_verdict,
 )
+from instrument.results.followed import followed_of, measured_words
 from instrument.results.numbers import format_number, with_error
 from instrument.session.contents import Contents
 
@@ -31,6 +32,7 @@ def diagnosis_sections(contents: Contents) -> list[ReportSection]:
     verdict = verdict_line(found)
     blocks: list[Block] = [Sentence(f"{verdict[0].upper()}{verdict[1:]}.")]
     blocks += [Sentence(text) for text in found.explanation]
+    blocks += _followed(contents)
     if found.set_aside_hz:
         listed = ", ".join(f"{f:.4g}" for f in found.set_aside_hz)
         blocks.append(Sentence(f"Set aside for hum: {listed} Hz.", "note"))
@@ -48,6 +50,15 @@ def diagnosis_sections(contents: Contents) -> list[ReportSection]:
         picture(law_figure(found), with_verdict("The core's law before and after, with 95 % bands", found)),
     ]
     return [ReportSection(_TITLE, tuple(blocks))]
+
+
+def _followed(contents: Contents) -> list[Block]:
+    """What was measured because a diagnosis ended in a group."""
+    followed = followed_of(contents.following)
+    rows = tuple((f.verdict_before, measured_words(f.measured), f.verdict_after or "-") for f in followed)
+    if not rows:
+        return []
+    return [TableBlock("Measured to tell explanations apart", ("before", "measurement", "after"), rows)]
 
 
 def _before_after(found: DiagnosisResult) -> TableBlock:

@@ -2,6 +2,7 @@
 
 import cmath
 from contextlib import suppress
+from dataclasses import replace
 
 from fitting.errors import TooFewPoints
 from instrument.hammer_test.analysis import HammerAnalysis
@@ -22,12 +23,14 @@ from instrument.stream.raw import (
     BlockAcquired,
     HammerTestEnded,
     Held,
+    MassPut,
     OperatorDid,
     RangeSet,
     SegmentEnded,
     SessionBegan,
     ShakerCommanded,
     SignalLevelRead,
+    SpotMoved,
     StepBegan,
     StepDeclined,
     TemperatureRead,
@@ -50,6 +53,8 @@ class Analysis:
         self._signal_level: float | None = None
         self._temperature_c: float | None = None
         self._latest = 0
+        self._spot: SpotMoved | None = None
+        self._mass: MassPut | None = None
         self._calibration_points: list[PointMeasured] = []
         self.step: StepAnalysis | None = None
         self.hammer: HammerAnalysis | None = None
@@ -97,6 +102,14 @@ class Analysis:
             case RangeSet():
                 self._range = event
                 return self.step.range_set(event, self._wider()) if self.step is not None else []
+            case SpotMoved():
+                self._spot = event
+            case MassPut():
+                self._mass = event
+            case OperatorDid() if event.what in ("mounted", "aimed"):
+                self._spot = None
+                # A plate is mounted as it is; what was put on it is taken off.
+                self._mass = None if event.what == "mounted" else self._mass
             case SignalLevelRead():
                 self._signal_level = event.value
             case TemperatureRead():
@@ -140,7 +153,17 @@ class Analysis:
             return self.hammer.block(block) if self.hammer is not None else []
         if self.step is None:
             return []
-        return self.step.block(block.first_sample, block.volts, block.overload)
+        found = self.step.block(block.first_sample, block.volts, block.overload)
+        return [self._as_it_stood(e) if isinstance(e, PointMeasured) else e for e in found]
+
+    def _as_it_stood(self, point: PointMeasured) -> PointMeasured:
+        if point.purpose == "calibration":
+            return point
+        if self._spot is not None:
+            point = replace(point, pickup=self._spot.pickup, spot_mm=self._spot.spot_mm)
+        if self._mass is not None:
+            point = replace(point, mass_kg=self._mass.mass_kg, mass_at_mm=self._mass.at_mm)
+        return point
 
     def _acquire(self, event: AcquisitionBegan) -> None:
         self._acquisition, self.step, self._latest = event, None, 0

@@ -45,6 +45,8 @@ class Finished:
     points: tuple[PointMeasured, ...]
     diagnosis: DiagnosisFound | None = None
     """None where the sweep was not run, or no law could be identified from it."""
+    following: tuple[Event, ...] = ()
+    """Every diagnosis, and what was proposed and decided after it."""
 
 
 def run_experiment(
@@ -131,4 +133,5 @@ def _run(
     finally:
         journal.unlock()
     points = tuple(session.analysis.points)
-    return Finished(path, session.analysis.damping, session.fit, points, session.diagnosis)
+    damping, following = session.analysis.damping, tuple(session.following)
+    return Finished(path, damping, session.fit, points, session.diagnosis, following)

@@ -12,9 +12,12 @@ from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.files.hammer_file import accepted_modes
 from instrument.models.diagnosis import diagnose
+from instrument.models.together import diagnose_together
 from instrument.planning.follow_up import with_follow_ups
 from instrument.progress import Progress, quiet
 from instrument.results.diagnosis_from import diagnosis_from
+from instrument.results.together_from import diagnosed_together_from
+from instrument.run.files_of import files_of
 from instrument.session.points import sweep_of, uncalibrated
 from instrument.stream.derived import DampingFound, DiagnosisFound, PointMeasured
 
@@ -54,8 +57,13 @@ def _result(
 ) -> DiagnosisResult:
     hammer = accepted_modes(damping.result) if damping is not None else None
     sweep = sweep_of(points, times_s)
-    found = diagnose(sweep, specimen, hammer, progress=progress)
-    result = with_follow_ups(diagnosis_from(found, sweep), found).untimed
+    files = files_of(sweep, points, specimen)
+    if len(files) > 1:
+        several = diagnose_together(files, progress=progress, hammer=hammer)
+        result = with_follow_ups(diagnosed_together_from(several, files), several.found).untimed
+    else:
+        found = diagnose(sweep, specimen, hammer, progress=progress)
+        result = with_follow_ups(diagnosis_from(found, sweep), found).untimed
     return result.but(warnings=(*result.warnings, *uncalibrated(points)))
 
 

@@ -11,8 +11,11 @@ from fitting.specimen import Specimen
 from instrument.facts.identification import IdentificationResult
 from instrument.files.hammer_file import accepted_modes
 from instrument.models.identification import identify
+from instrument.models.together import identify_together
 from instrument.progress import Progress, quiet
 from instrument.results.identification_from import identification_from
+from instrument.results.together_from import identified_together_from
+from instrument.run.files_of import files_of
 from instrument.session.points import sweep_of, uncalibrated
 from instrument.stream.derived import DampingFound, FitUpdated, PointMeasured
 from instrument.stream.event import Event
@@ -46,8 +49,12 @@ def _result(
 ) -> IdentificationResult:
     modes = accepted_modes(damping.result) if damping is not None else None
     sweep = sweep_of(used)
-    found = identify(sweep, specimen, progress=progress, hammer=modes)
-    result = identification_from(found, sweep, specimen).untimed
+    files = files_of(sweep, used, specimen)
+    if len(files) > 1:
+        result = identified_together_from(identify_together(files, progress, modes), files).untimed
+    else:
+        found = identify(sweep, specimen, progress=progress, hammer=modes)
+        result = identification_from(found, sweep, specimen).untimed
     return _with_temperature(result.but(warnings=(*result.warnings, *uncalibrated(used))), used)
 
 

@@ -8,6 +8,7 @@ import click
 import httpx
 
 from instrument.errors import RigStopped
+from instrument.facts.follow_up import FollowUp
 from instrument.run.control import RunControl
 from instrument.stream.raw import OperatorDid
 
@@ -36,6 +37,14 @@ class Operator(Protocol):
 
     def content(self, good: int) -> bool:
         """Whether the hits may be used, now that there are enough. Does not wait."""
+        ...
+
+    def agree(self, offer: FollowUp) -> bool:
+        """Whether this may be measured next."""
+        ...
+
+    def change(self, offer: FollowUp) -> OperatorDid:
+        """Do what it needs hands for; returns when it is done."""
         ...
 
     def overrule(self, control: RunControl) -> None:
@@ -77,6 +86,12 @@ def _frequency(said: str) -> float | None:
     except ValueError:
         return None
     return found if 0 < found < _MOST_HZ else None
+
+
+def follow_up_words(offer: FollowUp) -> str:
+    """What it costs and what may be hoped for, in a line."""
+    chance = f"{100 * offer.probability_resolved:.0f} % that one explanation is left"
+    return f"{len(offer.frequencies_hz)} steps, {offer.seconds:.0f} s, {chance}"
 
 
 def _at_a_terminal() -> bool:
@@ -132,6 +147,20 @@ class Person:
             click.echo(f"{good} good hits: Enter to go on ({_TYPED})", err=True)
         return self._content
 
+    def agree(self, offer: FollowUp) -> bool:
+        """Ask; where nobody is there to answer, no."""
+        click.echo(f"to tell {' from '.join(offer.between)} apart: {offer.todo} {offer.why}", err=True)
+        click.echo(f"{follow_up_words(offer)}. Enter to measure it, n not to ... ", err=True, nl=False)
+        try:
+            return input().strip().lower() in ("", "y", "yes")
+        except (EOFError, RuntimeError, OSError):
+            return False
+
+    def change(self, offer: FollowUp) -> OperatorDid:
+        """Ask, and wait for Enter."""
+        self._ask(f"{offer.todo.rstrip('.')}, then press Enter")
+        return OperatorDid("changed", offer.todo)
+
     def overrule(self, control: RunControl) -> None:
         """Lines typed meanwhile: s leaves the step out, + 45.2 adds one, e ends the sweep."""
         while _at_a_terminal() and select.select([sys.stdin], [], [], 0)[0]:
@@ -177,6 +206,22 @@ class SimulatedOperator:
     def content(self, good: int) -> bool:
         """Always."""
         return True
+
+    def agree(self, offer: FollowUp) -> bool:
+        """Always."""
+        return True
+
+    def change(self, offer: FollowUp) -> OperatorDid:
+        """The rig does it at once. Raises `RigStopped` for what it cannot play."""
+        if offer.spot_mm is not None:
+            x, y = offer.spot_mm
+            self._put("aim", {"point": "pickup", "at_m": (1e-3 * x, 1e-3 * y)})
+        elif offer.mass_kg is not None and offer.mass_at_mm is not None:
+            x, y = offer.mass_at_mm
+            self._put("load", {"mass_kg": offer.mass_kg, "at_m": (1e-3 * x, 1e-3 * y)})
+        else:
+            raise RigStopped(f"simulated rig: {offer.kind} cannot be played")
+        return OperatorDid("changed", offer.todo)
 
     def overrule(self, control: RunControl) -> None:
         """Never: what is chosen is measured."""

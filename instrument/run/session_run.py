@@ -15,6 +15,7 @@ from instrument.progress import Progress
 from instrument.run.analysis import Analysis
 from instrument.run.companion import Companion
 from instrument.run.control import RunControl
+from instrument.run.following import Earlier, Following
 from instrument.run.live_diagnosis import Diagnoser, apart
 from instrument.run.live_fit import Fitter
 from instrument.run.part import Part
@@ -27,10 +28,18 @@ from instrument.session.recorder import Recorder
 from instrument.session.setup import setup_of
 from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated
 from instrument.stream.event import Derived, Event
-from instrument.stream.raw import DiagnosisStarted, SessionBegan, SessionEnded
+from instrument.stream.raw import (
+    DiagnosisStarted,
+    FollowUpDecided,
+    FollowUpProposed,
+    SessionBegan,
+    SessionEnded,
+)
 
 _MODES_TO_TELL = 3
 """Fewer modes do not tell one plate from another."""
+
+_FOLLOWING = (DiagnosisFound, FollowUpProposed, FollowUpDecided)
 
 
 class SessionRun:
@@ -73,6 +82,8 @@ class SessionRun:
             if "sweep" in parts and experiment.document.sweep is not None
             else None
         )
+        self._earlier = Earlier.of(earlier)
+        self.following: list[Event] = [e for e in earlier if isinstance(e, _FOLLOWING)]
         self._diagnoses = sum(isinstance(e, DiagnosisStarted) for e in earlier)
         self.diagnosis: DiagnosisFound | None = None
 
@@ -92,8 +103,9 @@ class SessionRun:
                 self._companion.with_rig(bare) as rig,
             ):
                 self._go(rig)
-            # The rig is let go of first: nothing of it is needed any more.
-            self._diagnose()
+            if not self._follows:
+                # The rig is let go of first: nothing of it is needed any more.
+                self.diagnosis = self._diagnose()
         except (RigStopped, DriverError) as error:
             self._end("stopped safely", " ".join(str(error).split()))
             raise
@@ -127,8 +139,12 @@ class SessionRun:
         )
         if "hammer" in self._parts and self.analysis.damping is None:
             self._hammer(rig, runner)
+            if self._sweep is not None and self.analysis.damping is not None:
+                self._question_plate(self.analysis.damping)
         if self._sweep is not None:
             self._sweep.run(rig, runner, self._emit)
+            if self._follows:
+                self._follow(self._sweep, rig, runner)
 
     def _hammer(self, rig: Rig, runner: Runner) -> None:
         settings, hammer = self._setup.hammer, self._experiment.document.hammer
@@ -138,8 +154,6 @@ class SessionRun:
         runner.hammer(settings.hits, hammer.wait_s)
         if self.analysis.damping is None:
             raise RigStopped(f"no good hit within {hammer.wait_s:g} s: is the hammer's channel connected?")
-        if self._sweep is not None:
-            self._question_plate(self.analysis.damping)
 
     def _question_plate(self, found: DampingFound) -> None:
         """Stop before a sweep of what is not the stated plate; a run carried on is not asked again."""
@@ -154,17 +168,42 @@ class SessionRun:
                 "begin again; or carry on as it is with --resume"
             ) from None
 
-    def _diagnose(self) -> None:
-        """What the whole sweep's fit cannot explain; where there is no law there is nothing to ask."""
+    @property
+    def _follows(self) -> bool:
+        """Whether more may be measured once a diagnosis is there."""
+        return self._sweep is not None and self._experiment.document.diagnosis.follow_up != "none"
+
+    def _follow(self, sweep: SweepPart, rig: Rig, runner: Runner) -> None:
+        def ready() -> None:
+            # Nobody has beaten the heartbeat while the computer was at work, or a person.
+            _clear_heartbeat_alarm(rig)
+
+        strikes = self._setup.hammer is not None
+        following = Following(
+            self._experiment.document.diagnosis,
+            self._setup.sweep.limits,
+            self._configuration.the_specimen(),
+            self.analysis,
+            sweep,
+            self._earlier,
+            self._emit,
+            self._diagnose,
+            (lambda: self._hammer(rig, runner)) if strikes else None,
+        )
+        following.run(rig, runner, ready)
+        self.diagnosis = following.found
+
+    def _diagnose(self) -> DiagnosisFound | None:
+        """What the fit of all points cannot explain; where there is no law there is nothing to ask."""
         if self.fit is None or self.fit.message:
-            return
-        a, number, last = self.analysis, self._diagnoses + 1, self.fit.last_step
+            return None
+        self._diagnoses += 1
+        a, number, last = self.analysis, self._diagnoses, self.fit.last_step
         self._record(DiagnosisStarted(number, last))
         specimen = self._configuration.the_specimen()
-        self.diagnosis = apart(
-            lambda: self._diagnoser(number, last, a.points, a.times_s, a.damping, specimen)
-        )
-        self._record(self.diagnosis)
+        found = apart(lambda: self._diagnoser(number, last, a.points, a.times_s, a.damping, specimen))
+        self._record(found)
+        return found
 
     def _emit(self, event: Event) -> list[Derived]:
         """Into the stream: recorded, analysed, what follows recorded too."""
@@ -181,6 +220,8 @@ class SessionRun:
         with self._in_order:
             self._recorder.record(event)
             self._companion.happened(event)
+        if isinstance(event, _FOLLOWING):
+            self.following.append(event)
 
     def _end(self, why: Literal["done", "stopped by the user", "stopped safely"], message: str) -> None:
         try:

@@ -1,6 +1,6 @@
 """The sweep of a run: calibration, soak, then the plan's steps, identified while they are measured."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -21,10 +21,13 @@ from instrument.run.runner import Runner
 from instrument.session.configuration import Experiment
 from instrument.session.setup import Setup
 from instrument.stepped_sine.adaptive import AdaptivePlanner
-from instrument.stepped_sine.plan import Done, Plan, PlannedSegment
+from instrument.stepped_sine.plan import Done, Plan, PlannedSegment, Planner
 from instrument.stream.derived import FitUpdated, PointMeasured, StepsChosen
 from instrument.stream.event import Event
 from instrument.stream.raw import ChoiceStarted, PlanOverruled, SegmentEnded, StepDeclined
+
+_ADAPTIVE_PASSES = 2
+"""The first pass, and all steps chosen after it."""
 
 
 class SweepPart:
@@ -99,6 +102,26 @@ class SweepPart:
             self._adaptive(runner, segments[0])
         else:
             self._measured(runner, planner.plan(segments))
+
+    @property
+    def passes(self) -> int:
+        """Over the segments, before anything follows."""
+        return self.table.sweeps if self.table.plan == "fixed" else _ADAPTIVE_PASSES
+
+    def follow(self, runner: Runner, segments: Sequence[PlannedSegment]) -> None:
+        """Further steps, and the fit of all points."""
+        before = self._planner
+        planner = Planner(
+            self._setup.sweep, before.decay_1_s, None, before.next_step, before.done, before.drive
+        )
+        self._measured(runner, planner.plan(segments))
+        before.next_step = planner.next_step
+
+    def fit_again(self) -> None:
+        """Fit all points once more: something else than points has come."""
+        with LiveFit(self._specimen, self._record, self._fitter, self._fits) as live:
+            live.offer(self._analysis.points, self._analysis.damping)
+        self._fits, self.fit = live.number, live.latest
 
     def happened(self, event: Event) -> None:
         """Begins a fit or a choice where the event says that there is more to go by."""

@@ -29,6 +29,8 @@ from instrument.stream.event import Event
 from instrument.stream.raw import (
     AcquisitionBegan,
     BlockAcquired,
+    FollowUpDecided,
+    FollowUpProposed,
     OperatorDid,
     SegmentBegan,
     SegmentEnded,
@@ -110,6 +112,9 @@ class Contents:
     fit: FitUpdated | None = None
     """The last one of the run itself."""
     diagnosis: DiagnosisFound | None = None
+    """The last one."""
+    following: list[Event] = field(default_factory=list)
+    """Every diagnosis, and what was proposed and decided after it."""
     limits: list[LimitWarned | LimitExceeded] = field(default_factory=list)
     operator: list[OperatorDid] = field(default_factory=list)
     temperatures: list[TemperatureRead] = field(default_factory=list)
@@ -186,6 +191,9 @@ class Gather:
                 c.fit = event
             case DiagnosisFound():
                 c.diagnosis = event
+                c.following.append(event)
+            case FollowUpProposed() | FollowUpDecided():
+                c.following.append(event)
             case LimitWarned() | LimitExceeded():
                 c.limits.append(event)
             case OperatorDid():

@@ -1,9 +1,11 @@
 """From measured points to a sweep that can be identified."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
+from fitting.specimen import PlacedMass, Specimen
 from fitting.sweep import Sweep
 from instrument.files.column import reading_std_m_s
 from instrument.stream.derived import PointMeasured
@@ -20,6 +22,25 @@ def uncalibrated(points: list[PointMeasured]) -> list[str]:
     ]
 
 
+def with_spots(specimen: Specimen, points: Sequence[PointMeasured]) -> Specimen:
+    """The specimen with every spot that points were read at."""
+    further = {p.pickup: p.spot_mm for p in points if p.spot_mm is not None}
+    if not further:
+        return specimen
+    spots = tuple((1e-3 * x, 1e-3 * y) for _, (x, y) in sorted(further.items()))
+    return replace(specimen, further_pickups_m=(*specimen.further_pickups_m, *spots))
+
+
+def by_mass(points: Sequence[PointMeasured], specimen: Specimen) -> list[tuple[list[int], Specimen]]:
+    """Points that the same known mass was on the plate for, by their places; and the plate with it."""
+    groups: dict[tuple[PlacedMass, ...], list[int]] = {}
+    for k, p in enumerate(points):
+        at = p.mass_at_mm
+        on = () if at is None else (PlacedMass(p.mass_kg, 1e-3 * at[0], 1e-3 * at[1]),)
+        groups.setdefault(on, []).append(k)
+    return [(places, replace(specimen, masses=(*specimen.masses, *on))) for on, places in groups.items()]
+
+
 def sweep_of(points: list[PointMeasured], times_s: Sequence[float] | None = None) -> Sweep:
     """The points as a `Sweep`, each at its own level; `times_s` on any clock, where there is one.
 
@@ -34,4 +55,5 @@ def sweep_of(points: list[PointMeasured], times_s: Sequence[float] | None = None
         base_m_s2=np.array([p.base_m_s2 for p in points]),
         std_m_s=reading_std_m_s(points),
         time_s=None if times_s is None else np.array(times_s) - min(times_s),
+        pickup=np.array([p.pickup for p in points], dtype=np.intp) if any(p.pickup for p in points) else None,
     )

@@ -30,6 +30,9 @@ from instrument.stream.raw import (
     BlockAcquired,
     DiagnosisStarted,
     FitStarted,
+    FollowUpDecided,
+    FollowUpEnded,
+    FollowUpProposed,
     SegmentEnded,
     SessionEnded,
 )
@@ -47,6 +50,9 @@ _SEALING = (
     FitUpdated,
     DiagnosisStarted,
     DiagnosisFound,
+    FollowUpProposed,
+    FollowUpDecided,
+    FollowUpEnded,
     SegmentEnded,
     SessionEnded,
 )

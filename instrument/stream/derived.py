@@ -107,6 +107,14 @@ class PointMeasured(Derived):
     temperature_c: float | None
     remarks: tuple[str, ...]
     """What speaks against the point; empty for a good one."""
+    pickup: int = 0
+    """Which spot it was read at: 0 is the specimen file's own."""
+    spot_mm: tuple[float, float] | None = None
+    """Of another one: x from the clamp, y from a long edge."""
+    mass_kg: float = 0.0
+    """Known, put on the plate for this point."""
+    mass_at_mm: tuple[float, float] | None = None
+    """Where it lies; None where there is none."""
 
     @property
     def base_m_s2(self) -> complex:

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ConfigDict
 
+from instrument.facts.follow_up import FollowUp
 from instrument.stream.event import Event, Positive
 from instrument.stream.scaling import volts_of
 
@@ -173,9 +174,9 @@ class SegmentEnded(Event):
 class OperatorDid(Event):
     """Something only a person can do or decide."""
 
-    what: Literal["mounted", "aimed", "accepted", "rejected", "undone"]
+    what: Literal["mounted", "aimed", "changed", "accepted", "rejected", "undone"]
     detail: str
-    """The plate mounted, the point aimed at; empty for hits."""
+    """The plate mounted, the point aimed at, what was changed; empty for hits."""
     hit: int = 0
 
 
@@ -235,6 +236,60 @@ class DiagnosisStarted(Event):
     number: int
     last_step: int
     """Points of this and all earlier steps take part."""
+
+
+@dataclass(frozen=True)
+class FollowUpProposed(Event):
+    """A diagnosis ended in a group: what would tell its members apart, best first."""
+
+    number: int
+    """Of the measurement that is to follow."""
+    diagnosis: int
+    """Number of the diagnosis."""
+    offers: tuple[FollowUp, ...]
+    """Those that can be done in this run."""
+
+    def facts(self) -> dict[str, Any]:
+        """The offers as the diagnosis has them."""
+        offers = [one.as_json() for one in self.offers]
+        return {"number": self.number, "diagnosis": self.diagnosis, "offers": offers}
+
+
+@dataclass(frozen=True)
+class FollowUpDecided(Event):
+    """Whether an offer is taken, and on whose word."""
+
+    number: int
+    offer: int
+    """Which one, from 0."""
+    agreed: bool
+    by: Literal["experiment", "person"]
+
+
+@dataclass(frozen=True)
+class SpotMoved(Event):
+    """The laser points at another spot: what follows is read there."""
+
+    pickup: int
+    """Its number; 0 is the specimen file's own."""
+    spot_mm: tuple[float, float]
+    """x from the clamp, y from a long edge."""
+
+
+@dataclass(frozen=True)
+class MassPut(Event):
+    """A known mass was put on the plate, and nothing else is on it."""
+
+    mass_kg: float
+    at_mm: tuple[float, float]
+    """x from the clamp, y from a long edge."""
+
+
+@dataclass(frozen=True)
+class FollowUpEnded(Event):
+    """All of it is measured."""
+
+    number: int
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ from fitting.arrays import Array
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.sweep import Sweep
 from instrument.models.identification import identify
-from instrument.planning.choosing import Goal, choose_steps
+from instrument.planning.choosing import Goal, choose_steps, lay_out
 from instrument.planning.costs import decay_of
 from instrument.planning.grid import Ground
 from instrument.planning.outlook import outlook_of
@@ -127,6 +127,8 @@ def adaptive(case: PlannedCase, ground: Ground, goal: Goal, rig: Rig) -> tuple[f
             result = choose_steps(started, known, choices.get(action.number - 1), ground, goal)
             took.append(process_time() - began)
             choices[action.number] = result
+            # As a run does, while the step is measured.
+            lay_out(result, ground)
             if VERBOSE:
                 print(action.number, f"{rig.seconds:.1f} s", result.frequencies_hz, result.why)
             worst = result.worst_percent

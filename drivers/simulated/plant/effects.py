@@ -148,6 +148,16 @@ class OtherLaw:
 
 
 @dataclass(frozen=True)
+class ByHand:
+    """What somebody has changed, and said so."""
+
+    spot_m: tuple[float, float] | None = None
+    """Where the laser is meant to point; None for the specimen's spot."""
+    mass: AddedMass | None = None
+    """Of known size, beside any that is hidden."""
+
+
+@dataclass(frozen=True)
 class Effects:
     """What is present. Fields are named as a diagnosis names the effects."""
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from drivers.arrays import Array
 from drivers.simulated.plant import grid, specimen
-from drivers.simulated.plant.effects import ClampCompliance, Effects
+from drivers.simulated.plant.effects import AddedMass, ByHand, ClampCompliance, Effects
 from drivers.simulated.plant.law import ZN1, MaxwellLaw, even_loss
 from drivers.simulated.plant.model import ReducedModel, shipped
 from drivers.simulated.plant.one_thread import one_thread
@@ -35,12 +35,19 @@ class Sandwich:
 
 
 @one_thread
-def sandwich(effects: Effects | None = None, model: ReducedModel | None = None) -> Sandwich:
-    """The plate with its effects. A point off the plate or a value that makes no sense raises ValueError."""
-    effects = effects or Effects()
+def sandwich(
+    effects: Effects | None = None,
+    model: ReducedModel | None = None,
+    by_hand: ByHand | None = None,
+) -> Sandwich:
+    """The plate with its effects. A point off the plate or a value that makes no sense raises ValueError.
+
+    `by_hand` is what somebody has changed since.
+    """
+    effects, by_hand = effects or Effects(), by_hand or ByHand()
     model = model or shipped("sandwich")
     thickness = effects.core_thickness.scale if effects.core_thickness else 1.0
-    K, M, loads = elastic(effects, model), *inertia(effects, model, thickness)
+    K, M, loads = elastic(effects, model), *inertia(effects, model, thickness, by_hand.mass)
     clamped = clamp(effects, model)
     n = len(M) if clamped else model.rigid_count
     core = core_stiffness(effects, model, thickness)[:n, :n]
@@ -48,7 +55,7 @@ def sandwich(effects: Effects | None = None, model: ReducedModel | None = None) 
     K, M = K[:n, :n], M[:n, :n]
     springs = sum((b.law.modulus(0.0).real * b.K for b in clamped), np.zeros((n, n)))
     C = modal_damping(M, K + springs + specimen.REFERENCE_MODULUS_PA * core, damping_ratios(effects))
-    spot, tip = spot_m(effects), (specimen.LENGTH_M, specimen.WIDTH_M / 2)
+    spot, tip = seen_m(effects, by_hand.spot_m), (specimen.LENGTH_M, specimen.WIDTH_M / 2)
     readings = np.array([grid.on_plate(*at) @ model["w_top"] for at in (spot, tip)])
     structure = Structure(M, C, K, (Branch(core, law), *clamped), -loads[:n], readings[:, :n])
     return Sandwich(structure, spot[0], thickness * CORE_VOLUME_M3)
@@ -74,15 +81,18 @@ def core_stiffness(effects: Effects, model: ReducedModel, thickness: float) -> A
     return np.asarray(K - 0.99 / thickness * np.tensordot(loose, strips, axes=1))
 
 
-def inertia(effects: Effects, model: ReducedModel, thickness: float) -> tuple[Array, Array]:
-    """M, and M times heave and pitch. Shapes (n, n) and (n, 2)."""
+def inertia(
+    effects: Effects, model: ReducedModel, thickness: float, known: AddedMass | None = None
+) -> tuple[Array, Array]:
+    """M, and M times heave and pitch; `known` is a mass beside the hidden one. Shapes (n, n) and (n, 2)."""
     scales = {"substrate": 1.0, "core": thickness, "constraining": 1.0}
     if effects.air_added_mass:
         scales["air"] = effects.air_added_mass.density_kg_m3
     M = sum(s * model[f"M_{name}"] for name, s in scales.items())
     loads = sum(s * model[f"load_{name}"] for name, s in scales.items())
-    added = effects.added_mass
-    if added:
+    for added in (effects.added_mass, known):
+        if added is None:
+            continue
         w = grid.on_plate(added.x_m, added.y_m) @ model["w_top"]
         M = M + added.mass_kg * np.outer(w, w)
         loads = loads + added.mass_kg * np.outer(w, [1.0, added.x_m])
@@ -105,8 +115,8 @@ def damping_ratios(effects: Effects) -> Array:
     return scale * np.array(specimen.BARE_MODAL_RATIOS)
 
 
-def spot_m(effects: Effects) -> tuple[float, float]:
-    """Where the laser really points."""
-    x, y = specimen.SPOT_M
+def seen_m(effects: Effects, meant_m: tuple[float, float] | None = None) -> tuple[float, float]:
+    """Where the laser really points; `meant_m` None for the specimen's spot."""
+    x, y = meant_m or specimen.SPOT_M
     offset = effects.spot_offset
     return (x + offset.dx_m, y + offset.dy_m) if offset else (x, y)

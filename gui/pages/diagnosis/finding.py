@@ -1,5 +1,7 @@
 """The verdict in large, where it comes from, and what to measure next."""
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPalette
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QVBoxLayout, QWidget
@@ -28,6 +30,10 @@ class Finding(QWidget):
         self.verdict, self.origin = Mark(large=True), Mark()
         self.verdict.setWordWrap(True)
         self.next = Advice()
+        self.story = QLabel()
+        self.story.setWordWrap(True)
+        self.story.setTextFormat(Qt.TextFormat.PlainText)
+        self.story.hide()
         self.corner = QHBoxLayout()
         """For what can be done about it."""
         row = QHBoxLayout()
@@ -38,7 +44,13 @@ class Finding(QWidget):
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.addLayout(row)
+        column.addWidget(self.story)
         column.addWidget(self.next)
+
+    def show_followed(self, lines: Sequence[str]) -> None:
+        """What was measured because a diagnosis before this one ended in a group."""
+        self.story.setText("\n".join(lines))
+        self.story.setVisible(bool(lines))
 
     def show_diagnosis(self, shown: ShownDiagnosis) -> None:
         """In words."""

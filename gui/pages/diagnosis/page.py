@@ -28,6 +28,7 @@ from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
 from gui.state import SessionState
 from gui.widgets import button, hint
 from instrument.facts.diagnosis import DiagnosisResult
+from instrument.results.followed import followed_lines, followed_of
 
 _PERCENT = 100
 _HERE = (
@@ -86,6 +87,10 @@ class DiagnosisPage(Page):
         rediagnosis = self.controller.rediagnosis
         shown = rediagnosis.shown(self.controller.state)
         self._show_controls(shown)
+        state = self.controller.state
+        own = state.contents.following if state is not None and shown is not None else []
+        asked = shown is not None and shown.asked is not None
+        self.finding.show_followed(followed_lines(followed_of([] if asked else own)))
         before, self._shown = self._shown, shown
         if shown is None:
             heading, text = self._why_nothing()

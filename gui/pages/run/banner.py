@@ -4,10 +4,19 @@ from PySide6.QtCore import QRectF, Qt, Signal
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QWidget
 
+from fitting.specimen import Specimen
+from gui.pages.run.plate_view import PlateView
 from gui.theme import current_theme
 from gui.widgets import button
 
-ANSWERS = {"mount": "It is mounted", "aim": "It is aimed", "content": "Use these hits"}
+ANSWERS = {
+    "mount": "It is mounted",
+    "aim": "It is aimed",
+    "content": "Use these hits",
+    "change": "It is done",
+    "follow-up": "Measure it",
+}
+_SKETCH_PX = (240, 140)
 
 
 class Banner(QFrame):
@@ -17,9 +26,11 @@ class Banner(QFrame):
     -------
     answered
         The button was pressed.
+    declined
+        The other one was, where there is one.
     """
 
-    answered = Signal()
+    answered, declined = Signal(), Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -28,9 +39,16 @@ class Banner(QFrame):
         self.words.setTextFormat(Qt.TextFormat.RichText)
         self.button = button("", "Tell the run (Ctrl+Return)")
         self.button.clicked.connect(self.answered)
+        self.other = button("Not this", "Ask for the next one, or end")
+        self.other.clicked.connect(self.declined)
+        self.sketch = PlateView()
+        self.sketch.setFixedSize(*_SKETCH_PX)
+        self.sketch.setToolTip("The plate to scale, clamped on the left")
         row = QHBoxLayout(self)
         row.setContentsMargins(16, 8, 8, 8)
         row.addWidget(self.words, 1)
+        row.addWidget(self.sketch)
+        row.addWidget(self.other)
         row.addWidget(self.button)
         self.hide()
 
@@ -40,6 +58,13 @@ class Banner(QFrame):
         self.words.setText(f"<span style='font-size:large'><b>{words}</b></span>")
         self.button.setVisible(what in ANSWERS)
         self.button.setText(ANSWERS.get(what, ""))
+        self.other.setVisible(what == "follow-up")
+        self.sketch.hide()
+
+    def show_place(self, specimen: Specimen, at_mm: tuple[float, float], mark: str) -> None:
+        """Where on the plate something is to be done."""
+        self.sketch.show_place(specimen, at_mm, mark)
+        self.sketch.show()
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """On a ground of its own."""

@@ -8,6 +8,7 @@ from gui.channels import ChannelTable
 from gui.controller import AppController
 from gui.feeds.live import LiveFeed
 from gui.gauge import Gauge
+from gui.pages.run.overrule import OverruleRow
 from gui.run_gauges import RunGauges, state_color
 from gui.state import SessionState
 from gui.state.run import WORDS
@@ -37,6 +38,7 @@ class NowPane(QWidget):
         self.next.setTextFormat(Qt.TextFormat.PlainText)
         self.level = Gauge("level", large=True)
         self.gauges = RunGauges(controller, self, large=True)
+        self.overrule = OverruleRow(controller)
         self.segments, self.channels = ReadTable(_COLUMNS), ChannelTable()
         self.path = QLabel()
         self.path.setWordWrap(True)
@@ -56,6 +58,7 @@ class NowPane(QWidget):
         run = state.run
         self._say_state(state)
         self.next.setText(run.next_words)
+        self.overrule.show_state(state)
         self._show_gauges(state)
         words = path_words(live) if live is not None else ending_words(ending)
         self.path.setText(words)
@@ -109,6 +112,7 @@ class NowPane(QWidget):
         inside.setContentsMargins(0, 0, 0, 0)
         inside.addWidget(self.state)
         inside.addWidget(self.next)
+        inside.addWidget(self.overrule)
         inside.addLayout(grid)
         inside.addWidget(self.channels, 1)
         inside.addWidget(self.segments, 2)

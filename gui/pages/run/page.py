@@ -20,7 +20,7 @@ from gui.pages.run.plate_view import PlateView
 from gui.pages.run.start_panel import StartPanel
 from gui.state import SessionState
 from gui.widgets import button
-from instrument.engine.messages import Ended
+from instrument.engine.messages import Ended, OperatorAsked
 from instrument.facts.check import CheckResult
 
 _FORMATS = (("csv", "CSV..."), ("uff", "Universal file..."), ("mat", "MATLAB..."))
@@ -40,6 +40,7 @@ class RunPage(Page):
         self.export = Export(controller, self)
         self.report_button = button("Report...", "One self-contained page of the session", "report")
         self.export_button = button("Export", "The session's data for other programs", "export")
+        self._asked: OperatorAsked | None = None
         self._next: Literal["", "check", "start"] = ""
         self._forecast: CheckResult | None = None
         """Of the experiment as it is on the disk; None where it is not known."""
@@ -174,9 +175,17 @@ class RunPage(Page):
                 self._show_what_may_be_done()
             return
         if live.question is not None:
-            self.banner.ask(state.run.question, live.question.what)
+            self._ask(state, live.question)
         else:
             self.banner.ask(state.run.next_words if state.run.state == "hammer" else "")
+
+    def _ask(self, state: SessionState, question: OperatorAsked) -> None:
+        if question is self._asked and self.banner.isVisible():
+            return
+        self._asked = question
+        self.banner.ask(state.run.question, question.what)
+        if question.at_mm is not None:
+            self.banner.show_place(state.configuration.the_specimen(), question.at_mm, question.mark)
 
     # Inside
 
@@ -195,6 +204,7 @@ class RunPage(Page):
         self.starting.start_wanted.connect(self._start)
         self.starting.out_changed.connect(self._look_for_broken_off)
         self.banner.answered.connect(controller.answer)
+        self.banner.declined.connect(controller.decline)
         self.check.passed.connect(self._passed)
         self.check.objected.connect(self._objected)
         self.report_button.clicked.connect(self.export.report)

@@ -6,11 +6,12 @@ from PySide6.QtCore import QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QMouseEvent, QPainter, QPaintEvent, QPalette, QPen
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from fitting.specimen import Specimen
 from gui.form.draft import Draft, Drafts
 from gui.form.fields import Place
 from gui.theme import Role, Theme, current_theme
 
-_ROOM_PX = 44
+_ROOM_PX, _SKETCH_ROOM_PX = 44, 22
 _MARK_PX = 7
 _NEAR_PX = 14
 """A press so near a mark takes it."""
@@ -48,7 +49,7 @@ class PlateView(QWidget):
         self.marks: tuple[PlateMark, ...] = ()
         self.patches_mm: tuple[tuple[float, float, float, float], ...] | None = None
         """From and to along x, along y; None where all of the plate is treated, or nothing."""
-        self._clamped = False
+        self._clamped = self._sketched = False
         self._held: int | None = None
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
         self.setToolTip("Drag the spot, the hit or the sensor: their fields follow")
@@ -63,6 +64,16 @@ class PlateView(QWidget):
             self.patches_mm = _patches(specimen)
             self._clamped = specimen.value(("plate", "boundary")) in (None, "cantilever")
             self.marks = (*_spots(specimen), *(_of_hammer(experiment) if experiment is not None else ()))
+        self.update()
+
+    def show_place(self, specimen: Specimen, at_mm: tuple[float, float], mark: str) -> None:
+        """One point of a plate, beside its own spot; nothing can be dragged."""
+        self.size_mm = (1e3 * specimen.length_m, 1e3 * specimen.width_m)
+        self._clamped = specimen.boundary == "cantilever"
+        own = [PlateMark("spot", "", (), (), (1e3 * x, 1e3 * y), "faint") for x, y in specimen.pickups_m]
+        self.marks = (*own, PlateMark(mark, "", (), (), at_mm, "fair"))
+        self._held, self._sketched = None, True
+        self.setEnabled(False)
         self.update()
 
     def to_screen(self, at_mm: tuple[float, float]) -> QPointF:
@@ -122,7 +133,8 @@ class PlateView(QWidget):
     def _plate(self) -> QRectF:
         """As large as there is room, to scale."""
         length, width = self._size
-        room = QRectF(self.rect()).adjusted(_ROOM_PX, _ROOM_PX, -_ROOM_PX, -_ROOM_PX)
+        px = _SKETCH_ROOM_PX if self._sketched else _ROOM_PX
+        room = QRectF(self.rect()).adjusted(px, px, -px, -px)
         scale = max(min(room.width() / length, room.height() / width), 1e-6)
         plate = QRectF(0.0, 0.0, scale * length, scale * width)
         plate.moveCenter(room.center())
@@ -142,6 +154,8 @@ class PlateView(QWidget):
             clamp = QRectF(plate.left() - 2 * _HATCH_PX, plate.top(), 2 * _HATCH_PX, plate.height())
             painter.fillRect(clamp, theme.color("grid"))
             painter.fillRect(clamp, Qt.BrushStyle.BDiagPattern)
+        if self._sketched:
+            return
         painter.setPen(theme.color("faint"))
         below, beside = plate.translated(0, plate.height() + 4), plate.translated(plate.width() + 4, 0)
         painter.drawText(below, Qt.AlignmentFlag.AlignHCenter, f"{length:g} mm")
@@ -154,7 +168,8 @@ class PlateView(QWidget):
         painter.drawEllipse(at, _MARK_PX, _MARK_PX)
         painter.setPen(theme.color("text"))
         words = f"{mark.name} {mark.at_mm[0]:g}, {mark.at_mm[1]:g}"
-        beyond = at.x() + _NEAR_PX + self.fontMetrics().horizontalAdvance(words) > self.width()
+        edge = self._plate().right() if self._sketched else float(self.width())
+        beyond = at.x() + _NEAR_PX + self.fontMetrics().horizontalAdvance(words) > edge
         left = (
             at.x() - _NEAR_PX - self.fontMetrics().horizontalAdvance(words) if beyond else at.x() + _NEAR_PX
         )

@@ -77,7 +77,8 @@ def test_a_quantity_added_to_the_table_is_in_the_windows_record(later, contents)
 
 
 def test_every_number_of_a_point_is_kept_with_a_session_and_drawn(session):
-    numbers = {f.name for f in fields(PointMeasured)} - {"purpose", "range_name", "remarks"}
+    places_and_words = {"purpose", "range_name", "remarks", "spot_mm", "mass_at_mm"}
+    numbers = {f.name for f in fields(PointMeasured)} - places_and_words
     assert {column.field for column in point_columns.stored()} == numbers
     with h5py.File(session) as file:
         assert set(file["points"]) == numbers | {"purpose"}

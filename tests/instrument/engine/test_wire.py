@@ -38,6 +38,7 @@ MESSAGES = (
     Answered("content"),
     Decided("rejected", 3),
     OverruleWanted("add", 45.2),
+    OperatorAsked("follow-up", "aim it elsewhere", at_mm=(250.0, 100.0), mark="laser"),
     Happened(FitUpdated(1, 7, identification(rms_percent=0.1 + 0.2), "a message")),
     Happened(StepBegan(1, "step", 1, 1, 100.0, None, 0.5, 8.0)),
     BlocksDropped(7),

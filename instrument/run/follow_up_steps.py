@@ -1,0 +1,81 @@
+"""What of a diagnosis's offers a run can do, and the steps that one is: pure."""
+
+from collections.abc import Sequence
+from itertools import groupby
+
+import numpy as np
+
+from fitting.gravity import PUBLISHED_G_M_S2
+from instrument.facts.follow_up import FollowUp
+from instrument.stepped_sine.plan import PlannedSegment
+from instrument.stepped_sine.settings import Limits
+from instrument.stream.derived import PointMeasured
+
+MOST_OFFERS = 3
+"""Of one diagnosis: asked for one after the other."""
+_ROOM = 0.8
+"""Of a limit, that a planned step may use: resonances are a little higher than they were read."""
+_BY_STEPS = ("frequencies", "level", "reversed", "spot", "added_mass")
+
+
+def possible(
+    offers: Sequence[FollowUp],
+    points: Sequence[PointMeasured],
+    limits: Limits,
+    *,
+    most_s: float,
+    can_strike: bool,
+) -> tuple[FollowUp, ...]:
+    """Those that fit into this run, in the order they are given.
+
+    `most_s` is the time left; `can_strike` whether there is a hammer test to make.
+    """
+    found = [
+        one
+        for one in offers
+        if one.seconds <= most_s
+        and (one.kind in _BY_STEPS or (one.kind == "bare_hammer" and can_strike))
+        and _within(one, points, limits)
+    ]
+    return tuple(found[:MOST_OFFERS])
+
+
+def follow_up_segments(
+    offer: FollowUp, points: Sequence[PointMeasured], sweep: int
+) -> tuple[PlannedSegment, ...]:
+    """Its steps in order, each in the range that its frequency was read in.
+
+    `sweep` is the number of the pass. A step that is named twice is made once.
+    """
+    level = PUBLISHED_G_M_S2 * offer.level_g if offer.level_g is not None else points[0].level_m_s2
+    known = np.array([p.frequency_hz for p in points])
+    steps = dict.fromkeys(zip(offer.frequencies_hz, offer.segments, strict=True))
+    planned = []
+    for (segment, range_name), each in groupby(
+        steps, key=lambda s: (s[1], points[int(np.argmin(np.abs(known - s[0])))].range_name)
+    ):
+        f = tuple(frequency for frequency, _ in each)
+        planned.append(PlannedSegment(segment, sweep, f, (level,) * len(f), range_name))
+    return tuple(planned)
+
+
+def _within(offer: FollowUp, points: Sequence[PointMeasured], limits: Limits) -> bool:
+    """Whether what was read, at its level, stays clear of the limits."""
+    if offer.level_g is None:
+        return True
+    level = PUBLISHED_G_M_S2 * offer.level_g
+    if level > limits.base_m_s2:
+        return False
+    times = [level / p.level_m_s2 for p in points]
+    if max(times, default=0.0) <= 1.0:
+        return True
+    omega = [2 * np.pi * p.frequency_hz for p in points]
+    used = [
+        max(
+            abs(p.velocity_m_s) * t / limits.velocity_m_s,
+            p.drive_v * t / limits.drive_v,
+            abs(p.base_m_s2) * t / w**2 / limits.travel_m,
+        )
+        for p, t, w in zip(points, times, omega, strict=True)
+    ]
+    return max(used) <= _ROOM

@@ -1,0 +1,165 @@
+"""After the sweep: diagnose, measure what would tell the explanations left apart, diagnose again."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from fitting.specimen import Specimen
+from instrument.facts.follow_up import FollowUp
+from instrument.files.experiment_file import DiagnosisTable
+from instrument.run.analysis import Analysis
+from instrument.run.follow_up_steps import follow_up_segments, possible
+from instrument.run.rig import Rig
+from instrument.run.runner import Runner
+from instrument.run.sweep_part import SweepPart
+from instrument.stepped_sine.settings import Limits
+from instrument.stream.derived import DiagnosisFound, PointMeasured
+from instrument.stream.event import Event
+from instrument.stream.raw import (
+    FollowUpDecided,
+    FollowUpEnded,
+    FollowUpProposed,
+    MassPut,
+    SpotMoved,
+)
+
+
+@dataclass(frozen=True)
+class Earlier:
+    """What a run that was broken off has behind it."""
+
+    found: tuple[DiagnosisFound, ...]
+    """The first of the sweep alone, one more after each measurement."""
+    proposed: dict[int, FollowUpProposed]
+    decided: dict[tuple[int, int], FollowUpDecided]
+    """By measurement and offer."""
+    ended: frozenset[int]
+    spots: tuple[SpotMoved, ...]
+
+    @classmethod
+    def of(cls, events: list[Event]) -> "Earlier":
+        """From its events."""
+        return cls(
+            tuple(e for e in events if isinstance(e, DiagnosisFound)),
+            {e.number: e for e in events if isinstance(e, FollowUpProposed)},
+            {(e.number, e.offer): e for e in events if isinstance(e, FollowUpDecided)},
+            frozenset(e.number for e in events if isinstance(e, FollowUpEnded)),
+            tuple(e for e in events if isinstance(e, SpotMoved)),
+        )
+
+
+@dataclass
+class Following:
+    """Of one run."""
+
+    table: DiagnosisTable
+    limits: Limits
+    specimen: Specimen
+    analysis: Analysis
+    sweep: SweepPart
+    earlier: Earlier
+    emit: Callable[[Event], object]
+    diagnose: Callable[[], DiagnosisFound | None]
+    strike: Callable[[], None] | None
+    """The bare plate's hammer test; None where there is none to make."""
+
+    def __post_init__(self) -> None:
+        self._spots = dict(enumerate(self.specimen.pickups_m))
+        for moved in self.earlier.spots:
+            x, y = moved.spot_mm
+            self._spots[moved.pickup] = (1e-3 * x, 1e-3 * y)
+        # Spot, and whether a mass is on the plate, as this run has them.
+        self._at, self._loaded = 0, False
+        self._left_s = self.table.follow_up_most_s
+        self.found: DiagnosisFound | None = None
+        """The last diagnosis."""
+
+    def run(self, rig: Rig, runner: Runner, ready: Callable[[], None]) -> None:
+        """Until one explanation is left, nobody wants more, or it is enough.
+
+        `ready` is called before anything is driven. Raises as `Runner.sweep`.
+        """
+        for number in range(1, self.table.follow_up_at_most + 1):
+            offer = self._taken(number, rig) if self._diagnosed(number) else None
+            if offer is None:
+                return
+            self._left_s -= offer.seconds
+            if number not in self.earlier.ended:
+                ready()
+                self._measure(number, offer, rig, runner)
+                self.emit(FollowUpEnded(number))
+        self._diagnosed(self.table.follow_up_at_most + 1)
+
+    def _diagnosed(self, number: int) -> bool:
+        known = self.earlier.found
+        self.found = known[number - 1] if len(known) >= number else self.diagnose()
+        return self.found is not None and self.found.result is not None
+
+    def _taken(self, number: int, rig: Rig) -> FollowUp | None:
+        """What is to be measured; None where nothing can or may be."""
+        for k, offer in enumerate(self._offers(number)):
+            decided = self.earlier.decided.get((number, k))
+            if decided is None:
+                alone = not offer.needs_hands and not self._at and not self._loaded
+                by_itself = self.table.follow_up == "do" and alone
+                agreed = by_itself or rig.operator.agree(offer)
+                decided = FollowUpDecided(number, k, agreed, "experiment" if by_itself else "person")
+                self.emit(decided)
+            if decided.agreed:
+                return offer
+        return None
+
+    def _offers(self, number: int) -> tuple[FollowUp, ...]:
+        """As they were, or are, proposed."""
+        proposed = self.earlier.proposed.get(number)
+        if proposed is None:
+            assert self.found is not None
+            assert self.found.result is not None
+            offers = possible(
+                self.found.result.next_measurements,
+                self._steps,
+                self.limits,
+                most_s=self._left_s,
+                can_strike=self.strike is not None and self.analysis.damping is None,
+            )
+            if not offers:
+                return ()
+            proposed = FollowUpProposed(number, self.found.number, offers)
+            self.emit(proposed)
+        return proposed.offers
+
+    @property
+    def _steps(self) -> list[PointMeasured]:
+        return [p for p in self.analysis.points if p.purpose == "step"]
+
+    def _measure(self, number: int, offer: FollowUp, rig: Rig, runner: Runner) -> None:
+        if offer.kind == "bare_hammer":
+            assert self.strike is not None
+            self.strike()
+            self.emit(rig.operator.mount("damped"))
+            self._at = 0
+            self.sweep.fit_again()
+            return
+        if offer.spot_mm is not None:
+            self.emit(rig.operator.change(offer))
+            self._at = self._number_of(offer.spot_mm)
+            self.emit(SpotMoved(self._at, offer.spot_mm))
+        elif self._at:
+            self.emit(rig.operator.aim("pickup"))
+            self._at = 0
+        if offer.mass_kg is not None and offer.mass_at_mm is not None:
+            self.emit(rig.operator.change(offer))
+            self.emit(MassPut(offer.mass_kg, offer.mass_at_mm))
+            self._loaded = True
+        elif self._loaded:
+            self.emit(rig.operator.mount("damped"))
+            self._loaded = False
+        own = [p for p in self._steps if p.pickup == 0 and p.mass_at_mm is None]
+        self.sweep.follow(runner, follow_up_segments(offer, own, self.sweep.passes + number))
+
+    def _number_of(self, spot_mm: tuple[float, float]) -> int:
+        """Of a spot; a new one comes after all others."""
+        at = (1e-3 * spot_mm[0], 1e-3 * spot_mm[1])
+        known = [k for k, p in self._spots.items() if p == at]
+        number = known[0] if known else len(self._spots)
+        self._spots[number] = at
+        return number

@@ -1,0 +1,56 @@
+"""A run that goes on after its diagnosis, on a plate made of formulas: what it finds is made up.
+
+A program, to be killed: EXPERIMENT.toml, folder of the session, the folder to resume from where there is one.
+"""
+
+import sys
+from pathlib import Path
+
+from diagnosis_cases import diagnosis
+from result_cases import identification
+
+from instrument.run.experiment import run_experiment
+from instrument.session.configuration import read_whole_experiment
+from instrument.stream.derived import DiagnosisFound, FitUpdated
+
+SPOT_MM = (250.0, 100.0)
+STEPS = {"frequencies_hz": [105.5, 104.0, 96.5], "segments": [1, 1, 1]}
+OFFER = {
+    "needs_hands": False,
+    "seconds": 30.0,
+    "separation": 4.0,
+    "probability_resolved": 0.8,
+    "between": ["spot_offset", "gain_error"],
+    "why": "A gain is the same at every spot.",
+    "todo": "Do it.",
+}
+BACKWARDS = {**OFFER, **STEPS, "kind": "reversed", "level_g": 1.0}
+HALF = {**BACKWARDS, "kind": "level", "level_g": 0.5}
+SPOT = {**BACKWARDS, "kind": "spot", "needs_hands": True, "spot_mm": SPOT_MM, "todo": "Aim it elsewhere."}
+
+
+def a_law(number, last_step, points, damping, specimen):
+    return FitUpdated(number, last_step, identification())
+
+
+def grouped(*offers):
+    """A diagnosis that ends in a group as long as there are offers, one after another."""
+
+    def diagnose(number, last_step, points, times_s, damping, specimen):
+        measured = {p.sweep for p in points if p.step <= last_step}
+        left = offers[len(measured) - 1 :][:1]
+        result = diagnosis().but(next_measurements=left)
+        return DiagnosisFound(number, last_step, result)
+
+    return diagnose
+
+
+def run(experiment, out, offers=(BACKWARDS, SPOT), **options):
+    if not hasattr(experiment, "document"):
+        experiment = read_whole_experiment(Path(experiment))
+    return run_experiment(experiment, Path(out), ("sweep",), fit=a_law, diagnose=grouped(*offers), **options)
+
+
+if __name__ == "__main__":
+    given = [Path(a) for a in sys.argv[1:]]
+    run(given[0], given[1], resume=given[2] if len(given) > 2 else None)
