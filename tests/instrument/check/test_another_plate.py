@@ -9,7 +9,7 @@ from sessions import configuration
 from instrument.cli.main import run
 from instrument.errors import RigStopped
 from instrument.facts.damping import DampingResult
-from instrument.run.experiment import _Session
+from instrument.run.session_run import SessionRun
 from instrument.simulated_case import write_case
 from instrument.stream.derived import DampingFound
 
@@ -51,7 +51,7 @@ def hammer_test(frequencies_hz):
 
 def question(frequencies_hz):
     run_of_it = SimpleNamespace(_configuration=configuration())
-    _Session._question_plate(run_of_it, hammer_test(frequencies_hz))
+    SessionRun._question_plate(run_of_it, hammer_test(frequencies_hz))
 
 
 def test_a_bare_plate_of_other_modes_stops_before_the_sweep():
