@@ -28,6 +28,9 @@ BACKWARDS = {**OFFER, **STEPS, "kind": "reversed", "level_g": 1.0}
 HALF = {**BACKWARDS, "kind": "level", "level_g": 0.5}
 SPOT = {**BACKWARDS, "kind": "spot", "needs_hands": True, "spot_mm": SPOT_MM, "todo": "Aim it elsewhere."}
 
+MASS_KG, MASS_MM = 0.005, (280.0, 100.0)
+MASS = {**BACKWARDS, "kind": "added_mass", "needs_hands": True, "mass_kg": MASS_KG, "mass_at_mm": MASS_MM}
+
 
 def a_law(number, last_step, points, damping, specimen):
     return FitUpdated(number, last_step, identification())

@@ -41,6 +41,8 @@ class Session(Shown):
     diagnosis: Diagnosis | None
     remarks: tuple[str, ...]
     """Why there is no law or no diagnosis, where one was tried."""
+    has_known_masses: bool
+    """Whether the run had known masses put on the plate: points with and without them."""
     result: SessionResult
     """The law to sign: that after the diagnosis, with its verdict and where it holds."""
 
@@ -95,6 +97,7 @@ def _session(contents: Contents) -> Session:
         hammer=Damping(contents.damping.result) if contents.damping is not None else None,
         identification=Identification(fit.result, specimen) if fit and fit.result else None,
         diagnosis=Diagnosis(diagnosis.result) if diagnosis and diagnosis.result else None,
+        has_known_masses=any(point.mass_at_mm is not None for point in contents.measured),
         result=recorded_result(contents),
         remarks=(*_why("no law identified", fit), *_why("no diagnosis", diagnosis)),
     )

@@ -34,7 +34,7 @@ _AT_ONCE = 64
 """Messages between two looks at the clock."""
 _PACE_EVERY_S, _PACE_MARKS = 0.5, 20
 _QUESTIONS: dict[str, Callable[[OperatorAsked], str]] = {
-    "mount": lambda a: f"mount the {a.detail} plate",
+    "mount": lambda a: f"mount the {a.detail} plate, nothing else on it",
     "aim": lambda a: (
         f"aim the laser at the {'base beside the accelerometer' if a.detail == 'base' else a.detail}, focus"
     ),

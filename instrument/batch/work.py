@@ -16,7 +16,7 @@ from instrument.facts.identification import IdentificationResult
 from instrument.files.specimen_file import read_specimen
 from instrument.interchange.given import Given, read_given
 from instrument.models.diagnosis import diagnose
-from instrument.models.files import spots_of
+from instrument.models.files import File, spots_of
 from instrument.models.identification import identify
 from instrument.models.second_process import VARIABLE as PROCESSES
 from instrument.models.sharing import serves
@@ -107,17 +107,17 @@ def _lender(task: Task, given: Given) -> Specimen | None:
     if task.like is None:
         return None
     lender = read_specimen(Path(task.like))
-    if given.sweep.pickup is not None:
+    if given.sweep.pickup is not None or given.with_masses:
         return None
     return lender if serves(lender, given.plate, given.sweep) else None
 
 
 def _identified(given: Given, like: Specimen | None) -> dict[str, Any]:
-    if given.sweep.pickup is None:
+    spots = _spots(given)
+    if not spots:
         found = identify(given.sweep, given.plate, hammer=given.modes, like=like)
         result = identification_from(found, given.sweep, given.plate)
     else:
-        spots = spots_of(given.sweep, given.plate)
         result = identified_together_from(identify_together(spots), spots)
     return {
         "verdict": None,
@@ -128,9 +128,16 @@ def _identified(given: Given, like: Specimen | None) -> dict[str, Any]:
     }
 
 
+def _spots(given: Given) -> list[File]:
+    """As files under one law, where there are several spots or known masses."""
+    if given.with_masses:
+        return list(given.with_masses)
+    return [] if given.sweep.pickup is None else spots_of(given.sweep, given.plate)
+
+
 def _diagnosed(given: Given, like: Specimen | None) -> dict[str, Any]:
-    if given.sweep.pickup is not None:
-        spots = spots_of(given.sweep, given.plate)
+    spots = _spots(given)
+    if spots:
         return _of_diagnosis(diagnosed_together_from(diagnose_together(spots), spots))
     found = diagnose(given.sweep, given.plate, given.modes, like=like)
     return _of_diagnosis(diagnosis_from(found, given.sweep))

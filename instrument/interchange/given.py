@@ -18,10 +18,13 @@ from instrument.files.specimen_file import read_specimen
 from instrument.files.structure_file import read_structure
 from instrument.files.sweep_file import read_sweep
 from instrument.interchange.base_frf import is_frf_csv, sweep_of_foreign, sweep_of_frf_csv
+from instrument.interchange.files_of import files_of
 from instrument.interchange.identified import session_modes, session_sweep
 from instrument.interchange.readers import is_foreign
+from instrument.models.files import File
 from instrument.results.session_result import recorded_result
 from instrument.session.contents import Contents, contents_of
+from instrument.session.points import with_spots
 from instrument.session.storage import SessionFile
 
 R = TypeVar("R", IdentificationResult, DiagnosisResult)
@@ -49,6 +52,8 @@ class Given:
     """A session's own, where specimen and hammer test are its own too."""
     temperature_c: float | None = None
     """Mean over the points of a session or a column, where it was measured."""
+    with_masses: tuple[File, ...] = ()
+    """The data with each known mass that a run had put on the plate; empty where there was none."""
 
     @property
     def plate(self) -> Specimen:
@@ -99,6 +104,11 @@ def _of_sweep(data: Path, specimen: Path | None) -> Given:
         said = f"an FRF: taken as the pickup over {over}"
         return Given(read, sweep_of_frf_csv(data, level), None, remark=said)
     file = read_sweep(data)
+    if any(cell.strip(" .0") for cell in file.unknown.get("mass_kg", [])):
+        raise BadInput(
+            f"{data}: column mass_kg: a known mass was on the plate in some rows, expected a file for each, "
+            "its specimen with [[mass]] (or the session itself)"
+        )
     return Given(read, file.sweep(level, drive), None, temperature_c=file.temperature_c)
 
 
@@ -127,6 +137,8 @@ def _of_session(data: Path, specimen: Path | None, *, own_hammer: bool) -> Given
     read = contents.specimen if specimen is None else replace(read_specimen(specimen), reads=reads)
     modes = session_modes(contents) if own_hammer else None
     sweep = session_sweep(contents, read)
+    files = files_of(sweep, contents.measured, read)
+    read = with_spots(read, contents.measured)
     name = contents.configuration.name
     hammer = f", its hammer test with {len(modes.frequency_hz)} modes" if modes is not None else ""
     said = f"session {name}: {len(sweep)} points, velocity {reads}{hammer}"
@@ -142,6 +154,7 @@ def _of_session(data: Path, specimen: Path | None, *, own_hammer: bool) -> Given
         recorded_result(contents) if diagnosis is not None else None,
         diagnosis if own else None,
         _temperature_c(contents),
+        tuple(files) if any(point.mass_at_mm is not None for point in contents.measured) else (),
     )
 
 

@@ -139,6 +139,10 @@ class Following:
             self._at = 0
             self.sweep.fit_again()
             return
+        if self._loaded:
+            # First of all: a plate mounted anew is taken for one that is seen where it was at first.
+            self.emit(rig.operator.mount("damped"))
+            self._loaded = False
         if offer.spot_mm is not None:
             self.emit(rig.operator.change(offer))
             self._at = self._number_of(offer.spot_mm)
@@ -150,9 +154,6 @@ class Following:
             self.emit(rig.operator.change(offer))
             self.emit(MassPut(offer.mass_kg, offer.mass_at_mm))
             self._loaded = True
-        elif self._loaded:
-            self.emit(rig.operator.mount("damped"))
-            self._loaded = False
         own = [p for p in self._steps if p.pickup == 0 and p.mass_at_mm is None]
         self.sweep.follow(runner, follow_up_segments(offer, own, self.sweep.passes + number))
 

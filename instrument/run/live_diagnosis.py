@@ -11,13 +11,13 @@ from fitting.specimen import Specimen
 from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.files.hammer_file import accepted_modes
+from instrument.interchange.files_of import files_of
 from instrument.models.diagnosis import diagnose
 from instrument.models.together import diagnose_together
 from instrument.planning.follow_up import with_follow_ups
 from instrument.progress import Progress, quiet
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.together_from import diagnosed_together_from
-from instrument.run.files_of import files_of
 from instrument.session.points import sweep_of, uncalibrated
 from instrument.stream.derived import DampingFound, DiagnosisFound, PointMeasured
 

@@ -10,12 +10,12 @@ from fitting.errors import FittingError
 from fitting.specimen import Specimen
 from instrument.facts.identification import IdentificationResult
 from instrument.files.hammer_file import accepted_modes
+from instrument.interchange.files_of import files_of
 from instrument.models.identification import identify
 from instrument.models.together import identify_together
 from instrument.progress import Progress, quiet
 from instrument.results.identification_from import identification_from
 from instrument.results.together_from import identified_together_from
-from instrument.run.files_of import files_of
 from instrument.session.points import sweep_of, uncalibrated
 from instrument.stream.derived import DampingFound, FitUpdated, PointMeasured
 from instrument.stream.event import Event

@@ -20,7 +20,7 @@ class Operator(Protocol):
     """Someone at the rig."""
 
     def mount(self, plate: str) -> OperatorDid:
-        """Mount the bare or the damped plate ("bare", "damped"); returns when it is done."""
+        """Mount the bare or the damped plate ("bare", "damped"), without a known mass; returns when done."""
         ...
 
     def aim(self, point: str) -> OperatorDid:
@@ -109,7 +109,7 @@ class Person:
 
     def mount(self, plate: str) -> OperatorDid:
         """Ask, and wait for Enter."""
-        self._ask(f"Mount the {plate} plate, then press Enter")
+        self._ask(f"Mount the {plate} plate, nothing else on it, then press Enter")
         return OperatorDid("mounted", plate)
 
     def aim(self, point: str) -> OperatorDid:

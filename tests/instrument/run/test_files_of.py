@@ -2,13 +2,13 @@
 
 import pytest
 from conftest import TABLE_4
+from instrument.run.files_of import files_of
 from sessions import point
 
 from fitting.specimen import PlacedMass
 from instrument.files.specimen_file import SpecimenDocument, specimen_of
 from instrument.files.toml import read_document
 from instrument.paper_case import case_file
-from instrument.run.files_of import files_of
 from instrument.session.points import sweep_of
 
 SPOT = {"pickup": 1, "spot_mm": (250.0, 100.0)}

@@ -1,0 +1,66 @@
+"""What a session leaves to be fitted: one file for every spot and every known mass on the plate."""
+
+import numpy as np
+import pytest
+from following_cases import MASS, MASS_KG, MASS_MM, SPOT, SPOT_MM, run
+from formula_rig import SWEEP, formula_rig
+
+from fitting.specimen import PlacedMass
+from instrument.cli.main import run as viscorig
+from instrument.errors import BadInput
+from instrument.interchange.csv_export import export_csv
+from instrument.interchange.files_of import files_of
+from instrument.interchange.given import read_given
+from instrument.interchange.identified import session_sweep
+from instrument.session.configuration import read_whole_experiment
+from instrument.session.contents import contents_of
+from instrument.session.storage import SessionFile
+from viscorig import identify, load_session
+
+FOLLOWS = '[diagnosis]\nfollow_up = "do"\n'
+PLACED = PlacedMass(MASS_KG, 1e-3 * MASS_MM[0], 1e-3 * MASS_MM[1])
+
+
+@pytest.fixture(scope="module")
+def finished(tmp_path_factory):
+    """A sweep, the same with a known mass, then at another spot."""
+    folder = tmp_path_factory.mktemp("masses")
+    with formula_rig(folder, sweep=SWEEP) as (_, experiment):
+        experiment.path.write_text(experiment.path.read_text() + FOLLOWS)
+        return run(read_whole_experiment(experiment.path), folder, (MASS, SPOT))
+
+
+def test_a_known_mass_that_a_run_put_on_is_on_the_plate_of_its_points(finished):
+    given = read_given(finished.session, None, None)
+    with_mass = [f for f in given.with_masses if f.specimen.masses]
+    assert {f.specimen.masses for f in with_mass} == {(PLACED,)}
+    assert sum(len(f.sweep) for f in given.with_masses) == len(finished.points)
+    assert sum(len(f.sweep) for f in with_mass) == sum(p.mass_at_mm is not None for p in finished.points)
+    assert {f.pickup for f in given.with_masses} <= {None, 0, 1}
+    assert given.plate.further_pickups_m == ((1e-3 * SPOT_MM[0], 1e-3 * SPOT_MM[1]),)
+
+
+def test_as_long_as_nothing_was_changed_there_is_one_file(finished):
+    with SessionFile(finished.session) as file:
+        contents = contents_of(file)
+    first = [k for k, p in enumerate(contents.measured) if p.sweep == 1]
+    sweep = session_sweep(contents, contents.specimen).take(np.array(first))
+    (whole,) = files_of(sweep, [contents.measured[k] for k in first], contents.specimen)
+    assert whole.specimen == contents.specimen
+    assert len(whole.sweep) == len(first)
+
+
+def test_its_export_is_not_taken_for_a_bare_sweep(capsys, finished, tmp_path):
+    with SessionFile(finished.session) as file:
+        written = export_csv(contents_of(file), tmp_path)
+    sweep = next(p for p in written if p.suffix == ".csv")
+    specimen = next(p for p in written if p.suffix == ".toml")
+    assert viscorig(["identify", str(sweep), "--specimen", str(specimen)]) == 2
+    line = capsys.readouterr().err.strip()
+    assert "column mass_kg" in line
+    assert "\n" not in line
+
+
+def test_a_notebook_is_told_to_use_the_command(finished):
+    with pytest.raises(BadInput, match="known mass"):
+        identify(load_session(finished.session))
