@@ -89,7 +89,6 @@ def test_commands_take_beams(tmp_path, beam, capsys):
 FAULTS = {
     "boundary": (BEAM.replace("clamped-free", "hinged"), "boundary"),
     "off": (BEAM.replace("150.0", "250.0"), "pickup.x_mm = 250"),
-    "two sides of a sandwich": (BEAM.replace("width_mm", "both_sides = true\nwidth_mm"), "both_sides"),
     "no core": (BEAM.split("[core]")[0], "[core] is missing"),
 }
 
