@@ -34,6 +34,9 @@ class Page(QWidget):
         """Draw what has changed. Called while the page is seen, at most 30 times a second."""
         raise NotImplementedError
 
+    def begin(self) -> None:
+        """Forget the session so far: another one is drawn next. Nothing by default."""
+
     def clear(self) -> None:
         """There is no session (any more). Nothing by default."""
 
@@ -62,11 +65,13 @@ class Page(QWidget):
         if self._state is None:
             if self._drawn is not None:
                 self._drawn, self._version = None, -1
+                self.begin()
                 self.clear()
             return
         if self._state is not self._drawn:
             self._drawn, self._version = self._state, -1
             self._seen.clear()
+            self.begin()
         if self._state.version != self._version:
             self._version = self._state.version
             self.refresh(self._state)

@@ -15,6 +15,7 @@ from typing import IO, Any
 import numpy as np
 from pydantic import TypeAdapter
 
+import instrument.stream.derived  # noqa: F401 -- an event is known by its name once its class is
 from instrument.engine.messages import Happened, Message
 from instrument.stream.event import from_line, to_line
 from instrument.stream.raw import BlockAcquired

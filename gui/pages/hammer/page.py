@@ -81,6 +81,13 @@ class HammerPage(Page):
         if hits or run or damping:
             self._show_modes()
 
+    def begin(self) -> None:
+        """Another session: no hit of this one, and nothing tried with it."""
+        self.what_if.clear()
+        self._forget_hits()
+        self._expected_hz = None
+        self.modes.deselect()
+
     def clear(self) -> None:
         """There is no session any more."""
         self._stack.setCurrentIndex(0)
@@ -258,16 +265,9 @@ class HammerPage(Page):
         if self.controller.live is not None:
             self.controller.live.answer()
 
-    def _another_session(self) -> None:
-        self.what_if.clear()
-        self._forget_hits()
-        self._expected_hz = None
-        self.modes.deselect()
-
     # What stands where
 
     def _connect(self) -> None:
-        self.controller.changed.connect(self._another_session)
         self.controller.beside_changed.connect(self._show_beside)
         self.bench.averaged.connect(self._is_averaged)
         self.bench.modes_found.connect(self._has_modes)
