@@ -107,7 +107,7 @@ def test_a_recorded_session_replays_to_the_same_events(capsys, monkeypatch, file
     # Said since.
     found["diagnose"].pop("next_measurements", None)
     if storing() or same_arithmetic("replay"):
-        # Recorded before rivals were followed to their end: what the search finds beside the best is more since.
+        # Recorded before rivals were followed to their end: the search finds more beside the best since.
         assert not equal
         assert [difference.split(".")[0] for difference in apart] == ["DiagnosisFound"]
     assert_kept("replay", found, SEARCHED)
