@@ -2,7 +2,7 @@
 
 import pytest
 from conftest import TABLE_4
-from instrument.run.files_of import files_of
+from instrument.interchange.files_of import files_of
 from sessions import point
 
 from fitting.specimen import PlacedMass
