@@ -2,12 +2,12 @@
 
 import pytest
 from conftest import TABLE_4
-from instrument.interchange.files_of import files_of
 from sessions import point
 
 from fitting.specimen import PlacedMass
 from instrument.files.specimen_file import SpecimenDocument, specimen_of
 from instrument.files.toml import read_document
+from instrument.interchange.files_of import files_of
 from instrument.paper_case import case_file
 from instrument.session.points import sweep_of
 
