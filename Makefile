@@ -36,11 +36,10 @@ contracts: $(READY)
 	@$(BIN)/lint-imports
 
 unit: $(READY) ## the tests that take less than some seconds each
-	@$(BIN)/pytest -m "timing and not long"
 	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 -m "not timing and not long"
 
-test-long: $(READY) ## the tests that take longer
-	@$(BIN)/pytest -m "timing and long"
+test-long: $(READY) ## the tests that take longer, and those that look at a clock
+	@$(BIN)/pytest -m timing
 	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 -m "long and not timing"
 
 coverage: $(READY) ## the test suite once more, with the lines it does not reach

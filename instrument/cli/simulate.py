@@ -2,7 +2,7 @@
 
 import json
 import sys
-import threading
+import time
 from pathlib import Path
 
 import click
@@ -10,6 +10,9 @@ import click
 from instrument.files.rig_file import RigDocument
 from instrument.files.toml import read_document
 from instrument.simulated_case.simulation import simulated_rig
+
+_LOOKS_EVERY_S = 0.2
+"""Whether it was interrupted."""
 
 
 @click.command()
@@ -39,4 +42,6 @@ def simulate(rig: Path, virtual_time: bool, log: Path | None, modbus_port: int, 
         if virtual_time:
             sys.stdin.read()
         else:
-            threading.Event().wait()
+            # A wait without an end sleeps through a signal that comes just before it.
+            while True:
+                time.sleep(_LOOKS_EVERY_S)

@@ -139,6 +139,7 @@ def test_spots_are_fitted_together_each_with_its_own_gain_and_place(two_spots, c
     assert abs(row["storage_modulus_pa"] - G.real) < 3 * row["storage_modulus_standard_error_pa"]
 
 
+@pytest.mark.long
 def test_several_spots_have_a_budget_and_profiles(two_spots, capsys):
     line = ["identify", str(two_spots / "two.csv"), "--specimen", str(two_spots / "two.toml"), "--budget"]
     assert run([*line, "--uncertainty", "profile", "--json", "-"]) == 0

@@ -26,6 +26,7 @@ def plate(coarse):
     return replace(coarse, exact=False)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("kind", FORMS)
 def test_factors_lie_in_their_intervals_and_the_law_is_known_two_decades_further(plate, kind):
     truth = FORMS[kind]

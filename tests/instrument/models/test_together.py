@@ -134,6 +134,7 @@ def test_real_records_of_three_masses_follow_one_law():
     assert band.loss_factor[k] == pytest.approx(AT_100_HZ[1], rel=0.17)
 
 
+@pytest.mark.long
 @pytest.mark.skipif(not REAL.exists(), reason="the real records are not here")
 def test_the_lightest_mass_s_disturbance_is_flagged():
     found = identify_together([_real(name) for name in ("118g", "253g", "573g", "1196g")])
