@@ -20,7 +20,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from attacks import COMMANDS, SLOW, faults_of, spoil, write_files
+from attacked_files import COMMANDS, SLOW, write_files
+from attacks import faults_of, spoil
 from conftest import DATA
 
 from instrument.cli.main import run

@@ -26,6 +26,12 @@ class Rig:
         served = DeviceRegisters(self.device, registers, self._clock, self._wall)
         self.server = ModbusServer(served, "simulated shaker", lock=self.lock, port=port, rtu=rtu)
 
+    def set_running(self, shaker):
+        """2 V at 50 Hz, standing still."""
+        shaker.start()
+        shaker.command(50.0, 2.0, 4.0)
+        self.pass_time(1.0)
+
     def pass_time(self, seconds):
         """Sample time; the device learns of it."""
         with self.lock:

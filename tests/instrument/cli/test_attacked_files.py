@@ -8,7 +8,8 @@ import shutil
 import h5py
 import numpy as np
 import pytest
-from attacks import COMMANDS, SLOW, faults_of, lab_variables, mat_variables, spoil, write_files
+from attacked_files import COMMANDS, SLOW, lab_variables, mat_variables, write_files
+from attacks import faults_of, spoil
 from conftest import DATA
 from scipy.io import savemat
 

@@ -4,7 +4,7 @@ import re
 import shutil
 
 import pytest
-from attacks import write_files
+from attacked_files import write_files
 from mistakes import DATA, FILES, MISTAKES, SHEETS, SPECIMEN, column, velocity
 
 from instrument.cli.main import run
