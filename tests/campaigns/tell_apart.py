@@ -2,6 +2,8 @@
 
     python tests/campaigns/tell_apart.py --folder FOLDER --groups 20 --seed 920000
 
+What is in FOLDER is not judged again: a campaign that was stopped, or given so many `--cases`, goes on.
+
 Solid plates of the campaign with one weak effect hidden; most stated numbers drawn within 0.3 of a careful
 laboratory's tolerances, and stated so. A case whose first sweep does not end in a group is put down as that
 and passed over. Of the others the best proposal is measured on the same solid plate, and everything diagnosed
@@ -10,6 +12,7 @@ together; twice at the most.
 
 import argparse
 import json
+from itertools import count
 from pathlib import Path
 from time import process_time
 
@@ -99,6 +102,7 @@ def main():
     options.add_argument("--folder", type=Path, required=True)
     options.add_argument("--groups", type=int, default=20)
     options.add_argument("--seed", type=int, default=920000)
+    options.add_argument("--cases", type=int, help="new ones, then stop")
     options.add_argument("--kinds", default=",".join(KINDS))
     options.add_argument("--plates", default=",".join(PLATES))
     asked = options.parse_args()
@@ -106,16 +110,18 @@ def main():
     kept = asked.folder / "lines.jsonl"
     lines = [json.loads(text) for text in kept.read_text().splitlines()] if kept.exists() else []
     done = {(line["kind"], line["seed"]) for line in lines}
-    seed, kinds = asked.seed, asked.kinds.split(",")
-    while sum(bool(line["measured"]) for line in lines) < asked.groups:
-        for kind in kinds:
-            line = judged(kind, seed, asked.plates.split(",")) if (kind, seed) not in done else None
-            if line is not None:
-                lines.append(line)
-                with kept.open("a") as file:
-                    file.write(json.dumps(line) + "\n")
-                print(json.dumps(line), flush=True)
-        seed += 1
+    kinds, plates = asked.kinds.split(","), asked.plates.split(",")
+    begun = len(lines)
+    for kind, seed in ((kind, seed) for seed in count(asked.seed) for kind in kinds):
+        enough = sum(bool(line["measured"]) for line in lines) >= asked.groups
+        if enough or len(lines) - begun == asked.cases:
+            break
+        line = judged(kind, seed, plates) if (kind, seed) not in done else None
+        if line is not None:
+            lines.append(line)
+            with kept.open("a") as file:
+                file.write(json.dumps(line) + "\n")
+            print(json.dumps(line), flush=True)
     print(table(lines))
 
 
