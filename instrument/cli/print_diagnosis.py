@@ -14,6 +14,7 @@ from instrument.results.diagnosis_words import (
     verdict_line,
     with_verdict,
 )
+from instrument.results.next_words import NEXT_COLUMNS, NEXT_TITLE, next_row, separated_words
 
 _MOST_CANDIDATES = 8
 _WIDTH = 100
@@ -55,16 +56,11 @@ def _print_next(out: Output, found: DiagnosisResult) -> None:
     shown = found.next_measurements[:_MOST_NEXT]
     if not shown:
         return
-    rows = [
-        [f.todo, f"{f.seconds:.0f}", f"{100 * f.probability_resolved:.0f} %", f"{f.separation:.1f}"]
-        for f in shown
-    ]
     out.say()
-    columns = ["what to measure", "s of rig and hands", "settles it", "nats apart"]
-    out.table("what would tell the explanations apart, best first", columns, rows)
-    for f in shown:
-        names = ", ".join("no effect" if n == "none" else n for n in f.between)
-        out.say(textwrap.fill(f"{f.kind}: {f.why} It separates {names}.", _WIDTH))
+    out.table(NEXT_TITLE, list(NEXT_COLUMNS), [list(next_row(f)) for f in shown])
+    # Of the first the sentence above says so already.
+    for f in shown[1:]:
+        out.say(textwrap.fill(f"{f.kind}: {f.why} It separates {separated_words(f.between)}.", _WIDTH))
 
 
 def print_before_after(out: Output, found: DiagnosisResult) -> None:

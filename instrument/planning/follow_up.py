@@ -14,6 +14,7 @@ from instrument.facts.follow_up import FollowUp
 from instrument.models.diagnosis import Diagnosed
 from instrument.planning.measurable import Measurable, Template
 from instrument.planning.struck import bare_modes_expected
+from instrument.results.next_words import advice
 from instrument.stepped_sine.settings import SweepSettings
 
 __all__ = ["FollowUp", "Possible", "rank_follow_ups", "with_follow_ups"]
@@ -64,9 +65,12 @@ def rank_follow_ups(diagnosed: Diagnosed, possible: Possible | None = None) -> t
 def with_follow_ups(
     result: DiagnosisResult, diagnosed: Diagnosed, possible: Possible | None = None
 ) -> DiagnosisResult:
-    """The result of a diagnosis with what would tell explanations apart; as it is where one is left."""
+    """The result of a diagnosis with what would tell explanations apart; as it is where one is left.
+
+    The one that is advised is then the first of them.
+    """
     ranked = rank_follow_ups(diagnosed, possible)
-    return result.but(next_measurements=ranked) if ranked else result
+    return result.but(next_measurement=advice(ranked[0]), next_measurements=ranked) if ranked else result
 
 
 def _doubtful(diagnosed: Diagnosed, rivals: Rivals) -> bool:

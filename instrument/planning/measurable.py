@@ -20,6 +20,7 @@ from fitting.specimen import Specimen
 from fitting.tolerances import STATED
 from instrument.facts.follow_up import FollowUp, FollowUpKind
 from instrument.planning.costs import dwell_seconds, step_seconds
+from instrument.planning.reasons import why
 from instrument.stepped_sine.settings import SweepSettings
 
 STEPS_A_SEGMENT = 20
@@ -40,16 +41,6 @@ _CLAMPED_ANEW = 1.0
 OF_THE_CLAMP = ("clamp_compliance", "clamp_friction", "uneven_clamp", "clamp_line", "treatment_not_gripped")
 OF_THE_SPOT = frozenset({"spot_offset"})
 _LEAST_HZ, _MOST_HZ = 5.0, 2000.0
-
-_WHY = {
-    "level": "Only what depends on the amplitude differs between two levels.",
-    "reversed": "What drifts in time is not what varies over frequency.",
-    "frequencies": "The same steps once more halve the noise.",
-    "spot": "A gain is the same at every spot, an offset and the plate's own motion are not.",
-    "added_mass": "A known mass moves each resonance by what the plate's own mass and stiffness say.",
-    "clamping": "Clamped anew the clamp is another one, the plate is the same.",
-    "bare_hammer": "The bare plate's frequencies know nothing of core, air film or laser, only of the metal.",
-}
 
 
 @dataclass(frozen=True)
@@ -81,7 +72,7 @@ class Measurable:
             "separation": separation,
             "probability_resolved": resolved,
             "between": between,
-            "why": _WHY[self.kind],
+            "why": why(self.kind, between),
             "todo": self.todo,
         }
         if self.spot_m is not None:

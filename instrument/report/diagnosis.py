@@ -14,6 +14,7 @@ from instrument.results.diagnosis_words import (
     with_verdict,
 )
 from instrument.results.followed import followed_of, measured_words
+from instrument.results.next_words import NEXT_COLUMNS, NEXT_TITLE, next_row, separated_words
 from instrument.results.numbers import format_number, with_error
 from instrument.session.contents import Contents
 
@@ -38,6 +39,7 @@ def diagnosis_sections(contents: Contents) -> list[ReportSection]:
         blocks.append(Sentence(f"Set aside for hum: {listed} Hz.", "note"))
     if found.next_measurement:
         blocks.append(Sentence(f"Next measurement: {found.next_measurement}", "note"))
+    blocks += _next(found)
     blocks += [Sentence(text, "note") for text in found.warnings]
     resampled = resampling_words(found)
     blocks += [Sentence(f"By resampling: {resampled}.")] if resampled else []
@@ -59,6 +61,13 @@ def _followed(contents: Contents) -> list[Block]:
     if not rows:
         return []
     return [TableBlock("Measured to tell explanations apart", ("before", "measurement", "after"), rows)]
+
+
+def _next(found: DiagnosisResult) -> list[Block]:
+    """What would tell the explanations left apart."""
+    rows = tuple((*next_row(f), separated_words(f.between), f.why) for f in found.next_measurements)
+    title = f"{NEXT_TITLE[0].upper()}{NEXT_TITLE[1:]}"
+    return [TableBlock(title, (*NEXT_COLUMNS, "separates", "why"), rows)] if rows else []
 
 
 def _before_after(found: DiagnosisResult) -> TableBlock:

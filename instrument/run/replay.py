@@ -133,7 +133,10 @@ def _as_known_then(computed: Event, recorded: Event) -> Event:
     if computed.result is None or recorded.result is None:
         return computed
     since = [key for key in _SAID_SINCE if key not in recorded.result.model_fields_set]
-    return replace(computed, result=computed.result.without(*since))
+    result = computed.result.without(*since)
+    # What is advised follows from these.
+    advised = {"next_measurement": recorded.result.next_measurement} if since else {}
+    return replace(computed, result=result.but(**advised))
 
 
 def _first_difference(computed: Event, recorded: Event) -> str:

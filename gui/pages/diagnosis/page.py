@@ -23,6 +23,7 @@ from gui.page import Page
 from gui.pages.diagnosis.candidates import Candidates
 from gui.pages.diagnosis.comparison import HeldOutBars, LawChange
 from gui.pages.diagnosis.finding import Finding
+from gui.pages.diagnosis.next_table import NextTable
 from gui.pages.diagnosis.residual_plots import ResidualPlots
 from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
 from gui.state import SessionState
@@ -51,6 +52,7 @@ class DiagnosisPage(Page):
         super().__init__(controller)
         self.finding, self.candidates = Finding(), Candidates()
         self.residual, self.held_out, self.law = ResidualPlots(), HeldOutBars(), LawChange()
+        self.next = NextTable()
         self.story = QTextBrowser()
         self.empty = hint(_HERE)
         self.diagnose = button(
@@ -100,13 +102,14 @@ class DiagnosisPage(Page):
             self.finding.show_diagnosis(shown)
             self.candidates.show_candidates(rediagnosis.ranking(self.controller.state) or shown.found)
             self.story.setPlainText("\n".join(_story(shown)))
+            self.views.setTabVisible(self.views.indexOf(self.next), bool(shown.found.next_measurements))
             self._show_view()
 
     def _show_view(self) -> None:
         """The one that is seen; the others when they are."""
         if self._shown is None:
             return
-        for view in (self.residual, self.held_out, self.law):
+        for view in (self.residual, self.held_out, self.law, self.next):
             seen = view is self.views.currentWidget()
             if seen and self._found_of.get(view) is not self._shown.found:
                 self._found_of[view] = self._shown.found
@@ -241,6 +244,7 @@ class DiagnosisPage(Page):
             (self.residual, "Residual", "What the fit leaves of every point, before and after"),
             (self.held_out, "Error", "On data held out, and on all: before, after, noise alone"),
             (self.law, "Law", "What the effects do to the material"),
+            (self.next, "Next", "What would tell the explanations apart, ranked"),
         ):
             self.views.setTabToolTip(self.views.addTab(view, name), tip)
         left = QSplitter(Qt.Orientation.Vertical)

@@ -1,15 +1,20 @@
 import pytest
 from diagnosed_session import diagnosed_session
 from diagnosis_cases import diagnosis
+from following_cases import BACKWARDS, SPOT
 from PySide6.QtCore import Qt
 
 from gui.pages.diagnosis import DiagnosisPage
+from gui.pages.diagnosis.next_table import NextTable
 from gui.pages.material import MaterialPage
 from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
+from instrument.facts.follow_up import FollowUp
+from instrument.results.next_words import advice
 
 LEFT = Qt.MouseButton.LeftButton
 LONG_MS = 300_000
-AMBIGUOUS = diagnosis(verdict="ambiguous")
+RANKED = tuple(FollowUp.model_validate(o) for o in (SPOT, BACKWARDS))
+AMBIGUOUS = diagnosis(verdict="ambiguous").but(next_measurement=advice(RANKED[0]), next_measurements=RANKED)
 
 
 @pytest.fixture(scope="module")
@@ -51,6 +56,15 @@ def test_the_verdict_is_what_was_recorded(page):
     assert page.finding.next.text.endswith(AMBIGUOUS.next_measurement)
     assert "a mass of 8 g" in page.story.toPlainText()
     assert not page.empty.isVisible()
+
+
+def test_what_could_be_measured_next_is_ranked_and_the_first_is_what_is_advised(page):
+    assert isinstance(page.next, NextTable)
+    page.views.setCurrentWidget(page.next)
+    assert page.next.table.texts(0) == [o["todo"] for o in (SPOT, BACKWARDS)]
+    assert page.next.table.texts(4) == ["spot_offset and gain_error"] * 2
+    assert "aim it elsewhere" in page.finding.next.text
+    assert page.next.table.cell(0, 0).tip == SPOT["why"]
 
 
 def test_candidates_are_ranked_with_their_group(page):

@@ -7,6 +7,7 @@ import pytest
 from conftest import DATA
 from diagnosis_cases import diagnosed, diagnosis
 from diagnosis_cases import sweep as some_sweep
+from following_cases import BACKWARDS, SPOT
 from session_cases import RATE, whole_session
 from uff_files import ratio_set, write_sets
 
@@ -15,6 +16,7 @@ from instrument.cli.main import run
 from instrument.facts.follow_up import FollowUp
 from instrument.paper_case import case_file
 from instrument.report.diagnosis import diagnosis_sections
+from instrument.results.next_words import advice
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import DiagnosisFound
@@ -108,14 +110,18 @@ def test_what_would_tell_rivals_apart_is_listed_with_its_cost(capsys, given, mon
         todo="Point the laser at (285, 24) mm and make the same steps.",
     )
     ranked = (one, *(one.but(kind=kind) for kind in ("level", "frequencies", "clamping")))
-    monkeypatch.setattr(
-        command, "with_follow_ups", lambda result, found: result.but(next_measurements=ranked)
-    )
+    changed = {"next_measurements": ranked, "next_measurement": advice(one)}
+    monkeypatch.setattr(command, "with_follow_ups", lambda result, found: result.but(**changed))
     path = tmp_path / "found.json"
     status, out, err = call(capsys, "diagnose", TABLE5, "--specimen", ZN1, "--json", path)
     assert (status, err) == (0, "")
     assert "Point the laser at (285, 24) mm" in out
-    assert "spot: A gain is the same at every spot. It separates gain_error, no effect." in out
+    assert "level: A gain is the same at every spot. It separates gain_error and no effect." in out
+    said = " ".join(out.split())
+    # One advice: the sentence is the first row in words, and its reason stands there alone.
+    assert "Next measurement: To tell gain_error and no effect apart, point the laser at (285, 24) mm" in said
+    assert "A gain is the same at every spot. It takes 209 s and settles the matter with 92 % chance." in said
+    assert "spot:" not in out
     assert "92 %" in out
     assert "clamping:" not in out
     found = json.loads(path.read_text())
@@ -235,6 +241,15 @@ def test_the_report_tells_the_recorded_diagnosis(contents):
     said = " ".join(b.text for b in section.blocks if b.kind == "sentence")
     assert "added_mass (mass 0.008 +- 0.0001 kg" in said
     assert "Next measurement" in said
+
+
+def test_the_report_ranks_what_would_tell_the_explanations_apart(contents):
+    ranked = tuple(FollowUp.model_validate(o) for o in (SPOT, BACKWARDS))
+    contents.diagnosis = DiagnosisFound(1, 9, diagnosis().but(next_measurements=ranked))
+    (section,) = diagnosis_sections(contents)
+    (table,) = (b for b in section.blocks if b.kind == "table" and "tell the explanations apart" in b.title)
+    assert [row[0] for row in table.rows] == [SPOT["todo"], BACKWARDS["todo"]]
+    assert table.rows[0][1:] == ("30", "80 %", "4.0", "spot_offset and gain_error", SPOT["why"])
 
 
 def test_the_report_says_why_there_is_none(contents):

@@ -18,9 +18,11 @@ from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.models.diagnosis import Diagnosed
 from instrument.models.set_up import set_up
+from instrument.planning import follow_up
 from instrument.planning.follow_up import Possible, rank_follow_ups, with_follow_ups
 from instrument.planning.measurable import Template
 from instrument.planning.struck import bare_modes_expected
+from instrument.results.next_words import advice
 from instrument.simulated_case import case_file
 from instrument.stepped_sine.settings import Limits, SweepSettings
 from tests.conftest import DATA
@@ -111,6 +113,14 @@ def test_no_level_beyond_the_rigs_limits_is_proposed(expecting):
     tight = SweepSettings(limits=Limits(base_m_s2=10.0))
     levels = [m.level_g for m in Template.of(expecting, tight).measurable(None) if m.kind == "level"]
     assert levels == [0.25, 0.5]
+
+
+def test_what_is_advised_is_the_first_of_the_ranking(rivals, ranked, monkeypatch):
+    monkeypatch.setattr(follow_up, "rank_follow_ups", lambda *given: ranked)
+    said = with_follow_ups(diagnosis(), ambiguous(rivals))
+    assert said.next_measurements == ranked
+    assert said.next_measurement == advice(ranked[0])
+    assert "the same at every spot; an offset belongs to one spot" in ranked[0].why
 
 
 def test_a_proposal_is_a_sweep_that_can_be_made(ranked):

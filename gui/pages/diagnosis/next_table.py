@@ -1,0 +1,42 @@
+"""What could be measured next, ranked."""
+
+from PySide6.QtWidgets import QVBoxLayout, QWidget
+
+from gui.tables import Cell, ReadTable
+from instrument.facts.diagnosis import DiagnosisResult
+from instrument.facts.follow_up import FollowUp
+from instrument.results.next_words import NEXT_COLUMNS, next_row, separated_words
+
+_TIPS = (
+    "Best first: by what it is expected to tell, over the root of the time it takes",
+    "Rig time, and a person's where it needs hands",
+    "Chance that one explanation holds 95 % afterwards",
+    "Expected logarithm of the odds between the two it separates best; 3 are odds of twenty",
+)
+
+
+class NextTable(QWidget):
+    """Best first; the first is the one that is advised."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        columns = dict(zip(NEXT_COLUMNS, _TIPS, strict=True)) | {"separates": "Explanations it tells apart"}
+        self.table = ReadTable(columns)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(4, 4, 4, 0)
+        column.addWidget(self.table)
+
+    def show_diagnosis(self, found: DiagnosisResult) -> None:
+        """Its ranking."""
+        self.table.show_rows([_cells(f) for f in found.next_measurements])
+
+
+def _cells(offer: FollowUp) -> list[Cell]:
+    todo, seconds, settles, nats = next_row(offer)
+    return [
+        Cell(todo, offer.why, left=True),
+        Cell(seconds),
+        Cell(settles, fill="data", share=float(offer.probability_resolved)),
+        Cell(nats),
+        Cell(separated_words(offer.between), left=True),
+    ]

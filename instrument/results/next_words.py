@@ -1,0 +1,30 @@
+"""What would tell explanations apart, as people read it: one sentence for the best, a row for each."""
+
+from collections.abc import Sequence
+
+from instrument.facts.follow_up import FollowUp
+
+NEXT_TITLE = "what would tell the explanations apart, best first"
+NEXT_COLUMNS = ("what to measure", "s of rig and hands", "settles it", "nats apart")
+
+
+def advice(offer: FollowUp) -> str:
+    """Which explanations, by which measurement, where, why, what it costs and what may be hoped for."""
+    what = f"{offer.todo[0].lower()}{offer.todo[1:]}"
+    cost = f"It takes {offer.seconds:.0f} s and settles the matter with {_percent(offer)} chance."
+    return f"To tell {separated_words(offer.between)} apart, {what} {offer.why} {cost}"
+
+
+def next_row(offer: FollowUp) -> tuple[str, ...]:
+    """One row under `NEXT_COLUMNS`."""
+    return offer.todo, f"{offer.seconds:.0f}", _percent(offer), f"{offer.separation:.1f}"
+
+
+def separated_words(between: Sequence[str]) -> str:
+    """Explanations, `none` in words."""
+    said = ["no effect" if n == "none" else n for n in between]
+    return " and ".join([", ".join(said[:-1]), said[-1]]) if len(said) > 1 else "".join(said)
+
+
+def _percent(offer: FollowUp) -> str:
+    return f"{100 * offer.probability_resolved:.0f} %"

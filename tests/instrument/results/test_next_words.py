@@ -1,0 +1,27 @@
+"""What is advised, in words: the same numbers as in its row."""
+
+import pytest
+from following_cases import SPOT
+
+from instrument.facts.follow_up import FollowUp
+from instrument.results.next_words import NEXT_COLUMNS, advice, next_row, separated_words
+
+OFFER = FollowUp.model_validate(SPOT)
+
+
+def test_the_advice_says_which_measurement_why_and_what_it_costs():
+    assert advice(OFFER) == (
+        "To tell spot_offset and gain_error apart, aim it elsewhere. A gain is the same at every spot. "
+        "It takes 30 s and settles the matter with 80 % chance."
+    )
+
+
+def test_a_row_has_a_cell_under_every_heading():
+    assert dict(zip(NEXT_COLUMNS, next_row(OFFER), strict=True))["settles it"] == "80 %"
+
+
+@pytest.mark.parametrize(
+    ("names", "said"), [(("a", "b", "none"), "a, b and no effect"), (("a", "none"), "a and no effect")]
+)
+def test_explanations_are_listed_as_one_would_say_them(names, said):
+    assert separated_words(names) == said
