@@ -19,9 +19,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import solve_triangular
 from scipy.optimize import nnls
-from scipy.stats import chi2 as chi2_distribution
 
 from fitting.arrays import Array, Complex
+from fitting.chances import chi2_above
 from fitting.errors import TooFewPoints
 from fitting.pointwise import PointwiseLaw
 
@@ -124,7 +124,7 @@ def kramers_kronig(law: PointwiseLaw) -> KramersKronig:
         smooth = A @ weights
     dof = 2 * len(used) - int(np.count_nonzero(weights))
     chi2 = left_over**2
-    p = float(chi2_distribution.sf(chi2, dof)) if dof > 0 else float("nan")
+    p = float(chi2_above(chi2, dof)) if dof > 0 else float("nan")
     pulls = J @ np.linalg.solve(C, _stacked((used.modulus - smooth) / size))
     stretched = bool(np.any(np.abs(pulls) > MOST_PULL))
     return KramersKronig(

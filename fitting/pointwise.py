@@ -15,9 +15,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import chi2 as chi2_distribution
 
 from fitting.arrays import Array, Complex
+from fitting.chances import chi2_above, chi2_median
 from fitting.errors import TooFewPoints
 from fitting.identification.model import velocity
 from fitting.laws import CoreLaw
@@ -212,12 +212,12 @@ def _noise_seen(problem: BandProblem) -> float:
     if not shown.any():
         return float("nan")
     # The median: a band at a wrong minimum must not make all the others noisy.
-    return float(np.sqrt(np.median(root.chi2[shown] / chi2_distribution.median(dof[shown]))))
+    return float(np.sqrt(np.median(root.chi2[shown] / chi2_median(dof[shown]))))
 
 
 def _scatter_beyond_noise(chi2: Array, dof: NDArray[np.intp]) -> Array:
     """Factor on the variance of each band: one, but where its points disagree beyond chance."""
-    too_much = (dof > 0) & (chi2_distribution.sf(chi2, np.maximum(dof, 1)) < _CHANCE)
+    too_much = (dof > 0) & (chi2_above(chi2, np.maximum(dof, 1)) < _CHANCE)
     return np.where(too_much, chi2 / np.maximum(dof, 1), 1.0)
 
 

@@ -6,13 +6,15 @@ Analysis 16, 2021, Eq. 1 to 4, 14); the effective size by emcee's integrated aut
 
 import numpy as np
 from scipy.special import ndtri
-from scipy.stats import rankdata
 
 from fitting.arrays import Array
 
 
 def r_hat(chains: Array) -> float:
     """Of one quantity. Shape (chains, steps)."""
+    # Loaded where it is needed, as in hum.py: a sixth of the start of every process.
+    from scipy.stats import rankdata
+
     half = chains.shape[1] // 2
     split = np.concatenate([chains[:, :half], chains[:, -half:]])
     ranks = rankdata(split).reshape(split.shape)

@@ -6,9 +6,8 @@ Each check is a tail probability; an explanation fails where one of them is belo
 from collections.abc import Mapping
 
 import numpy as np
-from scipy.stats import chi2 as chi2_of
-from scipy.stats import norm
 
+from fitting.chances import chi2_above, normal_above
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.refit import Refitted
 from fitting.diagnosis.structure import along_frequency
@@ -47,17 +46,19 @@ def checks(sweep: Sweep, evidence: Evidence, none: Refitted, fitted: Refitted) -
     # Ln of a mean square: its own scatter, and the noise's.
     spread = np.hypot(2 * VERDICT.noise_known_to, np.sqrt(2 / dof))
     whitened = fitted.residuals[: fitted.data]
-    found = {"size": float(norm.sf(np.log(max(left, 1e-12)) / spread))}
+    found = {"size": float(normal_above(np.log(max(left, 1e-12)) / spread))}
     along = evidence.whitening.along(whitened)
     t = 1 + may_leave / VERDICT.formula_shapes
     if len(along):
-        found["the plate's own error"] = float(chi2_of.sf(along @ along / t, len(along)))
+        found["the plate's own error"] = float(chi2_above(along @ along / t, len(along)))
     if fitted.stated:
-        found["tolerances"] = float(chi2_of.sf(fitted.unexplained / t, fitted.stated))
+        found["tolerances"] = float(chi2_above(fitted.unexplained / t, fitted.stated))
     runs, memory = along_frequency(sweep, whitened, parts=2 if evidence.has_phase else 1)
     excess = may_leave / dof
-    found["signs"] = float(norm.sf(runs / (VERDICT.wider_along * (1 + VERDICT.formula_along * excess))))
-    found["memory"] = float(norm.sf(memory / (VERDICT.wider_along * (1 + VERDICT.formula_along * excess))))
+    found["signs"] = float(normal_above(runs / (VERDICT.wider_along * (1 + VERDICT.formula_along * excess))))
+    found["memory"] = float(
+        normal_above(memory / (VERDICT.wider_along * (1 + VERDICT.formula_along * excess)))
+    )
     return found
 
 

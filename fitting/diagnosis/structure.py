@@ -6,9 +6,9 @@ Thresholds are those that clean sweeps of a solid plate pass (docs/diagnosis.md 
 from collections.abc import Iterator
 
 import numpy as np
-from scipy.stats import chi2
 
 from fitting.arrays import Array
+from fitting.chances import chi2_exceeded
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.sweep import Sweep
@@ -35,7 +35,7 @@ def structure(sweep: Sweep, evidence: Evidence, whitened: Array, chi2_per_dof: f
     if memory > VERDICT.memory_sigma:
         said.append(f"neighbouring points agree ({memory:.1f} sigma, Ljung-Box over {LAGS} lags)")
     along = evidence.whitening.along(whitened)
-    if len(along) and along @ along > chi2.isf(VERDICT.bent_by_chance, len(along)):
+    if len(along) and along @ along > chi2_exceeded(VERDICT.bent_by_chance, len(along)):
         times = float(np.sqrt(along @ along / len(along)))
         said.append(f"the plate would have to be off by {times:.2g} times what a layer-wise plate is")
     return tuple(said)

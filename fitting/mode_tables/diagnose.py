@@ -8,10 +8,9 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import chi2 as chi2_of
-from scipy.stats import norm
 
 from fitting.arrays import Array
+from fitting.chances import chi2_above, normal_above
 from fitting.diagnosis.candidates import promising
 from fitting.diagnosis.confounded import hides
 from fitting.diagnosis.evidence import Evidence
@@ -137,9 +136,9 @@ def _checks(begun: BegunModal, fitted: Refitted) -> dict[str, float]:
     dof = max(1, fitted.data - fitted.parameter_count)
     left = fitted.chi2_per_dof / (1 + form_error(begun.none, fitted) / dof)
     spread = np.hypot(2 * VERDICT.noise_known_to, np.sqrt(2 / dof))
-    found = {"size": float(norm.sf(np.log(max(left, 1e-12)) / spread))}
+    found = {"size": float(normal_above(np.log(max(left, 1e-12)) / spread))}
     if fitted.stated:
-        found["tolerances"] = float(chi2_of.sf(fitted.unexplained, fitted.stated))
+        found["tolerances"] = float(chi2_above(fitted.unexplained, fitted.stated))
     return found
 
 

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.stats import chi2 as chi_square
 
 from fitting.arrays import Array
 from fitting.bent_law import BentLaw
+from fitting.chances import chi2_above
 from fitting.diagnosis.begin import Begun
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.refit import Refitted, refit
@@ -244,7 +244,7 @@ class ShiftedFit:
         if not self.noise_known:
             return float("nan")
         scale = max(1.0, self.own.chi2_per_dof)
-        return float(chi_square.sf(max(self.chi2 - self.chi2_own, 0.0) / scale, self.degrees))
+        return float(chi2_above(max(self.chi2 - self.chi2_own, 0.0) / scale, self.degrees))
 
 
 def _effective(fit: Refitted) -> float:

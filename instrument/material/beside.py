@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import chi2
 
 from fitting.arrays import Array, Mask
+from fitting.chances import chi2_above
 from instrument.facts.beside import BesideTable, BesideTemperature
 from instrument.files.dma_file import DmaTable
 from instrument.material.comparing import LEVEL, RESOLUTION, covariance_of
@@ -64,7 +64,7 @@ def _one(law: MaterialLaw, table: DmaTable, rows: Mask, temperature_c: float) ->
     S += np.diag(np.repeat([RESOLUTION, RESOLUTION * float(np.mean(np.abs(eta)))], len(f)) ** 2)
     d = np.concatenate([by_storage, by_loss])
     statistic = float(d @ np.linalg.solve(S, d)) if np.isfinite(S).all() else float("nan")
-    p = float(chi2.sf(statistic, len(d)))
+    p = float(chi2_above(statistic, len(d)))
     return TableAtTemperature(temperature_c, f, np.expm1(by_storage), by_loss, statistic, p, source)
 
 

@@ -3,10 +3,10 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import chi2
 
 from fitting.arrays import Array, Mask
 from fitting.bent_law import REACH
+from fitting.chances import chi2_above
 from instrument.facts.comparison import ComparedAt, ComparedPair
 from instrument.material.found_law import MaterialLaw
 
@@ -84,7 +84,7 @@ def compare(a: MaterialLaw, b: MaterialLaw, repeatability: float = 0.0) -> Compa
         z[len(f) :],
         statistic,
         dof,
-        float(chi2.sf(statistic, dof)) if dof > 0 else float("nan"),
+        float(chi2_above(statistic, dof)) if dof > 0 else float("nan"),
         "posterior" if own else "standard errors",
         repeatability,
     )

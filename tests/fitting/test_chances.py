@@ -1,0 +1,29 @@
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from fitting.chances import chi2_above, chi2_exceeded, chi2_median, normal_above
+
+RNG = np.random.default_rng(3)
+FREEDOM = RNG.integers(1, 300, 500)
+
+
+def test_they_are_scipys_to_the_bit():
+    x, z, chance = 200 * RNG.random(500), 6 * RNG.standard_normal(500), RNG.random(500)
+    np.testing.assert_array_equal(chi2_above(x, FREEDOM), stats.chi2.sf(x, FREEDOM))
+    np.testing.assert_array_equal(chi2_exceeded(chance, FREEDOM), stats.chi2.isf(chance, FREEDOM))
+    np.testing.assert_array_equal(chi2_median(FREEDOM), stats.chi2.median(FREEDOM))
+    np.testing.assert_array_equal(normal_above(z), stats.norm.sf(z))
+
+
+@pytest.mark.parametrize(("x", "freedom"), [(-1e-12, 3), (0.0, 3), (np.nan, 3), (np.inf, 3), (1.0, 0)])
+def test_so_they_are_at_the_edges(x, freedom):
+    np.testing.assert_equal(chi2_above(x, freedom), stats.chi2.sf(x, freedom))
+
+
+def test_no_command_engine_or_window_loads_scipys_distributions_at_its_start():
+    look = "import sys, gui.window, instrument.engine.process; sys.exit('scipy.stats' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", look], check=False).returncode == 0
