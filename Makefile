@@ -36,14 +36,14 @@ contracts: $(READY)
 	@$(BIN)/lint-imports
 
 unit: $(READY) ## the tests that take less than some seconds each
-	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 -m "not timing and not long"
+	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 --dist worksteal -m "not timing and not long"
 
 test-long: $(READY) ## the tests that take longer, and those that look at a clock
 	@$(BIN)/pytest -m timing
-	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 -m "long and not timing"
+	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 --dist worksteal -m "long and not timing"
 
 coverage: $(READY) ## the test suite once more, with the lines it does not reach
-	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 -m "not timing" --cov --cov-report=term
+	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 --dist worksteal -m "not timing" --cov --cov-report=term
 
 format: $(READY) ## rewrite the sources in the project's style
 	@$(BIN)/ruff check --fix . ; $(BIN)/ruff format .

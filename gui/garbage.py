@@ -33,8 +33,7 @@ class Collector(QObject):
                 return
 
     def stop(self) -> None:
-        """Back to Python's own way."""
+        """Back to Python's own way; what was there from the start stays put."""
         self._timer.stop()
         gc.collect()
-        gc.unfreeze()
         gc.enable()

@@ -1,5 +1,6 @@
 """Specimens, models and made-up packages the tests share; models are cached in a folder of the test run."""
 
+import gc
 import os
 import signal
 import sys
@@ -31,6 +32,12 @@ if signal.getsignal(signal.SIGINT) == signal.SIG_IGN:
 
 TABLE_4 = FractionalZener(g0_pa=0.27e6, ginf_pa=4.1e6, tau_s=1.21e-4, alpha=0.83)
 DATA = Path(__file__).parent / "data"
+
+
+def pytest_collection_finish():
+    """Modules and collected tests are there to stay: no collection has to walk through them again."""
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.fixture(scope="session", autouse=True)
