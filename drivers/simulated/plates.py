@@ -19,17 +19,39 @@ _PEAK_N = (60.0, 120.0)
 _BOUNCE_S, _BOUNCE_SHARE = 0.04, 0.4
 
 
-class DampedPlate:
-    """The plate with its treatment, on the shaker."""
+class OnShaker:
+    """Whatever is driven by the base and read by the laser."""
 
-    def __init__(self, effects: Effects, climate: Climate | None = None) -> None:
-        self.plant = ShakenPlate(effects, climate=climate)
-        self._drift, self._climate = effects.temperature_drift, climate
-        self._effects, self._by_hand = effects, ByHand()
+    def __init__(self, plant: ShakenPlate, effects: Effects, climate: Climate | None = None) -> None:
+        self.plant = plant
+        self._effects, self._climate = effects, climate
 
     def drive(self, piece: DrivePiece) -> None:
         """The shaker's output from now on."""
         self.plant.drive(piece)
+
+    def at(self, output: str, first_s: float, step_s: float, count: int) -> Array:
+        """An output by its name; force and response are not there. Shape (count,)."""
+        if output == "temperature":
+            return self._temperature_c(np.asarray(first_s + step_s * np.arange(count), dtype=float))
+        if output in ("force", "response_acceleration"):
+            return np.zeros(count)
+        return np.asarray(self.plant.at(first_s, step_s, count, (_OUTPUTS.get(output, output),))[0])
+
+    def _temperature_c(self, t: Array) -> Array:
+        climate, drift = self._climate, self._effects.temperature_drift
+        there = np.array([climate.plate_c(s) for s in t.tolist()]) if climate else np.full(len(t), AMBIENT_C)
+        if drift is None:
+            return there
+        return np.asarray(there + drift.kelvin * (1 - np.exp(-t / drift.time_constant_s)))
+
+
+class DampedPlate(OnShaker):
+    """The plate with its treatment, on the shaker."""
+
+    def __init__(self, effects: Effects, climate: Climate | None = None) -> None:
+        super().__init__(ShakenPlate(effects, climate=climate), effects, climate)
+        self._by_hand = ByHand()
 
     def look_at(self, spot_m: tuple[float, float] | None) -> None:
         """Another spot than the specimen's; None for that. What still rings is at rest then.
@@ -50,21 +72,6 @@ class DampedPlate:
         if by_hand != self._by_hand:
             self.plant = ShakenPlate(self._effects, climate=self._climate, by_hand=by_hand)
             self._by_hand = by_hand
-
-    def at(self, output: str, first_s: float, step_s: float, count: int) -> Array:
-        """An output by its name; force and response are not there. Shape (count,)."""
-        if output == "temperature":
-            return self._temperature_c(np.asarray(first_s + step_s * np.arange(count), dtype=float))
-        if output in ("force", "response_acceleration"):
-            return np.zeros(count)
-        return np.asarray(self.plant.at(first_s, step_s, count, (_OUTPUTS.get(output, output),))[0])
-
-    def _temperature_c(self, t: Array) -> Array:
-        climate, drift = self._climate, self._drift
-        there = np.array([climate.plate_c(s) for s in t.tolist()]) if climate else np.full(len(t), AMBIENT_C)
-        if drift is None:
-            return there
-        return np.asarray(there + drift.kelvin * (1 - np.exp(-t / drift.time_constant_s)))
 
 
 class SimulatedBarePlate:

@@ -53,7 +53,7 @@ class Beam(BaseDriven):
     pickup_m: float | None = None
     reads: Reading = "relative"
     base_acceleration_m_s2: float = PUBLISHED_G_M_S2
-    tolerances: Mapping[str, float] = field(default_factory=dict)
+    tolerances: Mapping[str, float] = field(default_factory=dict, hash=False)
     exact: bool = False
 
     kind = "beam"
@@ -82,7 +82,7 @@ class Beam(BaseDriven):
 
     def parts(self) -> Parts:
         """For unit coefficients, on the basis of modes."""
-        return _parts(replace(self, core=_without_law(self.core), tolerances={}))
+        return _parts_of(replace(self, core=_without_law(self.core), tolerances={}))
 
     def coefficients(self, by: Mapping[str, float]) -> Complex:
         """Three of the faces' stiffness, three of slip, three of a free layer, six of inertia, the load.
@@ -286,14 +286,3 @@ def _parts_of(beam: Beam) -> Parts:
         size=(beam.span_m, beam.width_m, 1, 1),
         pickup_m=(at * beam.span_m, 0.0),
     )
-
-
-def _parts(beam: Beam) -> Parts:
-    return _parts_of(replace(beam, tolerances=_Nothing()))
-
-
-class _Nothing(dict[str, float]):
-    """No tolerances, as a key of what is kept."""
-
-    def __hash__(self) -> int:  # type: ignore[override]
-        return 0

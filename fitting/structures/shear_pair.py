@@ -45,7 +45,7 @@ class ShearPair(BaseDriven):
     """Whether the discs' bending is counted."""
     reads: Reading = "absolute"
     base_acceleration_m_s2: float = PUBLISHED_G_M_S2
-    tolerances: Mapping[str, float] = field(default_factory=dict)
+    tolerances: Mapping[str, float] = field(default_factory=dict, hash=False)
     exact: bool = False
 
     kind = "shear-pair"

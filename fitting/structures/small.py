@@ -123,10 +123,12 @@ def nuisances_of(specimen: SmallSpecimen, parts: Parts, *, has_phase: bool) -> S
     return SmallNuisances(specimen, tuple(n for n in each if n.sigma > 0), None, parts)
 
 
-def system_of(specimen: SmallSpecimen, parts: Parts) -> EnrichedReducedPlate:
-    """As stated, as fits and effects take it."""
+def system_of(
+    specimen: SmallSpecimen, parts: Parts, by: Mapping[str, float] | None = None
+) -> EnrichedReducedPlate:
+    """As stated, or its numbers moved (`SmallSpecimen.coefficients`), as fits and effects take it."""
     n_0, n_1, n_M = len(parts.K_0), len(parts.K_1), len(parts.M)
-    c = specimen.coefficients({})
+    c = specimen.coefficients(by or {})
     k = len(parts.observe)
     return EnrichedReducedPlate(
         group=np.full(k, "plate"),

@@ -18,7 +18,7 @@ from instrument.errors import BadInput
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.law_table import with_rows
 from instrument.files.rig_file import RigDocument
-from instrument.files.specimen_file import SpecimenDocument, specimen_of
+from instrument.files.structure_file import AnyDocument, described, document_type
 from instrument.files.text import read_text
 from instrument.files.toml import faults
 
@@ -53,6 +53,13 @@ class Draft:
         """Read a file. Raises `BadInput` where it is none that can be edited."""
         return cls(path, model, read_text(path))
 
+    @classmethod
+    def of_specimen(cls, path: Path) -> "Draft":
+        """Read a specimen's file, whichever structure it describes. Raises as `of`."""
+        text = read_text(path)
+        found = cls(path, BaseModel, text)
+        return cls(path, document_type(found.plain()), text)
+
     @property
     def text(self) -> str:
         """As it would be saved."""
@@ -71,8 +78,8 @@ class Draft:
         """Everything wrong with it; empty for a good one."""
         try:
             document = self.model.model_validate(self.plain())
-            if isinstance(document, SpecimenDocument):
-                specimen_of(with_rows(document, self.path.parent))
+            if isinstance(document, AnyDocument):
+                described(with_rows(document, self.path.parent))
         except ValidationError as error:
             return _by_place(error)
         except (OutsideModel, BadInput) as error:
@@ -188,17 +195,14 @@ class Drafts:
         experiment = Draft.of(path, ExperimentDocument)
         found: dict[str, Draft | None] = {}
         problems: list[str] = []
-        named: tuple[tuple[str, type[BaseModel]], ...] = (
-            ("rig", RigDocument),
-            ("specimen", SpecimenDocument),
-        )
-        for name, model in named:
+        for name in ("rig", "specimen"):
             said = experiment.value((name,))
             found[name] = None
             if not isinstance(said, str):
                 continue
             try:
-                found[name] = Draft.of(path.parent / said, model)
+                named = path.parent / said
+                found[name] = Draft.of(named, RigDocument) if name == "rig" else Draft.of_specimen(named)
             except BadInput as error:
                 problems.append(str(error))
         return cls(experiment, found["rig"], found["specimen"], tuple(problems))

@@ -27,7 +27,7 @@ _UNITS = {
     "_percent": "%", "_gpa": "GPa", "_mpa": "MPa", "_rad_s": "rad/s", "_mm": "mm", "_hz": "Hz", "_kg": "kg",
     "_c": "°C", "_s": "s", "_g": "g", "_v": "V", "_m": "m",
 }  # fmt: skip
-_NOT_ASKED = {"effects", "core", "log"}
+_NOT_ASKED = {"effects", "core", "log", "specimen"}
 """Of a simulated rig: what it hides is not for whoever measures on it."""
 _NOT_SHOWN = {"further_pickups", "mass"}
 """What a document holds of `[[pickup]]` after the first, no key of a file; and masses put on for one sweep,
@@ -91,7 +91,8 @@ def section_of(
     schema = model.model_json_schema()["properties"]
     fields: list[Field] = []
     sections: list[FormSection] = []
-    for name, info in model.model_fields.items():
+    for field_name, info in model.model_fields.items():
+        name = info.alias or field_name
         if model.__name__ == "Simulation" and name in _NOT_ASKED:
             continue
         if name in _NOT_SHOWN:
@@ -105,7 +106,7 @@ def section_of(
         elif (name, info.annotation) == ("law", dict[str, Any]):
             sections.append(FormSection("law", "How the core's modulus depends on frequency.", (law_kind(),)))
         else:
-            counts = getattr(default, name, info.get_default(call_default_factory=True))
+            counts = getattr(default, field_name, info.get_default(call_default_factory=True))
             fields.append(_field(name, info, schema[name], counts))
     return FormSection(key, _first_line(model), tuple(fields), tuple(sections), off, repeated)
 

@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 
 from drivers.simulated.plant.effects import Effects, TemperatureDrift
 from drivers.simulated.plant.law import maxwell_series, wlf_shift
+from drivers.simulated.plant.mounted import Mounted
 from drivers.simulated.plant.one_thread import one_thread
-from drivers.simulated.plant.sandwich import Sandwich, sandwich
+from drivers.simulated.plant.sandwich import sandwich
 from drivers.simulated.plant.slow_change import LEAST_FACTOR
 from drivers.simulated.plant.structure import Structure, condensed
 from fitting.arrays import Array, Complex
@@ -102,7 +103,7 @@ def pitch_per_acceleration(effects: Effects, omega: Array) -> Complex:
 class _Loaded:
     """A structure under base motion at every point."""
 
-    plate: Sandwich
+    plate: Mounted
     structure: Structure
     omega: Array
     pitch: Complex

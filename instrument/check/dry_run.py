@@ -10,6 +10,7 @@ import numpy as np
 from fitting.errors import FittingError
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen
 from instrument.check.faults import experiment_objections
 from instrument.check.forecast import (
     Forecast,
@@ -25,7 +26,7 @@ from instrument.facts.check import CheckResult, SegmentForecast, SoakForecast
 from instrument.files.devices import ranges_of
 from instrument.files.experiment_file import experiment_faults, read_experiment
 from instrument.files.rig_file import RigDocument
-from instrument.files.specimen_file import read_specimen
+from instrument.files.structure_file import read_structure
 from instrument.files.toml import document_faults
 from instrument.models.theory import theory_remark
 from instrument.models.tolerance_words import tolerances_used
@@ -46,7 +47,7 @@ class DryRun:
     mode_hz: tuple[float, ...]
     hammer_record_s: float | None
     seconds: float
-    specimen: Specimen
+    specimen: AnySpecimen
     warnings: tuple[str, ...]
     temperature: SoakForecast | None = None
 
@@ -73,7 +74,7 @@ def all_faults(path: Path) -> list[str]:
     experiment = read_experiment(path)
     found = document_faults(path.parent / experiment.rig, RigDocument)
     try:
-        read_specimen(path.parent / experiment.specimen)
+        read_structure(path.parent / experiment.specimen)
     except BadInput as error:
         found.append(str(error))
     if found:
@@ -102,7 +103,8 @@ def dry_run(path: Path) -> DryRun:
     if len(band) and specimen.core is not None:
         outside = specimen.core.law.outside(band)
         warnings += [outside] if outside else []
-        remark = theory_remark(specimen, specimen.core.law, band)
+        plate = specimen if isinstance(specimen, Specimen) else None
+        remark = theory_remark(plate, specimen.core.law, band) if plate is not None else ""
         warnings += [f"with the law to start from, {remark}"] if remark else []
     if hammer is not None:
         seconds += hammer.hits * (hammer.record_s + _HIT_AND_RING_S)
@@ -195,7 +197,7 @@ def _faults_of_named(path: Path) -> list[str]:
         found += document_faults(path.parent / named["rig"], RigDocument)
     if isinstance(named.get("specimen"), str):
         try:
-            read_specimen(path.parent / named["specimen"])
+            read_structure(path.parent / named["specimen"])
         except BadInput as error:
             found.append(str(error))
     return found

@@ -4,15 +4,17 @@ from collections.abc import Iterator
 
 from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
+from fitting.specimen import Specimen
 from instrument.check.forecast import Forecast, distinct, planned_segment, sections_of
 from instrument.errors import BadInput
 from instrument.files.devices import ranges_of
-from instrument.files.specimen_file import read_specimen
+from instrument.files.specimen_file import SpecimenDocument, read_specimen
 from instrument.models.set_up import check_like
 from instrument.session.configuration import Experiment
 from instrument.session.setup import sweep_settings
 from instrument.simulated_case import case_file
 from instrument.simulated_case.simulation import refuse_simulation
+from instrument.simulated_case.structure import stands_on
 
 _SAMPLES_A_CYCLE = 4.0
 """Below, a front-end's own filter is near."""
@@ -34,11 +36,31 @@ def experiment_objections(experiment: Experiment, forecast: Forecast, parts: tup
 
 
 def _simulated_plate(experiment: Experiment) -> Iterator[str]:
-    """The simulated rig has one plate: another specimen would be fitted to that one's response."""
-    if experiment.rig.simulation is None:
+    """What stands on the simulated rig: another specimen would be fitted to its response."""
+    simulation, specimen = experiment.rig.simulation, experiment.the_specimen()
+    if simulation is None:
+        return
+    if simulation.specimen is not None:
+        try:
+            stands = stands_on(simulation, experiment.rig_path)
+        except BadInput:
+            # Said as the rig file's own fault.
+            return
+        if stands.kind != specimen.kind:
+            yield (
+                f"{experiment.specimen_path}: a {specimen.kind}, but on the simulated rig stands a "
+                f"{stands.kind} ({simulation.specimen}): expected one kind"
+            )
+        return
+    if not isinstance(specimen, Specimen):
+        yield (
+            f"{experiment.specimen_path}: a {specimen.kind}, but the simulated rig has the published plate: "
+            f'expected [simulation] specimen = "{experiment.specimen_path.name}" in '
+            f"{experiment.rig_path.name}"
+        )
         return
     try:
-        check_like(experiment.the_specimen(), read_specimen(case_file("specimen.toml")))
+        check_like(specimen, read_specimen(case_file("specimen.toml")))
     except OutsideModel as error:
         said = str(error).partition(", expected")[0]
         yield (
@@ -65,9 +87,16 @@ def _temperature(experiment: Experiment) -> Iterator[str]:
 
 
 def _hammer(experiment: Experiment) -> Iterator[str]:
-    hammer, plate = experiment.document.hammer, experiment.specimen.plate
+    hammer, specimen = experiment.document.hammer, experiment.specimen
     if hammer is None:
         return
+    if not isinstance(specimen, SpecimenDocument):
+        yield (
+            f"{experiment.path}: [hammer]: the specimen is a {experiment.the_specimen().kind}, expected an "
+            "experiment without it: the hammer test is of a bare plate"
+        )
+        return
+    plate = specimen.plate
     for name in ("force", "response"):
         if getattr(experiment.rig.channels, name) is None:
             yield f"{experiment.rig_path}: channels.{name}: missing, the hammer test needs it"
@@ -84,6 +113,10 @@ def _hammer(experiment: Experiment) -> Iterator[str]:
 def _sweep(experiment: Experiment, forecast: Forecast) -> Iterator[str]:
     table, path = experiment.document.sweep, experiment.path
     if table is None:
+        return
+    if table.plan == "adaptive" and not isinstance(experiment.the_specimen(), Specimen):
+        kind = experiment.the_specimen().kind
+        yield f'{path}: sweep.plan = "adaptive": the specimen is a {kind}, expected a plate, or segments'
         return
     if table.plan == "adaptive" and experiment.the_specimen().core is None:
         yield f'{path}: sweep.plan = "adaptive": the specimen has no [core] to find a law of'

@@ -16,6 +16,8 @@ from fitting.half_plate import HalfPlate
 from fitting.identification.model import velocity
 from fitting.plate import Plate
 from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen, Beam, ShearPair
+from fitting.structures.small_modes import small_modes, small_velocity
 from instrument.errors import BadInput
 from instrument.files.experiment_file import SegmentSection, SweepTable
 from instrument.models.specimen_modes import specimen_modes
@@ -26,6 +28,8 @@ _COARSE = (20, 14)
 """Elements along each side: a forecast of times and ranges needs no more. A choice."""
 _MODES = 12
 """Of the treated plate, more than segments are usually laid around."""
+_SMALL_MODES = 8
+"""Of a beam or a pair: within what its polynomials resolve."""
 _MOST_SOLVED = 25
 """Frequencies of a segment; a resonance of a damped plate is wider than their spacing."""
 _MOST_STEPS = 5000
@@ -44,15 +48,17 @@ _OWN_RATIO = 1e-3
 class Forecast:
     """Of one specimen."""
 
-    specimen: Specimen
+    specimen: AnySpecimen
     mode_hz: Array
     mode_decay_1_s: Array
     """sigma of each mode's free decay."""
 
     @classmethod
     @lru_cache(maxsize=8)
-    def of(cls, specimen: Specimen) -> "Forecast":
+    def of(cls, specimen: AnySpecimen) -> "Forecast":
         """Modes of the specimen with the law it starts from."""
+        if not isinstance(specimen, Specimen):
+            return cls._of_small(specimen)
         coarse = replace(specimen, elements=specimen.elements or _COARSE)
         modes = specimen_modes(coarse, _MODES)
         f = np.array([m.frequency_hz for m in modes])
@@ -60,6 +66,13 @@ class Forecast:
         ratios[: len(specimen.modal_ratios)] = specimen.modal_ratios[:_MODES]
         loss = np.array([m.loss_factor for m in modes])
         return cls(coarse, f, 2 * np.pi * f * (loss / 2 + ratios))
+
+    @classmethod
+    def _of_small(cls, specimen: Beam | ShearPair) -> "Forecast":
+        law = specimen.core.law if specimen.core is not None else None
+        modes = small_modes(specimen, law, _SMALL_MODES)
+        f = np.array([m.frequency_hz for m in modes])
+        return cls(specimen, f, 2 * np.pi * f * (np.array([m.loss_factor for m in modes]) / 2 + _OWN_RATIO))
 
     def decay_1_s(self, frequency_hz: float) -> float:
         """Of the slowest transient that a step near this frequency stirs."""
@@ -72,6 +85,9 @@ class Forecast:
         few = np.unique(frequency_hz)
         if len(few) > _MOST_SOLVED:
             few = np.linspace(few[0], few[-1], _MOST_SOLVED)
+        if not isinstance(self.specimen, Specimen):
+            seen = np.abs(small_velocity(self.specimen, few)) / self.specimen.drive_amplitude * level_m_s2
+            return np.interp(frequency_hz, few, seen)
         omega = 2 * np.pi * few
         G = law.modulus(omega) if law is not None else np.zeros(len(few), dtype=complex)
         x = np.array([self._displacement(w, complex(g)) for w, g in zip(omega, G, strict=True)])
@@ -93,6 +109,7 @@ class Forecast:
 
     @cached_property
     def _half(self) -> HalfPlate:
+        assert isinstance(self.specimen, Specimen)
         return HalfPlate(Plate(self.specimen), "carried")
 
     @cached_property

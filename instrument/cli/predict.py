@@ -62,8 +62,11 @@ def predict(
     read = read_structure(specimen)
     question_specimen(specimen, insist=insist)
     if not isinstance(read, Specimen):
-        if real_modes or fit is not None or hammer is not None:
-            raise click.UsageError(f"--real-modes, --fit, --hammer with a {read.kind}: expected a plate")
+        if real_modes or hammer is not None:
+            raise click.UsageError(f"--real-modes, --hammer with a {read.kind}: expected a plate")
+        if fit is not None:
+            _show(out, read, prediction_from_fit(fitted_response(read, read_fit(fit), frequencies)))
+            return
         v = small_velocity(read, frequencies)
         _show(out, read, prediction_from(frequencies, v, _outside(read.core, frequencies)))
         return

@@ -9,6 +9,7 @@ import click
 
 from instrument.files.rig_file import RigDocument
 from instrument.files.toml import read_document
+from instrument.progress import bar
 from instrument.simulated_case.simulation import simulated_rig
 
 _LOOKS_EVERY_S = 0.2
@@ -36,7 +37,9 @@ def simulate(rig: Path, virtual_time: bool, log: Path | None, modbus_port: int, 
     """
     document = read_document(rig, RigDocument)
     ports = modbus_port, frontend_port
-    with simulated_rig(document, rig, virtual_time=virtual_time, log=log, ports=ports) as addresses:
+    with simulated_rig(
+        document, rig, virtual_time=virtual_time, log=log, ports=ports, progress=bar
+    ) as addresses:
         click.echo(json.dumps(addresses))
         sys.stdout.flush()
         if virtual_time:

@@ -133,6 +133,8 @@ class Simulation(TomlTable):
     effects: dict[str, dict[str, Number | str | list[Number]]] = Field(default_factory=dict)
     core: dict[str, Any] = Field(default_factory=dict)
     """g_inf_mpa, g_mpa, tau_s: another core than the standard one."""
+    specimen: str | None = None
+    """Beside this file: a specimen file with the beam or shear pair that stands on the simulated shaker."""
     chamber: SimulatedChamberSection = SimulatedChamberSection()
     double_hit_every: Annotated[int, Field(ge=0)] = 4
     """Every so many hits one bounces; 0 for never."""

@@ -1,10 +1,11 @@
 """SPECIMEN.toml of any structure: `[plate]`, `[beam]`, `[shear-pair]`; which table it holds decides."""
 
 import tomllib
+from collections.abc import Collection
 from pathlib import Path
 from typing import Any
 
-from pydantic import Field, model_validator
+from pydantic import ConfigDict, Field, model_validator
 
 from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
@@ -16,9 +17,10 @@ from instrument.errors import BadInput
 from instrument.files.law_table import with_rows
 from instrument.files.layer_tables import Poisson, StatedLayer
 from instrument.files.specimen_file import (
+    SpecimenDocument,
     TolerancesSection,
     law_of,
-    read_specimen,
+    specimen_of,
     tolerances_of,
 )
 from instrument.files.text import read_text
@@ -74,11 +76,19 @@ class _PairTolerances(TolerancesSection):
 class ShearPairDocument(TomlTable):
     """SPECIMEN.toml with `[shear-pair]`."""
 
+    # Kept in a session under the key of the file.
+    model_config = ConfigDict(serialize_by_alias=True)
+
     pair: _Disc = Field(alias="shear-pair")
     core: _Rubber
     pickup: _Reads = _Reads()
     base: _PairBase = _PairBase()
     tolerances: _PairTolerances | None = None
+
+    @property
+    def geometry(self) -> dict[str, object]:
+        """Its own keys, those that are there."""
+        return self.pair.model_dump(exclude_none=True)
 
     def specimen(self) -> ShearPair:
         """What it describes. Raises `OutsideModel`."""
@@ -151,6 +161,12 @@ class BeamDocument(TomlTable):
             raise ValueError(f"pickup.x_mm = {self.pickup.x_mm:g} is off the beam, expected 0 to {reach:g}")
         return self
 
+    @property
+    def geometry(self) -> dict[str, object]:
+        """Its own keys, and where it is read."""
+        spot = {"pickup_x_mm": self.pickup.x_mm} if self.pickup is not None else {}
+        return self.beam.model_dump() | spot
+
     def specimen(self) -> Beam:
         """What it describes. Raises `OutsideModel`."""
         core, c = None, self.core
@@ -172,23 +188,42 @@ class BeamDocument(TomlTable):
         )
 
 
+AnyDocument = SpecimenDocument | BeamDocument | ShearPairDocument
+"""What a specimen file may hold."""
+
 _DOCUMENTS: dict[str, type[ShearPairDocument] | type[BeamDocument]] = {
     "shear-pair": ShearPairDocument,
     "beam": BeamDocument,
 }
 
 
+def document_type(tables: Collection[str]) -> type[AnyDocument]:
+    """By the tables that a file has; a plate's where none says what it is."""
+    return next((model for name, model in _DOCUMENTS.items() if name in tables), SpecimenDocument)
+
+
 def read_structure(path: Path) -> AnySpecimen:
     """Read and check a specimen of any kind. Raises `BadInput` with one line."""
-    kinds = [name for name in ("plate", *_DOCUMENTS) if name in _tables(path)]
+    try:
+        return described(read_structure_document(path))
+    except OutsideModel as error:
+        raise BadInput(f"{path}: {error}") from None
+
+
+def read_structure_document(path: Path) -> AnyDocument:
+    """The document of a specimen of any kind, the rows of a law's table in it. Raises `BadInput`."""
+    tables = _tables(path)
+    kinds = [name for name in ("plate", *_DOCUMENTS) if name in tables]
     if len(kinds) > 1:
         raise BadInput(f"{path}: [{kinds[0]}] and [{kinds[1]}], expected one of them")
-    if kinds and kinds[0] in _DOCUMENTS:
-        try:
-            return with_rows(read_document(path, _DOCUMENTS[kinds[0]]), path.parent).specimen()
-        except OutsideModel as error:
-            raise BadInput(f"{path}: {error}") from None
-    return read_specimen(path)
+    return with_rows(read_document(path, document_type(tables)), path.parent)
+
+
+def described(document: AnyDocument) -> AnySpecimen:
+    """The specimen a document describes. Raises `OutsideModel`."""
+    if isinstance(document, SpecimenDocument):
+        return specimen_of(document)
+    return document.specimen()
 
 
 def _tables(path: Path) -> dict[str, Any]:

@@ -5,14 +5,17 @@ from collections.abc import Sequence
 import numpy as np
 
 from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
 from instrument.models.files import File, spots_of
 from instrument.session.points import by_mass, with_spots
 from instrument.stream.derived import PointMeasured
 
 
-def files_of(sweep: Sweep, points: Sequence[PointMeasured], specimen: Specimen) -> list[File]:
+def files_of(sweep: Sweep, points: Sequence[PointMeasured], specimen: AnySpecimen) -> list[File]:
     """`sweep` is of these points. One file where the plate was as the specimen says throughout."""
+    if not isinstance(specimen, Specimen):
+        return [File(sweep, specimen)]
     plate = with_spots(specimen, points)
     return [
         file

@@ -14,7 +14,6 @@ from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.session_result import SessionResult
 from instrument.files.hammer_file import HammerModes, read_hammer
-from instrument.files.specimen_file import read_specimen
 from instrument.files.structure_file import read_structure
 from instrument.files.sweep_file import read_sweep
 from instrument.interchange.base_frf import is_frf_csv, sweep_of_foreign, sweep_of_frf_csv
@@ -134,11 +133,11 @@ def _of_session(data: Path, specimen: Path | None, *, own_hammer: bool) -> Given
     with SessionFile(data) as session:
         contents = contents_of(session, with_hits=False)
     reads = contents.configuration.rig.vibrometer.reads
-    read = contents.specimen if specimen is None else replace(read_specimen(specimen), reads=reads)
+    read = contents.specimen if specimen is None else replace(read_structure(specimen), reads=reads)
     modes = session_modes(contents) if own_hammer else None
     sweep = session_sweep(contents, read)
     files = files_of(sweep, contents.measured, read)
-    read = with_spots(read, contents.measured)
+    read = with_spots(read, contents.measured) if isinstance(read, Specimen) else read
     name = contents.configuration.name
     hammer = f", its hammer test with {len(modes.frequency_hz)} modes" if modes is not None else ""
     said = f"session {name}: {len(sweep)} points, velocity {reads}{hammer}"

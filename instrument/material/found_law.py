@@ -15,11 +15,10 @@ from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult
 from instrument.files.text import read_text
 from instrument.interchange.given import is_session
-from instrument.interchange.identified import identify_session
+from instrument.interchange.identified import identify_session, result_of_fit
 from instrument.material.found_shift import FoundShift
 from instrument.material.knowledge import LawPosterior, posterior_of
 from instrument.progress import Progress, quiet
-from instrument.results.identification_from import identification_from
 from instrument.results.session_result import recorded_result
 from instrument.session.contents import Contents, contents_of
 from instrument.session.storage import SessionFile
@@ -186,7 +185,7 @@ def _identified_now(path: Path, contents: Contents, progress: Progress) -> Mater
         fit = identify_session(contents, progress)
     except FittingError as error:
         raise BadInput(f"{path}: no law in this session, and none to be found: {error}") from None
-    found = law_of_result(path, identification_from(fit.identified, fit.sweep, fit.specimen))
+    found = law_of_result(path, result_of_fit(fit))
     if found is None:
         raise BadInput(f"{path}: the law of this session has no band, expected a sweep over a range")
     return found

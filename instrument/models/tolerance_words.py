@@ -3,6 +3,7 @@
 from math import pi
 
 from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen
 from fitting.tolerances import PLATE, STATED, plate_numbers, tolerance
 from instrument.facts.check import ToleranceUsed
 
@@ -16,40 +17,46 @@ _UNITS = {
 _NOT_OF_A_SWEEP = ("mass", "area")
 
 
-def asked(specimen: Specimen) -> list[str]:
-    """Kinds of stated numbers that a sweep of this plate can feel."""
+def asked(specimen: AnySpecimen) -> list[str]:
+    """Kinds of stated numbers that a sweep of this specimen can feel."""
+    if not isinstance(specimen, Specimen):
+        return [*specimen.numbers, "gain", "delay"]
     of_plate = {kind for _, kind in plate_numbers(specimen)}
     return [
         name for name in STATED if name not in _NOT_OF_A_SWEEP and (name not in PLATE or name in of_plate)
     ]
 
 
-def not_named(specimen: Specimen) -> list[str]:
+def not_named(specimen: AnySpecimen) -> list[str]:
     """Those of them whose tolerance is a typical one; none of an exact specimen."""
     return [] if specimen.exact else [name for name in asked(specimen) if name not in specimen.tolerances]
 
 
-def tolerances_used(specimen: Specimen) -> tuple[ToleranceUsed, ...]:
+def tolerances_used(specimen: AnySpecimen) -> tuple[ToleranceUsed, ...]:
     """Every tolerance under the file's key; empty for an exact specimen."""
     if specimen.exact:
         return ()
     return tuple(
         ToleranceUsed(
             name=f"{name}_{_UNITS[STATED[name].unit][0]}",
-            value=tolerance(specimen, name) * _UNITS[STATED[name].unit][2],
+            value=_tolerance(specimen, name) * _UNITS[STATED[name].unit][2],
             source="named" if name in specimen.tolerances else "typical",
         )
         for name in asked(specimen)
     )
 
 
-def tolerance_rows(specimen: Specimen) -> list[tuple[str, str]]:
+def tolerance_rows(specimen: AnySpecimen) -> list[tuple[str, str]]:
     """Name and value, marked where it is typical; one row for an exact specimen."""
     if specimen.exact:
         return [("all stated numbers", "exact")]
     rows = []
     for name in asked(specimen):
         _, unit, factor = _UNITS[STATED[name].unit]
-        value = f"{tolerance(specimen, name) * factor:.3g} {unit}"
+        value = f"{_tolerance(specimen, name) * factor:.3g} {unit}"
         rows.append((name.replace("_", " "), value + ("" if name in specimen.tolerances else " (typical)")))
     return rows
+
+
+def _tolerance(specimen: AnySpecimen, name: str) -> float:
+    return tolerance(specimen, name) if isinstance(specimen, Specimen) else specimen.tolerance(name)

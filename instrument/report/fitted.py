@@ -7,13 +7,14 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.errors import FittingError
+from fitting.specimen import Specimen
 from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult
-from instrument.interchange.identified import SessionFit, identify_session
+from instrument.interchange.identified import SessionFit, identify_session, result_of_fit
 from instrument.progress import Progress, quiet
 from instrument.results.fit_file import found_law
 from instrument.results.fitted_response import FittedModel
-from instrument.results.identification_from import identification_from
+from instrument.results.fitted_small import FittedSmall
 from instrument.session.contents import Contents
 
 
@@ -36,14 +37,17 @@ class ReportedFit:
     def result(self) -> IdentificationResult | None:
         """That of `viscorig identify`; None without a fit."""
         fit = self.fit
-        return identification_from(fit.identified, fit.sweep, fit.specimen) if fit is not None else None
+        return result_of_fit(fit) if fit is not None else None
 
     @cached_property
-    def _model(self) -> FittedModel | None:
-        """The plate that was fitted, not the one that was stated."""
+    def _model(self) -> FittedModel | FittedSmall | None:
+        """The specimen that was fitted, not the one that was stated."""
         if self.fit is None or self.result is None:
             return None
-        return FittedModel.of(self.fit.specimen, found_law(self.result), self.fit.sweep.frequency_hz)
+        specimen, found = self.fit.specimen, found_law(self.result)
+        if not isinstance(specimen, Specimen):
+            return FittedSmall.of(specimen, found)
+        return FittedModel.of(specimen, found, self.fit.sweep.frequency_hz)
 
     def over_base(self, frequency_hz: Array) -> Complex | None:
         """The model's velocity over base acceleration in s at any frequency. Shape (points,)."""

@@ -3,6 +3,7 @@
 import numpy as np
 
 from fitting.identification.result import Identification
+from fitting.specimen import Specimen
 from instrument.facts.session_result import SessionResult
 from instrument.interchange.identified import SessionFit
 from instrument.report.blocks import Block, FactsBlock, ReportSection, Sentence, TableBlock
@@ -114,6 +115,7 @@ _HELD_OUT = ("segment", "rms / %", "its noise / %")
 def _hammer(fit: SessionFit) -> str:
     if fit.bare is None:
         return "without a hammer test: stiffness and viscous damping as the specimen states them"
+    assert isinstance(fit.specimen, Specimen)
     young = fit.specimen.substrate.young_pa * fit.bare.young_scale
     said = f"{with_error(young, young * fit.bare.standard_error, 1e-9)} GPa by itself"
     return f"jointly with the hammer test: {len(fit.bare.measured_hz)} modes, substrate {said}"

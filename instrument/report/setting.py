@@ -4,6 +4,7 @@ from datetime import date
 
 from instrument.files.rig_file import ResponseSection, SensorSection
 from instrument.files.specimen_file import SpecimenDocument
+from instrument.files.structure_file import AnyDocument
 from instrument.models.tolerance_words import tolerance_rows
 from instrument.report.blocks import Block, FactsBlock, ReportSection, Sentence, TableBlock
 from instrument.results.numbers import format_number
@@ -16,13 +17,15 @@ _SENSITIVITY_UNITS = {
     "temperature": "mV/°C",
 }
 _MOST_LISTED = 8
+_TITLES = {"plate": "Plate", "beam": "Beam", "shear-pair": "Shear pair"}
 _LAYERS = ("substrate", "core", "constraining")
 
 
 def specimen_section(contents: Contents) -> ReportSection:
     """Geometry, layers, the law identification starts from."""
     s = contents.configuration.specimen
-    blocks: list[Block] = [_layers(s), FactsBlock("Plate", tuple(_plate(contents, s)))]
+    geometry = FactsBlock(_TITLES[contents.specimen.kind], tuple(_geometry(contents, s)))
+    blocks: list[Block] = [_layers(s), geometry]
     if s.core is not None:
         rows = [(k, _law_value(v)) for k, v in s.core.law.items()]
         blocks.append(FactsBlock("Core law to start from", tuple(rows)))
@@ -36,17 +39,29 @@ def _law_value(value: object) -> str:
     return str(value)
 
 
-def _layers(s: SpecimenDocument) -> TableBlock:
+def _layers(s: AnyDocument) -> TableBlock:
     rows = []
     for name in _LAYERS:
-        layer = getattr(s, name)
+        layer = getattr(s, name, None)
         if layer is not None:
-            young = getattr(layer, "young_gpa", None)
-            loss = getattr(layer, "loss_factor", None)
-            numbers = (layer.thickness_mm, young, layer.poisson, layer.density_kg_m3, loss)
+            thickness = layer if hasattr(layer, "thickness_mm") else getattr(s, "pair", None)
+            numbers = (
+                getattr(thickness, "thickness_mm", None),
+                *(
+                    getattr(layer, key, None)
+                    for key in ("young_gpa", "poisson", "density_kg_m3", "loss_factor")
+                ),
+            )
             rows.append((name, *(format_number(v, 6) for v in numbers)))
     columns = ("layer", "thickness / mm", "E / GPa", "Poisson's ratio", "density / (kg/m³)", "loss factor")
     return TableBlock("Layers", columns, tuple(rows))
+
+
+def _geometry(contents: Contents, s: AnyDocument) -> list[tuple[str, str]]:
+    if isinstance(s, SpecimenDocument):
+        return _plate(contents, s)
+    rows = [(name.replace("_", " "), _law_value(value)) for name, value in s.geometry.items()]
+    return [*rows, ("velocity", contents.configuration.rig.vibrometer.reads)]
 
 
 def _plate(contents: Contents, s: SpecimenDocument) -> list[tuple[str, str]]:

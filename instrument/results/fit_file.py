@@ -15,7 +15,7 @@ from fitting.errors import OutsideModel
 from fitting.identification.adjusted import is_relative, stated_number
 from fitting.laws import CoreLaw
 from fitting.nuisances import Nuisance, Nuisances
-from fitting.specimen import Specimen
+from fitting.specimen import Specimen, StatedSpecimen
 from fitting.tolerances import kind_of
 from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult
@@ -39,7 +39,7 @@ class _Adjusted(BaseModel):
         kind_of(name)
         return name
 
-    def moved(self, specimen: Specimen) -> tuple[Nuisance, float]:
+    def moved(self, specimen: StatedSpecimen) -> tuple[Nuisance, float]:
         """The number as an unknown of a fit, and where it is; the specimen's own may be another one."""
         nuisance = Nuisance(self.name, kind_of(self.name), 1.0)
         stated, factor, _ = stated_number(specimen, nuisance)

@@ -1,5 +1,6 @@
 """The response of a law and a plate that were found, anywhere in frequency, and how well the fit knows it."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -12,10 +13,12 @@ from fitting.identification.model import velocity
 from fitting.laws import CoreLaw
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen
 from instrument.models.fitted_plate import FittedPlate
 from instrument.models.specimen_models import CERTIFIED, Models
 from instrument.progress import Progress, quiet
 from instrument.results.fit_file import FoundLaw
+from instrument.results.fitted_small import FittedSmall
 
 _STEP = 1e-4
 """Relative step in G* by which the response's derivative is taken; it is analytic in G*."""
@@ -100,20 +103,33 @@ class FittedModel:
 
 
 def fitted_response(
-    specimen: Specimen, found: FoundLaw, frequency_hz: Array, progress: Progress = quiet
+    specimen: AnySpecimen, found: FoundLaw, frequency_hz: Array, progress: Progress = quiet
 ) -> FittedResponse:
     """Predict with the law found on the plate found; their covariance is carried over to first order.
 
     Shape (points,). Raises `BadInput` for a law of another kind, `OutsideModel` for a bare plate.
     """
-    return FittedModel.of(specimen, found, frequency_hz, progress).response(frequency_hz)
+    if isinstance(specimen, Specimen):
+        return FittedModel.of(specimen, found, frequency_hz, progress).response(frequency_hz)
+    if specimen.core is None:
+        raise OutsideModel(f"a bare {specimen.kind} has no core, expected [core]")
+    small = FittedSmall.of(specimen, found)
+    v = small.velocity(frequency_hz)
+    ratio = small.derivatives(frequency_hz) / v
+    covariance = _among(found, small.law, small.names)
+    return FittedResponse(
+        frequency_hz, v, np.abs(v) * _propagated(covariance, ratio.real), _propagated(covariance, ratio.imag)
+    )
 
 
 def _covariance(found: FoundLaw, law: CoreLaw, plate: FittedPlate) -> Array:
     """The whole posterior, else the law's alone."""
-    names = [*law.names, *(n.name for n in plate.nuisances.each)]
+    return _among(found, law, [*law.names, *(n.name for n in plate.nuisances.each)])
+
+
+def _among(found: FoundLaw, law: CoreLaw, names: Sequence[str]) -> Array:
     if found.posterior is not None:
-        return found.posterior.covariance(names)
+        return found.posterior.covariance(list(names))
     own = len(law.plain.names)
     whole = np.zeros((len(names), len(names)))
     whole[:own, :own] = found.covariance(law.plain.names)

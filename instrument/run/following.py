@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen
 from instrument.facts.follow_up import FollowUp
 from instrument.files.experiment_file import DiagnosisTable
 from instrument.run.analysis import Analysis
@@ -53,7 +54,7 @@ class Following:
 
     table: DiagnosisTable
     limits: Limits
-    specimen: Specimen
+    specimen: AnySpecimen
     analysis: Analysis
     sweep: SweepPart
     earlier: Earlier
@@ -63,7 +64,8 @@ class Following:
     """The bare plate's hammer test; None where there is none to make."""
 
     def __post_init__(self) -> None:
-        self._spots = dict(enumerate(self.specimen.pickups_m))
+        plate = self.specimen
+        self._spots = dict(enumerate(plate.pickups_m if isinstance(plate, Specimen) else ()))
         for moved in self.earlier.spots:
             x, y = moved.spot_mm
             self._spots[moved.pickup] = (1e-3 * x, 1e-3 * y)

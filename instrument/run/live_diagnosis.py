@@ -8,6 +8,7 @@ from threadpoolctl import threadpool_limits
 
 from fitting.errors import FittingError
 from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen
 from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.files.hammer_file import accepted_modes
@@ -22,7 +23,7 @@ from instrument.session.points import sweep_of, uncalibrated
 from instrument.stream.derived import DampingFound, DiagnosisFound, PointMeasured
 
 Diagnoser = Callable[
-    [int, int, list[PointMeasured], list[float], DampingFound | None, Specimen], DiagnosisFound
+    [int, int, list[PointMeasured], list[float], DampingFound | None, AnySpecimen], DiagnosisFound
 ]
 """Number, last step, points, when each was read, hammer test, specimen."""
 
@@ -33,7 +34,7 @@ def diagnose_points(
     points: list[PointMeasured],
     times_s: list[float],
     damping: DampingFound | None,
-    specimen: Specimen,
+    specimen: AnySpecimen,
     progress: Progress = quiet,
 ) -> DiagnosisFound:
     """Diagnose all points up to a step, jointly with the hammer test. Pure: the same in a replay."""
@@ -52,13 +53,13 @@ def _result(
     points: list[PointMeasured],
     times_s: list[float],
     damping: DampingFound | None,
-    specimen: Specimen,
+    specimen: AnySpecimen,
     progress: Progress,
 ) -> DiagnosisResult:
     hammer = accepted_modes(damping.result) if damping is not None else None
     sweep = sweep_of(points, times_s)
     files = files_of(sweep, points, specimen)
-    if len(files) > 1:
+    if len(files) > 1 or not isinstance(specimen, Specimen):
         several = diagnose_together(files, progress=progress, hammer=hammer)
         result = with_follow_ups(diagnosed_together_from(several, files), several.found).untimed
     else:

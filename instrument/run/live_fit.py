@@ -8,6 +8,7 @@ from threadpoolctl import threadpool_limits
 
 from fitting.errors import FittingError
 from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen
 from instrument.facts.identification import IdentificationResult
 from instrument.files.hammer_file import accepted_modes
 from instrument.interchange.files_of import files_of
@@ -21,7 +22,7 @@ from instrument.stream.derived import DampingFound, FitUpdated, PointMeasured
 from instrument.stream.event import Event
 from instrument.stream.raw import FitStarted
 
-Fitter = Callable[[int, int, list[PointMeasured], DampingFound | None, Specimen], FitUpdated]
+Fitter = Callable[[int, int, list[PointMeasured], DampingFound | None, AnySpecimen], FitUpdated]
 """Number, last step, points, hammer test, specimen."""
 
 
@@ -30,7 +31,7 @@ def fit_points(
     last_step: int,
     points: list[PointMeasured],
     damping: DampingFound | None,
-    specimen: Specimen,
+    specimen: AnySpecimen,
     progress: Progress = quiet,
 ) -> FitUpdated:
     """Identify from all points up to a step, jointly with the hammer test. Pure: the same in a replay."""
@@ -45,12 +46,12 @@ def fit_points(
 
 
 def _result(
-    used: list[PointMeasured], damping: DampingFound | None, specimen: Specimen, progress: Progress
+    used: list[PointMeasured], damping: DampingFound | None, specimen: AnySpecimen, progress: Progress
 ) -> IdentificationResult:
     modes = accepted_modes(damping.result) if damping is not None else None
     sweep = sweep_of(used)
     files = files_of(sweep, used, specimen)
-    if len(files) > 1:
+    if len(files) > 1 or not isinstance(specimen, Specimen):
         result = identified_together_from(identify_together(files, progress, modes), files).untimed
     else:
         found = identify(sweep, specimen, progress=progress, hammer=modes)
@@ -74,7 +75,7 @@ class LiveFit:
     """
 
     def __init__(
-        self, specimen: Specimen, emit: Callable[[Event], object], fit: Fitter, number: int = 0
+        self, specimen: AnySpecimen, emit: Callable[[Event], object], fit: Fitter, number: int = 0
     ) -> None:
         """`number` is that of the last fit before."""
         self._specimen, self._emit = specimen, emit

@@ -6,6 +6,7 @@ from time import monotonic, sleep
 
 from threadpoolctl import threadpool_limits
 
+from fitting.specimen import Specimen
 from instrument.run.analysis import Analysis
 from instrument.run.live_choice import Chooser
 from instrument.run.live_diagnosis import Diagnoser, diagnose_points
@@ -69,7 +70,9 @@ def _replay(
     specimen = configuration.the_specimen()
     setup, table = setup_of(configuration), configuration.experiment.sweep
     adaptive = table is not None and table.plan == "adaptive"
-    chooser = Chooser(specimen, table, setup.sweep, []) if adaptive and table is not None else None
+    chooser = None
+    if adaptive and table is not None and isinstance(specimen, Specimen):
+        chooser = Chooser(specimen, table, setup.sweep, [])
     again = Replayed()
     expected: list[Derived] = []
     apart: dict[tuple[type[Derived], int], Derived] = {}

@@ -8,6 +8,7 @@ from drivers.errors import DriverError
 from drivers.shaker import Alarm
 from fitting.errors import TooFewPoints
 from fitting.identification.bare_plate import match_modes
+from fitting.specimen import Specimen
 from instrument.check.forecast import Forecast, distinct
 from instrument.errors import RigStopped
 from instrument.files.hammer_file import accepted_modes
@@ -160,8 +161,10 @@ class SessionRun:
         modes = accepted_modes(found.result)
         if modes is None or len(modes.frequency_hz) < _MODES_TO_TELL:
             return
+        plate = self._configuration.the_specimen()
+        assert isinstance(plate, Specimen)
         try:
-            match_modes(self._configuration.the_specimen(), *modes)
+            match_modes(plate, *modes)
         except TooFewPoints as error:
             raise RigStopped(
                 f"stopped before the sweep: {error} Right the specimen's file or mount the right plate and "

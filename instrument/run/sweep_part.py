@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen
 from instrument.check.forecast import (
     Forecast,
     calibration_segments,
@@ -44,7 +45,7 @@ class SweepPart:
     def __init__(
         self,
         experiment: Experiment,
-        specimen: Specimen,
+        specimen: AnySpecimen,
         setup: Setup,
         forecast: Forecast,
         analysis: Analysis,
@@ -81,6 +82,8 @@ class SweepPart:
     def prepare(self) -> None:
         """Models that choices are made with, before anything moves; a hammer test changes little of them."""
         if self.table.plan == "adaptive":
+            # Refused for every other structure before a run begins.
+            assert isinstance(self._specimen, Specimen)
             self._chooser = Chooser(self._specimen, self.table, self._setup.sweep, self._chosen)
             self._chooser.ground(self._analysis.damping)
 

@@ -9,11 +9,12 @@ from typing import Annotated
 from pydantic import AfterValidator, BaseModel
 
 from fitting.plugins import packages
-from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen
 from instrument.errors import BadInput
 from instrument.files.experiment_file import ExperimentDocument, read_experiment
 from instrument.files.rig_file import RigDocument
-from instrument.files.specimen_file import SpecimenDocument, read_specimen_document, specimen_of
+from instrument.files.specimen_file import SpecimenDocument
+from instrument.files.structure_file import AnyDocument, described, read_structure_document
 from instrument.files.toml import read_document
 
 _NOT_IN_NAMES = re.compile(r"[/\\:\x00-\x1f\x7f]")
@@ -35,10 +36,10 @@ class Configuration(BaseModel):
     versions: dict[str, str]
     experiment: ExperimentDocument
     rig: RigDocument
-    specimen: SpecimenDocument
+    specimen: AnyDocument
 
-    def the_specimen(self) -> Specimen:
-        """The plate as the model is told, read as this rig's laser does."""
+    def the_specimen(self) -> AnySpecimen:
+        """The specimen as the model is told, read as this rig's laser does."""
         return _as_read(self.specimen, self.rig)
 
 
@@ -49,12 +50,12 @@ class Experiment:
     path: Path
     document: ExperimentDocument
     rig: RigDocument
-    specimen: SpecimenDocument
+    specimen: AnyDocument
     rig_path: Path
     specimen_path: Path
 
-    def the_specimen(self) -> Specimen:
-        """The plate as the model is told, read as this rig's laser does."""
+    def the_specimen(self) -> AnySpecimen:
+        """The specimen as the model is told, read as this rig's laser does."""
         return _as_read(self.specimen, self.rig)
 
     def configuration(self, name: str, created_utc: str) -> Configuration:
@@ -69,8 +70,8 @@ class Experiment:
         )
 
 
-def _as_read(specimen: SpecimenDocument, rig: RigDocument) -> Specimen:
-    return replace(specimen_of(specimen), reads=rig.vibrometer.reads)
+def _as_read(specimen: AnyDocument, rig: RigDocument) -> AnySpecimen:
+    return replace(described(specimen), reads=rig.vibrometer.reads)
 
 
 def read_whole_experiment(path: Path) -> Experiment:
@@ -79,7 +80,13 @@ def read_whole_experiment(path: Path) -> Experiment:
     rig_path = path.parent / document.rig
     specimen_path = path.parent / document.specimen
     rig = read_document(rig_path, RigDocument)
-    specimen = read_specimen_document(specimen_path)
+    specimen = read_structure_document(specimen_path)
+    if isinstance(specimen, SpecimenDocument):
+        _refuse_another_drive(specimen, specimen_path)
+    return Experiment(path, document, rig, specimen, rig_path, specimen_path)
+
+
+def _refuse_another_drive(specimen: SpecimenDocument, specimen_path: Path) -> None:
     if specimen.force_m is not None:
         raise BadInput(
             f'{specimen_path}: excitation.kind: "force", but a rig shakes the base, expected "base"'
@@ -88,4 +95,3 @@ def read_whole_experiment(path: Path) -> Experiment:
         raise BadInput(
             f"{specimen_path}: {len(specimen.pickups)} pickups, but a rig has one laser, expected one"
         )
-    return Experiment(path, document, rig, specimen, rig_path, specimen_path)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen
 from instrument.errors import BadInput
 from instrument.files.rig_file import Channels
 from instrument.impact.judge import Judged, judge
@@ -122,7 +122,7 @@ class Contents:
     soaks: list[SoakEnded] = field(default_factory=list)
 
     @property
-    def specimen(self) -> Specimen:
+    def specimen(self) -> AnySpecimen:
         """The session's own, read as its rig's laser does. Raises `OutsideModel`."""
         return self.configuration.the_specimen()
 

@@ -12,7 +12,7 @@ from fitting.specimen import Specimen
 from instrument.errors import BadInput
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.rig_file import Channels, RigDocument
-from instrument.files.specimen_file import specimen_of
+from instrument.files.specimen_file import SpecimenDocument, specimen_of
 from instrument.hammer_test.analysis import HammerSettings
 from instrument.session.configuration import Configuration
 from instrument.stepped_sine.settings import Dwell, LevelControl, Limits, Settle, SweepSettings
@@ -69,6 +69,8 @@ def hammer_settings(configuration: Configuration) -> HammerSettings | None:
     for name in ("force", "response"):
         if getattr(configuration.rig.channels, name) is None:
             raise BadInput(f"rig: channels.{name}: missing, the hammer test needs it")
+    if not isinstance(configuration.specimen, SpecimenDocument):
+        raise BadInput("[hammer]: the hammer test is of a bare plate, expected an experiment without it")
     record_s = record_length_s(specimen_of(configuration.specimen)) if h.record_s == "auto" else h.record_s
     response = configuration.rig.channels.response
     mass_kg = 1e-3 * response.mass_g if response else 0.0

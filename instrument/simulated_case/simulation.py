@@ -10,9 +10,11 @@ from drivers.chamber.modbus_driver import ModbusTcpChamberOptions
 from drivers.shaker.modbus_driver import ModbusOptions
 from drivers.shaker.register_map import DEFAULT
 from drivers.simulated.climate import Climate
+from drivers.simulated.plant.built import refuse_effects
 from drivers.simulated.plant.effects import Effects, OtherLaw
 from drivers.simulated.plant.law import MaxwellLaw
-from drivers.simulated.plates import DampedPlate, SimulatedBarePlate
+from drivers.simulated.plant.shaken import ShakenPlate
+from drivers.simulated.plates import DampedPlate, OnShaker, SimulatedBarePlate
 from drivers.simulated.rig import OWN_MODEL, Ports, SimulatedChamber, SimulatedRig, VibrometerPeer
 from drivers.simulated.sensors import SimulatedSensor
 from drivers.simulated.world import Laser, MountedPlate, Wiring, World
@@ -21,6 +23,8 @@ from drivers.vibrometer.polytec_driver import PolytecOptions
 from instrument.errors import BadInput
 from instrument.files.devices import VIBROMETERS, ranges_of
 from instrument.files.rig_file import Channels, RigDocument, Simulation
+from instrument.progress import Progress, quiet
+from instrument.simulated_case.structure import mounted_structure, stands_on
 
 _QUANTITIES = {
     "base": "base_acceleration",
@@ -60,6 +64,7 @@ def simulated_rig(
     virtual_time: bool,
     log: Path | None = None,
     ports: tuple[int, int] = (0, 0),
+    progress: Progress = quiet,
 ) -> Iterator[dict[str, str]]:
     """Stand up the rig a file describes; its addresses. Raises `BadInput`."""
     simulation = document.simulation
@@ -68,7 +73,10 @@ def simulated_rig(
     _refuse_without_peer(document, path)
     chamber = _chamber(document, simulation)
     try:
-        world = _world(document, simulation, virtual_time, chamber.climate if chamber else None)
+        climate = chamber.climate if chamber else None
+        world = _world(
+            document, simulation, virtual_time, _mounted(simulation, path, climate, progress), climate
+        )
     except (ValueError, TypeError) as error:
         raise BadInput(f"{path}: simulation: {error}") from None
     shaker, vibrometer = document.shaker, document.vibrometer
@@ -95,7 +103,9 @@ def refuse_simulation(document: RigDocument, path: Path) -> None:
     if document.simulation is None:
         return
     try:
-        _effects(document.simulation)
+        effects, _ = _effects(document.simulation)
+        if document.simulation.specimen is not None:
+            refuse_effects(stands_on(document.simulation, path).kind, effects)
         log = document.simulation.log
         if log is not None and not (path.parent / log).parent.is_dir():
             raise ValueError(f"log: {log}: no such folder")
@@ -138,7 +148,11 @@ def _chamber(document: RigDocument, simulation: Simulation) -> SimulatedChamber 
 
 
 def _world(
-    document: RigDocument, simulation: Simulation, virtual_time: bool, climate: Climate | None
+    document: RigDocument,
+    simulation: Simulation,
+    virtual_time: bool,
+    mounted: OnShaker | None,
+    climate: Climate | None,
 ) -> World:
     plate, channel = _effects(simulation)
     delay = simulation.vibrometer_delay_s + channel.get("channel_delay", {}).get("delay_s", 0.0)
@@ -154,15 +168,14 @@ def _world(
         rides_with_base=not absolute,
     )
     response = document.channels.response
-    plates: dict[str, MountedPlate] = {
-        "damped": DampedPlate(plate, climate),
-        "bare": SimulatedBarePlate(
+    plates: dict[str, MountedPlate] = {"damped": mounted or DampedPlate(plate, climate)}
+    if mounted is None:
+        plates["bare"] = SimulatedBarePlate(
             _of_the_bare_plate(plate),
             sensor_mass_kg=1e-3 * response.mass_g if response else 0.0,
             double_hit_every=simulation.double_hit_every,
             seed=simulation.seed,
-        ),
-    }
+        )
     wiring = Wiring(
         _inputs(document.channels, simulation, channel.get("level_error", {}).get("factor", 1.0)),
         simulation.skew_samples,
@@ -171,6 +184,17 @@ def _world(
         simulation.seed,
     )
     return World(plates, wiring, laser, virtual_time)
+
+
+def _mounted(
+    simulation: Simulation, path: Path, climate: Climate | None, progress: Progress
+) -> OnShaker | None:
+    """The structure that `[simulation]` names; None for the plate."""
+    if simulation.specimen is None:
+        return None
+    effects, _ = _effects(simulation)
+    found = mounted_structure(stands_on(simulation, path), effects, progress)
+    return OnShaker(ShakenPlate(effects, climate=climate, mounted=found), effects, climate)
 
 
 def _of_the_bare_plate(effects: Effects) -> Effects:

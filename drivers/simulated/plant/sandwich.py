@@ -1,7 +1,5 @@
 """The treated plate on a moving base, with its effects: matrices of its motion relative to the base."""
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from drivers.arrays import Array
@@ -9,6 +7,7 @@ from drivers.simulated.plant import grid, specimen
 from drivers.simulated.plant.effects import AddedMass, ByHand, ClampCompliance, Effects
 from drivers.simulated.plant.law import ZN1, MaxwellLaw, even_loss
 from drivers.simulated.plant.model import ReducedModel, shipped
+from drivers.simulated.plant.mounted import Mounted
 from drivers.simulated.plant.one_thread import one_thread
 from drivers.simulated.plant.strips import debonded
 from drivers.simulated.plant.structure import Branch, Structure, modal_damping
@@ -18,28 +17,12 @@ STIFF_CLAMP = ClampCompliance(1e14, 1e14)
 """What friction acts in where no compliance is given."""
 
 
-@dataclass(frozen=True)
-class Sandwich:
-    """The plate in its reduced coordinates."""
-
-    structure: Structure
-    """Branch 0 is the core. Loads: base heave (per m/s^2) and pitch (per rad/s^2). Readings: spot, tip."""
-    spot_x_m: float
-    """Lever of the spot under pitch."""
-    core_volume_m3: float
-
-    @property
-    def core_law(self) -> MaxwellLaw:
-        """At the reference temperature and small strain."""
-        return self.structure.branches[0].law
-
-
 @one_thread
 def sandwich(
     effects: Effects | None = None,
     model: ReducedModel | None = None,
     by_hand: ByHand | None = None,
-) -> Sandwich:
+) -> Mounted:
     """The plate with its effects. A point off the plate or a value that makes no sense raises ValueError.
 
     `by_hand` is what somebody has changed since.
@@ -58,7 +41,7 @@ def sandwich(
     spot, tip = seen_m(effects, by_hand.spot_m), (specimen.LENGTH_M, specimen.WIDTH_M / 2)
     readings = np.array([grid.on_plate(*at) @ model["w_top"] for at in (spot, tip)])
     structure = Structure(M, C, K, (Branch(core, law), *clamped), -loads[:n], readings[:, :n])
-    return Sandwich(structure, spot[0], thickness * CORE_VOLUME_M3)
+    return Mounted(structure, spot[0], thickness * CORE_VOLUME_M3)
 
 
 def elastic(effects: Effects, model: ReducedModel) -> Array:

@@ -16,8 +16,9 @@ from drivers.simulated.plant.effects import ByHand, Effects, FixtureResonance
 from drivers.simulated.plant.law import MaxwellLaw
 from drivers.simulated.plant.model import ReducedModel
 from drivers.simulated.plant.motion import Motion
+from drivers.simulated.plant.mounted import Mounted
 from drivers.simulated.plant.one_thread import one_thread
-from drivers.simulated.plant.sandwich import Sandwich, sandwich
+from drivers.simulated.plant.sandwich import sandwich
 from drivers.simulated.plant.shaker import ShakerChain
 from drivers.simulated.plant.slow_change import SlowChange
 from drivers.simulated.plant.structure import Structure, condensed, first_order
@@ -76,9 +77,11 @@ class ShakenPlate:
         model: ReducedModel | None = None,
         climate: Climate | None = None,
         by_hand: ByHand | None = None,
+        mounted: Mounted | None = None,
     ) -> None:
+        """`mounted` takes the place of the plate."""
         self.effects, self.shaker = effects or Effects(), shaker or ShakerChain()
-        self.plate: Sandwich = sandwich(self.effects, model, by_hand)
+        self.plate = mounted or sandwich(self.effects, model, by_hand)
         self._slow = SlowChange(self.plate.core_law, self.effects, climate)
         self._in_chamber = climate is not None
         rocking, fixture = self.effects.base_rocking, self.effects.fixture_resonance

@@ -78,6 +78,7 @@ def condensed(
         under = structure.with_laws(law)
         for omega in 2 * np.pi * np.geomspace(*band_hz, count):
             X = under.response(omega)
+            X = X[:, structure.loads.any(axis=0)]
             snapshots.append(X / np.sqrt(np.abs(np.einsum("ij,ij->j", X.conj(), structure.M @ X))))
     S = np.hstack(snapshots)
     S = np.hstack([S.real, S.imag])

@@ -5,6 +5,7 @@ from typing import Any
 
 from PySide6.QtCore import QObject, Signal
 
+from fitting.specimen import Specimen
 from gui.background_task import BackgroundTask, Progress
 from gui.pages.hammer.findings import Averaged, Hits, Sight, modes_of
 from instrument.hammer_test.expected import expected_modes_hz
@@ -136,4 +137,7 @@ class Bench(QObject):
 def _expected(configuration: Configuration, below_hz: float) -> Any:
     settings = hammer_settings(configuration)
     sensor = settings.sensor if settings is not None else None
-    return expected_modes_hz(configuration.the_specimen(), sensor, below_hz)
+    plate = configuration.the_specimen()
+    # A hammer test is of a plate alone.
+    assert isinstance(plate, Specimen)
+    return expected_modes_hz(plate, sensor, below_hz)

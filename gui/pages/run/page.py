@@ -7,6 +7,7 @@ from typing import Literal
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QMenu, QSplitter, QTabWidget, QVBoxLayout, QWidget
 
+from fitting.specimen import Specimen
 from gui.background_task import BackgroundTask, Progress
 from gui.controller import AppController
 from gui.export import Export
@@ -185,7 +186,10 @@ class RunPage(Page):
         self._asked = question
         self.banner.ask(state.run.question, question.what)
         if question.at_mm is not None:
-            self.banner.show_place(state.configuration.the_specimen(), question.at_mm, question.mark)
+            plate = state.configuration.the_specimen()
+            # Nothing is asked of a place on anything else.
+            assert isinstance(plate, Specimen)
+            self.banner.show_place(plate, question.at_mm, question.mark)
 
     # Inside
 
