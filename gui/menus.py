@@ -13,6 +13,7 @@ from gui.export import Export
 from gui.page_set import key_of
 from gui.shell import Shell
 from gui.theme import SCALES, Mode
+from instrument.files.acceleration import UNITS, acceleration_unit
 from instrument.interchange.readers import foreign_endings
 
 _KEYS = """
@@ -98,8 +99,19 @@ class Menus(QObject):
         self._add(menu, "S&maller type", self._smaller, "Ctrl+-")
         self._add(menu, "&Usual type", self._usual, "Ctrl+0")
         menu.addSeparator()
+        self._units(menu)
+        menu.addSeparator()
         menu.addAction(self._window.log.toggleViewAction())
         self._add(menu, "&Full screen", self._full_screen, "F11")
+
+    def _units(self, menu: QMenu) -> None:
+        group = QActionGroup(self)
+        for name, unit in UNITS.items():
+            action = self._add(menu, f"Acceleration in {unit.symbol}", self._choose_acceleration)
+            action.setCheckable(True)
+            action.setChecked(unit is acceleration_unit())
+            action.setData(name)
+            group.addAction(action)
 
     def _help(self) -> None:
         menu = self._window.menuBar().addMenu("&Help")
@@ -131,6 +143,9 @@ class Menus(QObject):
         mode = self._data()
         if mode in ("system", "light", "dark"):
             self._window.appearance.choose(mode)
+
+    def _choose_acceleration(self) -> None:
+        self._window.show_acceleration_in(str(self._data()))
 
     def _larger(self) -> None:
         self._resize(min((s for s in SCALES if s > self._window.appearance.scale), default=SCALES[-1]))

@@ -56,6 +56,13 @@ class Page(QWidget):
         if self.isVisible():
             self._draw()
 
+    def redraw(self) -> None:
+        """Draw all of it again, or when it is next seen: other units count from now on."""
+        self._version = -1
+        self._seen.clear()
+        if self.isVisible():
+            self._draw()
+
     def showEvent(self, event: QShowEvent) -> None:
         """Catch up with what changed meanwhile."""
         super().showEvent(event)

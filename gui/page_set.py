@@ -48,6 +48,12 @@ class PageSet:
                 page.show_state(self._state)
         return self.made[name]
 
+    def redraw(self) -> None:
+        """All there are, in the units that count now."""
+        for name, page in self.made.items():
+            if name in self._fed:
+                page.redraw()
+
     def show_state(self, state: SessionState | None) -> None:
         """To every page there is. Another package's that fails is told nothing any more."""
         self._state = state

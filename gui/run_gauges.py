@@ -7,6 +7,7 @@ from gui.controller import AppController
 from gui.gauge import Gauge
 from gui.state import SessionState
 from gui.theme import Role, current_theme
+from instrument.files.acceleration import acceleration_unit
 from instrument.stepped_sine.settings import Limits
 
 _COLORS: dict[str, Role] = {"held": "fair", "stopped": "bad", "done": "good", "idle": "faint"}
@@ -51,8 +52,9 @@ class RunGauges(QObject):
         peaks = state.peaks()
         base, velocity = peaks if peaks is not None else (None, None)
         travel = state.readings.travel_m(base) if base is not None else None
+        shown = acceleration_unit()
         for name, value, limit, factor, unit in (
-            ("base", base, limits.base_m_s2, 1.0, "m/s\u00b2"),
+            ("base", base, limits.base_m_s2, shown.of(1.0), shown.symbol),
             ("velocity", velocity, limits.velocity_m_s, 1e3, "mm/s"),
             ("travel", travel, limits.travel_m, 1e3, "mm"),
         ):

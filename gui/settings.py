@@ -7,6 +7,7 @@ from typing import get_args
 from PySide6.QtCore import QByteArray, QSettings
 
 from gui.theme import Appearance, Mode
+from instrument.files.acceleration import USUAL
 
 _MOST_RECENT = 10
 
@@ -40,6 +41,15 @@ class Settings:
             return min(2.0, max(0.5, float(str(self._kept.value("scale", 1.0)))))
         except ValueError:
             return 1.0
+
+    @property
+    def acceleration(self) -> str:
+        """Unit in which accelerations are shown, by its name in `instrument.files.acceleration`."""
+        return str(self._kept.value("acceleration", USUAL))
+
+    @acceleration.setter
+    def acceleration(self, name: str) -> None:
+        self._kept.setValue("acceleration", name)
 
     @property
     def recent(self) -> list[Path]:

@@ -31,6 +31,10 @@ class Shell(QMainWindow):
         """By the pages' names, in the order of their keys."""
         raise NotImplementedError
 
+    def show_acceleration_in(self, name: str) -> None:
+        """As `instrument.files.acceleration` calls it."""
+        raise NotImplementedError
+
     def open(self, path: Path) -> None:
         """A session, an experiment, or other data; returns at once."""
         raise NotImplementedError

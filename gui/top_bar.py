@@ -13,7 +13,6 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from fitting.gravity import PUBLISHED_G_M_S2
 from gui.channels import ClipLights
 from gui.controller import AppController
 from gui.run_gauges import RunGauges, state_color
@@ -22,6 +21,7 @@ from gui.state.run import WORDS
 from gui.stop_button import StopButton
 from gui.theme import current_theme
 from gui.widgets import button
+from instrument.files.acceleration import acceleration_unit
 
 _PERMILLE = 1000
 _EDGE_PX = 2
@@ -94,7 +94,7 @@ class TopBar(QFrame):
         for label, longest in (
             (self.state, "RECORDED calibration"),
             (self.left, "59:59 min left"),
-            (self.level, "level 0.123 g"),
+            (self.level, "level 0.123 m/s\u00b2"),
         ):
             label.setFixedWidth(self.fontMetrics().horizontalAdvance(longest) * 6 // 5)
 
@@ -123,7 +123,9 @@ class TopBar(QFrame):
             self.level.clear()
             return
         level = state.step.began.level_m_s2
-        self.level.setText(f"level {level / PUBLISHED_G_M_S2:.3g} g" if level is not None else "level \u2013")
+        self.level.setText(
+            f"level {acceleration_unit().said(level, '.3g')}" if level is not None else "level \u2013"
+        )
 
     def _arrange(self) -> None:
         above, below = QHBoxLayout(), QHBoxLayout()

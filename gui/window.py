@@ -19,6 +19,7 @@ from fitting.plugins import told
 from gui.asking import ask_open_many, ask_word
 from gui.background_task import BackgroundCommand, BackgroundTask
 from gui.controller import SESSION_ENDINGS, AppController
+from gui.form.form import Form
 from gui.log_pane import LogPane
 from gui.menus import Menus
 from gui.notice import Notice
@@ -30,6 +31,7 @@ from gui.shell import Shell
 from gui.stop_guard import StopGuard
 from gui.theme import Appearance
 from gui.top_bar import TopBar
+from instrument.files.acceleration import show_acceleration_in
 
 TURN_MS = 33
 """Between two looks at what has come: 30 a second."""
@@ -46,6 +48,7 @@ class Window(Shell):
     def __init__(self, appearance: Appearance, settings: Settings) -> None:
         super().__init__()
         self.appearance, self.settings = appearance, settings
+        show_acceleration_in(settings.acceleration)
         self.setWindowTitle("viscorig")
         self.setAcceptDrops(True)
         self.controller = AppController(self)
@@ -116,6 +119,15 @@ class Window(Shell):
         """As `gui.pages` calls it; the first one where there is none of this name."""
         known = name if name in self._page_set.kinds else next(iter(self._page_set.kinds))
         self.tabs.setCurrentWidget(self._page(known))
+
+    def show_acceleration_in(self, name: str) -> None:
+        """Bar, pages and fields in this unit from now on; lines of the log that come from now on."""
+        self.settings.acceleration = name
+        show_acceleration_in(name)
+        for form in self.findChildren(Form):
+            form.say_units()
+        self._page_set.redraw()
+        self.turn()
 
     # What Qt tells
 

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from PySide6.QtCore import QEvent, QObject, QSignalBlocker, Qt, QTimer, Signal
 from PySide6.QtGui import QBrush
@@ -21,6 +22,7 @@ from gui.form.draft import Draft
 from gui.form.fields import Field, FormSection, Place, device_fields, law_fields, section_of
 from gui.theme import current_theme
 from gui.widgets import tool
+from instrument.files.acceleration import said_beside
 
 _NAME, _VALUE, _UNIT, _FAULT = range(4)
 _OPEN = (
@@ -55,6 +57,7 @@ class Form(QTreeWidget):
         self.draft = draft
         self._items: dict[Place, QTreeWidgetItem] = {}
         self._editors: dict[Place, QLineEdit | QComboBox] = {}
+        self._fields: dict[Place, tuple[QTreeWidgetItem, Field]] = {}
         self.setColumnCount(4)
         self.setHeaderLabels(["", "value", "unit", ""])
         self.setSelectionMode(QTreeWidget.SelectionMode.NoSelection)
@@ -84,6 +87,13 @@ class Form(QTreeWidget):
         if isinstance(editor, QLineEdit):
             editor.setText(text)
             editor.textEdited.emit(text)
+
+    def say_units(self) -> None:
+        """Beside every field, with its value in the unit of acceleration that is shown elsewhere."""
+        with QSignalBlocker(self):
+            for place, (item, field) in self._fields.items():
+                said = said_beside(field.key, _number_of(self.draft.value(place), field))
+                item.setText(_UNIT, f"{field.unit} {said}".rstrip())
 
     def judge(self) -> None:
         """Say what is wrong, each fault at its place or at the next one around it."""
@@ -125,7 +135,7 @@ class Form(QTreeWidget):
         known, at = bool(self._items), self.verticalScrollBar().value()
         with QSignalBlocker(self):
             self.clear()
-            self._items, self._editors = {}, {}
+            self._items, self._editors, self._fields = {}, {}, {}
             whole = section_of(self.draft.model)
             for field in whole.fields:
                 self._field(None, (field.key,), field)
@@ -133,6 +143,7 @@ class Form(QTreeWidget):
                 self._section(None, (section.key,), section)
             for place, item in self._items.items():
                 item.setExpanded(place not in folded if known else str(place[-1]) in _OPEN or len(place) == 3)
+            self.say_units()
             header = self.header()
             for column in (_NAME, _UNIT):
                 header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
@@ -181,7 +192,7 @@ class Form(QTreeWidget):
 
     def _field(self, above: QTreeWidgetItem | None, place: Place, field: Field) -> None:
         item = self._row(above, place, field.label, field.tip)
-        item.setText(_UNIT, field.unit)
+        self._fields[place] = item, field
         given = self.draft.shown(place, field.kind)
         editor: QLineEdit | QComboBox
         choices = ("yes", "no") if field.kind == "switch" else field.choices
@@ -309,4 +320,15 @@ class Form(QTreeWidget):
 
     def _tell(self) -> None:
         self.judge()
+        self.say_units()
         self.edited.emit()
+
+
+def _number_of(value: Any, field: Field) -> Any:
+    """What counts at a field: what stands in the file, or the default where that is a number."""
+    if value is not None:
+        return value
+    try:
+        return float(field.default)
+    except ValueError:
+        return None

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from instrument.cli.options import file_argument, force_option, json_option
+from instrument.cli.options import acceleration_option, file_argument, force_option, json_option
 from instrument.cli.run import out_option, resume_option, run_parts
 
 
@@ -13,6 +13,7 @@ from instrument.cli.run import out_option, resume_option, run_parts
 @out_option
 @resume_option
 @force_option
+@acceleration_option
 @json_option
 def hammer(experiment: Path, out: Path, resume: Path | None, insist: bool, json_path: str | None) -> None:
     """The bare plate's hammer test of EXPERIMENT.toml: natural frequencies and damping ratios."""

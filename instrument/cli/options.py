@@ -1,12 +1,15 @@
 """Options and arguments shared by commands."""
 
 import re
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import click
 import numpy as np
 from numpy.typing import NDArray
+
+from instrument.files.acceleration import UNITS, USUAL, show_acceleration_in
 
 _MOST_FREQUENCIES = 100_000
 
@@ -30,6 +33,22 @@ json_option: Any = click.option(
 
 force_option: Any = click.option(
     "--force", "insist", is_flag=True, help="Do it though the stated numbers or the data are questioned."
+)
+
+
+def _show_in(context: click.Context, _: click.Parameter, name: str) -> None:
+    show_acceleration_in(name)
+    context.call_on_close(partial(show_acceleration_in, USUAL))
+
+
+acceleration_option: Any = click.option(
+    "--acceleration",
+    type=click.Choice(list(UNITS)),
+    default=USUAL,
+    show_default=True,
+    expose_value=False,
+    callback=_show_in,
+    help="Unit in which accelerations are shown; files and JSON keep theirs.",
 )
 
 

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from instrument.cli.options import file_argument, json_option
+from instrument.cli.options import acceleration_option, file_argument, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_run import print_found, print_quality
 from instrument.cli.watching import Watcher
@@ -23,6 +23,7 @@ from instrument.stream.event import Event
     type=click.FloatRange(min=0, min_open=True),
     help="Times as fast as it was; as fast as it goes where none is given.",
 )
+@acceleration_option
 @json_option
 def replay(session: Path, speed: float | None, json_path: str | None) -> None:
     """Run SESSION.h5 again: every derived event is computed from the recorded samples and compared."""

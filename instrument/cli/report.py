@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from instrument.cli.options import file_argument, json_option
+from instrument.cli.options import acceleration_option, file_argument, json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.facts.written import ReportResult
@@ -21,6 +21,7 @@ from instrument.session.storage import SessionFile
     type=click.Path(path_type=Path, dir_okay=False),
     help="The page (.html); beside the session otherwise.",
 )
+@acceleration_option
 @json_option
 def report(session: Path, out: Path | None, json_path: str | None) -> None:
     """SESSION.h5 as one self-contained HTML page: figures inside it, nothing fetched from anywhere."""

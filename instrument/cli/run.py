@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from instrument.cli.options import file_argument, force_option, json_option
+from instrument.cli.options import acceleration_option, file_argument, force_option, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_run import print_finished, run_result
 from instrument.cli.stopping import safe_stop
@@ -35,6 +35,7 @@ resume_option = click.option(
 @out_option
 @resume_option
 @force_option
+@acceleration_option
 @json_option
 def run(experiment: Path, out: Path, resume: Path | None, insist: bool, json_path: str | None) -> None:
     """The whole EXPERIMENT.toml on the rig it names: hammer test, sweep, live identification, session."""

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import click
 
-from instrument.cli.options import file_argument, force_option, json_option
+from instrument.cli.options import acceleration_option, file_argument, force_option, json_option
 from instrument.cli.run import out_option, resume_option, run_parts
 
 
@@ -13,6 +13,7 @@ from instrument.cli.run import out_option, resume_option, run_parts
 @out_option
 @resume_option
 @force_option
+@acceleration_option
 @json_option
 def sweep(experiment: Path, out: Path, resume: Path | None, insist: bool, json_path: str | None) -> None:
     """The stepped sine of EXPERIMENT.toml, identified as it goes."""

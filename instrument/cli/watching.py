@@ -5,6 +5,7 @@ from collections.abc import Callable
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
+from instrument.files.acceleration import shown_quantity
 from instrument.results.diagnosis_words import verdict_line
 from instrument.stepped_sine.soak import Soak
 from instrument.stream.derived import (
@@ -101,8 +102,9 @@ def said_of(event: Event) -> str | None:
             change = f"{event.change_percent:+.3f} %, {event.change_degree:+.3f} deg"
             return f"sentinel {event.frequency_hz:g} Hz: {change} since the first time"
         case LimitWarned():
-            value = f"{event.value:.4g} of {event.limit:.4g} {event.unit}"
-            return f"warning: step {event.step}: {event.what} {value}"
+            value, unit = shown_quantity(event.value, event.unit)
+            limit, _ = shown_quantity(event.limit, event.unit)
+            return f"warning: step {event.step}: {event.what} {value:.4g} of {limit:.4g} {unit}"
         case SoakBegan():
             goal = f"{event.set_point_c:g} °C, within {event.within_c:g} °C for {event.soak_s:g} s"
             return f"soaking at {goal}"

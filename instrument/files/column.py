@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array
 from fitting.gravity import PUBLISHED_G_M_S2
+from instrument.files.acceleration import acceleration_unit
 from instrument.stream.derived import PointMeasured
 
 Values = NDArray[Any]
@@ -42,6 +43,13 @@ class ShownQuantity:
     label: str
     text: Callable[[ColumnPoint], str]
     tip: str = ""
+    acceleration: bool = False
+    """Whether the label is to say the unit in which accelerations are shown."""
+
+    @property
+    def heading(self) -> str:
+        """Over a column."""
+        return f"{self.label} / {acceleration_unit().under}" if self.acceleration else self.label
 
 
 @dataclass(frozen=True)

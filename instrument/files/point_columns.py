@@ -5,7 +5,7 @@ window's record are views of `COLUMNS`: a quantity added there is in all of them
 it goes to the end, unless `_REPORT` or `_RECORD` gives it a place.
 """
 
-from fitting.gravity import PUBLISHED_G_M_S2
+from instrument.files.acceleration import acceleration_unit
 from instrument.files.column import (
     Column,
     ColumnPoint,
@@ -22,12 +22,16 @@ from instrument.files.column import (
 
 
 def _level(row: ColumnPoint) -> str:
-    level = row.point.level_m_s2
-    return f"{level:.4g} m/s\u00b2 ({level / PUBLISHED_G_M_S2:.3g} g)"
+    return acceleration_unit().said(row.point.level_m_s2)
 
 
 def _both(value: complex, unit: str) -> str:
     return f"{value.real:.5g}, {value.imag:.5g} {unit}"
+
+
+def _base(row: ColumnPoint) -> str:
+    shown = acceleration_unit()
+    return _both(row.point.base_m_s2 / shown.m_s2, shown.symbol)
 
 
 def _spot(row: ColumnPoint) -> str:
@@ -72,7 +76,9 @@ COLUMNS: tuple[Column, ...] = (
         "level_m_s2",
         "m/s^2",
         field="level_m_s2",
-        report=told("level / (m/s²)", "level_m_s2", ".4g"),
+        report=ShownQuantity(
+            "level", lambda r: f"{acceleration_unit().of(r.point.level_m_s2):.4g}", acceleration=True
+        ),
         record=ShownQuantity("Level asked for", _level),
     ),
     Column(
@@ -116,7 +122,7 @@ COLUMNS: tuple[Column, ...] = (
         "base_accel_re_m_s2",
         "m/s^2",
         given="if known",
-        record=ShownQuantity("Base re, im", lambda r: _both(r.point.base_m_s2, "m/s\u00b2"), _PHASOR),
+        record=ShownQuantity("Base re, im", _base, _PHASOR),
     ),
     plain("base_accel_im_m_s2", "m/s^2", given="if known"),
     Column(
@@ -137,7 +143,7 @@ COLUMNS: tuple[Column, ...] = (
         "m/s^2",
         record=ShownQuantity(
             "Base acceleration",
-            lambda r: f"{abs(r.point.base_m_s2):.5g} m/s\u00b2",
+            lambda r: acceleration_unit().said(abs(r.point.base_m_s2), ".5g"),
             "Zero to peak, of the fundamental",
         ),
     ),
@@ -145,7 +151,9 @@ COLUMNS: tuple[Column, ...] = (
         "base_accel_std_m_s2",
         "m/s^2",
         field="base_accel_std_m_s2",
-        record=said("Base noise", "base_accel_std_m_s2", ".2g", " m/s\u00b2", _NOISE),
+        record=ShownQuantity(
+            "Base noise", lambda r: acceleration_unit().said(r.point.base_accel_std_m_s2, ".2g"), _NOISE
+        ),
     ),
     Column(
         "velocity_std_m_s",

@@ -1,5 +1,6 @@
 """How a session ended, and what of its plan is missing."""
 
+from instrument.files.acceleration import shown_quantity
 from instrument.report.blocks import Block, ReportSection, Sentence
 from instrument.session.contents import Contents
 from instrument.stream.derived import LimitExceeded, LimitWarned
@@ -81,6 +82,12 @@ def _limits(contents: Contents) -> list[str]:
         if known is None or event.value > known.value:
             worst[event.what] = event
     return [
-        f"Near or over its limit: {what}, {e.value:.4g} {e.unit} at step {e.step}, limit {e.limit:.4g}."
+        f"Near or over its limit: {what}, {_said(e.value, e.unit)} at step {e.step}, "
+        f"limit {_said(e.limit, e.unit)}."
         for what, e in worst.items()
     ]
+
+
+def _said(value: float, unit: str) -> str:
+    shown, of = shown_quantity(value, unit)
+    return f"{shown:.4g} {of}"

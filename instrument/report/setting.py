@@ -2,6 +2,7 @@
 
 from datetime import date
 
+from instrument.files.acceleration import acceleration_unit
 from instrument.files.rig_file import ResponseSection, SensorSection
 from instrument.files.specimen_file import SpecimenDocument
 from instrument.files.structure_file import AnyDocument
@@ -10,12 +11,8 @@ from instrument.report.blocks import Block, FactsBlock, ReportSection, Sentence,
 from instrument.results.numbers import format_number
 from instrument.session.contents import Contents
 
-_SENSITIVITY_UNITS = {
-    "base": "mV/(m/s²)",
-    "response": "mV/(m/s²)",
-    "force": "mV/N",
-    "temperature": "mV/°C",
-}
+_ACCELEROMETERS = ("base", "response")
+_OTHERS = {"force": "mV/N", "temperature": "mV/°C"}
 _MOST_LISTED = 8
 _TITLES = {"plate": "Plate", "beam": "Beam", "shear-pair": "Shear pair"}
 _LAYERS = ("substrate", "core", "constraining")
@@ -126,8 +123,7 @@ def _sensors(contents: Contents) -> TableBlock:
 
 
 def _sensor(name: str, s: SensorSection, measured: date) -> tuple[str, ...]:
-    unit = _SENSITIVITY_UNITS.get(name)
-    sensitivity = f"{s.sensitivity_mv_per_unit:g} {unit}" if unit else "by the vibrometer's range"
+    sensitivity = _sensitivity(name, s)
     mass = f" ({s.mass_g:g} g)" if isinstance(s, ResponseSection) and s.mass_g else ""
     return (
         name + mass,
@@ -139,6 +135,14 @@ def _sensor(name: str, s: SensorSection, measured: date) -> tuple[str, ...]:
         s.serial or "not stated",
         _calibrated(s, measured),
     )
+
+
+def _sensitivity(name: str, s: SensorSection) -> str:
+    if name in _ACCELEROMETERS:
+        shown = acceleration_unit()
+        return f"{s.sensitivity_mv_per_unit * shown.m_s2:.6g} mV/{shown.under}"
+    unit = _OTHERS.get(name)
+    return f"{s.sensitivity_mv_per_unit:g} {unit}" if unit else "by the vibrometer's range"
 
 
 def _calibrated(s: SensorSection, measured: date) -> str:

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from instrument.files.acceleration import acceleration_unit
 from instrument.files.column import ColumnPoint
 from instrument.files.point_columns import in_report
 from instrument.report.blocks import Block, ReportSection, Sentence, TableBlock
@@ -38,13 +39,15 @@ def _summary(contents: Contents) -> str:
         return "Only sentinel points were measured."
     off = max(abs(p.control_error_percent) for p in steps)
     noise = 100 * float(np.median(noise_of(steps, "velocity")))
-    levels = sorted({round(p.level_m_s2, 6) for p in steps})
+    shown = acceleration_unit()
+    levels_m_s2 = sorted({round(p.level_m_s2, 6) for p in steps})
+    levels = ", ".join(f"{shown.of(v):.4g}" for v in levels_m_s2)
     seconds = sum(p.settle_s + p.dwell_s for p in contents.measured)
     marked = sum(bool(p.remarks) for p in steps)
     segments, sweeps = len({p.segment for p in steps}), len({p.sweep for p in steps})
     return (
         f"{_counted(len(steps), 'step')} in {_counted(segments, 'segment')} and {_counted(sweeps, 'sweep')} "
-        f"at {', '.join(f'{v:g}' for v in levels)} m/s², {seconds:.0f} s of settling and reading. "
+        f"at {levels} {shown.symbol}, {seconds:.0f} s of settling and reading. "
         f"The base was within {off:.2f} % of its level, the velocity's noise is {noise:.2g} % (median); "
         f"{_counted(marked, 'step')} with remarks."
     )
@@ -81,5 +84,5 @@ def _remarks(points: list[PointMeasured]) -> list[Block]:
 def _points(contents: Contents) -> TableBlock:
     shown = [shown for _, shown in in_report()]
     rows = tuple(tuple(s.text(ColumnPoint(p)) for s in shown) for p in contents.measured)
-    columns = tuple(s.label for s in shown)
+    columns = tuple(s.heading for s in shown)
     return TableBlock(f"All {len(rows)} points", columns, rows, folded=True)

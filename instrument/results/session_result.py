@@ -150,7 +150,8 @@ def _valid(band: tuple[float, float] | None, conditions: Conditions) -> list[str
     """Band, level, temperature."""
     said = [f"valid {band[0]:.4g} to {band[1]:.4g} Hz"] if band else []
     if conditions.level_m_s2 is not None:
-        said.append(f"at {_between(conditions.level_m_s2, 1 / STANDARD_GRAVITY_M_S2, 'g', 3)}")
+        level = _between(conditions.level_m_s2, 1.0, "m/s^2", 4)
+        said.append(f"at {level} ({_between(conditions.level_m_s2, 1 / STANDARD_GRAVITY_M_S2, 'g', 3)})")
     if conditions.temperature_c is None:
         return [*said, "temperature not known"]
     return [*said, _between(conditions.temperature_c, 1.0, "degC", 3)]

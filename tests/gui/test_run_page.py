@@ -207,6 +207,7 @@ def test_what_is_wrong_is_said_beside_the_field_and_nothing_can_be_started(qtbot
     assert "1" in page.files.tabs.tabText(0)
     typed(qtbot, form.editor("sweep", "level_g"), "0.5")
     assert form.said == []
+    assert form.item("sweep", "level_g").text(2) == "g = 4.905 m/s\u00b2"
     assert page.starting.start.isEnabled()
 
 

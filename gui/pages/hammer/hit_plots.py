@@ -8,6 +8,7 @@ from gui.pages.hammer.findings import Averaged, HitSeen
 from gui.pages.hammer.traces import Traces
 from gui.plots import Axis, Plot
 from gui.theme import Role
+from instrument.files.acceleration import AccelerationUnit, acceleration_unit
 from instrument.impact.spectra import Spectra
 
 _SHOWN_BEYOND = 2.0
@@ -22,7 +23,9 @@ class HitPlots(QWidget):
         self.blow = Plot(Axis("Time after the peak", "ms"), Axis("Force", "N"), legend=False)
         self.force = Plot(Axis("Time after the blow", "s"), Axis("Force", "N"), legend=False)
         self.spectrum = Plot(Axis("Frequency", "Hz"), Axis("Spectrum", "N s", log=True))
-        self.response = Plot(Axis("Time after the blow", "s"), Axis("Response", "m/s²"), legend=False)
+        self.response = Plot(
+            Axis("Time after the blow", "s"), Axis("Response", acceleration_unit().symbol), legend=False
+        )
         self.blow.setToolTip("The blow of the selected hit, sample by sample")
         self.force.setToolTip("The force over the whole record: a second blow is seen here")
         self.spectrum.setToolTip(
@@ -31,7 +34,7 @@ class HitPlots(QWidget):
         self.response.setToolTip("The acceleration over the whole record: has it rung down at the end?")
         self.response.setXLink(self.force)
         self.spectrum.getPlotItem().legend.setOffset((-4, 2))
-        self._shown: tuple[int, Averaged | None] = (0, None)
+        self._shown: tuple[int, Averaged | None, AccelerationUnit | None] = (0, None, None)
         rows = QSplitter(Qt.Orientation.Vertical)
         for pair in ((self.blow, self.spectrum), (self.force, self.response)):
             row = QSplitter(Qt.Orientation.Horizontal)
@@ -44,9 +47,11 @@ class HitPlots(QWidget):
 
     def show_hit(self, averaged: Averaged | None, number: int) -> None:
         """One hit by its number; nothing where it has no samples."""
-        if self._shown[0] == number and self._shown[1] is averaged:
+        unit = acceleration_unit()
+        if self._shown[0] == number and self._shown[1] is averaged and self._shown[2] is unit:
             return
-        self._shown = number, averaged
+        self._shown = number, averaged, unit
+        self.response.show_axes(self.response.x, Axis("Response", unit.symbol))
         seen = averaged.seen.get(number) if averaged is not None else None
         if averaged is None or seen is None:
             for plot in (self.blow, self.force, self.response, self.spectrum):
@@ -56,7 +61,8 @@ class HitPlots(QWidget):
         self.blow.line("force", *traces.blow, "third")
         self.blow.points("samples", *traces.blow, "third", size=4.0)
         self.force.trace("force", *traces.force, "third")
-        self.response.trace("response", *traces.response, "third")
+        time_s, response = traces.response
+        self.response.trace("response", time_s, unit.of(response), "third")
         for plot in (self.blow, self.force, self.response):
             plot.enableAutoRange()
         self._show_spectrum(averaged, seen)

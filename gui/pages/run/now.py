@@ -3,7 +3,6 @@
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
-from fitting.gravity import PUBLISHED_G_M_S2
 from gui.channels import ChannelTable
 from gui.controller import AppController
 from gui.feeds.live import LiveFeed
@@ -16,6 +15,7 @@ from gui.tables import Cell, ReadTable
 from gui.theme import Role
 from gui.widgets import hint
 from instrument.engine.messages import Ended
+from instrument.files.acceleration import acceleration_unit
 
 _COLUMNS = {
     "sweep": "Pass over all segments; 0 is the calibration",
@@ -100,8 +100,8 @@ class NowPane(QWidget):
         if state.step is None or state.run.over or not state.readings.channels:
             self.level.show_value(None)
             return
-        wanted, most, g = state.step.began.level_m_s2, state.limits.limits.base_m_s2, PUBLISHED_G_M_S2
-        self.level.show_value(None if wanted is None else wanted / g, most / g, "g")
+        wanted, most, shown = state.step.began.level_m_s2, state.limits.limits.base_m_s2, acceleration_unit()
+        self.level.show_value(None if wanted is None else shown.of(wanted), shown.of(most), shown.symbol)
 
     def _arrange(self) -> None:
         self._whole = QWidget()

@@ -7,6 +7,7 @@ import numpy as np
 
 from fitting.arrays import Array
 from gui.state.step import Step, Trace
+from instrument.files.acceleration import acceleration_unit
 from instrument.stepped_sine.settings import SweepSettings
 from instrument.stepped_sine.settling_trace import SettlingTrace, begins_at
 from instrument.stream.derived import DriveRequested, SettlingTimedOut, StepSettled
@@ -102,7 +103,7 @@ def _phase(step: Step, settings: SweepSettings) -> str:
         said = "; ".join(step.point.remarks)
         return f"measured, {said}" if said else "measured"
     if step.checked is not None:
-        return f"answers {step.checked.gain_m_s2_v:.3g} m/s\u00b2 a volt"
+        return f"answers {acceleration_unit().said(step.checked.gain_m_s2_v, '.3g')} a volt"
     if step.held:
         return "held, the shaker is silent"
     match step.rest:

@@ -98,6 +98,11 @@ class SweepPage(Page):
         self.chooser.show_standings([])
         self.step.clear()
 
+    def redraw(self) -> None:
+        """Its panes by their own turns."""
+        super().redraw()
+        self._draw_all()
+
     def showEvent(self, event: QShowEvent) -> None:
         """Go on where hiding broke off: in a run pane by pane, all at once it would hold up the window."""
         super().showEvent(event)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex, Mask
-from fitting.gravity import PUBLISHED_G_M_S2
+from instrument.files.acceleration import acceleration_unit
 from instrument.files.point_columns import stored
 from instrument.results.quality import QUALITIES, quality_of
 from instrument.session.contents import TimedPoint
@@ -141,7 +141,7 @@ class PointsMeasured:
         sweep, level = one
         said = [f"pass {sweep}"] if len({s for s, _ in self.passes}) > 1 else []
         if len({v for _, v in self.passes}) > 1:
-            said.append(f"{level / PUBLISHED_G_M_S2:.3g} g")
+            said.append(acceleration_unit().said(level, ".3g"))
         return ", ".join(said)
 
     def groups(self, wanted: Mask) -> list[Group]:

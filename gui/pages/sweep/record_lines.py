@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from gui.pages.sweep.seen import PaneContents
+from gui.pages.sweep.seen import PaneContents, Way
 from instrument.files.column import ColumnPoint
 from instrument.files.point_columns import in_record
 from instrument.results.quality import QUALITIES
@@ -40,8 +40,9 @@ def _response(seen: PaneContents, number: int) -> list[RecordLine]:
     p, z = seen.points, seen.points.over_base_s[number]
     noise = float(np.hypot(p.noise_percent("velocity")[number], p.noise_percent("base")[number]))
     tip = f"Velocity over base acceleration, {seen.reads}"
+    way = Way()
     return [
-        RecordLine("|v/a|", f"{1e3 * abs(z):.5g} (mm/s)/(m/s\u00b2)", tip),
+        RecordLine("|v/a|", f"{way.factor(1.0) * abs(z):.5g} {way.unit}", tip),
         RecordLine("Phase of v/a", f"{np.degrees(np.angle(z)):.3f}\u00b0", tip),
         RecordLine(
             "Noise of v/a",

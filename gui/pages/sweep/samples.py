@@ -11,6 +11,7 @@ from gui.pages.sweep.panes import align, span
 from gui.pages.sweep.seen import PaneContents
 from gui.plots import Axis, Plot
 from gui.widgets import hint
+from instrument.files.acceleration import AccelerationUnit, acceleration_unit
 from instrument.session.dwell import DwellSamples
 
 _TIME = Axis("Time in the dwell", "s")
@@ -24,13 +25,13 @@ class SamplesPane(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.said = hint(_NONE)
-        self.base = Plot(_TIME, Axis("Base", "m/s\u00b2"), legend=False)
+        self.base = Plot(_TIME, Axis("Base", acceleration_unit().symbol), legend=False)
         self.velocity = Plot(_TIME, Axis("Velocity", "mm/s"), legend=False)
         self.velocity.setXLink(self.base)
         self.dwells = Dwells(self)
         self.dwells.read.connect(self._read)
         self.dwells.failed.connect(self._failed)
-        self._shown: tuple[int, Path | None] | None = None
+        self._shown: tuple[int, Path | None, AccelerationUnit] | None = None
         self._stack = QSplitter(Qt.Orientation.Vertical)
         self._stack.addWidget(self.base)
         self._stack.addWidget(self.velocity)
@@ -55,9 +56,10 @@ class SamplesPane(QWidget):
             self._refuse(_NONE)
             return
         point = seen.points.timed[seen.chosen].point
-        if self._shown == (point.step, session):
+        wanted = point.step, session, acceleration_unit()
+        if self._shown == wanted:
             return
-        self._shown = point.step, session
+        self._shown = wanted
         if session is None:
             self._refuse(_LATER)
             return
@@ -70,7 +72,9 @@ class SamplesPane(QWidget):
             return
         self._stack.show()
         self.said.setText(f"Step {step}: the dwell as the sensors gave it, calibration not taken off")
-        self.base.trace("base acceleration", samples.time_s, samples.base_m_s2, "second")
+        shown = acceleration_unit()
+        self.base.show_axes(self.base.x, Axis("Base", shown.symbol))
+        self.base.trace("base acceleration", samples.time_s, shown.of(samples.base_m_s2), "second")
         self.velocity.trace("velocity", samples.time_s, 1e3 * samples.velocity_m_s, "data")
         span(self.base, samples.time_s)
         align(self.base, self.velocity)

@@ -11,6 +11,7 @@ from gui.pages.sweep.curve import Curve
 from gui.pages.sweep.overlay import OverlaidSweep
 from gui.pages.sweep.points import Index, PointsMeasured
 from instrument.check.piece import Region
+from instrument.files.acceleration import acceleration_unit
 
 Quantity = Literal["ratio", "velocity"]
 
@@ -27,7 +28,7 @@ class Way:
     @property
     def unit(self) -> str:
         """Of the amplitude."""
-        return "(mm/s)/(m/s\u00b2)" if self.quantity == "ratio" else "mm/s"
+        return f"(mm/s)/{acceleration_unit().under}" if self.quantity == "ratio" else "mm/s"
 
     @property
     def label(self) -> str:
@@ -36,7 +37,8 @@ class Way:
 
     def factor(self, level_m_s2: Array | float) -> Array:
         """From v/a in s to what is shown. Shape of the levels."""
-        return np.asarray(1e3 * (np.ones_like(level_m_s2) if self.quantity == "ratio" else level_m_s2))
+        ratio = acceleration_unit().m_s2 * np.ones_like(level_m_s2)
+        return np.asarray(1e3 * (ratio if self.quantity == "ratio" else level_m_s2))
 
 
 @dataclass(frozen=True)

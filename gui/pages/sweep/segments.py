@@ -8,6 +8,7 @@ import numpy as np
 from fitting.gravity import PUBLISHED_G_M_S2
 from gui.pages.sweep.points import PointsMeasured
 from gui.state import SessionState
+from instrument.files.acceleration import acceleration_unit
 from instrument.files.experiment_file import SegmentSection
 
 State = Literal["planned", "running", "broken off", "done"]
@@ -62,7 +63,7 @@ def _standing(
         _band(planned, [(run.low_hz, run.high_hz) for run in runs.values()]),
         _state(state, list(runs), turns),
         f"{done}{most} points{passes}",
-        ", ".join(f"{v / PUBLISHED_G_M_S2:.3g} g" for v in levels or given),
+        ", ".join(acceleration_unit().said(v, ".3g") for v in levels or given),
         int((points.quality[mine] > 0).sum()),
     )
 

@@ -11,6 +11,7 @@ from gui.state import SessionState
 from gui.state.step import Step
 from gui.theme import Role
 from gui.widgets import hint
+from instrument.files.acceleration import acceleration_unit
 from instrument.stepped_sine.settings import SweepSettings
 
 _NONE = (
@@ -42,7 +43,7 @@ class StepPane(QWidget):
         self.words = QLabel()
         self.words.setWordWrap(True)
         self.facts = {name: QLabel("\u2013") for name in _FACTS}
-        self.base = Plot(_TIME, Axis("Base", "m/s\u00b2"), legend=False)
+        self.base = Plot(_TIME, Axis("Base", acceleration_unit().symbol), legend=False)
         self.velocity = Plot(_TIME, Axis("Velocity", "mm/s"), legend=False)
         self.settling = Plot(
             Axis("Time since the last change of drive", "s"),
@@ -98,10 +99,15 @@ class StepPane(QWidget):
     def _draw_signal(self, state: SessionState, step: Step) -> None:
         trace = latest_cycles(step)
         milliseconds = 1e3 * trace.time_s
-        self.base.trace("base acceleration", milliseconds, trace.base_m_s2, "second")
+        shown = acceleration_unit()
+        self.base.show_axes(self.base.x, Axis("Base", shown.symbol))
+        self.base.trace("base acceleration", milliseconds, shown.of(trace.base_m_s2), "second")
         self.velocity.trace("velocity", milliseconds, 1e3 * trace.velocity_m_s, "data")
         limits = state.limits.limits
-        for plot, most in ((self.base, limits.base_m_s2), (self.velocity, 1e3 * limits.velocity_m_s)):
+        for plot, most in (
+            (self.base, shown.of(limits.base_m_s2)),
+            (self.velocity, 1e3 * limits.velocity_m_s),
+        ):
             plot.mark((most, -most), "bad", name="abort", labels=("abort",), level=True)
             alarm = limits.warn * most
             plot.mark((alarm, -alarm), "fair", name="alarm", labels=("alarm",), level=True)
@@ -127,7 +133,8 @@ class StepPane(QWidget):
         base = abs(step.point.base_m_s2) if step.point is not None else following.base_m_s2
         if base is not None and began.level_m_s2 is not None:
             off = 100 * (base / began.level_m_s2 - 1)
-            said["Level"] = f"{base:.4g} of {began.level_m_s2:.4g} m/s\u00b2, {off:+.2f} %"
+            shown = acceleration_unit()
+            said["Level"] = f"{shown.of(base):.4g} of {shown.said(began.level_m_s2)}, {off:+.2f} %"
         _, percent, noise = following.remaining()
         if percent.size:
             limit = f"{100 * limits.settle.tolerance:g}, noise {_little(noise[-1])}"

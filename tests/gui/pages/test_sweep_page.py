@@ -50,6 +50,22 @@ def test_the_amplitude_is_velocity_over_base(page):
     assert y[f == 20.5] == pytest.approx(1e3 * abs(p.velocity_m_s / p.base_m_s2) * p.level_m_s2)
 
 
+def test_in_g_response_levels_and_record_are_shown_in_g(opened, page):
+    page.choose(0)
+    _, before = shown(page.response.amplitude, "good")
+    assert value(page, "Level asked for") == "4.905 m/s\u00b2"
+    opened.show_acceleration_in("g")
+    try:
+        assert page.response.amplitude.y.unit == "(mm/s)/g"
+        np.testing.assert_allclose(shown(page.response.amplitude, "good")[1], 9.80665 * before)
+        assert value(page, "Level asked for") == "0.5002 g"
+        assert "0.5 g" in page.chooser.item(1).text()
+        assert opened.settings.acceleration == "g"
+    finally:
+        opened.show_acceleration_in("m/s2")
+    np.testing.assert_allclose(shown(page.response.amplitude, "good")[1], before)
+
+
 @pytest.mark.parametrize("box", ["log_amplitude", "log_frequency"])
 def test_axes_can_be_logarithmic(qtbot, page, box):
     box = getattr(page.response, box)

@@ -12,7 +12,11 @@ from diagnosis_cases import diagnosis
 from session_cases import GAIN, SyntheticSession, configuration, whole_session
 
 from instrument.cli.main import run
+from instrument.files.acceleration import show_acceleration_in
+from instrument.files.column import ColumnPoint
+from instrument.files.point_columns import in_report
 from instrument.report.page import report_page
+from instrument.report.setting import rig_section
 from instrument.results.diagnosis_words import verdict_line
 from instrument.results.session_result import recorded_result
 from instrument.session.contents import contents_of
@@ -145,6 +149,20 @@ def test_rig_names_instruments_sensors_and_mounting(page):
     assert "base 1 10.2 mV/(m/s²) 10 yes no 4711 2026-03-02" in words
     assert "response (0.6 g)" in words
     assert "bolts 6 torque 4.5 N m remounted once" in words
+
+
+def test_in_g_levels_and_sensitivities_are_in_g(session_path):
+    show_acceleration_in("g")
+    try:
+        with SessionFile(session_path) as file:
+            contents = contents_of(file, with_hits=False)
+        (_, sensors, *_) = rig_section(contents).blocks
+        shown = {s.heading: s.text(ColumnPoint(contents.measured[-1])) for _, s in in_report()}
+    finally:
+        show_acceleration_in("m/s2")
+    # 10.2 mV/(m/s^2) at 9.80665 m/s^2 to the g.
+    assert sensors.rows[0][2] == "100.028 mV/g"
+    assert shown["level / g"] == "0.5002"
 
 
 def test_hammer_lists_hits_and_modes(page):

@@ -91,7 +91,7 @@ def test_the_numbers_are_those_after_the_diagnosis_not_before():
     used = [p.frequency_hz for p in found.points]
     assert (result.low_hz, result.high_hz) == (min(used), max(used))
     assert result.low_level_m_s2 == result.high_level_m_s2 == 9.81
-    assert "valid 18 to 293.3 Hz, at 1 g, temperature not known" in result.words
+    assert "valid 18 to 293.3 Hz, at 9.81 m/s^2 (1 g), temperature not known" in result.words
 
 
 def test_a_replay_ends_with_the_result(capsys, tmp_path):
@@ -134,5 +134,5 @@ def test_why_there_is_no_diagnosis_is_part_of_the_result(tmp_path):
 def test_temperature_and_level_are_those_of_the_points():
     found = diagnosis()
     result = result_of(None, found, Conditions(30, (4.903325, 9.80665), (21.0, 23.5)))
-    assert "at 0.5 to 1 g, 21 to 23.5 degC" in result.words
+    assert "at 4.903 to 9.807 m/s^2 (0.5 to 1 g), 21 to 23.5 degC" in result.words
     assert result.temperature_range_c == (21.0, 23.5)
