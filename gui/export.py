@@ -11,6 +11,7 @@ from gui.asking import ask_folder, ask_save
 from gui.background_task import BackgroundCommand
 from gui.controller import AppController
 from instrument.facts.written import ExportResult, ReportResult
+from instrument.files.acceleration import shown_as
 
 
 class Export(QObject):
@@ -26,12 +27,11 @@ class Export(QObject):
 
     def report(self) -> None:
         """One self-contained page."""
-        session = self._session
-        if session is None:
-            return
-        suggested = str(session.with_suffix(".html"))
-        then = partial(self._report, session)
-        ask_save(self._window, "Save report", suggested, "Page (*.html)", then)
+        self._ask_report(".html", "Page (*.html)")
+
+    def report_to_print(self) -> None:
+        """The same on sheets of A4."""
+        self._ask_report(".pdf", "Sheets of A4 (*.pdf)")
 
     def data(self) -> None:
         """For the program that the menu's entry names."""
@@ -41,8 +41,17 @@ class Export(QObject):
         then = partial(self._data, session, str(action.data()))
         ask_folder(self._window, "Export data to", str(session.parent), then)
 
-    def _report(self, session: Path, to: Path) -> None:
-        self._run(["report", str(session), "--out", str(to)], ReportResult)
+    def _ask_report(self, ending: str, kinds: str) -> None:
+        session = self._session
+        if session is None:
+            return
+        then = partial(self._report, session, ending)
+        ask_save(self._window, "Save report", str(session.with_suffix(ending)), kinds, then)
+
+    def _report(self, session: Path, ending: str, to: Path) -> None:
+        """What is written is what the ending says."""
+        to = to if to.suffix.lower() == ending else to.with_name(to.name + ending)
+        self._run(["report", str(session), "--out", str(to), *shown_as()], ReportResult)
 
     def _data(self, session: Path, kind: str, folder: Path) -> None:
         self._run(["export", str(session), "--to", kind, "--out", str(folder)], ExportResult)

@@ -66,6 +66,9 @@ class Menus(QObject):
         close = self._add(menu, "&Close session", self._window.controller.leave, "Ctrl+W")
         menu.addSeparator()
         self._of_session = [close, self._add(menu, "Save &report...", self._export.report, "Ctrl+R")]
+        self._of_session.append(
+            self._add(menu, "Save report as &PDF, to print...", self._export.report_to_print, "Ctrl+P")
+        )
         data = menu.addMenu("&Export data")
         for kind, said in (("csv", "CSV..."), ("uff", "Universal file..."), ("mat", "MATLAB...")):
             action = self._add(data, said, self._export.data)

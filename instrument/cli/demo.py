@@ -15,7 +15,7 @@ from instrument.cli.watching import Watcher
 from instrument.errors import BadInput
 from instrument.facts.run import RunResult
 from instrument.progress import bar
-from instrument.report.page import report_page
+from instrument.report.page import report_of
 from instrument.results.diagnosis_figures import save_diagnosis_figures
 from instrument.results.diagnosis_words import law_at, with_verdict
 from instrument.run.control import RunControl
@@ -84,7 +84,7 @@ def _run_rig(out: Output, folder: Path, effect: str | None, seed: int) -> RunRes
     result = run_result(finished)
     Output(str(folder / "run.json")).result(result)
     with SessionFile(finished.session) as file:
-        page = report_page(contents_of(file), bar)
+        page = report_of(contents_of(file), bar).html()
     report = finished.session.with_suffix(".html")
     report.write_text(page, encoding="utf-8")
     out.say(f"report: {report}")

@@ -9,7 +9,7 @@ from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.facts.written import ReportResult
 from instrument.progress import bar
-from instrument.report.page import report_page
+from instrument.report.page import report_of
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 
@@ -19,23 +19,35 @@ from instrument.session.storage import SessionFile
 @click.option(
     "--out",
     type=click.Path(path_type=Path, dir_okay=False),
-    help="The page (.html); beside the session otherwise.",
+    help="The page (.html, or .pdf for sheets of A4); beside the session otherwise.",
+)
+@click.option(
+    "--pdf",
+    type=click.Path(path_type=Path, dir_okay=False),
+    metavar="FILE",
+    help="The same on sheets of A4, to be printed and signed.",
 )
 @acceleration_option
 @json_option
-def report(session: Path, out: Path | None, json_path: str | None) -> None:
+def report(session: Path, out: Path | None, pdf: Path | None, json_path: str | None) -> None:
     """SESSION.h5 as one self-contained HTML page: figures inside it, nothing fetched from anywhere."""
     output = Output(json_path)
     page = out if out is not None else session.with_suffix(".html")
-    if not page.parent.is_dir():
-        # Said before the work, not after it.
-        raise BadInput(f"{page}: no such folder to write to")
+    wanted = [page, *([pdf] if pdf is not None else [])]
+    for path in wanted:
+        if not path.parent.is_dir():
+            # Said before the work, not after it.
+            raise BadInput(f"{path}: no such folder to write to")
     with SessionFile(session) as file:
         contents = contents_of(file)
-    text = report_page(contents, bar)
-    try:
-        page.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise BadInput(f"{page}: {error.strerror or error}") from None
-    output.say(f"wrote {page}")
-    output.result(ReportResult(report=str(page)))
+    made = report_of(contents, bar)
+    for path in wanted:
+        try:
+            if path is pdf or path.suffix.lower() == ".pdf":
+                made.save_pdf(path)
+            else:
+                path.write_text(made.html(), encoding="utf-8")
+        except OSError as error:
+            raise BadInput(f"{path}: {error.strerror or error}") from None
+        output.say(f"wrote {path}")
+    output.result(ReportResult(report=str(page), pdf=str(pdf) if pdf is not None else None))

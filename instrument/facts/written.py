@@ -33,6 +33,8 @@ class ReportResult(Result):
     """A session's page."""
 
     report: str
+    pdf: str | None = None
+    """The same on sheets of A4, where it was asked for beside the page."""
 
 
 class RecoverResult(Result):

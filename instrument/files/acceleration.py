@@ -58,6 +58,11 @@ def acceleration_unit() -> AccelerationUnit:
     return UNITS[_chosen]
 
 
+def shown_as() -> list[str]:
+    """The choice as another command is told of it."""
+    return ["--acceleration", _chosen]
+
+
 def shown_quantity(value: float, unit: str) -> tuple[float, str]:
     """A value of any quantity and its unit as people are shown it: accelerations in the unit chosen."""
     if unit != _SI:

@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
+from matplotlib.figure import Figure
+
 
 @dataclass(frozen=True)
 class Sentence:
@@ -36,14 +38,16 @@ class TableBlock:
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure, held in the page itself."""
+    """A figure, drawn by whoever writes the page."""
 
     kind: ClassVar[str] = "picture"
-    source: str
-    """data: URI."""
+    figure: Figure
     title: str
     """Below it, and read aloud in its place."""
 
+
+WORDY = ("why", "remark", "remarks", "parameters")
+"""Columns of a table that hold words and not numbers."""
 
 Block = Sentence | FactsBlock | TableBlock | Picture
 

@@ -2,8 +2,7 @@
 
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from instrument.facts.diagnosis import DiagnosisResult
-from instrument.report.blocks import Block, ReportSection, Sentence, TableBlock
-from instrument.report.picture import picture
+from instrument.report.blocks import Block, Picture, ReportSection, Sentence, TableBlock
 from instrument.results.diagnosis_figures import evidence_figure, law_figure, residual_figure
 from instrument.results.diagnosis_words import (
     law_at,
@@ -45,11 +44,11 @@ def diagnosis_sections(contents: Contents) -> list[ReportSection]:
     blocks += [Sentence(f"By resampling: {resampled}.")] if resampled else []
     blocks += [
         _before_after(found),
-        picture(residual_figure(found), "Residual before and after: predicted over measured, less one"),
+        Picture(residual_figure(found), "Residual before and after: predicted over measured, less one"),
         _candidates(found),
-        picture(evidence_figure(found), "Evidence for each candidate"),
+        Picture(evidence_figure(found), "Evidence for each candidate"),
         _law(found),
-        picture(law_figure(found), with_verdict("The core's law before and after, with 95 % bands", found)),
+        Picture(law_figure(found), with_verdict("The core's law before and after, with 95 % bands", found)),
     ]
     return [ReportSection(_TITLE, tuple(blocks))]
 

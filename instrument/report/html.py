@@ -5,7 +5,8 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from instrument.report.blocks import ReportSection
+from instrument.report.blocks import WORDY, ReportSection
+from instrument.report.picture import as_svg
 
 _TEMPLATE = "page.html"
 
@@ -24,6 +25,7 @@ def html_page(
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["as_svg"] = as_svg
     return environment.get_template(_TEMPLATE).render(
-        title=title, header=header, sections=sections, signed=signed
+        title=title, header=header, sections=sections, signed=signed, words=WORDY
     )

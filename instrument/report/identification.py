@@ -6,11 +6,10 @@ from fitting.identification.result import Identification
 from fitting.specimen import Specimen
 from instrument.facts.session_result import SessionResult
 from instrument.interchange.identified import SessionFit
-from instrument.report.blocks import Block, FactsBlock, ReportSection, Sentence, TableBlock
+from instrument.report.blocks import Block, FactsBlock, Picture, ReportSection, Sentence, TableBlock
 from instrument.report.fitted import ReportedFit
 from instrument.report.law_figures import law_figure, residual_figures
 from instrument.report.measured import segments_of
-from instrument.report.picture import picture
 from instrument.results.adjusted_words import COLUMNS, adjusted_rows
 from instrument.results.diagnosis_words import UNKNOWN
 from instrument.results.error_words import is_below_floor, percent_words
@@ -46,7 +45,7 @@ def identification_section(contents: Contents, fitted: ReportedFit) -> ReportSec
         ),
         *_doubt(contents),
         *(Sentence(warning, "note") for warning in r.warnings),
-        picture(law_figure(fit), f"Shear modulus and loss factor in the measured band, {_banded(r)}"),
+        Picture(law_figure(fit), f"Shear modulus and loss factor in the measured band, {_banded(r)}"),
         _band(r),
         _parameters(r),
         _correlations(r),
@@ -54,7 +53,7 @@ def identification_section(contents: Contents, fitted: ReportedFit) -> ReportSec
         _live(contents, r),
     ]
     blocks += [
-        picture(f, "Residual: model less measurement, by segment")
+        Picture(f, "Residual: model less measurement, by segment")
         for f in residual_figures(segments_of(contents), fitted)
     ]
     return ReportSection(title, tuple(blocks))

@@ -1,6 +1,8 @@
-"""The page: every section of a session, rendered to one HTML text that needs nothing beside it."""
+"""A session's report: every section of it, as one HTML text that needs nothing beside it, or as a PDF."""
 
+from dataclasses import dataclass
 from importlib.metadata import version
+from pathlib import Path
 
 from instrument.progress import Progress, quiet
 from instrument.report.blocks import ReportSection
@@ -15,6 +17,7 @@ from instrument.report.identification import (
     result_in_short,
     unexplained_section,
 )
+from instrument.report.pdf import save_pdf
 from instrument.report.setting import rig_section, specimen_section, versions_section
 from instrument.report.sweep import sweep_section
 from instrument.session.contents import Contents
@@ -22,20 +25,37 @@ from instrument.session.contents import Contents
 _PACKAGES = ("viscorig", "numpy", "scipy", "h5py", "matplotlib")
 
 
-def report_page(contents: Contents, progress: Progress = quiet) -> str:
-    """The report of a session as HTML. Law and damping are computed here, from what was recorded."""
+@dataclass(frozen=True)
+class Report:
+    """What a report says, however it is written."""
+
+    title: str
+    header: tuple[tuple[str, str], ...]
+    sections: tuple[ReportSection, ...]
+
+    def html(self) -> str:
+        """One page that needs nothing beside it."""
+        return html_page(self.title, self.header, self.sections, signed=True)
+
+    def save_pdf(self, path: Path) -> None:
+        """Sheets of A4. Raises `OSError`."""
+        save_pdf(path, self.title, self.header, self.sections)
+
+
+def report_of(contents: Contents, progress: Progress = quiet) -> Report:
+    """The report of a session. Law and damping are computed here, from what was recorded."""
     fitted = ReportedFit.of(contents, progress)
     with progress("drawing"):
         sections = sections_of(contents, fitted)
     c = contents.configuration
-    header = [
+    header = (
         ("operator", c.experiment.operator or "not stated"),
         ("date", c.created_utc.replace("T", " ").replace("+00:00", " UTC")),
         ("session", c.name),
         ("specimen file", c.experiment.specimen),
         ("result", result_in_short(contents, fitted)),
-    ]
-    return html_page(c.experiment.title or c.name, header, sections, signed=True)
+    )
+    return Report(c.experiment.title or c.name, header, tuple(sections))
 
 
 def sections_of(contents: Contents, fitted: ReportedFit) -> list[ReportSection]:

@@ -6,12 +6,10 @@ import io
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
-from instrument.report.blocks import Picture
 
-
-def picture(figure: Figure, title: str) -> Picture:
-    """A figure as it stands in the page."""
+def as_svg(figure: Figure) -> str:
+    """A figure as a data URI."""
     svg = io.BytesIO()
     with mpl.rc_context({"svg.hashsalt": "viscorig"}):
         figure.savefig(svg, format="svg", metadata={"Date": None}, facecolor="white")
-    return Picture("data:image/svg+xml;base64," + base64.b64encode(svg.getvalue()).decode(), title)
+    return "data:image/svg+xml;base64," + base64.b64encode(svg.getvalue()).decode()

@@ -5,10 +5,9 @@ import numpy as np
 from instrument.files.acceleration import acceleration_unit
 from instrument.files.column import ColumnPoint
 from instrument.files.point_columns import in_report
-from instrument.report.blocks import Block, ReportSection, Sentence, TableBlock
+from instrument.report.blocks import Block, Picture, ReportSection, Sentence, TableBlock
 from instrument.report.fitted import ReportedFit
 from instrument.report.measured import noise_of, segments_of
-from instrument.report.picture import picture
 from instrument.report.sweep_figures import quality_figure, response_figures
 from instrument.results.numbers import format_number, signed
 from instrument.session.contents import Contents
@@ -25,9 +24,9 @@ def sweep_section(contents: Contents, fitted: ReportedFit) -> ReportSection:
     reads = contents.configuration.rig.vibrometer.reads
     drawn = f"{reads.capitalize()} velocity v at the pickup over base acceleration a, by segment"
     drawn += "" if fitted.fit is not None else "; no model is drawn, as there is no fit"
-    blocks += [picture(f, drawn) for f in response_figures(segments, fitted)]
+    blocks += [Picture(f, drawn) for f in response_figures(segments, fitted)]
     blocks.append(
-        picture(quality_figure(contents), "How well each point was measured, in the order of measuring")
+        Picture(quality_figure(contents), "How well each point was measured, in the order of measuring")
     )
     blocks += [*_sentinels(contents), *_remarks(contents.measured), _points(contents)]
     return ReportSection(title, tuple(blocks))

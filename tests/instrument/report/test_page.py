@@ -15,7 +15,7 @@ from instrument.cli.main import run
 from instrument.files.acceleration import show_acceleration_in
 from instrument.files.column import ColumnPoint
 from instrument.files.point_columns import in_report
-from instrument.report.page import report_page
+from instrument.report.page import report_of
 from instrument.report.setting import rig_section
 from instrument.results.diagnosis_words import verdict_line
 from instrument.results.session_result import recorded_result
@@ -38,7 +38,7 @@ SECTIONS = (
 
 def page_of(path):
     with SessionFile(path) as file:
-        return report_page(contents_of(file))
+        return report_of(contents_of(file)).html()
 
 
 def text_of(page):
@@ -307,11 +307,24 @@ def test_the_page_goes_beside_the_session(capsys, tmp_path):
     assert path.with_suffix(".html").read_text(encoding="utf-8").startswith("<!doctype html>")
 
 
+def test_sheets_to_print_are_written_beside_the_page_or_instead_of_it(capsys, tmp_path):
+    synthetic = SyntheticSession(configuration())
+    synthetic.begin()
+    path = str(synthetic.save(tmp_path))
+    page, beside, instead = (tmp_path / name for name in ("a.html", "a.pdf", "b.pdf"))
+    assert run(["report", path, "--out", str(page), "--pdf", str(beside)]) == 0
+    assert run(["report", path, "--out", str(instead)]) == 0
+    assert capsys.readouterr().out.split("\n")[:3] == [f"wrote {p}" for p in (page, beside, instead)]
+    assert page.read_text(encoding="utf-8").startswith("<!doctype html>")
+    assert beside.read_bytes()[:5] == instead.read_bytes()[:5] == b"%PDF-"
+
+
 @pytest.mark.parametrize(
     ("arguments", "word"),
     [
         (["none.h5"], "no such file"),
         (["{session}", "--out", "/none/page.html"], "no such folder"),
+        (["{session}", "--pdf", "/none/page.pdf"], "no such folder"),
     ],
 )
 def test_what_cannot_be_done_is_refused_in_a_line(capsys, session_path, arguments, word):

@@ -1,0 +1,92 @@
+"""The report on sheets of A4: all of it, inside the margins, page after page."""
+
+import pytest
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+from instrument.report.blocks import FactsBlock, Picture, ReportSection, Sentence, TableBlock
+from instrument.report.paper import HEIGHT_MM, INSIDE_MM, MARGIN_MM, WIDTH_MM, broken, width_mm
+from instrument.report.pdf import save_pdf, sheets_of
+
+LONG = "a_name_without_a_place_to_break_it_" * 4
+COLUMNS = ("step", "f / Hz", "remark")
+ROWS = tuple((str(k), f"{500 + k}", "weak light, " * (k % 9)) for k in range(90))
+
+
+def drawing():
+    figure = Figure(figsize=(11.0, 4.0), layout="constrained")
+    for ax in figure.subplots(1, 3):
+        ax.plot([1, 2, 3], [1e-3, 2e-3, 5e-3], label="measured")
+        ax.set_ylabel("|v / a| / ms")
+    figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside upper center")
+    return figure
+
+
+@pytest.fixture(scope="module")
+def laid():
+    sections = (
+        ReportSection("Facts", (FactsBlock("Of names", (("name", LONG), (LONG, "short"))),)),
+        ReportSection("Said", (Sentence("well " * 60, "warning"), Sentence(f"{LONG} \x1b[2J", "note"))),
+        ReportSection("Table", (TableBlock("All points", COLUMNS, ROWS),)),
+        ReportSection("Drawn", (Picture(drawing(), "a drawing"), Picture(drawing(), "again"))),
+    )
+    return sheets_of("A title", (("operator", "A. Tester"),), sections)
+
+
+def texts(page):
+    return [one for one in page.findobj(Text) if one.get_text()]
+
+
+def test_every_word_lies_inside_the_margins(laid):
+    for page in laid.pages:
+        for one in texts(page):
+            x, y = one.get_position()
+            wide = width_mm(one.get_text(), one.get_fontsize(), one.get_fontweight() == "bold")
+            left = WIDTH_MM * x - (wide if one.get_horizontalalignment() == "right" else 0.0)
+            assert MARGIN_MM - 0.2 <= left <= left + wide <= WIDTH_MM - MARGIN_MM + 0.2, one.get_text()
+            assert 0.02 < y < 1 - MARGIN_MM / HEIGHT_MM
+
+
+def test_nothing_is_left_out_and_every_page_has_the_head_of_its_table(laid):
+    said = [[one.get_text() for one in texts(page)] for page in laid.pages]
+    of_table = [page for page in said if "f / Hz" in page]
+    assert len(of_table) > 1
+    frequencies = [row[1] for row in ROWS]
+    assert [text for page in said for text in page if text in frequencies] == frequencies
+    assert [page[-1] for page in said] == [f"page {k} of {len(said)}" for k in range(1, len(said) + 1)]
+    assert "measured by, date" in said[-1]
+
+
+def test_what_no_paper_shows_is_not_on_it(laid):
+    assert not any("\x1b" in one.get_text() for page in laid.pages for one in texts(page))
+
+
+def test_a_figure_and_its_legend_lie_where_there_is_room(laid):
+    (page, *_) = [p for p in laid.pages if p._laid]
+    page.draw_without_rendering()
+    for figure in page._laid:
+        figure.draw_without_rendering()
+        (legend,) = figure.legends
+        boxes = [ax.get_tightbbox() for ax in figure.axes] + [legend.get_window_extent()]
+        for box in boxes:
+            low, high = box.transformed(figure.transFigure.inverted()).get_points()
+            assert MARGIN_MM / WIDTH_MM - 0.01 < low[0] < high[0] < 1 - MARGIN_MM / WIDTH_MM + 0.01
+            assert 0.0 < low[1] < high[1] < 1 - MARGIN_MM / HEIGHT_MM + 0.01
+    tops = [figure.legends[0].get_window_extent().y1 for figure in page._laid]
+    assert len(set(tops)) == len(tops)
+
+
+def test_a_word_longer_than_a_line_is_broken():
+    lines = broken(LONG, INSIDE_MM, 9.0)
+    assert "".join(lines) == LONG
+    assert all(width_mm(line, 9.0) <= INSIDE_MM for line in lines)
+
+
+def test_the_file_is_a_pdf_of_a4_with_letters_in_it(tmp_path):
+    path = tmp_path / "report.pdf"
+    save_pdf(path, "A title", (("operator", "A. Tester"),), ())
+    raw = path.read_bytes()
+    assert raw.startswith(b"%PDF-")
+    # 210 by 297 mm in points of 1/72 inch.
+    assert b"/MediaBox [ 0 0 595.2755905512 841.8897637795 ]" in raw
+    assert b"/FontFile2" in raw
