@@ -9,10 +9,13 @@ from threadpoolctl import threadpool_limits
 from fitting.errors import FittingError
 from fitting.specimen import Specimen
 from instrument.batch.keys import program
+from instrument.batch.of_modes import diagnosed_modes, identified_modes, rms_percent
 from instrument.batch.task import Task
 from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult, StageFitted
 from instrument.facts.identification import IdentificationResult
+from instrument.facts.modal import ModalResult
+from instrument.files.modal_table import is_modal_table
 from instrument.files.specimen_file import read_specimen
 from instrument.interchange.given import Given, read_given
 from instrument.models.diagnosis import diagnose
@@ -77,24 +80,40 @@ def _worked(task: Task) -> Outcome:
     assert data is not None
     if specimen is None and not data.suffix:
         raise BadInput(f"{data}: neither a session nor a sweep")
+    if specimen is not None and data.suffix.lower() == ".csv" and is_modal_table(data):
+        return _of_modes(task, data, specimen)
     given = read_given(data, specimen, hammer)
+    if hammer is not None and not isinstance(given.specimen, Specimen):
+        raise BadInput(f"{hammer}: a hammer test with a {given.specimen.kind}, expected a plate")
     like = _lender(task, given)
     if given.diagnosis is not None and not task.diagnose:
         like, facts = None, _of_diagnosis(given.diagnosis)
     else:
         facts = _diagnosed(given, like) if task.diagnose else _identified(given, like)
     f = given.sweep.frequency_hz
-    kept = {
-        "failed": None,
-        "again": False,
+    measured = {
         "points": len(given.sweep),
         "lowest_hz": float(f.min()),
         "highest_hz": float(f.max()),
         "temperature_c": given.temperature_c,
         "borrowed_model": like is not None,
-        **facts,
     }
-    found: Outcome = to_jsonable({**kept, "law": _columns(facts["law"])})
+    return _done(measured, facts)
+
+
+def _of_modes(task: Task, data: Path, specimen: Path) -> Outcome:
+    if task.hammer is not None:
+        raise BadInput(f"{task.hammer}: a hammer test with a table of modes, expected a sweep")
+    if task.diagnose:
+        diagnosed, measured = diagnosed_modes(data, specimen)
+        return _done(measured, _of_diagnosis(diagnosed))
+    result, measured = identified_modes(data, specimen)
+    return _done(measured, _of_fit(result) | {"rms_percent": rms_percent(result)})
+
+
+def _done(measured: dict[str, Any], facts: dict[str, Any]) -> Outcome:
+    kept = {"failed": None, "again": False, **measured, **facts, "law": _columns(facts["law"])}
+    found: Outcome = to_jsonable(kept)
     return found
 
 
@@ -104,7 +123,7 @@ def _columns(rows: list[dict[str, float]]) -> dict[str, list[float]]:
 
 
 def _lender(task: Task, given: Given) -> Specimen | None:
-    if task.like is None:
+    if task.like is None or not isinstance(given.specimen, Specimen):
         return None
     lender = read_specimen(Path(task.like))
     if given.sweep.pickup is not None or given.with_masses:
@@ -113,12 +132,34 @@ def _lender(task: Task, given: Given) -> Specimen | None:
 
 
 def _identified(given: Given, like: Specimen | None) -> dict[str, Any]:
-    spots = _spots(given)
-    if not spots:
+    files = _files(given)
+    if not files:
         found = identify(given.sweep, given.plate, hammer=given.modes, like=like)
-        result = identification_from(found, given.sweep, given.plate)
-    else:
-        result = identified_together_from(identify_together(spots), spots)
+        return _of_fit(identification_from(found, given.sweep, given.plate))
+    return _of_fit(identified_together_from(identify_together(files, hammer=given.modes), files))
+
+
+def _files(given: Given) -> list[File]:
+    """As files under one law, where there are several spots or known masses, or no plate."""
+    if given.with_masses:
+        return list(given.with_masses)
+    if given.sweep.pickup is None and isinstance(given.specimen, Specimen):
+        return []
+    return spots_of(given.sweep, given.specimen)
+
+
+def _diagnosed(given: Given, like: Specimen | None) -> dict[str, Any]:
+    files = _files(given)
+    if files:
+        found = diagnose_together(files, hammer=given.modes)
+        return _of_diagnosis(diagnosed_together_from(found, files))
+    return _of_diagnosis(
+        diagnosis_from(diagnose(given.sweep, given.plate, given.modes, like=like), given.sweep)
+    )
+
+
+def _of_fit(result: IdentificationResult | ModalResult) -> dict[str, Any]:
+    """Not diagnosed."""
     return {
         "verdict": None,
         "effects": [],
@@ -126,21 +167,6 @@ def _identified(given: Given, like: Specimen | None) -> dict[str, Any]:
         "warnings": result.warnings,
         **_kept(result),
     }
-
-
-def _spots(given: Given) -> list[File]:
-    """As files under one law, where there are several spots or known masses."""
-    if given.with_masses:
-        return list(given.with_masses)
-    return [] if given.sweep.pickup is None else spots_of(given.sweep, given.plate)
-
-
-def _diagnosed(given: Given, like: Specimen | None) -> dict[str, Any]:
-    spots = _spots(given)
-    if spots:
-        return _of_diagnosis(diagnosed_together_from(diagnose_together(spots), spots))
-    found = diagnose(given.sweep, given.plate, given.modes, like=like)
-    return _of_diagnosis(diagnosis_from(found, given.sweep))
 
 
 def _of_diagnosis(result: DiagnosisResult) -> dict[str, Any]:
@@ -154,6 +180,7 @@ def _of_diagnosis(result: DiagnosisResult) -> dict[str, Any]:
     }
 
 
-def _kept(fit: IdentificationResult | StageFitted) -> dict[str, Any]:
+def _kept(fit: IdentificationResult | ModalResult | StageFitted) -> dict[str, Any]:
+    """What a table of modes does not have is None."""
     facts = fit.as_json()
-    return {key: facts[key] for key in _KEPT}
+    return {key: facts.get(key) for key in _KEPT}

@@ -1,0 +1,46 @@
+"""A row of a batch that is a table of modes."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from instrument.facts.diagnosis import DiagnosisResult
+from instrument.facts.modal import ModalResult
+from instrument.files.modal_table import read_modal_table
+from instrument.files.structure_file import read_structure
+from instrument.models.modal import diagnose_tables, identify_tables
+from instrument.results.modal_diagnosis_from import modal_diagnosis_from
+from instrument.results.modal_from import mean_temperature, modal_from
+
+
+def identified_modes(data: Path, specimen: Path) -> tuple[ModalResult, dict[str, Any]]:
+    """What `identify` says of the table; points and band of it. Raises `BadInput`, `FittingError`."""
+    tables = [read_modal_table(data)]
+    found = identify_tables(tables, [read_structure(specimen)])
+    result = modal_from(found, tables, [data.name])
+    return result, _measured(tables[0].frequency_hz, mean_temperature(tables))
+
+
+def diagnosed_modes(data: Path, specimen: Path) -> tuple[DiagnosisResult, dict[str, Any]]:
+    """What `diagnose` says of it, and the same. Raises `BadInput`, `FittingError`."""
+    tables = [read_modal_table(data)]
+    found = diagnose_tables(tables, [read_structure(specimen)])
+    result = modal_diagnosis_from(found, tables, [data.name])
+    return result, _measured(tables[0].frequency_hz, mean_temperature(tables))
+
+
+def rms_percent(result: ModalResult) -> float:
+    """Of predicted frequencies over measured ones less one."""
+    off = [mode.predicted_hz / mode.frequency_hz - 1 for mode in result.modes]
+    return 100 * float(np.sqrt(np.mean(np.square(off))))
+
+
+def _measured(frequency_hz: np.ndarray[Any, Any], temperature_c: float | None) -> dict[str, Any]:
+    return {
+        "points": len(frequency_hz),
+        "lowest_hz": float(frequency_hz.min()),
+        "highest_hz": float(frequency_hz.max()),
+        "temperature_c": temperature_c,
+        "borrowed_model": False,
+    }

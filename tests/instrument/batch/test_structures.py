@@ -1,0 +1,63 @@
+"""Rows of a batch that are no sweeps of a plate at one spot."""
+
+import json
+
+import numpy as np
+import pytest
+
+from instrument.batch.of_modes import rms_percent
+from instrument.batch.task import Task
+from instrument.batch.work import outcome_of
+from instrument.cli.main import run
+from instrument.facts.modal import ModalResult, ModeFitted
+
+SHARED = ("law_kind", "parameters", "standard_errors", "chi2_per_dof", "converged", "warnings")
+MODES = "mode,frequency_hz,loss_factor\n1,75.6,0.233\n2,377.5,0.264\n3,963.9,0.228\n4,1744.8,0.175\n"
+
+
+def pair_sweep():
+    """`viscorig new shear-pair`, of a rubber without mass: T = K / (K - M w^2)."""
+    f = np.geomspace(60, 500, 12)
+    s = (2j * np.pi * f * 0.6e-4) ** 0.55
+    stiffness = (2.6e6 + 45e6 * s) / (1 + s) * 2 * np.pi / 4 * (0.03**2 - 0.01**2) / 0.006
+    a = 9.81 * stiffness / (stiffness - 0.5 * (2 * np.pi * f) ** 2)
+    rows = [f"{x!r},{y.real!r},{y.imag!r}" for x, y in zip(f.tolist(), a.tolist(), strict=True)]
+    return "\n".join(["frequency_hz,acceleration_re_m_s2,acceleration_im_m_s2", *rows]) + "\n"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    path = tmp_path_factory.mktemp("structures")
+    for kind in ("beam", "shear-pair"):
+        file = path / f"{kind}.toml"
+        assert run(["new", kind, str(file)]) == 0
+        file.write_text(file.read_text() + "\n[tolerances]\nexact = true\n")
+    (path / "modes.csv").write_text(MODES)
+    (path / "pair.csv").write_text(pair_sweep())
+    return path
+
+
+@pytest.mark.parametrize(("data", "specimen", "points"), [("pair", "shear-pair", 12), ("modes", "beam", 4)])
+def test_a_row_of_any_structure_says_what_identify_says(folder, capsys, data, specimen, points):
+    files = [str(folder / f"{data}.csv"), str(folder / f"{specimen}.toml")]
+    found = outcome_of(Task(*files))
+    assert (found["failed"], found["points"]) == (None, points)
+    capsys.readouterr()
+    assert run(["identify", files[0], "--specimen", files[1], "--json", "-"]) == 0
+    alone = json.loads(capsys.readouterr().out)
+    assert {key: found[key] for key in SHARED} == {key: alone[key] for key in SHARED}
+
+
+def test_a_hammer_test_is_refused_where_there_is_no_plate(folder):
+    files = [str(folder / name) for name in ("modes.csv", "beam.toml", "hammer.json")]
+    said = "hammer.json: a hammer test with a table of modes, expected a sweep"
+    assert outcome_of(Task(*files))["failed"] == said
+
+
+def test_what_a_table_leaves_is_of_its_frequencies():
+    mode = ModeFitted(
+        file=1, mode=1, frequency_hz=100.0, predicted_hz=102.0, loss_factor=0.1, predicted_loss_factor=0.2
+    )
+    other = mode.but(mode=2, predicted_hz=100.0)
+    found = ModalResult(law_kind="", parameters={}, standard_errors={}, modes=(mode, other), files=(), law=())
+    assert rms_percent(found) == pytest.approx(2 / np.sqrt(2))
