@@ -127,6 +127,11 @@ class DiagnosisProblem:
         return replace(self, plate=plate)
 
     @property
+    def resonances(self) -> Complex:
+        """Poles of the structure without any effect, in and near the points, rad/s. Shape (poles,)."""
+        return self.fine.nodes.poles
+
+    @property
     def pickup_x_m(self) -> float:
         """How far from the clamp it is stated to be read; the plate's own pickup may be another one's."""
         stated = self.nuisances.specimen

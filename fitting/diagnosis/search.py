@@ -14,6 +14,7 @@ from fitting.diagnosis.predictive import checks, form_error, passes, temper
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import Refitted, refit
 from fitting.diagnosis.responses import response_of
+from fitting.diagnosis.stand_in import stands_in
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.identification.validation import Validation
@@ -31,6 +32,9 @@ class ScoredFit:
     """-2 ln of prior times marginal likelihood (`marginal`)."""
     checks: Mapping[str, float] = field(default_factory=dict)
     """Tail probabilities of posterior predictive checks (`predictive`)."""
+
+    stands_in: str = ""
+    """Why it may stand in for a cause that is in no catalogue (`stand_in`); empty where it does not."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -79,7 +83,8 @@ class Search:
     def judged(self, fitted: Refitted) -> ScoredFit:
         """A fit with what it is worth."""
         found = checks(self.problem.sweep, self.evidence, self._none, fitted)
-        return ScoredFit(fitted, cost(fitted, self.problem.plate), found)
+        doubt = stands_in(self.problem, fitted)
+        return ScoredFit(fitted, cost(fitted, self.problem.plate), found, doubt)
 
     def temper(self, best: ScoredFit) -> float:
         """How much less a difference of costs says, where the best explains far more than noise."""

@@ -120,6 +120,11 @@ class SeveralProblem(DiagnosisProblem):
         return [slice(int(e) - len(m.sweep), int(e)) for e, m in zip(ends, self.members, strict=True)]
 
     @property
+    def resonances(self) -> Complex:
+        """Of all members. Shape (poles,)."""
+        return np.concatenate([m.resonances for m in self.members])
+
+    @property
     def freedom(self) -> float:
         """As much as any member asks for."""
         return max(m.freedom for m in self.members)

@@ -58,6 +58,11 @@ class SmallProblem(DiagnosisProblem):
         return self
 
     @property
+    def resonances(self) -> Complex:
+        """None are looked for: a disturbance shows in the readings themselves. Shape (0,)."""
+        return np.zeros(0, complex)
+
+    @property
     def freedom(self) -> float:
         """More where no law of the usual freedom will do."""
         return BENT_MORE if self.misfit else 1.0

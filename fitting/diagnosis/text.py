@@ -53,6 +53,8 @@ def explain(
     said.append(f"{likely} {' and '.join(stories)}.")
     if not all(e.replaces_law for e in scored.fitted.effects):
         said.append(_moved(problem, scored.fitted))
+    if scored.stands_in and not judgement.by_hand:
+        said.append(f"It may stand in for what is not known: {scored.stands_in}.")
     for name, group in judgement.equivalent.items():
         others = [n for n in group if n not in (name, NONE)]
         if others:

@@ -16,6 +16,9 @@ class VerdictThresholds:
     than one in twenty sweeps without any effect would show too names nothing."""
     least_doubted: float = 0.2
     """Probability of none up to which an effect is named; of a clean sweep none keeps four fifths."""
+    stand_in: float = 0.6
+    """Most that an effect is worth which no point shows by itself, beside others that nothing refuses: it may
+    stand in for a cause that is in no catalogue."""
     worth_saying: float = 0.1
     """Probability of an effect that is not named from which it is spoken of: one in ten is no surprise."""
     check_level: float = 1e-4

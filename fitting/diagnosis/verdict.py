@@ -9,6 +9,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from fitting.arrays import Array
 from fitting.diagnosis.marginal import probabilities
 from fitting.diagnosis.predictive import weakest
 from fitting.diagnosis.result import Verdict
@@ -87,7 +88,7 @@ def judge(
     comparison. `held_out`: error of a trial over noise on data it has not seen, NaN where there are none.
     """
     every = _best_of_each([none, *scored_fits])
-    p = probabilities(np.array([t.cost for t in every]), temper)
+    p = shares_of(every, temper)
     order = np.argsort(-p, kind="stable")
     ranked = [(every[k], float(p[k])) for k in order]
     probability = {t.names: share for t, share in ranked}
@@ -109,7 +110,28 @@ def judge(
     best = standing[0]
     alone = all(set(best.names) <= set(t.names) for t, _ in group)
     sure = len(best.names) < 2 or held_out(best) < held_out(none)
-    return judgement("effect" if alone and sure else "ambiguous", best, confirmed=sure)
+    # Beside another, what stands in for something leaves room for anything, refused or not.
+    firm = len(best.names) < 2 or not best.stands_in
+    return judgement("effect" if alone and sure and firm else "ambiguous", best, confirmed=sure)
+
+
+def shares_of(every: Sequence[ScoredFit], temper: float) -> Array:
+    """Probabilities, where what no point shows by itself shares with what nothing refuses.
+
+    A cause that is in no catalogue is fitted by what bends most freely, and far better than by the rest. So
+    what may stand in for it keeps `VERDICT.stand_in` of what both have, the others share theirs by their
+    costs; that there is an effect at all is not in doubt. Shape (explanations,).
+    """
+    costs = np.array([t.cost for t in every])
+    p = probabilities(costs, temper)
+    unseen = np.array([bool(t.stands_in) for t in every])
+    others = np.array([bool(t.names) and not t.fails and not t.stands_in for t in every])
+    both = float(p[unseen | others].sum())
+    if not others.any() or p[unseen].sum() <= VERDICT.stand_in * both:
+        return p
+    p[unseen] *= VERDICT.stand_in * both / p[unseen].sum()
+    p[others] = (1 - VERDICT.stand_in) * both * probabilities(costs[others], temper)
+    return p
 
 
 def _unknown(

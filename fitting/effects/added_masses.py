@@ -23,6 +23,7 @@ class AddedMassesEffect(Effect):
     name = "added_masses"
     enters = "mass"
     source = AddedMassEffect.source
+    causes = 2
     parameters = tuple(
         EffectParameter(f"{key}_{number}", unit, lower, upper, typical, neutral=neutral, spread=spread)
         for number in (1, 2)

@@ -131,6 +131,9 @@ class Effect:
     chance: ClassVar[float] = 0.02
     """Prior probability that a laboratory's set-up has it, to be seen or not."""
 
+    causes: ClassVar[int] = 1
+    """How many things it supposes at once."""
+
     extends: ClassVar[str | None] = None
     """A simpler effect that this one contains."""
 
@@ -177,6 +180,13 @@ class Effect:
         (parameters,) each.
         """
         return ()
+
+    def shows(self, points: Points, resonances: Complex, u: Array) -> bool:
+        """Whether points see it by itself. One that they do not see may stand in for anything smooth.
+
+        `resonances`: poles of the structure without it, in and near the points, rad/s. Shape (poles,).
+        """
+        return True
 
     def scaled(self, u: Array, a: float) -> Array:
         """`u` with the effect `a` times as strong, by a linear guess. Shape (parameters,)."""

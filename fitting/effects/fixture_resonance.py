@@ -13,6 +13,8 @@ from fitting.effects.span import Span
 _OUTSIDE = (0.6, 1.6)
 """Times the lowest and the highest frequency: one further off is hardly told from rocking in fixed
 proportion."""
+_SEEN = 3
+"""Frequencies within the half-power width, clear of the plate's own resonances: three make a peak."""
 _STEP = 0.02
 """In ln f, between starts: the half-power width of the start with 0.01 of critical damping."""
 
@@ -57,6 +59,12 @@ class FixtureResonanceEffect(Effect):
         # The root moves so much more than the reference says.
         return np.asarray(v * (1 + u[3] * self._swing(points.omega, u)))
 
+    def shows(self, points: Points, resonances: Complex, u: Array) -> bool:
+        centre, half_width = 2 * np.pi * u[0] * np.array([1.0, u[1]])
+        on_it = np.unique(points.omega[np.abs(points.omega - centre) <= half_width])
+        beside = np.abs(resonances.real - centre) > half_width + resonances.imag
+        return len(on_it) >= _SEEN and bool(beside.all())
+
     def _swing(self, omega: Array, u: Array) -> Complex:
         r = omega / (2 * np.pi * u[0])
         return np.asarray((r**2 if u[4] else 1.0) / (1 - r**2 + 2j * u[1] * r))
@@ -71,6 +79,9 @@ class LocalDisturbanceEffect(FixtureResonanceEffect):
 
     parameters = ()
     spans = ()
+
+    def shows(self, points: Points, resonances: Complex, u: Array) -> bool:
+        return True
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return "it shows in the readings themselves"

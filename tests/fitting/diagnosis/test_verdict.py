@@ -20,9 +20,10 @@ EVEN = 2 * np.log(VERDICT.credible / (1 - VERDICT.credible))
 """In cost: so far below another, an explanation has just the probability that is asked for."""
 
 
-def scored(*names, cost, fails=False):
+def scored(*names, cost, fails=False, stands_in=""):
     fitted = SimpleNamespace(effects=tuple(CATALOGUE[name] for name in names))
-    return ScoredFit(fitted, cost, {"size": 0.5, "signs": 0.1 * VERDICT.check_level if fails else 0.5})
+    checks = {"size": 0.5, "signs": 0.1 * VERDICT.check_level if fails else 0.5}
+    return ScoredFit(fitted, cost, checks, stands_in)
 
 
 def judged(none, *scored_fits, temper=1.0, hidden=(), off=None):
@@ -208,3 +209,38 @@ def test_what_someone_has_decided_stands_for_itself():
     assert (said.verdict, said.by_hand) == ("effect", True)
     assert said.equivalent == {"gain_error": ("gain_error",), "channel_delay": ("channel_delay",)}
     assert (told(scored(cost=5.0)).verdict, told(scored(cost=5.0)).accepted) == ("none", None)
+
+
+def test_what_no_point_shows_by_itself_shares_with_what_nothing_refuses():
+    fixture = scored("fixture_resonance", cost=0.0, stands_in="not seen")
+    law, tether = scored("core_law", cost=80.0), scored("tether", cost=81.0, fails=True)
+    said = judged(POOR_NONE, fixture, law, tether)
+    assert (said.verdict, said.accepted) == ("ambiguous", fixture)
+    assert said.equivalent == {"fixture_resonance": ("fixture_resonance", "core_law")}
+    assert said.of_effect("fixture_resonance") == pytest.approx(VERDICT.stand_in)
+    assert judged(POOR_NONE, scored("fixture_resonance", cost=0.0), law, tether).verdict == "effect"
+    # Where everything else is refused there is nothing to share with.
+    assert judged(POOR_NONE, fixture, tether).verdict == "effect"
+
+
+@given(COSTS, st.lists(st.booleans(), min_size=8, max_size=8), st.floats(0, 2000))
+def test_who_may_stand_in_is_doubted_and_that_there_is_an_effect_is_not(costs, unseen, none):
+    names = sorted(CATALOGUE)[: len(costs)]
+    some = [
+        scored(n, cost=c, stands_in="not seen" * u) for n, c, u in zip(names, costs, unseen, strict=False)
+    ]
+    said = judged(scored(cost=none), *some)
+    certain = judged(scored(cost=none), *(scored(n, cost=c) for n, c in zip(names, costs, strict=True)))
+    assert said.probability[()] == pytest.approx(certain.probability[()], abs=1e-12)
+    assert sum(said.probability.values()) == pytest.approx(1)
+    if any(t.stands_in for t in some) and not all(t.stands_in for t in some):
+        share = sum(said.probability[t.names] for t in some if t.stands_in)
+        assert share <= VERDICT.stand_in * (1 - said.probability[()]) + 1e-12
+
+
+@pytest.mark.parametrize("names", [("added_masses", "spot_offset"), ("fixture_resonance", "gain_error")])
+def test_beside_another_what_stands_in_is_never_certain(names):
+    pair = scored(*names, cost=0.0, stands_in="not seen")
+    said = judged(POOR_NONE, pair, off={names: 1.0, (): 9.0})
+    assert (said.verdict, said.accepted.names, said.confirmed) == ("ambiguous", names, True)
+    assert judged(POOR_NONE, scored("added_masses", cost=0.0)).verdict == "effect"

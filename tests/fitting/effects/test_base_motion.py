@@ -27,3 +27,20 @@ def test_the_root_moves_by_more_than_the_reference_says():
     points = Points(OMEGA, np.ones(5), np.arange(5.0), True, True, "relative")
     read = FIXTURE.reading(np.ones(5, complex), points, np.array([F0, ZETA, 0.0, 0.03, 0.0]))
     assert read == pytest.approx(1 + 0.03 * s)
+
+
+@pytest.mark.parametrize(
+    ("f0", "zeta", "plate", "seen"),
+    [
+        (100.0, 0.02, 300 + 3j, True),
+        # Between the points, beyond the last, on a resonance of the plate.
+        (100.0, 0.004, 300 + 3j, False),
+        (130.0, 0.02, 300 + 3j, False),
+        (100.0, 0.02, 103 + 2j, False),
+    ],
+)
+def test_a_fixture_is_seen_where_points_make_its_peak_apart_from_the_plates(f0, zeta, plate, seen):
+    omega = 2 * np.pi * np.linspace(90.0, 110.0, 21)
+    points = Points(omega, np.ones(21), np.arange(21.0), True, True, "relative")
+    resonances = 2 * np.pi * np.array([plate])
+    assert FIXTURE.shows(points, resonances, np.array([f0, zeta, 0.02, 0.0, 1.0])) == seen

@@ -1,0 +1,43 @@
+"""Explanations that may stand in for a cause that is in no catalogue (docs/decisions/0029)."""
+
+import numpy as np
+
+from fitting.arrays import Array
+from fitting.diagnosis.problem import DiagnosisProblem
+from fitting.diagnosis.refit import Refitted
+from fitting.effects.base import Effect
+from fitting.effects.enriched_plate import EnrichedReducedPlate
+
+_CAUSES = 2
+"""Most that an explanation may suppose at once."""
+_AT = 1e-6
+"""Share of a limit: nearer to it, a fit would go on."""
+
+
+def stands_in(problem: DiagnosisProblem, fitted: Refitted) -> str:
+    """Why an explanation may stand in for something that is not known: a clause; empty where it does not."""
+    effects = fitted.effects
+    if sum(e.causes for e in effects) > _CAUSES:
+        return "so many things at once come near to anything"
+    for effect in effects:
+        u = fitted.of(effect)
+        if asks_for_more(effect, u, problem.plate):
+            return f"{effect.name} would be larger than is plausible"
+        if not effect.shows(problem.points, problem.resonances, u):
+            return f"no measured points show a {effect.name} by themselves"
+    return ""
+
+
+def asks_for_more(effect: Effect, u: Array, plate: EnrichedReducedPlate) -> bool:
+    """Whether a size ends at its plausible limit, away from where the effect is absent.
+
+    `u` of shape (parameters,).
+    """
+    for q, value, low, high in zip(effect.parameters, u, *effect.limits(plate), strict=True):
+        if q.neutral is None or q.fixed:
+            continue
+        absent = np.clip(q.neutral, low, high)
+        ends = [end for end in (low, high) if np.isfinite(end) and end != absent]
+        if any(abs(value - end) <= _AT * abs(end) for end in ends):
+            return True
+    return False

@@ -1,0 +1,50 @@
+"""What may stand in for a cause that is in no catalogue."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from fitting.diagnosis.stand_in import asks_for_more, stands_in
+from fitting.effects import CATALOGUE
+from fitting.effects.base import Points
+
+PLATE = SimpleNamespace(length_m=0.3, width_m=0.2)
+OMEGA = 2 * np.pi * np.linspace(90.0, 110.0, 21)
+PROBLEM = SimpleNamespace(
+    plate=PLATE,
+    points=Points(OMEGA, np.ones(21), np.arange(21.0), True, True, "relative"),
+    resonances=np.array([2 * np.pi * (300 + 3j)]),
+)
+
+
+def fitted(**effects):
+    found = {CATALOGUE[name]: np.array(u) for name, u in effects.items()}
+    return SimpleNamespace(effects=tuple(found), of=found.__getitem__)
+
+
+@pytest.mark.parametrize(
+    ("effects", "why"),
+    [
+        ({"gain_error": [1.02]}, ""),
+        ({"fixture_resonance": [100.0, 0.02, 0.02, 0.0, 1.0]}, ""),
+        ({"fixture_resonance": [150.0, 0.02, 0.02, 0.0, 1.0]}, "no measured points"),
+        ({"added_masses": [1e-3, 0.1, 0.1, 1e-3, 0.2, 0.1]}, ""),
+        ({"added_masses": [1e-3, 0.1, 0.1, 1e-3, 0.2, 0.1], "gain_error": [1.02]}, "so many things"),
+        ({"viscous_damping": [CATALOGUE["viscous_damping"].parameters[0].upper]}, "larger than is plausible"),
+    ],
+)
+def test_an_explanation_says_why_it_may_stand_in(effects, why):
+    said = stands_in(PROBLEM, fitted(**effects))
+    assert said.startswith(why) or why in said
+    assert bool(said) == bool(why)
+
+
+@pytest.mark.parametrize("name", sorted(n for n, e in CATALOGUE.items() if e.parameters))
+def test_no_effect_asks_for_more_where_it_is_absent_or_usual(name):
+    effect = CATALOGUE[name]
+    lower, upper = effect.limits(PLATE)
+    typical = np.clip([q.typical for q in effect.parameters], lower, upper)
+    absent = [t if q.neutral is None else q.neutral for q, t in zip(effect.parameters, typical, strict=True)]
+    assert not asks_for_more(effect, typical, PLATE)
+    assert not asks_for_more(effect, np.clip(absent, lower, upper), PLATE)
