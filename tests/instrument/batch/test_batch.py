@@ -3,6 +3,7 @@
 import csv
 import json
 import re
+import shutil
 
 import pytest
 from batch_cases import CORRUPT, write_specimen, write_sweeps
@@ -36,16 +37,25 @@ def rows_of(folder):
 
 
 def batch(*arguments):
-    return run(["batch", *map(str, arguments)])
+    """In this process: others take longer to begin than such sweeps to fit."""
+    return run(["batch", *map(str, arguments), "--workers", "1"])
 
 
-def test_a_corrupt_file_is_a_row_with_its_reason(tmp_path, sweeps, plate, capsys):
-    assert batch(*sweeps, "--specimen", plate, "--out", tmp_path, "--json", "-") == 0
-    said = json.loads(capsys.readouterr().out)
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory, sweeps, plate):
+    """The batch of all sweeps, on both processors; to be looked at."""
+    folder = tmp_path_factory.mktemp("whole")
+    words = [*sweeps, "--specimen", plate, "--out", folder, "--json", folder / "said.json"]
+    assert run(["batch", *map(str, words), "--workers", "2"]) == 0
+    return folder
+
+
+def test_a_corrupt_file_is_a_row_with_its_reason(whole):
+    said = json.loads((whole / "said.json").read_text())
     assert faults(said, schema_of("batch")) == []
     assert (said["rows"], said["done"], said["failed"]) == (4, 3, 1)
     assert said["verdicts"] == {"not diagnosed": 3}
-    rows = rows_of(tmp_path)
+    rows = rows_of(whole)
     assert [row["status"] for row in rows] == ["done", "done", "failed", "done"]
     assert rows[2]["reason"] == said["failures"][0]["reason"]
     assert "column frequency_hz missing" in rows[2]["reason"]
@@ -67,16 +77,15 @@ def test_a_row_says_what_identify_says(tmp_path, sweeps, plate):
     assert float(row["rms_percent"]) == pytest.approx(alone["rms_percent"], rel=1e-9)
 
 
-def test_the_page_needs_nothing_beside_it(tmp_path, sweeps, plate):
-    assert batch(*sweeps, "--specimen", plate, "--out", tmp_path) == 0
-    page = (tmp_path / "batch.html").read_text(encoding="utf-8")
+def test_the_page_needs_nothing_beside_it(whole):
+    page = (whole / "batch.html").read_text(encoding="utf-8")
     assert not re.search(r'(src|href)="(?!data:|#)', page)
     for words in ("3 of 4", "sweep-0002.csv", "column frequency_hz missing", "data:image/svg+xml"):
         assert words in page
 
 
-def test_started_again_nothing_is_repeated_and_the_table_is_the_same(tmp_path, sweeps, plate, capsys):
-    batch(*sweeps, "--specimen", plate, "--out", tmp_path)
+def test_started_again_nothing_is_repeated_and_the_table_is_the_same(tmp_path, whole, sweeps, plate, capsys):
+    shutil.copytree(whole, tmp_path, dirs_exist_ok=True)
     first, journal = (tmp_path / "batch.csv").read_bytes(), (tmp_path / "batch.jsonl").read_bytes()
     with open(tmp_path / "batch.jsonl", "a", encoding="utf-8") as file:
         file.write('{"key": "torn')
@@ -129,10 +138,9 @@ def test_diagnosed_rows_carry_a_verdict(tmp_path, sweeps, plate, capsys):
     assert f"1 {row['verdict']}" in capsys.readouterr().out
 
 
-def test_parquet_holds_the_same_numbers(tmp_path, sweeps, plate):
-    batch(*sweeps, "--specimen", plate, "--out", tmp_path)
-    table = parquet.read_table(tmp_path / "batch.parquet").to_pylist()
-    rows = rows_of(tmp_path)
+def test_parquet_holds_the_same_numbers(whole):
+    table = parquet.read_table(whole / "batch.parquet").to_pylist()
+    rows = rows_of(whole)
     assert [row["data"] for row in table] == [row["data"] for row in rows]
     assert table[0]["storage_modulus_pa"] == float(rows[0]["storage_modulus_pa"])
     assert table[2]["storage_modulus_pa"] is None
