@@ -1,7 +1,7 @@
 """The front-end as the rest of the program sees it: blocks of samples on one clock."""
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,6 +43,16 @@ class Block:
         return int(self.counts.shape[1])
 
 
+@dataclass(frozen=True)
+class Transducer:
+    """What a sensor's own memory (TEDS, IEEE 1451.4) says of it."""
+
+    type: str
+    serial: str
+    mv_per_unit: float | None = None
+    """Per m/s^2, N or degree Celsius; None where the unit is none of these."""
+
+
 class FrontEnd(Protocol):
     """What a driver must do. Every method returns within a bounded time or raises a `DriverError`.
 
@@ -72,4 +82,14 @@ class FrontEnd(Protocol):
 
     def close(self) -> None:
         """Let go of the connection."""
+        ...
+
+
+@runtime_checkable
+class ReadsMemories(Protocol):
+    """What a front-end has besides that reads the memories of sensors when it is opened; none has to."""
+
+    @property
+    def transducers(self) -> tuple[Transducer | None, ...]:
+        """By input, from 1 on; None where nothing answers."""
         ...

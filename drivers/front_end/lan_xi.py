@@ -21,7 +21,7 @@ import numpy as np
 
 from drivers.errors import DriverError, Garbled, Refused, TimedOut, Unreachable
 from drivers.front_end import lan_xi_documents as documents
-from drivers.front_end.interface import Block, InputChannel
+from drivers.front_end.interface import Block, InputChannel, Transducer
 from drivers.front_end.lan_xi_documents import ChannelSetup
 from drivers.front_end.lan_xi_frames import Decoder
 from drivers.front_end.lan_xi_stream import StreamReader
@@ -80,8 +80,8 @@ class LanXiFrontEnd:
         self._reader: StreamReader | None = None
         self._decoder = Decoder()
         self._sample_rate_hz, self._taken = 0.0, take_over
-        self.transducers: tuple[str | None, ...] = ()
-        """Type and serial number of the sensors that say who they are, by input."""
+        self.transducers: tuple[Transducer | None, ...] = ()
+        """Of the sensors that say who they are, by input."""
         try:
             self._info = documents.read_module_info(self._json("GET", "/module/info"))
             if take_over:
@@ -188,7 +188,7 @@ class LanXiFrontEnd:
                 self._request("PUT", path)
         self._request("PUT", "/open", documents.OPEN_PARAMETERS)
 
-    def _detect(self) -> tuple[str | None, ...]:
+    def _detect(self) -> tuple[Transducer | None, ...]:
         self._request("POST", "/channels/input/all/transducers/detect")
         deadline = time.monotonic() + _DETECTION_S
         tag, active = 0, True

@@ -27,6 +27,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from drivers.errors import Garbled, Refused
+from drivers.front_end.interface import Transducer
 
 IDLE = "Idle"
 OPENED = "RecorderOpened"
@@ -42,6 +43,8 @@ BANDWIDTH_FACTOR = 2.56
 HEADROOM = 10 ** (1.5 / 20)
 """Full scale of the converter over the nominal range: 1.5 dB."""
 
+_UNITS = {"m/s2": 1.0, "g": 1 / 9.80665, "N": 1.0, "degC": 1.0, "°C": 1.0}
+"""From V over the unit to V over the SI one."""
 _RANGE = re.compile(r"\s*([0-9.]+)\s*(m?)V\s*peak\s*", re.IGNORECASE)
 
 
@@ -221,12 +224,34 @@ def read_status(document: Any) -> tuple[str, int, bool]:
         raise Garbled(f"/onchange: {error!r} in {str(document)[:80]!r}") from error
 
 
-def read_transducers(document: Any) -> tuple[str | None, ...]:
-    """Type and serial number of each detected sensor, None where there is none. Raises `Garbled`."""
+def read_transducers(document: Any) -> tuple[Transducer | None, ...]:
+    """Each detected sensor, None where there is none. Raises `Garbled`.
+
+    `sensitivity` is taken to be in V over `unit`, as a plain volt of a setup has 1 and V: unverified.
+    """
     try:
-        return tuple(t and f"{t['type']['number']} {t['serialNumber']}" for t in document)
-    except (KeyError, TypeError) as error:
+        return tuple(t and _transducer(t) for t in document)
+    except (KeyError, TypeError, ValueError) as error:
         raise Garbled(f"/channels/input/all/transducers: {error!r}") from error
+
+
+def _transducer(t: dict[str, Any]) -> Transducer:
+    factor = _UNITS.get(str(t.get("unit", "")).replace("²", "2").replace("^", ""))
+    volts = t.get("sensitivity")
+    mv = 1e3 * float(volts) * factor if factor is not None and volts else None
+    return Transducer(str(t["type"]["number"]), str(t["serialNumber"]), mv)
+
+
+def write_transducer(transducer: Transducer, unit: str) -> dict[str, Any]:
+    """The same the other way, its sensitivity over `unit`."""
+    assert transducer.mv_per_unit is not None
+    return {
+        **plain_transducer(),
+        "sensitivity": transducer.mv_per_unit / 1e3,
+        "serialNumber": transducer.serial,
+        "type": {**plain_transducer()["type"], "number": transducer.type},
+        "unit": unit,
+    }
 
 
 def read_port(document: Any) -> int:

@@ -5,10 +5,10 @@ One rule: the states are the real module's. A request in a wrong one is answered
 
 import json
 import socket
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from threading import Lock, Thread
-from types import TracebackType
+from types import MappingProxyType, TracebackType
 from typing import Any, Literal
 from urllib.parse import urlsplit
 
@@ -43,6 +43,8 @@ class LanXiServer:
     side_door
         What a person would do at a rig: told the name and the JSON of PUT `/simulated/<name>`. Refusals are
         `ValueError` or `Refused`. `/simulated/hang` is the server's own: see `hang`.
+    transducers
+        What sensors with a memory say of themselves, by input.
     """
 
     def __init__(
@@ -56,10 +58,12 @@ class LanXiServer:
         ranges_v: tuple[float, ...] = (10.0, 31.6),
         serial: str = "000001",
         side_door: Callable[[str, Any], None] | None = None,
+        transducers: Mapping[int, dict[str, Any]] = MappingProxyType({}),
     ) -> None:
         rates_hz = tuple(sorted(float(rate) for rate in sample_rates))
         self.info = ModuleInfo("SIM-LAN-XI", serial, channels, rates_hz, tuple(sorted(ranges_v)))
         self._source, self._pace, self._side_door = source, pace, side_door
+        self._transducers = [transducers.get(number) for number in range(1, channels + 1)]
         self._recorder = Lock()
         self._state, self._tag, self._detecting = documents.IDLE, 0, 0
         self._setup: dict[str, Any] = documents.default_setup(self.info)
@@ -155,7 +159,7 @@ class LanXiServer:
                 (documents.OPENED, documents.CONFIGURING),
                 self._detect,
             ),
-            ("GET", "/channels/input/all/transducers"): ((), lambda _: [None] * self.info.inputs),
+            ("GET", "/channels/input/all/transducers"): ((), lambda _: self._transducers),
             ("GET", "/channels/input/default"): ((), lambda _: documents.default_setup(self.info)),
             ("GET", "/channels/input"): ((), lambda _: self._setup),
             ("PUT", "/channels/input"): ((documents.CONFIGURING, documents.STREAMING), self._put_setup),

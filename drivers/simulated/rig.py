@@ -8,10 +8,12 @@ The vibrometer speaks Polytec's language, unless another driver's own simulated 
 import json
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, ExitStack
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from types import MappingProxyType
+from typing import Any
 
 from drivers.chamber.registers import TemperatureRegisters
 from drivers.shaker.register_map import DEFAULT, RegisterMap
@@ -92,8 +94,10 @@ class SimulatedRig:
         log: Path | None = None,
         vibrometer: VibrometerPeer | None = None,
         chamber: SimulatedChamber | None = None,
+        transducers: Mapping[int, dict[str, Any]] = MappingProxyType({}),
     ) -> None:
         self.world, self._ports, self._log_path = world, ports, log
+        self._transducers = transducers
         self._written = 0
         self._registers, self._unit = registers, unit
         self.device = ShakerDevice(
@@ -126,6 +130,7 @@ class SimulatedRig:
                     port=self._ports.front_end,
                     pace="asked" if world.virtual else "real",
                     side_door=world.at_side_door,
+                    transducers=self._transducers,
                 )
             )
             modbus = stack.enter_context(

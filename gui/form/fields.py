@@ -27,12 +27,12 @@ _UNITS = {
     "_percent": "%", "_gpa": "GPa", "_mpa": "MPa", "_rad_s": "rad/s", "_mm": "mm", "_hz": "Hz", "_kg": "kg",
     "_c": "°C", "_s": "s", "_g": "g", "_v": "V", "_m": "m",
 }  # fmt: skip
-_NOT_ASKED = {"effects", "core", "log", "specimen"}
+_NOT_ASKED = {"effects", "core", "log", "specimen", "memory"}
 """Of a simulated rig: what it hides is not for whoever measures on it."""
 _NOT_SHOWN = {"further_pickups", "mass"}
 """What a document holds of `[[pickup]]` after the first, no key of a file; and masses put on for one sweep,
 which stay as the file has them."""
-_FILES = {"specimen", "rig", "path"}
+_FILES = {"specimen", "rig", "path", "sensors"}
 """Keys whose value is the name of a file."""
 
 

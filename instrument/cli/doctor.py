@@ -9,8 +9,7 @@ from instrument.cli.options import json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.facts.doctor import DoctorResult, Finding
-from instrument.files.rig_file import RigDocument
-from instrument.files.toml import read_document
+from instrument.files.sensor_file import read_rig
 from instrument.progress import bar
 from instrument.run.visit import visit
 
@@ -27,7 +26,7 @@ def doctor(rig: Path | None, json_path: str | None) -> None:
     status 2 where something has to be mended.
     """
     out = Output(json_path)
-    document = read_document(rig, RigDocument) if rig is not None else None
+    document = read_rig(rig) if rig is not None else None
     findings: list[Finding] = []
     with bar("looking"):
         findings += look_at_installation()

@@ -28,6 +28,7 @@ COMMANDS = (
     "demo",
     "new",
     "plan",
+    "sensors",
     "doctor",
     "check",
     "run",

@@ -7,8 +7,7 @@ from pathlib import Path
 
 import click
 
-from instrument.files.rig_file import RigDocument
-from instrument.files.toml import read_document
+from instrument.files.sensor_file import read_rig
 from instrument.progress import bar
 from instrument.simulated_case.simulation import simulated_rig
 
@@ -35,7 +34,7 @@ def simulate(rig: Path, virtual_time: bool, log: Path | None, modbus_port: int, 
     chamber_tcp (empty without a [chamber]). Everything is bound to loopback. Where standard input is a
     pipe, its end is the end.
     """
-    document = read_document(rig, RigDocument)
+    document = read_rig(rig)
     ports = modbus_port, frontend_port
     with simulated_rig(
         document, rig, virtual_time=virtual_time, log=log, ports=ports, progress=bar

@@ -4,6 +4,7 @@ SUMMARIES = {
     "demo": "A whole experiment on a simulated rig, and the published ZN_1 case.",
     "new": "A commented file of KIND to start from, valid as it stands, in PATH or KIND.toml here.",
     "plan": "Steps, level and spot for SPECIMEN.toml and a wanted uncertainty, and what they could not tell.",
+    "sensors": "The sensors of SENSORS.toml, and whose calibration has expired or soon will.",
     "doctor": "Whether the installation is in order and, with RIG.toml, whether its instruments answer.",
     "check": "Everything wrong with EXPERIMENT.toml and the files it names; then a dry run on the model.",
     "run": "The whole EXPERIMENT.toml on the rig it names: hammer test, sweep, live identification, session.",

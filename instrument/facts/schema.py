@@ -21,6 +21,7 @@ from instrument.facts.plan import PlanResult
 from instrument.facts.prediction import PredictionResult
 from instrument.facts.result import Result
 from instrument.facts.run import ReplayResult, RunResult
+from instrument.facts.sensors import SensorsResult
 from instrument.facts.shifted import ShiftedResult
 from instrument.facts.written import ExportResult, ImportResult, NewResult, RecoverResult, ReportResult
 
@@ -33,6 +34,7 @@ RESULTS: dict[str, type[Result]] = {
     "damping": DampingResult,
     "diagnose": DiagnosisResult,
     "doctor": DoctorResult,
+    "sensors": SensorsResult,
     "export": ExportResult,
     "identify": IdentificationResult,
     "identify-modes": ModalResult,

@@ -11,6 +11,7 @@ TEMPLATES = {
     "shear-pair": Path(__file__).parent / "templates" / "shear-pair.toml",
     "experiment": Path(__file__).parent / "templates" / "experiment.toml",
     "rig": Path(__file__).parents[1] / "simulated_case" / "rig.toml",
+    "sensors": Path(__file__).parent / "templates" / "sensors.toml",
     "real-rig": Path(__file__).parent / "templates" / "rig.toml",
 }
 """Kind of file, and where it is. A rig begins as the simulated one, which says how it becomes a real one."""

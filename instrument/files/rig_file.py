@@ -35,6 +35,11 @@ Chamber = Annotated[SerializeAsAny[ChamberOptions], by_kind("chamber")]
 _FEBRUARY = 2
 
 
+def year_after(day: date) -> date:
+    """The same day of the next year."""
+    return date(day.year + 1, day.month, min(day.day, 28) if day.month == _FEBRUARY else day.day)
+
+
 class SensorSection(TomlTable):
     """What hangs on an input."""
 
@@ -55,8 +60,7 @@ class SensorSection(TomlTable):
         """Last day of its calibration; None where nothing is said of one."""
         if self.calibrated_until is not None or self.calibrated is None:
             return self.calibrated_until
-        year, month, day = self.calibrated.year + 1, self.calibrated.month, self.calibrated.day
-        return date(year, month, min(day, 28) if month == _FEBRUARY else day)
+        return year_after(self.calibrated)
 
     @property
     def units_per_volt(self) -> float:
@@ -118,6 +122,14 @@ class SimulatedChamberSection(TomlTable):
     """Time constant of the plate behind the air."""
 
 
+class SimulatedMemorySection(TomlTable):
+    """What a sensor says of itself to the simulated front-end."""
+
+    serial: str
+    model: str = "SIM"
+    sensitivity_mv_per_unit: Positive
+
+
 class Simulation(TomlTable):
     """What the simulated rig is like, and what it hides. Never kept with a session."""
 
@@ -138,6 +150,8 @@ class Simulation(TomlTable):
     chamber: SimulatedChamberSection = SimulatedChamberSection()
     double_hit_every: Annotated[int, Field(ge=0)] = 4
     """Every so many hits one bounces; 0 for never."""
+    memory: dict[str, SimulatedMemorySection] = Field(default_factory=dict)
+    """Sensors with a memory (TEDS), by the name of their channel."""
     log: str | None = None
     """Beside this file: the rig's own record of its shaker, JSON lines."""
 
@@ -151,6 +165,8 @@ class RigDocument(TomlTable):
     front_end: FrontEnd
     chamber: Chamber | None = None
     channels: Channels
+    sensors: str | None = None
+    """A file of sensors, beside this one: a channel's `serial` is looked up there."""
     limits: RigLimits = RigLimits()
     operator: OperatorSection = OperatorSection()
     simulation: Simulation | None = None

@@ -114,4 +114,4 @@ def _said(fault: dict[str, Any], prefix: str, model: type[BaseModel] | None = No
         return f"{place}: unknown key" + (f", the nearest is {near}" if near else "")
     if place == prefix:
         return message
-    return f"{place}: {found}{message.lower()}"
+    return f"{place}: {found}{message[:1].lower()}{message[1:]}"

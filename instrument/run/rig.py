@@ -1,6 +1,7 @@
 """The rig: devices opened as RIG.toml names them; or simulated ones, stood up for the run and taken down."""
 
 import json
+import logging
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -13,13 +14,17 @@ from drivers.chamber import Chamber
 from drivers.chamber.driver import ChamberOptions
 from drivers.errors import Unreachable
 from drivers.front_end import FrontEnd
+from drivers.front_end.interface import ReadsMemories
 from drivers.shaker import Shaker
 from drivers.shaker.driver import ShakerOptions
 from drivers.vibrometer import Vibrometer
+from instrument.check.sensors import memory_remarks
 from instrument.files.devices import CHAMBERS, FRONT_ENDS, SHAKERS, VIBROMETERS
 from instrument.files.experiment_file import Hammer
 from instrument.files.rig_file import RigDocument, SensorSection
 from instrument.run.operator import Operator, Person, SimulatedOperator
+
+log = logging.getLogger(__name__)
 
 _SIMULATOR_STARTS_S = 30.0
 """A bound: one that has not come up by then is taken to hang."""
@@ -83,6 +88,9 @@ def open_rig(document: RigDocument, path: Path, hammer: Hammer | None) -> Iterat
         stack.callback(vibrometer.close)
         front_end = FRONT_ENDS[document.front_end.kind].open(document.front_end)
         stack.callback(front_end.close)
+        if isinstance(front_end, ReadsMemories):
+            for remark in memory_remarks(document, front_end.transducers):
+                log.warning("%s", remark)
         chamber = open_chamber(document.chamber)
         if chamber is not None:
             stack.callback(chamber.close)

@@ -13,9 +13,9 @@ from fitting.structures import AnySpecimen
 from instrument.errors import BadInput
 from instrument.files.experiment_file import ExperimentDocument, read_experiment
 from instrument.files.rig_file import RigDocument
+from instrument.files.sensor_file import read_rig
 from instrument.files.specimen_file import SpecimenDocument
 from instrument.files.structure_file import AnyDocument, described, read_structure_document
-from instrument.files.toml import read_document
 
 _NOT_IN_NAMES = re.compile(r"[/\\:\x00-\x1f\x7f]")
 _LONGEST_NAME = 200
@@ -79,7 +79,7 @@ def read_whole_experiment(path: Path) -> Experiment:
     document = read_experiment(path)
     rig_path = path.parent / document.rig
     specimen_path = path.parent / document.specimen
-    rig = read_document(rig_path, RigDocument)
+    rig = read_rig(rig_path)
     specimen = read_structure_document(specimen_path)
     if isinstance(specimen, SpecimenDocument):
         _refuse_another_drive(specimen, specimen_path)

@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
 from drivers.chamber.modbus_driver import ModbusTcpChamberOptions
+from drivers.front_end.interface import Transducer
+from drivers.front_end.lan_xi_documents import write_transducer
 from drivers.shaker.modbus_driver import ModbusOptions
 from drivers.shaker.register_map import DEFAULT
 from drivers.simulated.climate import Climate
@@ -93,6 +95,7 @@ def simulated_rig(
         log=log or (path.parent / simulation.log if simulation.log else None),
         vibrometer=_peer(document),
         chamber=chamber,
+        transducers=_memories(document.channels, simulation),
     )
     with rig as addresses:
         yield addresses
@@ -104,6 +107,9 @@ def refuse_simulation(document: RigDocument, path: Path) -> None:
         return
     try:
         effects, _ = _effects(document.simulation)
+        for name in document.simulation.memory:
+            if name == "velocity" or name not in document.channels.named():
+                raise ValueError(f"memory.{name}: no such sensor on this rig")
         if document.simulation.specimen is not None:
             refuse_effects(stands_on(document.simulation, path).kind, effects)
         log = document.simulation.log
@@ -213,6 +219,17 @@ def _inputs(channels: Channels, simulation: Simulation, level_factor: float) -> 
         noise = simulation.noise * (_LASER_NOISE_V if laser else _NOISE_V)
         inputs[sensor.input] = SimulatedSensor(_QUANTITIES[name], per_unit, noise, _SENSOR_LIMIT_V)
     return inputs
+
+
+def _memories(channels: Channels, simulation: Simulation) -> dict[int, dict[str, Any]]:
+    """What sensors say of themselves, by input, as the front-end hands it on."""
+    units = {"base": "m/s^2", "response": "m/s^2", "force": "N", "temperature": "degC"}
+    return {
+        channels.named()[name].input: write_transducer(
+            Transducer(one.model, one.serial, one.sensitivity_mv_per_unit), units[name]
+        )
+        for name, one in simulation.memory.items()
+    }
 
 
 def _effects(simulation: Simulation) -> tuple[Effects, dict[str, dict[str, Any]]]:

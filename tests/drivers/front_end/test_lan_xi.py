@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from drivers.errors import DriverError, Garbled, Refused, TimedOut, Unreachable
-from drivers.front_end.interface import InputChannel
+from drivers.front_end import lan_xi_documents as documents
+from drivers.front_end.interface import InputChannel, ReadsMemories, Transducer
 from drivers.front_end.lan_xi import LanXiFrontEnd
 from drivers.front_end.lan_xi_documents import HEADROOM
 from drivers.simulated.lan_xi_server import Acquired, LanXiServer
@@ -66,6 +67,16 @@ def front_end(server):
 def test_it_says_who_it_is(front_end):
     assert front_end.identity() == "LAN-XI SIM-LAN-XI, serial number 000001"
     assert front_end.transducers == (None,) * 6
+
+
+def test_sensors_with_a_memory_say_who_they_are(source):
+    said = Transducer("4507", "31", 10.2)
+    own = {2: documents.write_transducer(said, "m/s^2")}
+    with LanXiServer(source, channels=3, sample_rates=RATES, pace="asked", transducers=own) as server:
+        driver = LanXiFrontEnd(server.url, timeout_s=1.0)
+        driver.close()
+    assert isinstance(driver, ReadsMemories)
+    assert driver.transducers == (None, said, None)
 
 
 def test_a_million_samples_are_the_sources_to_the_bit(source, front_end):

@@ -2,6 +2,7 @@ import pytest
 
 from drivers.errors import Garbled, Refused
 from drivers.front_end import lan_xi_documents as documents
+from drivers.front_end.interface import Transducer
 from drivers.front_end.lan_xi_documents import ChannelSetup, ModuleInfo
 
 INFO = ModuleInfo("3050", "100123", 6, (4096.0, 65536.0, 131072.0), (10.0, 31.6))
@@ -49,7 +50,17 @@ def test_a_detected_sensor_leaves_the_scale_in_volts():
 
 def test_detected_sensors_have_type_and_serial_number():
     document = [None, {"type": {"number": "4507"}, "serialNumber": 31}]
-    assert documents.read_transducers(document) == (None, "4507 31")
+    assert documents.read_transducers(document) == (None, Transducer("4507", "31"))
+
+
+@pytest.mark.parametrize(
+    ("unit", "sensitivity", "mv"),
+    [("m/s^2", 0.01, 10.0), ("g", 0.0980665, 10.0), ("Pa", 0.05, None)],
+)
+def test_a_sensors_own_sensitivity_is_read_per_si_unit(unit, sensitivity, mv):
+    document = [{"type": {"number": "4507"}, "serialNumber": 31, "sensitivity": sensitivity, "unit": unit}]
+    (found,) = documents.read_transducers(document)
+    assert found.mv_per_unit == (None if mv is None else pytest.approx(mv))
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,8 @@ from datetime import date
 
 import pytest
 
-from instrument.check.sensors import sensor_remarks
+from drivers.front_end.interface import Transducer
+from instrument.check.sensors import memory_remarks, sensor_remarks
 from instrument.files.new_file import TEMPLATES
 from instrument.files.rig_file import RigDocument, SensorSection
 from instrument.files.toml import read_document
@@ -42,3 +43,24 @@ def test_a_simulated_sensor_needs_no_calibration():
 
 def test_nothing_is_known_of_a_sensor_without_a_date():
     assert SensorSection(input=1).valid_until is None
+
+
+@pytest.mark.parametrize(
+    ("own", "remark"),
+    [
+        (Transducer("4507", "A7", 10.0), None),
+        (Transducer("4507", "A7", None), None),
+        (
+            Transducer("4507", "A7", 10.4),
+            "10 mV per unit stated, but the memory of 4507 A7 says 10.4 (+4.0",
+        ),
+        (Transducer("4507", "B8", 10.0), "serial A7 stated, but the sensor there is 4507 B8"),
+    ],
+)
+def test_a_sensor_that_says_something_else_of_itself_is_told_of(own, remark):
+    rig = rig_with(sensitivity_mv_per_unit=10.0)
+    found = [None] * 8
+    found[rig.channels.base.input - 1] = own
+    remarks = list(memory_remarks(rig, found))
+    assert len(remarks) == (remark is not None)
+    assert all(remark in one for one in remarks)

@@ -4,12 +4,14 @@ from instrument.cli.main import run
 from instrument.files.experiment_file import read_experiment
 from instrument.files.new_file import TEMPLATES
 from instrument.files.rig_file import RigDocument
+from instrument.files.sensor_file import SensorsDocument
 from instrument.files.structure_file import read_structure
 from instrument.files.toml import read_document
 
 READERS = {
     "experiment": read_experiment,
     "rig": lambda path: read_document(path, RigDocument),
+    "sensors": lambda path: read_document(path, SensorsDocument),
     "real-rig": lambda path: read_document(path, RigDocument),
 }
 
