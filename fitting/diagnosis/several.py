@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from fitting.arrays import Array, Complex
 from fitting.diagnosis import one_plate
 from fitting.diagnosis.every_point import EveryPoint
+from fitting.diagnosis.joining import joined, joined_points, side_by_side
 from fitting.diagnosis.member_laws import by_all, law_at
 from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.of_files import OfFiles, Place
@@ -22,25 +23,14 @@ from fitting.diagnosis.plate_answer import motions
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid
 from fitting.diagnosis.response import STATED_NUMBER, SweepResponse, spans_of
+from fitting.diagnosis.sharing import CHANNELS, OF_EACH_FILE, OF_EACH_PLATE, OF_EACH_SPOT, Places, shared
 from fitting.diagnosis.strains import Reference
-from fitting.effects.base import Effect, Points
+from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
-from fitting.identification.adjusted import Adjusted, stated_number
+from fitting.identification.adjusted import Adjusted
 from fitting.laws import CoreLaw
-from fitting.nuisances import Nuisance, Nuisances
-from fitting.rational import RationalSweep
+from fitting.nuisances import Nuisances
 from fitting.reduced import ReducedPlate
-from fitting.sweep import Sweep
-
-OF_EACH_SPOT = ("gain", "delay", "pickup")
-"""Kinds of stated numbers that are another one at every spot, though they are stated alike."""
-CHANNELS = ("gain", "delay")
-"""What a mounting does not keep."""
-OF_EACH_FILE = ("force",)
-"""And in every file, its spots sharing them."""
-OF_EACH_PLATE = ("mass", "damping", "length", "width")
-"""And in every file, but of one plate that is struck elsewhere: it was not mounted anew."""
-Places = tuple[NDArray[np.intp], ...]
 
 
 @dataclass(frozen=True)
@@ -84,9 +74,9 @@ class SeveralProblem(DiagnosisProblem):
             raise OutsideModel("some specimens are exact, others not, expected one of them")
         plates = one_plate.plates_of(members)
         apart = CHANNELS if one_mounting else (*OF_EACH_SPOT, *OF_EACH_FILE, *OF_EACH_PLATE)
-        each, places, owners = _together(members, of, apart, plates)
+        each, places, owners = shared(members, of, apart, plates)
         sweep = joined([m.sweep for m in members])
-        rational = _side_by_side([m.rational for m in members])
+        rational = side_by_side([m.rational for m in members])
         nodes = EveryPoint.at(sweep.omega)
         grid = NodeGrid(nodes, rational)
         first = members[0]
@@ -94,7 +84,7 @@ class SeveralProblem(DiagnosisProblem):
             sweep,
             first.specimen,
             first.plate,
-            _points([m.points for m in members]),
+            joined_points([m.points for m in members]),
             rational,
             grid,
             grid,
@@ -259,108 +249,3 @@ class SeveralResponse(SweepResponse):
     def beside(self, effect: Effect) -> "SeveralResponse":
         """The same with one more effect."""
         return SeveralResponse(self.problem, [*self.effects, effect], coarse=self._coarse)
-
-
-def joined(sweeps: Sequence[Sweep]) -> Sweep:
-    """All points one after the other; every file's segments are its own, numbered on."""
-    segments, last = [], 0
-    for s in sweeps:
-        _, numbers = np.unique(s.segment, return_inverse=True)
-        segments.append(last + 1 + numbers.ravel())
-        last = int(segments[-1].max())
-
-    def all_of(name: str) -> Array | None:
-        values = [getattr(s, name) for s in sweeps]
-        return np.concatenate(values) if all(v is not None for v in values) else None
-
-    return Sweep(
-        frequency_hz=np.concatenate([s.frequency_hz for s in sweeps]),
-        velocity_m_s=np.concatenate([s.response_m_s for s in sweeps]),
-        commanded_m_s2=np.concatenate([s.commanded_m_s2 for s in sweeps]),
-        segment=np.concatenate(segments),
-        sweep=np.concatenate([s.sweep for s in sweeps]),
-        std_m_s=all_of("response_std_m_s"),
-        weight=all_of("weight"),
-        time_s=all_of("time_s"),
-    )
-
-
-def _points(each: Sequence[Points]) -> Points:
-    forces = [p.force_n for p in each if p.force_n is not None]
-    return Points(
-        omega=np.concatenate([p.omega for p in each]),
-        acceleration_m_s2=np.concatenate([p.acceleration_m_s2 for p in each]),
-        time_s=np.concatenate([p.time_s for p in each]),
-        timed=all(p.timed for p in each),
-        has_phase=each[0].has_phase,
-        reads=each[0].reads,
-        drive=each[0].drive,
-        force_n=np.concatenate(forces) if len(forces) == len(each) else None,
-    )
-
-
-def _together(
-    members: Sequence[DiagnosisProblem],
-    of: Sequence[Place],
-    apart: Sequence[str],
-    plates: one_plate.Plates,
-) -> tuple[tuple[Nuisance, ...], Places, tuple[tuple[int, ...], ...]]:
-    """All stated numbers, those of the same thing once: where each member's are, and whose each is.
-
-    Kinds `apart` are another thing in every file or at every spot.
-    """
-    keys: dict[tuple[object, ...], int] = {}
-    each: list[Nuisance] = []
-    owners: list[list[int]] = []
-    places = []
-    for k, m in enumerate(members):
-        at = []
-        for n in m.nuisances.each:
-            key: tuple[object, ...] = (n.name, n.sigma, stated_number(m.specimen, n)[0])
-            if n.kind not in apart:
-                pass
-            elif n.kind in OF_EACH_SPOT:
-                key = (n.name, of[k])
-            elif n.kind in OF_EACH_PLATE:
-                key = (n.name, of[plates[k] if m.points.drive == "force" else k].file)
-            elif n.kind in OF_EACH_FILE:
-                key = (n.name, of[k].file)
-            if key not in keys:
-                keys[key] = len(each)
-                each.append(n)
-                owners.append([])
-            owners[keys[key]].append(k)
-            at.append(keys[key])
-        places.append(np.array(at, dtype=np.intp))
-    named = [
-        n
-        if len(its) == len(members)
-        else replace(n, name=f"{n.name} [{_whose(n, [of[k] for k in its], of)}]")
-        for n, its in zip(each, owners, strict=True)
-    ]
-    return tuple(named), tuple(places), tuple(tuple(its) for its in owners)
-
-
-def _whose(n: Nuisance, its: Sequence[Place], every: Sequence[Place]) -> str:
-    """The files a number is of, and the spot of one that is a spot's."""
-    several = len({p.file for p in every}) > 1
-    said = [", ".join(str(file) for file in dict.fromkeys(p.file for p in its))] if several else []
-    if n.kind in OF_EACH_SPOT and its[0].pickup is not None:
-        said.append(f"pickup {its[0].pickup}")
-    return ", ".join(said)
-
-
-def _side_by_side(each: Sequence[RationalSweep]) -> RationalSweep:
-    """One sum over all points about the first one's modulus; terms that a member lacks are zero."""
-    G_ref = each[0].G_ref
-    terms = max(r.c.shape[1] for r in each)
-    c, mu = [], []
-    for r in each:
-        # 1 + (G - G_r) mu = (1 + (G_0 - G_r) mu) (1 + (G - G_0) mu / (1 + (G_0 - G_r) mu))
-        turned = 1 + (G_ref - r.G_ref) * r.mu
-        wide = ((0, 0), (0, terms - r.c.shape[1]))
-        c.append(np.pad(r.c / turned, wide))
-        mu.append(np.pad(r.mu / turned, wide))
-    return RationalSweep(
-        np.concatenate([r.omega for r in each]), G_ref, np.concatenate(c), np.concatenate(mu)
-    )

@@ -17,12 +17,13 @@ from fitting.diagnosis.confounded import in_light_of_the_law
 from fitting.diagnosis.diagnose import diagnose_task, seen_in_channels
 from fitting.diagnosis.evidence import BareModes
 from fitting.diagnosis.glitch import Glitch, glitches
+from fitting.diagnosis.joining import joined
 from fitting.diagnosis.joint import fit_of
 from fitting.diagnosis.of_files import Place, among
 from fitting.diagnosis.prediction import held_out
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.result import FoundEffect, ParameterEstimate
-from fitting.diagnosis.several import SeveralProblem, joined
+from fitting.diagnosis.several import SeveralProblem
 from fitting.diagnosis.small_problem import DEAF, SmallProblem
 from fitting.errors import OutsideModel
 from fitting.identification.bare_plate import fit_bare_plate

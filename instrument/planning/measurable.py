@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from fitting.arrays import Array
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.several import OF_EACH_FILE, OF_EACH_SPOT
+from fitting.diagnosis.sharing import OF_EACH_FILE, OF_EACH_SPOT
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.planning.candidates import resonances_hz
 from fitting.planning.further import Expecting, Further

@@ -1,0 +1,74 @@
+"""Which stated numbers several members share: the same thing is one unknown."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.diagnosis import one_plate
+from fitting.diagnosis.of_files import Place
+from fitting.diagnosis.problem import DiagnosisProblem
+from fitting.identification.adjusted import stated_number
+from fitting.nuisances import Nuisance
+
+OF_EACH_SPOT = ("gain", "delay", "pickup")
+"""Kinds of stated numbers that are another one at every spot, though they are stated alike."""
+CHANNELS = ("gain", "delay")
+"""What a mounting does not keep."""
+OF_EACH_FILE = ("force",)
+"""And in every file, its spots sharing them."""
+OF_EACH_PLATE = ("mass", "damping", "length", "width")
+"""And in every file, but of one plate that is struck elsewhere: it was not mounted anew."""
+Places = tuple[NDArray[np.intp], ...]
+
+
+def shared(
+    members: Sequence[DiagnosisProblem],
+    of: Sequence[Place],
+    apart: Sequence[str],
+    plates: one_plate.Plates,
+) -> tuple[tuple[Nuisance, ...], Places, tuple[tuple[int, ...], ...]]:
+    """All stated numbers, those of the same thing once: where each member's are, and whose each is.
+
+    Kinds `apart` are another thing in every file or at every spot.
+    """
+    keys: dict[tuple[object, ...], int] = {}
+    each: list[Nuisance] = []
+    owners: list[list[int]] = []
+    places = []
+    for k, m in enumerate(members):
+        at = []
+        for n in m.nuisances.each:
+            key: tuple[object, ...] = (n.name, n.sigma, stated_number(m.specimen, n)[0])
+            if n.kind not in apart:
+                pass
+            elif n.kind in OF_EACH_SPOT:
+                key = (n.name, of[k])
+            elif n.kind in OF_EACH_PLATE:
+                key = (n.name, of[plates[k] if m.points.drive == "force" else k].file)
+            elif n.kind in OF_EACH_FILE:
+                key = (n.name, of[k].file)
+            if key not in keys:
+                keys[key] = len(each)
+                each.append(n)
+                owners.append([])
+            owners[keys[key]].append(k)
+            at.append(keys[key])
+        places.append(np.array(at, dtype=np.intp))
+    named = [
+        n
+        if len(its) == len(members)
+        else replace(n, name=f"{n.name} [{_whose(n, [of[k] for k in its], of)}]")
+        for n, its in zip(each, owners, strict=True)
+    ]
+    return tuple(named), tuple(places), tuple(tuple(its) for its in owners)
+
+
+def _whose(n: Nuisance, its: Sequence[Place], every: Sequence[Place]) -> str:
+    """The files a number is of, and the spot of one that is a spot's."""
+    several = len({p.file for p in every}) > 1
+    said = [", ".join(str(file) for file in dict.fromkeys(p.file for p in its))] if several else []
+    if n.kind in OF_EACH_SPOT and its[0].pickup is not None:
+        said.append(f"pickup {its[0].pickup}")
+    return ", ".join(said)

@@ -1,0 +1,45 @@
+"""Which stated numbers several members have in common."""
+
+from types import SimpleNamespace
+
+from fitting.diagnosis.of_files import Place
+from fitting.diagnosis.sharing import CHANNELS, OF_EACH_FILE, OF_EACH_PLATE, OF_EACH_SPOT, shared
+from fitting.nuisances import Nuisance
+from fitting.specimen import Specimen
+
+NUMBERS = (Nuisance("gain", "gain", 0.003), Nuisance("length", "length", 1e-3))
+
+
+def member(length_m=0.3):
+    specimen = object.__new__(Specimen)
+    object.__setattr__(specimen, "length_m", length_m)
+    nuisances = SimpleNamespace(each=NUMBERS)
+    return SimpleNamespace(specimen=specimen, nuisances=nuisances, points=SimpleNamespace(drive="base"))
+
+
+def names(members, of, apart):
+    return [n.name for n in shared(members, of, apart, tuple(range(len(members))))[0]]
+
+
+def test_of_one_mounting_only_the_channels_are_apart():
+    two = [member(), member()]
+    assert names(two, [Place(1), Place(2)], CHANNELS) == ["gain [1]", "length", "gain [2]"]
+
+
+def test_mounted_anew_a_plate_has_another_length_in_each_file():
+    two = [member(), member()]
+    said = names(two, [Place(1), Place(2)], (*OF_EACH_SPOT, *OF_EACH_FILE, *OF_EACH_PLATE))
+    assert said == ["gain [1]", "length [1]", "gain [2]", "length [2]"]
+
+
+def test_spots_of_one_file_share_its_plate_and_not_their_gain():
+    two = [member(), member()]
+    numbers, places, owners = shared(two, [Place(1, 0), Place(1, 1)], OF_EACH_SPOT, (0, 0))
+    assert [n.name for n in numbers] == ["gain [pickup 0]", "length", "gain [pickup 1]"]
+    assert [p.tolist() for p in places] == [[0, 1], [2, 1]]
+    assert owners == ((0,), (0, 1), (1,))
+
+
+def test_what_is_stated_otherwise_is_another_number():
+    two = [member(), member(0.25)]
+    assert names(two, [Place(1), Place(2)], CHANNELS) == ["gain [1]", "length [1]", "gain [2]", "length [2]"]
