@@ -1,15 +1,22 @@
 """A run that goes on after its diagnosis, on a plate made of formulas: what it finds is made up.
 
-A program, to be killed: EXPERIMENT.toml, folder of the session, the folder to resume from where there is one.
+A program that kills itself: EXPERIMENT.toml, folder of the session, after how many points (0: never), the
+folder to resume from where there is one.
 """
 
+import os
+import signal
 import sys
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from diagnosis_cases import diagnosis
 from result_cases import identification
+from run_at_point import RunAtPoint
 
 from instrument.run.experiment import run_experiment
+from instrument.run.live_diagnosis import diagnose_points
 from instrument.session.configuration import read_whole_experiment
 from instrument.stream.derived import DiagnosisFound, FitUpdated
 
@@ -28,6 +35,11 @@ BACKWARDS = {**OFFER, **STEPS, "kind": "reversed", "level_g": 1.0}
 HALF = {**BACKWARDS, "kind": "level", "level_g": 0.5}
 SPOT = {**BACKWARDS, "kind": "spot", "needs_hands": True, "spot_mm": SPOT_MM, "todo": "Aim it elsewhere."}
 
+SPOT_OF_THE_CASE = {**SPOT, "segments": [2, 2, 2]}
+"""Of the simulated plate, whose third mode is the second segment."""
+
+CLAMPING = {**BACKWARDS, "kind": "clamping", "needs_hands": True, "todo": "Clamp it anew."}
+
 MASS_KG, MASS_MM = 0.005, (280.0, 100.0)
 MASS = {**BACKWARDS, "kind": "added_mass", "needs_hands": True, "mass_kg": MASS_KG, "mass_at_mm": MASS_MM}
 
@@ -39,7 +51,7 @@ def a_law(number, last_step, points, damping, specimen):
 def grouped(*offers):
     """A diagnosis that ends in a group as long as there are offers, one after another."""
 
-    def diagnose(number, last_step, points, times_s, damping, specimen):
+    def diagnose(number, last_step, points, times_s, damping, specimen, settings):
         measured = {p.sweep for p in points if p.step <= last_step}
         left = offers[len(measured) - 1 :][:1]
         result = diagnosis().but(next_measurements=left)
@@ -54,6 +66,25 @@ def run(experiment, out, offers=(BACKWARDS, SPOT), **options):
     return run_experiment(experiment, Path(out), ("sweep",), fit=a_law, diagnose=grouped(*offers), **options)
 
 
+def really(*offers):
+    """A diagnosis as a run makes it, but for what it proposes: the ranking of such data may be empty."""
+    proposed = grouped(*offers)
+
+    def diagnose(*given):
+        found = diagnose_points(*given)
+        offered = proposed(*given).result.next_measurements
+        return replace(found, result=found.result.but(next_measurements=offered))
+
+    return diagnose
+
+
 if __name__ == "__main__":
-    given = [Path(a) for a in sys.argv[1:]]
-    run(given[0], given[1], resume=given[2] if len(given) > 2 else None)
+    experiment, out, after, *folder = sys.argv[1:]
+    run_experiment(
+        read_whole_experiment(Path(experiment)),
+        Path(out),
+        ("sweep",),
+        diagnose=really(SPOT_OF_THE_CASE),
+        companion=RunAtPoint(int(after), partial(os.kill, os.getpid(), signal.SIGKILL)),
+        resume=Path(folder[0]) if folder else None,
+    )

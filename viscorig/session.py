@@ -10,6 +10,7 @@ from instrument.interchange.identified import session_sweep
 from instrument.interchange.specimen_toml import specimen_toml
 from instrument.results.session_result import recorded_result
 from instrument.session.contents import Contents, contents_of
+from instrument.session.points import is_one_mounting
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import DiagnosisFound, FitUpdated
 from viscorig.diagnosis import Diagnosis
@@ -41,7 +42,7 @@ class Session(Shown):
     diagnosis: Diagnosis | None
     remarks: tuple[str, ...]
     """Why there is no law or no diagnosis, where one was tried."""
-    has_known_masses: bool
+    has_mountings: bool
     """Whether the run had known masses put on the plate: points with and without them."""
     result: SessionResult
     """The law to sign: that after the diagnosis, with its verdict and where it holds."""
@@ -97,7 +98,7 @@ def _session(contents: Contents) -> Session:
         hammer=Damping(contents.damping.result) if contents.damping is not None else None,
         identification=Identification(fit.result, specimen) if fit and fit.result else None,
         diagnosis=Diagnosis(diagnosis.result) if diagnosis and diagnosis.result else None,
-        has_known_masses=any(point.mass_at_mm is not None for point in contents.measured),
+        has_mountings=not is_one_mounting(contents.measured),
         result=recorded_result(contents),
         remarks=(*_why("no law identified", fit), *_why("no diagnosis", diagnosis)),
     )

@@ -12,6 +12,8 @@ from drivers.simulated.plant.effects import AddedMass, ByHand, Effects
 from drivers.simulated.plant.shaken import ShakenPlate
 
 _OUTPUTS = {"velocity": "spot_velocity", "response_acceleration": "acceleration"}
+_CLAMPED_ANEW = 0.7
+"""Standard deviation of a clamp's stiffness from one mounting to the next, in its logarithm."""
 _LIFTS_S = 0.1
 """From being asked until the hammer strikes."""
 _WIDTH_S = 1e-3
@@ -64,14 +66,29 @@ class DampedPlate(OnShaker):
         """A known mass on it, and no other. Raises `ValueError` for one off the plate."""
         self._change(replace(self._by_hand, mass=AddedMass(mass_kg, *at_m)))
 
+    def clamp(self) -> None:
+        """Clamped anew: a clamp that gives does so by another stiffness, the same ones in every run."""
+        self._change(replace(self._by_hand, mounting=self._by_hand.mounting + 1))
+
     def unload(self) -> None:
         """Nothing on it but what it hides."""
         self._change(replace(self._by_hand, mass=None))
 
     def _change(self, by_hand: ByHand) -> None:
         if by_hand != self._by_hand:
-            self.plant = ShakenPlate(self._effects, climate=self._climate, by_hand=by_hand)
+            effects = _clamped(self._effects, by_hand.mounting)
+            self.plant = ShakenPlate(effects, climate=self._climate, by_hand=by_hand)
             self._by_hand = by_hand
+
+
+def _clamped(effects: Effects, mounting: int) -> Effects:
+    """With the clamp of a mounting, 0 for the first."""
+    first = effects.clamp_compliance
+    if first is None or not mounting:
+        return effects
+    times = float(np.exp(_CLAMPED_ANEW * np.random.default_rng(mounting).standard_normal()))
+    other = replace(first, along_x_n_m3=times * first.along_x_n_m3, along_z_n_m3=times * first.along_z_n_m3)
+    return replace(effects, clamp_compliance=other)
 
 
 class SimulatedBarePlate:

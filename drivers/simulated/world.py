@@ -162,7 +162,7 @@ class World:
             plate.drive(piece)
 
     def at_side_door(self, name: str, body: Any) -> None:
-        """What only a person can do: mount, aim, load, hit. Raises `Refused`, `KeyError`."""
+        """What only a person can do: mount, clamp, aim, load, hit. Raises `Refused`, `KeyError`."""
         with self.lock:
             if name == "mount":
                 self._mount(body["plate"])
@@ -172,10 +172,12 @@ class World:
                 self._look_at(body.get("at_m"))
             elif name == "load":
                 self._load(float(body["mass_kg"]), (float(body["at_m"][0]), float(body["at_m"][1])))
+            elif name == "clamp":
+                self._clamp()
             elif name == "hit":
                 self._hit()
             else:
-                raise Refused(f"no {name!r} at the side door, expected mount, aim, load or hit")
+                raise Refused(f"no {name!r} at the side door, expected mount, clamp, aim, load or hit")
 
     def _aim(self, point: str) -> str:
         if point not in ("base", "pickup"):
@@ -195,6 +197,12 @@ class World:
         unload = getattr(self.plates[plate], "unload", None)
         if unload is not None:
             unload()
+
+    def _clamp(self) -> None:
+        """The mounted plate once more, by other hands."""
+        clamp = getattr(self.plates[self.mounted], "clamp", None)
+        if clamp is not None:
+            clamp()
 
     def _load(self, mass_kg: float, at_m: tuple[float, float]) -> None:
         """A known mass on the mounted plate."""

@@ -136,7 +136,7 @@ def question_data(given: Given, path: Path) -> None:
 def together(given: Sequence[Given], data: Sequence[Path]) -> list[File] | None:
     """As files under one law, each of their spots apart; None for a single plate read at one spot.
 
-    Raises `BadInput` for a session with known masses beside other files.
+    Raises `BadInput` for a session with known masses or clampings beside other files.
     """
     only = given[0]
     if len(given) == 1 and not only.with_masses and isinstance(only.specimen, Specimen):
@@ -145,7 +145,9 @@ def together(given: Sequence[Given], data: Sequence[Path]) -> list[File] | None:
     elif len(given) == 1 and only.with_masses:
         return list(only.with_masses)
     if any(one.with_masses for one in given):
-        raise BadInput("a session with a known mass put on beside other files: expected it alone")
+        raise BadInput(
+            "a session with a known mass put on, or clamped anew, beside other files: expected it alone"
+        )
     each = zip(given, data, strict=True)
     return [
         spot

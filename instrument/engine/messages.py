@@ -147,7 +147,7 @@ class OperatorAsked(Message):
     at_mm: tuple[float, float] | None = None
     """Where on the plate: x from the clamp, y from a long edge."""
     mark: str = ""
-    """What goes there."""
+    """What goes there; `clamp` without a place: the plate's clamped edge."""
     good: int = 0
     """Good hits so far."""
     wanted: int = 0

@@ -136,6 +136,7 @@ COLUMNS: tuple[Column, ...] = (
         record=ShownQuantity("Spot", _spot, "0 is the specimen file's own"),
     ),
     plain("mass_kg", "kg", record=said("Known mass", "mass_kg", ".4g", " g", "Put on the plate", 1e3)),
+    plain("mounting", "1", whole=True, record=said("Clamped anew", "mounting", ".0f", " times")),
     Column("force_re_n", "N", given="if known"),
     Column("force_im_n", "N", given="if known"),
     Column(

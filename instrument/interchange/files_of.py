@@ -1,4 +1,4 @@
-"""A session's points as files under one law: one for every known mass on the plate and every spot."""
+"""A session's points as files under one law: one a clamping, known mass on the plate and spot."""
 
 from collections.abc import Sequence
 
@@ -8,7 +8,7 @@ from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
 from instrument.models.files import File, spots_of
-from instrument.session.points import by_mass, with_spots
+from instrument.session.points import by_mounting, with_spots
 from instrument.stream.derived import PointMeasured
 
 
@@ -19,6 +19,6 @@ def files_of(sweep: Sweep, points: Sequence[PointMeasured], specimen: AnySpecime
     plate = with_spots(specimen, points)
     return [
         file
-        for number, (places, with_mass) in enumerate(by_mass(points, plate), start=1)
+        for number, (places, with_mass) in enumerate(by_mounting(points, plate), start=1)
         for file in spots_of(sweep.take(np.array(places)), with_mass, "", number)
     ]

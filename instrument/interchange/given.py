@@ -23,7 +23,7 @@ from instrument.interchange.readers import is_foreign
 from instrument.models.files import File
 from instrument.results.session_result import recorded_result
 from instrument.session.contents import Contents, contents_of
-from instrument.session.points import with_spots
+from instrument.session.points import is_one_mounting, with_spots
 from instrument.session.storage import SessionFile
 
 R = TypeVar("R", IdentificationResult, DiagnosisResult)
@@ -52,7 +52,7 @@ class Given:
     temperature_c: float | None = None
     """Mean over the points of a session or a column, where it was measured."""
     with_masses: tuple[File, ...] = ()
-    """The data with each known mass that a run had put on the plate; empty where there was none."""
+    """The data of each clamping and known mass that a run put on the plate; empty where there is none."""
 
     @property
     def plate(self) -> Specimen:
@@ -103,6 +103,11 @@ def _of_sweep(data: Path, specimen: Path | None) -> Given:
         said = f"an FRF: taken as the pickup over {over}"
         return Given(read, sweep_of_frf_csv(data, level), None, remark=said)
     file = read_sweep(data)
+    if any(cell.strip(" .0") for cell in file.unknown.get("mounting", [])):
+        raise BadInput(
+            f"{data}: column mounting: the plate was clamped anew for some rows, expected a file for each "
+            "mounting (or the session itself)"
+        )
     if any(cell.strip(" .0") for cell in file.unknown.get("mass_kg", [])):
         raise BadInput(
             f"{data}: column mass_kg: a known mass was on the plate in some rows, expected a file for each, "
@@ -153,7 +158,7 @@ def _of_session(data: Path, specimen: Path | None, *, own_hammer: bool) -> Given
         recorded_result(contents) if diagnosis is not None else None,
         diagnosis if own else None,
         _temperature_c(contents),
-        tuple(files) if any(point.mass_at_mm is not None for point in contents.measured) else (),
+        () if is_one_mounting(contents.measured) else tuple(files),
     )
 
 

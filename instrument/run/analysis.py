@@ -21,6 +21,7 @@ from instrument.stream.event import Derived, Event
 from instrument.stream.raw import (
     AcquisitionBegan,
     BlockAcquired,
+    ClampedAnew,
     HammerTestEnded,
     Held,
     MassPut,
@@ -55,6 +56,7 @@ class Analysis:
         self._latest = 0
         self._spot: SpotMoved | None = None
         self._mass: MassPut | None = None
+        self._mounting = 0
         self._calibration_points: list[PointMeasured] = []
         self.step: StepAnalysis | None = None
         self.hammer: HammerAnalysis | None = None
@@ -79,6 +81,8 @@ class Analysis:
         self._clock.take(event)
         if isinstance(event, Derived):
             self._keep(event)
+        elif isinstance(event, ClampedAnew):
+            self._mounting = event.mounting
 
     @property
     def wanted(self) -> int:
@@ -106,6 +110,8 @@ class Analysis:
                 self._spot = event
             case MassPut():
                 self._mass = event
+            case ClampedAnew():
+                self._mounting = event.mounting
             case OperatorDid() if event.what in ("mounted", "aimed"):
                 self._spot = None
                 # A plate is mounted as it is; what was put on it is taken off.
@@ -163,7 +169,7 @@ class Analysis:
             point = replace(point, pickup=self._spot.pickup, spot_mm=self._spot.spot_mm)
         if self._mass is not None:
             point = replace(point, mass_kg=self._mass.mass_kg, mass_at_mm=self._mass.at_mm)
-        return point
+        return replace(point, mounting=self._mounting) if self._mounting else point
 
     def _acquire(self, event: AcquisitionBegan) -> None:
         self._acquisition, self.step, self._latest = event, None, 0

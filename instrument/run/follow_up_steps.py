@@ -15,7 +15,7 @@ MOST_OFFERS = 3
 """Of one diagnosis: asked for one after the other."""
 _ROOM = 0.8
 """Of a limit, that a planned step may use: resonances are a little higher than they were read."""
-_BY_STEPS = ("frequencies", "level", "reversed", "spot", "added_mass")
+_BY_STEPS = ("frequencies", "level", "reversed", "spot", "added_mass", "clamping")
 
 
 def possible(

@@ -16,6 +16,7 @@ from instrument.stepped_sine.settings import Limits
 from instrument.stream.derived import DiagnosisFound, PointMeasured
 from instrument.stream.event import Event
 from instrument.stream.raw import (
+    ClampedAnew,
     FollowUpDecided,
     FollowUpEnded,
     FollowUpProposed,
@@ -35,6 +36,8 @@ class Earlier:
     """By measurement and offer."""
     ended: frozenset[int]
     spots: tuple[SpotMoved, ...]
+    mounting: int = 0
+    """How often the plate was clamped anew."""
 
     @classmethod
     def of(cls, events: list[Event]) -> "Earlier":
@@ -45,6 +48,7 @@ class Earlier:
             {(e.number, e.offer): e for e in events if isinstance(e, FollowUpDecided)},
             frozenset(e.number for e in events if isinstance(e, FollowUpEnded)),
             tuple(e for e in events if isinstance(e, SpotMoved)),
+            max((e.mounting for e in events if isinstance(e, ClampedAnew)), default=0),
         )
 
 
@@ -71,6 +75,9 @@ class Following:
             self._spots[moved.pickup] = (1e-3 * x, 1e-3 * y)
         # Spot, and whether a mass is on the plate, as this run has them.
         self._at, self._loaded = 0, False
+        self._mounting = self.earlier.mounting
+        self._clamping: FollowUp | None = None
+        """That the plate has to be clamped for once more: nobody knows what happened to it meanwhile."""
         self._left_s = self.table.follow_up_most_s
         self.found: DiagnosisFound | None = None
         """The last diagnosis."""
@@ -85,7 +92,9 @@ class Following:
             if offer is None:
                 return
             self._left_s -= offer.seconds
-            if number not in self.earlier.ended:
+            if number in self.earlier.ended:
+                self._clamping = offer if offer.kind == "clamping" else self._clamping
+            else:
                 ready()
                 self._measure(number, offer, rig, runner)
                 self.emit(FollowUpEnded(number))
@@ -101,7 +110,7 @@ class Following:
         for k, offer in enumerate(self._offers(number)):
             decided = self.earlier.decided.get((number, k))
             if decided is None:
-                alone = not offer.needs_hands and not self._at and not self._loaded
+                alone = not offer.needs_hands and not (self._at or self._loaded or self._clamping)
                 by_itself = self.table.follow_up == "do" and alone
                 agreed = by_itself or rig.operator.agree(offer)
                 decided = FollowUpDecided(number, k, agreed, "experiment" if by_itself else "person")
@@ -145,6 +154,9 @@ class Following:
             # First of all: a plate mounted anew is taken for one that is seen where it was at first.
             self.emit(rig.operator.mount("damped"))
             self._loaded = False
+        clamping = offer if offer.kind == "clamping" else self._clamping
+        if clamping is not None:
+            self._clamp(clamping, rig)
         if offer.spot_mm is not None:
             self.emit(rig.operator.change(offer))
             self._at = self._number_of(offer.spot_mm)
@@ -157,7 +169,17 @@ class Following:
             self.emit(MassPut(offer.mass_kg, offer.mass_at_mm))
             self._loaded = True
         own = [p for p in self._steps if p.pickup == 0 and p.mass_at_mm is None]
-        self.sweep.follow(runner, follow_up_segments(offer, own, self.sweep.passes + number))
+        segments = follow_up_segments(offer, own, self.sweep.passes + number)
+        self.sweep.follow(runner, segments, self._mounting)
+
+    def _clamp(self, clamping: FollowUp, rig: Rig) -> None:
+        self.emit(rig.operator.change(clamping))
+        self._mounting += 1
+        self.emit(ClampedAnew(self._mounting))
+        self._clamping = None
+        # The plate is not quite where it was.
+        self.emit(rig.operator.aim("pickup"))
+        self._at = 0
 
     def _number_of(self, spot_mm: tuple[float, float]) -> int:
         """Of a spot; a new one comes after all others."""

@@ -15,17 +15,19 @@ from instrument.files.hammer_file import accepted_modes
 from instrument.interchange.files_of import files_of
 from instrument.models.diagnosis import diagnose
 from instrument.models.together import diagnose_together
-from instrument.planning.follow_up import with_follow_ups
+from instrument.planning.follow_up import Possible, with_follow_ups
 from instrument.progress import Progress, quiet
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.together_from import diagnosed_together_from
 from instrument.session.points import sweep_of, uncalibrated
+from instrument.stepped_sine.settings import SweepSettings
 from instrument.stream.derived import DampingFound, DiagnosisFound, PointMeasured
 
 Diagnoser = Callable[
-    [int, int, list[PointMeasured], list[float], DampingFound | None, AnySpecimen], DiagnosisFound
+    [int, int, list[PointMeasured], list[float], DampingFound | None, AnySpecimen, SweepSettings],
+    DiagnosisFound,
 ]
-"""Number, last step, points, when each was read, hammer test, specimen."""
+"""Number, last step, points, when each was read, hammer test, specimen, how the run steps and its limits."""
 
 
 def diagnose_points(
@@ -35,14 +37,19 @@ def diagnose_points(
     times_s: list[float],
     damping: DampingFound | None,
     specimen: AnySpecimen,
+    settings: SweepSettings,
     progress: Progress = quiet,
 ) -> DiagnosisFound:
-    """Diagnose all points up to a step, jointly with the hammer test. Pure: the same in a replay."""
+    """Diagnose all points up to a step, jointly with the hammer test. Pure: the same in a replay.
+
+    What is proposed next stays within the limits of `settings`, and costs what their steps take.
+    """
     used = [(p, t) for p, t in zip(points, times_s, strict=True) if p.step <= last_step]
     try:
         # One thread: sums in another order would differ in the last bit.
         with threadpool_limits(1):
-            result = _result([p for p, _ in used], [t for _, t in used], damping, specimen, progress)
+            able = Possible(settings)
+            result = _result([p for p, _ in used], [t for _, t in used], damping, specimen, able, progress)
             return DiagnosisFound(number, last_step, result)
     except (FittingError, BadInput, ValidationError, ValueError, ArithmeticError) as error:
         # Data may be such that nothing can be said of them: that is said, and the session is kept.
@@ -54,6 +61,7 @@ def _result(
     times_s: list[float],
     damping: DampingFound | None,
     specimen: AnySpecimen,
+    able: Possible,
     progress: Progress,
 ) -> DiagnosisResult:
     hammer = accepted_modes(damping.result) if damping is not None else None
@@ -61,10 +69,10 @@ def _result(
     files = files_of(sweep, points, specimen)
     if len(files) > 1 or not isinstance(specimen, Specimen):
         several = diagnose_together(files, progress=progress, hammer=hammer)
-        result = with_follow_ups(diagnosed_together_from(several, files), several.found).untimed
+        result = with_follow_ups(diagnosed_together_from(several, files), several.found, able).untimed
     else:
         found = diagnose(sweep, specimen, hammer, progress=progress)
-        result = with_follow_ups(diagnosis_from(found, sweep), found).untimed
+        result = with_follow_ups(diagnosis_from(found, sweep), found, able).untimed
     return result.but(warnings=(*result.warnings, *uncalibrated(points)))
 
 

@@ -219,6 +219,8 @@ class SimulatedOperator:
         elif offer.mass_kg is not None and offer.mass_at_mm is not None:
             x, y = offer.mass_at_mm
             self._put("load", {"mass_kg": offer.mass_kg, "at_m": (1e-3 * x, 1e-3 * y)})
+        elif offer.kind == "clamping":
+            self._put("clamp", {})
         else:
             raise RigStopped(f"simulated rig: {offer.kind} cannot be played")
         return OperatorDid("changed", offer.todo)

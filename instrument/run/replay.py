@@ -103,7 +103,7 @@ def _replay(
         elif isinstance(event, DiagnosisStarted):
             a = analysis
             again.diagnosis = diagnose(
-                event.number, event.last_step, a.points, a.times_s, a.damping, specimen
+                event.number, event.last_step, a.points, a.times_s, a.damping, specimen, setup.sweep
             )
             apart[DiagnosisFound, event.number] = again.diagnosis
             derived = [*derived, again.diagnosis]

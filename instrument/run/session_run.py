@@ -204,7 +204,8 @@ class SessionRun:
         a, number, last = self.analysis, self._diagnoses, self.fit.last_step
         self._record(DiagnosisStarted(number, last))
         specimen = self._configuration.the_specimen()
-        found = apart(lambda: self._diagnoser(number, last, a.points, a.times_s, a.damping, specimen))
+        given = (a.points, a.times_s, a.damping, specimen, self._setup.sweep)
+        found = apart(lambda: self._diagnoser(number, last, *given))
         self._record(found)
         return found
 

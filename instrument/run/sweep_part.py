@@ -1,6 +1,7 @@
 """The sweep of a run: calibration, soak, then the plan's steps, identified while they are measured."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -111,11 +112,20 @@ class SweepPart:
         """Over the segments, before anything follows."""
         return self.table.sweeps if self.table.plan == "fixed" else _ADAPTIVE_PASSES
 
-    def follow(self, runner: Runner, segments: Sequence[PlannedSegment]) -> None:
-        """Further steps, and the fit of all points."""
+    def follow(self, runner: Runner, segments: Sequence[PlannedSegment], mounting: int = 0) -> None:
+        """Further steps, and the fit of all points.
+
+        What is there of another `mounting` counts for nothing: a clamping that was broken off is begun anew.
+        """
         before = self._planner
+        there = tuple(p for p in before.done.points if p.mounting == mounting)
         planner = Planner(
-            self._setup.sweep, before.decay_1_s, None, before.next_step, before.done, before.drive
+            self._setup.sweep,
+            before.decay_1_s,
+            None,
+            before.next_step,
+            replace(before.done, points=there),
+            before.drive,
         )
         self._measured(runner, planner.plan(segments))
         before.next_step = planner.next_step

@@ -31,14 +31,19 @@ def with_spots(specimen: Specimen, points: Sequence[PointMeasured]) -> Specimen:
     return replace(specimen, further_pickups_m=(*specimen.further_pickups_m, *spots))
 
 
-def by_mass(points: Sequence[PointMeasured], specimen: Specimen) -> list[tuple[list[int], Specimen]]:
-    """Points that the same known mass was on the plate for, by their places; and the plate with it."""
-    groups: dict[tuple[PlacedMass, ...], list[int]] = {}
+def by_mounting(points: Sequence[PointMeasured], specimen: Specimen) -> list[tuple[list[int], Specimen]]:
+    """Points of one clamping with one known mass on the plate, by their places; and the plate with it."""
+    groups: dict[tuple[int, tuple[PlacedMass, ...]], list[int]] = {}
     for k, p in enumerate(points):
         at = p.mass_at_mm
         on = () if at is None else (PlacedMass(p.mass_kg, 1e-3 * at[0], 1e-3 * at[1]),)
-        groups.setdefault(on, []).append(k)
-    return [(places, replace(specimen, masses=(*specimen.masses, *on))) for on, places in groups.items()]
+        groups.setdefault((p.mounting, on), []).append(k)
+    return [(places, replace(specimen, masses=(*specimen.masses, *on))) for (_, on), places in groups.items()]
+
+
+def is_one_mounting(points: Sequence[PointMeasured]) -> bool:
+    """Whether all were read of the plate as it was mounted first, nothing put on it."""
+    return not any(p.mounting or p.mass_at_mm is not None for p in points)
 
 
 def sweep_of(points: list[PointMeasured], times_s: Sequence[float] | None = None) -> Sweep:

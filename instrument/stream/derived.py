@@ -115,6 +115,8 @@ class PointMeasured(Derived):
     """Known, put on the plate for this point."""
     mass_at_mm: tuple[float, float] | None = None
     """Where it lies; None where there is none."""
+    mounting: int = 0
+    """How often the plate had been clamped anew."""
 
     @property
     def base_m_s2(self) -> complex:

@@ -286,6 +286,14 @@ class MassPut(Event):
 
 
 @dataclass(frozen=True)
+class ClampedAnew(Event):
+    """The plate was taken out of its clamp and clamped again: its clamp is another one from here on."""
+
+    mounting: int
+    """Its number; 0 is the run's first."""
+
+
+@dataclass(frozen=True)
 class FollowUpEnded(Event):
     """All of it is measured."""
 

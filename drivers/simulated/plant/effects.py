@@ -155,6 +155,8 @@ class ByHand:
     """Where the laser is meant to point; None for the specimen's spot."""
     mass: AddedMass | None = None
     """Of known size, beside any that is hidden."""
+    mounting: int = 0
+    """How often the plate was clamped anew."""
 
 
 @dataclass(frozen=True)

@@ -185,11 +185,13 @@ class RunPage(Page):
             return
         self._asked = question
         self.banner.ask(state.run.question, question.what)
-        if question.at_mm is not None:
-            plate = state.configuration.the_specimen()
-            # Nothing is asked of a place on anything else.
-            assert isinstance(plate, Specimen)
-            self.banner.show_place(plate, question.at_mm, question.mark)
+        if question.at_mm is None and question.mark != "clamp":
+            return
+        plate = state.configuration.the_specimen()
+        # Nothing is asked of a place on anything else.
+        assert isinstance(plate, Specimen)
+        at_mm = question.at_mm or (0.0, 500 * plate.width_m)
+        self.banner.show_place(plate, at_mm, question.mark)
 
     # Inside
 

@@ -40,6 +40,13 @@ def test_a_spot_is_a_part_of_the_same_file_read_elsewhere(plate):
     assert second.sweep.frequency_hz.tolist() == [22.0, 24.0]
 
 
+def test_a_plate_clamped_anew_is_another_file_of_the_same_plate(plate):
+    first, second, with_mass = files(plate, {}, {"mounting": 1}, {"mounting": 1, **MASS})
+    assert (first.number, second.number, with_mass.number) == (1, 2, 3)
+    assert second.specimen == first.specimen == plate
+    assert len(with_mass.specimen.masses) == 1
+
+
 def test_a_known_mass_makes_another_file_of_the_same_plate(plate):
     first, second = files(plate, {}, MASS, MASS)
     assert (first.number, second.number) == (1, 2)

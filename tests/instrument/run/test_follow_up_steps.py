@@ -21,7 +21,7 @@ def kinds(offers, **changes):
 
 
 def test_what_takes_too_long_or_no_run_can_do_is_left_out():
-    offers = [offer(SPOT, seconds=101.0), offer(OFFER, kind="clamping"), offer(BACKWARDS)]
+    offers = [offer(SPOT, seconds=101.0), offer(OFFER, kind="damped_struck"), offer(BACKWARDS)]
     assert kinds(offers) == ["reversed"]
 
 

@@ -1,22 +1,45 @@
 """What a run measures after its diagnosis: proposed, agreed to, done, diagnosed again, recorded."""
 
+import shutil
+import signal
+import subprocess
+import sys
+
+import following_cases
 import pytest
-from following_cases import BACKWARDS, HALF, SPOT, SPOT_MM, STEPS, a_law, grouped, run
+from following_cases import (
+    BACKWARDS,
+    CLAMPING,
+    HALF,
+    SPOT,
+    SPOT_MM,
+    SPOT_OF_THE_CASE,
+    STEPS,
+    a_law,
+    grouped,
+    really,
+    run,
+)
 from formula_rig import SWEEP, formula_rig
 from run_at_point import RunAtPoint
 
 from instrument.errors import RigStopped
+from instrument.run.companion import Companion
 from instrument.run.control import RunControl
 from instrument.run.following import Earlier
 from instrument.run.operator import SimulatedOperator
 from instrument.run.replay import replay
 from instrument.session.configuration import read_whole_experiment
+from instrument.session.journal import JOURNAL
 from instrument.session.storage import SessionFile
-from instrument.stream.derived import DiagnosisFound
+from instrument.simulated_case import write_case
+from instrument.stream.derived import DiagnosisFound, PointMeasured
 from instrument.stream.event import from_line, to_line
 from instrument.stream.raw import FollowUpDecided, FollowUpEnded, FollowUpProposed, SpotMoved
 
 FOLLOWS = '[diagnosis]\nfollow_up = "{}"\n'
+KILLS = (4, 17, 20)
+"""Points: in the sweep, in what the rig does alone, and after hands have moved the laser."""
 OF_FOLLOWING = (FollowUpProposed, FollowUpDecided, SpotMoved, FollowUpEnded, DiagnosisFound)
 
 
@@ -30,12 +53,38 @@ def events_of(finished):
         return [e for e in file.events(with_samples=False) if isinstance(e, OF_FOLLOWING)]
 
 
+class KilledAt(Companion):
+    """What a kill at certain points would have left: a copy of what is sealed by then."""
+
+    def __init__(self, folder, points):
+        self._folder, self._points, self._count = folder, points, 0
+
+    def recording(self, folder, session):
+        self._running = folder
+
+    def happened(self, event):
+        self._count += isinstance(event, PointMeasured)
+        if isinstance(event, PointMeasured) and self._count in self._points:
+            # The journal first: what it names is there, whatever is sealed meanwhile.
+            sealed = (self._running / JOURNAL).read_bytes()
+            copy = self._folder / str(self._count) / self._running.name
+            shutil.copytree(self._running, copy, ignore=shutil.ignore_patterns("*.tmp", "lock"))
+            (copy / JOURNAL).write_bytes(sealed)
+
+
 @pytest.fixture(scope="module")
-def finished(tmp_path_factory):
-    """Steps backwards at once, then another spot."""
+def rig(tmp_path_factory):
+    """Its folder, and an experiment that follows its diagnosis up."""
     folder = tmp_path_factory.mktemp("follows")
     with formula_rig(folder, sweep=SWEEP) as (_, experiment):
-        return run(that_follows(experiment), folder)
+        yield folder, that_follows(experiment)
+
+
+@pytest.fixture(scope="module")
+def finished(rig):
+    """Steps backwards at once, then another spot."""
+    folder, experiment = rig
+    return run(experiment, folder, companion=KilledAt(folder, KILLS))
 
 
 def test_a_group_is_followed_by_what_tells_it_apart_until_one_explanation_is_left(finished):
@@ -111,21 +160,110 @@ def test_at_most_so_many_are_made(tmp_path):
     assert isinstance(events_of(found)[-1], DiagnosisFound)
 
 
-@pytest.mark.parametrize("after", [4, 16, 20])
-def test_broken_off_anywhere_it_ends_as_if_it_had_never_been_stopped(tmp_path, finished, after):
+@pytest.mark.parametrize("after", KILLS)
+def test_killed_anywhere_it_ends_as_if_it_had_never_been(rig, finished, after):
+    folder, experiment = rig
+    (running,) = (folder / str(after)).glob("*.running")
+    again = run(experiment, running.parent, resume=running)
+    is_as_if_never_stopped(again, finished)
+
+
+def test_broken_off_it_ends_as_if_it_had_never_been_stopped(tmp_path, finished):
     control = RunControl()
-    enough = RunAtPoint(after, lambda: control.abort("broken off"))
+    enough = RunAtPoint(16, lambda: control.abort("broken off"))
     with formula_rig(tmp_path) as (_, experiment):
         experiment = that_follows(experiment)
         with pytest.raises(RigStopped, match="broken off"):
             run(experiment, tmp_path, control=control, companion=enough)
         (folder,) = tmp_path.glob("*.running")
         again = run(experiment, tmp_path, resume=folder)
+    is_as_if_never_stopped(again, finished)
+
+
+def is_as_if_never_stopped(again, finished):
+    """The same steps, proposals and decisions, and the same once more from the recording."""
     places = [(p.sweep, p.segment, p.frequency_hz, p.pickup) for p in again.points]
     assert places == [(p.sweep, p.segment, p.frequency_hz, p.pickup) for p in finished.points]
     assert again.diagnosis.number == finished.diagnosis.number
+    assert decisions_of(again) == decisions_of(finished)
     with SessionFile(again.session) as file:
         assert replay(file, fit=a_law, diagnose=grouped(BACKWARDS, SPOT)).differences == []
+
+
+def decisions_of(run):
+    return [e for e in events_of(run) if isinstance(e, FollowUpProposed | FollowUpDecided)]
+
+
+SEGMENTS = """
+[[sweep.segments]]
+mode = 1
+span_percent = 50.0
+points = 9
+[[sweep.segments]]
+mode = 3
+span_percent = 25.0
+points = 9
+"""
+
+
+@pytest.mark.long
+def test_a_process_killed_in_a_measurement_after_its_diagnosis_gives_the_same_verdicts(tmp_path):
+    experiment = write_case(tmp_path)
+    head = 'specimen = "specimen.toml"\nrig = "rig.toml"\n[sweep]\nsentinel = false\ncalibration = false\n'
+    experiment.write_text(head + SEGMENTS + FOLLOWS.format("do"))
+    # Few elements: what is asked is whether it is the same twice.
+    specimen = tmp_path / "specimen.toml"
+    specimen.write_text(specimen.read_text() + "\n[mesh]\nelements_x = 10\nelements_y = 8\n")
+    program = [sys.executable, following_cases.__file__, str(experiment), str(tmp_path)]
+    # The second of three steps that follow eighteen; then to the end.
+    assert subprocess.run([*program, "20"], check=False).returncode == -signal.SIGKILL
+    (running,) = tmp_path.glob("*.running")
+    subprocess.run([*program, "0", str(running)], check=True)
+    with SessionFile(next(tmp_path.glob("*.h5"))) as file:
+        kept = [e for e in file.events(with_samples=False) if isinstance(e, OF_FOLLOWING)]
+        again = replay(file, diagnose=really(SPOT_OF_THE_CASE))
+    assert again.differences == []
+    before, after = (e.result for e in kept if isinstance(e, DiagnosisFound))
+    assert (len(before.points), len(after.points)) == (18, 21)
+    assert again.diagnosis.result.verdict == after.verdict
+    assert [(e.number, e.agreed) for e in kept if isinstance(e, FollowUpDecided)] == [(1, True)]
+    assert {p.pickup for p in again.points} == {0, 1}
+
+
+@pytest.fixture(scope="module")
+def clamped(tmp_path_factory):
+    """Clamped anew; killed on the way, and begun once more."""
+    folder = tmp_path_factory.mktemp("clamped")
+    with formula_rig(folder, sweep=SWEEP) as (_, experiment):
+        experiment = that_follows(experiment)
+        whole = run(experiment, folder, (CLAMPING, BACKWARDS), companion=KilledAt(folder, (17, 20)))
+        again = [
+            run(experiment, running.parent, (CLAMPING, BACKWARDS), resume=running)
+            for running in sorted(folder.glob("*/*.running"))
+        ]
+    return whole, again
+
+
+def test_what_is_read_after_the_plate_was_clamped_anew_knows_it(clamped):
+    whole, _ = clamped
+    assert [(p.sweep, p.mounting) for p in whole.points if p.sweep > 1] == [(2, 1)] * 3 + [(3, 1)] * 3
+    with SessionFile(whole.session) as file:
+        assert replay(file, fit=a_law, diagnose=grouped(CLAMPING, BACKWARDS)).differences == []
+
+
+def test_a_clamping_that_was_broken_off_is_another_one_and_is_begun_again(clamped):
+    _, (in_it, after_it) = clamped
+    for again, sweep in ((in_it, 2), (after_it, 3)):
+        # All its steps are of the new one; what was sealed of the old one stays beside them.
+        steps = [p for p in again.points if p.sweep == sweep]
+        assert [p.frequency_hz for p in steps if p.mounting == 2] == STEPS["frequencies_hz"]
+        assert {p.mounting for p in steps} <= {1, 2}
+    assert {p.mounting for p in in_it.points if p.sweep == 3} == {2}
+    # Nobody knows what happened to the plate meanwhile: it is clamped once more before anything follows.
+    assert {p.mounting for p in after_it.points if p.sweep == 2} == {1}
+    for again in (in_it, after_it):
+        with SessionFile(again.session) as file:
+            assert replay(file, fit=a_law, diagnose=grouped(CLAMPING, BACKWARDS)).differences == []
 
 
 def test_what_a_broken_off_run_has_behind_it_is_told_by_its_events(finished):

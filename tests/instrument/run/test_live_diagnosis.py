@@ -24,6 +24,7 @@ from instrument.run.replay import replay
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 from instrument.simulated_case import EFFECTS, chosen_effect
+from instrument.stepped_sine.settings import SweepSettings
 from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated
 from instrument.stream.raw import DiagnosisStarted, SessionEnded
 
@@ -36,7 +37,7 @@ def a_law(number, last_step, points, damping, specimen):
     return FitUpdated(number, last_step, identification())
 
 
-def times(number, last_step, points, times_s, damping, specimen):
+def times(number, last_step, points, times_s, damping, specimen, settings):
     """Says what it was given."""
     given = {"times_s": list(times_s), "points": sum(p.step <= last_step for p in points)}
     return DiagnosisFound(number, last_step, None, json.dumps(given))
@@ -47,7 +48,7 @@ def told(found):
     return json.loads(found.message)
 
 
-def whole(number, last_step, points, times_s, damping, specimen):
+def whole(number, last_step, points, times_s, damping, specimen, settings):
     return DiagnosisFound(number, last_step, diagnosis())
 
 
@@ -140,7 +141,9 @@ def test_why_none_was_possible_is_the_result(finished):
         specimen = file.configuration.the_specimen()
     damping = DampingFound(DampingResult(modes=[ModeFound(frequency_hz=17.7, damping_ratio=0.33)]))
     points = list(finished.points)
-    found = diagnose_points(1, points[-1].step, points, [0.0] * len(points), damping, specimen)
+    found = diagnose_points(
+        1, points[-1].step, points, [0.0] * len(points), damping, specimen, SweepSettings()
+    )
     assert found.result is None
     assert "damping_ratio" in found.message
     assert "\n" not in found.message

@@ -13,7 +13,7 @@ from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated, 
 from instrument.stream.event import from_line, to_line
 from instrument.stream.raw import BlockAcquired, StepBegan
 
-SINCE = {"pickup": 0, "spot_mm": None, "mass_kg": 0.0, "mass_at_mm": None}
+SINCE = {"pickup": 0, "spot_mm": None, "mass_kg": 0.0, "mass_at_mm": None, "mounting": 0}
 STEP = StepBegan(1, "step", 1, 1, 100.0, None, 0.5, 8.0)
 
 
@@ -33,7 +33,7 @@ def test_a_recorded_line_comes_out_as_it_went_in(lines):
     for line in lines:
         before, now = json.loads(line), json.loads(to_line(from_line(line)))
         assert {key: now.get(key) for key in before} == before
-        # What later versions say beside it is what was so then: the first spot, no known mass.
+        # What later versions say beside it was so then: the first spot and clamping, no known mass.
         assert {key: now[key] for key in now.keys() - before.keys()} in ({}, SINCE)
 
 
