@@ -9,12 +9,17 @@ from collections import deque
 from dataclasses import dataclass, field
 
 from instrument.check.piece import Kind, Work
+from instrument.facts.follow_up import FollowUp
+from instrument.planning.measurable import HANDS_S
 from instrument.stream.derived import DiagnosisFound, FitUpdated, HitJudged, PointMeasured
 from instrument.stream.event import Event
 from instrument.stream.raw import (
     AcquisitionBegan,
     DiagnosisStarted,
     FitStarted,
+    FollowUpDecided,
+    FollowUpEnded,
+    FollowUpProposed,
     HammerTestEnded,
     Held,
     OperatorDid,
@@ -27,9 +32,12 @@ _SETTLES = 0.5
 """Of the time from scratch that settling takes as a rule: a step begins near its end."""
 _PRIOR = 2.0
 """So many pieces of a kind count as having gone as forecast."""
-_DIDS: dict[str, Kind] = {"mounted": "mount", "aimed": "aim"}
+_DIDS: dict[str, Kind] = {"mounted": "mount", "aimed": "aim", "changed": "change"}
 _POINTS: dict[str, Kind] = {"calibration": "calibration", "step": "step", "sentinel": "sentinel"}
-_ON_WALL: tuple[Kind, ...] = ("mount", "aim", "fit", "diagnosis")
+_ON_WALL: tuple[Kind, ...] = ("mount", "aim", "change", "fit", "diagnosis")
+
+_FOLLOWING: tuple[Kind, ...] = ("change", "step")
+"""Of a measurement after a diagnosis."""
 
 
 @dataclass
@@ -71,6 +79,9 @@ class TimeToGo:
     _fraction: float | None = None
     """Of the computation in progress."""
     _planned: bool = False
+    _offers: tuple[FollowUp, ...] = ()
+    _computed: dict[Kind, float] = field(default_factory=dict)
+    """How long each computation took the last time."""
 
     def plan(self, work: tuple[Work, ...], wall_s: float) -> None:
         """All there is to do."""
@@ -110,6 +121,25 @@ class TimeToGo:
                 self._wall_s, self._fraction = wall_s, None
             case DiagnosisFound():
                 self._left.pop("diagnosis", None)
+                self._computed["diagnosis"] = wall_s - self._wall_s
+            case FollowUpProposed():
+                self._offers = event.offers
+            case FollowUpDecided() if event.agreed and event.offer < len(self._offers):
+                self._session_s, self._wall_s = session_s, wall_s
+                self._add(self._offers[event.offer])
+            case FollowUpEnded():
+                for kind in _FOLLOWING:
+                    self._left.pop(kind, None)
+
+    def _add(self, offer: FollowUp) -> None:
+        """What is measured after a diagnosis, and what is computed again then."""
+        hands_s, steps = HANDS_S.get(offer.kind, 0.0), len(offer.frequencies_hz)
+        work = [Work("change", hands_s)] * offer.needs_hands
+        work += [Work("step", (offer.seconds - hands_s) / steps)] * steps if steps else []
+        work += [Work(kind, took_s) for kind, took_s in self._computed.items()]
+        for one in work:
+            self._left.setdefault(one.kind, deque()).append(one)
+            self._paces.setdefault(one.kind, _Pace())
 
     def computed(self, fraction: float | None) -> None:
         """The diagnosis in progress is so far."""
@@ -172,7 +202,7 @@ class TimeToGo:
 
     def _fitted(self, took_s: float, session_s: float, wall_s: float) -> None:
         """Fits during the sweep tell how long the last one will take."""
-        self._fit_began_s = None
+        self._fit_began_s, self._computed["fit"] = None, took_s
         if "fit" in self._left:
             self._left["fit"] = deque([Work("fit", took_s)])
             if not self._measuring:

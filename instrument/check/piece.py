@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal
 
-Kind = Literal["mount", "aim", "hit", "calibration", "soak", "step", "sentinel", "fit", "diagnosis"]
+Kind = Literal["mount", "aim", "hit", "calibration", "soak", "step", "sentinel", "fit", "diagnosis", "change"]
 
 
 @dataclass(frozen=True)

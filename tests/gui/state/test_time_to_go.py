@@ -3,16 +3,21 @@
 import random
 
 import pytest
+from following_cases import SPOT
 from foretold import told_of
 from sessions import point
 
 from gui.state.time_to_go import TimeToGo
 from instrument.check.piece import Work
+from instrument.facts.follow_up import FollowUp
 from instrument.stream.derived import DiagnosisFound, FitUpdated
 from instrument.stream.raw import (
     AcquisitionBegan,
     DiagnosisStarted,
     FitStarted,
+    FollowUpDecided,
+    FollowUpEnded,
+    FollowUpProposed,
     Held,
     OperatorDid,
     SessionBegan,
@@ -84,6 +89,24 @@ def test_something_is_known_before_the_first_sample_and_the_bar_never_goes_back(
         to_go.take(point(number), 2.3 * number, 0.0)
         assert to_go.fraction(2.3 * number, 0.0) >= last
         last = to_go.fraction(2.3 * number, 0.0)
+
+
+def test_what_is_measured_after_a_diagnosis_counts_once_it_is_agreed_to():
+    watched = TimeToGo()
+    watched.plan((Work("diagnosis", 60.0),), 0.0)
+    watched.take(DiagnosisStarted(1, 10), 5.0, 100.0)
+    watched.take(DiagnosisFound(1, 10, None, ""), 5.0, 120.0)
+    spot = FollowUp.model_validate({**SPOT, "seconds": 150.0})
+    watched.take(FollowUpProposed(1, 1, (spot,)), 5.0, 120.0)
+    assert watched.measuring_s(5.0) == 0.0
+    watched.take(FollowUpDecided(1, 0, True, "person"), 5.0, 121.0)
+    # Three steps in thirty seconds; two minutes of hands, and a diagnosis as long as the last.
+    assert watched.measuring_s(5.0) == pytest.approx(30.0)
+    assert watched.beside_s(121.0) == pytest.approx(140.0)
+    watched.take(OperatorDid("changed", "the spot"), 5.0, 200.0)
+    assert watched.beside_s(200.0) == pytest.approx(20.0)
+    watched.take(FollowUpEnded(1), 5.0, 200.0)
+    assert watched.measuring_s(5.0) == 0.0
 
 
 def test_a_pause_is_nobodys_pace():
