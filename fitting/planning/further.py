@@ -54,6 +54,8 @@ class Further:
     """Effects that are there anew, and by what each of their numbers may differ: in its logarithm, or in
     expected sizes."""
     mass: KnownMass | None = None
+    like: Places | None = None
+    """Of frequencies that were not measured: the first sweep's points that the model errs like."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +93,8 @@ class Expecting:
         self.names = rivals.names[:most]
         self.probabilities = np.array([p for _, p in each]) / sum(p for _, p in each)
         first = each[0][0]
+        self.reduced = rivals.reduced
+        """The plate that frequencies not yet measured are asked of; None where there is none."""
         self._errors = model_error(self.problem, rivals.reduced, first.law, first.velocity_m_s)
         self.known = [self._learnt(fitted) for fitted, _ in each]
 
@@ -124,6 +128,10 @@ class Expecting:
         v = raw[0].v
         sigma = np.hypot(noise.std_m_s(v, further.dwell_s), SHARE * np.abs(v))
         return [self._over(one, sigma) for one in raw]
+
+    def velocity_m_s(self, further: Further) -> Array:
+        """Amplitudes that the likeliest rival expects. Shape (points that are read,)."""
+        return np.abs(self._raw(self.known[0], further).v)
 
     def struck(self, bare: BareModes) -> list[Forecast]:
         """Of each rival, of a hammer test of the bare plate. Only its frequencies are asked."""
@@ -192,8 +200,9 @@ class Expecting:
             at += len(place)
         if further.mass is not None:
             fresh.append(further.mass.sigma_kg * dv[at])
-        e = self._errors[:, self.part][:, further.at]
-        first = fitted.velocity_m_s[self.part][further.at]
+        near = further.at if further.like is None else further.like
+        e = self._errors[:, self.part][:, near]
+        first = fitted.velocity_m_s[self.part][near]
         e = e * (v / first)
         k = len(by)
         if further.same_errors:
@@ -210,6 +219,7 @@ class Expecting:
         """At the points that are read, as `SweepResponse.with_derivatives`."""
         member, at = further.member, further.at
         same = member.nuisances is self.member.nuisances and further.mass is None and not further.new
+        same = same and further.like is None
         if known.by_level is not None and same:
             v, dv = known.by_level
             level = member.points.acceleration_m_s2[at] / self.member.points.acceleration_m_s2[at]

@@ -21,6 +21,8 @@ class FollowUp(Result):
     segments: tuple[int, ...] = ()
     """Of each step: its resonance region, numbered as in the sweep that was diagnosed; new ones follow."""
     level_g: MaybeNumber = None
+    velocities_m_s: tuple[Number, ...] = ()
+    """Foreseen at each step by the likeliest explanation, where the laser reads another spot than before."""
     spot_mm: tuple[Number, Number] | None = None
     """Where the laser is to point, x from the clamp and y from a long edge."""
     mass_kg: MaybeNumber = None

@@ -1,7 +1,7 @@
 """Which measurement would tell the explanations of a sweep apart, for its noise and its cost."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import sqrt
 
 from fitting.diagnosis.result import Rivals
@@ -89,9 +89,17 @@ def _doubtful(diagnosed: Diagnosed, rivals: Rivals) -> bool:
 
 def _asked(expecting: Expecting, possible: Possible) -> Iterator[tuple[Measurable, list[Forecast]]]:
     template = Template.of(expecting, possible.settings)
+    limits = possible.settings.limits
     for measurable in template.measurable(possible.mass_kg):
-        if possible.hands or not measurable.needs_hands:
-            yield measurable, expecting.forecasts(measurable.further, template.noise)
+        if measurable.needs_hands and not possible.hands:
+            continue
+        one = measurable
+        if one.kind == "spot":
+            v = expecting.velocity_m_s(one.further)
+            if v.max() > limits.warn * limits.velocity_m_s:
+                continue
+            one = replace(one, velocities_m_s=tuple(v.tolist()))
+        yield one, expecting.forecasts(one.further, template.noise)
     if possible.hands and expecting.evidence.bare is None:
         bare = bare_modes_expected(expecting.member)
         if bare is not None:

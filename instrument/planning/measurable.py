@@ -6,20 +6,23 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Complex
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.sharing import OF_EACH_FILE, OF_EACH_SPOT
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.planning.candidates import resonances_hz
+from fitting.planning.exact_problem import exact_problem
 from fitting.planning.further import Expecting, Further
 from fitting.planning.known_mass import KnownMass
 from fitting.planning.measured import noise_seen
 from fitting.planning.sensitivity import ReadingNoise
+from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.tolerances import STATED
 from instrument.facts.follow_up import FollowUp, FollowUpKind
 from instrument.planning.costs import dwell_seconds, step_seconds
+from instrument.planning.gaps import gaps_of, nearest, steps_between
 from instrument.planning.reasons import why
 from instrument.stepped_sine.settings import SweepSettings
 
@@ -57,6 +60,10 @@ class Measurable:
     needs_hands: bool = False
     spot_m: tuple[float, float] | None = None
     mass: KnownMass | None = None
+    velocities_m_s: tuple[float, ...] = ()
+    """Foreseen at each step, where that matters."""
+    reason: str = ""
+    """Why, where that does not depend on the explanations."""
 
     def follow_up(
         self, names: tuple[str, ...], separation: float, resolved: float, between: tuple[str, ...]
@@ -72,9 +79,11 @@ class Measurable:
             "separation": separation,
             "probability_resolved": resolved,
             "between": between,
-            "why": why(self.kind, between),
+            "why": self.reason or why(self.kind, between),
             "todo": self.todo,
         }
+        if self.velocities_m_s:
+            given["velocities_m_s"] = self.velocities_m_s
         if self.spot_m is not None:
             given["spot_mm"] = tuple(1e3 * s for s in self.spot_m)
         if self.mass is not None:
@@ -94,10 +103,14 @@ class Template:
     noise: ReadingNoise
     seconds: Array
     """Of each step."""
+    poles_hz: Complex
+    """Of the likeliest explanation."""
     read_m: tuple[tuple[float, float], ...]
     """Spots that were read."""
     in_time: bool
     """Whether a rival changes with time: else the order of the steps tells nothing."""
+    reduced: ReducedPlate | None
+    """For frequencies between the segments; None where these are not asked about."""
 
     @classmethod
     def of(cls, expecting: Expecting, settings: SweepSettings) -> "Template":
@@ -114,7 +127,15 @@ class Template:
         part = expecting.part
         noise = noise_seen(first.velocity_m_s[part], expecting.evidence.noise_m_s[part], dwell)
         return cls(
-            member, at, settings, noise, step_seconds(f, poles, settings), expecting.read_m, expecting.in_time
+            member,
+            at,
+            settings,
+            noise,
+            step_seconds(f, poles, settings),
+            poles,
+            expecting.read_m,
+            expecting.in_time,
+            expecting.reduced,
         )
 
     @property
@@ -131,6 +152,8 @@ class Template:
             yield self._again("reversed", latest, "Make the same steps once more, the last ones first.")
         specimen = self.member.nuisances.specimen
         if isinstance(specimen, Specimen):
+            if self.reduced is not None:
+                yield from self._between(specimen, self.reduced)
             yield from self._spots(specimen)
             if mass_kg is not None:
                 yield from self._masses(specimen, mass_kg)
@@ -159,6 +182,32 @@ class Template:
     def _again(self, kind: FollowUpKind, order: NDArray[np.intp], todo: str) -> Measurable:
         further = Further(self._later(self.member, order), *self._read(order))
         return self._measurable(kind, further, order, self.level_m_s2 / PUBLISHED_G_M_S2, todo)
+
+    def _between(self, specimen: Specimen, reduced: ReducedPlate) -> Iterator[Measurable]:
+        """Further segments, in the gaps of those that were measured."""
+        sweep = self.member.sweep
+        begins = float(self.member.points.time_s.max()) + _PAUSE_S
+        for number, gap in enumerate(gaps_of(sweep.frequency_hz), start=int(sweep.segment.max()) + 1):
+            f = steps_between(*gap, self.poles_hz)
+            seconds, region = step_seconds(f, self.poles_hz, self.settings), np.full(len(f), number)
+            time = begins + np.cumsum(seconds)
+            there = exact_problem(f, region, self.level_m_s2, specimen, self.member.plate, reduced, time)
+            yield Measurable(
+                "frequencies",
+                Further(
+                    replace(there, nuisances=self.member.nuisances),
+                    np.arange(len(f)),
+                    dwell_seconds(f, self.settings),
+                    same_errors=False,
+                    like=nearest(f, sweep.frequency_hz),
+                ),
+                tuple(f.tolist()),
+                (number,) * len(f),
+                self._level_g,
+                float(seconds.sum()),
+                f"Measure {len(f)} steps from {f[0]:.4g} to {f[-1]:.4g} Hz too, between the segments.",
+                reason="Where nothing was read yet each explanation goes its own way.",
+            )
 
     def _spots(self, specimen: Specimen) -> Iterator[Measurable]:
         for x, y in _SPOTS:

@@ -5,7 +5,9 @@ from itertools import groupby
 
 import numpy as np
 
+from drivers.vibrometer.interface import Range
 from fitting.gravity import PUBLISHED_G_M_S2
+from instrument.check.forecast import range_for
 from instrument.facts.follow_up import FollowUp
 from instrument.stepped_sine.plan import PlannedSegment
 from instrument.stepped_sine.settings import Limits
@@ -41,19 +43,27 @@ def possible(
 
 
 def follow_up_segments(
-    offer: FollowUp, points: Sequence[PointMeasured], sweep: int
+    offer: FollowUp, points: Sequence[PointMeasured], sweep: int, ranges: tuple[Range, ...] = ()
 ) -> tuple[PlannedSegment, ...]:
     """Its steps in order, each in the range that its frequency was read in.
 
-    `sweep` is the number of the pass. A step that is named twice is made once.
+    Where velocities are foreseen it is the finest of `ranges` with room for those of its segment. `sweep` is
+    the number of the pass. A step that is named twice is made once.
     """
     level = PUBLISHED_G_M_S2 * offer.level_g if offer.level_g is not None else points[0].level_m_s2
     known = np.array([p.frequency_hz for p in points])
     steps = dict.fromkeys(zip(offer.frequencies_hz, offer.segments, strict=True))
+    fastest: dict[int, float] = {}
+    for segment, v in zip(offer.segments, offer.velocities_m_s, strict=False):
+        fastest[segment] = max(v, fastest.get(segment, 0.0))
+
+    def range_of(step: tuple[float, int]) -> str:
+        if step[1] in fastest and ranges:
+            return range_for(fastest[step[1]], ranges).name
+        return points[int(np.argmin(np.abs(known - step[0])))].range_name
+
     planned = []
-    for (segment, range_name), each in groupby(
-        steps, key=lambda s: (s[1], points[int(np.argmin(np.abs(known - s[0])))].range_name)
-    ):
+    for (segment, range_name), each in groupby(steps, key=lambda s: (s[1], range_of(s))):
         f = tuple(frequency for frequency, _ in each)
         planned.append(PlannedSegment(segment, sweep, f, (level,) * len(f), range_name))
     return tuple(planned)
@@ -64,7 +74,7 @@ def _within(offer: FollowUp, points: Sequence[PointMeasured], limits: Limits) ->
     if offer.level_g is None:
         return True
     level = PUBLISHED_G_M_S2 * offer.level_g
-    if level > limits.base_m_s2:
+    if level > limits.base_m_s2 or max(offer.velocities_m_s, default=0.0) > _ROOM * limits.velocity_m_s:
         return False
     times = [level / p.level_m_s2 for p in points]
     if max(times, default=0.0) <= 1.0:

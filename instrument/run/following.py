@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
+from instrument.check.forecast import distinct
 from instrument.facts.follow_up import FollowUp
 from instrument.files.experiment_file import DiagnosisTable
 from instrument.run.analysis import Analysis
@@ -169,7 +170,9 @@ class Following:
             self.emit(MassPut(offer.mass_kg, offer.mass_at_mm))
             self._loaded = True
         own = [p for p in self._steps if p.pickup == 0 and p.mass_at_mm is None]
-        segments = follow_up_segments(offer, own, self.sweep.passes + number)
+        every = distinct(rig.vibrometer.ranges)
+        calibrated = tuple(r for r in every if r.name in self.analysis.calibrations)
+        segments = follow_up_segments(offer, own, self.sweep.passes + number, calibrated or every)
         self.sweep.follow(runner, segments, self._mounting)
 
     def _clamp(self, clamping: FollowUp, rig: Rig) -> None:

@@ -94,14 +94,28 @@ def test_another_level_is_expected_in_proportion(expecting, template):
     assert b.mean == pytest.approx(a.mean, rel=1e-9)
 
 
-def test_another_spot_tells_a_gain_from_a_shifted_spot_and_repeating_does_not(ranked):
-    by_kind = {f.kind: f for f in ranked}
-    assert ranked[0].kind == "spot"
-    assert ranked[0].separation > 3
-    assert ranked[0].probability_resolved > 0.8
-    assert set(ranked[0].between) == {"gain_error", "spot_offset"}
-    for kind in ("frequencies", "bare_hammer"):
-        assert kind not in by_kind or by_kind[kind].separation < 0.3 * ranked[0].separation
+def test_another_spot_tells_a_gain_from_a_shifted_spot_and_repeating_does_not(expecting, template, ranked):
+    spot = of_kind(ranked, "spot")
+    assert spot.separation > 3
+    assert spot.probability_resolved > 0.8
+    assert set(spot.between) == {"gain_error", "spot_offset"}
+    assert "the same at every spot; an offset belongs to one spot" in spot.why
+    repeated = expecting.forecasts(one(template, "frequencies").further, template.noise)
+    assert outcome(repeated, EVEN).between(0, 1) < 0.3 * spot.separation
+    assert all(f.separation < 0.3 * spot.separation for f in ranked if f.kind == "bare_hammer")
+
+
+def test_a_short_segment_between_the_others_comes_before_a_spot_that_tells_more(ranked):
+    # An offset goes with the shapes of the modes, and there are others between the segments.
+    first, spot = ranked[0], of_kind(ranked, "spot")
+    assert (first.kind, first.needs_hands) == ("frequencies", False)
+    assert set(first.segments) == {5}
+    assert first.seconds < 0.2 * spot.seconds
+    assert 3 < first.separation < spot.separation
+
+
+def of_kind(ranked, kind):
+    return next(f for f in ranked if f.kind == kind)
 
 
 def test_the_rigs_own_measurements_are_all_that_is_offered_where_nobody_is_there(rivals):
@@ -115,16 +129,40 @@ def test_no_level_beyond_the_rigs_limits_is_proposed(expecting):
     assert levels == [0.25, 0.5]
 
 
+def test_between_the_segments_it_is_expected_what_the_fit_reads_there(expecting, template):
+    gaps = [m for m in template.measurable(None) if m.further.like is not None]
+    sweep = expecting.member.sweep
+    assert {m.kind for m in gaps} == {"frequencies"}
+    assert [m.segments[0] for m in gaps] == [4, 5]
+    for m in gaps:
+        f = np.array(m.frequencies_hz)
+        assert np.abs(f[:, None] / sweep.frequency_hz - 1).min() > 1e-3
+        # The law that was fitted, solved there on the same plate: nothing interpolated.
+        known = expecting.known[0].fitted
+        here = SweepResponse(m.further.member, known.effects).with_derivatives(known.law, known.u)[0]
+        assert expecting.velocity_m_s(m.further) == pytest.approx(np.abs(here), rel=1e-12)
+        assert all(np.isfinite(one.mean).all() for one in expecting.forecasts(m.further, template.noise))
+
+
+def test_velocities_at_a_spot_are_foreseen_and_one_that_is_too_fast_is_not_proposed(rivals, ranked):
+    spot = of_kind(ranked, "spot")
+    fastest = max(spot.velocities_m_s)
+    assert len(spot.velocities_m_s) == len(spot.frequencies_hz)
+    slow = Possible(SweepSettings(limits=Limits(velocity_m_s=fastest)))
+    again = rank_follow_ups(ambiguous(rivals), slow)
+    # Up to the share of a limit from which a run warns.
+    assert all(max(f.velocities_m_s) <= 0.8 * fastest for f in again if f.kind == "spot")
+
+
 def test_what_is_advised_is_the_first_of_the_ranking(rivals, ranked, monkeypatch):
     monkeypatch.setattr(follow_up, "rank_follow_ups", lambda *given: ranked)
     said = with_follow_ups(diagnosis(), ambiguous(rivals))
     assert said.next_measurements == ranked
     assert said.next_measurement == advice(ranked[0])
-    assert "the same at every spot; an offset belongs to one spot" in ranked[0].why
 
 
 def test_a_proposal_is_a_sweep_that_can_be_made(ranked):
-    spot = ranked[0]
+    spot = of_kind(ranked, "spot")
     assert spot.needs_hands
     assert len(spot.frequencies_hz) == len(spot.segments) == 60
     assert spot.level_g == pytest.approx(1.0, rel=1e-3)
@@ -135,7 +173,7 @@ def test_a_proposal_is_a_sweep_that_can_be_made(ranked):
 def test_a_bare_plate_says_less_of_gain_and_spot_than_another_spot(expecting, ranked):
     # Not nothing: a wrong explanation has pulled at the metal's numbers.
     found = outcome(expecting.struck(bare_modes_expected(expecting.member)), EVEN)
-    assert found.between(0, 1) < 0.5 * ranked[0].separation
+    assert found.between(0, 1) < 0.5 * of_kind(ranked, "spot").separation
 
 
 def test_nothing_is_proposed_where_one_explanation_is_left(rivals):

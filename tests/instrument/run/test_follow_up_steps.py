@@ -4,6 +4,7 @@ import pytest
 from following_cases import BACKWARDS, HALF, OFFER, SPOT
 from sessions import point
 
+from drivers.vibrometer import Range
 from instrument.facts.follow_up import FollowUp
 from instrument.run.follow_up_steps import MOST_OFFERS, follow_up_segments, possible
 from instrument.stepped_sine.settings import Limits
@@ -37,6 +38,16 @@ def test_a_level_that_comes_near_a_limit_is_left_out():
     assert kinds([more]) == ["level"]
     assert kinds([more], limits=Limits(velocity_m_s=1.8 * top)) == []
     assert kinds([offer(HALF, level_g=6.0)], limits=Limits(base_m_s2=50.0)) == []
+
+
+def test_another_spot_is_read_in_the_range_that_has_room_for_what_is_foreseen():
+    ranges = (Range("fine", 0.01, 2.0, 1e5, None, True), Range("coarse", 0.1, 2.0, 1e5, None, True))
+    given = offer(SPOT, frequencies_hz=[95.0, 97.0, 186.0], segments=[1, 1, 2])
+    foreseen = given.but(velocities_m_s=(0.001, 0.1, 0.002))
+    assert [s.range_name for s in follow_up_segments(foreseen, POINTS, 3, ranges)] == ["coarse", "fine"]
+    assert [s.range_name for s in follow_up_segments(given, POINTS, 3, ranges)] == ["a", "b"]
+    assert kinds([foreseen]) == ["spot"]
+    assert kinds([foreseen], limits=Limits(velocity_m_s=0.11)) == []
 
 
 def test_a_few_are_enough():
