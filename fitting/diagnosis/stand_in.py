@@ -34,7 +34,7 @@ def asks_for_more(effect: Effect, u: Array, plate: EnrichedReducedPlate) -> bool
     `u` of shape (parameters,).
     """
     for q, value, low, high in zip(effect.parameters, u, *effect.limits(plate), strict=True):
-        if q.neutral is None or q.fixed:
+        if q.neutral is None or q.fixed or q.complete:
             continue
         absent = np.clip(q.neutral, low, high)
         ends = [end for end in (low, high) if np.isfinite(end) and end != absent]

@@ -67,6 +67,8 @@ class EffectParameter:
     """Where the effect is absent; None for an unknown that only says where or how."""
     fixed: bool = False
     """Not moved by a fit: one of the starts."""
+    complete: bool = False
+    """At its far limit the effect is there in full: no sign of a fit that would go on."""
     spread: float | None = None
     """How large such a thing is in a laboratory that has it, in `unit`: the scale of its prior. None: 3
     `typical`.

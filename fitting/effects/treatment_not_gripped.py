@@ -50,7 +50,9 @@ class TreatmentNotGrippedEffect(Effect):
     enters = "stiffness"
     source = "free end of a constrained layer, e.g. Plunkett and Lee, J. Acoust. Soc. Am. 48 (1970)"
     needs = CLAMP | WHOLE
-    parameters = (EffectParameter("k", "N/m^2", 1e6, 1e12, 1e8, logarithmic=True, neutral=float("inf")),)
+    parameters = (
+        EffectParameter("k", "N/m^2", 1e6, 1e12, 1e8, logarithmic=True, neutral=float("inf"), complete=True),
+    )
     spans = (FreeTreatment(),)
     discriminating_test = (
         "a look at the clamp: whether the treatment reaches between the jaws; a strip of it glued down"

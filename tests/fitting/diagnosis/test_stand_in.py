@@ -31,6 +31,8 @@ def fitted(**effects):
         ({"fixture_resonance": [150.0, 0.02, 0.02, 0.0, 1.0]}, "no measured points"),
         ({"added_masses": [1e-3, 0.1, 0.1, 1e-3, 0.2, 0.1]}, ""),
         ({"added_masses": [1e-3, 0.1, 0.1, 1e-3, 0.2, 0.1], "gain_error": [1.02]}, "so many things"),
+        # Quite free is as far as a treatment goes.
+        ({"treatment_not_gripped": [1e6]}, ""),
         ({"viscous_damping": [CATALOGUE["viscous_damping"].parameters[0].upper]}, "larger than is plausible"),
     ],
 )
