@@ -27,11 +27,11 @@ class Export(QObject):
 
     def report(self) -> None:
         """One self-contained page."""
-        self._ask_report(".html", "Page (*.html)")
+        self._ask_report("Save report", ".html", "Page (*.html)")
 
     def report_to_print(self) -> None:
         """The same on sheets of A4."""
-        self._ask_report(".pdf", "Sheets of A4 (*.pdf)")
+        self._ask_report("Save report as PDF", ".pdf", "Sheets of A4 (*.pdf)")
 
     def data(self) -> None:
         """For the program that the menu's entry names."""
@@ -41,12 +41,12 @@ class Export(QObject):
         then = partial(self._data, session, str(action.data()))
         ask_folder(self._window, "Export data to", str(session.parent), then)
 
-    def _ask_report(self, ending: str, kinds: str) -> None:
+    def _ask_report(self, title: str, ending: str, kinds: str) -> None:
         session = self._session
         if session is None:
             return
         then = partial(self._report, session, ending)
-        ask_save(self._window, "Save report", str(session.with_suffix(ending)), kinds, then)
+        ask_save(self._window, title, str(session.with_suffix(ending)), kinds, then)
 
     def _report(self, session: Path, ending: str, to: Path) -> None:
         """What is written is what the ending says."""

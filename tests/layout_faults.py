@@ -46,7 +46,7 @@ def places(window: Window) -> Iterator[str]:
         for tabs in page.findChildren(QTabWidget):
             first = tabs.currentIndex()
             for k in range(tabs.count()):
-                if k != first and tabs.isVisible():
+                if k != first and tabs.isVisible() and tabs.isTabVisible(k):
                     tabs.setCurrentIndex(k)
                     yield f"{page.objectName()}-{word(tabs.tabText(k))}"
             tabs.setCurrentIndex(first)
