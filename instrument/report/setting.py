@@ -7,8 +7,10 @@ from instrument.files.rig_file import ResponseSection, SensorSection
 from instrument.files.specimen_file import SpecimenDocument
 from instrument.files.structure_file import AnyDocument
 from instrument.models.tolerance_words import tolerance_rows
-from instrument.report.blocks import Block, FactsBlock, ReportSection, Sentence, TableBlock
+from instrument.report.blocks import Block, FactsBlock, Picture, ReportSection, Sentence, TableBlock
 from instrument.results.numbers import format_number
+from instrument.results.sketch import Mark, sketch_of
+from instrument.results.sketch_figure import sketch_figure
 from instrument.session.contents import Contents
 
 _ACCELEROMETERS = ("base", "response")
@@ -22,12 +24,25 @@ def specimen_section(contents: Contents) -> ReportSection:
     """Geometry, layers, the law identification starts from."""
     s = contents.configuration.specimen
     geometry = FactsBlock(_TITLES[contents.specimen.kind], tuple(_geometry(contents, s)))
-    blocks: list[Block] = [_layers(s), geometry]
+    drawn = Picture(
+        sketch_figure(sketch_of(contents.specimen, _of_hammer(contents))), "The specimen to scale"
+    )
+    blocks: list[Block] = [drawn, _layers(s), geometry]
     if s.core is not None:
         rows = [(k, _law_value(v)) for k, v in s.core.law.items()]
         blocks.append(FactsBlock("Core law to start from", tuple(rows)))
     blocks.append(FactsBlock("Tolerances (one standard deviation)", tuple(tolerance_rows(contents.specimen))))
     return ReportSection("Specimen", tuple(blocks))
+
+
+def _of_hammer(contents: Contents) -> tuple[Mark, ...]:
+    hammer = contents.configuration.experiment.hammer
+    if hammer is None:
+        return ()
+    return (
+        Mark(hammer.hit_x_mm, hammer.hit_y_mm, "hit", "hit"),
+        Mark(hammer.response_x_mm, hammer.response_y_mm, "accelerometer", "sensor"),
+    )
 
 
 def _law_value(value: object) -> str:

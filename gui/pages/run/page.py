@@ -17,8 +17,8 @@ from gui.pages.run.banner import Banner
 from gui.pages.run.check import Check, CheckPane
 from gui.pages.run.files_panel import FilesPanel
 from gui.pages.run.now import NowPane
-from gui.pages.run.plate_view import PlateView
 from gui.pages.run.start_panel import StartPanel
+from gui.pages.run.structure_view import Drawing
 from gui.state import SessionState
 from gui.widgets import button
 from instrument.engine.messages import Ended, OperatorAsked
@@ -37,7 +37,8 @@ class RunPage(Page):
         super().__init__(controller)
         self.files, self.starting = FilesPanel(), StartPanel()
         self.banner, self.now = Banner(), NowPane(controller)
-        self.check, self.checked, self.plate = Check(self), CheckPane(), PlateView()
+        self.check, self.checked, self.drawing = Check(self), CheckPane(), Drawing()
+        self.plate = self.drawing.plate
         self.export = Export(controller, self)
         self.report_button = button("Report...", "One self-contained page of the session", "report")
         self.export_button = button("Export", "The session's data for other programs", "export")
@@ -58,6 +59,8 @@ class RunPage(Page):
             self.now.show_state(state, self.controller.live, self._ending)
         if self.news("run", "points"):
             self.now.show_segments(state)
+        if self.files.drafts is None and self.news("run"):
+            self.drawing.show_specimen(state.configuration.the_specimen())
         self._show_question(state)
 
     def clear(self) -> None:
@@ -101,7 +104,7 @@ class RunPage(Page):
 
     def _opened(self) -> None:
         self._forget_check()
-        self.plate.show_drafts(self.files.drafts)
+        self.drawing.show_drafts(self.files.drafts)
         self.starting.show_experiment(self.files.drafts)
         path = self.files.path
         if path is not None:
@@ -115,7 +118,7 @@ class RunPage(Page):
 
     def _edited(self) -> None:
         self._forget_check()
-        self.plate.show_drafts(self.files.drafts)
+        self.drawing.show_drafts(self.files.drafts)
         self.starting.show_experiment(self.files.drafts)
 
     def _saved(self) -> None:
@@ -228,7 +231,7 @@ class RunPage(Page):
         self.tabs.setDocumentMode(True)
         self.tabs.addTab(self.now, "State")
         self.tabs.addTab(self.checked, "Dry run")
-        self.tabs.addTab(self.plate, "Plate")
+        self.tabs.addTab(self.drawing, "Specimen")
         below = QHBoxLayout()
         below.setContentsMargins(6, 0, 6, 6)
         below.addStretch(1)
