@@ -24,6 +24,9 @@ from fitting.tolerances import STATED
 ORDER = 6
 """Polynomials over the thickness: the wave is then exact to 1e-9 where kt < 2."""
 NUMBERS = ("mass", "area", "core_thickness", "core_density")
+EDGE = 0.1153
+"""c of an edge: of a long strip of incompressible rubber, its plane problem, and of annular and full discs as
+solids, to 0.4 % up to a thickness of half their width (`tests/drivers/simulated/plant/test_solid_pad.py`)."""
 _TYPICAL = {"mass": 2e-3}
 """Of a moving mass, weighed."""
 
@@ -43,6 +46,8 @@ class ShearPair(BaseDriven):
     """Radius of gyration of a disc's face about a diameter; None where only its area is stated."""
     bending: bool = False
     """Whether the discs' bending is counted."""
+    edges: bool = False
+    """Whether what their free edges give way is counted, bending in it."""
     reads: Reading = "absolute"
     base_acceleration_m_s2: float = PUBLISHED_G_M_S2
     tolerances: Mapping[str, float] = field(default_factory=dict, hash=False)
@@ -62,6 +67,21 @@ class ShearPair(BaseDriven):
         if self.gyration_m is None:
             return 0.0
         return (self.core.thickness_m / (6 * self.gyration_m)) ** 2
+
+    @property
+    def softer_by_edges(self) -> float:
+        """The part of G A/t that free edges take, c t/(r_o - r_i).
+
+        In plain shear the face across would carry the same stress, and a free edge carries none: a zone as
+        wide as the disc is thick gives way, where the edge lies across the motion, c t cos^2 ds/A of its
+        length. The bending of the disc is in it. Zero where the shape is not stated.
+        """
+        if self.gyration_m is None:
+            return 0.0
+        # D^2 - d^2 = 4 A/pi, D^2 + d^2 = 16 kappa^2.
+        difference, total = 4 * self.area_m2 / np.pi, 16 * self.gyration_m**2
+        outer, inner = np.sqrt((total + difference) / 2), np.sqrt(max(total - difference, 0.0) / 2)
+        return float(EDGE * self.core.thickness_m / ((outer - inner) / 2))
 
     def parts(self) -> Parts:
         """For unit mass, unit rubber mass and unit A/t."""
@@ -86,8 +106,9 @@ class ShearPair(BaseDriven):
         t = self.core.thickness_m * np.exp(by.get("core_thickness", 0.0))
         mass = self.mass_kg * np.exp(by.get("mass", 0.0))
         rubber = self.core.density_kg_m3 * np.exp(by.get("core_density", 0.0)) * area * t
+        stiff = 1 - self.softer_by_edges * np.exp(by.get("core_thickness", 0.0)) if self.edges else 1.0
         softer = self.softer_by_bending * np.exp(2 * by.get("core_thickness", 0.0)) if self.bending else 0.0
-        return np.array([area / t / (1 + softer), mass, rubber, mass, rubber], complex)
+        return np.array([stiff * area / t / (1 + softer), mass, rubber, mass, rubber], complex)
 
     def tolerance(self, name: str) -> float:
         """Named, else typical."""

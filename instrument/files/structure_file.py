@@ -38,6 +38,7 @@ class _Disc(TomlTable):
     inner_diameter_mm: NotNegative | None = None
     area_mm2: Positive | None = None
     bending: bool = False
+    edges: bool = False
 
     @model_validator(mode="after")
     def _shaped(self) -> "_Disc":
@@ -51,8 +52,13 @@ class _Disc(TomlTable):
                 f"inner_diameter_mm = {inner:g}, expected less than outer_diameter_mm = "
                 f"{self.outer_diameter_mm:g}"
             )
-        if self.bending and self.outer_diameter_mm is None:
-            raise ValueError("bending = true with area_mm2, expected the discs' diameters")
+        for name in ("bending", "edges"):
+            if getattr(self, name) and self.outer_diameter_mm is None:
+                raise ValueError(f"{name} = true with area_mm2, expected the discs' diameters")
+        if self.bending and self.edges:
+            raise ValueError(
+                "bending = true and edges = true, expected one: bending is in what edges give way"
+            )
         return self
 
 
@@ -110,6 +116,7 @@ class ShearPairDocument(TomlTable):
             core=Core(p.thickness_mm * 1e-3, _RUBBER, self.core.density_kg_m3, law_of(self.core.law)),
             gyration_m=gyration,
             bending=p.bending,
+            edges=p.edges,
             reads=self.pickup.reads,
             base_acceleration_m_s2=self.base.acceleration_m_s2,
             tolerances=named,

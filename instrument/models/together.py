@@ -342,10 +342,10 @@ def _remarks(files: Sequence[File]) -> tuple[str, ...]:
         s = file.specimen
         if s.core is not None:
             said += remarks_on_law(s.core.law, file.sweep.frequency_hz)
-        if isinstance(s, ShearPair) and not s.bending and s.softer_by_bending > _WORTH_SAYING:
+        if isinstance(s, ShearPair) and not s.edges and s.softer_by_edges > _WORTH_SAYING:
+            higher = 100 * s.softer_by_edges / (1 - s.softer_by_edges)
             said.append(
-                f"{of}bending of the discs is not counted: with it G' is {100 * s.softer_by_bending:.2g} "
-                f"% higher "
-                "([shear-pair] bending = true)"
+                f"{of}what the discs' free edges give way is not counted: with it G' is {higher:.2g} % "
+                "higher ([shear-pair] edges = true)"
             )
     return tuple(dict.fromkeys(said))

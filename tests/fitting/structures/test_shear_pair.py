@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -5,7 +7,7 @@ from hypothesis import strategies as st
 from shear_pair_cases import LAW, pair, transmissibility
 
 from fitting.laws.constant import ConstantModulus
-from fitting.structures.shear_pair import disc, pad
+from fitting.structures.shear_pair import EDGE, disc, pad
 from fitting.structures.small import displacement, nuisances_of, rational_of, system_of
 from fitting.structures.small_modes import small_modes, small_velocity
 
@@ -96,3 +98,13 @@ def test_derivatives_to_stated_numbers_are_central_differences():
     for k in range(len(stated)):
         step = h * (np.arange(len(stated)) == k)
         assert np.allclose(found[k], (x(step) - x(-step)) / (2 * h), rtol=1e-4, atol=1e-12)
+
+
+def test_free_edges_take_their_share_and_follow_the_thickness():
+    """6 mm thick, 10.85 mm wide: c t/(r_o - r_i); a thicker disc loses more."""
+    plain, counted = pair(0.2), pair(0.2, edges=True)
+    share = EDGE * 6e-3 / 10.85e-3
+    by = {"core_thickness": 0.1}
+    assert counted.coefficients({})[0] / plain.coefficients({})[0] == pytest.approx(1 - share)
+    assert counted.coefficients(by)[0] / plain.coefficients(by)[0] == pytest.approx(1 - share * np.exp(0.1))
+    assert replace(counted, gyration_m=None).coefficients({})[0] == plain.coefficients({})[0]

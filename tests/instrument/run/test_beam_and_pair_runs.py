@@ -16,7 +16,7 @@ from instrument.files.new_file import write_new
 from instrument.files.structure_file import read_structure
 from instrument.interchange.given import read_given
 from instrument.interchange.specimen_toml import specimen_toml
-from instrument.report.page import report_page
+from instrument.report.page import report_of
 from instrument.run.experiment import run_experiment
 from instrument.run.replay import replay
 from instrument.session.configuration import read_whole_experiment
@@ -106,7 +106,7 @@ def test_a_session_of_a_pair_is_replayed_read_and_reported(pair_run, tmp_path):
     assert isinstance(contents.specimen, ShearPair)
     (tmp_path / "again.toml").write_text(specimen_toml(contents))
     assert read_structure(tmp_path / "again.toml") == contents.specimen
-    page = report_page(contents)
+    page = report_of(contents).html()
     assert "Shear pair" in page
     assert "No law could be identified" not in page
     given = read_given(pair_run.session, None, None)
@@ -178,3 +178,22 @@ def test_a_free_beam_has_no_base(tmp_path):
     assert any("stands on no shaker" in line for line in said) or any("no base" in line for line in said)
     with pytest.raises((BadInput, OutsideModel)):
         dry_run(path)
+
+
+def test_edges_are_counted_where_the_discs_are_described(tmp_path):
+    path = tmp_path / "pair.toml"
+    write_new("shear-pair", path)
+    plain = path.read_text()
+
+    def read_with(more, text=plain):
+        path.write_text(text.replace("discs = 2", f"{more}\ndiscs = 2"))
+        return read_structure(path)
+
+    assert read_with("edges = true").edges
+    with pytest.raises(BadInput, match="expected one"):
+        read_with("edges = true\nbending = true")
+    area = plain.replace("outer_diameter_mm = 30.0", "area_mm2 = 600.0").replace(
+        "inner_diameter_mm", "# inner"
+    )
+    with pytest.raises(BadInput, match="edges = true with area_mm2"):
+        read_with("edges = true", area)
