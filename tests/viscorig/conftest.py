@@ -4,6 +4,7 @@ import json
 
 import matplotlib as mpl
 import pytest
+from conftest import DATA
 from session_cases import whole_session
 
 import viscorig as vr
@@ -34,13 +35,8 @@ def command(capsys):
 
 @pytest.fixture(scope="session")
 def plate():
-    return vr.load_specimen(vr.example_file("zn1.toml"))
-
-
-@pytest.fixture(scope="session")
-def coarse_plate(plate):
     """On the paper's own mesh: quick."""
-    return plate.but(mesh={"elements_x": 10, "elements_y": 10})
+    return vr.load_specimen(DATA / "numbers" / "coarse.toml")
 
 
 @pytest.fixture(scope="session")

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from conftest import DATA
 from impact_cases import RATE, clean_hit
 
 import viscorig as vr
@@ -64,7 +65,7 @@ def test_arrays_that_no_sweep_has_are_refused(given, words):
 
 def test_a_specimen_of_numbers_is_that_of_the_file(plate):
     made = vr.Specimen(**plate.as_dict())
-    assert made.model == plate.model == read_specimen(vr.example_file("zn1.toml"))
+    assert made.model == plate.model == read_specimen(DATA / "numbers" / "coarse.toml")
 
 
 def test_numbers_of_numpy_are_numbers(plate):

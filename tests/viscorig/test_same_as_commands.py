@@ -2,12 +2,13 @@
 
 import numpy as np
 import pytest
+from conftest import DATA
 from impact_cases import clean_hit, noisy_hits
 
 import viscorig as vr
 from instrument.files.impact_csv import write_impact_csv
 
-ZN1, TABLE5 = vr.example_file("zn1.toml"), vr.example_file("table5.csv")
+COARSE, TABLE5 = DATA / "numbers" / "coarse.toml", vr.example_file("table5.csv")
 SECONDS = {"seconds", "setup_seconds", "validation_seconds"}
 
 
@@ -24,7 +25,7 @@ def records(tmp_path_factory):
 
 
 def test_identify(command, found):
-    assert timeless(found.as_dict()) == timeless(command("identify", TABLE5, "--specimen", ZN1))
+    assert timeless(found.as_dict()) == timeless(command("identify", TABLE5, "--specimen", COARSE))
 
 
 @pytest.mark.parametrize(
@@ -35,62 +36,61 @@ def test_identify(command, found):
     ],
 )
 def test_identify_with_options(command, sweep, plate, options, keywords):
-    expected = command("identify", TABLE5, "--specimen", ZN1, *options)
+    expected = command("identify", TABLE5, "--specimen", COARSE, *options)
     assert timeless(vr.identify(sweep, plate, **keywords).as_dict()) == timeless(expected)
 
 
-def test_identify_without_a_law_too(command, tmp_path, coarse_plate):
-    specimen, path = tmp_path / "specimen.toml", tmp_path / "sweep.csv"
-    specimen.write_text(ZN1.read_text() + "\n[mesh]\nelements_x = 10\nelements_y = 10\n")
+def test_identify_without_a_law_too(command, tmp_path, plate):
+    path = tmp_path / "sweep.csv"
     f = np.linspace(90.0, 110.0, 11)
     noise = np.random.default_rng(2).normal(size=(2, len(f)))
-    v = vr.predict(coarse_plate, f).velocity_m_s * (1 + 2e-3 * (noise[0] + 1j * noise[1]))
+    v = vr.predict(plate, f).velocity_m_s * (1 + 2e-3 * (noise[0] + 1j * noise[1]))
     rows = [f"{a!r},{z.real!r},{z.imag!r}" for a, z in zip(f.tolist(), v.tolist(), strict=True)]
     path.write_text("\n".join(["frequency_hz,velocity_re_m_s,velocity_im_m_s", *rows]))
-    expected = command("identify", path, "--specimen", specimen, "--pointwise")
-    assert timeless(vr.identify(vr.Sweep(f, v), coarse_plate, pointwise=True).as_dict()) == timeless(expected)
+    expected = command("identify", path, "--specimen", COARSE, "--pointwise")
+    assert timeless(vr.identify(vr.Sweep(f, v), plate, pointwise=True).as_dict()) == timeless(expected)
 
 
 def test_identify_with_a_hammer_test(command, tmp_path, records, sweep, plate):
     tested = vr.damping(records)
     path = tested.to_json(tmp_path / "hammer.json")
-    expected = timeless(command("identify", TABLE5, "--specimen", ZN1, "--hammer", path))
+    expected = timeless(command("identify", TABLE5, "--specimen", COARSE, "--hammer", path))
     for hammer in (tested, path, str(path), (tested.frequency_hz, tested.damping_ratio)):
         assert timeless(vr.identify(sweep, plate, hammer=hammer).as_dict()) == expected
 
 
 def test_diagnose(command, sweep, plate):
-    expected = command("diagnose", TABLE5, "--specimen", ZN1, "--resamples", 0, "--without", "core_law")
+    expected = command("diagnose", TABLE5, "--specimen", COARSE, "--resamples", 0, "--without", "core_law")
     found = vr.diagnose(sweep, plate, resamples=0, without=["core_law"])
     assert timeless(found.as_dict()) == timeless(expected)
 
 
 def test_diagnose_on_your_word(command, sweep, plate):
-    expected = command("diagnose", TABLE5, "--specimen", ZN1, "--accept", "spot_offset")
+    expected = command("diagnose", TABLE5, "--specimen", COARSE, "--accept", "spot_offset")
     found = vr.diagnose(sweep, plate, accept=["spot_offset"])
     assert timeless(found.as_dict()) == timeless(expected)
     assert list(found.effects) == ["spot_offset"]
 
 
 def test_modes(command, plate):
-    assert vr.modes(plate, 3).as_dict() == command("modes", ZN1, "--count", 3)
+    assert vr.modes(plate, 3).as_dict() == command("modes", COARSE, "--count", 3)
 
 
 @pytest.mark.parametrize(("options", "keywords"), [([], {}), (["--real-modes"], {"real_modes": True})])
 def test_predict(command, plate, options, keywords):
-    expected = command("predict", ZN1, "--frequencies", "18.4,19.3,281.1", *options)
+    expected = command("predict", COARSE, "--frequencies", "18.4,19.3,281.1", *options)
     assert vr.predict(plate, [18.4, 19.3, 281.1], **keywords).as_dict() == expected
 
 
 def test_predict_with_what_was_found(command, tmp_path, plate, found):
     path = found.to_json(tmp_path / "found.json")
-    expected = command("predict", ZN1, "--frequencies", "18.4,19.3", "--fit", path)
+    expected = command("predict", COARSE, "--frequencies", "18.4,19.3", "--fit", path)
     assert vr.predict(plate, [18.4, 19.3], fit=found).as_dict() == expected
 
 
 def test_predict_with_a_hammer_test(command, tmp_path, plate, records):
     path = vr.damping(records).to_json(tmp_path / "hammer.json")
-    expected = command("predict", ZN1, "--frequencies", "18.4,19.3", "--hammer", path)
+    expected = command("predict", COARSE, "--frequencies", "18.4,19.3", "--hammer", path)
     assert vr.predict(plate, [18.4, 19.3], hammer=path).as_dict() == expected
 
 

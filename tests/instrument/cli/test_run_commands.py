@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from campaigns.kill import campaign, write_case
 
+from instrument.cli.main import run
 from instrument.session.storage import SessionFile
 from instrument.stream.raw import SessionEnded
 
@@ -170,10 +171,16 @@ def _drive_by_mbpoll(address: str) -> None:
     assert int(status.split("[20]:")[1].split()[0]) & 1 == 0
 
 
-@pytest.mark.parametrize("command", ["run", "hammer", "sweep", "check"])
-def test_a_missing_experiment_is_one_line_and_exit_2(tmp_path, command):
-    process = viscorig(command, tmp_path / "absent.toml")
+def of_a_process(*words):
+    process = viscorig(*words)
     _, error = process.communicate(timeout=30)
-    assert process.returncode == 2
+    return process.returncode, error
+
+
+@pytest.mark.parametrize("command", ["run", "hammer", "sweep", "check"])
+def test_a_missing_experiment_is_one_line_and_exit_2(tmp_path, capsys, command):
+    words = (command, str(tmp_path / "absent.toml"))
+    status, error = of_a_process(*words) if command == "run" else (run(words), capsys.readouterr().err)
+    assert status == 2
     assert len([line for line in error.splitlines() if line.startswith("viscorig:")]) == 1
     assert "Traceback" not in error

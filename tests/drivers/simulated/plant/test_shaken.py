@@ -27,7 +27,11 @@ def integrated(plate, pieces, times):
     w = np.array([c.omega for c in shaker.sections])
     zeta = np.array([c.damping_ratio for c in shaker.sections])
     gain = np.array([c.gain_m_s2_v for c in shaker.sections])
-    elements = [(b.K, g, t) for b in s.branches for g, t in zip(b.law.g_pa, b.law.tau_s, strict=True)]
+    # Matrices are applied to all elements of a branch at once: the sum is the same, and far quicker.
+    count = [len(b.law.tau_s) for b in s.branches]
+    of_branch = np.cumsum([0, *count])
+    tau = np.concatenate([b.law.tau_s for b in s.branches])[:, None]
+    solve = np.linalg.inv(s.M)
     relaxed = s.K + sum(b.law.g_inf_pa * b.K for b in s.branches)
     w0 = 2 * np.pi * fixture.frequency_hz
 
@@ -37,8 +41,8 @@ def integrated(plate, pieces, times):
         return amplitude * (np.sin(phase) + 0.002 * np.sin(2 * phase) + 0.001 * np.sin(3 * phase))
 
     def parts(x):
-        q, v, z = x[:n], x[n : 2 * n], x[2 * n : (2 + len(elements)) * n].reshape(-1, n)
-        base = x[(2 + len(elements)) * n :]
+        q, v, z = x[:n], x[n : 2 * n], x[2 * n : (2 + len(tau)) * n].reshape(-1, n)
+        base = x[(2 + len(tau)) * n :]
         return q, v, z, base[:k], base[k : 2 * k], base[2 * k :]
 
     def rate(t, x):
@@ -47,11 +51,12 @@ def integrated(plate, pieces, times):
         turning = fixture.gain_rad_m * w0**2 * d.sum() - 2 * fixture.damping_ratio * w0 * spin - w0**2 * theta
         a = accelerations.sum()
         force = s.loads @ [a, rocking * a + turning] - relaxed @ q - s.C @ v
-        force -= sum(g * K @ zk for (K, g, _), zk in zip(elements, z, strict=True))
-        inner = [v - zk / tau for (_, _, tau), zk in zip(elements, z, strict=True)]
-        return np.concatenate([v, np.linalg.solve(s.M, force), *inner, dd, accelerations, [spin, turning]])
+        for b, first, end in zip(s.branches, of_branch, of_branch[1:], strict=False):
+            force -= b.K @ (b.law.g_pa @ z[first:end])
+        inner = (v - z / tau).ravel()
+        return np.concatenate([v, solve @ force, inner, dd, accelerations, [spin, turning]])
 
-    size = (2 + len(elements)) * n + 2 * k + 2
+    size = (2 + len(tau)) * n + 2 * k + 2
     out, x, begin = [], np.zeros(size), 0.0
     for end, pick in (
         (pieces[1].begin_s, times < pieces[1].begin_s),
