@@ -1,7 +1,9 @@
 """A core law from a table: in every specimen file, in predictions, fits and sessions."""
 
 import json
+import re
 
+import beam_cases
 import numpy as np
 import pytest
 from conftest import TABLE_4
@@ -13,31 +15,8 @@ from instrument.errors import BadInput
 from instrument.files.specimen_file import SpecimenDocument, read_specimen_document, specimen_of
 from instrument.files.structure_file import read_structure
 
-BEAM = """
-[beam]
-length_mm = 200.0
-width_mm = 20.0
-boundary = "clamped-free"
-[substrate]
-thickness_mm = 2.0
-young_gpa = 70.0
-poisson = 0.3
-density_kg_m3 = 2700.0
-[constraining]
-thickness_mm = 1.0
-young_gpa = 70.0
-poisson = 0.3
-density_kg_m3 = 2700.0
-[core]
-thickness_mm = 0.5
-poisson = 0.49
-density_kg_m3 = 1000.0
-[core.law]
-kind = "table"
-path = "tables/law.csv"
-[pickup]
-x_mm = 150.0
-"""
+BY_TABLE = 'kind = "table"\npath = "tables/law.csv"\n'
+BEAM = re.sub(r'kind = "fractional-zener"\n(.*\n){4}', BY_TABLE, beam_cases.BEAM)
 BY_FORMULA = """kind = "fractional-zener"
 g0_mpa = {g0}
 ginf_mpa = {ginf}
@@ -60,7 +39,7 @@ def folder(tmp_path):
     (tmp_path / "beam.toml").write_text(BEAM)
     g0, ginf, tau, alpha = TABLE_4.values
     said = BY_FORMULA.format(g0=g0 / 1e6, ginf=ginf / 1e6, tau=tau, alpha=alpha)
-    (tmp_path / "formula.toml").write_text(BEAM.replace('kind = "table"\npath = "tables/law.csv"\n', said))
+    (tmp_path / "formula.toml").write_text(BEAM.replace(BY_TABLE, said))
     return tmp_path
 
 
