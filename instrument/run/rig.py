@@ -26,8 +26,8 @@ from instrument.run.operator import Operator, Person, SimulatedOperator
 
 log = logging.getLogger(__name__)
 
-_SIMULATOR_STARTS_S = 30.0
-"""A bound: one that has not come up by then is taken to hang."""
+_SIMULATOR_STARTS_S = 120.0
+"""A bound: one that has not come up by then is taken to hang. A beam is built when it is first used."""
 _SIMULATOR_ENDS_S = 6.0
 """Until it is killed."""
 
