@@ -32,7 +32,7 @@ class Card:
     def header(self) -> list[str]:
         """Lines without the format's comment sign."""
         law, (low, high) = self.law, self.law.band_hz
-        warm = "not measured" if law.temperature_c is None else f"{law.temperature_c:.1f} degrees C"
+        warm = "not known" if law.temperature_c is None else f"{law.temperature_c:.1f} degrees C"
         band, shift = "band", []
         if law.shift is not None:
             band, shift = "band in reduced frequency f a_T", [f"shift: {law.shift.words}"]

@@ -12,8 +12,8 @@ from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
 from instrument.cli.printable import printable
 from instrument.errors import BadInput
-from instrument.files.specimen_file import read_specimen
-from instrument.material.found_law import read_law
+from instrument.files.structure_file import read_structure
+from instrument.material.found_law import read_law, stated_poisson
 from instrument.progress import bar
 
 
@@ -53,10 +53,10 @@ def card(
         raise BadInput(f"{path}: no such folder to write to")
     law = read_law(found, bar)
     if specimen is not None:
-        core = read_specimen(specimen).core
-        if core is None:
-            raise BadInput(f"{specimen}: a bare plate, expected [core]")
-        law = replace(law, specimen=specimen.name, poisson=core.poisson)
+        read = read_structure(specimen)
+        if read.core is None:
+            raise BadInput(f"{specimen}: a bare {read.kind}, expected [core]")
+        law = replace(law, specimen=specimen.name, poisson=stated_poisson(read))
     made = Card.of(law, wanted=wanted / 100)
     text = form.write(made)
     if str(path) == "-":

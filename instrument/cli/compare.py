@@ -15,6 +15,8 @@ from instrument.material.found_law import read_law
 from instrument.material.spread import spread_of, spread_result
 from instrument.progress import bar
 
+_WARMER = 1.0
+"""K between two laws, from which it is said: a damping polymer is another one."""
 _SAYS = {True: "differ", False: "agree", None: "cannot be told"}
 
 
@@ -62,6 +64,8 @@ def compare(
     out = Output(json_path)
     laws = [read_law(path, bar) for path in files]
     found = [compare_laws(a, b, repeatability_percent / 100) for a, b in combinations(laws, 2)]
+    # All that can be wrong with the files is said before anything is printed.
+    spread = spread_of(laws, "mounts" if remounts else "specimens") if with_spread or remounts else None
     names = _names(files)
     pairs = list(combinations(names, 2))
     out.table(
@@ -70,6 +74,8 @@ def compare(
         [[*pair, *_cells(c)] for pair, c in zip(pairs, found, strict=True)],
     )
     for (a, b), c in zip(pairs, found, strict=True):
+        if (warm := _unlike_temperatures(c)) is not None:
+            out.say(f"{a} and {b}: of {warm[0]:.4g} and {warm[1]:.4g} degC, which alone makes laws differ")
         for what, z in (("G'", c.storage_z), ("eta", c.loss_factor_z)):
             ranges = ", ".join(f"{low:.4g} to {high:.4g} Hz" for low, high in c.where(z))
             if ranges:
@@ -77,15 +83,16 @@ def compare(
     result = CompareResult(
         pairs=tuple(compared_pair(c, a, b) for (a, b), c in zip(pairs, found, strict=True))
     )
-    if with_spread:
-        spread = spread_of(laws)
+    if spread is not None:
         out.say(spread.words)
-        result = result.but(spread=spread_result(spread))
-    if remounts:
-        spread = spread_of(laws, "mounts")
-        out.say(spread.words)
-        result = result.but(repeatability=spread_result(spread))
+        said = spread_result(spread)
+        result = result.but(repeatability=said) if remounts else result.but(spread=said)
     out.result(result)
+
+
+def _unlike_temperatures(c: Comparison) -> tuple[float, float] | None:
+    a, b = c.a.temperature_c, c.b.temperature_c
+    return (a, b) if a is not None and b is not None and abs(a - b) > _WARMER else None
 
 
 def _names(files: tuple[Path, ...]) -> list[str]:

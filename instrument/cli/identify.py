@@ -26,6 +26,7 @@ from instrument.facts.beside import BesideTable
 from instrument.facts.budget import BudgetRow
 from instrument.facts.identification import IdentificationResult
 from instrument.files.dma_file import DmaTable, read_dma
+from instrument.interchange.given import Given
 from instrument.material.beside import beside, beside_table
 from instrument.material.found_law import law_of_result
 from instrument.material.overlay import save_overlay
@@ -33,7 +34,6 @@ from instrument.models.files import File
 from instrument.models.identification import Identified, Method
 from instrument.models.identification import identify as identify_sweep
 from instrument.models.pointwise import pointwise_of
-from instrument.models.set_up import Hammer
 from instrument.models.together import identify_together
 from instrument.progress import bar
 from instrument.results.budget_from import budget, budget_from
@@ -190,7 +190,7 @@ def identify(
             raise click.UsageError(
                 "--uncertainty posterior and bootstrap with several files or spots: expected profile"
             )
-        _identify_together(out, files, every[0].modes, depths, with_budget=with_budget)
+        _identify_together(out, files, every, depths, with_budget=with_budget)
         return
     given = every[0]
     read = given.specimen
@@ -275,12 +275,13 @@ def _beside(
 def _identify_together(
     out: Output,
     files: Sequence[File],
-    hammer: Hammer | None,
+    every: Sequence[Given],
     depths: Sequence[Depth],
     *,
     with_budget: bool,
 ) -> None:
-    together = identify_together(files, bar, hammer)
+    only = every[0] if len(every) == 1 else None
+    together = identify_together(files, bar, every[0].modes)
     found, plate = together.found, files[0].specimen
     print_identification(out, found, together.sweep, plate)
     if found.bare is not None and isinstance(plate, Specimen):
@@ -291,4 +292,7 @@ def _identify_together(
     if depths:
         looked = [one for d in dict.fromkeys(depths) for one in _in_depth(out, found, d, SAMPLES)]
         result = result.but(uncertainty=tuple(looked))
-    out.result(result)
+    if only is not None and only.recorded is not None:
+        out.say()
+        print_result(out, only.recorded)
+    out.result(result if only is None else only.said(result))

@@ -10,6 +10,7 @@ from instrument.results.diagnosis_words import (
     law_at,
     probability_words,
     resampling_words,
+    set_aside_words,
     some_parameters,
     verdict_line,
     with_verdict,
@@ -44,8 +45,7 @@ def print_story(out: Output, found: DiagnosisResult) -> None:
     for text in found.explanation:
         out.say(textwrap.fill(text, _WIDTH))
     if found.set_aside_hz:
-        listed = ", ".join(f"{f:.4g}" for f in found.set_aside_hz)
-        out.say(textwrap.fill(f"Set aside: {listed} Hz.", _WIDTH))
+        out.say(textwrap.fill(set_aside_words(found), _WIDTH))
     if found.next_measurement:
         out.say(textwrap.fill(f"Next measurement: {found.next_measurement}", _WIDTH))
     _print_next(out, found)

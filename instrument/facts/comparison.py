@@ -1,6 +1,6 @@
 """The result of `viscorig compare`."""
 
-from instrument.facts.number import Number
+from instrument.facts.number import MaybeNumber, Number
 from instrument.facts.result import Result
 
 Range = tuple[Number, Number]
@@ -25,6 +25,8 @@ class ComparedPair(Result):
     b: str
     """Files, with their folders where names alone are not told apart."""
     verdicts: tuple[str, str]
+    temperatures_c: tuple[MaybeNumber, MaybeNumber] = (None, None)
+    """Of both laws; null where the file does not say."""
     band_hz: Range | None
     """None where they have none in common."""
     chi2: Number

@@ -98,6 +98,7 @@ def compared_pair(c: Comparison, a: str, b: str) -> ComparedPair:
         a=a,
         b=b,
         verdicts=(c.a.verdict, c.b.verdict),
+        temperatures_c=(c.a.temperature_c, c.b.temperature_c),
         band_hz=(f[0], f[-1]) if len(f) else None,
         chi2=c.chi2,
         degrees_of_freedom=c.dof,

@@ -11,6 +11,8 @@ from scipy.interpolate import PchipInterpolator
 
 from fitting.arrays import Array, Complex
 from fitting.errors import FittingError
+from fitting.structures import AnySpecimen
+from fitting.structures.shear_pair import ShearPair
 from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult
 from instrument.files.text import read_text
@@ -46,6 +48,12 @@ class _LawFound(BaseModel):
     standard_errors: dict[str, float | None] = {}
     law: list[_Row] = Field(min_length=2)
     temperature_c: float | None = None
+
+
+class _Warm(BaseModel):
+    """What a session's result says of its temperature."""
+
+    temperature_range_c: tuple[Finite, Finite]
 
 
 class _Diagnosed(BaseModel):
@@ -124,7 +132,19 @@ def _of_facts(path: Path, facts: Any) -> MaterialLaw | None:
     for read in (_diagnosed, _identified):
         for inside in (facts, facts.get("diagnose"), facts.get("identify")):
             if isinstance(inside, dict) and (found := read(path, inside)) is not None:
-                return found
+                warm = found.temperature_c
+                return replace(found, temperature_c=_of_session_c(facts) if warm is None else warm)
+    return None
+
+
+def _of_session_c(facts: dict[str, Any]) -> float | None:
+    """The middle of what the session's own result says, in the JSON of `run` or of `identify`."""
+    for key in ("result", "session_result"):
+        try:
+            low, high = _Warm.model_validate(facts.get(key)).temperature_range_c
+        except ValidationError:
+            continue
+        return (low + high) / 2
     return None
 
 
@@ -175,8 +195,14 @@ def _of_session(path: Path, progress: Progress) -> MaterialLaw:
         specimen=contents.configuration.experiment.specimen,
         temperature_c=float(np.mean(temperatures)) if temperatures else None,
         remount=contents.configuration.experiment.mounting.remount,
-        poisson=specimen.core.poisson if specimen.core is not None else None,
+        poisson=stated_poisson(specimen),
     )
+
+
+def stated_poisson(specimen: AnySpecimen) -> float | None:
+    """Of its core; None where there is none, or where nothing depends on it and no file states it."""
+    pad = isinstance(specimen, ShearPair)
+    return None if specimen.core is None or pad else specimen.core.poisson
 
 
 def _identified_now(path: Path, contents: Contents, progress: Progress) -> MaterialLaw:

@@ -8,6 +8,7 @@ from instrument.results.diagnosis_words import (
     law_at,
     probability_words,
     resampling_words,
+    set_aside_words,
     some_parameters,
     verdict_line,
     with_verdict,
@@ -34,8 +35,7 @@ def diagnosis_sections(contents: Contents) -> list[ReportSection]:
     blocks += [Sentence(text) for text in found.explanation]
     blocks += _followed(contents)
     if found.set_aside_hz:
-        listed = ", ".join(f"{f:.4g}" for f in found.set_aside_hz)
-        blocks.append(Sentence(f"Set aside for hum: {listed} Hz.", "note"))
+        blocks.append(Sentence(set_aside_words(found), "note"))
     if found.next_measurement:
         blocks.append(Sentence(f"Next measurement: {found.next_measurement}", "note"))
     blocks += _next(found)

@@ -1,6 +1,7 @@
 """Short sentences on a diagnosis."""
 
 from collections.abc import Mapping, Sequence
+from itertools import groupby
 from math import isnan, nan
 
 from instrument.facts.diagnosis import CandidateFitted, DiagnosisResult, EffectFound, ParameterFound
@@ -11,6 +12,8 @@ _MOST_PARAMETERS = 4
 UNKNOWN = "verdict unknown"
 _LEAST = 1e-3
 """Probability below which, or above one less which, no digits are said."""
+_RANGE = 3
+"""Neighbours from which only the first and the last are said."""
 _SAID = {"none": "nothing beyond noise", "unknown": "structure that nothing in the catalogue explains"}
 
 
@@ -32,6 +35,18 @@ def verdict_line(found: DiagnosisResult) -> str:
     if channels:
         parts.append(f"the channels by themselves show {' and '.join(_sized(e) for e in channels)}")
     return "; ".join(parts)
+
+
+def set_aside_words(found: DiagnosisResult) -> str:
+    """The points that took no part, neighbours of the measured grid as a range."""
+    aside = set(found.set_aside_hz)
+    grid = sorted(aside.union(point.frequency_hz for point in found.points))
+    runs = [list(run) for out, run in groupby(grid, aside.__contains__) if out]
+    listed = [
+        f"{run[0]:.4g} to {run[-1]:.4g}" if len(run) >= _RANGE else ", ".join(f"{f:.4g}" for f in run)
+        for run in runs
+    ]
+    return f"Set aside: {', '.join(listed)} Hz."
 
 
 def _weighed(found: DiagnosisResult) -> str:

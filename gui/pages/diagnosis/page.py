@@ -29,6 +29,7 @@ from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
 from gui.state import SessionState
 from gui.widgets import button, hint
 from instrument.facts.diagnosis import DiagnosisResult
+from instrument.results.diagnosis_words import set_aside_words
 from instrument.results.followed import followed_lines, followed_of
 
 _PERCENT = 100
@@ -270,6 +271,5 @@ def _story(shown: ShownDiagnosis) -> list[str]:
     found = shown.found
     said = list(found.explanation)
     if found.set_aside_hz:
-        listed = ", ".join(f"{f:.4g}" for f in found.set_aside_hz)
-        said.append(f"Set aside for hum: {listed} Hz.")
+        said.append(set_aside_words(found))
     return said + [f"Note: {text}." for text in found.warnings]

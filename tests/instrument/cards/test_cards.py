@@ -100,7 +100,7 @@ def test_tables_read_back(found):
 @pytest.mark.parametrize("to", FORMATS)
 def test_every_header_says_band_temperature_specimen_verdict_and_units(found, to):
     text = card(found, to)
-    for words in ("band: 14 to 300 Hz", "temperature: not measured", "specimen: ", "verdict: not diagnosed"):
+    for words in ("band: 14 to 300 Hz", "temperature: not known", "specimen: ", "verdict: not diagnosed"):
         assert words in text
     assert "SI: Pa, s, Hz" in text
     assert "WARNING" not in text
@@ -126,6 +126,20 @@ def test_the_specimen_file_gives_poissons_ratio(found, tmp_path):
     assert "Poisson's ratio: 0.45 (as stated)" in text
     assert "specimen: plate.toml" in text
     assert "assumed" in card(found, "abaqus")
+
+
+def test_a_pads_ratio_is_assumed_as_its_file_states_none(found, tmp_path):
+    assert run(["new", "shear-pair", str(tmp_path / "pair.toml")]) == 0
+    text = card(found, "abaqus", "--specimen", str(tmp_path / "pair.toml"))
+    assert "Poisson's ratio: 0.49 (assumed" in text
+    assert "specimen: pair.toml" in text
+
+
+@pytest.mark.parametrize("key", ["result", "session_result"])
+def test_a_sessions_temperature_stands_in_the_json_of_its_result(tmp_path, key):
+    path = tmp_path / "run.json"
+    path.write_text(json.dumps({"identify": facts(), key: {"temperature_range_c": [21.0, 23.0]}}))
+    assert "temperature: 22.0 degrees C" in card(path, "csv")
 
 
 def test_a_session_gives_the_law_after_its_diagnosis(tmp_path):

@@ -93,6 +93,25 @@ def test_the_command_says_each_pair(tmp_path, capsys):
     assert "joint standard errors" in capsys.readouterr().out
 
 
+def test_laws_of_unlike_temperatures_are_said_to_be(tmp_path, capsys):
+    names = []
+    for warm in (20.0, 20.5, 35.0):
+        names.append(str(tmp_path / f"{warm:g}.json"))
+        (tmp_path / names[-1]).write_text(json.dumps(facts(TABLE_4) | {"temperature_c": warm}))
+    assert run(["compare", *names]) == 0
+    said = [line for line in capsys.readouterr().out.splitlines() if "degC" in line]
+    assert said == [
+        "20.json and 35.json: of 20 and 35 degC, which alone makes laws differ",
+        "20.5.json and 35.json: of 20.5 and 35 degC, which alone makes laws differ",
+    ]
+
+
+def test_nothing_is_printed_where_the_mounts_are_refused(tmp_path, capsys):
+    (tmp_path / "a.json").write_text(json.dumps(facts(TABLE_4)))
+    assert run(["compare", "--remounts", *[str(tmp_path / "a.json")] * 2]) == 2
+    assert capsys.readouterr().out == ""
+
+
 def test_one_file_is_not_enough(tmp_path, capsys):
     assert run(["compare", str(tmp_path / "a.json")]) == 2
     assert "two or more" in capsys.readouterr().err

@@ -7,7 +7,13 @@ from diagnosis_cases import diagnosis
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
 from instrument.results.diagnosis_figures import law_figure
-from instrument.results.diagnosis_words import log_odds, probability_words, resampling_words, with_verdict
+from instrument.results.diagnosis_words import (
+    log_odds,
+    probability_words,
+    resampling_words,
+    set_aside_words,
+    with_verdict,
+)
 
 
 @pytest.mark.parametrize(
@@ -68,3 +74,10 @@ def test_candidates_are_printed_with_their_probability(capsys):
     assert "probability" in said
     assert "82.0 %" in said
     assert "BIC" not in said
+
+
+def test_neighbours_that_were_set_aside_are_a_range():
+    point = diagnosis().points[0]
+    used = tuple(point.but(frequency_hz=f) for f in (10.0, 50.5, 70.0))
+    found = diagnosis().but(points=used, set_aside_hz=(20.0, 30.0, 40.0, 60.0, 65.0, 100.0))
+    assert set_aside_words(found) == "Set aside: 20 to 40, 60, 65, 100 Hz."
