@@ -79,6 +79,34 @@ def end_run(window):
             window.controller.live.advance()
 
 
+@pytest.fixture(scope="module")
+def window_of_the_module(qapp, tmp_path_factory):
+    settings = str(tmp_path_factory.mktemp("settings"))
+    QSettings.setPath(QSettings.Format.IniFormat, QSettings.Scope.UserScope, settings)
+    window = Window(Appearance(qapp, "light", dressed=False), Settings())
+    yield window
+    window.close()
+    window.deleteLater()
+    qapp.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+
+
+@pytest.fixture
+def kept_window(window_of_the_module):
+    """One for the tests of a module that only look: with all its pages it takes a second to make."""
+    window_of_the_module.show()
+    yield window_of_the_module
+    window_of_the_module.hide()
+
+
+@pytest.fixture
+def kept(qtbot, kept_window, session_path):
+    """That window with the session in it, as the test before has left it."""
+    if kept_window.controller.recorded is None:
+        kept_window.open(session_path)
+        qtbot.waitUntil(lambda: kept_window.controller.recorded is not None)
+    return kept_window
+
+
 @pytest.fixture
 def opened(qtbot, window, session_path):
     """The window with the session in it, at its end."""

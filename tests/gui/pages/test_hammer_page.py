@@ -47,8 +47,15 @@ def page(qtbot, opened):
 
 
 @pytest.fixture
-def finished(qtbot, page):
-    """Everything computed."""
+def looked_at(qtbot, kept):
+    """The same in the window of the whole module, everything computed; for tests that select at most."""
+    kept.show_page("hammer")
+    page = kept.pages[2]
+    qtbot.waitUntil(lambda: page._averaged is not None, timeout=PATIENCE_MS)
+    return computed_whole(qtbot, page)
+
+
+def computed_whole(qtbot, page):
     qtbot.waitUntil(lambda: page._modes is not None and page._expected_hz.size > 0, timeout=PATIENCE_MS)
     return page
 
@@ -107,8 +114,8 @@ def test_an_experiment_without_a_hammer_test_says_so(qtbot, window, tmp_path):
     assert window.pages[2].nothing.isVisible()
 
 
-def test_the_table_shows_what_was_recorded(finished, opened):
-    page = finished
+def test_the_table_shows_what_was_recorded(looked_at, kept):
+    page, opened = looked_at, kept
     recorded = opened.controller.state.contents.damping.result.modes
     assert page.modes.source.text() == "As recorded: hits 1, 3 of 3."
     assert numbers(page, 0) == [round(m.frequency_hz, 3) for m in recorded]
@@ -122,7 +129,8 @@ def test_the_table_shows_what_was_recorded(finished, opened):
     assert not page.modes.back.isVisible()
 
 
-def test_every_hit_has_its_verdict_and_what_can_be_said_of_it(page):
+def test_every_hit_has_its_verdict_and_what_can_be_said_of_it(looked_at):
+    page = looked_at
     table = page.hits.table
     assert table.texts(3) == ["used", "left out", "used"]
     assert "double hit" in table.texts(4)[1]
@@ -176,8 +184,8 @@ def test_no_hit_used_is_said_in_words(qtbot, page):
     assert not page.frf.coherence.names
 
 
-def test_a_mode_selected_in_table_or_plot_is_shown_with_what_was_read_off_it(qtbot, finished):
-    page = finished
+def test_a_mode_selected_in_table_or_plot_is_shown_with_what_was_read_off_it(qtbot, looked_at):
+    page = looked_at
     page.modes.select(2)
     f = page.modes.frequency_hz
     low, high = page.frf.magnitude.getViewBox().viewRange()[0]
@@ -194,7 +202,8 @@ def test_a_mode_selected_in_table_or_plot_is_shown_with_what_was_read_off_it(qtb
     assert page.modes.table.selected == 1
 
 
-def test_the_selected_hit_is_drawn(page):
+def test_the_selected_hit_is_drawn(looked_at):
+    page = looked_at
     page.hits.select(2)
     force = page.hit_plots.force.columns()["force: Force (N)"]
     seen = page._averaged.seen[2].judged

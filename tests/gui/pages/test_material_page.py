@@ -22,14 +22,26 @@ def diagnosed_path(tmp_path_factory, cache_of_this_run):
     return diagnosed_session(tmp_path_factory.mktemp("diagnosed"))
 
 
-@pytest.fixture
-def page(qtbot, window, diagnosed_path):
+def shown(qtbot, window, path):
+    """The page, of a session at its end."""
     (page,) = (p for p in window.pages if isinstance(p, MaterialPage))
     window.tabs.setCurrentWidget(page)
-    window.open(diagnosed_path)
-    qtbot.waitUntil(lambda: window.controller.recorded is not None)
-    window.turn()
+    if window.controller.recorded is None:
+        window.open(path)
+        qtbot.waitUntil(lambda: window.controller.recorded is not None)
+        window.turn()
     return page
+
+
+@pytest.fixture
+def page(qtbot, window, diagnosed_path):
+    return shown(qtbot, window, diagnosed_path)
+
+
+@pytest.fixture
+def looked_at(qtbot, kept_window, diagnosed_path):
+    """In the window of the whole module, for tests that leave it as it was."""
+    return shown(qtbot, kept_window, diagnosed_path)
 
 
 def fit_of(page):
@@ -47,7 +59,8 @@ def drop(widget, path):
     widget.dropEvent(QDropEvent(QPointF(5, 5), Qt.DropAction.CopyAction, data, buttons, keys))
 
 
-def test_the_law_to_sign_stands_beside_the_one_before_the_diagnosis_and_earlier_fits(page):
+def test_the_law_to_sign_stands_beside_the_one_before_the_diagnosis_and_earlier_fits(looked_at):
+    page = looked_at
     assert page.plots.names == (
         "earlier fits (1)",
         "before the diagnosis",
@@ -55,13 +68,15 @@ def test_the_law_to_sign_stands_beside_the_one_before_the_diagnosis_and_earlier_
     )
 
 
-def test_its_words_are_those_of_every_command(page, diagnosed_path):
+def test_its_words_are_those_of_every_command(looked_at, diagnosed_path):
+    page = looked_at
     with SessionFile(diagnosed_path) as file:
         words = recorded_result(contents_of(file, with_hits=False)).words
     assert page.said.text() == words.replace("+-", "±")
 
 
-def test_curves_and_bands_are_those_of_the_law_to_sign(page):
+def test_curves_and_bands_are_those_of_the_law_to_sign(looked_at):
+    page = looked_at
     law = diagnosis_of(page).after.law
     G = 1e-6 * np.array([row.storage_modulus_pa for row in law])
     error = 1e-6 * np.array([row.storage_modulus_standard_error_pa for row in law])
@@ -79,7 +94,8 @@ def test_the_width_of_the_bands_is_chosen(qtbot, page):
     assert low == pytest.approx(eta - 1.96 * error)
 
 
-def test_numbers_stand_at_the_references_and_the_resonances(page):
+def test_numbers_stand_at_the_references_and_the_resonances(looked_at):
+    page = looked_at
     assert page.places.texts(0)[-2:] != page.places.texts(0)[:2]
     assert {"20", "100"} < set(page.places.texts(0))
     assert "resonance 1" in page.places.texts(1)
@@ -90,7 +106,8 @@ def test_numbers_stand_at_the_references_and_the_resonances(page):
     )
 
 
-def test_parameters_and_correlations_are_the_fits_own(page):
+def test_parameters_and_correlations_are_the_fits_own(looked_at):
+    page = looked_at
     assert page.parameters.texts(0) == ["g0 / MPa", "ginf / MPa", "tau / s", "alpha"]
     found = page.correlations.table
     assert found.cell(0, 1).text == "+1.000"
@@ -126,7 +143,8 @@ def test_nothing_is_said_of_no_fit():
     assert headline([], 1) == "fit 1 is being computed"
 
 
-def test_the_papers_law_comes_and_goes(qtbot, page):
+def test_the_papers_law_comes_and_goes(qtbot, looked_at):
+    page = looked_at
     page.tabs.setCurrentWidget(page.comparison)
     qtbot.mouseClick(page.comparison.paper, LEFT)
     assert PAPER in page.plots.names
@@ -182,7 +200,8 @@ def test_without_a_session_other_laws_can_be_looked_at(qtbot, window, page):
     assert page.plots.names == (PAPER,)
 
 
-def test_a_table_is_copied_whole(qtbot, qapp, page):
+def test_a_table_is_copied_whole(qtbot, qapp, looked_at):
+    page = looked_at
     qtbot.keyClick(page.places, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
     lines = qapp.clipboard().text().splitlines()
     assert lines[0].split("\t")[:3] == ["f / Hz", "at", "G' / MPa"]

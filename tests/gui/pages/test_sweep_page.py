@@ -18,12 +18,30 @@ def page(opened):
     return opened.pages[1]
 
 
+@pytest.fixture
+def looked_at(kept):
+    """The same, in the window of the whole module: nothing chosen yet."""
+    kept.resize(1366, 768)
+    kept.show_page("sweep")
+    page = kept.pages[1]
+    page.response.quantity.setCurrentIndex(0)
+    for box in (page.response.log_amplitude, page.response.log_frequency, page.response.apart):
+        box.setChecked(False)
+    page.tabs.setCurrentIndex(0)
+    page.chooser.choose(None)
+    page._looked_at = None
+    page.seen = page.seen.but(chosen=None)
+    page._draw_all()
+    return page
+
+
 def test_without_a_session_it_says_what_will_appear(qtbot, window):
     window.show_page("sweep")
     assert "Open a session, or start a run" in window.pages[1]._layers.currentWidget().text()
 
 
-def test_a_click_on_a_segment_shows_its_points(qtbot, page):
+def test_a_click_on_a_segment_shows_its_points(qtbot, looked_at):
+    page = looked_at
     click_segment(qtbot, page, 2)
     for plot in (page.response.amplitude, page.response.phase):
         f, _ = shown(plot, "good")
@@ -33,12 +51,14 @@ def test_a_click_on_a_segment_shows_its_points(qtbot, page):
     assert len(shown(page.response.amplitude, "good")[0]) == 3 * 9 - 1
 
 
-def test_a_point_with_a_remark_looks_different(page):
+def test_a_point_with_a_remark_looks_different(looked_at):
+    page = looked_at
     f, _ = shown(page.response.amplitude, "with remarks")
     assert f.tolist() == [19.0]
 
 
-def test_the_amplitude_is_velocity_over_base(page):
+def test_the_amplitude_is_velocity_over_base(looked_at):
+    page = looked_at
     points = page.seen.points
     k = int(np.flatnonzero(points.frequency_hz == 20.5)[0])
     p = points.timed[k].point
@@ -67,7 +87,8 @@ def test_in_g_response_levels_and_record_are_shown_in_g(opened, page):
 
 
 @pytest.mark.parametrize("box", ["log_amplitude", "log_frequency"])
-def test_axes_can_be_logarithmic(qtbot, page, box):
+def test_axes_can_be_logarithmic(qtbot, looked_at, box):
+    page = looked_at
     box = getattr(page.response, box)
     qtbot.mouseClick(box, LEFT, pos=box.rect().center() - box.rect().center() / 1.3)
     assert box.isChecked()
@@ -80,7 +101,8 @@ def test_axes_can_be_logarithmic(qtbot, page, box):
 
 
 @pytest.mark.parametrize("plot", ["amplitude", "phase", "nyquist", "level"])
-def test_a_click_on_a_point_shows_its_record(qtbot, page, plot):
+def test_a_click_on_a_point_shows_its_record(qtbot, looked_at, plot):
+    page = looked_at
     page.tabs.setCurrentWidget({"nyquist": page.nyquist, "level": page.quality}.get(plot, page.step))
     click_segment(qtbot, page, 3)
     plots = {
@@ -110,7 +132,8 @@ def test_arrows_walk_from_point_to_point(qtbot, page):
     assert f.tolist() == [113.5]
 
 
-def test_the_samples_of_the_point_are_read_from_the_file(qtbot, page):
+def test_the_samples_of_the_point_are_read_from_the_file(qtbot, looked_at):
+    page = looked_at
     click_segment(qtbot, page, 1)
     page.walk(1)
     page.tabs.setCurrentWidget(page.samples)
@@ -184,7 +207,8 @@ def test_in_a_run_a_page_that_is_shown_again_is_drawn_pane_by_pane(opened, page,
     assert (first == 3) == (not running)
 
 
-def test_drift_of_the_sentinel(page):
+def test_drift_of_the_sentinel(looked_at):
+    page = looked_at
     page.tabs.setCurrentWidget(page.drift)
     _, percent = shown(page.drift.amplitude, "sentinel")
     assert percent[0] == 0
@@ -229,7 +253,8 @@ def test_back_in_time_there_are_fewer_points(qtbot, opened, page):
 # A pane for each resonance
 
 
-def test_each_resonance_has_a_pane_with_its_own_points(opened, page):
+def test_each_resonance_has_a_pane_with_its_own_points(looked_at):
+    page = looked_at
     page.response.apart.setChecked(True)
     panes = page.response.resonances
     assert panes.isVisible()
@@ -244,7 +269,8 @@ def test_each_resonance_has_a_pane_with_its_own_points(opened, page):
         assert left < low < high < right
 
 
-def test_the_heading_of_a_pane_shows_that_resonance_alone(qtbot, page):
+def test_the_heading_of_a_pane_shows_that_resonance_alone(qtbot, looked_at):
+    page = looked_at
     page.response.apart.setChecked(True)
     heading = page.response.resonances._headings[2]
     qtbot.mouseClick(heading, LEFT)
