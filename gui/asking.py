@@ -8,8 +8,28 @@ from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QDialog, QFileDialog, QMessageBox, QWidget
+from PySide6.QtWidgets import (
+    QDialog,
+    QFileDialog,
+    QHeaderView,
+    QMessageBox,
+    QToolButton,
+    QTreeView,
+    QWidget,
+)
 
+from gui.icons import Sign
+
+SIGNS = {
+    "backButton": "left",
+    "forwardButton": "right",
+    "toParentButton": "up",
+    "newFolderButton": "plus",
+    "listModeButton": "tiles",
+    "detailModeButton": "rows",
+}
+"""Of Qt's own file dialog, whose buttons it draws in black."""
+_WIDE_PX, _HIGH_PX = 820, 460
 Then = Callable[[Path], object]
 _FILES = QFileDialog.FileMode
 
@@ -80,7 +100,23 @@ def _ask(owner: QWidget, title: str, start: str, kinds: str, mode: QFileDialog.F
     else:
         dialog.setDirectory(str(at.parent))
         dialog.selectFile(at.name)
+    _dress(dialog)
     show(dialog, owner, title)
+
+
+def _dress(dialog: QFileDialog) -> None:
+    """With signs in the window's colours, and dates and sizes that can be read."""
+    for name, sign in SIGNS.items():
+        found = dialog.findChild(QToolButton, name)
+        if found is not None:
+            Sign(found, sign)
+    table = dialog.findChild(QTreeView)
+    if table is not None:
+        header = table.header()
+        header.setStretchLastSection(False)
+        header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        header.setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
+    dialog.resize(_WIDE_PX, _HIGH_PX)
 
 
 class _Files(QFileDialog):

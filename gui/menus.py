@@ -24,6 +24,7 @@ Ctrl+F9\tend the run in order
 Ctrl+Return\twhat the run asks for is done
 Ctrl+N\ta new experiment
 Ctrl+O\topen a session, an experiment or other data
+Ctrl+R, Ctrl+P\tsave the report as a page, as a PDF
 Ctrl+Space\tplay, pause
 Ctrl+Left, Ctrl+Right\tto the mark before, to the next
 Ctrl++, Ctrl+-, Ctrl+0\tlarger, smaller, usual type

@@ -40,6 +40,8 @@ QHeaderView::section { border-bottom: 1px solid $grid; }
 QTableView, QTreeView, QListWidget, QTextEdit { border: 1px solid $grid; border-radius: 4px; }
 QPlainTextEdit { border: 1px solid $grid; border-radius: 4px; }
 QLineEdit { background: $base; border: 1px solid $grid; border-radius: 4px; padding: 1px 4px; }
+QAbstractSpinBox { min-height: 22px; }
+QAbstractSpinBox QLineEdit { border: none; }
 QLineEdit:focus { border-color: $accent; }
 QLineEdit:disabled { background: $window; color: $faint; }
 QLineEdit[wrong="true"] { border: 1px solid $bad; }

@@ -1,8 +1,11 @@
 import pytest
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent, QPalette
+from PySide6.QtWidgets import QFileDialog, QHeaderView, QToolButton, QTreeView
 from session_cases import SyntheticSession, configuration
 
+from gui.asking import SIGNS, ask_open
+from gui.icons import Sign
 from gui.window import TURN_MS, Window
 
 
@@ -151,3 +154,13 @@ def test_a_session_that_was_broken_off_says_why(qtbot, window, tmp_path):
     qtbot.waitUntil(lambda: window.controller.recorded is not None)
     assert "stopped" in window.bar.state.text()
     assert "interlock open" in window.bar.next.text()
+
+
+def test_a_file_dialogs_signs_are_the_windows_and_its_columns_are_not_cut(window, tmp_path):
+    ask_open(window, "Open", str(tmp_path), "", print)
+    dialog = window.findChild(QFileDialog, "Open")
+    for name in SIGNS:
+        assert dialog.findChild(QToolButton, name).findChild(Sign) is not None, name
+    header = dialog.findChild(QTreeView).header()
+    assert header.sectionResizeMode(1) == QHeaderView.ResizeMode.ResizeToContents
+    dialog.close()
