@@ -1,6 +1,7 @@
 """The accelerance: magnitude, phase and coherence over one axis; the whole band or one mode."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -43,8 +44,9 @@ class FrfPlots(QWidget):
     def __init__(self) -> None:
         super().__init__()
         hz = Axis("Frequency", "Hz")
-        self.magnitude = Plot(hz, Axis("|H|", "(m/s²/N)", log=True))
-        self.phase = Plot(hz, Axis("Phase", "°"), legend=False)
+        above = replace(hz, titled=False)
+        self.magnitude = Plot(above, Axis("|H|", "(m/s²/N)", log=True))
+        self.phase = Plot(above, Axis("Phase", "°"), legend=False)
         self.coherence = Plot(hz, Axis("γ²"), legend=False)
         self.magnitude.setToolTip("Accelerance: acceleration over force, averaged over the hits used (H1)")
         self.phase.setToolTip("By how much the acceleration is ahead of the force")
@@ -204,7 +206,6 @@ class FrfPlots(QWidget):
             plot.setXLink(self.magnitude)
         for plot in (self.magnitude, self.phase):
             plot.getAxis("bottom").setStyle(showValues=False)
-            plot.getAxis("bottom").showLabel(False)
         self._align()
         rows.setSizes([10 * part for part in _HEIGHTS])
         column = QVBoxLayout(self)

@@ -11,8 +11,8 @@ from gui.pages.law.curve import LawCurve
 from gui.plots import Axis, Plot
 from gui.theme import Role
 
-_LEGENDS_PX = ((8, 22), (-8, -8))
-"""Places where a law that rises is not: under the readout; in the lower right corner."""
+_LEGEND_PX = (-8, -8)
+"""A place where a loss factor that rises is not: the lower right corner."""
 _BANDS = {"± 1 standard error": 1.0, "95 % (± 1.96 standard errors)": 1.96}
 
 
@@ -32,7 +32,8 @@ class LawPlots(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.storage = Plot(Axis("Frequency", "Hz"), Axis("Storage modulus G'", "MPa"))
+        # Both have the same lines: the legend of one says them, where its curves leave room.
+        self.storage = Plot(Axis("Frequency", "Hz"), Axis("Storage modulus G'", "MPa"), legend=False)
         self.loss = Plot(Axis("Frequency", "Hz"), Axis("Loss factor η"))
         self.loss.setXLink(self.storage)
         self._lines: tuple[LawLine, ...] = ()
@@ -48,8 +49,8 @@ class LawPlots(QWidget):
         self.above.addWidget(QLabel("shaded"))
         self.above.addWidget(self.bands)
         both = QSplitter(Qt.Orientation.Horizontal)
-        for plot, place in zip((self.storage, self.loss), _LEGENDS_PX, strict=True):
-            plot.getPlotItem().legend.setOffset(place)
+        self.loss.getPlotItem().legend.setOffset(_LEGEND_PX)
+        for plot in (self.storage, self.loss):
             both.addWidget(plot)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)

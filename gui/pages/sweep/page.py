@@ -101,6 +101,7 @@ class SweepPage(Page):
     def redraw(self) -> None:
         """Its panes by their own turns."""
         super().redraw()
+        self.turns.mark(self.step)
         self._draw_all()
 
     def showEvent(self, event: QShowEvent) -> None:
@@ -114,6 +115,7 @@ class SweepPage(Page):
         """Plots follow the colours by themselves; lists and legends are written again."""
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange and hasattr(self, "_layers"):
+            self.turns.mark(self.step)
             self._draw_all()
 
     def hideEvent(self, event: QHideEvent) -> None:

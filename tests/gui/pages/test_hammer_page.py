@@ -12,6 +12,7 @@ from fitting.modal.frf import Frf
 from gui.feeds.live import LiveFeed
 from gui.pages.hammer.choice import WhatIf, standing_of
 from gui.pages.hammer.findings import Sight, modes_of
+from gui.pages.hammer.frf_plots import FrfPlots
 from gui.pages.hammer.mode_words import mode_rows
 from gui.pages.hammer.traces import accelerance
 from gui.pages.hammer.words import hit_rows
@@ -327,3 +328,15 @@ def test_refusals_and_flags_are_said(hits):
     assert row.cells[3].text == "refused"
     assert "half power refused" in row.cells[7].text
     assert row.cells[5].text == "..."
+
+
+def test_only_the_lowest_plot_of_the_column_names_its_axis_in_every_mode(qtbot, appearance):
+    plots = FrfPlots()
+    qtbot.addWidget(plots)
+    plots.resize(700, 400)
+    plots.show()
+    for mode in ("dark", "light"):
+        appearance.choose(mode)
+        qtbot.wait(1)
+        named = [p.getAxis("bottom").labelText for p in (plots.magnitude, plots.phase, plots.coherence)]
+        assert named == ["", "", "Frequency / Hz"]

@@ -4,6 +4,7 @@ from PySide6.QtCore import Qt
 from sweep_views import LEFT, click_point, click_segment, shown, value
 
 from gui.pages.sweep.drawing import FORESEEN
+from gui.theme import DARK, LIGHT
 from instrument.stepped_sine.sine_fit import sine_fit
 
 PATIENCE_MS = 60_000
@@ -84,6 +85,13 @@ def test_in_g_response_levels_and_record_are_shown_in_g(opened, page):
     finally:
         opened.show_acceleration_in("m/s2")
     np.testing.assert_allclose(shown(page.response.amplitude, "good")[1], before)
+
+
+def test_the_key_of_the_step_follows_the_mode(qtbot, opened, page):
+    opened.appearance.choose("dark")
+    qtbot.waitUntil(lambda: DARK.data in page.step.key.text())
+    opened.appearance.choose("light")
+    qtbot.waitUntil(lambda: LIGHT.data in page.step.key.text())
 
 
 @pytest.mark.parametrize("box", ["log_amplitude", "log_frequency"])
