@@ -12,6 +12,7 @@ from PySide6.QtWidgets import (
     QDialog,
     QFileDialog,
     QHeaderView,
+    QLabel,
     QMessageBox,
     QToolButton,
     QTreeView,
@@ -29,6 +30,8 @@ SIGNS = {
     "detailModeButton": "rows",
 }
 """Of Qt's own file dialog, whose buttons it draws in black."""
+_CHARACTERS = 57
+"""In a line of something to read."""
 _WIDE_PX, _HIGH_PX = 820, 460
 Then = Callable[[Path], object]
 _FILES = QFileDialog.FileMode
@@ -80,6 +83,10 @@ def tell(owner: QWidget, title: str, text: str) -> None:
     """Something to read."""
     box = QMessageBox(QMessageBox.Icon.NoIcon, title, text, parent=owner)
     box.addButton(QMessageBox.StandardButton.Close)
+    # Left to itself it is half as wide as the screen, however small that is.
+    label = box.findChild(QLabel, "qt_msgbox_label")
+    if label is not None:
+        label.setMinimumWidth(_CHARACTERS * label.fontMetrics().averageCharWidth())
     show(box, owner, title)
 
 
