@@ -1,5 +1,6 @@
 """The plant's plates as the world mounts them: outputs by the names of what hangs on them."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -7,9 +8,12 @@ import numpy as np
 from drivers.arrays import Array
 from drivers.simulated.climate import AMBIENT_C, Climate
 from drivers.simulated.drive import DrivePiece
-from drivers.simulated.plant.bare import Pulse, StruckPlate
+from drivers.simulated.plant.bare import Pulse, StruckPlate, bare_structure
 from drivers.simulated.plant.effects import AddedMass, ByHand, Effects
+from drivers.simulated.plant.mounted import Mounted
+from drivers.simulated.plant.sandwich import sandwich
 from drivers.simulated.plant.shaken import ShakenPlate
+from drivers.simulated.plant.structure import Structure
 
 _OUTPUTS = {"velocity": "spot_velocity", "response_acceleration": "acceleration"}
 _CLAMPED_ANEW = 0.7
@@ -19,6 +23,12 @@ _LIFTS_S = 0.1
 _WIDTH_S = 1e-3
 _PEAK_N = (60.0, 120.0)
 _BOUNCE_S, _BOUNCE_SHARE = 0.04, 0.4
+
+
+Mount = Callable[[Effects, ByHand], Mounted]
+"""A treated plate with what it hides and what somebody has changed."""
+Struck = Callable[[tuple[float, float], tuple[float, float], float], Structure]
+"""A bare plate hit at one place and read at another by a sensor of some mass in kg."""
 
 
 class OnShaker:
@@ -51,9 +61,14 @@ class OnShaker:
 class DampedPlate(OnShaker):
     """The plate with its treatment, on the shaker."""
 
-    def __init__(self, effects: Effects, climate: Climate | None = None) -> None:
-        super().__init__(ShakenPlate(effects, climate=climate), effects, climate)
+    def __init__(self, effects: Effects, climate: Climate | None = None, mount: Mount | None = None) -> None:
+        """`mount` makes another plate than the published one."""
+        self._mount = mount or (lambda effects, by_hand: sandwich(effects, by_hand=by_hand))
         self._by_hand = ByHand()
+        super().__init__(self._made(effects, climate, self._by_hand), effects, climate)
+
+    def _made(self, effects: Effects, climate: Climate | None, by_hand: ByHand) -> ShakenPlate:
+        return ShakenPlate(effects, climate=climate, mounted=self._mount(effects, by_hand))
 
     def look_at(self, spot_m: tuple[float, float] | None) -> None:
         """Another spot than the specimen's; None for that. What still rings is at rest then.
@@ -77,7 +92,7 @@ class DampedPlate(OnShaker):
     def _change(self, by_hand: ByHand) -> None:
         if by_hand != self._by_hand:
             effects = _clamped(self._effects, by_hand.mounting)
-            self.plant = ShakenPlate(effects, climate=self._climate, by_hand=by_hand)
+            self.plant = self._made(effects, self._climate, by_hand)
             self._by_hand = by_hand
 
 
@@ -94,8 +109,20 @@ def _clamped(effects: Effects, mounting: int) -> Effects:
 class SimulatedBarePlate:
     """The plate before its treatment, struck by a hammer that now and then bounces."""
 
-    def __init__(self, effects: Effects, *, sensor_mass_kg: float, double_hit_every: int, seed: int) -> None:
-        self._effects, self._sensor_mass_kg = effects, sensor_mass_kg
+    def __init__(
+        self,
+        effects: Effects,
+        *,
+        sensor_mass_kg: float,
+        double_hit_every: int,
+        seed: int,
+        struck: Struck | None = None,
+    ) -> None:
+        """`struck` makes another plate than the published one."""
+        self._sensor_mass_kg = sensor_mass_kg
+        self._struck = struck or (
+            lambda hit_m, response_m, sensor_kg: bare_structure(effects, hit_m, response_m, sensor_kg)
+        )
         self._double_hit_every = double_hit_every
         self._random = np.random.default_rng((seed, 1))
         self._hits = 0
@@ -106,7 +133,8 @@ class SimulatedBarePlate:
 
     def place(self, hit_m: tuple[float, float], response_m: tuple[float, float]) -> None:
         """Where the hammer strikes and the sensor sits."""
-        self.plant = StruckPlate(hit_m, response_m, self._sensor_mass_kg, self._effects)
+        structure = self._struck(hit_m, response_m, self._sensor_mass_kg)
+        self.plant = StruckPlate(hit_m, response_m, structure=structure)
 
     def hit(self, now_s: float) -> None:
         """One blow soon, a little harder or softer than the last.

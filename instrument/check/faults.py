@@ -51,6 +51,15 @@ def _simulated_plate(experiment: Experiment) -> Iterator[str]:
                 f"{experiment.specimen_path}: a {specimen.kind}, but on the simulated rig stands a "
                 f"{stands.kind} ({simulation.specimen}): expected one kind"
             )
+        elif isinstance(stands, Specimen) and isinstance(specimen, Specimen):
+            try:
+                check_like(specimen, stands)
+            except OutsideModel as error:
+                said = str(error).partition(", expected")[0]
+                yield (
+                    f"{experiment.specimen_path}: on the simulated rig stands another plate "
+                    f"({simulation.specimen}): {said}; expected that one"
+                )
         return
     if not isinstance(specimen, Specimen):
         yield (

@@ -12,7 +12,6 @@ from drivers.front_end.lan_xi_documents import write_transducer
 from drivers.shaker.modbus_driver import ModbusOptions
 from drivers.shaker.register_map import DEFAULT
 from drivers.simulated.climate import Climate
-from drivers.simulated.plant.built import refuse_effects
 from drivers.simulated.plant.effects import Effects, OtherLaw
 from drivers.simulated.plant.law import MaxwellLaw
 from drivers.simulated.plant.shaken import ShakenPlate
@@ -22,11 +21,13 @@ from drivers.simulated.sensors import SimulatedSensor
 from drivers.simulated.world import Laser, MountedPlate, Wiring, World
 from drivers.vibrometer.driver import Optics
 from drivers.vibrometer.polytec_driver import PolytecOptions
+from fitting.specimen import Specimen
 from instrument.errors import BadInput
 from instrument.files.devices import VIBROMETERS, ranges_of
 from instrument.files.rig_file import Channels, RigDocument, Simulation
 from instrument.progress import Progress, quiet
-from instrument.simulated_case.structure import mounted_structure, stands_on
+from instrument.simulated_case.plate import plate_mount, plate_struck
+from instrument.simulated_case.structure import mounted_structure, refuse_hidden, stands_on
 
 _QUANTITIES = {
     "base": "base_acceleration",
@@ -76,9 +77,8 @@ def simulated_rig(
     chamber = _chamber(document, simulation)
     try:
         climate = chamber.climate if chamber else None
-        world = _world(
-            document, simulation, virtual_time, _mounted(simulation, path, climate, progress), climate
-        )
+        plates = _plates(document, simulation, path, climate, progress)
+        world = _world(document, simulation, virtual_time, plates)
     except (ValueError, TypeError) as error:
         raise BadInput(f"{path}: simulation: {error}") from None
     shaker, vibrometer = document.shaker, document.vibrometer
@@ -111,7 +111,7 @@ def refuse_simulation(document: RigDocument, path: Path) -> None:
             if name == "velocity" or name not in document.channels.named():
                 raise ValueError(f"memory.{name}: no such sensor on this rig")
         if document.simulation.specimen is not None:
-            refuse_effects(stands_on(document.simulation, path).kind, effects)
+            refuse_hidden(stands_on(document.simulation, path), effects)
         log = document.simulation.log
         if log is not None and not (path.parent / log).parent.is_dir():
             raise ValueError(f"log: {log}: no such folder")
@@ -157,10 +157,9 @@ def _world(
     document: RigDocument,
     simulation: Simulation,
     virtual_time: bool,
-    mounted: OnShaker | None,
-    climate: Climate | None,
+    plates: dict[str, MountedPlate],
 ) -> World:
-    plate, channel = _effects(simulation)
+    _, channel = _effects(simulation)
     delay = simulation.vibrometer_delay_s + channel.get("channel_delay", {}).get("delay_s", 0.0)
     gain = channel.get("gain_error", {}).get("factor", 1.0)
     absolute = document.vibrometer.reads == "absolute" or "absolute_velocity" in channel
@@ -173,15 +172,6 @@ def _world(
         gain=gain,
         rides_with_base=not absolute,
     )
-    response = document.channels.response
-    plates: dict[str, MountedPlate] = {"damped": mounted or DampedPlate(plate, climate)}
-    if mounted is None:
-        plates["bare"] = SimulatedBarePlate(
-            _of_the_bare_plate(plate),
-            sensor_mass_kg=1e-3 * response.mass_g if response else 0.0,
-            double_hit_every=simulation.double_hit_every,
-            seed=simulation.seed,
-        )
     wiring = Wiring(
         _inputs(document.channels, simulation, channel.get("level_error", {}).get("factor", 1.0)),
         simulation.skew_samples,
@@ -192,15 +182,28 @@ def _world(
     return World(plates, wiring, laser, virtual_time)
 
 
-def _mounted(
-    simulation: Simulation, path: Path, climate: Climate | None, progress: Progress
-) -> OnShaker | None:
-    """The structure that `[simulation]` names; None for the plate."""
-    if simulation.specimen is None:
-        return None
+def _plates(
+    document: RigDocument, simulation: Simulation, path: Path, climate: Climate | None, progress: Progress
+) -> dict[str, MountedPlate]:
+    """What can stand there, by name: the published plate, or what `[simulation]` names."""
     effects, _ = _effects(simulation)
-    found = mounted_structure(stands_on(simulation, path), effects, progress)
-    return OnShaker(ShakenPlate(effects, climate=climate, mounted=found), effects, climate)
+    alike, mount, struck = _of_the_bare_plate(effects), None, None
+    if simulation.specimen is not None:
+        stands = stands_on(simulation, path)
+        if not isinstance(stands, Specimen):
+            found = mounted_structure(stands, effects, progress)
+            plant = ShakenPlate(effects, climate=climate, mounted=found)
+            return {"damped": OnShaker(plant, effects, climate)}
+        mount, struck = plate_mount(stands, effects, progress), plate_struck(stands, alike, progress)
+    response = document.channels.response
+    bare = SimulatedBarePlate(
+        alike,
+        sensor_mass_kg=1e-3 * response.mass_g if response else 0.0,
+        double_hit_every=simulation.double_hit_every,
+        seed=simulation.seed,
+        struck=struck,
+    )
+    return {"damped": DampedPlate(effects, climate, mount), "bare": bare}
 
 
 def _of_the_bare_plate(effects: Effects) -> Effects:

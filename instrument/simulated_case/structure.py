@@ -1,4 +1,4 @@
-"""A beam or a shear pair on the simulated shaker: from the file that `[simulation]` names to its plant.
+"""What stands on the simulated shaker: from the file that `[simulation]` names to a beam's or pair's plant.
 
 The file says what stands there; where it differs from the experiment's own specimen, that is hidden.
 """
@@ -17,30 +17,33 @@ from drivers.simulated.plant.built import (
     refuse_effects,
 )
 from drivers.simulated.plant.effects import Effects
-from drivers.simulated.plant.law import MaxwellLaw, maxwell_series
 from drivers.simulated.plant.mounted import Mounted
-from drivers.simulated.plant.solid_beam import BeamStated, Sheet
+from drivers.simulated.plant.solid_beam import BeamStated
 from drivers.simulated.plant.solid_pad import PairStated
-from fitting.laws import CoreLaw
-from fitting.specimen import Core, Face
+from fitting.specimen import Specimen
 from fitting.structures import Beam, ShearPair
 from instrument.errors import BadInput
 from instrument.files.rig_file import Simulation
 from instrument.files.structure_file import read_structure
 from instrument.models.cache import cached
 from instrument.progress import Progress, quiet
+from instrument.simulated_case.layers import core_sheet, face_sheet, series_of
+from instrument.simulated_case.plate import refuse_plate_effects, unlike_a_cantilever
 
 
-def stands_on(simulation: Simulation, rig_path: Path) -> Beam | ShearPair:
+def stands_on(simulation: Simulation, rig_path: Path) -> Beam | ShearPair | Specimen:
     """What the rig file's `[simulation]` names. Raises `BadInput`."""
     assert simulation.specimen is not None
     path = rig_path.parent / simulation.specimen
     read = read_structure(path)
-    if not isinstance(read, Beam | ShearPair):
-        raise BadInput(
-            f"{rig_path}: simulation.specimen: {path.name} is a plate, expected a beam or a shear pair: the "
-            "simulated rig's plate is the published one, where none is named"
-        )
+    if isinstance(read, Specimen):
+        unlike = unlike_a_cantilever(read)
+        if unlike:
+            raise BadInput(
+                f"{rig_path}: simulation.specimen: {path.name} has {unlike}, expected a cantilever plate "
+                "with one constrained core, a beam or a shear pair"
+            )
+        return read
     if read.core is None:
         raise BadInput(f"{rig_path}: simulation.specimen: {path.name} has no [core], expected a damped one")
     if isinstance(read, Beam):
@@ -51,11 +54,19 @@ def stands_on(simulation: Simulation, rig_path: Path) -> Beam | ShearPair:
     return read
 
 
+def refuse_hidden(stands: Beam | ShearPair | Specimen, effects: Effects) -> None:
+    """Raise `ValueError` for an effect that what stands there cannot have."""
+    if isinstance(stands, Specimen):
+        refuse_plate_effects(effects)
+    else:
+        refuse_effects(stands.kind, effects)
+
+
 def mounted_structure(specimen: Beam | ShearPair, effects: Effects, progress: Progress = quiet) -> Mounted:
     """On the shaker, with what it hides; its solid from the cache, or built. Raises `ValueError`."""
     assert specimen.core is not None
     refuse_effects(specimen.kind, effects)
-    law = effects.core_law.law if effects.core_law else _series(specimen.core.law)
+    law = effects.core_law.law if effects.core_law else series_of(specimen.core.law)
     if isinstance(specimen, ShearPair):
         pair = pair_of(specimen, effects)
         return mounted_pair(pair, cached("pair", [pair], Reduced, lambda: reduced_pair(pair)), law, effects)
@@ -73,8 +84,8 @@ def beam_of(beam: Beam) -> BeamStated:
     assert beam.core is not None
     assert beam.pickup_m is not None
     assert beam.boundary != "free-free"
-    substrate, core = _face(beam.substrate), _core(beam.core)
-    above = [core, *([_face(beam.constraining)] if beam.constraining is not None else [])]
+    substrate, core = face_sheet(beam.substrate), core_sheet(beam.core)
+    above = [core, *([face_sheet(beam.constraining)] if beam.constraining is not None else [])]
     sheets = [*(reversed(above) if beam.both_sides else ()), substrate, *above]
     cores = tuple(k for k, sheet in enumerate(sheets) if sheet is core)
     return BeamStated(beam.length_m, beam.width_m, beam.boundary, tuple(sheets), cores, beam.pickup_m)
@@ -93,16 +104,3 @@ def pair_of(pair: ShearPair, effects: Effects) -> PairStated:
     return PairStated(
         pair.mass_kg, pair.discs, thick * core.thickness_m, float(outer), inner, core.density_kg_m3
     )
-
-
-def _face(face: Face) -> Sheet:
-    return Sheet(face.thickness_m, face.young_pa, face.poisson, face.density_kg_m3, face.loss_factor)
-
-
-def _core(core: Core) -> Sheet:
-    return Sheet(core.thickness_m, 2 * (1 + core.poisson), core.poisson, core.density_kg_m3)
-
-
-def _series(law: CoreLaw) -> MaxwellLaw:
-    """What moves in time: a series nearest to the law."""
-    return maxwell_series(lambda omega: law.modulus(np.atleast_1d(np.asarray(omega, dtype=float))))

@@ -78,8 +78,10 @@ class StruckPlate:
         effects: Effects | None = None,
         memory_s: float = 1.0,
         model: ReducedModel | None = None,
+        structure: Structure | None = None,
     ) -> None:
-        structure = bare_structure(effects or Effects(), hit_m, response_m, sensor_kg, model)
+        """`structure` takes the place of the plate."""
+        structure = structure or bare_structure(effects or Effects(), hit_m, response_m, sensor_kg, model)
         self.structure = structure.projected(np.linalg.inv(np.linalg.cholesky(structure.M)).T)
         self._motion = Motion(self._system(), memory_s=memory_s)
         self._pulses: list[Pulse] = []

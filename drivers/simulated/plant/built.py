@@ -92,9 +92,9 @@ def reduced_beam(
     load = (solid.M @ solid.rigid)[free]
     parts = []
     for k, G in enumerate(moduli(law)):
-        parts.append(_motions(K_0 + G * K_1, M, load))
+        parts.append(motions(K_0 + G * K_1, M, load))
         report((k + 1) / _MODULI)
-    V = _basis(np.hstack(parts), M)
+    V = basis_of(np.hstack(parts), M)
     tip = 0.0 if stated.ends == "clamped-clamped" else stated.span_m
     rows = np.array([solid.deflection(x)[free] @ V for x in (stated.spot_x_m, tip)])
     return Reduced(V.T @ (M @ V), V.T @ (K_1 @ V), np.array([V.T @ (K @ V) for K in faces]), V.T @ load, rows)
@@ -110,7 +110,7 @@ def reduced_pair(stated: PairStated) -> Reduced:
     load = T.T @ (solid.M @ solid.rigid)
     load[0] += stated.mass_kg
     M = (M + first).tocsr()
-    V = _basis(_motions(K, M, load[:, None]), M)
+    V = basis_of(motions(K, M, load[:, None]), M)
     loads = np.column_stack([V.T @ load, np.zeros(V.shape[1])])
     return Reduced(V.T @ (M @ V), V.T @ (K @ V), np.zeros((0, *(V.shape[1],) * 2)), loads, V[[0, 0]])
 
@@ -171,18 +171,18 @@ def moduli(law: MaxwellLaw) -> Array:
     return np.geomspace(size.min() / _ROOM, size.max() * _ROOM, _MODULI)
 
 
-def _motions(K: sp.csr_array, M: sp.csr_array, load: Array) -> Array:
+def motions(K: sp.csr_array, M: sp.csr_array, load: Array, modes: int = _MODES) -> Array:
     """Modes, and what a slow base stirs, each of unit kinetic energy. Shape (n, k)."""
     options = {"SymmetricMode": True}
     lu = splu(K.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
     solve = LinearOperator(K.shape, matvec=lu.solve, dtype=float)
     start = np.sin(np.arange(1, K.shape[0] + 1))
-    _, phi = eigsh(K, _MODES, M, sigma=0.0, OPinv=solve, v0=start)
+    _, phi = eigsh(K, modes, M, sigma=0.0, OPinv=solve, v0=start)
     X = np.hstack([phi, lu.solve(np.ascontiguousarray(load))])
     return np.asarray(X / np.sqrt(np.einsum("ij,ij->j", X, M @ X)))
 
 
-def _basis(X: Array, M: sp.csr_array) -> Array:
+def basis_of(X: Array, M: sp.csr_array) -> Array:
     """What X spans, orthonormal in M. Shape (n, k)."""
     lam, u = np.linalg.eigh(X.T @ (M @ X))
     kept = lam > _SMALLEST * lam[-1]

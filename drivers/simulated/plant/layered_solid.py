@@ -1,0 +1,92 @@
+"""Layers bonded to each other as one 3D solid on a tensor grid of polynomials.
+
+Displacements u, v, w along x, y, z; degree of freedom 3 node + axis, nodes x slow, z fast.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import scipy.sparse as sp
+
+from drivers.arrays import Array
+from drivers.simulated.plant.lines import Line
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """One layer."""
+
+    thickness_m: float
+    young_pa: float
+    """Of the core: 2 (1 + nu), which makes its shear modulus one."""
+    poisson: float
+    density_kg_m3: float
+    loss_factor: float = 0.0
+
+
+class LayeredSolid:
+    """The unreduced model."""
+
+    def __init__(
+        self, sheets: Sequence[Sheet], x: Line, y: Line, *, order: int = 2, times: float = 1.0
+    ) -> None:
+        """`sheets` from below, of so many `times` what the grid covers; `order` through each of them."""
+        self.sheets, self.x, self.y = tuple(sheets), x, y
+        heights = np.cumsum([0.0, *(s.thickness_m for s in sheets)])
+        self.z = Line(tuple(heights.tolist()), order)
+        self._times = times
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Nodes along each axis."""
+        return len(self.x.nodes), len(self.y.nodes), len(self.z.nodes)
+
+    def _within(self, sheet: int) -> tuple[float, float]:
+        return self.z.ends[sheet], self.z.ends[sheet + 1]
+
+    def stiffness(self, sheet: int) -> sp.csr_array:
+        """Of one layer. Shape (size, size)."""
+        s, only = self.sheets[sheet], self._within(sheet)
+        shear = s.young_pa / (2 * (1 + s.poisson))
+        lame = 2 * shear * s.poisson / (1 - 2 * s.poisson)
+
+        def product(i: int, j: int) -> sp.csr_array:
+            """Integral of the derivative along i of one and along j of another."""
+            a, b, c = ((int(i == axis), int(j == axis)) for axis in range(3))
+            plane = sp.kron(self.x.integral(*a), self.y.integral(*b))
+            return sp.kron(plane, self.z.integral(*c, only)).tocsr()
+
+        laplace = shear * (product(0, 0) + product(1, 1) + product(2, 2))
+        out = sp.csr_array((3 * laplace.shape[0],) * 2)
+        for i in range(3):
+            for j in range(3):
+                part = lame * product(i, j) + shear * product(j, i)
+                place = np.zeros((3, 3))
+                place[i, j] = 1.0
+                out = out + sp.kron(part + laplace if i == j else part, place)
+        return (self._times * out).tocsr()
+
+    @cached_property
+    def M(self) -> sp.csr_array:
+        """Mass."""
+        plane = sp.kron(self.x.integral(0, 0), self.y.integral(0, 0))
+        through = sum(
+            s.density_kg_m3 * self.z.integral(0, 0, self._within(k)) for k, s in enumerate(self.sheets)
+        )
+        return (self._times * sp.kron(sp.kron(plane, through), np.eye(3))).tocsr()
+
+    @cached_property
+    def rigid(self) -> Array:
+        """Heave, and pitch that raises large x. Shape (size, 2)."""
+        x, _, z = np.meshgrid(self.x.nodes, self.y.nodes, self.z.nodes, indexing="ij")
+        out = np.zeros((3 * x.size, 2))
+        out[2::3, 0] = 1.0
+        out[2::3, 1], out[0::3, 1] = x.ravel(), -z.ravel()
+        return out
+
+    def row(self, x_m: float, y_m: float) -> Array:
+        """Reads w at a place of the upper face. Shape (size,)."""
+        row = np.kron(np.kron(self.x.at(x_m), self.y.at(y_m)), self.z.at(self.z.ends[-1]))
+        return np.asarray(np.kron(row, [0.0, 0.0, 1.0]))

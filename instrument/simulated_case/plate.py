@@ -1,0 +1,82 @@
+"""A cantilever plate of any size on the simulated rig: from the file that names it to its plant."""
+
+from drivers.simulated.plant.built_plate import (
+    HEEDED,
+    ReducedPlate,
+    mounted_plate,
+    really,
+    reduced_plate,
+    struck_plate,
+)
+from drivers.simulated.plant.effects import Effects
+from drivers.simulated.plant.solid_plate import PlateStated
+from drivers.simulated.plates import Mount, Struck
+from fitting.specimen import Specimen
+from instrument.models.cache import cached
+from instrument.progress import Progress, quiet
+from instrument.simulated_case.layers import core_sheet, face_sheet, series_of
+
+
+def unlike_a_cantilever(plate: Specimen) -> str:
+    """What the simulated rig cannot build of a plate; empty where it can."""
+    faces = [face for face in (plate.substrate, plate.constraining) if face is not None]
+    reasons = (
+        (plate.boundary != "cantilever", f"boundary {plate.boundary}"),
+        (plate.core is None or plate.constraining is None, "no constrained core"),
+        (plate.pickup_m is None, "no [pickup]"),
+        (bool(plate.patches), "patches"),
+        (plate.both_sides, "a treatment on both sides"),
+        (plate.core is not None and bool(plate.core.glue), "glue"),
+        (any(face.rolled is not None for face in faces), "an orthotropic face"),
+        (plate.force_m is not None, "a force that drives it"),
+    )
+    return next((said for wrong, said in reasons if wrong), "")
+
+
+def refuse_plate_effects(effects: Effects) -> None:
+    """Raise `ValueError` for one that a plate which is built cannot have."""
+    for name, value in vars(effects).items():
+        if value is not None and name not in HEEDED:
+            known = ", ".join(HEEDED)
+            raise ValueError(f"effects.{name}: not on a plate from a file, expected one of {known}")
+
+
+def plate_mount(plate: Specimen, effects: Effects, progress: Progress = quiet) -> Mount:
+    """How it is mounted; its solid from the cache, or built. Raises `ValueError`."""
+    assert plate.core is not None
+    assert plate.pickup_m is not None
+    refuse_plate_effects(effects)
+    law = effects.core_law.law if effects.core_law else series_of(plate.core.law)
+    stated, spot_m = really(plate_of(plate), effects), plate.pickup_m
+
+    def build() -> ReducedPlate:
+        with progress("building the simulated plate") as report:
+            return reduced_plate(stated, law, report)
+
+    reduced = cached("plate", [stated, law], ReducedPlate, build)
+    return lambda effects, by_hand: mounted_plate(
+        stated, reduced, law, plate.modal_ratios, spot_m, effects, by_hand
+    )
+
+
+def plate_struck(plate: Specimen, effects: Effects, progress: Progress = quiet) -> Struck:
+    """The substrate alone, under a hammer."""
+    whole = plate_of(plate)
+    bare = PlateStated(whole.length_m, whole.width_m, whole.sheets[:1])
+
+    def build() -> ReducedPlate:
+        with progress("building the simulated bare plate") as report:
+            return reduced_plate(bare, report=report)
+
+    reduced = cached("bare-plate", [bare], ReducedPlate, build)
+    return lambda hit_m, response_m, sensor_kg: struck_plate(
+        bare, reduced, plate.modal_ratios, effects, hit_m, response_m, sensor_kg
+    )
+
+
+def plate_of(plate: Specimen) -> PlateStated:
+    """Its layers from below."""
+    assert plate.core is not None
+    assert plate.constraining is not None
+    sheets = (face_sheet(plate.substrate), core_sheet(plate.core), face_sheet(plate.constraining))
+    return PlateStated(plate.length_m, plate.width_m, sheets)
