@@ -26,6 +26,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
+from scipy import constants
+
 from drivers.errors import Garbled, Refused
 from drivers.front_end.interface import Transducer
 
@@ -43,7 +45,7 @@ BANDWIDTH_FACTOR = 2.56
 HEADROOM = 10 ** (1.5 / 20)
 """Full scale of the converter over the nominal range: 1.5 dB."""
 
-_UNITS = {"m/s2": 1.0, "g": 1 / 9.80665, "N": 1.0, "degC": 1.0, "°C": 1.0}
+_UNITS = {"m/s2": 1.0, "g": 1 / constants.g, "N": 1.0, "degC": 1.0, "°C": 1.0}
 """From V over the unit to V over the SI one."""
 _RANGE = re.compile(r"\s*([0-9.]+)\s*(m?)V\s*peak\s*", re.IGNORECASE)
 

@@ -15,7 +15,7 @@ _AT = 1e-6
 
 
 def stands_in(problem: DiagnosisProblem, fitted: Refitted) -> str:
-    """Why an explanation may stand in for something that is not known: a clause; empty where it does not."""
+    """Why an explanation may stand in for something that is not known: a clause; empty where it cannot."""
     effects = fitted.effects
     if sum(e.causes for e in effects) > _CAUSES:
         return "so many things at once come near to anything"

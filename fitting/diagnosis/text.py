@@ -31,7 +31,8 @@ def explain(
         said.append("No effect is accepted, by your word.")
         return tuple(said)
     if judgement.verdict == "none":
-        said.append("That is what noise and a layer-wise plate's own error leave: no effect is called for.")
+        model = "a layer-wise plate" if problem.specimen.kind == "plate" else "the model"
+        said.append(f"That is what noise and {model}'s own error leave: no effect is called for.")
         said += _beside_none(judgement)
         if judgement.refused:
             said.append(f"The nearest, {' with '.join(judgement.refused)}, {judgement.why}.")

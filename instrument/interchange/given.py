@@ -86,8 +86,6 @@ def read_given(data: Path, specimen: Path | None, hammer: Path | None, *, own_ha
         given = _of_sweep(data, specimen)
         read, sweep = at_its_spot(data, given.specimen, given.sweep)
         given = replace(given, specimen=read, sweep=sweep)
-        if given.sweep.pickup is not None and hammer is not None:
-            raise BadInput(f"{data}: several pickups with a hammer test, expected one pickup")
     return given if hammer is None else replace(given, modes=read_hammer(hammer))
 
 

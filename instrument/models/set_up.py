@@ -206,14 +206,14 @@ def _form(specimen: Specimen) -> tuple[object, ...]:
 
 
 def _numbers(specimen: Specimen, like: Specimen) -> list[tuple[str, float, float]]:
-    found = [(n, getattr(specimen, n), getattr(like, n)) for n in ("length_m", "width_m")]
+    found = [(n, getattr(specimen, f"{n}_m"), getattr(like, f"{n}_m")) for n in ("length", "width")]
     for layer in ("substrate", "constraining"):
         ours, theirs = getattr(specimen, layer), getattr(like, layer)
         if ours is not None and theirs is not None:
-            names = ("thickness_m", "young_pa", "density_kg_m3")
-            found += [(f"{layer} {n}", getattr(ours, n), getattr(theirs, n)) for n in names]
+            names = {"thickness": "thickness_m", "Young's modulus": "young_pa", "density": "density_kg_m3"}
+            found += [(f"{layer} {said}", getattr(ours, n), getattr(theirs, n)) for said, n in names.items()]
     if specimen.core is not None and like.core is not None:
-        found.append(("core thickness_m", specimen.core.thickness_m, like.core.thickness_m))
+        found.append(("core thickness", specimen.core.thickness_m, like.core.thickness_m))
     return found
 
 

@@ -78,7 +78,11 @@ def test_points_are_told_apart_by_quality_and_purpose():
 def test_passes_and_levels_have_names_and_looks_of_their_own():
     points = of(point(1), point(2, sweep=2), point(3, sweep=2, level_m_s2=19.62))
     drawn = points.groups(np.ones(3, dtype=bool))
-    assert [g.name for g in drawn] == ["good, pass 1, 1 g", "good, pass 2, 1 g", "good, pass 2, 2 g"]
+    assert [g.name for g in drawn] == [
+        "good, pass 1, 9.81 m/s²",
+        "good, pass 2, 9.81 m/s²",
+        "good, pass 2, 19.6 m/s²",
+    ]
     assert len({(g.role, g.symbol) for g in drawn}) == 3
 
 
@@ -186,7 +190,7 @@ def test_segments_are_planned_running_done_or_broken_off(state, index):
     assert [s.points for s in stand] == ["9 of 9 points", "4 of 9 points", "0 of 9 points"]
     assert stand[0].band == "18 to 22 Hz"
     assert stand[0].marked == 1
-    assert {s.level for s in stand} == {"0.5 g"}
+    assert {s.level for s in stand} == {"4.91 m/s²"}
     over = SessionState(index.configuration)
     for event in (*index.events, SessionEnded("stopped safely", "interlock open")):
         over.take(event)

@@ -8,6 +8,7 @@ from formula_rig import SWEEP, formula_rig
 from fitting.specimen import PlacedMass
 from instrument.cli.main import run as viscorig
 from instrument.errors import BadInput
+from instrument.files.new_file import write_new
 from instrument.interchange.csv_export import export_csv
 from instrument.interchange.files_of import files_of
 from instrument.interchange.given import read_given
@@ -64,3 +65,15 @@ def test_its_export_is_not_taken_for_a_bare_sweep(capsys, finished, tmp_path):
 def test_a_notebook_is_told_to_use_the_command(finished):
     with pytest.raises(BadInput, match="known mass"):
         identify(load_session(finished.session))
+
+
+def test_several_spots_of_a_file_take_a_hammer_test(tmp_path):
+    write_new("plate", tmp_path / "plate.toml")
+    text = (tmp_path / "plate.toml").read_text().replace("[pickup] ", "[[pickup]] ", 1)
+    (tmp_path / "plate.toml").write_text(text + "\n[[pickup]]\nx_mm = 250.0\ny_mm = 100.0\n")
+    rows = [f"{f},{1e-3 * f},{k}" for k in (0, 1) for f in (15, 16, 17, 18)]
+    (tmp_path / "sweep.csv").write_text("\n".join(["frequency_hz,velocity_m_s,pickup", *rows]))
+    (tmp_path / "hammer.json").write_text('{"modes": [{"frequency_hz": 18.0, "damping_ratio": 0.003}]}')
+    given = read_given(tmp_path / "sweep.csv", tmp_path / "plate.toml", tmp_path / "hammer.json")
+    assert sorted(set(given.sweep.pickup)) == [0, 1]
+    assert given.modes.frequency_hz.tolist() == [18.0]

@@ -148,7 +148,7 @@ def test_a_dry_run_foretells_a_beam(tmp_path):
     ("change", "said"),
     [
         (('specimen = "true.toml"\n', ""), 'expected [simulation] specimen = "stated.toml"'),
-        (('specimen = "true.toml"', 'specimen = "plate.toml"'), "plate.toml is a plate"),
+        (('specimen = "true.toml"', 'specimen = "plate.toml"'), "stands a plate"),
         (('specimen = "true.toml"', 'specimen = "pair.toml"'), "stands a shear-pair"),
         (("noise = ", "effects.clamp_friction = { loss_factor = 0.1 }\nnoise = "), "not on a beam"),
     ],
