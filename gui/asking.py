@@ -5,9 +5,11 @@ again, the one before goes.
 """
 
 from collections.abc import Callable
+from math import ceil
 from pathlib import Path
 
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QTextDocument
 from PySide6.QtWidgets import (
     QDialog,
     QFileDialog,
@@ -86,7 +88,12 @@ def tell(owner: QWidget, title: str, text: str) -> None:
     # Left to itself it is half as wide as the screen, however small that is.
     label = box.findChild(QLabel, "qt_msgbox_label")
     if label is not None:
-        label.setMinimumWidth(_CHARACTERS * label.fontMetrics().averageCharWidth())
+        whole = QTextDocument()
+        whole.setDefaultFont(label.font())
+        whole.setHtml(text)
+        # A table's rows are not broken; a word beyond the usual width is.
+        wide = max(_CHARACTERS * label.fontMetrics().averageCharWidth(), ceil(whole.idealWidth()))
+        label.setMinimumWidth(min(wide, _WIDE_PX))
     show(box, owner, title)
 
 

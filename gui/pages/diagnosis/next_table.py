@@ -21,7 +21,9 @@ class NextTable(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         columns = dict(zip(NEXT_COLUMNS, _TIPS, strict=True)) | {"separates": "Explanations it tells apart"}
-        self.table = ReadTable(columns)
+        self.table = ReadTable(columns, wide=(0, len(columns) - 1))
+        self.table.setWordWrap(True)
+        self.table.horizontalHeader().sectionResized.connect(lambda *_: self.table.resizeRowsToContents())
         column = QVBoxLayout(self)
         column.setContentsMargins(4, 4, 4, 0)
         column.addWidget(self.table)
@@ -29,6 +31,7 @@ class NextTable(QWidget):
     def show_diagnosis(self, found: DiagnosisResult) -> None:
         """Its ranking."""
         self.table.show_rows([_cells(f) for f in found.next_measurements])
+        self.table.resizeRowsToContents()
 
 
 def _cells(offer: FollowUp) -> list[Cell]:
