@@ -171,7 +171,7 @@ class Menus(QObject):
 
     def _keys(self) -> None:
         rows = "".join(
-            f"<tr><td style='white-space:pre'><b>{keys}</b>  </td><td style='white-space:pre'>{does}</td></tr>"
+            f"<tr style='white-space:pre'><td><b>{keys}</b>  </td><td>{does}</td></tr>"
             for keys, does in (line.split("\t") for line in _KEYS.splitlines())
         )
         tell(self._window, "Keys", f"<table>{rows}</table>")
