@@ -1,7 +1,7 @@
 """A cantilever plate of any size on the simulated rig: from the file that names it to its plant."""
 
+from drivers.simulated.plant.built import refuse_effects
 from drivers.simulated.plant.built_plate import (
-    HEEDED,
     ReducedPlate,
     mounted_plate,
     really,
@@ -33,19 +33,11 @@ def unlike_a_cantilever(plate: Specimen) -> str:
     return next((said for wrong, said in reasons if wrong), "")
 
 
-def refuse_plate_effects(effects: Effects) -> None:
-    """Raise `ValueError` for one that a plate which is built cannot have."""
-    for name, value in vars(effects).items():
-        if value is not None and name not in HEEDED:
-            known = ", ".join(HEEDED)
-            raise ValueError(f"effects.{name}: not on a plate from a file, expected one of {known}")
-
-
 def plate_mount(plate: Specimen, effects: Effects, progress: Progress = quiet) -> Mount:
     """How it is mounted; its solid from the cache, or built. Raises `ValueError`."""
     assert plate.core is not None
     assert plate.pickup_m is not None
-    refuse_plate_effects(effects)
+    refuse_effects(plate.kind, effects)
     law = effects.core_law.law if effects.core_law else series_of(plate.core.law)
     stated, spot_m = really(plate_of(plate), effects), plate.pickup_m
 

@@ -12,6 +12,7 @@ from drivers.front_end.lan_xi_documents import write_transducer
 from drivers.shaker.modbus_driver import ModbusOptions
 from drivers.shaker.register_map import DEFAULT
 from drivers.simulated.climate import Climate
+from drivers.simulated.plant.built import refuse_effects
 from drivers.simulated.plant.effects import Effects, OtherLaw
 from drivers.simulated.plant.law import MaxwellLaw
 from drivers.simulated.plant.shaken import ShakenPlate
@@ -27,7 +28,7 @@ from instrument.files.devices import VIBROMETERS, ranges_of
 from instrument.files.rig_file import Channels, RigDocument, Simulation
 from instrument.progress import Progress, quiet
 from instrument.simulated_case.plate import plate_mount, plate_struck
-from instrument.simulated_case.structure import mounted_structure, refuse_hidden, stands_on
+from instrument.simulated_case.structure import mounted_structure, stands_on
 
 _QUANTITIES = {
     "base": "base_acceleration",
@@ -111,7 +112,7 @@ def refuse_simulation(document: RigDocument, path: Path) -> None:
             if name == "velocity" or name not in document.channels.named():
                 raise ValueError(f"memory.{name}: no such sensor on this rig")
         if document.simulation.specimen is not None:
-            refuse_hidden(stands_on(document.simulation, path), effects)
+            refuse_effects(stands_on(document.simulation, path).kind, effects)
         log = document.simulation.log
         if log is not None and not (path.parent / log).parent.is_dir():
             raise ValueError(f"log: {log}: no such folder")

@@ -28,7 +28,7 @@ from instrument.files.structure_file import read_structure
 from instrument.models.cache import cached
 from instrument.progress import Progress, quiet
 from instrument.simulated_case.layers import core_sheet, face_sheet, series_of
-from instrument.simulated_case.plate import refuse_plate_effects, unlike_a_cantilever
+from instrument.simulated_case.plate import unlike_a_cantilever
 
 
 def stands_on(simulation: Simulation, rig_path: Path) -> Beam | ShearPair | Specimen:
@@ -52,14 +52,6 @@ def stands_on(simulation: Simulation, rig_path: Path) -> Beam | ShearPair | Spec
         if read.pickup_m is None:
             raise BadInput(f"{path}: [pickup] is missing, expected x_mm of the measured spot")
     return read
-
-
-def refuse_hidden(stands: Beam | ShearPair | Specimen, effects: Effects) -> None:
-    """Raise `ValueError` for an effect that what stands there cannot have."""
-    if isinstance(stands, Specimen):
-        refuse_plate_effects(effects)
-    else:
-        refuse_effects(stands.kind, effects)
 
 
 def mounted_structure(specimen: Beam | ShearPair, effects: Effects, progress: Progress = quiet) -> Mounted:

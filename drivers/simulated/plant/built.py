@@ -31,6 +31,10 @@ _ROOM = 3.0
 _SMALLEST = 1e-8
 """Of the basis' vectors, relative."""
 _HEEDED = {
+    "plate": (
+        *("spot_offset", "added_mass", "temperature_drift", "amplitude_softening", "viscous_damping"),
+        *("base_rocking", "fixture_resonance", "core_thickness", "substrate_stiffness", "core_law"),
+    ),
     "beam": (
         *("spot_offset", "added_mass", "temperature_drift", "amplitude_softening", "base_rocking"),
         *("fixture_resonance", "core_thickness", "substrate_stiffness", "core_law"),
@@ -39,7 +43,7 @@ _HEEDED = {
         *("added_mass", "temperature_drift", "amplitude_softening", "core_thickness", "core_law"),
     ),
 }
-"""What either may hide."""
+"""What each may hide."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +65,8 @@ def refuse_effects(kind: str, effects: Effects) -> None:
     """Raise `ValueError` for one that this structure cannot have."""
     for name, value in vars(effects).items():
         if value is not None and name not in _HEEDED[kind]:
-            raise ValueError(f"effects.{name}: not on a {kind}, expected one of {', '.join(_HEEDED[kind])}")
+            known = ", ".join(_HEEDED[kind])
+            raise ValueError(f"effects.{name}: not on a {kind} from a file, expected one of {known}")
 
 
 def beam_stated(stated: BeamStated, effects: Effects) -> BeamStated:

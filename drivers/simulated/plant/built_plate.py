@@ -21,11 +21,6 @@ Report = Callable[[float], None]
 _MODES, _BARE_MODES = 14, 32
 _DAMPED_AT_RAD_S = 2 * np.pi * 100.0
 """The core's modulus there makes the modes that carry the damping ratios of the treated plate."""
-HEEDED = (
-    *("spot_offset", "added_mass", "temperature_drift", "amplitude_softening", "viscous_damping"),
-    *("base_rocking", "fixture_resonance", "core_thickness", "substrate_stiffness", "core_law"),
-)
-"""What a plate that is built may hide."""
 
 
 @dataclass(frozen=True)

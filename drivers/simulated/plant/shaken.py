@@ -12,7 +12,7 @@ from drivers.arrays import Array
 from drivers.simulated.climate import Climate
 from drivers.simulated.drive import DrivePiece
 from drivers.simulated.plant.diagonal import Diagonal, diagonalised
-from drivers.simulated.plant.effects import ByHand, Effects, FixtureResonance
+from drivers.simulated.plant.effects import Effects, FixtureResonance
 from drivers.simulated.plant.law import MaxwellLaw
 from drivers.simulated.plant.model import ReducedModel
 from drivers.simulated.plant.motion import Motion
@@ -76,12 +76,11 @@ class ShakenPlate:
         memory_s: float = 1.0,
         model: ReducedModel | None = None,
         climate: Climate | None = None,
-        by_hand: ByHand | None = None,
         mounted: Mounted | None = None,
     ) -> None:
         """`mounted` takes the place of the plate."""
         self.effects, self.shaker = effects or Effects(), shaker or ShakerChain()
-        self.plate = mounted or sandwich(self.effects, model, by_hand)
+        self.plate = mounted or sandwich(self.effects, model)
         self._slow = SlowChange(self.plate.core_law, self.effects, climate)
         self._in_chamber = climate is not None
         rocking, fixture = self.effects.base_rocking, self.effects.fixture_resonance

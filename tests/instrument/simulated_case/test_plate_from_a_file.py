@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import pytest
 
+from drivers.simulated.plant.built import refuse_effects
 from drivers.simulated.plant.effects import AddedMass, ClampFriction, Effects
 from fitting.specimen import Glue, Patch
 from instrument.errors import BadInput
@@ -12,7 +13,7 @@ from instrument.files.new_file import write_new
 from instrument.files.rig_file import RigDocument
 from instrument.files.structure_file import read_structure
 from instrument.simulated_case import case_file
-from instrument.simulated_case.plate import plate_of, refuse_plate_effects, unlike_a_cantilever
+from instrument.simulated_case.plate import plate_of, unlike_a_cantilever
 from instrument.simulated_case.simulation import refuse_simulation
 
 
@@ -52,9 +53,9 @@ def test_glue_is_not_simulated(plate):
 
 
 def test_an_effect_that_it_cannot_have_is_refused(plate):
-    refuse_plate_effects(Effects(added_mass=AddedMass(1e-3, 0.1, 0.1)))
+    refuse_effects("plate", Effects(added_mass=AddedMass(1e-3, 0.1, 0.1)))
     with pytest.raises(ValueError, match="clamp_friction: not on a plate from a file"):
-        refuse_plate_effects(Effects(clamp_friction=ClampFriction(0.1)))
+        refuse_effects("plate", Effects(clamp_friction=ClampFriction(0.1)))
 
 
 def test_a_rig_file_is_refused_for_a_plate_that_is_not_simulated(tmp_path):
