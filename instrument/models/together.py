@@ -36,9 +36,9 @@ from fitting.specimen import Specimen
 from fitting.structures.shear_pair import ShearPair
 from fitting.sweep import Sweep
 from instrument.models.diagnosis import Diagnosed, effects_on
+from instrument.models.file_remarks import remarks_on_files
 from instrument.models.files import File, name_of, numbers_of, one_plate, plates_of
 from instrument.models.identification import Identified, Joint
-from instrument.models.remarks import remarks_on_law, remarks_on_noise
 from instrument.models.second_process import executor
 from instrument.models.set_up import Hammer
 from instrument.models.theory import theory_over
@@ -48,8 +48,6 @@ _ROUNDS = 4
 """A bound on time."""
 _MISFIT = 3.0
 """Chi-square per degree of freedom from which a misfit is more than noise."""
-_WORTH_SAYING = 0.01
-"""Of the modulus: a correction that is left out."""
 
 
 @dataclass(frozen=True)
@@ -240,7 +238,7 @@ def identify_together(
     with threadpool_limits(1, "blas"), progress("validating"):
         validation = held_out(begun.problem, begun.evidence, begun.none)
     sweep = begun.problem.sweep
-    further += (*_remarks(files), *(one.words(files) for one in work.aside))
+    further += (*remarks_on_files(files), *(one.words(files) for one in work.aside))
     result = summarise("direct", sweep, noise, fit, validation, further)
     validated = perf_counter() - checked
     found = Identified(result, ready - began, seconds, validated, joint=Joint(begun, None), bare=bare)
@@ -301,7 +299,7 @@ def diagnose_together(
                 workers,
                 settle=in_light_of_the_law,
             )
-    further = (*_remarks(files), *(one.words(files) for one in work.aside))
+    further = (*remarks_on_files(files), *(one.words(files) for one in work.aside))
     result = replace(result, warnings=(*result.warnings, *further))
     for file in files:
         if isinstance(file.specimen, Specimen):
@@ -332,20 +330,3 @@ def _fixture(one: SetAside, files: int) -> FoundEffect:
         "size": ParameterEstimate(g.largest, nan, "1"),
     }
     return _with_file(FoundEffect("fixture_resonance", values), one.file, files)
-
-
-def _remarks(files: Sequence[File]) -> tuple[str, ...]:
-    said = []
-    for file in files:
-        of = f"{file.name}: " if file.name and len(files) > 1 else ""
-        said += [of + text for text in remarks_on_noise(file.sweep)]
-        s = file.specimen
-        if s.core is not None:
-            said += remarks_on_law(s.core.law, file.sweep.frequency_hz)
-        if isinstance(s, ShearPair) and not s.edges and s.softer_by_edges > _WORTH_SAYING:
-            higher = 100 * s.softer_by_edges / (1 - s.softer_by_edges)
-            said.append(
-                f"{of}what the discs' free edges give way is not counted: with it G' is {higher:.2g} % "
-                "higher ([shear-pair] edges = true)"
-            )
-    return tuple(dict.fromkeys(said))

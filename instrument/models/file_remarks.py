@@ -1,0 +1,38 @@
+"""What is to be said of files as they were given, each by its name where there are several."""
+
+from collections.abc import Sequence
+
+from fitting.structures import AnySpecimen, ShearPair
+from instrument.models.files import File
+from instrument.models.remarks import remarks_on_law, remarks_on_noise
+
+_WORTH_SAYING = 0.01
+"""Of the modulus: a correction that is left out."""
+
+
+def remarks_on_files(files: Sequence[File]) -> tuple[str, ...]:
+    """Of their noise, their laws and what a pair's discs leave out; each once."""
+    said = []
+    for file in files:
+        of = f"{file.name}: " if file.name and len(files) > 1 else ""
+        said += [of + text for text in remarks_on_noise(file.sweep)]
+        s = file.specimen
+        if s.core is not None:
+            said += remarks_on_law(s.core.law, file.sweep.frequency_hz)
+        said += [of + text for text in remarks_on_edges(s)]
+    return tuple(dict.fromkeys(said))
+
+
+def remarks_on_edges(specimen: AnySpecimen) -> tuple[str, ...]:
+    """Where the free edges of a pair's discs matter and are not counted."""
+    if not isinstance(specimen, ShearPair) or specimen.edges:
+        return ()
+    # Bending is in what edges give way: where it is counted that much less is missing.
+    counted = specimen.softer_by_bending if specimen.bending else 0.0
+    missing = 1 / (1 - specimen.softer_by_edges) / (1 + counted) - 1
+    if missing < _WORTH_SAYING:
+        return ()
+    return (
+        f"what the discs' free edges give way is not counted: with it G' is {100 * missing:.2g} % higher "
+        "([shear-pair] edges = true)",
+    )

@@ -1,0 +1,32 @@
+"""What is said of a pair's discs before anything is fitted."""
+
+from dataclasses import replace
+
+import pytest
+
+from fitting.laws.constant import ConstantModulus
+from fitting.specimen import Core
+from fitting.structures import ShearPair
+from instrument.models.file_remarks import remarks_on_edges
+
+CORE = Core(6e-3, 0.5, 1100.0, ConstantModulus(5e6, 0.3))
+PAIR = ShearPair(mass_kg=0.5, discs=2, area_m2=1.2e-3, core=CORE, gyration_m=1.0e-2)
+
+
+def percent(pair):
+    (said,) = remarks_on_edges(pair)
+    return float(said.split("G' is ")[1].split(" %")[0])
+
+
+def test_what_edges_give_way_is_said_as_the_modulus_will_show_it():
+    share = PAIR.softer_by_edges
+    assert percent(PAIR) == pytest.approx(100 * share / (1 - share), rel=0.05)
+
+
+def test_bending_that_is_counted_is_missing_no_more():
+    assert 0 < percent(replace(PAIR, bending=True)) < percent(PAIR)
+
+
+def test_nothing_is_said_of_edges_that_are_counted_or_hardly_count():
+    assert remarks_on_edges(replace(PAIR, edges=True)) == ()
+    assert remarks_on_edges(replace(PAIR, core=replace(CORE, thickness_m=2e-4))) == ()
