@@ -2,8 +2,8 @@
 
 Soni's beam (Shock Vib. Bull. 55 (1981)) with the numbers that Daya and Potier-Ferry (Comput. Struct. 79
 (2001)) compare theirs with: 177.8 mm long, faces of 1.524 mm aluminium, a core of 0.127 mm, E = 1.794 MPa,
-mu = 0.3, loss factor 0.1. Held against a second list of them: it has 0.088 for the fourth share and 2261 Hz for
-the fifth mode, so the last digit is known to one.
+mu = 0.3, loss factor 0.1. Held against a second list of
+them: it has 0.088 for the fourth share and 2261 Hz for the fifth mode, so the last digit is known to one.
 """
 
 import numpy as np
