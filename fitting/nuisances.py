@@ -14,36 +14,18 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.nuisance import Nuisance, felt
 from fitting.nuisance_sums import Kept, between
 from fitting.parts import coefficients, loaded, names_of
 from fitting.specimen import PlacedMass, Specimen
-from fitting.tolerances import PLATE, STATED, Unit, moved, plate_numbers, tolerance
+from fitting.tolerances import PLATE, moved
 
 _H = 1e-2
 """Step of differences, in standard deviations."""
-_UNHEARD = 1e-6
-"""Share of a mode that the plate's motions carry, below which its ratio plays no part."""
 _TREATMENT = ("constraining", "core", "glue", "patch")
 Spot = Literal["pickup", "force"]
 _FELT = 0.3
 """Standard deviations from which derivatives to stated numbers are taken to vary."""
-
-
-@dataclass(frozen=True)
-class Nuisance:
-    """A stated number that a fit may move within its tolerance."""
-
-    name: str
-    """As results list it: `pickup_x`, `damping_1`."""
-    kind: str
-    """Of `fitting.tolerances.STATED`."""
-    sigma: float
-    """Relative, m or s."""
-
-    @property
-    def unit(self) -> Unit:
-        """Of `sigma`."""
-        return STATED[self.kind].unit
 
 
 def nuisances_of(
@@ -53,24 +35,7 @@ def nuisances_of(
 
     `plate` is of `reference`, one like it, where that is given.
     """
-    found = [Nuisance(n, kind, tolerance(specimen, kind)) for n, kind in plate_numbers(specimen)]
-    found += [Nuisance(f"pickup_{axis}", "pickup", tolerance(specimen, "pickup")) for axis in "xy"]
-    if specimen.force_m is not None:
-        found += [Nuisance(f"force_{axis}", "force", tolerance(specimen, "force")) for axis in "xy"]
-    share = np.linalg.norm(plate.U, axis=0)
-    heard = share > _UNHEARD * share.max(initial=0.0)
-    damping = tolerance(specimen, "damping")
-    found += [
-        Nuisance(f"damping_{r + 1}", "damping", damping)
-        for r, ratio in enumerate(specimen.modal_ratios[: len(heard)])
-        if ratio > 0 and heard[r] and plate.d[r] > 0
-    ]
-    weighed = tolerance(specimen, "mass")
-    found += [Nuisance(f"mass_{k + 1}", "mass", weighed) for k in range(len(specimen.masses))]
-    found.append(Nuisance("gain", "gain", tolerance(specimen, "gain")))
-    if has_phase:
-        found.append(Nuisance("delay", "delay", tolerance(specimen, "delay")))
-    return Nuisances(specimen, tuple(n for n in found if n.sigma > 0), reference)
+    return Nuisances(specimen, felt(specimen, plate, has_phase=has_phase), reference)
 
 
 @dataclass(frozen=True)

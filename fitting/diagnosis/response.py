@@ -14,20 +14,20 @@ from functools import reduce
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from fitting.diagnosis.channels import Channels
 from fitting.diagnosis.plate_answer import Asked, Motions, motions, read_off
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid
 from fitting.diagnosis.strains import Reference, Strains
+from fitting.diagnosis.unknowns import Unknowns, stepped
 from fitting.effects.added_mass import AddedMassEffect
-from fitting.effects.base import Effect, EffectParameter, ModulusAt
+from fitting.effects.base import Effect, ModulusAt
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.span import Span
 from fitting.laws import CoreLaw
 
 _H = 1e-4
-"""Step of differences, of an unknown's typical size."""
-_SMALL = 1e-6
-"""Of the velocity: the step along which a derivative of it is read."""
+"""Step of differences, of the logarithm of a law's parameter."""
 
 
 class SweepResponse:
@@ -46,21 +46,13 @@ class SweepResponse:
     ) -> None:
         """Where they are at hand: `plate`, as far as these effects need it, and softening's `reference`."""
         self.problem, self.effects, self.nuisances = problem, tuple(effects), problem.nuisances
-        count = len(self.nuisances)
-        self.parameters: tuple[EffectParameter, ...] = (
-            *(STATED_NUMBER,) * count,
-            *(u for e in effects for u in e.parameters),
-        )
+        self._unknowns = Unknowns(len(self.nuisances), self.effects)
+        self.parameters = self._unknowns.parameters
+        self._channels = Channels(problem, self._unknowns)
         spans = spans_of(problem, effects)
         self.plate: EnrichedReducedPlate = plate or problem.plate.take(spans)
-        self._stated = slice(0, count)
-        self._slices, start = [], count
-        for effect in self.effects:
-            self._slices.append(slice(start, start + len(effect.parameters)))
-            start += len(effect.parameters)
         self._changing = [k for k, e in enumerate(self.effects) if type(e).change is not Effect.change]
         self._pitching = [k for k, e in enumerate(self.effects) if type(e).pitch is not Effect.pitch]
-        self._channelled = any(type(e).reading is not Effect.reading for e in self.effects)
         self._shifting = [k for k, e in enumerate(self.effects) if type(e).modulus is not Effect.modulus]
         grid = grid or problem.fine
         if self._shifting and (self._changing or self._pitching or not self.nuisances.change_nothing):
@@ -84,11 +76,11 @@ class SweepResponse:
         by_z = self._by_stated(at) if count else []
         by_u = [self._by(k, law, u, at) for k in range(count, len(self.parameters))]
         raw = np.array([*by_law, *by_z, *by_u]).reshape(-1, len(at.raw))
-        moved = self._read_along(at, raw, u)
+        moved = self._channels.along(at.raw, at.v, raw, u)
         for k in range(count, len(self.parameters)):
-            moved[len(by_law) + k] += self._read_by(k, at.raw, u)
+            moved[len(by_law) + k] += self._channels.by(k, at.raw, u)
         if count:
-            by_reading = self.nuisances.by_reading(at.v, self.problem.points.omega, u[self._stated])
+            by_reading = self.nuisances.by_reading(at.v, self.problem.points.omega, u[self._unknowns.stated])
             for k, d in by_reading.items():
                 moved[len(by_law) + k] += d
         return at.v, moved
@@ -103,23 +95,20 @@ class SweepResponse:
         nodes, last = self.grid.nodes, self.effects[-1]
         found = [others._change(k, known, self.plate) for k in others._changing]
         if not self.nuisances.change_nothing:
-            found.append(self.nuisances.change(self.plate, known[self._stated]))
+            found.append(self.nuisances.change(self.plate, known[self._unknowns.stated]))
         G, _ = others._bearing(law, law.modulus(self.problem.points.omega), at.G)
         asked = self._asked(G, reduce(Change.and_then, found, Change()))
         by_start = [(self._moving(last.change(self.plate, u)), Change(), 1.0) for u in starts]
         solved = read_off(asked, motions([asked])[0], by_start)
         by_u = nodes.spread(np.stack([solved.heave_by_u, solved.pitch_by_u]), solved.poles, solved.poles)
         raw = at.per_x * (by_u[0] + at.pitch * by_u[1])
-        return others._read_along(at, raw, known)
+        return others._channels.along(at.raw, at.v, raw, known)
 
     def beside(self, effect: Effect) -> "SweepResponse":
         """The same with one more effect."""
         return SweepResponse(self.problem, [*self.effects, effect], self.grid)
 
     # The parts of the response.
-
-    def _of(self, k: int, u: Array) -> Array:
-        return u[self._slices[k]]
 
     def _at(self, law: CoreLaw, u: Array, *, derivatives: bool = True) -> "_At":
         points = self.problem.points
@@ -139,14 +128,14 @@ class SweepResponse:
                 x = x + (changed_slope - plain_slope) * (G - smooth)
             slope = changed_slope
             for k in self._pitching:
-                h = self.effects[k].pitch(omega, self._of(k, u))
+                h = self.effects[k].pitch(omega, self._unknowns.of(k, u))
                 pitch = pitch + (h if h is not None else 0.0)
         per_x: Complex = np.asarray(1j * omega * a, dtype=complex)
         lever = self.problem.pickup_x_m * a / (1j * omega)
         raw = per_x * (x + pitch * turned) + lever * pitch
         if points.reads == "absolute":
             raw = raw + a / (1j * omega)
-        return _At(self._read(raw, u), raw, G, slope, per_x, pitch, turned, lever, found)
+        return _At(self._channels.read(raw, u), raw, G, slope, per_x, pitch, turned, lever, found)
 
     def _bearing(self, law: CoreLaw, G_law: Complex, G: Complex) -> tuple[Complex, Complex]:
         """The modulus at the nodes, and the smooth one at every point that goes through it."""
@@ -169,13 +158,13 @@ class SweepResponse:
             self._ready = None
             nearby = []
             for k in self._changing if derivatives else ():
-                part = self._slices[k]
+                part = self._unknowns.slices[k]
                 for n in range(part.start, part.stop):
-                    h = self._step(n, u)
-                    up, down = (self._change(k, _moved(u, n, s * h), self.plate) for s in (1, -1))
+                    h = self._unknowns.step(n, u)
+                    up, down = (self._change(k, stepped(u, n, s * h), self.plate) for s in (1, -1))
                     nearby.append((up, down, 2 * h))
             nodes = self.grid.nodes
-            stated = (self.nuisances, u[self._stated]) if self.nuisances and derivatives else None
+            stated = (self.nuisances, u[self._unknowns.stated]) if self.nuisances and derivatives else None
             solved = read_off(asked, moved, nearby, stated)
             changed = np.array([solved.heave - self.grid.rational.displacement(G), solved.pitch])
             simple = nodes.spread(changed, self.grid.unchanged_poles(G), solved.poles)
@@ -197,7 +186,7 @@ class SweepResponse:
         return bool(self._changing or self._pitching or not self.nuisances.change_nothing)
 
     def _key(self, u: Array, G: Complex) -> bytes:
-        changing = [u[self._stated], *(self._of(k, u) for k in self._changing)]
+        changing = [u[self._unknowns.stated], *(self._unknowns.of(k, u) for k in self._changing)]
         return G.tobytes() + b"".join(c.tobytes() for c in changing)
 
     def _is_known(self, key: bytes, *, derivatives: bool) -> bool:
@@ -227,11 +216,11 @@ class SweepResponse:
     def _changes(self, u: Array) -> Change:
         found = [self._change(k, u, self.plate) for k in self._changing]
         if not self.nuisances.change_nothing:
-            found.append(self.nuisances.change(self.plate, u[self._stated]))
+            found.append(self.nuisances.change(self.plate, u[self._unknowns.stated]))
         return reduce(Change.and_then, found, Change())
 
     def _change(self, k: int, u: Array, plate: EnrichedReducedPlate) -> Change:
-        return self._moving(self.effects[k].change(plate, self._of(k, u)))
+        return self._moving(self.effects[k].change(plate, self._unknowns.of(k, u)))
 
     def _moving(self, change: Change | None) -> Change:
         change = change or Change()
@@ -242,7 +231,7 @@ class SweepResponse:
         G = G_law
         for k in self._shifting:
             at = ModulusAt(law, self.problem.points, lambda s: self._strain(strained or law, u, s))
-            shifted = self.effects[k].modulus(at, self.problem.points, self._of(k, u))
+            shifted = self.effects[k].modulus(at, self.problem.points, self._unknowns.of(k, u))
             if shifted is not None:
                 G = G * (shifted / G_law)
         return G
@@ -257,59 +246,35 @@ class SweepResponse:
         logs = np.log(law.values)
         for k in range(len(logs)):
             h = _H if logs[k] + _H < upper[k] else -_H
-            other = law.with_logs(_moved(logs, k, h))
+            other = law.with_logs(stepped(logs, k, h))
             found.append((self._modulus(other, u, other.modulus(omega), law) - G) / h)
         return np.array(found)
 
     def _strain(self, law: CoreLaw, u: Array, softened: Array) -> Array:
         """Of the core at every point, softened by a share, over the reference. Shape (points,) both."""
-        key = b"".join(self._of(k, u).tobytes() for k in self._changing) + u[self._stated].tobytes()
+        key = (
+            b"".join(self._unknowns.of(k, u).tobytes() for k in self._changing)
+            + u[self._unknowns.stated].tobytes()
+        )
         return self._strains.at(law, key, lambda: self._changes(u), softened)
-
-    def _read(self, v: Complex, u: Array) -> Complex:
-        for k, effect in enumerate(self.effects):
-            read = effect.reading(v, self.problem.points, self._of(k, u))
-            v = v if read is None else read
-        return self._as_stated(v, u)
-
-    def _as_stated(self, v: Complex, u: Array) -> Complex:
-        """What the stated gain and delay make of it."""
-        return self.nuisances.reading(v, self.problem.points.omega, u[self._stated]) if self.nuisances else v
-
-    def _read_along(self, at: "_At", by: Complex, u: Array) -> Complex:
-        """What is read of derivatives of the velocity before the channels. Shape (any, points) of both."""
-        if not self._channelled:
-            return self._as_stated(by, u)
-        found = np.zeros_like(by)
-        largest = np.abs(at.raw).max()
-        for k, size in enumerate(np.abs(by).max(axis=1)):
-            if size > 0:
-                # A channel may bend, and a derivative to 10^14 N/m^3 drowns beside the velocity.
-                h = _SMALL * largest / size
-                found[k] = (self._read(at.raw + h * by[k], u) - at.v) / h
-        return found
 
     # Derivatives to unknown n.
 
-    def _step(self, n: int, u: Array) -> float:
-        q = self.parameters[n]
-        return _H * (abs(u[n]) if q.logarithmic else q.typical or 1.0)
-
-    def _owner(self, n: int) -> int:
-        return next(k for k, part in enumerate(self._slices) if part.start <= n < part.stop)
-
     def _by(self, n: int, law: CoreLaw, u: Array, at: "_At") -> Complex:
         """Of the velocity before the channels."""
-        k, omega = self._owner(n), self.problem.points.omega
+        k, omega = self._unknowns.owner(n), self.problem.points.omega
         found = np.zeros(len(omega), complex)
-        h = self._step(n, u)
-        up, down = _moved(u, n, h), _moved(u, n, -h)
+        h = self._unknowns.step(n, u)
+        up, down = stepped(u, n, h), stepped(u, n, -h)
         if k in self._changing and at.by is not None:
             place = len(self.nuisances) + self._place_of(n)
             found = found + at.per_x * (at.by.heave[place] + at.pitch * at.by.turned[place])
         if k in self._pitching:
             effect = self.effects[k]
-            above, below = effect.pitch(omega, self._of(k, up)), effect.pitch(omega, self._of(k, down))
+            above, below = (
+                effect.pitch(omega, self._unknowns.of(k, up)),
+                effect.pitch(omega, self._unknowns.of(k, down)),
+            )
             if above is not None and below is not None:
                 found = found + (above - below) / (2 * h) * (at.per_x * at.turned + at.lever)
         if k in self._changing and self._strained:
@@ -329,15 +294,12 @@ class SweepResponse:
         return list(at.per_x * (at.by.heave[stated] + at.pitch * at.by.turned[stated]))
 
     def _place_of(self, n: int) -> int:
-        order = [m for k in self._changing for m in range(self._slices[k].start, self._slices[k].stop)]
+        order = [
+            m
+            for k in self._changing
+            for m in range(self._unknowns.slices[k].start, self._unknowns.slices[k].stop)
+        ]
         return order.index(n)
-
-    def _read_by(self, n: int, raw: Complex, u: Array) -> Complex:
-        k = self._owner(n)
-        if type(self.effects[k]).reading is Effect.reading:
-            return np.zeros(len(raw), complex)
-        h = self._step(n, u)
-        return (self._read(raw, _moved(u, n, h)) - self._read(raw, _moved(u, n, -h))) / (2 * h)
 
 
 def spans_of(problem: DiagnosisProblem, effects: Sequence[Effect]) -> list[Span]:
@@ -346,10 +308,6 @@ def spans_of(problem: DiagnosisProblem, effects: Sequence[Effect]) -> list[Span]
     if problem.nuisances.masses:
         spans |= {s.name: s for s in AddedMassEffect.spans}
     return list(spans.values())
-
-
-STATED_NUMBER = EffectParameter("stated", "1", -12.0, 12.0, 1.0)
-"""A stated number, in standard deviations of its tolerance."""
 
 
 @dataclass(frozen=True)
@@ -375,9 +333,3 @@ class _ByChange:
     heave: Complex
     """Shape (numbers, points)."""
     turned: Complex
-
-
-def _moved(u: Array, n: int, h: float) -> Array:
-    moved = u.copy()
-    moved[n] += h
-    return moved

@@ -22,9 +22,10 @@ from fitting.diagnosis.one_plate import Taken
 from fitting.diagnosis.plate_answer import motions
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid
-from fitting.diagnosis.response import STATED_NUMBER, SweepResponse, spans_of
+from fitting.diagnosis.response import SweepResponse, spans_of
 from fitting.diagnosis.sharing import CHANNELS, OF_EACH_FILE, OF_EACH_PLATE, OF_EACH_SPOT, Places, shared
 from fitting.diagnosis.strains import Reference
+from fitting.diagnosis.unknowns import STATED_NUMBER
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.identification.adjusted import Adjusted

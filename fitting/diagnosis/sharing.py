@@ -10,7 +10,7 @@ from fitting.diagnosis import one_plate
 from fitting.diagnosis.of_files import Place
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.identification.adjusted import stated_number
-from fitting.nuisances import Nuisance
+from fitting.nuisance import Nuisance
 
 OF_EACH_SPOT = ("gain", "delay", "pickup")
 """Kinds of stated numbers that are another one at every spot, though they are stated alike."""

@@ -7,7 +7,7 @@ from typing import Any
 
 from fitting.arrays import Array
 from fitting.mesh import shift_of
-from fitting.nuisances import Nuisance
+from fitting.nuisance import Nuisance
 from fitting.specimen import Glue, Specimen, StatedSpecimen
 
 

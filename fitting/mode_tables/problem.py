@@ -9,13 +9,15 @@ from numpy.typing import NDArray
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.of_files import OfFiles
-from fitting.diagnosis.response import STATED_NUMBER, SweepResponse
+from fitting.diagnosis.response import SweepResponse
+from fitting.diagnosis.unknowns import STATED_NUMBER
 from fitting.effects.base import Effect, Points
 from fitting.identification.adjusted import Adjusted, adjusted
 from fitting.laws import CoreLaw
 from fitting.mode_tables.build import with_own_error
 from fitting.mode_tables.member import Member
-from fitting.nuisances import Nuisance, Nuisances
+from fitting.nuisance import Nuisance
+from fitting.nuisances import Nuisances
 
 OF_EACH_TABLE = ("mass", "length", "width", "damping")
 """Kinds of stated numbers that are another one in every table, though they are stated alike."""

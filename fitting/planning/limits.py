@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.nuisances import Nuisance
+from fitting.nuisance import Nuisance
 from fitting.planning.aims import Aims
 from fitting.planning.sensitivity import Sensitivity
 

@@ -17,7 +17,8 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.errors import OutsideModel
-from fitting.nuisances import Nuisance, Nuisances
+from fitting.nuisance import Nuisance
+from fitting.nuisances import Nuisances
 from fitting.rational import RationalSweep
 from fitting.specimen import StatedSpecimen
 

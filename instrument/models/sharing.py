@@ -61,5 +61,7 @@ def serves(like: Specimen, specimen: Specimen, sweep: Sweep, progress: Progress 
         return _Probed(np.abs(moved.displacement(omega, G) / full - 1))
 
     depends_on = [replace(specimen, tolerances={}), replace(like, tolerances={}), f]
-    modules = ("fitting.reduced", "fitting.nuisances", "fitting.parts", "fitting.direct", "fitting.damping")
+    modules = tuple(
+        f"fitting.{name}" for name in ("reduced", "nuisance", "nuisances", "parts", "direct", "damping")
+    )
     return bool(np.max(cached("shared", depends_on, _Probed, probe, modules).error) <= SHARED)

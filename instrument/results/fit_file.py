@@ -14,7 +14,8 @@ from fitting.bent_law import BentLaw
 from fitting.errors import OutsideModel
 from fitting.identification.adjusted import is_relative, stated_number
 from fitting.laws import CoreLaw
-from fitting.nuisances import Nuisance, Nuisances
+from fitting.nuisance import Nuisance
+from fitting.nuisances import Nuisances
 from fitting.specimen import Specimen, StatedSpecimen
 from fitting.tolerances import kind_of
 from instrument.errors import BadInput

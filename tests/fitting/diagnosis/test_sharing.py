@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 from fitting.diagnosis.of_files import Place
 from fitting.diagnosis.sharing import CHANNELS, OF_EACH_FILE, OF_EACH_PLATE, OF_EACH_SPOT, shared
-from fitting.nuisances import Nuisance
+from fitting.nuisance import Nuisance
 from fitting.specimen import Specimen
 
 NUMBERS = (Nuisance("gain", "gain", 0.003), Nuisance("length", "length", 1e-3))

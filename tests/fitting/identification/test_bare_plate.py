@@ -19,7 +19,8 @@ from fitting.identification.bare_plate import (
     match_modes,
     with_bare_plate,
 )
-from fitting.nuisances import Nuisance, Nuisances
+from fitting.nuisance import Nuisance
+from fitting.nuisances import Nuisances
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
 from fitting.tolerances import STATED, moved, plate_numbers

@@ -8,7 +8,8 @@ import pytest
 from conftest import DATA, TABLE_4
 
 from fitting.direct import displacement_direct
-from fitting.nuisances import Nuisance, Nuisances
+from fitting.nuisance import Nuisance
+from fitting.nuisances import Nuisances
 from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult, PosteriorFound
 from instrument.files.specimen_file import read_specimen
