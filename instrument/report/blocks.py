@@ -34,6 +34,8 @@ class TableBlock:
     rows: tuple[tuple[str, ...], ...]
     folded: bool = False
     """Shut until it is asked for: long ones."""
+    words: tuple[str, ...] = ("why", "remark", "remarks", "parameters")
+    """Columns that hold words and not numbers: they are broken into lines and read from the left."""
 
 
 @dataclass(frozen=True)
@@ -46,8 +48,16 @@ class Picture:
     """Below it, and read aloud in its place."""
 
 
-WORDY = ("why", "remark", "remarks", "parameters")
-"""Columns of a table that hold words and not numbers."""
+_TYPESET = ((" +- ", " ± "), (" -> ", " → "), ("/s^2", "/s²"), ("/m^3", "/m³"))
+"""What a terminal's sentences write in ASCII, as a page prints it. Names of files stay as they are."""
+
+
+def typeset(text: str) -> str:
+    """A sentence or cell as it is printed."""
+    for plain, printed in _TYPESET:
+        text = text.replace(plain, printed)
+    return text
+
 
 Block = Sentence | FactsBlock | TableBlock | Picture
 

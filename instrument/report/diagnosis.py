@@ -59,14 +59,16 @@ def _followed(contents: Contents) -> list[Block]:
     rows = tuple((f.verdict_before, measured_words(f.measured), f.verdict_after or "-") for f in followed)
     if not rows:
         return []
-    return [TableBlock("Measured to tell explanations apart", ("before", "measurement", "after"), rows)]
+    columns = ("before", "measurement", "after")
+    return [TableBlock("Measured to tell explanations apart", columns, rows, words=columns)]
 
 
 def _next(found: DiagnosisResult) -> list[Block]:
     """What would tell the explanations left apart."""
     rows = tuple((*next_row(f), separated_words(f.between), f.why) for f in found.next_measurements)
     title = f"{NEXT_TITLE[0].upper()}{NEXT_TITLE[1:]}"
-    return [TableBlock(title, (*NEXT_COLUMNS, "separates", "why"), rows)] if rows else []
+    words = (NEXT_COLUMNS[0], "separates", "why")
+    return [TableBlock(title, (*NEXT_COLUMNS, *words[1:]), rows, words=words)] if rows else []
 
 
 def _before_after(found: DiagnosisResult) -> TableBlock:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from instrument.report.blocks import WORDY, ReportSection
+from instrument.report.blocks import ReportSection, typeset
 from instrument.report.picture import as_svg
 
 _TEMPLATE = "page.html"
@@ -26,6 +26,7 @@ def html_page(
         lstrip_blocks=True,
     )
     environment.filters["as_svg"] = as_svg
+    environment.filters["typeset"] = typeset
     return environment.get_template(_TEMPLATE).render(
-        title=title, header=header, sections=sections, signed=signed, words=WORDY
+        title=title, header=header, sections=sections, signed=signed
     )

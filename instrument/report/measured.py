@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from instrument.facts.diagnosis import DiagnosisResult
 from instrument.session.contents import Contents
 from instrument.stream.derived import PointMeasured
 
@@ -31,6 +32,23 @@ class Measured:
         """Frequencies to draw a model at: the points and what lies between them."""
         f = self.frequency_hz
         return np.unique(np.concatenate([f, np.linspace(f[0] - self.margin_hz, f[-1] + self.margin_hz, 241)]))
+
+
+def explained(measured: Measured, found: DiagnosisResult | None) -> tuple[Array, Complex] | None:
+    """Frequencies in Hz, and velocity over base acceleration in s with the effects found: (points,) each.
+
+    What a diagnosis predicts at its points, of one sweep at one level; None where it named nothing.
+    """
+    if found is None or not found.effects or found.verdict not in ("effect", "ambiguous"):
+        return None
+    left = {p.frequency_hz: p.after for p in reversed(found.points) if p.after.has_phase}
+    at = [k for k, f in enumerate(measured.frequency_hz) if float(f) in left]
+    if not at:
+        return None
+    f = measured.frequency_hz[at]
+    once = np.concatenate([[True], np.diff(f) > 0])
+    ratio = np.array([1 + 0.01 * complex(left[float(x)].re_percent, left[float(x)].im_percent) for x in f])
+    return f[once], (measured.over_base[at] * ratio)[once]
 
 
 def segments_of(contents: Contents) -> list[Measured]:

@@ -6,7 +6,7 @@ from pathlib import Path
 import matplotlib as mpl
 from matplotlib.backends.backend_pdf import PdfPages
 
-from instrument.report.blocks import WORDY, FactsBlock, Picture, ReportSection, Sentence, TableBlock
+from instrument.report.blocks import FactsBlock, Picture, ReportSection, Sentence, TableBlock, typeset
 from instrument.report.paper import INSIDE_MM, MARGIN_MM, Sheets, broken, line_mm, width_mm
 
 _TITLE_PT, _HEAD_PT, _TEXT_PT, _TABLE_PT, _LEAST_PT = 15.0, 11.5, 9.0, 7.5, 6.0
@@ -79,7 +79,7 @@ def _subtitle(sheets: Sheets, title: str) -> None:
 def _sentence(sheets: Sheets, sentence: Sentence) -> None:
     ground = _GROUNDS.get(sentence.tone)
     inset = 4.0 if ground else 0.0
-    lines = broken(sentence.text, INSIDE_MM - 2 * inset, _TEXT_PT)
+    lines = broken(typeset(sentence.text), INSIDE_MM - 2 * inset, _TEXT_PT)
     high = len(lines) * line_mm(_TEXT_PT)
     sheets.need(high + 3.0)
     if ground:
@@ -98,7 +98,7 @@ def _facts(sheets: Sheets, facts: FactsBlock) -> None:
     at = names + _BETWEEN_MM
     for name, value in facts.rows:
         left = broken(name, names, _TEXT_PT)
-        right = broken(value, INSIDE_MM - at, _TEXT_PT)
+        right = broken(typeset(value), INSIDE_MM - at, _TEXT_PT)
         sheets.need(max(len(left), len(right)) * line_mm(_TEXT_PT))
         for k in range(max(len(left), len(right))):
             if k < len(left):
@@ -111,14 +111,17 @@ def _facts(sheets: Sheets, facts: FactsBlock) -> None:
 
 def _table(sheets: Sheets, table: TableBlock) -> None:
     _subtitle(sheets, table.title)
-    cells = [table.columns, *table.rows]
+    rows = [[typeset(cell) for cell in row] for row in table.rows]
+    cells = [table.columns, *rows]
     size, widths = _widths(cells)
     natural = _natural(cells, size)
     # Numbers end below each other; what had to be broken into lines reads from the left.
-    right = [k > 0 and widths[k] >= natural[k] and table.columns[k] not in WORDY for k in range(len(widths))]
+    right = [
+        k > 0 and widths[k] >= natural[k] and table.columns[k] not in table.words for k in range(len(widths))
+    ]
     head = _row_lines(table.columns, widths, size, bold=True)
     _row(sheets, head, widths, right, size, bold=True)
-    for row in table.rows:
+    for row in rows:
         lines = _row_lines(row, widths, size)
         if sheets.need(_row_mm(lines, size)):
             _row(sheets, head, widths, right, size, bold=True)

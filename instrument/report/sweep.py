@@ -24,7 +24,8 @@ def sweep_section(contents: Contents, fitted: ReportedFit) -> ReportSection:
     reads = contents.configuration.rig.vibrometer.reads
     drawn = f"{reads.capitalize()} velocity v at the pickup over base acceleration a, by segment"
     drawn += "" if fitted.fit is not None else "; no model is drawn, as there is no fit"
-    blocks += [Picture(f, drawn) for f in response_figures(segments, fitted)]
+    found = contents.diagnosis.result if contents.diagnosis is not None else None
+    blocks += [Picture(f, drawn) for f in response_figures(segments, fitted, found)]
     blocks.append(
         Picture(quality_figure(contents), "How well each point was measured, in the order of measuring")
     )

@@ -8,9 +8,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Complex
+from instrument.facts.diagnosis import DiagnosisResult
 from instrument.report.fitted import ReportedFit
-from instrument.report.measured import Measured, noise_of
+from instrument.report.measured import Measured, explained, noise_of
 from instrument.results.drawing import (
     DATA,
     MARK,
@@ -31,22 +32,30 @@ _MS = 1e3
 """(m/s)/(m/s²) is a second; a millisecond reads better."""
 
 
-def response_figures(segments: list[Measured], fitted: ReportedFit) -> list[Figure]:
-    """Amplitude above phase, a column a segment."""
-    return [_response(row, fitted) for row in in_rows(segments)]
+def response_figures(
+    segments: list[Measured], fitted: ReportedFit, found: DiagnosisResult | None = None
+) -> list[Figure]:
+    """Amplitude above phase, a column a segment; with the effects that a diagnosis `found` beside it."""
+    return [_response(row, fitted, found) for row in in_rows(segments)]
 
 
-def _response(segments: Sequence[Measured], fitted: ReportedFit) -> Figure:
+def _response(segments: Sequence[Measured], fitted: ReportedFit, found: DiagnosisResult | None) -> Figure:
     figure, (above, below) = panels(2, len(segments), 5.2)
     for amplitude, phase, measured in zip(above, below, segments, strict=True):
-        _draw_segment(amplitude, phase, measured, fitted)
+        _draw_segment(amplitude, phase, measured, fitted, explained(measured, found))
     label(above[0], y="|v / a| / ms")
     label(below[0], y="Phase / degree")
     legend_above(figure, above[0])
     return figure
 
 
-def _draw_segment(amplitude: Axes, phase: Axes, m: Measured, fitted: ReportedFit) -> None:
+def _draw_segment(
+    amplitude: Axes,
+    phase: Axes,
+    m: Measured,
+    fitted: ReportedFit,
+    after: tuple[Array, Complex] | None,
+) -> None:
     f, size = m.frequency_hz, np.abs(m.over_base)
     model = fitted.over_base(m.grid_hz)
     if model is None:
@@ -56,8 +65,19 @@ def _draw_segment(amplitude: Axes, phase: Axes, m: Measured, fitted: ReportedFit
         at = np.interp(f, m.grid_hz, course)
         # Turns are the model's: what is measured lies beside it.
         angle = at + np.angle(m.over_base * np.exp(-1j * at))
-        amplitude.plot(m.grid_hz, _MS * np.abs(model), "-", color=MODEL, linewidth=1.3, label="model fitted")
-        phase.plot(m.grid_hz, np.degrees(course), "-", color=MODEL, linewidth=1.3)
+        line: dict[str, Any] = {"color": MODEL, "linewidth": 1.3, "linestyle": "-"}
+        name = "model fitted"
+        if after is not None:
+            name, line["linestyle"] = "model without any effect", "--"
+        amplitude.plot(m.grid_hz, _MS * np.abs(model), label=name, **line)
+        phase.plot(m.grid_hz, np.degrees(course), **line)
+    if after is not None:
+        at_hz, with_effects = after
+        near = np.interp(at_hz, f, angle)
+        turned = near + np.angle(with_effects * np.exp(-1j * near))
+        line = {"color": MARK, "linewidth": 1.3, "linestyle": "-"}
+        amplitude.plot(at_hz, _MS * np.abs(with_effects), label="with what the diagnosis found", **line)
+        phase.plot(at_hz, np.degrees(turned), **line)
     bars: dict[str, Any] = {"fmt": "o", "markersize": 3.5, "color": DATA, "capsize": 2, "elinewidth": 0.8}
     amplitude.errorbar(
         f, _MS * size, _MS * TWO_STD * m.std, label="measured, ± 2 standard deviations", **bars
