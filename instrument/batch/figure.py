@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from instrument.batch.run import BatchRow
-from instrument.results.drawing import BAND_95, DATA, label, panels
+from instrument.results.drawing import BAND_95, DATA, frequency_in_octaves, label, panels
 
 MOST = 400
 """Laws drawn; of more, every second, third, ... one."""
@@ -43,7 +43,7 @@ def laws_figure(rows: Iterable[BatchRow], count: int) -> Figure:
     for ax, y in ((left, "Storage modulus G' / MPa"), (right, "Loss factor η")):
         label(ax, x="Frequency / Hz", y=y)
         if count:
-            ax.set_xscale("log")
+            frequency_in_octaves(ax)
         ax.set_ylim(bottom=0)
     if few and count:
         left.legend(fontsize=7, frameon=False)

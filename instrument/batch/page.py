@@ -1,9 +1,9 @@
 """batch.html: laws overlaid, verdicts counted, failures listed, all rows in a table; nothing is fetched."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib.metadata import version
 from itertools import islice
-from pathlib import Path
+from pathlib import Path, PurePath
 
 from instrument.batch.between import Between
 from instrument.batch.columns import Cell, cells
@@ -14,9 +14,14 @@ from instrument.batch.table import beside
 from instrument.facts.comparison import SpreadSize
 from instrument.report.blocks import Block, FactsBlock, Picture, ReportSection, Sentence, TableBlock
 from instrument.report.html import html_page
+from instrument.results.numbers import with_error
 
 HTML = "batch.html"
 _ROWS_SHOWN = 2000
+_ERRORS = {
+    "storage_modulus_pa": "storage_modulus_standard_error_pa",
+    "loss_factor": "loss_factor_standard_error",
+}
 _SHOWN: Sequence[tuple[str, str, float]] = (
     ("points", "points", 1),
     ("lowest_hz", "from / Hz", 1),
@@ -24,9 +29,7 @@ _SHOWN: Sequence[tuple[str, str, float]] = (
     ("temperature_c", "T / °C", 1),
     ("middle_hz", "at / Hz", 1),
     ("storage_modulus_pa", "G' / MPa", 1e-6),
-    ("storage_modulus_standard_error_pa", "± / MPa", 1e-6),
     ("loss_factor", "η", 1),
-    ("loss_factor_standard_error", "±", 1),
     ("rms_percent", "rms / %", 1),
     ("held_out_rms_percent", "held out / %", 1),
     ("verdict", "verdict", 1),
@@ -94,7 +97,8 @@ def _between(between: Sequence[Between]) -> tuple[Block, ...]:
 
 def _percent(spread: SpreadSize) -> str:
     low, high = spread.interval_95_percent
-    return f"{spread.percent:.2g} ({low:.2g} to {high:.2g})"
+    shown = (f"{value:.0f}" if value >= 10 else f"{value:.2g}" for value in (spread.percent, low, high))
+    return "{} ({} to {})".format(*shown)
 
 
 def _verdicts(counted: Counted) -> tuple[Block, ...]:
@@ -120,18 +124,35 @@ def _failures(counted: Counted) -> tuple[Block, ...]:
 
 def _rows(rows: Rows) -> tuple[Block, ...]:
     shown = []
-    for row in islice(rows, _ROWS_SHOWN):
+    some = list(islice(rows, _ROWS_SHOWN))
+    names = short_names([row.task.data for row in some])
+    for row, name in zip(some, names, strict=True):
         found = cells(row)
         if row.outcome["failed"]:
             found["warnings"] = row.outcome["failed"]
-        shown.append((row.task.data, *(_text(found.get(key), scale) for key, _, scale in _SHOWN)))
-    table = TableBlock("", ("data", *(head for _, head, _ in _SHOWN)), tuple(shown))
+        shown.append((name, *(_text(found, key, scale) for key, _, scale in _SHOWN)))
+    heads = ("data", *(head for _, head, _ in _SHOWN))
+    table = TableBlock("", heads, tuple(shown), words=("effects", "remarks"))
     if len(rows) <= _ROWS_SHOWN:
         return (table,)
     return (Sentence(f"The first {_ROWS_SHOWN}; batch.csv has all of them.", "note"), table)
 
 
-def _text(cell: Cell, scale: float) -> str:
+def _text(found: Mapping[str, Cell], key: str, scale: float) -> str:
+    cell = found.get(key)
     if cell is None:
         return ""
-    return f"{cell * scale:.4g}" if isinstance(cell, int | float) else cell
+    if not isinstance(cell, int | float):
+        return cell
+    error = found.get(_ERRORS.get(key, ""))
+    return with_error(cell, error, scale) if isinstance(error, float) else f"{cell * scale:.4g}"
+
+
+def short_names(paths: Sequence[str]) -> list[str]:
+    """As much of the end of each path as tells it from the others: the table in CSV has them whole."""
+    parts = [PurePath(path).parts for path in paths]
+    for depth in range(1, max((len(p) for p in parts), default=1)):
+        names = ["/".join(p[-depth:]) for p in parts]
+        if len(set(names)) == len(set(paths)):
+            return names
+    return list(paths)

@@ -7,7 +7,7 @@ import numpy as np
 from instrument.errors import BadInput
 from instrument.files.dma_file import DmaTable
 from instrument.material.found_law import MaterialLaw
-from instrument.results.drawing import BAND_95, DATA, label, legend, panels
+from instrument.results.drawing import BAND_95, DATA, frequency_in_octaves, label, legend, panels
 
 _MARKS = "osD^v<>ph*"
 
@@ -36,7 +36,7 @@ def save_overlay(law: MaterialLaw, table: DmaTable, folder: Path) -> Path:
             name = table.path.name + ("" if np.isnan(t) else f", {t:g} °C")
             mark = _MARKS[k % len(_MARKS)]
             ax.plot(table.frequency_hz[rows], points[rows] * scale, mark, markersize=4, label=name)
-        ax.set_xscale("log")
+        frequency_in_octaves(ax)
         label(ax, x="Frequency / Hz", y=y)
     legend(left)
     path = folder / "with-dma.png"

@@ -6,6 +6,7 @@ from typing import Any, TypeVar
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 from numpy.typing import NDArray
 
 T = TypeVar("T")
@@ -50,6 +51,14 @@ def from_zero(ax: Axes, values: NDArray[Any]) -> None:
     highest = float(np.nanmax(values, initial=0.0))
     if highest > 0:
         ax.set_ylim(0, 1.08 * highest)
+
+
+def frequency_in_octaves(ax: Axes) -> None:
+    """A logarithmic x axis in plain numbers, as bands are wide in octaves."""
+    ax.set_xscale("log")
+    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+    ax.xaxis.set_minor_locator(NullLocator())
+    ax.xaxis.set_major_formatter(FuncFormatter(lambda f, _: f"{f:g}"))
 
 
 def legend(ax: Axes) -> None:

@@ -7,7 +7,16 @@ from matplotlib.figure import Figure
 
 from instrument.errors import BadInput
 from instrument.facts.plan import PlanResult
-from instrument.results.drawing import DATA, MARK, MODEL, SECOND, WIDTH_IN, label, legend
+from instrument.results.drawing import (
+    DATA,
+    MARK,
+    MODEL,
+    SECOND,
+    WIDTH_IN,
+    frequency_in_octaves,
+    label,
+    legend,
+)
 
 
 def save_plan_figures(found: PlanResult, folder: Path) -> list[Path]:
@@ -29,14 +38,15 @@ def errors_figure(found: PlanResult) -> Figure:
     figure = Figure(figsize=(WIDTH_IN, 4.0), layout="constrained")
     ax = figure.subplots()
     f = [row.frequency_hz for row in found.law]
-    ax.semilogx(f, [row.storage_modulus_percent for row in found.law], color=DATA, label="G'")
-    ax.semilogx(f, [row.loss_factor_percent for row in found.law], color=MODEL, label="loss factor")
+    ax.plot(f, [row.storage_modulus_percent for row in found.law], color=DATA, label="G'")
+    ax.plot(f, [row.loss_factor_percent for row in found.law], color=MODEL, label="loss factor")
     ax.axhline(found.target_percent, color=MARK, ls="--", lw=1, label="target")
     for what, color in (("law", DATA), ("causes", SECOND)):
         at = [s.frequency_hz for s in found.steps if s.teaches == what]
         said = "steps for the law" if what == "law" else "steps that separate causes"
         ax.plot(at, np.zeros(len(at)), "|", color=color, ms=14, label=said)
     ax.set_ylim(bottom=0)
+    frequency_in_octaves(ax)
     label(ax, x="frequency in Hz", y="standard error in %", title="Predicted, to first order")
     legend(ax)
     return figure

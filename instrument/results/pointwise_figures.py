@@ -5,7 +5,6 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 
 from fitting.arrays import Array
 from fitting.identification.result import LawBand
@@ -13,7 +12,16 @@ from fitting.kramers_kronig import FIRST_ORDER, KramersKronig
 from fitting.pointwise import PointwiseLaw
 from instrument.errors import BadInput
 from instrument.models.pointwise import Pointwise
-from instrument.results.drawing import BAND_95, DATA, MARK, MODEL, label, legend_above, panels
+from instrument.results.drawing import (
+    BAND_95,
+    DATA,
+    MARK,
+    MODEL,
+    frequency_in_octaves,
+    label,
+    legend_above,
+    panels,
+)
 
 _FAINT = 0.3
 _ROOM = 1.6
@@ -48,7 +56,7 @@ def pointwise_figure(found: PointwiseLaw, band: LawBand, causal: KramersKronig |
     _points(right, known, known.loss_factor, known.loss_factor_standard_error, 1.0)
     for ax, y in ((left, "Storage modulus G' / MPa"), (right, "Loss factor η")):
         _not_determined(ax, found)
-        _frequency_axis(ax)
+        frequency_in_octaves(ax)
         label(ax, x="Frequency / Hz", y=y)
     legend_above(figure, left)
     return figure
@@ -105,11 +113,3 @@ def _not_determined(ax: Axes, found: PointwiseLaw) -> None:
             transform=ax.get_xaxis_transform(),
             label="not determined here",
         )
-
-
-def _frequency_axis(ax: Axes) -> None:
-    """Logarithmic, as the bands are wide in octaves, in plain numbers."""
-    ax.set_xscale("log")
-    ax.xaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-    ax.xaxis.set_minor_locator(NullLocator())
-    ax.xaxis.set_major_formatter(FuncFormatter(lambda f, _: f"{f:g}"))

@@ -12,6 +12,7 @@ from json_schema import faults
 from pyarrow import parquet
 
 from instrument.batch.asking import tasks_of
+from instrument.batch.page import short_names
 from instrument.batch.run import here, run_batch
 from instrument.cli.main import run
 from instrument.errors import BadInput
@@ -82,6 +83,13 @@ def test_the_page_needs_nothing_beside_it(whole):
     assert not re.search(r'(src|href)="(?!data:|#)', page)
     for words in ("3 of 4", "sweep-0002.csv", "column frequency_hz missing", "data:image/svg+xml"):
         assert words in page
+
+
+def test_a_page_names_files_by_as_much_of_their_path_as_tells_them_apart():
+    assert short_names(["/data/a/1.csv", "/data/a/2.csv"]) == ["1.csv", "2.csv"]
+    assert short_names(["/data/a/1.csv", "/data/b/1.csv"]) == ["a/1.csv", "b/1.csv"]
+    assert short_names(["1.csv", "1.csv"]) == ["1.csv", "1.csv"]
+    assert short_names([]) == []
 
 
 def test_started_again_nothing_is_repeated_and_the_table_is_the_same(tmp_path, whole, sweeps, plate, capsys):
