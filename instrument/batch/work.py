@@ -68,7 +68,8 @@ def lost(task: Task) -> Outcome:
 
 
 def _without_folders(task: Task, message: str) -> str:
-    """Outcomes are kept by names and contents of files, wherever these are."""
+    """Outcomes are kept by names and contents of files, wherever these are; the row itself names its data."""
+    message = message.removeprefix(f"{task.data}: ")
     for path in (task.data, task.specimen, task.hammer):
         if path:
             message = message.replace(path, Path(path).name)

@@ -2,6 +2,9 @@
 
 import json
 import math
+import os
+import sys
+from contextlib import suppress
 from pathlib import Path
 
 import click
@@ -14,6 +17,17 @@ from instrument.errors import BadInput
 from instrument.facts.result import Result
 
 
+class _Screen(Console):
+    """Falls silent where its reader has gone; the command goes on, for its files are still wanted."""
+
+    def on_broken_pipe(self) -> None:
+        """Instead of rich's, which ends the program."""
+        self.quiet = True
+        with suppress(OSError, ValueError), open(os.devnull, "wb") as nowhere:
+            # What is left in the buffer goes there, or Python complains at exit.
+            os.dup2(nowhere.fileno(), sys.stdout.fileno())
+
+
 class Output:
     """Where a command's results go, as `--json` decides."""
 
@@ -22,7 +36,7 @@ class Output:
         if json_path not in (None, "-") and not Path(str(json_path)).parent.is_dir():
             # Said before the work, not after it.
             raise BadInput(f"{json_path}: no such folder to write to")
-        self._console = Console(highlight=False, quiet=json_path == "-", soft_wrap=True)
+        self._console = _Screen(highlight=False, quiet=json_path == "-", soft_wrap=True)
 
     def say(self, text: str = "") -> None:
         """A line for people."""
@@ -38,9 +52,7 @@ class Output:
             table.add_column(column, justify="left" if k == 0 and not _numeric(rows, k) else "right")
         for row in rows:
             table.add_row(*(escape(printable(cell)) for cell in row))
-        Console(highlight=False, quiet=self._json_path == "-", width=max(self._console.width, 120)).print(
-            table
-        )
+        _Screen(highlight=False, quiet=self._console.quiet, width=max(self._console.width, 120)).print(table)
 
     def result(self, found: Result) -> None:
         """The facts as JSON, where they were asked for.

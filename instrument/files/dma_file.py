@@ -9,6 +9,7 @@ import numpy as np
 
 from fitting.arrays import Array
 from instrument.errors import BadInput
+from instrument.files.nearest import nearest
 from instrument.files.table import number, read_rows
 from instrument.files.text import read_text
 
@@ -79,7 +80,9 @@ def read_dma(path: Path, poisson: float) -> DmaTable:
 def _check(path: Path, header: list[str]) -> None:
     for name in ("frequency_hz", "storage_modulus_pa"):
         if name not in header:
-            raise BadInput(f"{path}: header: column {name} missing, found {', '.join(header)[:120]}")
+            near = nearest(name, header)
+            found = f"is it {near}?" if near else f"found {', '.join(header)[:120]}"
+            raise BadInput(f"{path}: header: column {name} missing, {found}")
     if "loss_factor" not in header and "loss_modulus_pa" not in header:
         raise BadInput(f"{path}: header: no loss, expected loss_factor or loss_modulus_pa")
 

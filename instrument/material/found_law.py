@@ -56,9 +56,24 @@ class _Warm(BaseModel):
     temperature_range_c: tuple[Finite, Finite]
 
 
+class _Named(BaseModel):
+    name: str
+
+
 class _Diagnosed(BaseModel):
     verdict: str
     after: _LawFound
+    effects: list[_Named] = []
+    equivalent: dict[str, list[str]] = {}
+
+    @property
+    def words(self) -> str:
+        """What the verdict names, and what the data cannot tell from it."""
+        said = " and ".join(e.name for e in self.effects)
+        others = [n for name, group in self.equivalent.items() for n in group if n != name]
+        if others:
+            said += f", not told from {', '.join('no effect' if n == 'none' else n for n in others)}"
+        return said
 
 
 @dataclass(frozen=True)
@@ -83,6 +98,8 @@ class MaterialLaw:
     """Of the core, as stated."""
     shift: FoundShift | None = None
     """Of a law over several temperatures: its frequencies are reduced ones."""
+    found: str = ""
+    """The effects that a diagnosis named and reckoned with, in words."""
     remount: int | None = None
     """Which mount of its specimen it was, where a session says so."""
     posterior: LawPosterior | None = None
@@ -153,7 +170,8 @@ def _diagnosed(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:
         found = _Diagnosed.model_validate(facts)
     except ValidationError:
         return None
-    return _law(path, found.after, found.verdict)
+    law = _law(path, found.after, found.verdict)
+    return replace(law, found=found.words) if law is not None else None
 
 
 def _shifted(path: Path, facts: dict[str, Any]) -> MaterialLaw | None:

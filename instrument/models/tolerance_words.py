@@ -22,9 +22,8 @@ def asked(specimen: AnySpecimen) -> list[str]:
     if not isinstance(specimen, Specimen):
         return [*specimen.numbers, "gain", "delay"]
     of_plate = {kind for _, kind in plate_numbers(specimen)}
-    return [
-        name for name in STATED if name not in _NOT_OF_A_SWEEP and (name not in PLATE or name in of_plate)
-    ]
+    unfelt = _NOT_OF_A_SWEEP if specimen.force_m is not None else (*_NOT_OF_A_SWEEP, "force")
+    return [name for name in STATED if name not in unfelt and (name not in PLATE or name in of_plate)]
 
 
 def not_named(specimen: AnySpecimen) -> list[str]:

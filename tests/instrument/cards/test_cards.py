@@ -107,6 +107,14 @@ def test_every_header_says_band_temperature_specimen_verdict_and_units(found, to
 
 
 @pytest.mark.parametrize("to", FORMATS)
+def test_a_law_after_a_diagnosis_says_what_it_reckons_with(tmp_path, to):
+    path = tmp_path / "d.json"
+    named = {"effects": [{"name": "gain_error"}], "equivalent": {"gain_error": ["gain_error", "none"]}}
+    path.write_text(json.dumps({"verdict": "ambiguous", "after": facts(), **named}), encoding="utf-8")
+    assert "verdict: ambiguous: gain_error, not told from no effect" in card(path, to)
+
+
+@pytest.mark.parametrize("to", FORMATS)
 def test_a_law_whose_verdict_is_unknown_says_so(tmp_path, to):
     path = tmp_path / "diagnose.json"
     path.write_text(json.dumps({"verdict": "unknown", "before": {}, "after": facts()}), encoding="utf-8")
