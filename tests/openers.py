@@ -15,8 +15,7 @@ Opener = tuple[str, Callable[[], object]]
 
 def openers(inside: QWidget) -> list[Opener]:
     """Every action and button below a widget, whether it can be seen now or not."""
-    menus = [plot.getViewBox().menu for plot in inside.findChildren(Plot)]
-    actions = [a for w in (inside, *inside.findChildren(QWidget), *menus) for a in w.actions()]
+    actions = [a for w in (inside, *inside.findChildren(QWidget), *_plot_menus(inside)) for a in w.actions()]
     found: list[Opener] = []
     for action in actions:
         if action.menu() is None and not action.isSeparator() and not action.isCheckable():
@@ -29,13 +28,17 @@ def openers(inside: QWidget) -> list[Opener]:
 
 def popups(inside: QWidget) -> list[Opener]:
     """Every menu and every list that drops down."""
-    plots = [plot.getViewBox().menu for plot in inside.findChildren(Plot)]
-    menus = [m for m in (*inside.findChildren(QMenu), *plots) if m.actions()]
+    menus = [m for m in (*inside.findChildren(QMenu), *_plot_menus(inside)) if m.actions()]
     lists = [c for c in inside.findChildren(QComboBox) if c.isVisible() and c.count()]
     at = inside.mapToGlobal(inside.rect().center())
     return [(m.title() or "menu", lambda m=m: m.popup(at)) for m in menus] + [
         (c.currentText() or "list", c.showPopup) for c in lists
     ]
+
+
+def _plot_menus(inside: QWidget) -> list[QMenu]:
+    """Of one plot of each kind: the others have the same."""
+    return [plot.getViewBox().getMenu() for plot in {type(p): p for p in inside.findChildren(Plot)}.values()]
 
 
 def dialogs() -> set[QDialog]:

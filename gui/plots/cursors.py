@@ -6,6 +6,7 @@ from typing import Any, Literal
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QObject, Qt
+from PySide6.QtWidgets import QMenu
 
 from fitting.arrays import Array
 from gui.theme import Theme, current_theme
@@ -29,8 +30,9 @@ class Cursors(QObject):
         self._text = pg.TextItem(anchor=(0, 1))
         self._text.setParentItem(plot.getViewBox())
         self._text.hide()
-        menu = plot.getViewBox().menu
-        menu.addSeparator()
+        plot.getViewBox().fills.append(self._fill)
+
+    def _fill(self, menu: QMenu) -> None:
         for said, slot in (
             ("Two cursors", self._choose_delta),
             ("Cursor with harmonics", self._choose_harmonic),

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QObject, QRectF, QSize
 from PySide6.QtGui import QAction, QImage, QPainter
 from PySide6.QtSvg import QSvgGenerator
+from PySide6.QtWidgets import QMenu
 
 from gui.asking import ask_save, tell
 
@@ -75,15 +76,17 @@ _SAVERS = {"PNG": save_png, "SVG": save_svg, "data CSV": save_csv}
 def add_export_menu(plot: Any) -> None:
     """Into the plot's own menu, in place of the library's dialog."""
     plot.scene().contextMenu = []
-    plot.getPlotItem().setMenuEnabled(False, enableViewBoxMenu=True)
-    menu = plot.getViewBox().menu
-    menu.addSeparator()
+    plot.getPlotItem().setMenuEnabled(False, enableViewBoxMenu=None)
     exporter = _Exporter(plot)
-    for kind in _SAVERS:
-        action = QAction(f"Export {kind}...", menu)
-        action.setData(kind)
-        action.triggered.connect(exporter.ask)
-        menu.addAction(action)
+
+    def fill(menu: QMenu) -> None:
+        for kind in _SAVERS:
+            action = QAction(f"Export {kind}...", menu)
+            action.setData(kind)
+            action.triggered.connect(exporter.ask)
+            menu.addAction(action)
+
+    plot.getViewBox().fills.append(fill)
 
 
 class _Exporter(QObject):

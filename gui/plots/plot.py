@@ -21,6 +21,7 @@ from gui.plots.cursors import Cursors
 from gui.plots.export import add_export_menu
 from gui.plots.log_axis import LogAxis
 from gui.plots.readout import Readout
+from gui.plots.view import View
 from gui.theme import Role, current_theme
 
 Symbol = Literal["o", "s", "t", "t1", "d", "+", "x", "star"]
@@ -80,18 +81,17 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
     picked = Signal(str, int)
 
     def __init__(self, x: Axis, y: Axis, parent: QWidget | None = None, *, legend: bool = True) -> None:
-        super().__init__(parent, axisItems={side: LogAxis(side) for side in ("bottom", "left")})
+        super().__init__(parent, axisItems={at: LogAxis(at) for at in ("bottom", "left")}, viewBox=View())
         self.x, self.y = x, y
         self._curves: dict[str, _Curve] = {}
         self._marks: dict[str, _Marks] = {}
         self._legend = self.addLegend(offset=(-8, 8)) if legend else None
         self.setLogMode(x.log, y.log)
-        for side in ("bottom", "left"):
+        for side in ("bottom", "left", "top", "right"):
             self.getAxis(side).enableAutoSIPrefix(False)
         self.showGrid(x=True, y=True, alpha=0.25)
         self.setMinimumSize(120, 80)
-        self._readout = Readout(self)
-        self.cursors = Cursors(self)
+        self._readout, self.cursors = Readout(self), Cursors(self)
         add_export_menu(self)
         self._paint()
 

@@ -18,6 +18,7 @@ class Result(BaseModel):
         validate_by_alias=True,
         serialize_by_alias=True,
         use_attribute_docstrings=True,
+        defer_build=True,
     )
 
     def as_json(self) -> dict[str, Any]:

@@ -31,7 +31,7 @@ def plot(qtbot, appearance):
 def export(plot, kind, path, monkeypatch):
     """By the plot's own menu."""
     monkeypatch.setattr("gui.plots.export.ask_save", lambda *asked: asked[-1](path))
-    (action,) = [a for a in plot.getViewBox().menu.actions() if a.text() == f"Export {kind}..."]
+    (action,) = [a for a in plot.getViewBox().getMenu().actions() if a.text() == f"Export {kind}..."]
     assert isinstance(action, QAction)
     action.trigger()
 

@@ -24,7 +24,7 @@ def made(qtbot, appearance):
 
 
 def choose(plot, said):
-    (action,) = [a for a in plot.getViewBox().menu.actions() if a.text() == said]
+    (action,) = [a for a in plot.getViewBox().getMenu().actions() if a.text() == said]
     action.trigger()
 
 
