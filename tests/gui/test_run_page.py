@@ -1,6 +1,7 @@
 """From the form to the end of a run: the engine's process, simulated instruments, real wires, real clicks."""
 
 import time
+from functools import partial
 from pathlib import Path
 
 import httpx
@@ -9,7 +10,9 @@ from engine_cases import LONG, drive_v, engine_rig, is_silent
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import QMessageBox
 from quick_engine import QUICK_ENGINE
+from window_runs import PATIENCE_MS, opened, started, wait_for_end, wait_for_points
 
+from gui.pages.run.check import Check
 from gui.pages.run.new_case import REAL, NewCase
 from instrument.files.rig_file import RigDocument
 from instrument.files.toml import read_document
@@ -18,7 +21,6 @@ from instrument.simulated_case import write_case
 from instrument.stream.raw import OperatorDid
 
 LEFT = Qt.MouseButton.LeftButton
-PATIENCE_MS = 120_000
 SWEEP = "[[sweep.segments]]\nlow_hz = 95.0\nhigh_hz = 107.0\npoints = 5\n"
 
 
@@ -30,38 +32,22 @@ def page(window):
 
 
 @pytest.fixture
+def unchecked(page, monkeypatch):
+    """The page without the dry run, a command that takes as long to begin as an engine does."""
+    monkeypatch.setattr(Check, "start", lambda check, experiment: None)
+    return page
+
+
+@pytest.fixture
 def rig(tmp_path):
     with engine_rig(tmp_path, sweep=LONG) as (rig, _):
         yield rig
-
-
-def opened(qtbot, window, page, path):
-    with qtbot.waitSignal(page.files.opened, timeout=PATIENCE_MS):
-        window.open(path)
-    return page
 
 
 def typed(qtbot, editor, text):
     """As a person does it: all of it marked, then overwritten."""
     editor.selectAll()
     qtbot.keyClicks(editor, text)
-
-
-def started(qtbot, window, page):
-    qtbot.mouseClick(page.starting.start, LEFT)
-    qtbot.waitUntil(lambda: window.controller.running, timeout=PATIENCE_MS)
-    return window.controller.live
-
-
-def wait_for_points(qtbot, window, count=1):
-    qtbot.waitUntil(lambda: len(window.controller.state.contents.points) >= count, timeout=PATIENCE_MS)
-
-
-def wait_for_end(qtbot, window):
-    """Of the run, until its recording is shown."""
-    qtbot.waitUntil(lambda: not window.controller.running, timeout=PATIENCE_MS)
-    qtbot.waitUntil(lambda: window.controller.recorded is not None, timeout=PATIENCE_MS)
-    return window.controller.ending
 
 
 def test_from_the_form_to_the_recording(qtbot, window, page, tmp_path):
@@ -80,36 +66,34 @@ def test_from_the_form_to_the_recording(qtbot, window, page, tmp_path):
     assert window.replay.isVisible()
 
 
-@pytest.mark.parametrize("by", ["key", "click"])
-def test_hold_resume_and_abort(qtbot, window, page, rig, tmp_path, by):
-    def do(button, key, modifier=Qt.KeyboardModifier.NoModifier):
-        if by == "key":
-            qtbot.keyClick(window, key, modifier)
-        else:
-            qtbot.mouseClick(button, LEFT)
-
-    opened(qtbot, window, page, tmp_path / "experiment.toml")
-    started(qtbot, window, page)
+def test_hold_resume_and_abort(qtbot, window, unchecked, rig, tmp_path):
+    """By keys and by clicks; an abort by a click is in the next test."""
+    by_key = partial(qtbot.keyClick, window, Qt.Key.Key_F9)
+    by_click = partial(qtbot.mouseClick, window.bar.hold, LEFT)
+    opened(qtbot, window, unchecked, tmp_path / "experiment.toml")
+    started(qtbot, window, unchecked)
     wait_for_points(qtbot, window)
-    do(window.bar.hold, Qt.Key.Key_F9)
-    qtbot.waitUntil(lambda: window.controller.state.run.state == "held", timeout=PATIENCE_MS)
-    qtbot.waitUntil(lambda: window.bar.hold.text() == "Resume")
-    qtbot.waitUntil(lambda: is_silent(rig), timeout=PATIENCE_MS)
-    done = len(window.controller.state.contents.points)
-    do(window.bar.hold, Qt.Key.Key_F9)
-    wait_for_points(qtbot, window, done + 1)
-    do(window.bar.abort, Qt.Key.Key_F9, Qt.KeyboardModifier.ControlModifier)
+    for hold, resume in ((by_key, by_click), (by_click, by_key)):
+        hold()
+        qtbot.waitUntil(lambda: window.controller.state.run.state == "held", timeout=PATIENCE_MS)
+        qtbot.waitUntil(lambda: window.bar.hold.text() == "Resume")
+        qtbot.waitUntil(lambda: is_silent(rig), timeout=PATIENCE_MS)
+        done = len(window.controller.state.contents.points)
+        resume()
+        wait_for_points(qtbot, window, done + 1)
+    by_key(Qt.KeyboardModifier.ControlModifier)
     ending = wait_for_end(qtbot, window)
     assert ending.why == "stopped by the user"
     assert is_silent(rig)
 
 
-def test_a_run_that_was_broken_off_is_carried_on(qtbot, window, page, tmp_path):
+def test_a_run_that_was_broken_off_is_carried_on(qtbot, window, unchecked, tmp_path):
+    page = unchecked
     with engine_rig(tmp_path, sweep=SWEEP.replace("points = 5", "points = 60")) as (_, experiment):
         opened(qtbot, window, page, experiment)
         started(qtbot, window, page)
         wait_for_points(qtbot, window)
-        window.controller.abort()
+        qtbot.mouseClick(window.bar.abort, LEFT)
         folder = wait_for_end(qtbot, window).folder
         qtbot.waitUntil(lambda: page.starting.resume.count() == 2, timeout=PATIENCE_MS)
         page.starting.resume.setCurrentIndex(1)
@@ -122,7 +106,8 @@ def test_a_run_that_was_broken_off_is_carried_on(qtbot, window, page, tmp_path):
     qtbot.waitUntil(lambda: page.starting.resume.count() == 1, timeout=PATIENCE_MS)
 
 
-def test_a_hit_is_rejected_and_taken_back_while_the_run_waits(qtbot, window, page, tmp_path):
+def test_a_hit_is_rejected_and_taken_back_while_the_run_waits(qtbot, window, unchecked, tmp_path):
+    page = unchecked
     with engine_rig(tmp_path, sweep=SWEEP, hammer=True) as (_, experiment):
         opened(qtbot, window, page, experiment)
         page.starting.parts["sweep"].setChecked(False)
@@ -184,9 +169,9 @@ def test_stop_silences_a_shaker_whose_acquisition_hangs(qtbot, window, page, tmp
     assert ending.why == "stopped by the user"
 
 
-def test_closing_the_window_ends_the_run_first(qtbot, window, page, rig, tmp_path):
-    opened(qtbot, window, page, tmp_path / "experiment.toml")
-    live = started(qtbot, window, page)
+def test_closing_the_window_ends_the_run_first(qtbot, window, unchecked, rig, tmp_path):
+    opened(qtbot, window, unchecked, tmp_path / "experiment.toml")
+    live = started(qtbot, window, unchecked)
     wait_for_points(qtbot, window)
     window.close()
     (question,) = window.findChildren(QMessageBox)
@@ -255,9 +240,9 @@ def test_a_simulated_experiment_is_made_and_its_secret_not_shown(qtbot, window, 
     assert "is there already" in said[0]
 
 
-def test_the_time_left_is_known_before_the_first_point(qtbot, window, page, rig, tmp_path):
-    opened(qtbot, window, page, tmp_path / "experiment.toml")
-    live = started(qtbot, window, page)
+def test_the_time_left_is_known_before_the_first_point(qtbot, window, unchecked, rig, tmp_path):
+    opened(qtbot, window, unchecked, tmp_path / "experiment.toml")
+    live = started(qtbot, window, unchecked)
     qtbot.waitUntil(lambda: "left" in window.bar.left.text(), timeout=PATIENCE_MS)
     assert not live.state.contents.points
     wait_for_points(qtbot, window, 5)
