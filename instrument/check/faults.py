@@ -13,7 +13,7 @@ from instrument.models.set_up import check_like
 from instrument.session.configuration import Experiment
 from instrument.session.setup import sweep_settings
 from instrument.simulated_case import case_file
-from instrument.simulated_case.simulation import refuse_simulation
+from instrument.simulated_case.stated import refuse_simulation
 from instrument.simulated_case.structure import stands_on
 
 _SAMPLES_A_CYCLE = 4.0

@@ -16,7 +16,6 @@ from instrument.errors import BadInput
 from instrument.facts.run import RunResult
 from instrument.progress import bar
 from instrument.report.page import report_of
-from instrument.results.diagnosis_figures import save_diagnosis_figures
 from instrument.results.diagnosis_words import law_at, with_verdict
 from instrument.run.control import RunControl
 from instrument.run.experiment import Finished, run_experiment
@@ -79,6 +78,8 @@ def _run_rig(out: Output, folder: Path, effect: str | None, seed: int) -> RunRes
     print_finished(out, finished)
     _print_beside_plant(out, finished)
     if finished.diagnosis is not None and finished.diagnosis.result is not None:
+        from instrument.results.diagnosis_figures import save_diagnosis_figures
+
         for path in save_diagnosis_figures(finished.diagnosis.result, folder):
             out.say(f"saved {path}")
     result = run_result(finished)

@@ -15,7 +15,6 @@ from instrument.models.diagnosis import diagnose as diagnose_sweep
 from instrument.models.together import diagnose_together
 from instrument.planning.follow_up import with_follow_ups
 from instrument.progress import bar
-from instrument.results.diagnosis_figures import save_diagnosis_figures
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.session_result import Conditions, result_of
 from instrument.results.together_from import diagnosed_together_from
@@ -88,6 +87,8 @@ def diagnose(
         out.say()
         print_result(out, result_of(None, result, Conditions.of_sweep(given.sweep, given.temperature_c)))
     if figures is not None:
+        from instrument.results.diagnosis_figures import save_diagnosis_figures
+
         for path in save_diagnosis_figures(result, figures):
             out.say(f"saved {path}")
     out.result(result)

@@ -29,7 +29,6 @@ from instrument.files.dma_file import DmaTable, read_dma
 from instrument.interchange.given import Given
 from instrument.material.beside import beside, beside_table
 from instrument.material.found_law import law_of_result
-from instrument.material.overlay import save_overlay
 from instrument.models.files import File
 from instrument.models.identification import Identified, Method
 from instrument.models.identification import identify as identify_sweep
@@ -38,7 +37,6 @@ from instrument.models.together import identify_together
 from instrument.progress import bar
 from instrument.results.budget_from import budget, budget_from
 from instrument.results.identification_from import identification_from
-from instrument.results.pointwise_figures import save_pointwise_figure
 from instrument.results.pointwise_from import with_second_look
 from instrument.results.session_result import BEFORE_DIAGNOSIS
 from instrument.results.together_from import identified_together_from
@@ -218,6 +216,8 @@ def identify(
         out.say(bands.words)
         result = with_second_look(result, bands)
         if figures is not None:
+            from instrument.results.pointwise_figures import save_pointwise_figure
+
             out.say(f"saved {save_pointwise_figure(bands, found.result.band, figures)}")
     if table is not None:
         result = result.but(beside=_beside(out, table, data[0], result, figures))
@@ -268,6 +268,8 @@ def _beside(
     said = beside_table(table, found)
     print_beside(out, table, found, said)
     if figures is not None:
+        from instrument.material.overlay import save_overlay
+
         out.say(f"saved {save_overlay(law, table, figures)}")
     return said
 

@@ -14,7 +14,6 @@ from instrument.interchange.given import Given
 from instrument.models.temperatures import AtTemperature, Shifted
 from instrument.models.temperatures import identify_shifted as identify_at_temperatures
 from instrument.progress import bar
-from instrument.results.shifted_figures import save_shifted_figures
 from instrument.results.shifted_from import shifted_from
 
 _ROWS = 9
@@ -47,6 +46,8 @@ def identify_shifted(
     modes = tested[0] if tested is not None else None
     found = identify_at_temperatures(sweeps, plate, kind, reference_c, bar, vertical=vertical, hammer=modes)
     if figures is not None:
+        from instrument.results.shifted_figures import save_shifted_figures
+
         for path in save_shifted_figures(found, figures):
             out.say(f"saved {path}")
     if found.verdict.simple is False:

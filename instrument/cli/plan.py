@@ -17,7 +17,6 @@ from instrument.planning.plan import make_plan
 from instrument.planning.result import result_of
 from instrument.planning.wish import CAUSES_SHARE, NOISE, TARGET, Wish
 from instrument.progress import bar
-from instrument.results.plan_figures import save_plan_figures
 
 _LEAST_RATIO = 1.05
 
@@ -137,6 +136,8 @@ def plan(
         write_into(experiment, text, found.sweep_toml)
         out.say(f"\nwritten as the [sweep] of {experiment}")
     if figures is not None:
+        from instrument.results.plan_figures import save_plan_figures
+
         for path in save_plan_figures(found, figures):
             out.say(str(path))
     out.result(found)

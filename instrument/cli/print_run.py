@@ -1,6 +1,7 @@
 """A finished run as a person sees it, and as JSON."""
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,11 +15,13 @@ from instrument.facts.session_result import SessionResult
 from instrument.results.error_words import ratio_words
 from instrument.results.followed import followed_lines, followed_of
 from instrument.results.session_result import BEFORE_DIAGNOSIS, result_of_events
-from instrument.run.experiment import Finished
 from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated, PointMeasured
 
+if TYPE_CHECKING:
+    from instrument.run.experiment import Finished  # identify prints a result, and needs no rig
 
-def run_result(finished: Finished) -> RunResult:
+
+def run_result(finished: "Finished") -> RunResult:
     """The result of `run`, `hammer` and `sweep`."""
     swept = finished.points or finished.fit is not None
     return RunResult(
@@ -32,12 +35,12 @@ def run_result(finished: Finished) -> RunResult:
     )
 
 
-def _followed(finished: Finished) -> dict[str, tuple[FollowedUp, ...]]:
+def _followed(finished: "Finished") -> dict[str, tuple[FollowedUp, ...]]:
     followed = followed_of(finished.following)
     return {"followed": followed} if followed else {}
 
 
-def print_finished(out: Output, finished: Finished) -> None:
+def print_finished(out: Output, finished: "Finished") -> None:
     """Damping, quality of the points, law, diagnosis, and where the session is."""
     if finished.damping is not None:
         print_damping(out, finished.damping)

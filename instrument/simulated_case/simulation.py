@@ -2,9 +2,8 @@
 
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import MISSING, fields
 from pathlib import Path
-from typing import Any, get_args, get_type_hints
+from typing import Any
 
 from drivers.chamber.modbus_driver import ModbusTcpChamberOptions
 from drivers.front_end.interface import Transducer
@@ -12,9 +11,7 @@ from drivers.front_end.lan_xi_documents import write_transducer
 from drivers.shaker.modbus_driver import ModbusOptions
 from drivers.shaker.register_map import DEFAULT
 from drivers.simulated.climate import Climate
-from drivers.simulated.plant.built import refuse_effects
-from drivers.simulated.plant.effects import Effects, OtherLaw
-from drivers.simulated.plant.law import MaxwellLaw
+from drivers.simulated.plant.effects import Effects
 from drivers.simulated.plant.shaken import ShakenPlate
 from drivers.simulated.plates import DampedPlate, OnShaker, SimulatedBarePlate
 from drivers.simulated.rig import OWN_MODEL, Ports, SimulatedChamber, SimulatedRig, VibrometerPeer
@@ -28,6 +25,7 @@ from instrument.files.devices import VIBROMETERS, ranges_of
 from instrument.files.rig_file import Channels, RigDocument, Simulation
 from instrument.progress import Progress, quiet
 from instrument.simulated_case.plate import plate_mount, plate_struck
+from instrument.simulated_case.stated import effects_of, refuse_without_peer
 from instrument.simulated_case.structure import mounted_structure, stands_on
 
 _QUANTITIES = {
@@ -42,22 +40,6 @@ _NOISE_V = 1e-4
 _LASER_NOISE_V = 5e-2
 """Of the vibrometer's output in good light: speckle."""
 _SENSOR_LIMIT_V = 10.0
-
-_PLAYED = {
-    "shaker": ("modbus-tcp", "modbus-rtu"),
-    "front_end": ("lan-xi",),
-    "chamber": ("modbus-tcp",),
-}
-"""Kinds that the simulated rig plays by itself."""
-
-CHANNEL_EFFECTS = {
-    "channel_delay": ("delay_s",),
-    "gain_error": ("factor",),
-    "level_error": ("factor",),
-    "mains_hum": ("amplitude_v",),
-    "absolute_velocity": (),
-}
-"""What the channels may do undeclared; the plate's own are in `drivers.simulated.plant.effects`."""
 
 
 @contextmanager
@@ -74,7 +56,7 @@ def simulated_rig(
     simulation = document.simulation
     if simulation is None:
         raise BadInput(f"{path}: [simulation] is missing, expected it for a rig to simulate; it may be empty")
-    _refuse_without_peer(document, path)
+    refuse_without_peer(document, path)
     chamber = _chamber(document, simulation)
     try:
         climate = chamber.climate if chamber else None
@@ -100,37 +82,6 @@ def simulated_rig(
     )
     with rig as addresses:
         yield addresses
-
-
-def refuse_simulation(document: RigDocument, path: Path) -> None:
-    """Raises `BadInput` for what `[simulation]` cannot be, as far as can be told without making the plate."""
-    if document.simulation is None:
-        return
-    try:
-        effects, _ = _effects(document.simulation)
-        for name in document.simulation.memory:
-            if name == "velocity" or name not in document.channels.named():
-                raise ValueError(f"memory.{name}: no such sensor on this rig")
-        if document.simulation.specimen is not None:
-            refuse_effects(stands_on(document.simulation, path).kind, effects)
-        log = document.simulation.log
-        if log is not None and not (path.parent / log).parent.is_dir():
-            raise ValueError(f"log: {log}: no such folder")
-    except (ValueError, TypeError) as error:
-        raise BadInput(f"{path}: simulation: {error}") from None
-    _refuse_without_peer(document, path)
-
-
-def _refuse_without_peer(document: RigDocument, path: Path) -> None:
-    """Raises `BadInput` for a device that nothing here can play."""
-    for name, device in document.devices().items():
-        played = _PLAYED.get(name, (device.kind,))
-        if document.is_simulated and device.kind not in played:
-            said = " or ".join(played)
-            raise BadInput(f"{path}: {name}.kind: {device.kind!r} is not simulated, expected {said}")
-    kind = document.vibrometer.kind
-    if kind != "polytec" and not VIBROMETERS[kind].can_be_simulated:
-        raise BadInput(f"{path}: vibrometer.kind: {kind!r}: its driver brings no simulated one")
 
 
 def _peer(document: RigDocument) -> VibrometerPeer | None:
@@ -160,7 +111,7 @@ def _world(
     virtual_time: bool,
     plates: dict[str, MountedPlate],
 ) -> World:
-    _, channel = _effects(simulation)
+    _, channel = effects_of(simulation)
     delay = simulation.vibrometer_delay_s + channel.get("channel_delay", {}).get("delay_s", 0.0)
     gain = channel.get("gain_error", {}).get("factor", 1.0)
     absolute = document.vibrometer.reads == "absolute" or "absolute_velocity" in channel
@@ -187,7 +138,7 @@ def _plates(
     document: RigDocument, simulation: Simulation, path: Path, climate: Climate | None, progress: Progress
 ) -> dict[str, MountedPlate]:
     """What can stand there, by name: the published plate, or what `[simulation]` names."""
-    effects, _ = _effects(simulation)
+    effects, _ = effects_of(simulation)
     alike, mount, struck = _of_the_bare_plate(effects), None, None
     if simulation.specimen is not None:
         stands = stands_on(simulation, path)
@@ -234,43 +185,3 @@ def _memories(channels: Channels, simulation: Simulation) -> dict[int, dict[str,
         )
         for name, one in simulation.memory.items()
     }
-
-
-def _effects(simulation: Simulation) -> tuple[Effects, dict[str, dict[str, Any]]]:
-    """The plate's and the channels'. Raises `ValueError`, `TypeError` naming what is wrong."""
-    kinds = {name: get_args(hint)[0] for name, hint in get_type_hints(Effects).items()}
-    plate: dict[str, Any] = {}
-    channel: dict[str, dict[str, Any]] = {}
-    for name, values in simulation.effects.items():
-        if name in CHANNEL_EFFECTS:
-            unknown = set(values) ^ set(CHANNEL_EFFECTS[name])
-            if unknown:
-                raise ValueError(f"effects.{name}: {', '.join(sorted(unknown))} missing or unknown")
-            if not all(isinstance(v, float | int) for v in values.values()):
-                raise ValueError(f"effects.{name}: expected numbers")
-            channel[name] = values
-        elif name == "core_law":
-            plate[name] = OtherLaw(_law(values))
-        elif name in kinds:
-            known = {f.name for f in fields(kinds[name])}
-            needed = {f.name for f in fields(kinds[name]) if f.default is MISSING}
-            if not needed <= set(values) <= known:
-                raise ValueError(
-                    f"effects.{name}: expected {', '.join(sorted(known))}, found {', '.join(values)}"
-                )
-            plate[name] = kinds[name](**values)
-        else:
-            known_names = ", ".join(sorted([*kinds, *CHANNEL_EFFECTS]))
-            raise ValueError(f"effects.{name}: unknown, expected one of {known_names}")
-    if simulation.core:
-        plate["core_law"] = OtherLaw(_law(simulation.core))
-    return Effects(**plate), channel
-
-
-def _law(values: dict[str, Any]) -> MaxwellLaw:
-    """A Maxwell series from g_inf_mpa, g_mpa, tau_s."""
-    if set(values) != {"g_inf_mpa", "g_mpa", "tau_s"}:
-        raise ValueError(f"core: expected g_inf_mpa, g_mpa, tau_s, found {', '.join(values)}")
-    return MaxwellLaw(
-        1e6 * values["g_inf_mpa"], tuple(1e6 * g for g in values["g_mpa"]), tuple(values["tau_s"])
-    )

@@ -14,7 +14,7 @@ from instrument.files.rig_file import RigDocument
 from instrument.files.structure_file import read_structure
 from instrument.simulated_case import case_file
 from instrument.simulated_case.plate import plate_of, unlike_a_cantilever
-from instrument.simulated_case.simulation import refuse_simulation
+from instrument.simulated_case.stated import refuse_simulation
 
 
 @pytest.fixture

@@ -1,0 +1,44 @@
+"""`[simulation]` of RIG.toml: what it hides, what it cannot be, and the rig that it stands up."""
+
+import pytest
+
+from instrument.errors import BadInput
+from instrument.files.rig_file import RigDocument
+from instrument.files.toml import read_document
+from instrument.simulated_case import write_case
+from instrument.simulated_case.simulation import simulated_rig
+from instrument.simulated_case.stated import CHANNEL_EFFECTS, effects_of
+
+
+@pytest.fixture
+def rig(tmp_path):
+    write_case(tmp_path)
+    return tmp_path / "rig.toml"
+
+
+def stated(rig, **changes):
+    document = read_document(rig, RigDocument)
+    return document.model_copy(update={"simulation": document.simulation.model_copy(update=changes)})
+
+
+def test_effects_of_the_plate_and_of_the_channels_are_told_apart(rig):
+    hidden = {"added_mass": {"mass_kg": 0.008, "x_m": 0.25, "y_m": 0.05}, "gain_error": {"factor": 1.1}}
+    plate, channel = effects_of(stated(rig, effects=hidden).simulation)
+    assert plate.added_mass.mass_kg == 0.008
+    assert channel == {"gain_error": {"factor": 1.1}}
+
+
+@pytest.mark.parametrize("name", CHANNEL_EFFECTS)
+def test_an_effect_of_a_channel_has_its_numbers_and_no_others(rig, name):
+    said = stated(rig, effects={name: dict.fromkeys((*CHANNEL_EFFECTS[name], "loudness"), 1.0)}).simulation
+    with pytest.raises(ValueError, match=f"effects.{name}: loudness missing or unknown"):
+        effects_of(said)
+
+
+def test_without_its_table_no_rig_is_stood_up(rig):
+    document = read_document(rig, RigDocument).model_copy(update={"simulation": None})
+    with (
+        pytest.raises(BadInput, match=r"rig.toml: \[simulation\] is missing"),
+        simulated_rig(document, rig, virtual_time=True),
+    ):
+        pass
