@@ -18,6 +18,9 @@ COMMANDS = {
         "identify {} --specimen coarse.toml",
         "import {} --out out.csv",
     ),
+    "dma.csv": ("identify sweep.csv --specimen coarse.toml --with {}",),
+    "modes.csv": ("identify {} --specimen beam.toml",),
+    "sensors.toml": ("sensors {}",),
     "frf.csv": ("damping {}", "import {} --out out.csv"),
     "hits.csv": ("damping {}",),
     "hits.lvm": ("damping {}",),
@@ -47,13 +50,23 @@ def write_files(folder: Path, session: Path | None = None) -> None:
     shutil.copy(DATA / "numbers" / "coarse.toml", folder)
     sweep = (DATA / "practice-005.csv").read_text().splitlines()
     (folder / "sweep.csv").write_text("\n".join([sweep[0], *sweep[1::8]]) + "\n")
-    for kind in ("beam", "shear-pair", "experiment", "rig"):
+    for kind in ("beam", "shear-pair", "experiment", "rig", "sensors"):
         (folder / f"{kind}.toml").write_text(TEMPLATES[kind].read_text())
     (folder / "specimen.toml").write_text(TEMPLATES["plate"].read_text())
+    _write_tables(folder)
     _write_found(folder)
     _write_records(folder)
     if session is not None:
         shutil.copy(session, folder / "small.h5")
+
+
+def _write_tables(folder: Path) -> None:
+    """A rheometer's, and a sandwich beam's modes as its template predicts them."""
+    rows = [f"{f},{t},{3e5 * f**0.2:.6g},0.8" for t in (10, 30) for f in (1, 10, 30, 100)]
+    head = "frequency_hz,temperature_c,storage_modulus_pa,loss_factor\n"
+    (folder / "dma.csv").write_text(head + "\n".join(rows) + "\n")
+    modes = "1,74.3,0.221\n2,365.6,0.223\n3,922.2,0.179\n4,1670,0.126\n"
+    (folder / "modes.csv").write_text("mode,frequency_hz,loss_factor\n" + modes)
 
 
 def _write_found(folder: Path) -> None:

@@ -6,6 +6,7 @@ from instrument.cli.output import Output
 from instrument.facts.beside import BesideTable
 from instrument.files.dma_file import DmaTable
 from instrument.material.beside import TableAtTemperature
+from instrument.results.numbers import format_number
 
 _SAYS = {True: "differs", False: "agrees", None: "cannot be told"}
 
@@ -28,7 +29,7 @@ def print_beside(out: Output, table: DmaTable, found: list[TableAtTemperature], 
                 f"{at.storage_modulus_rms_difference_percent:.2f}",
                 f"{at.loss_factor_mean_difference:+.4f}",
                 f"{at.loss_factor_rms_difference:.4f}",
-                f"{one.p_value:.3g}",
+                format_number(one.p_value, 3),
                 _SAYS[one.differs],
             ]
         )

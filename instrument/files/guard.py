@@ -8,10 +8,11 @@ import numpy as np
 
 from fitting.modal.frf import Frf
 from instrument.errors import BadInput
+from instrument.files.table import LARGEST
 from instrument.impact.record import Hit
 
-LARGEST, SMALLEST = 1e30, 1e-30
-"""Sizes in SI units that no channel has; their squares are still numbers."""
+SMALLEST = 1e-30
+"""A size in SI units that no channel's largest value has."""
 _RATES_HZ = (1.0, 1e8)
 _LEAST_SAMPLES = 8
 _LONGEST = 100

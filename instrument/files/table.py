@@ -14,6 +14,8 @@ from instrument.files.rates import rate_of_step
 from instrument.files.text import read_text
 
 Rows = list[tuple[int, list[str]]]
+LARGEST = 1e30
+"""A size in SI units that nothing measured has; its square is still a number."""
 _RATE = re.compile(r"^#\s*sample_rate_hz\s*:\s*(\S+)", re.M)
 _OFF_GRID = 0.2
 """Times are often written with few digits: judged by their place on the grid, in steps."""
@@ -65,13 +67,15 @@ def check_separator(path: Path, header: list[str], separator: str = ",") -> None
 
 
 def number(path: Path, line: int, name: str, text: str) -> float:
-    """A finite number, or one line saying where it is not. Raises `BadInput`."""
+    """A finite number of a size that is measured, or one line saying where it is not. Raises `BadInput`."""
     try:
         value = float(text)
     except ValueError:
         raise BadInput(f"{path}: line {line}: {name} = {text!r}, expected a number") from None
     if not math.isfinite(value):
         raise BadInput(f"{path}: line {line}: {name} = {text}, expected a finite number")
+    if abs(value) > LARGEST:
+        raise BadInput(f"{path}: line {line}: {name} = {text}, expected nothing beyond {LARGEST:g} in size")
     return value
 
 

@@ -8,7 +8,8 @@ import numpy as np
 
 from fitting.plugins import NoPlugin, Registry
 from instrument.errors import BadInput
-from instrument.files.guard import LARGEST, checked_frf, checked_hits, said_of
+from instrument.files.guard import checked_frf, checked_hits, said_of
+from instrument.files.table import LARGEST
 from instrument.interchange.found import Found
 from instrument.interchange.provenance import one_line
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import BaseModel, Field, ValidationError
+from pydantic import AfterValidator, BaseModel, Field, ValidationError
 from scipy.interpolate import PchipInterpolator
 
 from fitting.arrays import Array, Complex
@@ -15,6 +15,7 @@ from fitting.structures import AnySpecimen
 from fitting.structures.shear_pair import ShearPair
 from instrument.errors import BadInput
 from instrument.facts.identification import IdentificationResult
+from instrument.files.table import LARGEST
 from instrument.files.text import read_text
 from instrument.interchange.given import is_session
 from instrument.interchange.identified import identify_session, result_of_fit
@@ -28,16 +29,26 @@ from instrument.session.storage import SessionFile
 NOT_DIAGNOSED = "not diagnosed"
 NOT_STATED = "not stated"
 
-Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
-Finite = Annotated[float, Field(allow_inf_nan=False)]
+Positive = Annotated[float, Field(gt=0, le=LARGEST, allow_inf_nan=False)]
+Finite = Annotated[float, Field(ge=-LARGEST, le=LARGEST, allow_inf_nan=False)]
+
+
+def _an_error(value: float) -> float:
+    """NaN says that nothing is known."""
+    if value < 0 or value > LARGEST:
+        raise ValueError(f"{value:g}, expected a standard error")
+    return value
+
+
+Error = Annotated[float, AfterValidator(_an_error)]
 
 
 class _Row(BaseModel):
     frequency_hz: Positive
     storage_modulus_pa: Positive
     loss_factor: Finite
-    storage_modulus_standard_error_pa: float | None = None
-    loss_factor_standard_error: float | None = None
+    storage_modulus_standard_error_pa: Error | None = None
+    loss_factor_standard_error: Error | None = None
 
 
 class _LawFound(BaseModel):

@@ -1,6 +1,7 @@
 """Cards, read back by readers of their own: what they say is the law within what they promise."""
 
 import json
+import math
 import re
 
 import card_readers as readers
@@ -166,6 +167,16 @@ def test_a_session_whose_diagnosis_failed_gives_its_last_fit(tmp_path):
 def test_what_is_no_law_is_refused_in_one_line(tmp_path, text):
     path = tmp_path / "x.json"
     path.write_text(text, encoding="utf-8")
+    with pytest.raises(BadInput, match=r"x\.json"):
+        read_law(path)
+
+
+@pytest.mark.parametrize("error", [-0.01, math.inf, "9" * 400])
+def test_an_error_that_is_none_is_refused(tmp_path, error):
+    wrong = facts()
+    wrong["law"][0]["loss_factor_standard_error"] = error
+    path = tmp_path / "x.json"
+    path.write_text(json.dumps(wrong), encoding="utf-8")
     with pytest.raises(BadInput, match=r"x\.json"):
         read_law(path)
 

@@ -15,7 +15,11 @@ from scipy.io import savemat
 
 from instrument.cli.main import run
 
-QUICK = [n for n in COMMANDS if n not in ("sweep.csv", "hammer.json", "shear-pair.toml", "coarse.toml")]
+QUICK = [
+    n
+    for n in COMMANDS
+    if n not in ("sweep.csv", "dma.csv", "modes.csv", "hammer.json", "shear-pair.toml", "coarse.toml")
+]
 """Whose commands take well below a second."""
 
 
@@ -76,6 +80,12 @@ def refused(capsys, here, line, said):
     assert faults == []
     assert status == 2
     assert said in err
+
+
+@pytest.mark.parametrize("name", ["dma.csv", "sensors.toml"])
+def test_a_valid_table_has_its_work_done(capsys, here, name):
+    faults, status, _ = attacked(capsys, here, COMMANDS[name][0].format(name))
+    assert (faults, status) == ([], 0)
 
 
 MAT = {

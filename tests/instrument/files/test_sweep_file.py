@@ -101,6 +101,7 @@ BAD = {
     "column twice": ("frequency_hz,velocity_m_s,frequency_hz\n1,2,1\n", "twice"),
     "nan": (AMPLITUDES.replace("0.0726", "nan"), "line 2: velocity_m_s = nan"),
     "infinite": (AMPLITUDES.replace("0.0726", "inf"), "line 2: velocity_m_s = inf"),
+    "too large": (AMPLITUDES.replace("0.0726", "2e30"), "velocity_m_s = 2e30, expected nothing beyond"),
     "text": (AMPLITUDES.replace("0.0726", "loud"), "line 2: velocity_m_s = 'loud'"),
     "missing value": (AMPLITUDES.replace("0.0726", ""), "line 2: velocity_m_s = ''"),
     "ragged": (AMPLITUDES.replace("19.3,", "19.3,1,"), "line 3: 3 columns, expected 2"),
