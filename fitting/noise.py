@@ -27,12 +27,12 @@ class Noise:
     """Standard deviation of every point (of each part of a phasor)."""
 
     std_m_s: Array
-    source: Literal["stated", "local scatter", "unknown"]
-    """`unknown`: relative to the reading, known up to a common factor only."""
+    source: Literal["stated", "local scatter", "misfit", "unknown"]
+    """`unknown`: relative to the reading, known up to a common factor only; `misfit`: what a fit has left."""
 
     @property
     def is_known(self) -> bool:
-        """Whether chi-square means anything."""
+        """Whether readings have a size of error to be weighed by."""
         return self.source != "unknown"
 
 

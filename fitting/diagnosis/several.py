@@ -24,8 +24,10 @@ from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid
 from fitting.diagnosis.response import SweepResponse, spans_of
 from fitting.diagnosis.sharing import CHANNELS, OF_EACH_FILE, OF_EACH_PLATE, OF_EACH_SPOT, Places, shared
+from fitting.diagnosis.small_problem import BENT_MORE
 from fitting.diagnosis.strains import Reference
 from fitting.diagnosis.unknowns import STATED_NUMBER
+from fitting.diagnosis.wandering import Wandering
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.identification.adjusted import Adjusted
@@ -48,6 +50,8 @@ class SeveralProblem(DiagnosisProblem):
     """File and spot of each member."""
     plates: one_plate.Plates = ()
     """Which of them are one plate, driven and read at several points."""
+    wandering: Wandering | None = None
+    """How far gain and phase wander, where files disagree beyond their noise."""
     taken: Taken = field(default_factory=Taken, init=False, compare=False, repr=False)
 
     @classmethod
@@ -111,14 +115,21 @@ class SeveralProblem(DiagnosisProblem):
         return [slice(int(e) - len(m.sweep), int(e)) for e, m in zip(ends, self.members, strict=True)]
 
     @property
+    def file_of_points(self) -> NDArray[np.intp]:
+        """Numbers of files, from 1. Shape (points,)."""
+        return np.concatenate(
+            [np.full(len(m.sweep), b.file) for m, b in zip(self.members, self.belongs, strict=True)]
+        )
+
+    @property
     def resonances(self) -> Complex:
         """Of all members. Shape (poles,)."""
         return np.concatenate([m.resonances for m in self.members])
 
     @property
     def freedom(self) -> float:
-        """As much as any member asks for."""
-        return max(m.freedom for m in self.members)
+        """As much as any member asks for, and more where files disagree."""
+        return max(BENT_MORE if self.wandering is not None else 1.0, *(m.freedom for m in self.members))
 
     def condensed(self, law: CoreLaw, sides: Sequence[Array] = ()) -> "SeveralProblem":
         """Every member condensed."""
@@ -140,6 +151,8 @@ class SeveralProblem(DiagnosisProblem):
             block = np.zeros((len(own), len(v)), complex)
             block[:, part] = own
             rows.append(block)
+        if self.wandering is not None:
+            rows.append(self.wandering.rows(np.log(self.sweep.frequency_hz), self.file_of_points, v))
         return np.concatenate(rows)
 
     def adjusted(self, z: Array, errors: Array) -> tuple[Adjusted, ...]:

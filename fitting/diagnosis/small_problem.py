@@ -83,7 +83,7 @@ class SmallProblem(DiagnosisProblem):
         a_point[order] = np.gradient(np.log(f[order])) if len(f) > 1 else REACH
         together = np.sqrt(np.maximum(1.0, REACH / np.maximum(a_point, 1e-9)))
         more = self.misfit * together * np.abs(self.sweep.response_m_s)
-        return Noise(np.hypot(noise.std_m_s, more) if noise.is_known else more, "local scatter")
+        return Noise(np.hypot(noise.std_m_s, more) if noise.is_known else more, "misfit")
 
     def model_error(self, law: CoreLaw, v: Complex) -> Complex:
         """Gain and phase of the instruments, and their drift from one end of a segment to the other.

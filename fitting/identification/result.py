@@ -67,7 +67,7 @@ class Identification:
     @property
     def chi2_means_something(self) -> bool:
         """Whether residuals are in units of a known noise."""
-        return self.noise.is_known and self.method == "direct"
+        return self.noise.source not in ("unknown", "misfit") and self.method == "direct"
 
     @property
     def rms_percent(self) -> float:

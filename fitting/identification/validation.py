@@ -1,7 +1,7 @@
 """Error on data the fit has not seen: one point at a time, or whole segments where there are many."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +32,11 @@ class Validation:
     leave_one_out_rms_percent: float | None = None
     held_out: tuple[HeldOutSegment, ...] = ()
     held_out_rms_percent: float | None = None
+
+    @property
+    def without_noise(self) -> "Validation":
+        """The same where nobody knows the noise."""
+        return replace(self, held_out=tuple(replace(h, noise_percent=float("nan")) for h in self.held_out))
 
 
 def validate(

@@ -111,3 +111,5 @@ def _print_validation(out: Output, r: Identification) -> None:
         out.say(
             f"chi-square per degree of freedom {r.uncertainty.chi2_per_dof:.3g}, noise by {r.noise.source}"
         )
+    elif r.noise.source == "misfit":
+        out.say("no chi-square: readings count for as much as the fit leaves of them, not for their noise")

@@ -42,6 +42,7 @@ from instrument.models.identification import Identified, Joint
 from instrument.models.second_process import executor
 from instrument.models.set_up import Hammer
 from instrument.models.theory import theory_over
+from instrument.models.transfer import with_transfer
 from instrument.progress import Progress, quiet
 
 _ROUNDS = 4
@@ -133,6 +134,8 @@ class _Work:
             n.std_m_s if known else np.abs(m.sweep.response_m_s) for n, m in zip(noises, members, strict=True)
         ]
         source = noises[0].source if known else "unknown"
+        if known and any(self.misfit):
+            source = "misfit"
         places = [Place(n, f.pickup) for n, f in zip(numbers_of(self.files), self.files, strict=True)]
         return SeveralProblem.of_members(members, reduced, places), Noise(np.concatenate(std), source)
 
@@ -224,10 +227,9 @@ def identify_together(
                 begun, noise = work.without_glitches()
                 sizes = ", ".join(f"{100 * m:.2g}" for m in work.misfit)
             further = (
-                f"the files follow no one law within their noise (rms {sizes} %): that misfit is taken "
-                f"for the "
-                "error of each reading, and for files whose cores differ by a few percent; see 'viscorig "
-                "diagnose'",
+                f"the files follow no one law within their noise: each file's rms misfit ({sizes} %), once "
+                "for every 0.12 in ln f, is taken for the error of its readings, and for files whose cores "
+                "differ by a few percent; see 'viscorig diagnose'",
             )
         fit = fit_of(begun)
     seconds = perf_counter() - ready
@@ -237,6 +239,8 @@ def identify_together(
     checked = perf_counter()
     with threadpool_limits(1, "blas"), progress("validating"):
         validation = held_out(begun.problem, begun.evidence, begun.none)
+        if noise.source == "misfit":
+            validation = validation.without_noise
     sweep = begun.problem.sweep
     further += (*remarks_on_files(files), *(one.words(files) for one in work.aside))
     result = summarise("direct", sweep, noise, fit, validation, further)
@@ -299,6 +303,8 @@ def diagnose_together(
                 workers,
                 settle=in_light_of_the_law,
             )
+            if "fixture_transfer" in {e.name for e in effects} and result.verdict == "unknown":
+                result = with_transfer(result, work)
     further = (*remarks_on_files(files), *(one.words(files) for one in work.aside))
     result = replace(result, warnings=(*result.warnings, *further))
     for file in files:

@@ -82,6 +82,8 @@ def unexplained_section(fitted: ReportedFit) -> ReportSection:
     chi2 = (
         format_number(r.uncertainty.chi2_per_dof, 3)
         if r.chi2_means_something
+        else "none: readings count by what the fit leaves of them"
+        if r.noise.source == "misfit"
         else "not known: the noise is not"
     )
     rows = [

@@ -7,6 +7,8 @@ import pytest
 from shear_pair_cases import LAW, MASSES_KG, pair, sweep
 
 from instrument.cli.main import run
+from instrument.cli.output import Output
+from instrument.cli.print_identification import print_identification
 from instrument.errors import BadInput
 from instrument.files.structure_file import read_structure
 from instrument.files.sweep_file import read_sweep
@@ -121,6 +123,19 @@ def test_a_resonance_of_the_fixture_is_set_aside():
     assert any(one.glitch.low_hz < 330 < one.glitch.high_hz for one in found.aside)
     # Its tails stay.
     assert law_error(found.found.result.law).max() < 0.03
+
+
+def test_where_no_law_fits_there_is_no_chi_square(capsys):
+    found = identify_together(files([0.2533, 0.573], wander=0.02)).found
+    result = found.result
+    assert result.noise.source == "misfit"
+    assert not result.chi2_means_something
+    assert np.isnan([h.noise_percent for h in result.validation.held_out]).all()
+    print_identification(Output(None), found, sweep(pair(0.3)), pair(0.3))
+    said = capsys.readouterr().out
+    assert "no chi-square: readings count for as much as the fit leaves of them" in said
+    assert "% (noise" not in said
+    assert "chi-square per degree" not in said
 
 
 @pytest.mark.skipif(not REAL.exists(), reason="the real records are not here")

@@ -1,0 +1,176 @@
+"""What a rig does alike to every reading of several files: a transfer between base accelerometer and pads.
+
+    ln(measured / predicted) = g(f) + o_file(f) + J x + noise
+
+g is common to all files, o each file's own, both complex Gaussian processes of ln f of unknown size, each the
+sum of a slow one and a fine one; x moves law and stated numbers within what is known of them. To first order
+everything is normal, so the sizes are those that make the readings likeliest, and the transfer is there where
+g makes them far likelier than o alone. Masses part it from the core: 1/T is then a straight line in the mass,
+at every frequency by itself, and g the inverse of where the line begins.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import cho_factor, cho_solve
+from scipy.optimize import minimize
+
+from fitting.arrays import Array, Complex, Mask
+from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.problem import DiagnosisProblem
+from fitting.diagnosis.refit import Refitted
+from fitting.diagnosis.responses import response_of
+from fitting.diagnosis.wandering import Wandering
+from fitting.identification.validation import HeldOutSegment, Validation, rms
+
+NATS = 10.0
+"""What a transfer must gain in the logarithm of the marginal likelihood: its two sizes cost less."""
+POINTS = 70
+"""Of a file, evenly in ln f: nearer ones say the same again. A choice, of time."""
+_TYPICAL, _SPREAD = 0.01, 2.2
+"""Of a size: its median, and the standard deviation of its logarithm."""
+_LEAST, _MOST = 1e-5, 0.3
+"""Of a size, where a search may go: rounding, and what no channel does. A choice."""
+_EVALUATIONS = 250
+"""A bound on time."""
+
+
+@dataclass(frozen=True)
+class RigTransfer:
+    """A transfer that was found."""
+
+    wandering: Wandering
+    nats: float
+    """Gained over files that wander each by itself."""
+    ln_g: Complex
+    """At every point of the problem it was asked of. Shape (points,)."""
+    off: Array
+    """100 (|predicted| - |measured|)/|measured|, each segment from the others. Shape (points taken,)."""
+    taken: NDArray[np.intp]
+
+
+@dataclass(frozen=True)
+class _Linear:
+    """Everything to first order about a fit, at some of the points."""
+
+    r: Complex
+    """ln(measured / predicted), the stated numbers and the bend taken back to what was stated."""
+    by_x: Complex
+    """Changes of ln of the reading by a standard deviation of what is known of x. Shape (x, points)."""
+    noise: Array
+    t: Array
+    file: NDArray[np.intp]
+
+    def covariance(self, w: Wandering) -> Array:
+        """Of the residuals, parts one after the other. Shape (2 points, 2 points)."""
+        n = len(self.t)
+        found = np.zeros((2 * n, 2 * n))
+        found[:n, :n] = found[n:, n:] = w.covariance(self.t, self.file) + np.diag(self.noise**2)
+        J = np.concatenate([self.by_x.real, self.by_x.imag], axis=1)
+        return found + J.T @ J
+
+    @property
+    def data(self) -> Array:
+        """Shape (2 points,)."""
+        return np.concatenate([self.r.real, self.r.imag])
+
+    def log_evidence(self, w: Wandering) -> float:
+        """Up to a constant."""
+        root = cho_factor(self.covariance(w), lower=True)
+        y = self.data
+        return float(-0.5 * y @ cho_solve(root, y) - np.log(np.diag(root[0])).sum())
+
+
+def thinned(t: Array, file: NDArray[np.intp], count: int = POINTS) -> NDArray[np.intp]:
+    """Of every file so many points at most, evenly in ln f. Shapes (points,)."""
+    found = []
+    for k in np.unique(file):
+        its = np.flatnonzero(file == k)
+        its = its[np.argsort(t[its], kind="stable")]
+        at = np.linspace(t[its].min(), t[its].max(), count)
+        found.append(np.unique(its[np.abs(t[its][:, None] - at).argmin(axis=0)]))
+    return np.concatenate(found)
+
+
+def rig_transfer(
+    problem: DiagnosisProblem, evidence: Evidence, none: Refitted, file: NDArray[np.intp]
+) -> RigTransfer | None:
+    """What the files have in common, or None where it is not called for.
+
+    `file`: of every point. Shape (points,).
+    """
+    if not problem.sweep.has_phase:
+        return None
+    t = np.log(problem.sweep.frequency_hz)
+    taken = thinned(t, file)
+    task = _linear(problem, evidence, none, file, taken)
+    own, _ = _likeliest(task, common=False)
+    both, best = _likeliest(task, common=True)
+    if both - own < NATS:
+        return None
+    solved = np.linalg.solve(task.covariance(best), task.data)
+    across = best.common(t, t[taken])
+    n = len(taken)
+    ln_g = across @ solved[:n] + 1j * (across @ solved[n:])
+    off = _from_the_others(task, best, problem.sweep.segment[taken])
+    return RigTransfer(best, both - own, ln_g, off, taken)
+
+
+def validation_of(found: RigTransfer, segment: NDArray[np.intp], noise_percent: Array) -> Validation:
+    """Every segment predicted from the others, by the transfer as well. Shapes (points,)."""
+    its = segment[found.taken]
+    each = tuple(
+        HeldOutSegment(int(k), rms(found.off[its == k]), rms(noise_percent[segment == k]))
+        for k in np.unique(its)
+    )
+    return Validation(held_out=each, held_out_rms_percent=rms(found.off))
+
+
+def _linear(
+    problem: DiagnosisProblem,
+    evidence: Evidence,
+    none: Refitted,
+    file: NDArray[np.intp],
+    taken: NDArray[np.intp],
+) -> _Linear:
+    v, dv = response_of(problem, none.effects).with_derivatives(none.law, none.u)
+    by = (dv / v)[:, taken]
+    plain, bend = none.law.search_widths, none.law.bend_count
+    n = len(plain)
+    # What has a prior at zero: the bend's whitened values and the stated numbers.
+    moved = np.concatenate([np.zeros(n), np.log(none.law.values[n : n + bend]), none.u])
+    by[:n] *= plain[:, None]
+    measured = problem.sweep.response_m_s[taken]
+    r = np.log(measured / v[taken]) + moved @ by
+    noise = evidence.sigma_m_s[taken] / np.abs(v[taken])
+    return _Linear(r, by, noise, np.log(problem.sweep.frequency_hz[taken]), file[taken])
+
+
+def _likeliest(task: _Linear, *, common: bool) -> tuple[float, Wandering]:
+    """Log evidence with the prior of the sizes, and the sizes. Without `common` there is no g."""
+
+    def wandering(x: Array) -> Wandering:
+        sizes = np.exp(np.clip(x, np.log(_LEAST), np.log(_MOST)))
+        return Wandering(*sizes) if common else Wandering(0.0, 0.0, *sizes)
+
+    def cost(x: Array) -> float:
+        prior = np.sum(((x - np.log(_TYPICAL)) / _SPREAD) ** 2) / 2
+        return float(prior - task.log_evidence(wandering(x)))
+
+    start = np.full(4 if common else 2, np.log(_TYPICAL))
+    found = minimize(
+        cost, start, method="Nelder-Mead", options={"maxfev": _EVALUATIONS, "fatol": 0.05, "xatol": 0.02}
+    )
+    return -float(found.fun), wandering(found.x)
+
+
+def _from_the_others(task: _Linear, w: Wandering, segment: NDArray[np.intp]) -> Array:
+    C, y = task.covariance(w), task.data
+    off = np.zeros(len(segment))
+    for k in np.unique(segment):
+        inside: Mask = np.tile(segment == k, 2)
+        known = np.linalg.solve(C[np.ix_(~inside, ~inside)], y[~inside])
+        there = (C[np.ix_(inside, ~inside)] @ known)[: int(inside.sum()) // 2]
+        off[segment == k] = 100 * np.expm1(there - task.r.real[segment == k])
+    return off

@@ -1,0 +1,58 @@
+"""Beside a diagnosis that explains nothing: what a rig does to every mass alike."""
+
+import numpy as np
+import pytest
+from shear_pair_cases import LAW, pair, sweep
+
+from fitting.sweep import Sweep
+from instrument.models.files import File
+from instrument.models.together import _Work, diagnose_together
+from instrument.models.transfer import with_transfer
+from instrument.progress import quiet
+
+MASSES_KG = (0.2533, 0.573, 1.196)
+
+
+def factor(f):
+    r = f / 240.0
+    return 0.97 * np.exp(0.02j) * (1 + 0.02 * r**2 / (1 - r**2 + 0.1j * r))
+
+
+def files(*, alike):
+    given = []
+    for k, m in enumerate(MASSES_KG):
+        s = sweep(pair(m), seed=k, noise=5e-4, points=90, wander=0.0 if alike else 0.01)
+        v = s.velocity_m_s * (factor(s.frequency_hz) if alike else 1.0)
+        given.append(File(Sweep(**{**vars(s), "velocity_m_s": v}), pair(m)))
+    return given
+
+
+def law_off(band):
+    at = (band.frequency_hz > 80) & (band.frequency_hz < 500)
+    G = LAW.modulus(2 * np.pi * band.frequency_hz[at])
+    found = band.storage_modulus_pa[at] * (1 + 1j * band.loss_factor[at])
+    return np.abs(found / G - 1).max()
+
+
+@pytest.mark.parametrize("alike", [True, False])
+def test_only_what_all_files_have_in_common_is_listed_and_changes_the_law(alike):
+    given = files(alike=alike)
+    # Nothing searched: as where the catalogue has explained nothing.
+    before = diagnose_together(given, accept=[]).found.result
+    work = _Work(given, quiet, with_effects=True)
+    work.used = np.split(before.used, np.cumsum([len(one.sweep) for one in given])[:-1])
+    found = with_transfer(before, work)
+    listed = {c.name: c for c in found.channels}
+    if not alike:
+        assert found is before
+        return
+    values = {k: p.value for k, p in listed["fixture_transfer"].parameters.items()}
+    true = np.log(factor(np.concatenate([one.sweep.frequency_hz for one in given])))
+    assert values["gain"] == pytest.approx(np.mean(np.expm1(true.real)), abs=0.015)
+    assert values["phase"] == pytest.approx(np.mean(true.imag), abs=0.01)
+    assert values["largest"] == pytest.approx(np.abs(np.expm1(true)).max(), abs=0.05)
+    assert law_off(found.after.band) < 0.4 * law_off(before.after.band)
+    assert found.after.rms_percent < 0.5 * before.after.rms_percent
+    assert found.after.validation.held_out_rms_percent < before.after.validation.held_out_rms_percent
+    assert len(found.after.predicted_m_s) == len(before.after.predicted_m_s)
+    assert "All files are off alike" in found.explanation[-1]
