@@ -22,6 +22,10 @@ from fitting.parts import coefficients, layers_of, loaded, names_of
 SNAPSHOTS = 12
 """Points of frequency and modulus that are solved in full, each a factorisation. A choice; `TOLERANCE` is of
 what they span."""
+USUAL_HZ = 420.0
+"""As far as these reach."""
+_FURTHER, _BEYOND = 6, 1.05
+"""Snapshots from there on where a sweep goes further, and to what multiple of its reach (decision 30)."""
 TOLERANCE = 3e-3
 """Of a typical change, what may be missed; the reading's error goes with its square."""
 
@@ -31,15 +35,19 @@ def enriched(
     basis: Array,
     spans: Sequence[Span],
     progress: Callable[[float], None] = lambda fraction: None,
+    reach_hz: float = USUAL_HZ,
 ) -> EnrichedReducedPlate:
-    """Build it. `basis`: the unchanged plate's columns over the held degrees of freedom. Shape (held, k)."""
-    halves = _halves(full)
+    """Build it to hold up to `reach_hz`.
+
+    `basis`: the unchanged plate's columns over the held degrees of freedom. Shape (held, k).
+    """
+    halves, points = _halves(full), _points(reach_hz)
     first = halves[0]
     with threadpool_limits(1, "blas"), ThreadPoolExecutor(2) as pool:
         found: list[list[dict[str, Stirred]]] = []
-        for answers in pool.map(lambda at: _responses(full, halves, spans, at), _points()):
+        for answers in pool.map(lambda at: _responses(full, halves, spans, at), points):
             found.append(answers)
-            progress(0.8 * len(found) / SNAPSHOTS)
+            progress(0.8 * len(found) / len(points))
         own = [first.orthonormal(first.of(full.lift @ basis))]
         most = _MOST_ODD * (full.loads.shape[1] - 1)
         own += [odd.leading([each[1]["plate"] for each in found], None, 1e-4, most) for odd in halves[1:]]
@@ -47,7 +55,7 @@ def enriched(
             half.groups[f"plate{ending}"] = known
 
         def motions(span: Span) -> list[Array]:
-            count = span.columns if full.only_even else 2 * span.columns
+            count = span.columns * len(points) // SNAPSHOTS * (1 if full.only_even else 2)
             count = count * full.loads.shape[1] // 2
             return [
                 half.leading([each[n][span.name] for each in found], own[n], TOLERANCE, count)
@@ -74,12 +82,21 @@ def _halves(full: FullPlate) -> tuple[Motions, ...]:
     return (Motions(full, "carried"),)
 
 
-def _points() -> list[tuple[float, complex]]:
-    """Frequencies from 12 to 420 Hz, moduli from 0.1 to 10 MPa, lossy; a low-discrepancy set."""
+def reach_over(frequency_hz: Array) -> float:
+    """What the motions that effects stir must reach for some frequencies, in Hz. Shape (n,)."""
+    highest = float(np.max(frequency_hz))
+    return USUAL_HZ if highest <= USUAL_HZ else 100 * float(np.ceil(highest / 100))
+
+
+def _points(reach_hz: float) -> list[tuple[float, complex]]:
+    """Frequencies from 12 Hz on, moduli from 0.1 to 10 MPa, lossy; a low-discrepancy set."""
     s = (0.5 + np.arange(SNAPSHOTS) * 0.7549) % 1
-    t = (0.5 + np.arange(SNAPSHOTS) * 0.5698) % 1
-    omega = 2 * np.pi * 12 * 35.0**s
-    return [(float(w), complex(1e5 * 100.0**m * (1 + 0.6j))) for w, m in zip(omega, t, strict=True)]
+    omega = list(2 * np.pi * 12 * 35.0**s)
+    if reach_hz > USUAL_HZ:
+        t = (0.5 + np.arange(_FURTHER)) / _FURTHER
+        omega += list(2 * np.pi * USUAL_HZ * (_BEYOND * reach_hz / USUAL_HZ) ** t)
+    m = (0.5 + np.arange(len(omega)) * 0.5698) % 1
+    return [(float(w), complex(1e5 * 100.0**n * (1 + 0.6j))) for w, n in zip(omega, m, strict=True)]
 
 
 def _responses(

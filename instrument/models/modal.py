@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
+from functools import partial
 from time import perf_counter
 
 from threadpoolctl import threadpool_limits
@@ -11,7 +12,7 @@ from fitting.damping import viscous_damping
 from fitting.effects import CATALOGUE, all_spans, span_modules
 from fitting.effects.base import Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.enriching import enriched
+from fitting.effects.enriching import enriched, reach_over
 from fitting.effects.full_plate import FullPlate
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
@@ -103,7 +104,7 @@ def diagnose_tables(
     with threadpool_limits(1, "blas"):
         with progress("spanning what effects change") as report:
             members = [
-                member_of(t, s, lambda s, V: _widened(s, V, report))
+                member_of(t, s, partial(_widened, report=report, reach_hz=reach_over(t.frequency_hz)))
                 for t, s in zip(tables, specimens, strict=True)
             ]
         ready = perf_counter()
@@ -116,15 +117,16 @@ def diagnose_tables(
     return TablesDiagnosed(found, effects, ready - began, perf_counter() - ready, remarks)
 
 
-def _widened(specimen: Specimen, V: Array, report: Report) -> EnrichedReducedPlate:
+def _widened(specimen: Specimen, V: Array, report: Report, reach_hz: float) -> EnrichedReducedPlate:
     def build() -> EnrichedReducedPlate:
         plate = Plate(specimen)
-        return enriched(FullPlate(plate, viscous_damping(plate)), V, all_spans(specimen), report)
+        full = FullPlate(plate, viscous_damping(plate))
+        return enriched(full, V, all_spans(specimen), report, reach_hz)
 
     assert specimen.core is not None
     lawless = specimen.with_law(ConstantModulus(1e6, 0.0))
-    modules = [*span_modules(), own_motions.__module__]
-    return cached("modes", [lawless, V.shape[1]], EnrichedReducedPlate, build, modules)
+    modules = [*span_modules(), enriched.__module__, own_motions.__module__]
+    return cached("modes", [lawless, V.shape[1], reach_hz], EnrichedReducedPlate, build, modules)
 
 
 def check_theories(law: CoreLaw, tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> None:

@@ -234,9 +234,11 @@ def _spanned(models: Models) -> EnrichedReducedPlate:
     def build() -> EnrichedReducedPlate:
         full = FullPlate(models.plate, models.damping)
         with models.progress("spanning what effects change") as report:
-            return enriched(full, models.plate.carried @ reduced.V, all_spans(models.specimen), report)
+            spans = all_spans(models.specimen)
+            return enriched(full, models.plate.carried @ reduced.V, spans, report, models.reach_hz)
 
-    return cached("spanned", [models.without_law, models.domain], EnrichedReducedPlate, build, span_modules())
+    depends_on = [models.without_law, models.domain, models.reach_hz]
+    return cached("spanned", depends_on, EnrichedReducedPlate, build, [*span_modules(), enriched.__module__])
 
 
 def bare_of(modes: MatchedModes, specimen: Specimen) -> BareModes:

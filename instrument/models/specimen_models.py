@@ -9,6 +9,7 @@ from fitting.arrays import Array, Complex
 from fitting.damping import LowRankDamping, viscous_damping
 from fitting.direct import displacement_direct
 from fitting.domain import Domain, domain_of
+from fitting.effects.enriching import USUAL_HZ, reach_over
 from fitting.errors import OutsideModel
 from fitting.identification.model import velocity
 from fitting.laws import CoreLaw
@@ -31,6 +32,8 @@ class Models:
     specimen: Specimen
     domain: Domain
     progress: Progress = quiet
+    reach_hz: float = USUAL_HZ
+    """How far up the motions hold that effects stir."""
 
     @classmethod
     def of(cls, specimen: Specimen, frequency_hz: Array, progress: Progress = quiet) -> "Models":
@@ -50,7 +53,7 @@ class Models:
                 "a free plate has no base to be excited by, expected an edge that is clamped or supported, "
                 'or [excitation] kind = "force"'
             )
-        return cls(specimen, domain_of(specimen, frequency_hz), progress)
+        return cls(specimen, domain_of(specimen, frequency_hz), progress, reach_over(frequency_hz))
 
     @cached_property
     def plate(self) -> Plate:
