@@ -112,6 +112,15 @@ class BentLaw(CoreLaw):
         )
         return np.concatenate([own, by_g, by_e])
 
+    def moduli(self, logs: Array, omega: Array) -> Complex:
+        """As `CoreLaw.moduli` has it."""
+        n, half = len(self.law.names), len(self.knots_hz)
+        xi = np.clip(logs[:, n:], -_MOST, _MOST)
+        W = self._weights(np.asarray(omega, dtype=float))
+        g, e = self.freedom * STORAGE * xi[:, :half] @ W, self.freedom * LOSS * xi[:, half:] @ W
+        G = self.law.moduli(logs[:, :n], omega)
+        return np.asarray(np.exp(g) * (G.real + 1j * np.exp(e) * G.imag))
+
     def _bent(self, omega: Array) -> tuple[Array, Array]:
         xi = np.log(np.array(self.bend)).reshape(2, -1)
         W = self._weights(omega)

@@ -55,7 +55,7 @@ class MarginalLaw:
         X[:, self.own] = T
         G, r, by_G = self._at
         n, omega = len(task.law.names), task.begun.problem.sweep.omega
-        moved = np.array([task.law.with_logs(row).modulus(omega) for row in task.full(X)[:, :n]]) - G
+        moved = task.law.moduli(task.full(X)[:, :n], omega) - G
         v = task.begun.none.velocity_m_s
         count = evidence.count
         change = evidence.whitening(evidence.over_sigma(v, by_G * moved).T).T / task.worth[:count]

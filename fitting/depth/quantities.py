@@ -28,15 +28,14 @@ class Quantities:
 
     def logs(self, x: Array) -> Array:
         """Logarithms at some unknowns. Shape (quantities,)."""
-        whole = self.task.full(x)
-        law = self.task.law.with_logs(whole[: len(self.task.law.names)])
-        storage, eta = law.storage_and_loss(2 * np.pi * self.frequency_hz)
-        both = np.log(np.column_stack([storage, np.maximum(eta, 1e-12)]))
-        return np.concatenate([whole[self._own], both.ravel()])
+        return np.asarray(self.of_many(x[None])[0])
 
     def of_many(self, X: Array) -> Array:
         """Shapes (any, kept) to (any, quantities)."""
-        return np.array([self.logs(x) for x in X])
+        whole = self.task.full(X)
+        G = self.task.law.moduli(whole[:, : len(self.task.law.names)], 2 * np.pi * self.frequency_hz)
+        both = np.log(np.stack([G.real, np.maximum(G.imag / G.real, 1e-12)], axis=2))
+        return np.concatenate([whole[:, self._own], both.reshape(len(X), -1)], axis=1)
 
     def gradient(self, x: Array) -> Array:
         """Derivatives of `logs`. Shape (quantities, kept)."""

@@ -196,6 +196,13 @@ class CoreLaw:
             np.array([min(max(np.exp(p), q.lower), q.upper) for p, q in zip(logs, limits, strict=True)])
         )
 
+    def moduli(self, logs: Array, omega: Array) -> Complex:
+        """G* in Pa of many laws of this kind, one a row of logarithms. Shapes (any, names) to (any, points).
+
+        `omega` in rad/s, shape (points,).
+        """
+        return np.array([self.with_logs(row).modulus(omega) for row in logs]).reshape(len(logs), len(omega))
+
     def storage_and_loss(self, omega: Array) -> tuple[Array, Array]:
         """G' in Pa and eta, dimensionless. Shape of `omega` each."""
         G = self.modulus(omega)

@@ -28,6 +28,11 @@ class FractionalZener(CoreLaw):
         z = (1j * omega * self.tau_s) ** self.alpha
         return (self.g0_pa + self.ginf_pa * z) / (1 + z)
 
+    def moduli(self, logs: Array, omega: Array) -> Complex:
+        g0, ginf, tau, alpha = np.exp(np.clip(logs, *self.log_limits)).T[:, :, None]
+        z = np.exp(alpha * (np.log(omega * tau) + 0.5j * np.pi))
+        return np.asarray((g0 + ginf * z) / (1 + z))
+
     def jacobian(self, omega: Array) -> Complex:
         z = (1j * omega * self.tau_s) ** self.alpha
         dG_dz = (self.ginf_pa - self.g0_pa) / (1 + z) ** 2

@@ -36,12 +36,9 @@ def in_depth(
 
     Of several fitted together by profile alone.
     """
-    if found.joint is None or np.isnan(found.result.uncertainty.covariance).any():
+    quantities = quantities_of(found)
+    if quantities is None or found.joint is None:
         return None
-    f = found.result.band.frequency_hz
-    low, high = float(f[0]), float(f[-1])
-    at = sorted({low, high, *(r for r in REFERENCE_FREQUENCIES_HZ if low < r < high)})
-    quantities = Quantities(DepthTask.of(found.joint.begun), np.array(at))
     with threadpool_limits(1, "blas"), progress(f"uncertainty by {method}") as report:
         if method == "profile":
             return InDepth((profile(quantities, report),))
@@ -52,6 +49,16 @@ def in_depth(
             return InDepth((bootstrap(quantities, many), bootstrap(quantities, many, "segments")))
         drawn = sample(quantities, many, samples, report=report)
         return InDepth((drawn.intervals,), drawn)
+
+
+def quantities_of(found: Identified) -> Quantities | None:
+    """What `in_depth` looks at; None where it has nothing to look at."""
+    if found.joint is None or np.isnan(found.result.uncertainty.covariance).any():
+        return None
+    f = found.result.band.frequency_hz
+    low, high = float(f[0]), float(f[-1])
+    at = sorted({low, high, *(r for r in REFERENCE_FREQUENCIES_HZ if low < r < high)})
+    return Quantities(DepthTask.of(found.joint.begun), np.array(at))
 
 
 def in_depth_facts(looked: InDepth) -> list[dict[str, Any]]:

@@ -82,3 +82,14 @@ def test_a_bend_keeps_a_core_passive(seed):
 def test_beyond_the_band_it_goes_back_to_the_law():
     far = 2 * np.pi * np.array([1e-2, 1e5])
     np.testing.assert_allclose(bent(TABLE_4, 3).modulus(far), TABLE_4.modulus(far), rtol=1e-6)
+
+
+@pytest.mark.parametrize("law", LAWS, ids=lambda law: law.kind)
+def test_many_moduli_at_once_are_those_one_by_one(law):
+    rng = np.random.default_rng(4)
+    for one in (law, bent(law, 2)):
+        rows = np.log(one.values) + 0.3 * rng.normal(size=(5, len(one.values)))
+        # A row beyond a limit is kept within.
+        rows[0, len(law.values) - 1] = 50.0
+        expected = [one.with_logs(row).modulus(OMEGA) for row in rows]
+        np.testing.assert_allclose(one.moduli(rows, OMEGA), expected, rtol=1e-12)
