@@ -40,7 +40,8 @@ def test_a_window_that_is_late_looks_less_often_in_a_run_only(window, monkeypatc
 
 
 @pytest.mark.parametrize("number", range(5))
-def test_each_page_has_its_key(qtbot, window, number):
+def test_each_page_has_its_key(qtbot, kept_window, number):
+    window = kept_window
     window.show_page(window.pages[(number + 1) % 5].objectName())
     qtbot.keyClick(window, Qt.Key.Key_1 + number, Qt.KeyboardModifier.ControlModifier)
     assert window.tabs.currentIndex() == number
@@ -96,8 +97,8 @@ def test_a_dropped_session_opens_at_its_end(qtbot, window, session_path):
     ("name", "content"),
     [("no.h5", b"no session"), ("no.csv", b"\x00\xff"), ("no.uff", b"nothing"), ("no.zip", b"PK")],
 )
-def test_a_bad_file_gives_one_message_and_leaves_the_session(qtbot, opened, tmp_path, name, content):
-    said = []
+def test_a_bad_file_gives_one_message_and_leaves_the_session(qtbot, kept, tmp_path, name, content):
+    opened, said = kept, []
     opened.controller.refused.connect(said.append)
     before = opened.controller.feed
     bad = tmp_path / name

@@ -31,15 +31,24 @@ def shown(qtbot, window, path):
     """The page, of a session at its end."""
     page = page_of(window, DiagnosisPage)
     window.tabs.setCurrentWidget(page)
-    window.open(path)
-    qtbot.waitUntil(lambda: window.controller.recorded is not None)
-    window.turn()
+    if window.controller.recorded is None or window.controller.recorded.path != path:
+        window.open(path)
+        qtbot.waitUntil(lambda: window.controller.recorded is not None)
+        window.turn()
     return page
 
 
 @pytest.fixture
 def page(qtbot, window, diagnosed_path):
     return shown(qtbot, window, diagnosed_path)
+
+
+@pytest.fixture
+def looked_at(qtbot, kept_window, diagnosed_path):
+    """In the window of the whole module, its first view open; for tests that look, and choose views."""
+    page = shown(qtbot, kept_window, diagnosed_path)
+    page.views.setCurrentIndex(0)
+    return page
 
 
 def select(qtbot, page, name):
@@ -50,7 +59,8 @@ def select(qtbot, page, name):
     qtbot.mouseClick(table.viewport(), LEFT, pos=table.visualRect(index).center())
 
 
-def test_the_verdict_is_what_was_recorded(page):
+def test_the_verdict_is_what_was_recorded(looked_at):
+    page = looked_at
     assert page.finding.verdict.said.startswith("Ambiguous: added_mass (mass 0.008 ± 0.0001 kg")
     assert page.finding.origin.said == "recorded with the session"
     assert page.finding.next.text.endswith(AMBIGUOUS.next_measurement)
@@ -58,7 +68,8 @@ def test_the_verdict_is_what_was_recorded(page):
     assert not page.empty.isVisible()
 
 
-def test_what_could_be_measured_next_is_ranked_and_the_first_is_what_is_advised(page):
+def test_what_could_be_measured_next_is_ranked_and_the_first_is_what_is_advised(looked_at):
+    page = looked_at
     assert isinstance(page.next, NextTable)
     page.views.setCurrentWidget(page.next)
     assert page.next.table.texts(0) == [o["todo"] for o in (SPOT, BACKWARDS)]
@@ -67,7 +78,8 @@ def test_what_could_be_measured_next_is_ranked_and_the_first_is_what_is_advised(
     assert page.next.table.cell(0, 0).tip == SPOT["why"]
 
 
-def test_candidates_are_ranked_with_their_group(page):
+def test_candidates_are_ranked_with_their_group(looked_at):
+    page = looked_at
     table = page.candidates.table
     assert table.texts(0)[:4] == ["added_mass", "spot_offset", "added_mass + spot_offset", "none"]
     assert table.texts(1)[:2] == ["found", "not told from it"]
@@ -75,7 +87,8 @@ def test_candidates_are_ranked_with_their_group(page):
     assert [table.cell(k, 2).share for k in range(4)] == pytest.approx([1.0, 0.99125, 0.985, 0.0])
 
 
-def test_before_and_after_stand_on_the_same_axes(qtbot, page):
+def test_before_and_after_stand_on_the_same_axes(qtbot, looked_at):
+    page = looked_at
     qtbot.waitUntil(lambda: page.residual.drawn)
     for number in (1, 2, 3):
         before, after = (page.residual.plots[number, stage] for stage in ("before", "after"))
@@ -113,7 +126,8 @@ def test_the_error_is_shown_beside_noise(qtbot, page):
     assert first == ["segment 1, predicted from the others", "% rms", "11.2", "0.224", "0.1"]
 
 
-def test_the_law_is_shown_before_and_after(page):
+def test_the_law_is_shown_before_and_after(looked_at):
+    page = looked_at
     page.views.setCurrentWidget(page.law)
     assert page.law.plots.names == ("before", "after: with added_mass")
     assert page.law.table.texts(0) == ["20", "100", "280"]

@@ -9,6 +9,7 @@ import sys
 
 import pytest
 from batch_cases import CORRUPT, write_specimen, write_sweeps
+from ending_jobs import end_always, end_once
 
 from instrument.batch.asking import tasks_of
 from instrument.batch.run import here, run_batch, there
@@ -59,30 +60,16 @@ def test_killed_at_a_third_and_started_again_the_table_is_equal_to_the_bit(tmp_p
     assert (tmp_path / "batch.csv").read_bytes() == whole
 
 
-def _end_once(job):
-    """Whoever is first ends its process."""
-    folder, name = job
-    try:
-        os.close(os.open(os.path.join(folder, "ended"), os.O_CREAT | os.O_EXCL))
-    except FileExistsError:
-        return name
-    return os.kill(os.getpid(), signal.SIGKILL)
-
-
-def _end_always(path):
-    os.kill(os.getpid(), signal.SIGKILL)
-
-
 def test_a_killed_process_costs_its_jobs_a_second_go(tmp_path):
     kept = {}
     jobs = [(str(tmp_path), k) for k in range(5)]
-    in_processes(_end_once, jobs, 2, kept.__setitem__)
+    in_processes(end_once, jobs, 2, kept.__setitem__)
     assert kept == {job: job[1] for job in jobs}
 
 
 def test_a_job_that_always_ends_its_process_is_given_up_alone(tmp_path):
     kept = {}
-    in_processes(_end_always, ["a", "b"], 2, kept.__setitem__, lost=lambda job: f"lost {job}")
+    in_processes(end_always, ["a", "b"], 2, kept.__setitem__, lost=lambda job: f"lost {job}")
     assert kept == {"a": "lost a", "b": "lost b"}
 
 
