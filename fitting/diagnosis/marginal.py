@@ -24,7 +24,7 @@ _UNIFORM = 12.0
 def cost(fitted: Refitted, plate: EnrichedReducedPlate) -> float:
     """-2 ln of prior times marginal likelihood. Where the noise is unknown its size is integrated too."""
     law_widths = fitted.law.search_widths
-    priors = [_prior(q, lower, upper, u) for q, lower, upper, u in _free(fitted, plate)]
+    priors = _priors(fitted, plate)
     densities = np.array([*np.log(1 / (law_widths * np.sqrt(_UNIFORM))), *(density for density, _ in priors)])
     J = fitted.jacobian
     if not fitted.noise_known:
@@ -42,10 +42,10 @@ def cost(fitted: Refitted, plate: EnrichedReducedPlate) -> float:
 def prior_precision(fitted: Refitted, plate: EnrichedReducedPlate) -> Array:
     """What is known of each fitted number without the rows of its Jacobian. Shape (columns,).
 
-    What the data leave open, the prior still bounds: the law's ranges, the effects' expected sizes. A bend
-    and the stated numbers have rows of their own.
+    What the data leave open, the prior still bounds: the law's ranges, the effects' expected sizes. A bend,
+    the stated numbers and what is tied to another number have rows of their own.
     """
-    effects = [_prior(q, lower, upper, u)[1] for q, lower, upper, u in _free(fitted, plate)]
+    effects = [width for _, width in _priors(fitted, plate)]
     widths = fitted.law.search_widths
     found = np.zeros(fitted.jacobian.shape[1])
     found[: len(widths)] = 1 / widths**2
@@ -72,14 +72,18 @@ def _odds(effect: Effect) -> float:
     return -2 * float(np.log(effect.chance / (1 - effect.chance)))
 
 
-def _free(fitted: Refitted, plate: EnrichedReducedPlate) -> list[tuple[EffectParameter, float, float, float]]:
-    """Every fitted unknown of the effects with its limits and where it is."""
+def _priors(fitted: Refitted, plate: EnrichedReducedPlate) -> list[tuple[float, float]]:
+    """Ln density and width, as `_prior` has them, of every fitted unknown of the effects."""
     found, start = [], fitted.stated
     for effect in fitted.effects:
         lower, upper = effect.limits(plate)
+        tied = {tie.other: tie.sigma for tie in effect.ties}
         for k, q in enumerate(effect.parameters):
-            if fitted.free[start + k]:
-                found.append((q, float(lower[k]), float(upper[k]), float(fitted.u[start + k])))
+            if fitted.free[start + k] and k in tied:
+                # Normal about another one; how far off it is, is in its row, and so is its width.
+                found.append((-float(np.log(tied[k] * np.sqrt(2 * np.pi))), np.inf))
+            elif fitted.free[start + k]:
+                found.append(_prior(q, float(lower[k]), float(upper[k]), float(fitted.u[start + k])))
         start += len(effect.parameters)
     return found
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array
-from fitting.effects.base import CLAMP, BarePlateModes, Effect, EffectParameter, Points
+from fitting.effects.base import CLAMP, BarePlateModes, Effect, EffectParameter, Points, Tie
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 FILE, PICKUP = "file", "pickup"
@@ -47,7 +47,8 @@ class OfFiles(Effect):
     """`inner` in every file (`file` 0) or in one, counted from 1; the forms are tried apart.
 
     With `spots` also at one of them in every file (`pickup`, -1 for all). What comes of a mounting is also
-    tried with a size of its own in each file (`file` -1): those of further files have their number behind.
+    tried with a size of its own in each file (`file` -1): those of further files have their number behind,
+    and lie about the first one's as one mounting lies about another (`EffectParameter.mounting`).
     """
 
     def __init__(
@@ -64,9 +65,10 @@ class OfFiles(Effect):
         self.apart = apart
         self.inner, self.files, self.file, self.spots, self.spot = inner, files, file, spots, spot
         where = [EffectParameter(FILE, "1", float(EACH), float(files), float(file), neutral=None, fixed=True)]
-        self._copies = files if file == EACH else 1
+        self.copies = files if file == EACH else 1
+        """How many times it has the unknowns of `inner`."""
         further = [
-            replace(q, key=f"{q.key}_{k + 1}") for k in range(1, self._copies) for q in inner.parameters
+            replace(q, key=f"{q.key}_{k + 1}") for k in range(1, self.copies) for q in inner.parameters
         ]
         one_spot = inner.enters == "channel" and spot != _ALL
         if spots:
@@ -103,17 +105,27 @@ class OfFiles(Effect):
         return self.inner.objection(points, plate)
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        return [np.append(np.tile(u, self._copies), self._where) for u in self.inner.starts(plate, points)]
+        return [np.append(np.tile(u, self.copies), self._where) for u in self.inner.starts(plate, points)]
 
     def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
         low, high = self.inner.limits(plate)
         where = self.parameters[-len(self._where) :]
-        low, high = np.tile(low, self._copies), np.tile(high, self._copies)
+        low, high = np.tile(low, self.copies), np.tile(high, self.copies)
         return np.append(low, [q.lower for q in where]), np.append(high, [q.upper for q in where])
 
     def scaled(self, u: Array, a: float) -> Array:
-        each = np.split(u[: -len(self._where)], self._copies)
+        each = np.split(u[: -len(self._where)], self.copies)
         return np.concatenate([*(self.inner.scaled(one, a) for one in each), self._where])
+
+    @property
+    def ties(self) -> tuple[Tie, ...]:
+        inner = self.inner.parameters
+        return tuple(
+            Tie(m, k * len(inner) + m, q.mounting)
+            for k in range(1, self.copies)
+            for m, q in enumerate(inner)
+            if q.mounting is not None
+        )
 
     @property
     def needs_mounting(self) -> bool:

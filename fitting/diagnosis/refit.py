@@ -34,7 +34,7 @@ class Refitted:
     """The stated numbers, in standard deviations, then the effects' unknowns. Shape (unknowns,)."""
     velocity_m_s: Complex
     residuals: Array
-    """Whitened; the bare plate's after the sweep's, then the stated numbers'."""
+    """Whitened; the bare plate's after the sweep's, then the stated numbers', the bend's, the ties'."""
     jacobian: Array
     """To the log parameters of the law, to the stated numbers and to the free unknowns as they are fitted."""
     data: int
@@ -265,7 +265,7 @@ class JointProblem:
         rows = [(r, J)]
         if self.evidence.bare is not None:
             rows.append(self._bare(u))
-        rows += [self._prior(u), self._bend(law)]
+        rows += [self._prior(u), self._bend(law), self._ties(u)]
         r, J = np.concatenate([a for a, _ in rows]), np.vstack([b for _, b in rows])
         self._last = key, r, J, v
         return r, J, v
@@ -308,6 +308,22 @@ class JointProblem:
         J = np.zeros((law.bend_count, self._n + int(self.free.sum())))
         J[:, self._n - law.bend_count : self._n] = np.eye(law.bend_count)
         return np.log(law.values[self._n - law.bend_count :]), J
+
+    def _ties(self, u: Array) -> tuple[Array, Array]:
+        """Of unknowns known beside others: their differences in standard deviations."""
+        t, column = self._to_inner(u), self._n - 1 + np.cumsum(self.free)
+        first, other, sigma = list[int](), list[int](), list[float]()
+        start = self._z
+        for e in self.response.effects:
+            for tie in e.ties:
+                first.append(start + tie.first)
+                other.append(start + tie.other)
+                sigma.append(tie.sigma)
+            start += len(e.parameters)
+        over, each = 1 / np.array(sigma), np.arange(len(sigma))
+        J = np.zeros((len(sigma), self._n + int(self.free.sum())))
+        J[each, column[first]], J[each, column[other]] = -over, over
+        return (t[other] - t[first]) * over, J
 
     def fitted(self, x: Array) -> Refitted:
         """As a fit that ended there. `x` of shape (columns,)."""

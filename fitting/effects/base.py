@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Literal, Protocol
+from typing import ClassVar, Literal, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,6 +76,19 @@ class EffectParameter:
     An unknown without a neutral value is as likely anywhere within its limits, one with a logarithm in its
     logarithm.
     """
+    mounting: float | None = None
+    """Standard deviation of how much it differs once the specimen was clamped anew with another torque: in
+    its logarithm, or in `unit`. None for what a mounting leaves as it is.
+    """
+
+
+class Tie(NamedTuple):
+    """Two unknowns of an effect that are nearly one."""
+
+    first: int
+    other: int
+    sigma: float
+    """Standard deviation of their difference, as they are fitted: of their logarithms where they have one."""
 
 
 @dataclass(frozen=True)
@@ -181,6 +194,11 @@ class Effect:
         A fit of this one that ends where only a simpler one acts has found a place for that. Shapes
         (parameters,) each.
         """
+        return ()
+
+    @property
+    def ties(self) -> tuple[Tie, ...]:
+        """Unknowns known beside others of its own: the prior of `other` is about `first`."""
         return ()
 
     def shows(self, points: Points, resonances: Complex, u: Array) -> bool:

@@ -73,7 +73,9 @@ class ClampComplianceEffect(Effect):
     enters = "stiffness"
     source = "elastic foundation of the root face, e.g. MacBain and Genin, J. Sound Vib. 27 (1973)"
     needs = CLAMP
-    parameters = (EffectParameter("k", "N/m^3", 1e12, 1e16, 5e13, logarithmic=True, neutral=float("inf")),)
+    parameters = (
+        EffectParameter("k", "N/m^3", 1e12, 1e16, 5e13, logarithmic=True, neutral=float("inf"), mounting=1.0),
+    )
     spans = (YieldingRoot(),)
     unexplained_share = 0.003
     chance = 0.05

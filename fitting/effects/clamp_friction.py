@@ -20,7 +20,7 @@ class ClampFrictionEffect(Effect):
     needs = CLAMP
     parameters = (
         *ClampComplianceEffect.parameters,
-        EffectParameter("loss_factor", "1", 0.0, 1.0, 0.1, spread=0.3),
+        EffectParameter("loss_factor", "1", 0.0, 1.0, 0.1, spread=0.3, mounting=0.1),
     )
     spans = ClampComplianceEffect.spans
     extends = "clamp_compliance"

@@ -14,6 +14,8 @@ from fitting.effects.other_plates import changed_to, forces
 from fitting.effects.span import Span
 from fitting.specimen import Specimen
 
+_MOUNTING_M = 3e-4
+"""A jaw bites at its edge, however hard: put to the same mark a plate comes back to some tenths of a mm."""
 _SCALES = (0.98, 1.02)
 """Over the stated length."""
 
@@ -65,7 +67,7 @@ class ClampLineEffect(Effect):
     source = "the paper's Eq. (15) to (18) on a mesh stretched along x; the viscous damping kept"
     needs = CLAMP
     parameters = (
-        EffectParameter("dlength", "m", -8e-3, 8e-3, 1e-3, spread=2e-3),
+        EffectParameter("dlength", "m", -8e-3, 8e-3, 1e-3, spread=2e-3, mounting=_MOUNTING_M),
         EffectParameter("pickup_too", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),
     )
     spans = (Length(),)

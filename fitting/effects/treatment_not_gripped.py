@@ -51,7 +51,9 @@ class TreatmentNotGrippedEffect(Effect):
     source = "free end of a constrained layer, e.g. Plunkett and Lee, J. Acoust. Soc. Am. 48 (1970)"
     needs = CLAMP | WHOLE
     parameters = (
-        EffectParameter("k", "N/m^2", 1e6, 1e12, 1e8, logarithmic=True, neutral=float("inf"), complete=True),
+        EffectParameter(
+            "k", "N/m^2", 1e6, 1e12, 1e8, logarithmic=True, neutral=float("inf"), complete=True, mounting=1.0
+        ),
     )
     spans = (FreeTreatment(),)
     discriminating_test = (

@@ -59,7 +59,7 @@ class UnevenClampEffect(Effect):
     needs = CLAMP
     parameters = (
         *ClampComplianceEffect.parameters,
-        EffectParameter("slope", "1", -_MOST, _MOST, 0.3, spread=0.4),
+        EffectParameter("slope", "1", -_MOST, _MOST, 0.3, spread=0.4, mounting=0.3),
     )
     spans = (UnevenRoot(),)
     extends = "clamp_compliance"

@@ -5,8 +5,8 @@ further passes of the same segments: what a fit took for the plate's error at on
 Everything is linear about the rival's mode.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.evidence import BareModes, Evidence
-from fitting.diagnosis.marginal import expected_size, prior_precision
+from fitting.diagnosis.marginal import prior_precision
 from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.of_files import OfFiles, Place
 from fitting.diagnosis.problem import DiagnosisProblem
@@ -26,6 +26,7 @@ from fitting.diagnosis.result import Rivals
 from fitting.diagnosis.several import SeveralProblem
 from fitting.diagnosis.whitening import SHARE
 from fitting.effects.base import Effect
+from fitting.planning.forms import forms_of
 from fitting.planning.known_mass import KnownMass
 from fitting.planning.rivalry import Forecast
 from fitting.planning.sensitivity import ReadingNoise
@@ -50,9 +51,8 @@ class Further:
     """Kinds of stated numbers that are others (`fitting.tolerances`): as uncertain as they are stated."""
     without: frozenset[str] = frozenset()
     """Effects that are not in it."""
-    about: Mapping[str, float] = field(default_factory=dict)
-    """Effects that are there anew, and by what each of their numbers may differ: in its logarithm, or in
-    expected sizes."""
+    remounted: bool = False
+    """Whether the specimen is clamped anew: numbers that a mounting changes are others by so much."""
     mass: KnownMass | None = None
     like: Places | None = None
     """Of frequencies that were not measured: the first sweep's points that the model errs like."""
@@ -91,12 +91,20 @@ class Expecting:
         self.problem, self.evidence, self.temper = rivals.problem, rivals.evidence, rivals.temper
         each = rivals.each[:most]
         self.names = rivals.names[:most]
-        self.probabilities = np.array([p for _, p in each]) / sum(p for _, p in each)
+        forms = [
+            (k, fitted, p * share)
+            for k, (one, p) in enumerate(each)
+            for fitted, share in forms_of(rivals, one)
+        ]
+        self.of = [k for k, _, _ in forms]
+        """Whose each of the forms is that are asked."""
+        self.probabilities = np.array([p for _, _, p in forms]) / sum(p for _, _, p in forms)
+        """Of the forms. Shape (forms,)."""
         first = each[0][0]
         self.reduced = rivals.reduced
         """The plate that frequencies not yet measured are asked of; None where there is none."""
         self._errors = model_error(self.problem, rivals.reduced, first.law, first.velocity_m_s)
-        self.known = [self._learnt(fitted) for fitted, _ in each]
+        self.known = [self._learnt(fitted) for _, fitted, _ in forms]
 
     @cached_property
     def member(self) -> DiagnosisProblem:
@@ -123,7 +131,7 @@ class Expecting:
         return slice(0, len(self.problem.sweep))
 
     def forecasts(self, further: Further, noise: ReadingNoise) -> list[Forecast]:
-        """Of each rival."""
+        """Of each form of each rival."""
         raw = [self._raw(known, further) for known in self.known]
         v = raw[0].v
         sigma = np.hypot(noise.std_m_s(v, further.dwell_s), SHARE * np.abs(v))
@@ -134,7 +142,7 @@ class Expecting:
         return np.abs(self._raw(self.known[0], further).v)
 
     def struck(self, bare: BareModes) -> list[Forecast]:
-        """Of each rival, of a hammer test of the bare plate. Only its frequencies are asked."""
+        """Of each form, of a hammer test of the bare plate. Only its frequencies are asked."""
         return [self._struck(known, bare) for known in self.known]
 
     def _learnt(self, fitted: Refitted) -> Known:
@@ -156,7 +164,7 @@ class Expecting:
         L = np.linalg.cholesky(P * np.outer(d, d) + 1e-12 * np.eye(len(P)))
         root = wider * d[:, None] * la.solve_triangular(L, np.eye(len(P)), lower=True).T
         mean = np.asarray(np.linalg.solve(B.T @ B + np.eye(errors), B.T @ left), dtype=float)
-        effects, places, _ = self._effects(fitted, frozenset(), {})
+        effects, places = self._effects(fitted, frozenset())
         by_level = None
         if not any(type(e).modulus is not Effect.modulus for e in effects):
             u = np.concatenate([fitted.u[self._stated], *(fitted.u[p] for p in places)])
@@ -173,7 +181,7 @@ class Expecting:
         fitted, member = known.fitted, further.member
         n, count = len(fitted.law.names), len(member.nuisances)
         stated = self._stated
-        effects, places, anew = self._effects(fitted, further.without, further.about)
+        effects, places = self._effects(fitted, further.without)
         u = np.concatenate([fitted.u[stated], *(fitted.u[p] for p in places)])
         if further.mass is not None:
             effects = [*effects, further.mass]
@@ -195,8 +203,9 @@ class Expecting:
             for m, g in enumerate(place):
                 if fitted.free[g]:
                     by[column[g]] += scale[g] * dv[at + m]
-                    if effect in anew:
-                        fresh.append(_step(effect, m, scale[g], further.about[effect.name]) * dv[at + m])
+                    mounting = effect.parameters[m].mounting
+                    if further.remounted and mounting is not None:
+                        fresh.append(mounting * scale[g] * dv[at + m])
             at += len(place)
         if further.mass is not None:
             fresh.append(further.mass.sigma_kg * dv[at])
@@ -234,11 +243,9 @@ class Expecting:
             return self.problem.places[0]
         return np.arange(len(self.problem.nuisances))
 
-    def _effects(
-        self, fitted: Refitted, without: frozenset[str], about: Mapping[str, float]
-    ) -> tuple[list[Effect], list[Places], list[Effect]]:
-        """Effects that the readings have, where their unknowns are, and which of them are there anew."""
-        effects, places, anew, start = [], [], [], fitted.stated
+    def _effects(self, fitted: Refitted, without: frozenset[str]) -> tuple[list[Effect], list[Places]]:
+        """Effects that the readings have, and where their unknowns are."""
+        effects, places, start = [], [], fitted.stated
         for e in fitted.effects:
             inner = e.inner if isinstance(e, OfFiles) else e
             here = not isinstance(e, OfFiles) or e.holds(self._place)
@@ -246,10 +253,8 @@ class Expecting:
                 effects.append(inner)
                 own = e.places(self._place) if isinstance(e, OfFiles) else np.arange(len(e.parameters))
                 places.append(start + own)
-                if inner.name in about:
-                    anew.append(inner)
             start += len(e.parameters)
-        return effects, places, anew
+        return effects, places
 
     @property
     def _place(self) -> Place:
@@ -306,11 +311,6 @@ def _scales(fitted: Refitted) -> Array:
     q = [q for e in fitted.effects for q in e.parameters]
     logarithmic = np.array([False] * fitted.stated + [one.logarithmic for one in q], dtype=bool)
     return np.where(logarithmic, fitted.u, 1.0)
-
-
-def _step(effect: Effect, m: int, scale: float, about: float) -> float:
-    q = effect.parameters[m]
-    return about * (scale if q.logarithmic else expected_size(q))
 
 
 def _felt(effect: Effect, u: Array) -> list[Array]:

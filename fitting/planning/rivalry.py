@@ -8,6 +8,9 @@ of i over j, were i true, is Kullback's divergence
 
 What becomes of the probabilities is found by drawing data from each rival in turn: Lindley, Ann. Math. Stat.
 27 (1956); Box and Hill, Technometrics 9 (1967).
+
+A rival may have several forms, of which nobody knows which it takes: it is as far from another as its nearest
+form is, and as probable as all of them.
 """
 
 from collections.abc import Sequence
@@ -54,14 +57,19 @@ class Outcome:
 
 
 def outcome(
-    forecasts: Sequence[Forecast], probabilities: Array, temper: float = 1.0, credible: float = 0.95
+    forecasts: Sequence[Forecast],
+    probabilities: Array,
+    temper: float = 1.0,
+    credible: float = 0.95,
+    of: Sequence[int] | None = None,
 ) -> Outcome:
-    """Of one measurement, a forecast a rival. `probabilities` of shape (rivals,) add up to one.
+    """Of one measurement, a forecast a form. `probabilities` of shape (forms,) add up to one.
 
-    `temper`: how much less than it says a difference of likelihoods is worth.
+    `temper`: how much less than it says a difference of likelihoods is worth. `of`: whose form each is, from
+    0; a form a rival where nothing is said.
     """
     L = [np.linalg.cholesky(np.eye(len(f.mean)) + f.root @ f.root.T) for f in forecasts]
-    whole = np.array([2 * np.log(np.diag(one)).sum() for one in L])
+    logdet = np.array([2 * np.log(np.diag(one)).sum() for one in L])
     count = len(forecasts)
     D = np.zeros((count, count))
     # Each S_j^-1/2 once, on everything that is asked of it.
@@ -81,16 +89,20 @@ def outcome(
         solved = la.solve_triangular(L[j], np.hstack([off, *L, data - f.mean[:, None]]), lower=True)
         squares = np.sum(solved**2, axis=0)
         traces = squares[count : count + count * n].reshape(count, n).sum(axis=1)
-        D[:, j] = (traces - n + squares[:count] + whole[j] - whole) / 2
-        fits[j] = -(squares[count + count * n :] + whole[j]) / 2
+        D[:, j] = (traces - n + squares[:count] + logdet[j] - logdet) / 2
+        fits[j] = -(squares[count + count * n :] + logdet[j]) / 2
     logs = np.log(probabilities)[:, None] + fits / temper
-    after = softmax(logs, axis=0)
+    whose = np.arange(count) if of is None else np.array(of)
+    member = np.arange(whose.max() + 1)[:, None] == whose
+    after = member @ softmax(logs, axis=0)
     entropy = -np.sum(np.where(after > 0, after * np.log(np.maximum(after, 1e-300)), 0.0), axis=0)
     which = np.repeat(np.arange(count), draws)
     weight = (probabilities / draws)[which]
-    before = float(-np.sum(probabilities * np.log(probabilities)))
+    whole = member @ probabilities
+    before = float(-np.sum(whole * np.log(whole)))
+    nearest = np.array([np.where(one, D, np.inf).min(axis=1) for one in member]).T
     return Outcome(
-        np.maximum(D, 0.0) / temper,
+        np.maximum((member * probabilities) @ nearest / whole[:, None], 0.0) / temper,
         before - float(weight @ entropy),
         float(weight @ (after.max(axis=0) >= credible)),
     )

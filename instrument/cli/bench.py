@@ -7,9 +7,11 @@ import click
 
 from instrument.campaign.bench import run_bench
 from instrument.campaign.cases import KINDS
+from instrument.campaign.plates.apart import apart_jobs, run_apart, write_apart_summary
 from instrument.campaign.plates.cases import KINDS as PLATE_KINDS
 from instrument.campaign.plates.judged import diagnosed, diagnosed_without_the_truth
 from instrument.campaign.plates.run import plate_jobs, run_plates, write_plate_summary
+from instrument.campaign.plates.weak import WEAK
 from instrument.campaign.run import jobs_of, run_campaign, write_summary
 from instrument.cli.options import json_option
 from instrument.cli.output import Output
@@ -34,6 +36,13 @@ from instrument.progress import bar
     metavar="FOLDER",
     help="Instead: the same on ten solid plates, each known only within a careful laboratory's tolerances.",
 )
+@click.option(
+    "--apart",
+    "apart_folder",
+    type=click.Path(path_type=Path, file_okay=False),
+    metavar="FOLDER",
+    help="Instead: weak effects on solid plates; what is proposed after a sweep is measured, twice at most.",
+)
 @click.option("--exact", is_flag=True, help="With --plates: what is stated is exact.")
 @click.option("--without-truth", is_flag=True, help="With --plates: what is hidden is not in the catalogue.")
 @click.option(
@@ -45,7 +54,7 @@ from instrument.progress import bar
 @click.option(
     "--kind",
     "kinds",
-    type=click.Choice([*PLATE_KINDS, *(k for k in KINDS if k not in PLATE_KINDS)]),
+    type=click.Choice(list(dict.fromkeys([*PLATE_KINDS, *KINDS, *WEAK]))),
     multiple=True,
     help="Only these; may be repeated.",
 )
@@ -60,6 +69,7 @@ def bench(
     json_path: str | None,
     folder: Path | None,
     plates_folder: Path | None,
+    apart_folder: Path | None,
     exact: bool,
     without_truth: bool,
     count: int,
@@ -70,17 +80,22 @@ def bench(
 ) -> None:
     """Time the reduced model against direct solves and the paper's procedure, in this run on this machine."""
     out = Output(json_path)
-    if folder is None and plates_folder is None:
+    asked = [f for f in (folder, plates_folder, apart_folder) if f is not None]
+    if not asked:
         _times(out)
         return
-    if folder is not None and plates_folder is not None:
-        raise BadInput("--diagnosis and --plates are two campaigns, expected one of them")
+    if len(asked) > 1:
+        raise BadInput("--diagnosis, --plates and --apart are campaigns by themselves, expected one of them")
     if json_path is not None:
         raise BadInput("--json and a campaign: the outcomes are in the folder, a line of JSON each")
-    known = KINDS if plates_folder is None else PLATE_KINDS
+    known = PLATE_KINDS if plates_folder is not None else WEAK if apart_folder is not None else KINDS
     for kind in kinds:
         if kind not in known:
             raise BadInput(f"kind {kind!r} is not of this campaign, expected one of {', '.join(known)}")
+    if apart_folder is not None:
+        lines = run_apart(apart_jobs(count, seed, kinds), apart_folder, workers=workers, progress=bar)
+        click.echo(write_apart_summary(lines, apart_folder))
+        return
     if plates_folder is not None:
         judged = diagnosed_without_the_truth if without_truth else diagnosed
         jobs = plate_jobs(count, seed, kinds)

@@ -4,6 +4,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from math import sqrt
 
+import numpy as np
+
 from fitting.diagnosis.result import Rivals
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.planning.further import Expecting
@@ -55,7 +57,7 @@ def rank_follow_ups(diagnosed: Diagnosed, possible: Possible | None = None) -> t
     expecting = Expecting(rivals, _MOST_RIVALS)
     found: dict[str, tuple[float, FollowUp]] = {}
     for measurable, forecasts in _asked(expecting, possible):
-        told = outcome(forecasts, expecting.probabilities, expecting.temper, VERDICT.credible)
+        told = outcome(forecasts, expecting.probabilities, expecting.temper, VERDICT.credible, expecting.of)
         score = told.information / sqrt(measurable.seconds + _ALWAYS_S)
         if told.information > _WORTH and score > found.get(measurable.kind, (0.0, None))[0]:
             found[measurable.kind] = score, measurable.follow_up(expecting.names, *_said(told, expecting))
@@ -109,7 +111,7 @@ def _asked(expecting: Expecting, possible: Possible) -> Iterator[tuple[Measurabl
 def _said(told: Outcome, expecting: Expecting) -> tuple[float, float, tuple[str, ...]]:
     """Separation of the two best that it separates best, chance to resolve, and who is told from whom."""
     count = len(expecting.names)
-    p = expecting.probabilities
+    p = np.bincount(expecting.of, expecting.probabilities)
     pairs = [(i, j) for i in range(count) for j in range(i)]
     i, j = max(pairs, key=lambda one: p[one[0]] * p[one[1]] * min(told.between(*one), _TELLS))
     apart = [k for k in range(count) if any(told.between(k, m) > _TELLS for m in range(count) if m != k)]

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.sharing import OF_EACH_FILE, OF_EACH_SPOT
+from fitting.diagnosis.sharing import OF_EACH_FILE, OF_EACH_PLATE, OF_EACH_SPOT
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.planning.candidates import resonances_hz
 from fitting.planning.exact_problem import exact_problem
@@ -39,10 +39,9 @@ _ELSEWHERE_M = 0.03
 """A spot nearer than this to one that was read tells little else."""
 _PAUSE_S = 60.0
 """Between two sweeps."""
-_CLAMPED_ANEW = 1.0
-"""By how much a clamp's stiffness differs from one mounting to the next, in its logarithm."""
-OF_THE_CLAMP = ("clamp_compliance", "clamp_friction", "uneven_clamp", "clamp_line", "treatment_not_gripped")
 OF_THE_SPOT = frozenset({"spot_offset"})
+_OF_A_MOUNTING = frozenset({*OF_EACH_SPOT, *OF_EACH_FILE, *OF_EACH_PLATE})
+"""Stated numbers that are other ones in a file of its own, as the joint fit has them."""
 _LEAST_HZ, _MOST_HZ = 5.0, 2000.0
 
 
@@ -231,7 +230,7 @@ class Template:
                 self._later(self.member, self.at),
                 *self._read(self.at),
                 same_errors=False,
-                new=frozenset({*OF_EACH_SPOT, *OF_EACH_FILE}),
+                new=_OF_A_MOUNTING,
                 mass=mass,
             )
             place = _words((mass.values[1], mass.values[2]))
@@ -244,10 +243,10 @@ class Template:
             self._later(self.member, self.at),
             *self._read(self.at),
             same_errors=False,
-            new=frozenset({*OF_EACH_SPOT, *OF_EACH_FILE}),
-            about=dict.fromkeys(OF_THE_CLAMP, _CLAMPED_ANEW),
+            new=_OF_A_MOUNTING,
+            remounted=True,
         )
-        todo = "Loosen the clamp, clamp the plate anew with another torque, and make the same steps."
+        todo = "Loosen the clamp, clamp the plate anew with a third of the torque, and make the same steps."
         return self._measurable("clamping", further, self.at, self._level_g, todo)
 
     def _measurable(

@@ -53,6 +53,8 @@ class ReducedSolid:
     ends_y_m: Array
     top: Array
     """Deflection of the upper face's nodes. Shape (nodes x, nodes y, k)."""
+    rubbing: Array
+    """Imaginary part of the stiffness at the root. Shape (k, k)."""
 
     def reading(self, x_m: float, y_m: float) -> Array:
         """The row that reads the deflection at a point. Shape (k,). Raises `ValueError` off the plate."""
@@ -174,6 +176,7 @@ def _projected(solid: Solid, V: Array, groups: str) -> ReducedSolid:
         ends_x_m=solid.grid.x,
         ends_y_m=solid.grid.y,
         top=solid.face(V),
+        rubbing=V.T @ (solid.rubbing @ V),
     )
 
 

@@ -82,7 +82,7 @@ class Shaken:
             now = at[first : first + _CHUNK]
             w, g = self.omega[now, None, None], G[first : first + _CHUNK]
             core = (g.real @ flat + 1j * (g.imag @ flat)).reshape(len(now), *p.M.shape)
-            Z = p.K_0 - w**2 * p.M + 1j * w * self.C_1 + core
+            Z = p.K_0 + 1j * p.rubbing - w**2 * p.M + 1j * w * self.C_1 + core
             if self.attached is not None:
                 rows, stiffness, _ = self.attached
                 Z = Z + np.einsum("ap,ai,aj->pij", stiffness[:, now], rows, rows)

@@ -52,7 +52,10 @@ def built(
         groups=finest,
         points_m=points,
         air_density_kg_m3=sum(h.air_kg_m3 for h in hidden),
-        stirred=[solid.core_with(field) for h in hidden for field in h.stirred(plate)],
+        stirred=[
+            *(solid.core_with(field) for h in hidden for field in h.stirred(plate)),
+            *([solid.rubbing] if build.root is not None and build.root.loss else []),
+        ],
     )
 
 

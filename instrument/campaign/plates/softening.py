@@ -79,8 +79,8 @@ def _spanned(plate: ReducedSolid, q: Complex) -> Array:
 def _on(shaken: Shaken, V: Array) -> Shaken:
     """The same on the columns of V."""
     p = shaken.plate
-    M, K_0 = V.T @ p.M @ V, V.T @ p.K_0 @ V
-    plate = replace(p, M=M, K_0=K_0, K_1=V.T @ p.K_1 @ V, load=V.T @ p.load, top=p.top @ V)
+    M, K_0, K_1, rubbing = (V.T @ A @ V for A in (p.M, p.K_0, p.K_1, p.rubbing))
+    plate = replace(p, M=M, K_0=K_0, K_1=K_1, load=V.T @ p.load, top=p.top @ V, rubbing=rubbing)
     hung = shaken.attached
     attached = None if hung is None else (hung[0] @ V, hung[1], hung[2])
     return Shaken(plate, V.T @ shaken.C_1 @ V, shaken.omega, shaken.motion, attached)

@@ -29,6 +29,8 @@ class RootSprings:
 
     along_x_n_m3: Callable[[Array], Array]
     along_z_n_m3: Callable[[Array], Array]
+    loss: float = 0.0
+    """Imaginary part over the real one."""
 
 
 @dataclass(frozen=True)
@@ -142,6 +144,12 @@ class Solid:
         if self.build.root is not None:
             K = K + self._root(self.build.root)
         return K.tocsr()
+
+    @cached_property
+    def rubbing(self) -> sp.csr_array:
+        """Imaginary part of the root's springs. Shape (size, size)."""
+        root = self.build.root
+        return sp.csr_array((self.size, self.size)) if root is None else root.loss * self._root(root)
 
     def _root(self, springs: RootSprings) -> sp.csr_array:
         z = self.grid.z if self.build.treatment_from_m is None else self.grid.z[:2]

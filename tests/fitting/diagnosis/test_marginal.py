@@ -8,7 +8,7 @@ import pytest
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.marginal import cost, probabilities
 from fitting.diagnosis.refit import Refitted
-from fitting.effects.base import Effect, EffectParameter
+from fitting.effects.base import Effect, EffectParameter, Tie
 from fitting.laws.constant import ConstantModulus
 
 N = 60
@@ -29,6 +29,18 @@ class Small(Effect):
     parameters = (EffectParameter("size", "1", -10.0, 10.0, 0.1, spread=0.1),)
 
 
+class TwoMountings(Effect):
+    """One with an unknown in each of two mountings, the second's near the first's."""
+
+    name, chance = "two_mountings", 0.05
+    parameters = (*Small.parameters, EffectParameter("size_2", "1", -10.0, 10.0, 0.1, spread=0.1))
+    tied_to = 0.05
+
+    @property
+    def ties(self):
+        return (Tie(0, 1, self.tied_to),)
+
+
 def linear(columns, data, stated=0, effects=(), law=LAW, noise_known=True):
     """The end of a fit of data = columns . (what is fitted) + noise of unit size, begun at zero.
 
@@ -39,6 +51,10 @@ def linear(columns, data, stated=0, effects=(), law=LAW, noise_known=True):
     J = np.vstack([columns, np.zeros((priors, columns.shape[1]))])
     J[len(data) + stated :, own - law.bend_count : own] = np.eye(law.bend_count)
     J[len(data) : len(data) + stated, own : own + stated] = np.eye(stated)
+    for tie in (tie for e in effects for tie in e.ties):
+        row = np.zeros(columns.shape[1])
+        row[own + stated + np.array([tie.first, tie.other])] = np.array([-1, 1]) / tie.sigma
+        J, priors = np.vstack([J, row]), priors + 1
     start = -np.concatenate([data, np.zeros(priors)])
     at = -np.linalg.lstsq(J, start, rcond=None)[0]
     u = at[own:]
@@ -109,6 +125,28 @@ def test_of_a_linear_gaussian_model_it_is_the_exact_evidence(stated, effect):
     found = cost(linear(columns, data, stated, effects), None)
     expected = evidence(columns, data, stated, priors) + sum(odds(e) for e in effects)
     assert found == pytest.approx(expected, abs=0.02)
+
+
+def test_an_unknown_beside_another_is_paid_for_by_how_near_it_was_expected():
+    columns, effect = design(24, 4), TwoMountings()
+    data = np.random.default_rng(25).normal(size=N) + columns[:, 2:] @ np.array([0.30, 0.38])
+    found = cost(linear(columns, data, effects=[effect]), None)
+    # In the first one and the difference, of which each has a density of its own.
+    apart = columns.copy()
+    apart[:, 2] += columns[:, 3]
+    near = lambda d: np.exp(-((d / 0.05) ** 2) / 2) / (0.05 * np.sqrt(2 * np.pi))  # noqa: E731
+    expected = evidence(apart, data, 0, [searched(0), searched(1), PRIORS[Small], near])
+    assert found == pytest.approx(expected + odds(effect), abs=0.05)
+
+
+def test_of_two_causes_the_one_whose_mountings_differ_so_much_is_likelier():
+    """A difference of four standard deviations of one, and of one of the other."""
+    columns = design(26, 4)
+    data = np.random.default_rng(27).normal(size=N) + columns[:, 2:] @ np.array([0.1, 0.3])
+    firm, loose = TwoMountings(), TwoMountings()
+    loose.tied_to = 0.2
+    costs = [cost(linear(columns, data, effects=[e]), None) for e in (firm, loose)]
+    assert costs[0] - costs[1] == pytest.approx(16 - 1 - 2 * np.log(4), abs=1.0)
 
 
 def test_a_bend_is_a_stated_number_of_the_law():

@@ -7,6 +7,7 @@ from fitting.diagnosis.of_files import EACH, OfFiles, Place, among
 from fitting.effects import CATALOGUE
 
 CLAMP, GAIN, STIFFNESS = (CATALOGUE[n] for n in ("clamp_compliance", "gain_error", "substrate_stiffness"))
+LINE = CATALOGUE["clamp_line"]
 
 
 def test_a_clamp_may_be_another_one_in_each_file():
@@ -17,6 +18,16 @@ def test_a_clamp_may_be_another_one_in_each_file():
     assert each.places(Place(1)).tolist() == [0]
     assert each.places(Place(2)).tolist() == [1]
     assert each.holds(Place(2))
+
+
+def test_a_clamp_line_hardly_moves_from_file_to_file_and_a_clamps_stiffness_does():
+    line, clamp = OfFiles(LINE, 3, EACH), OfFiles(CLAMP, 3, EACH)
+    assert [(t.first, t.other) for t in line.ties] == [(0, 2), (0, 4)]
+    assert [(t.first, t.other) for t in clamp.ties] == [(0, 1), (0, 2)]
+    # Metres and a logarithm: a root of 1 mm of give is 1 mm longer by a factor e, the line by 0.3 mm.
+    assert {t.sigma for t in line.ties} == {3e-4}
+    assert {t.sigma for t in clamp.ties} == {1.0}
+    assert OfFiles(LINE, 3, 2).ties == OfFiles(LINE, 3).ties == ()
 
 
 def test_a_clamp_of_each_file_starts_scales_and_is_limited_file_by_file():

@@ -52,6 +52,23 @@ def test_information_never_exceeds_what_is_unknown():
     assert found.resolved == pytest.approx(1.0)
 
 
+def test_a_rival_is_as_far_away_as_its_nearest_form():
+    three = [sharp(0), sharp(6), sharp(1)]
+    found = outcome(three, np.array([0.5, 0.25, 0.25]), of=[0, 1, 1])
+    # The far form is 18 off, the near one 0.5: half of the time each is the true one.
+    assert found.divergence[0, 1] == pytest.approx(0.5)
+    assert found.divergence[1, 0] == pytest.approx((18 + 0.5) / 2)
+    assert found.divergence.shape == (2, 2)
+
+
+def test_forms_of_one_rival_need_not_be_told_apart():
+    p = np.array([0.5, 0.25, 0.25])
+    alike, other = (outcome([sharp(0), sharp(a), sharp(b)], p, of=[0, 1, 1]) for a, b in ((9, 18), (0, 18)))
+    assert alike.resolved == pytest.approx(1.0)
+    assert alike.information == pytest.approx(np.log(2), abs=1e-3)
+    assert other.resolved < 0.5
+
+
 def test_tempering_is_worth_fewer_data():
     plain = outcome([sharp(0), sharp(3)], EVEN)
     tempered = outcome([sharp(0), sharp(3)], EVEN, temper=4.0)

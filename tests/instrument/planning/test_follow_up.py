@@ -12,6 +12,7 @@ from fitting.diagnosis.result import Rivals
 from fitting.diagnosis.whitening import SHARE
 from fitting.effects import CATALOGUE
 from fitting.noise import noise_of
+from fitting.planning.forms import forms_of
 from fitting.planning.further import Expecting
 from fitting.planning.rivalry import outcome
 from instrument.files.specimen_file import read_specimen
@@ -112,6 +113,54 @@ def test_a_short_segment_between_the_others_comes_before_a_spot_that_tells_more(
     assert set(first.segments) == {5}
     assert first.seconds < 0.2 * spot.seconds
     assert 3 < first.separation < spot.separation
+
+
+@pytest.fixture(scope="module")
+def clamps(rivals):
+    """The same readings, for which a clamp is at fault: its line, or its stiffness."""
+    problem, evidence = rivals.problem, rivals.evidence
+    law = rivals.each[0][0].law
+    fits = []
+    for name, u in (("clamp_line", [1e-3, 1.0]), ("clamp_compliance", [5e13])):
+        start = np.concatenate([problem.as_stated, u])
+        fits.append(polished(problem, [CATALOGUE[name]], evidence, law, start))
+    # Weighed lightly: neither explains a gain.
+    return replace(rivals, each=tuple((f, 0.5) for f in fits), temper=1e4)
+
+
+def test_a_clamp_line_is_asked_with_the_spot_measured_from_it_and_not(clamps, rivals):
+    (line, _), (clamp, _) = clamps.each
+    forms = forms_of(clamps, line)
+    assert [f.u[-1] for f, _ in forms] == [1.0, 0.0]
+    assert forms[0][0] is line
+    assert sum(share for _, share in forms) == pytest.approx(1.0)
+    assert [f is clamp for f, _ in forms_of(clamps, clamp)] == [True]
+    # What fits far worse is no form to be reckoned with.
+    assert len(forms_of(replace(clamps, temper=1e-4), line)) == 1
+
+
+def test_clamped_anew_each_clamp_is_another_one_by_what_mountings_differ(clamps):
+    asked = Expecting(clamps, 6)
+    assert asked.of == [0, 0, 1]
+    assert asked.probabilities.sum() == pytest.approx(1.0)
+    template = Template.of(asked, SweepSettings())
+    anew = one(template, "clamping").further
+    kept = replace(anew, remounted=False)
+    for known, new, same in zip(
+        asked.known, asked.forecasts(anew, template.noise), asked.forecasts(kept, template.noise), strict=True
+    ):
+        (effect,) = known.fitted.effects
+        more = new.root @ new.root.T - same.root @ same.root.T
+        # Of one number, and by its whole size for a logarithm.
+        step = 3e-4 if effect.name == "clamp_line" else 1.0 * known.fitted.of(effect)[0]
+        u = known.fitted.u.copy()
+        u[[k for k, q in enumerate(anew.member.nuisances.each) if q.kind in anew.new]] = 0.0
+        _, dv = SweepResponse(anew.member, known.fitted.effects).with_derivatives(known.fitted.law, u)
+        v = asked.velocity_m_s(anew)
+        sigma = np.hypot(template.noise.std_m_s(v, anew.dwell_s), SHARE * v)
+        column = step * dv[len(known.fitted.law.names) + known.fitted.stated][anew.at] / sigma
+        column = np.r_[column.real, column.imag]
+        assert more == pytest.approx(np.outer(column, column), rel=1e-6, abs=1e-9 * np.abs(more).max())
 
 
 def of_kind(ranked, kind):

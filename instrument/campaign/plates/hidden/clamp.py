@@ -54,6 +54,25 @@ class HiddenClampCompliance(Hidden):
 
 
 @dataclass(frozen=True)
+class HiddenClampFriction(HiddenClampCompliance):
+    """The same, and it rubs: every spring has a loss factor."""
+
+    name: ClassVar[str] = "clamp_friction"
+
+    loss: float = 0.0
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenClampFriction":
+        held = HiddenClampCompliance.draw(rng, at)
+        return cls(**held.facts, loss=float(rng.uniform(0.2, 0.6)))
+
+    def build(self, build: Build, true: TruePlate) -> Build:
+        held = super().build(build, true)
+        assert held.root is not None
+        return replace(held, root=replace(held.root, loss=self.loss))
+
+
+@dataclass(frozen=True)
 class HiddenUnevenClamp(Hidden):
     """The clamp holds one edge of the plate better than the other."""
 

@@ -1,0 +1,225 @@
+"""Groups told apart by what is proposed: rigs that are measured again, and what is said of them."""
+
+import json
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from fitting.gravity import PUBLISHED_G_M_S2
+from instrument.campaign.plates import again, apart, kept, weak
+from instrument.campaign.plates.again import SimulatedRig
+from instrument.campaign.plates.cases import PlateTruth, measured
+from instrument.campaign.plates.geometry import plate_named
+from instrument.campaign.plates.grid import Fineness
+from instrument.campaign.plates.hidden.clamp import (
+    HiddenClampCompliance,
+    HiddenClampFriction,
+    HiddenClampLine,
+)
+from instrument.campaign.plates.materials import PlateMaterialLaw
+from instrument.campaign.plates.noise import draw_noise
+from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, reading
+from instrument.campaign.plates.stated import specimen_from, toml
+from instrument.campaign.run import Job
+from instrument.campaign.schedule import Schedule
+from instrument.cli.bench import bench
+from instrument.facts.follow_up import FollowUp
+from instrument.models.files import File
+
+COARSE = Fineness(5, 3, (0.5, 2.0), (1.0,))
+MODULI = (0.3e6, 1e6, 4e6)
+P2 = plate_named("P2")
+LAW = PlateMaterialLaw("fractional-zener", (0.35e6, 6e6, 1e-4, 0.6))
+CLAMP = HiddenClampCompliance(3e13, 3e13, 4, 0.02, 0.4)
+OFFSET_M = 3e-3
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _coarse(tmp_path_factory):
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("VISCORIG_CACHE", str(tmp_path_factory.mktemp("cache")))
+        patch.setattr(kept, "Fineness", lambda: COARSE)
+        patch.setattr(kept, "MODULI_PA", MODULI)
+        patch.setattr(again, "built", lambda *given: built(*given, COARSE))
+        patch.setattr(again, "_models", lambda plate, spot_mm: None)
+        kept.clean_plate.cache_clear()
+        yield
+        kept.clean_plate.cache_clear()
+
+
+def rig(*effects):
+    f = np.linspace(20.0, 26.0, 8)
+    one = np.ones(8, np.intp)
+    schedule = Schedule(f, one, one, np.full(8, 1.0), np.arange(8.0))
+    noise = draw_noise(np.random.default_rng(0))
+    truth = PlateTruth(P2, effects, LAW, noise, ChannelError(), (23.0,), 0.1)
+    plate = built(P2, effects, moduli_of(LAW, f), COARSE)
+    sweep = measured(truth, plate, schedule, np.random.default_rng(1))
+    return SimulatedRig(truth, schedule, (File(sweep, specimen_from(toml(P2, None, 100.0))),), None, 7.0)
+
+
+def proposed(kind, **more):
+    given = {
+        "kind": kind,
+        "needs_hands": True,
+        "frequencies_hz": (21.0, 22.0),
+        "segments": (1, 1),
+        "level_g": 1.0,
+        "seconds": 300.0,
+        "separation": 4.0,
+        "probability_resolved": 0.9,
+        "between": ("none", "gain_error"),
+        "why": "",
+        "todo": "",
+    }
+    return FollowUp.model_validate(given | more)
+
+
+def rng():
+    return np.random.default_rng(5)
+
+
+def test_clamped_anew_is_a_file_of_its_own_whose_clamp_gives_more(monkeypatch):
+    built_as = []
+    monkeypatch.setattr(
+        again,
+        "built",
+        lambda plate, hidden, moduli: built_as.append(hidden) or built(plate, hidden, moduli, COARSE),
+    )
+    two = rig(CLAMP).after(proposed("clamping"), rng())
+    assert [f.number for f in two.files] == [1, 2]
+    assert len(two.files[1].sweep) == 2
+    ((clamp, line),) = built_as
+    # A third of the torque, to a power between 0.4 and 1, and some scatter.
+    assert 0.2 < clamp.along_x_n_m3 / CLAMP.along_x_n_m3 < 0.9
+    assert isinstance(line, HiddenClampLine)
+    assert 0 < abs(line.longer_m) < 4e-4
+    # The next one begins from the first clamp again.
+    assert two.truth.effects == (CLAMP,)
+
+
+def test_a_spot_beside_another_mounting_is_a_spot_of_the_first_one():
+    three = (
+        rig(CLAMP).after(proposed("clamping"), rng()).after(proposed("spot", spot_mm=(200.0, 50.0)), rng())
+    )
+    assert [(f.number, f.pickup) for f in three.files] == [(1, 0), (2, None), (1, 1)]
+    assert three.files[2].specimen.pickup_m == pytest.approx((0.2, 0.05))
+
+
+def test_more_steps_join_the_first_file_and_a_mass_has_one_of_its_own():
+    more = rig().after(proposed("level", level_g=0.5), rng())
+    (file,) = more.files
+    assert file.sweep.commanded_m_s2[-2:] == pytest.approx([0.5 * PUBLISHED_G_M_S2] * 2)
+    assert len(file.sweep) == 10
+    heavier = more.after(proposed("added_mass", mass_kg=5e-3, mass_at_mm=(300.0, 50.0)), rng())
+    assert [len(f.specimen.masses) for f in heavier.files] == [0, 1]
+    light, heavy = (np.abs(f.sweep.velocity_m_s[:1]) for f in heavier.files)
+    assert heavy != pytest.approx(light, rel=0.01)
+    with pytest.raises(ValueError, match="damped_struck"):
+        more.after(proposed("damped_struck"), rng())
+
+
+def test_a_clamp_that_rubs_takes_energy():
+    f = np.linspace(18.0, 28.0, 60)
+    one = np.ones(60, np.intp)
+    schedule = Schedule(f, one, one, np.full(60, 1e-6), np.arange(60.0))
+    rubs = HiddenClampFriction(**CLAMP.facts, loss=0.5)
+    peaks = []
+    for hidden in (CLAMP, rubs):
+        plate = built(P2, (hidden,), moduli_of(LAW, f), COARSE)
+        v = np.abs(reading(plate, P2, (hidden,), LAW, schedule, ChannelError()))
+        peaks.append((v.max(), f[np.argmax(v)]))
+    assert peaks[1][0] < 0.98 * peaks[0][0]
+    assert peaks[1][1] == pytest.approx(peaks[0][1], rel=0.01)
+
+
+def test_every_kind_has_a_weak_effect_and_a_segment_has_forty_points_at_the_highest_level():
+    for kind in weak.WEAK:
+        assert weak.weak(kind, rng(), P2).name == kind
+    segment = np.repeat([1, 1, 2], [100, 100, 30])
+    level = np.repeat([9.81, 2.0, 9.81], [100, 100, 30])
+    at = weak._thinned(segment, level)
+    assert np.bincount(segment[at]).tolist() == [0, 40, 30]
+    assert level[at].min() == 9.81
+    assert {0, 99, 200, 229} <= set(at.tolist())
+
+
+def found(verdict, *names, group=()):
+    effects = [SimpleNamespace(name=n) for n in names]
+    rivals = SimpleNamespace(names=tuple(n for n, _ in group), each=tuple((None, p) for _, p in group))
+    return SimpleNamespace(
+        result=SimpleNamespace(verdict=verdict, effects=effects, rivals=rivals if group else None)
+    )
+
+
+class Told:
+    """A rig of which diagnoses are known beforehand."""
+
+    seconds = 80.0
+    truth = SimpleNamespace(names=("gain_error",), facts={"plate": "P2", "effects": {"gain_error": {}}})
+
+    def __init__(self, *said):
+        self.said = said
+
+    def diagnosed(self):
+        return self.said[0]
+
+    def after(self, follow_up, rng):
+        return Told(*self.said[1:])
+
+
+GROUP = found("ambiguous", "gain_error", group=(("gain_error", 0.6), ("spot_offset", 0.395), ("none", 0.005)))
+RIGHT, WRONG = found("effect", "gain_error"), found("effect", "spot_offset")
+
+
+def judged(monkeypatch, *said):
+    monkeypatch.setattr(apart, "draw_weak", lambda kind, seed: Told(*said))
+    spot = proposed("spot", spot_mm=(200.0, 50.0))
+    monkeypatch.setattr(
+        apart, "rank_follow_ups", lambda d: (spot,) if d.result.verdict == "ambiguous" else ()
+    )
+    return apart.judge_apart(Job("gain_error", 1))
+
+
+def test_what_is_proposed_is_measured_until_one_is_left_and_twice_at_most(monkeypatch):
+    assert judged(monkeypatch, RIGHT)["measured"] == []
+    one = judged(monkeypatch, GROUP, RIGHT)
+    assert [m["said"] for m in one["measured"]] == ["right"]
+    assert one["measured"][0]["probability_resolved"] == 0.9
+    never = judged(monkeypatch, GROUP, GROUP, GROUP, GROUP)
+    assert [m["said"] for m in never["measured"]] == ["ambiguous", "ambiguous"]
+    json.dumps([one, never])
+
+
+def test_a_certain_wrong_name_is_told_from_a_group_that_stays(monkeypatch, tmp_path):
+    lines = [
+        judged(monkeypatch, RIGHT),
+        judged(monkeypatch, GROUP, GROUP, RIGHT),
+        judged(monkeypatch, GROUP, WRONG),
+        judged(monkeypatch, GROUP, GROUP, GROUP),
+    ]
+    text = apart.write_apart_summary(lines, tmp_path)
+    assert (tmp_path / "summary.md").read_text() == text
+    assert "4 cases; 1 right after one sweep; 3 groups: 1 ambiguous, 1 right, 1 wrong." in text
+    assert (
+        "median 600 s, longest 600 s. Of 5 measurements 4.5 were foretold to settle the matter, 2 did."
+        in text
+    )
+    assert "| gain_error | ambiguous: gain_error 0.60, spot_offset 0.40 | spot, 300 s | 0.90 |" in text
+    assert "| spot_offset: wrong |" in text
+
+
+def test_the_command_draws_kinds_in_turn_and_refuses_those_that_it_has_not(monkeypatch, tmp_path):
+    asked = []
+    monkeypatch.setattr("instrument.cli.bench.run_apart", lambda jobs, *a, **k: asked.extend(jobs) or [])
+    monkeypatch.setattr("instrument.cli.bench.write_apart_summary", lambda *a: "said")
+    result = CliRunner().invoke(bench, ["--apart", str(tmp_path), "--count", "8", "--seed", "3"])
+    assert result.output.strip() == "said"
+    assert [job.kind for job in asked] == [*weak.WEAK, weak.WEAK[0]]
+    assert [job.seed for job in asked] == list(range(3, 11))
+    refused = CliRunner().invoke(bench, ["--apart", str(tmp_path), "--kind", "mains_hum"])
+    assert refused.exit_code != 0
+    both = CliRunner().invoke(bench, ["--apart", str(tmp_path), "--plates", str(tmp_path)])
+    assert "expected one of them" in str(both.exception)
