@@ -43,11 +43,13 @@ def promising(
     v = plain.velocity(law, known)
     r = before.residuals
     Q, _ = np.linalg.qr(before.jacobian)
-    priors = np.zeros(before.stated + before.law.bend_count)
     lower, upper = effect.limits(response.plate)
     starts, found = effect.starts(response.plate, points), []
     for u, moved in zip(starts, moves(response, law, known, starts, v), strict=True):
-        s = np.concatenate([evidence.jacobian(v, moved[None])[:, 0], evidence.bare_moves(effect, u), priors])
+        s = np.zeros(len(r))
+        rows = np.concatenate([evidence.jacobian(v, moved[None])[:, 0], evidence.bare_moves(effect, u)])
+        # What is known beforehand does not feel the effect.
+        s[: len(rows)] = rows
         s = s - Q @ (Q.T @ s)
         size = float(s @ s)
         if not np.isfinite(size) or size <= 0:

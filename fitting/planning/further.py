@@ -101,7 +101,8 @@ class Expecting:
         self.probabilities = np.array([p for _, _, p in forms]) / sum(p for _, _, p in forms)
         """Of the forms. Shape (forms,)."""
         first = each[0][0]
-        self.reduced = rivals.reduced
+        several = self.problem if isinstance(self.problem, SeveralProblem) else None
+        self.reduced = several.reduced[0] if several and several.reduced else rivals.reduced
         """The plate that frequencies not yet measured are asked of; None where there is none."""
         self._errors = model_error(self.problem, rivals.reduced, first.law, first.velocity_m_s)
         self.known = [self._learnt(fitted) for _, fitted, _ in forms]

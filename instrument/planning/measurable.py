@@ -12,6 +12,7 @@ from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.sharing import OF_EACH_FILE, OF_EACH_PLATE, OF_EACH_SPOT
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.planning.candidates import resonances_hz
+from fitting.planning.elsewhere import read_elsewhere
 from fitting.planning.exact_problem import exact_problem
 from fitting.planning.further import Expecting, Further
 from fitting.planning.known_mass import KnownMass
@@ -153,7 +154,7 @@ class Template:
         if isinstance(specimen, Specimen):
             if self.reduced is not None:
                 yield from self._between(specimen, self.reduced)
-            yield from self._spots(specimen)
+                yield from self._spots(specimen, self.reduced)
             if mass_kg is not None:
                 yield from self._masses(specimen, mass_kg)
             if specimen.boundary == "cantilever":
@@ -208,20 +209,35 @@ class Template:
                 reason="Where nothing was read yet each explanation goes its own way.",
             )
 
-    def _spots(self, specimen: Specimen) -> Iterator[Measurable]:
+    def _spots(self, specimen: Specimen, reduced: ReducedPlate) -> Iterator[Measurable]:
+        _, places = np.unique(self.member.sweep.frequency_hz[self.at], return_inverse=True)
         for x, y in _SPOTS:
             spot = (x * specimen.length_m, y * specimen.width_m)
             if min(np.hypot(spot[0] - a, spot[1] - b) for a, b in self.read_m) < _ELSEWHERE_M:
                 continue
             further = Further(
-                _read_at(self.member, specimen, spot),
-                *self._read(self.at),
+                self._read_at(spot, reduced),
+                places,
+                self._read(self.at)[1],
                 same_errors=False,
                 new=frozenset(OF_EACH_SPOT),
                 without=OF_THE_SPOT,
+                like=self.at,
             )
             todo = f"Point the laser at {_words(spot)} and make the same steps."
             yield self._measurable("spot", further, self.at, self._level_g, todo, spot=spot)
+
+    def _read_at(self, spot_m: tuple[float, float], reduced: ReducedPlate) -> DiagnosisProblem:
+        """The plate read at another spot, at each of the frequencies once."""
+        member = self.member
+        f, first = np.unique(member.sweep.frequency_hz[self.at], return_index=True)
+        plate, reduced, moved = read_elsewhere(member.plate, reduced, member.nuisances, spot_m)
+        specimen = moved.specimen
+        assert isinstance(specimen, Specimen)
+        time = float(member.points.time_s.max()) + _PAUSE_S + np.cumsum(self.seconds)[first]
+        segment = member.sweep.segment[self.at][first]
+        there = exact_problem(f, segment, self.level_m_s2, specimen, plate, reduced, time)
+        return replace(there, nuisances=moved)
 
     def _masses(self, specimen: Specimen, mass_kg: float) -> Iterator[Measurable]:
         for x, y in _MASS_AT:
@@ -246,7 +262,7 @@ class Template:
             new=_OF_A_MOUNTING,
             remounted=True,
         )
-        todo = "Loosen the clamp, clamp the plate anew with a third of the torque, and make the same steps."
+        todo = "Loosen the clamp, clamp the plate anew with a fifth of the torque, and make the same steps."
         return self._measurable("clamping", further, self.at, self._level_g, todo)
 
     def _measurable(
@@ -324,10 +340,3 @@ def _words(place_m: tuple[float, float]) -> str:
 def _at_level(member: DiagnosisProblem, level_m_s2: float) -> DiagnosisProblem:
     level = np.full(len(member.sweep), level_m_s2)
     return replace(member, points=replace(member.points, acceleration_m_s2=level))
-
-
-def _read_at(member: DiagnosisProblem, specimen: Specimen, spot_m: tuple[float, float]) -> DiagnosisProblem:
-    """The same plate read at another spot; its own basis is good to 1e-3 there."""
-    nuisances = member.nuisances
-    moved = replace(nuisances, specimen=replace(specimen, pickup_m=spot_m), like=nuisances.reference)
-    return replace(member, nuisances=moved)

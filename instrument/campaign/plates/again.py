@@ -27,7 +27,7 @@ from instrument.models.together import diagnose_together
 _PAUSE_S = 60.0
 _SIDE_M = 8e-3
 """Of a mass that is put on."""
-_TORQUE = 1 / 3
+_TORQUE = 1 / 5
 """Over the first one's, of a clamp that is closed again."""
 _BY_TORQUE = (0.4, 1.0)
 """A root face gives as its torque to a power between these: bodies in series with faces in contact."""
@@ -134,7 +134,7 @@ class SimulatedRig:
         return self._and_file(sweep, replace(self._stated, masses=masses))
 
     def _clamped_anew(self, follow_up: FollowUp, rng: np.random.Generator) -> "SimulatedRig":
-        """With a third of the torque: what gives then gives more, the line hardly moves."""
+        """With a fifth of the torque: what gives then gives more, the line hardly moves."""
         stated = self._stated.pickup_m
         assert stated is not None
         there = _aimed(self.truth, stated, rng, keep=False)
