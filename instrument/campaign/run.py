@@ -128,7 +128,8 @@ def read_lines(folder: Path) -> list[dict[str, Any]]:
     Raises `BadInput` for what is not JSON.
     """
     path = folder / OUTCOMES
-    if not path.exists():
+    if not path.exists() or not path.stat().st_size:
+        # One that was stopped before its first case.
         return []
     text = read_text(path)
     whole = text[: text.rfind("\n") + 1]

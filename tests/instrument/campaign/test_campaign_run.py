@@ -106,6 +106,13 @@ def test_a_campaign_goes_on_where_it_was(tmp_path):
     assert len(read_lines(tmp_path)) == 5
 
 
+def test_a_campaign_that_was_stopped_before_its_first_case_goes_on(tmp_path):
+    run_campaign([], tmp_path, judged_by=asdict)
+    assert (tmp_path / OUTCOMES).read_bytes() == b""
+    jobs = jobs_of(1, 10)
+    assert run_campaign(jobs, tmp_path, judged_by=asdict, workers=1) == [asdict(jobs[0])]
+
+
 def test_a_case_without_an_answer_is_tried_again(tmp_path):
     jobs = jobs_of(1, 10)
     run_campaign(jobs, tmp_path, judged_by=asdict, workers=1)
