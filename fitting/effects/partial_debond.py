@@ -18,6 +18,8 @@ LEFT = 0.01
 """Share of the shear stiffness that a loose strip keeps."""
 _WIDTH_M = 0.025
 """To begin with, and between starts: about a twelfth of a plate of 300 mm."""
+_EDGE_WIDTHS_M = (0.025, 0.01)
+"""To begin with at an edge, where there is no place to be found."""
 
 
 class Strips(Span):
@@ -61,7 +63,7 @@ def strips(full: FullPlate, along: str) -> list[sp.csc_array]:
 
 
 class PartialDebondEffect(Effect):
-    """A strip across the plate between two x, or along it between two y."""
+    """A strip across the plate or along it; or one that ends at an edge, its width alone unknown."""
 
     name = "partial_debond"
     enters = "stiffness"
@@ -71,16 +73,19 @@ class PartialDebondEffect(Effect):
     chance = 0.03
     discriminating_test = "a tap test or ultrasound over the plate; a second spot off the axis"
 
-    def __init__(self, along: str = "x") -> None:
-        self.along = along
+    def __init__(self, along: str = "x", *, at_edge: bool = False) -> None:
+        self.along, self.at_edge = along, at_edge
         self.spans = (Strips(along),)
-        self.parameters = (
-            EffectParameter(f"{along}_from", "m", 0.0, np.inf, 0.02, neutral=None),
-            EffectParameter("width", "m", 0.0, 0.15, _WIDTH_M, spread=0.03),
+        place = (
+            EffectParameter(f"{along}_edge", "m", 0.0, np.inf, 0.02, neutral=None, fixed=True)
+            if at_edge
+            else EffectParameter(f"{along}_from", "m", 0.0, np.inf, 0.02, neutral=None)
         )
+        self.parameters = (place, EffectParameter("width", "m", 0.0, 0.15, _WIDTH_M, spread=0.03))
 
     def variants(self) -> tuple[Effect, ...]:
-        return (self, PartialDebondEffect("y"))
+        # Glue misses an edge first, and a place that is known need not be paid for.
+        return tuple(PartialDebondEffect(a, at_edge=e) for e in (False, True) for a in ("x", "y"))
 
     def _side(self, plate: EnrichedReducedPlate) -> float:
         return plate.length_m if self.along == "x" else plate.width_m
@@ -91,16 +96,24 @@ class PartialDebondEffect(Effect):
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         side = self._side(plate)
+        if self.at_edge:
+            return [np.array([edge, width]) for width in _EDGE_WIDTHS_M for edge in (0.0, side)]
         count = int(side / _WIDTH_M)
         return [np.array([k / count * side, _WIDTH_M]) for k in range(count)]
+
+    def _ends(self, place: float, width: float) -> tuple[float, float]:
+        """Between what places it is loose, in m."""
+        inwards = -1 if self.at_edge and place > 0 else 1
+        low, high = sorted((place, place + inwards * width))
+        return low, high
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         stack = plate.stack(f"strips_{self.along}.")
         edges = np.linspace(0, self._side(plate), len(stack) + 1)
-        low, high = (np.clip(x, edges[:-1], edges[1:]) for x in (u[0], u[0] + u[1]))
+        low, high = (np.clip(x, edges[:-1], edges[1:]) for x in self._ends(u[0], u[1]))
         return Change(K_1=-(1 - LEFT) * np.tensordot((high - low) / np.diff(edges), stack, axes=1))
 
     def story(self, u: Mapping[str, float]) -> str:
         where = "across the plate, x" if self.along == "x" else "along the plate, y"
-        low, width = 1e3 * u[f"{self.along}_from"], 1e3 * u["width"]
-        return f"the core is loose in a strip {where} = {low:.0f} to {low + width:.0f} mm"
+        low, high = self._ends(u[f"{self.along}_{'edge' if self.at_edge else 'from'}"], u["width"])
+        return f"the core is loose in a strip {where} = {1e3 * low:.0f} to {1e3 * high:.0f} mm"

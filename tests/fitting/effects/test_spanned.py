@@ -113,6 +113,19 @@ def test_a_loose_strip(full, along, low, width):
     assert error(full.reduced(PartialDebondEffect(along), [low, width]), expected) < 2e-3
 
 
+@pytest.mark.parametrize("along", ["x", "y"])
+def test_a_strip_at_an_edge_is_the_one_that_ends_there(full, along):
+    side = full.specimen.length_m if along == "x" else full.specimen.width_m
+    anywhere, at_edge = PartialDebondEffect(along), PartialDebondEffect(along, at_edge=True)
+    plate = full.spanned.take(anywhere.spans)
+    for edge, low in ((0.0, 0.0), (side, side - 0.02)):
+        expected = anywhere.change(plate, np.array([low, 0.02])).K_1
+        assert np.allclose(at_edge.change(plate, np.array([edge, 0.02])).K_1, expected, rtol=1e-9)
+        assert at_edge.story({f"{along}_edge": edge, "width": 0.02}) == anywhere.story(
+            {f"{along}_from": low, "width": 0.02}
+        )
+
+
 def test_more_viscous_damping(full):
     expected = full.direct(damping=2.5)
     assert error(full.reduced(CATALOGUE["viscous_damping"], [2.5]), expected) < 1e-6
