@@ -117,8 +117,10 @@ class SimulatedBarePlate:
         double_hit_every: int,
         seed: int,
         struck: Struck | None = None,
+        softly: float = 1.0,
     ) -> None:
-        """`struck` makes another plate than the published one."""
+        """`struck` makes another plate than the published one; `softly`: its share of the blow."""
+        self._softly = softly
         self._sensor_mass_kg = sensor_mass_kg
         self._struck = struck or (
             lambda hit_m, response_m, sensor_kg: bare_structure(effects, hit_m, response_m, sensor_kg)
@@ -144,7 +146,7 @@ class SimulatedBarePlate:
         if self.plant is None:
             raise ValueError("nobody said where to hit")
         self._hits += 1
-        peak = float(self._random.uniform(*_PEAK_N))
+        peak = self._softly * float(self._random.uniform(*_PEAK_N))
         begin = now_s + _LIFTS_S
         self.plant.strike(Pulse(begin, _WIDTH_S, peak))
         if self._double_hit_every and self._hits % self._double_hit_every == 0:

@@ -9,6 +9,7 @@ from instrument.check.forecast import Forecast, distinct, planned_segment, secti
 from instrument.errors import BadInput
 from instrument.files.devices import ranges_of
 from instrument.files.specimen_file import SpecimenDocument, read_specimen
+from instrument.files.structure_file import BeamDocument, ShearPairDocument
 from instrument.models.set_up import check_like
 from instrument.session.configuration import Experiment
 from instrument.session.setup import sweep_settings
@@ -99,13 +100,17 @@ def _hammer(experiment: Experiment) -> Iterator[str]:
     hammer, specimen = experiment.document.hammer, experiment.specimen
     if hammer is None:
         return
-    if not isinstance(specimen, SpecimenDocument):
+    if isinstance(specimen, BeamDocument) and specimen.beam.boundary == "centre-driven":
+        yield f"{experiment.path}: [hammer]: a beam driven in its centre is not struck, expected no [hammer]"
+        return
+    if isinstance(specimen, ShearPairDocument):
         yield (
-            f"{experiment.path}: [hammer]: the specimen is a {experiment.the_specimen().kind}, expected an "
-            "experiment without it: the hammer test is of a bare plate"
+            f"{experiment.path}: [hammer]: the specimen is a shear-pair, expected an experiment without it: "
+            "the hammer test is of a bare plate or beam"
         )
         return
-    plate = specimen.plate
+    plate = specimen.plate if isinstance(specimen, SpecimenDocument) else specimen.beam
+    kind = experiment.the_specimen().kind
     for name in ("force", "response"):
         if getattr(experiment.rig.channels, name) is None:
             yield f"{experiment.rig_path}: channels.{name}: missing, the hammer test needs it"
@@ -116,7 +121,7 @@ def _hammer(experiment: Experiment) -> Iterator[str]:
         ("response_y_mm", hammer.response_y_mm, plate.width_mm),
     ):
         if at > side:
-            yield f"{experiment.path}: hammer.{key} = {at:g} is off the plate, expected 0 to {side:g}"
+            yield f"{experiment.path}: hammer.{key} = {at:g} is off the {kind}, expected 0 to {side:g}"
 
 
 def _sweep(experiment: Experiment, forecast: Forecast) -> Iterator[str]:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from instrument.interchange.identified import session_modes
 from instrument.interchange.point_table import PointColumn, columns
 from instrument.interchange.provenance import one_line, provenance, reading
 from instrument.interchange.specimen_toml import specimen_toml
@@ -65,7 +66,7 @@ def hit_text(contents: Contents, hit: RecordedHit) -> str:
 def _read_back(contents: Contents) -> str:
     """The arguments that give the session's own result again."""
     name = contents.configuration.name
-    hammer = f" --hammer {name}-damping.json" if contents.damping is not None else ""
+    hammer = f" --hammer {name}-damping.json" if session_modes(contents) is not None else ""
     return f"{name}.csv --specimen {name}-specimen.toml{hammer}"
 
 

@@ -64,8 +64,11 @@ def session_sweep(contents: Contents, specimen: AnySpecimen) -> Sweep:
 
 
 def session_modes(contents: Contents) -> HammerModes | None:
-    """The hammer test's accepted modes, if any. Raises `BadInput` where they are beyond what can be used."""
-    if contents.damping is None:
+    """The hammer test's accepted modes, of a plate, if any: no fit of a beam takes them.
+
+    Raises `BadInput` where they are beyond what can be used.
+    """
+    if contents.damping is None or not isinstance(contents.specimen, Specimen):
         return None
     try:
         return accepted_modes(contents.damping.result)

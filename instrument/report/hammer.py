@@ -22,7 +22,7 @@ _WITHOUT_MODES_HZ = 1250.0
 
 def hammer_section(contents: Contents) -> ReportSection:
     """Computed again from the hits as they were recorded."""
-    title = "Hammer test of the bare plate"
+    title = f"Hammer test of the bare {contents.specimen.kind}"
     if not contents.hits:
         return ReportSection(title, (Sentence("There is no hammer test in this session.", "note"),))
     blocks: list[Block] = [_hits(contents)]

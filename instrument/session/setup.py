@@ -1,6 +1,6 @@
 """What the analysis is told of a session beside its events."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -9,10 +9,13 @@ from fitting.bare_modes import CarriedSensor
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
 from fitting.specimen import Specimen
+from fitting.structures import Beam
+from fitting.structures.small_modes import small_modes
 from instrument.errors import BadInput
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.rig_file import Channels, RigDocument
 from instrument.files.specimen_file import SpecimenDocument, specimen_of
+from instrument.files.structure_file import AnyDocument, ShearPairDocument
 from instrument.hammer_test.analysis import HammerSettings
 from instrument.session.configuration import Configuration
 from instrument.stepped_sine.settings import Dwell, LevelControl, Limits, Settle, SweepSettings
@@ -23,6 +26,9 @@ _LONGEST_RECORD_S = 60.0
 """A hit is waited for and kept in memory: longer ones have to be asked for."""
 _RECORD_WITHOUT_RATIOS_S = 8.0
 """Where no ratio is stated: 0.3 % at 30 Hz falls to 1 % in it."""
+
+_OF_METAL = 1e-3
+"""Of critical: what joints and air take of a bare beam."""
 
 
 @dataclass(frozen=True)
@@ -69,13 +75,33 @@ def hammer_settings(configuration: Configuration) -> HammerSettings | None:
     for name in ("force", "response"):
         if getattr(configuration.rig.channels, name) is None:
             raise BadInput(f"rig: channels.{name}: missing, the hammer test needs it")
-    if not isinstance(configuration.specimen, SpecimenDocument):
-        raise BadInput("[hammer]: the hammer test is of a bare plate, expected an experiment without it")
-    record_s = record_length_s(specimen_of(configuration.specimen)) if h.record_s == "auto" else h.record_s
+    record_s = _record_s(configuration.specimen) if h.record_s == "auto" else h.record_s
     response = configuration.rig.channels.response
     mass_kg = 1e-3 * response.mass_g if response else 0.0
     sensor = CarriedSensor(mass_kg, 1e-3 * h.response_x_mm, 1e-3 * h.response_y_mm) if mass_kg else None
     return HammerSettings(h.hits, record_s, h.pre_trigger_s, (h.band_hz[0], h.band_hz[1]), sensor)
+
+
+def _record_s(document: AnyDocument) -> float:
+    if isinstance(document, ShearPairDocument):
+        raise BadInput(
+            "[hammer]: the hammer test is of a bare plate or beam, expected an experiment without it"
+        )
+    if isinstance(document, SpecimenDocument):
+        return record_length_s(specimen_of(document))
+    return bare_beam_record_s(document.specimen())
+
+
+@lru_cache(maxsize=8)
+def bare_beam_record_s(beam: Beam) -> float:
+    """As `record_length_s`, at the damping of metal and its joints: a beam's file states none."""
+    bare = replace(beam, core=None, constraining=None, both_sides=False)
+    first = small_modes(bare, None, 1)[0].frequency_hz
+    return _until(2 * np.pi * first * (_OF_METAL + bare.substrate.loss_factor / 2))
+
+
+def _until(slowest: float) -> float:
+    return min(round(-np.log(_DECAYED) / slowest + 0.5), _LONGEST_RECORD_S)
 
 
 @lru_cache(maxsize=8)
@@ -85,8 +111,7 @@ def record_length_s(specimen: Specimen) -> float:
     if not np.any(ratios > 0):
         return _RECORD_WITHOUT_RATIOS_S
     decay = ratios * real_modes(Plate(specimen.bare), 0.0, len(ratios)).omega
-    slowest = float(decay[decay > 0].min())
-    return min(round(-np.log(_DECAYED) / slowest + 0.5), _LONGEST_RECORD_S)
+    return _until(float(decay[decay > 0].min()))
 
 
 def _lower(a: float | None, b: float) -> float:

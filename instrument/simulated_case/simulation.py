@@ -13,20 +13,21 @@ from drivers.shaker.register_map import DEFAULT
 from drivers.simulated.climate import Climate
 from drivers.simulated.plant.effects import Effects
 from drivers.simulated.plant.shaken import ShakenPlate
-from drivers.simulated.plates import DampedPlate, OnShaker, SimulatedBarePlate
+from drivers.simulated.plates import DampedPlate, OnShaker, SimulatedBarePlate, Struck
 from drivers.simulated.rig import OWN_MODEL, Ports, SimulatedChamber, SimulatedRig, VibrometerPeer
 from drivers.simulated.sensors import SimulatedSensor
 from drivers.simulated.world import Laser, MountedPlate, Wiring, World
 from drivers.vibrometer.driver import Optics
 from drivers.vibrometer.polytec_driver import PolytecOptions
 from fitting.specimen import Specimen
+from fitting.structures import Beam
 from instrument.errors import BadInput
 from instrument.files.devices import VIBROMETERS, ranges_of
 from instrument.files.rig_file import Channels, RigDocument, Simulation
 from instrument.progress import Progress, quiet
 from instrument.simulated_case.plate import plate_mount, plate_struck
 from instrument.simulated_case.stated import effects_of, refuse_without_peer
-from instrument.simulated_case.structure import mounted_structure, stands_on
+from instrument.simulated_case.structure import beam_struck, mounted_structure, stands_on
 
 _QUANTITIES = {
     "base": "base_acceleration",
@@ -40,6 +41,8 @@ _NOISE_V = 1e-4
 _LASER_NOISE_V = 5e-2
 """Of the vibrometer's output in good light: speckle."""
 _SENSOR_LIMIT_V = 10.0
+_PLATE_KG = 0.3
+"""Of the plate that the simulated hand strikes at its full strength: the published one's."""
 
 
 @contextmanager
@@ -145,17 +148,38 @@ def _plates(
         if not isinstance(stands, Specimen):
             found = mounted_structure(stands, effects, progress)
             plant = ShakenPlate(effects, climate=climate, mounted=found)
-            return {"damped": OnShaker(plant, effects, climate)}
+            on_shaker: dict[str, MountedPlate] = {"damped": OnShaker(plant, effects, climate)}
+            if isinstance(stands, Beam) and stands.boundary != "centre-driven":
+                struck = beam_struck(stands, alike)
+                on_shaker["bare"] = _struck(document, simulation, alike, struck, _as_heavy(stands))
+            return on_shaker
         mount, struck = plate_mount(stands, effects, progress), plate_struck(stands, alike, progress)
+    bare = _struck(document, simulation, alike, struck)
+    return {"damped": DampedPlate(effects, climate, mount), "bare": bare}
+
+
+def _struck(
+    document: RigDocument,
+    simulation: Simulation,
+    alike: Effects,
+    struck: Struck | None,
+    softly: float = 1.0,
+) -> SimulatedBarePlate:
     response = document.channels.response
-    bare = SimulatedBarePlate(
+    return SimulatedBarePlate(
         alike,
         sensor_mass_kg=1e-3 * response.mass_g if response else 0.0,
         double_hit_every=simulation.double_hit_every,
         seed=simulation.seed,
         struck=struck,
+        softly=softly,
     )
-    return {"damped": DampedPlate(effects, climate, mount), "bare": bare}
+
+
+def _as_heavy(beam: Beam) -> float:
+    """Share of the blow for a plate that a hand gives a lighter thing: else its sensor is overloaded."""
+    face = beam.substrate
+    return min(1.0, face.thickness_m * face.density_kg_m3 * beam.length_m * beam.width_m / _PLATE_KG)
 
 
 def _of_the_bare_plate(effects: Effects) -> Effects:

@@ -3,6 +3,7 @@
 The file says what stands there; where it differs from the experiment's own specimen, that is hidden.
 """
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,8 @@ from drivers.simulated.plant.effects import Effects
 from drivers.simulated.plant.mounted import Mounted
 from drivers.simulated.plant.solid_beam import BeamStated
 from drivers.simulated.plant.solid_pad import PairStated
+from drivers.simulated.plant.struck_beam import struck_beam
+from drivers.simulated.plates import Struck
 from fitting.specimen import Specimen
 from fitting.structures import Beam, ShearPair
 from instrument.errors import BadInput
@@ -81,6 +84,13 @@ def beam_of(beam: Beam) -> BeamStated:
     sheets = [*(reversed(above) if beam.both_sides else ()), substrate, *above]
     cores = tuple(k for k, sheet in enumerate(sheets) if sheet is core)
     return BeamStated(beam.length_m, beam.width_m, beam.boundary, tuple(sheets), cores, beam.pickup_m)
+
+
+def beam_struck(beam: Beam, effects: Effects) -> Struck:
+    """The substrate alone under a hammer, before its treatment; built anew where the sensor is moved."""
+    whole = beam_of(beam)
+    bare = replace(whole, sheets=(face_sheet(beam.substrate),), cores=())
+    return lambda hit_m, response_m, sensor_kg: struck_beam(bare, effects, hit_m[0], response_m[0], sensor_kg)
 
 
 def pair_of(pair: ShearPair, effects: Effects) -> PairStated:
