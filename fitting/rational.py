@@ -44,10 +44,10 @@ class RationalSweep:
         return np.asarray(np.einsum("...pk,pk->...p", q, self.c))
 
     def with_derivative(self, G: Complex) -> tuple[Complex, Complex]:
-        """x(G) and dx/dG. Shape (points,) each."""
-        q = 1 / (1 + (np.asarray(G) - self.G_ref)[:, None] * self.mu)
+        """x(G) and dx/dG, of the shape of `G` each: (points,), or (laws, points)."""
+        q = 1 / (1 + (np.asarray(G) - self.G_ref)[..., None] * self.mu)
         cq = self.c * q
-        return cq.sum(axis=1), -np.einsum("pk,pk,pk->p", cq, q, self.mu)
+        return cq.sum(axis=-1), -np.einsum("...pk,...pk,pk->...p", cq, q, self.mu)
 
     def at(self, index: NDArray[np.intp]) -> "RationalSweep":
         """The same sum at some of the frequencies. Shape (n,)."""

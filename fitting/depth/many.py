@@ -22,6 +22,9 @@ _BLOCK = 64
 _DEAF = 0.05
 """Relative change of the response by one of the modulus, below which none stands in for a stated number."""
 
+_H = 1e-6
+"""Step of differences in a law's logarithms: moduli are good to 1e-15, their curvature is of order one."""
+
 
 @dataclass(frozen=True)
 class ManyResiduals:
@@ -81,18 +84,61 @@ class ManyResiduals:
 
     def velocity(self, X: Array) -> Complex:
         """As read. Shapes (any, kept) to (any, points)."""
-        begun = self.task.begun
-        points, none = begun.problem.points, begun.none
-        whole = self.task.full(X)
-        n, omega = len(none.law.names), points.omega
-        G = none.law.moduli(whole[:, :n], omega)
-        instead, rest = self._stated
-        off = whole[:, n : n + none.stated] - none.z
-        x = self._plate.displacement(G + off @ instead) + off @ rest
-        v = 1j * omega * points.acceleration_m_s2 * x
+        whole, G, off = self._moved(X)
+        x = self._plate.displacement(G + off @ self._stated[0]) + off @ self._stated[1]
+        return self._read(x, whole)
+
+    def _moved(self, X: Array) -> tuple[Array, Complex, Array]:
+        """All unknowns, the law's moduli, and how far the stated numbers are off the fit's."""
+        none = self.task.begun.none
+        whole, n = self.task.full(X), len(none.law.names)
+        G = none.law.moduli(whole[:, :n], self.task.begun.problem.points.omega)
+        return whole, G, whole[:, n : n + none.stated] - none.z
+
+    def _read(self, x: Complex, whole: Array) -> Complex:
+        """What is read of displacements for a unit of drive. Shapes (any, points), (any, unknowns)."""
+        points, none = self.task.begun.problem.points, self.task.begun.none
+        n = len(none.law.names)
+        v = 1j * points.omega * points.acceleration_m_s2 * x
         if points.reads == "absolute":
-            v = v + points.acceleration_m_s2 / (1j * omega)
+            v = v + points.acceleration_m_s2 / (1j * points.omega)
         return np.asarray(v * self._channel(whole[:, n : n + none.stated]))
+
+    def jacobians(self, X: Array) -> Array:
+        """Derivatives of the rows. Shapes (any, kept) to (any, rows, kept)."""
+        task, evidence = self.task, self.task.begun.evidence
+        v, dv = self._with_derivatives(X)
+        change = evidence.over_sigma(v[:, None], dv)[:, task.kept]
+        many, kept, count = change.shape
+        readings = evidence.whitening(change.reshape(-1, count).T).T.reshape(many, kept, count)
+        readings = (readings / task.worth[:count]).transpose(0, 2, 1)
+        others = np.broadcast_to(self._others[1], (many, *self._others[1].shape))
+        return np.concatenate([readings, others], axis=1)
+
+    def _with_derivatives(self, X: Array) -> tuple[Complex, Complex]:
+        """As read, and what all unknowns change of it. Shapes (any, points), (any, unknowns, points)."""
+        problem, none = self.task.begun.problem, self.task.begun.none
+        whole, G, off = self._moved(X)
+        n, omega = len(none.law.names), problem.points.omega
+        instead, rest = self._stated
+        x, slope = self._plate.with_derivative(G + off @ instead)
+        v = self._read(x + off @ rest, whole)
+        z = whole[:, n : n + none.stated]
+        drive = (1j * omega * problem.points.acceleration_m_s2) * self._channel(z)
+        dv = np.zeros((*whole.shape, len(omega)), complex)
+        for k in range(n):
+            # Away from the upper limit, where a law stays within it.
+            step = np.where(whole[:, k] < self.task.problem.limits[1][k] - _H, _H, -_H)
+            near = whole[:, :n].copy()
+            near[:, k] += step
+            dv[:, k] = drive * slope * (none.law.moduli(near, omega) - G) / step[:, None]
+        dv[:, n : n + none.stated] = drive[:, None] * (slope[:, None] * instead + rest)
+        for j, number in enumerate(problem.nuisances.each):
+            if number.name == "gain":
+                dv[:, n + j] = v * (number.sigma / (1 + number.sigma * z[:, j, None]))
+            elif number.name == "delay":
+                dv[:, n + j] = v * (-1j * omega * number.sigma)
+        return v, dv
 
     def __call__(self, X: Array) -> Array:
         """Rows as `DepthTask.residuals` has them. Shapes (any, kept) to (any, rows)."""

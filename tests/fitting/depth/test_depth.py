@@ -5,8 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from conftest import DATA
+from scipy.optimize import least_squares
 from threadpoolctl import threadpool_limits
 
+from fitting.depth.bootstrap import refitted
 from fitting.depth.chains import r_hat
 from fitting.depth.intervals import Intervals
 from fitting.depth.many import ManyResiduals
@@ -88,3 +90,30 @@ def test_advice_names_what_differs():
     assert one.advice == "take the interval by profile, not the linear error, for b (upper +200 %)"
     same = replace(one, bounds=linear)
     assert "agree within 20 %" in same.advice
+
+
+def test_jacobians_of_many_are_those_of_their_residuals(quantities, many):
+    task, h = quantities.task, 1e-5
+    rng = np.random.default_rng(5)
+    X = np.clip(task.mode + 0.5 * rng.standard_normal((2, task.root.shape[1])) @ task.root.T, *task.limits)
+    for x, J in zip(X, many.jacobians(X), strict=True):
+        steps = h * np.eye(len(x))
+        numeric = (many(x + steps) - many(x - steps)).T / (2 * h)
+        size = np.linalg.norm(numeric, axis=0)
+        np.testing.assert_allclose(J / size, numeric / size, atol=1e-4)
+
+
+def test_every_refit_of_a_bootstrap_comes_to_rest(quantities, many):
+    """Against bounded least squares of one draw after the other; some lie far off."""
+    task = quantities.task
+    at = many(task.mode[None])[0]
+    shift = 2 * np.random.default_rng(6).standard_normal((4, len(at))) - at
+    for x, own in zip(refitted(many, shift), shift, strict=True):
+        alone = least_squares(
+            lambda p, own=own: many(p[None])[0] + own,
+            task.mode,
+            jac=lambda p: many.jacobians(p[None])[0],
+            bounds=task.limits,
+            x_scale="jac",
+        )
+        assert np.sum((many(x[None])[0] + own) ** 2) < 2 * alone.cost + 0.05
