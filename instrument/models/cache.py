@@ -91,9 +91,14 @@ def _sources(modules: tuple[str, ...]) -> str:
     module from elsewhere, an effect that another package adds, its whole package and what that imports.
     """
     folder = Path(fitting.__file__).parent
-    digest, left, seen = hashlib.sha256(), list(modules), set[Path]()
+    digest, left, asked, seen = hashlib.sha256(), list(modules), set[str](), set[Path]()
     while left:
-        for path in _files(folder, left.pop()):
+        module = left.pop()
+        if module in asked:
+            # What many import is looked for once: looking takes longer than reading.
+            continue
+        asked.add(module)
+        for path in _files(folder, module):
             if path not in seen:
                 seen.add(path)
                 left += _IMPORTED.findall(path.read_text(encoding="utf-8"))
