@@ -17,7 +17,7 @@ from instrument.stream.raw import BlockAcquired, HammerTestEnded, OperatorDid
 from instrument.stream.scaling import Scaling
 
 WEAK = 0.3
-"""Share of the median blow below which one is too weak to average with the others."""
+"""Share of the median good blow below which one is too weak to average with the others."""
 
 
 @dataclass(frozen=True)
@@ -36,6 +36,7 @@ class HammerSettings:
 @dataclass
 class _Caught:
     judged: Judged
+    peak_n: float
     accepted: bool
 
 
@@ -61,6 +62,12 @@ class HammerAnalysis:
     def accepted_of_caught(self) -> tuple[int, int]:
         """Good hits, and all of them: changes with every hit and every decision."""
         return self.accepted, len(self._hits)
+
+    @property
+    def rejected_in_a_row(self) -> list[str]:
+        """Why each of the last hits is no good, back to the last good one."""
+        good = max((k + 1 for k, h in enumerate(self._hits) if h.accepted), default=0)
+        return [h.judged.why or "rejected" for h in self._hits[good:]]
 
     @property
     def ready(self) -> bool:
@@ -120,10 +127,11 @@ class HammerAnalysis:
             f"overload of the {n}" for n, over in zip(("force", "response"), overload, strict=True) if over
         ]
         peak = self._trigger.peaks[-1]
-        earlier = self._trigger.peaks[:-1]
+        # What was refused says nothing of how one should strike: it may have been too hard.
+        earlier = [h.peak_n for h in self._hits if h.accepted]
         if earlier and peak < WEAK * float(np.median(earlier)):
             faults.append(f"weak: {peak:.3g} N, the others about {np.median(earlier):.3g} N")
         good = not faults
         judged = Judged(judged.hit, good, "; ".join(faults), judged.notes, judged.pulse)
-        self._hits.append(_Caught(judged, good))
+        self._hits.append(_Caught(judged, peak, good))
         return HitJudged(number, first, record.shape[1], peak, good, "; ".join(faults))

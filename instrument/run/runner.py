@@ -48,6 +48,8 @@ _BEAT_S = 0.2
 """A tenth of the heartbeat's usual limit: a few may come late."""
 _LONGEST_READ_S = 0.5
 """A call of the front-end: in between the heartbeat, limits and a person's word have their turn."""
+HITS_IN_VAIN = 20
+"""Blows refused one after the other before a hammer test is given up: more of them would be no better."""
 _REST_S, _LOOK_S = 5.0, 0.01
 """After a stop, before the run says that the shaker does not obey; and how often it looks."""
 _CHOICE_LOOK_S = 0.05
@@ -90,7 +92,10 @@ class Runner:
                 result = self._do(action)
 
     def hammer(self, wanted: int, patience_s: float) -> None:
-        """Catch blows until enough are good. Raises `RigStopped`, `DriverError`."""
+        """Catch blows until enough are good, or none comes, or too many in a row are not.
+
+        Raises `RigStopped`, `DriverError`.
+        """
         with self._acquisition("hammer", ("force", "response")):
             analysis = self._analysis.hammer
             assert analysis is not None
@@ -105,7 +110,7 @@ class Runner:
                 before = self._samples
                 caught = any(isinstance(e, HitJudged) for e in self._read(analysis.wanted()))
                 waited += 0.0 if caught else (self._samples - before) / self._rig.front_end.sample_rate_hz
-                if waited > patience_s + analysis.record_s:
+                if waited > patience_s + analysis.record_s or len(analysis.rejected_in_a_row) >= HITS_IN_VAIN:
                     break
         self._emit(HammerTestEnded())
 

@@ -154,7 +154,7 @@ class SessionRun:
         self._emit(rig.operator.mount("bare"))
         runner.hammer(settings.hits, hammer.wait_s)
         if self.analysis.damping is None:
-            raise RigStopped(f"no good hit within {hammer.wait_s:g} s: is the hammer's channel connected?")
+            raise RigStopped(_without_a_hit(self.analysis, hammer.wait_s))
 
     def _question_plate(self, found: DampingFound) -> None:
         """Stop before a sweep of what is not the stated plate; a run carried on is not asked again."""
@@ -234,6 +234,13 @@ class SessionRun:
         except RigStopped:
             # The recorder itself is what failed; its own message is on the way already.
             return
+
+
+def _without_a_hit(analysis: Analysis, wait_s: float) -> str:
+    refused = analysis.hammer.rejected_in_a_row if analysis.hammer is not None else []
+    if not refused:
+        return f"no good hit within {wait_s:g} s: is the hammer's channel connected?"
+    return f"no good hit of {len(refused)}: the last was refused: {refused[-1]}"
 
 
 def _clear_heartbeat_alarm(rig: Rig) -> None:

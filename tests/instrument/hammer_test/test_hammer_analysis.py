@@ -82,6 +82,20 @@ def test_an_overload_is_left_out():
     assert "overload" in hit.why
 
 
+def test_blows_refused_are_counted_back_to_the_last_good_one():
+    analysis, _ = caught([(1.0, 700.0), (9.0, 100.0), (17.0, 100.0), (17.05, 30.0), (25.0, 700.0)], 33.0)
+    double, overload = analysis.rejected_in_a_row
+    assert "double hit" in double
+    assert "overload" in overload
+    analysis.operator(OperatorDid("accepted", "", 0))
+    assert analysis.rejected_in_a_row == []
+
+
+def test_a_blow_that_was_too_hard_makes_none_after_it_weak():
+    _, hits = caught([(1.0, 900.0), (9.0, 100.0)], 16.0)
+    assert [h.accepted for h in hits] == [False, True]
+
+
 def test_silence_is_no_blow():
     analysis, hits = caught([], 10.0)
     assert hits == []

@@ -8,6 +8,8 @@ import pytest
 from drivers.simulated.plant.bare import StruckPlate
 from drivers.simulated.plant.effects import Effects
 from drivers.simulated.plant.shaken import ShakenPlate
+from instrument.errors import RigStopped
+from instrument.run import runner
 from instrument.run.experiment import run_experiment
 from instrument.run.replay import replay
 from instrument.session.configuration import read_whole_experiment
@@ -50,6 +52,15 @@ def plant():
 
 def steps(run):
     return [p for p in run.points if p.purpose == "step"]
+
+
+def test_a_hammer_test_whose_blows_are_all_refused_is_given_up_and_says_why(tmp_path, monkeypatch):
+    monkeypatch.setattr(runner, "HITS_IN_VAIN", 2)
+    path = write_case(tmp_path)
+    rig = tmp_path / "rig.toml"
+    rig.write_text(rig.read_text().replace("= 20.0      # per N", "= 2000.0"))
+    with pytest.raises(RigStopped, match=r"no good hit of 2: the last was refused: .*overload of the force"):
+        run_experiment(read_whole_experiment(path), tmp_path, ("hammer",), fit=no_fit)
 
 
 def test_every_step_reads_the_plants_steady_state(quiet_run, plant):
