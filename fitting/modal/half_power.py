@@ -8,6 +8,10 @@ With f1, f2 where |H| is 1/sqrt(2) of its peak, a single viscous mode has exactl
 Crossings are interpolated in |H|^-2, a parabola near a peak. Read on n lines inside the
 bandwidth without interpolation the ratio comes out some 40 % high (n = 1), 2 % (5), 0.5 % (10);
 zero padding makes n large. A neighbour 5 bandwidths away still adds some 5 %.
+
+A record that ends after T, where a decay exp(-s t) has e = exp(-s T) left, multiplies the mode by
+1 - e exp(-i (w - w_n) T). To first order in e the peak's power is lower by 2 e and that at w_n +- s by
+2 e cos(s T), which moves either crossing by 2 e (1 - cos(s T)) of s.
 """
 
 import numpy as np
@@ -21,10 +25,13 @@ _FEWEST_POINTS = 5
 
 
 @refusing
-def half_power(frf: Frf, near_hz: float, noise: float = 0.0) -> DampingEstimate | Refusal:
+def half_power(
+    frf: Frf, near_hz: float, noise: float = 0.0, record_s: float = np.inf
+) -> DampingEstimate | Refusal:
     """Ratio of the peak nearest to `near_hz`.
 
-    `noise` is the standard deviation of one line of H; it gives the standard error.
+    `noise` is the standard deviation of one line of H; it gives the standard error, into which goes what the
+    end of a record of `record_s` does to the ratio.
     """
     marks = half_power_marks(frf, near_hz)
     if isinstance(marks, Refusal):
@@ -38,7 +45,13 @@ def half_power(frf: Frf, near_hz: float, noise: float = 0.0) -> DampingEstimate 
     peak = float(np.max(np.abs(frf.between(f1, f2).H)))
     # A crossing moves by noise over slope; the slope there is about peak/(sqrt(2) half bandwidth).
     error = noise / peak * ratio * 2 if noise > 0 else float("nan")
+    error = float(np.hypot(error, ratio * cut_off(np.pi * (f2 - f1) * record_s)))
     return DampingEstimate(f_n or f_peak, corrected(f_n, ratio, frf.added_decay_1_s), error)
+
+
+def cut_off(decays: float) -> float:
+    """What the end of a record does to a bandwidth, relative: it lasts for `decays` times 1/s."""
+    return float(2 * np.exp(-decays) * (1 - np.cos(decays))) if np.isfinite(decays) else 0.0
 
 
 def ratio_of(f1: float, f2: float, motion: Motion) -> tuple[float, float]:

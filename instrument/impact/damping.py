@@ -254,7 +254,7 @@ def _half_power(
             return Refusal(f"the record ends at {100 * remains:.0f} % of the decay, expected 20 % or less")
         if apart < 2:
             return Refusal(f"a neighbour {apart:.1f} bandwidths away, expected 2 or more")
-    return half_power(fine, f, noise)
+    return half_power(fine, f, noise, seconds)
 
 
 def _verdict(

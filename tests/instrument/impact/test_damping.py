@@ -233,3 +233,15 @@ def test_a_strongly_damped_mode_is_found():
     clean = clean_hit(np.array([100.0]), np.array([0.03]), np.ones(1))
     (mode,) = found_in(noisy_hits(clean, np.random.default_rng(0))).modes
     assert mode.damping_ratio == pytest.approx(0.03, rel=1e-2)
+
+
+@pytest.mark.parametrize("lines", [1.1, 1.5])
+def test_half_power_counts_what_the_end_of_a_short_record_does_to_it(lines):
+    """Without noise its ratio is off by nothing but that, and the error says so."""
+    seconds, f = 4.0, 110.0
+    zeta = lines / (2 * f * seconds)
+    clean = clean_hit((f,), (zeta,), (1.0,), seconds=seconds)
+    (mode,) = damping_of_hits([judge(hit_of(*clean))], at_hz=(f,)).modes
+    off = mode.half_power.ratio - zeta
+    assert off > 5e-4 * zeta
+    assert mode.half_power.standard_error == pytest.approx(off, rel=0.05)
