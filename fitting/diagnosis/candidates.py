@@ -152,8 +152,18 @@ class CandidateFit:
             promising = [
                 s for k, s in starts if not k or self._is_told_nothing(s) or s[0] > self._least_promise
             ]
+            # What moved stated numbers do already, a linear step cannot promise: every form has its say.
+            kept = {self._form(u) for _, u in promising}
+            for start in [] if has_place(self.effect) else self.starts:
+                if self._form(start[1]) not in kept:
+                    kept.add(self._form(start[1]))
+                    promising.append(start)
             self._known.near = self._from(promising)
         return self._known.near
+
+    def _form(self, u: Array) -> tuple[float, ...]:
+        """Which of an effect's forms a start is of: its values that are not fitted."""
+        return tuple(float(x) for x, q in zip(u, self.effect.parameters, strict=True) if q.fixed)
 
     @property
     def promise(self) -> float:
