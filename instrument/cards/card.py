@@ -41,7 +41,8 @@ class Card:
             f"source: {law.source}; specimen: {law.specimen}",
             f"{band}: {low:g} to {high:g} Hz, not to be used outside; temperature: {warm}",
             *shift,
-            f"verdict: {law.verdict}" + (f": {law.found}" if law.found else ""),
+            f"verdict: {law.verdict}",
+            *([f"with: {law.found}"] if law.found else []),
         ]
         if law.verdict == "unknown":
             lines.append(
