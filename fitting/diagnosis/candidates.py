@@ -152,14 +152,21 @@ class CandidateFit:
             promising = [
                 s for k, s in starts if not k or self._is_told_nothing(s) or s[0] > self._least_promise
             ]
-            # What moved stated numbers do already, a linear step cannot promise: every form has its say.
-            kept = {self._form(u) for _, u in promising}
-            for start in [] if has_place(self.effect) else self.starts:
-                if self._form(start[1]) not in kept:
-                    kept.add(self._form(start[1]))
-                    promising.append(start)
-            self._known.near = self._from(promising)
+            heard = {self._form(u) for _, u in promising}
+            self._known.near = self._from(
+                [*promising, *(s for s in self._one_a_form() if self._form(s[1]) not in heard)]
+            )
         return self._known.near
+
+    def _one_a_form(self) -> list[Start]:
+        """The best start of each form; of an effect with a place, the best of all.
+
+        What moved stated numbers do already, a linear step cannot promise: every form has its say.
+        """
+        best: dict[tuple[float, ...], Start] = {}
+        for start in self.starts[:1] if has_place(self.effect) else self.starts:
+            best.setdefault(self._form(start[1]), start)
+        return list(best.values())
 
     def _form(self, u: Array) -> tuple[float, ...]:
         """Which of an effect's forms a start is of: its values that are not fitted."""
@@ -177,8 +184,8 @@ class CandidateFit:
         return any(promise == 0 for promise, _ in starts)
 
     def briefly(self) -> list[Refitted]:
-        """A few steps from the best start: where the effect cannot be what is looked for."""
-        return [self._rough(self.before.law, u, self.evidence, brief=True) for _, u in self.starts[:1]]
+        """A few steps from the best start of each form: where the effect cannot be what is looked for."""
+        return [self._rough(self.before.law, u, self.evidence, brief=True) for _, u in self._one_a_form()]
 
     @property
     def elsewhere(self) -> list[Refitted]:

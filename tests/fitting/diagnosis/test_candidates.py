@@ -39,3 +39,14 @@ def test_of_one_form_a_start_that_promises_little_is_left(monkeypatch):
 def test_of_many_places_those_that_promise_are_followed(monkeypatch):
     starts = (90.0, [0.3, 0.5, 0.0]), (0.1, [0.2, 0.1, 0.0]), (0.1, [0.2, 0.1, 1.0])
     assert followed(monkeypatch, Placed(), *starts) == [[0.3, 0.5, 0.0]]
+
+
+def test_what_is_looked_at_briefly_is_looked_at_in_every_form(monkeypatch):
+    begun = []
+    monkeypatch.setattr(
+        CandidateFit, "_rough", lambda _, law, u, evidence, *, brief: begun.append(u.tolist())
+    )
+    starts = (9.0, [0.3, 0.0]), (8.0, [0.2, 0.0]), (0.1, [0.1, 1.0])
+    known = [(promise, np.array(u)) for promise, u in starts]
+    CandidateFit(None, None, SimpleNamespace(law=None), TwoForms(), known).briefly()
+    assert begun == [[0.3, 0.0], [0.1, 1.0]]
