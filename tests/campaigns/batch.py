@@ -2,7 +2,7 @@
 
     python tests/campaigns/batch.py [--count 1000] [--folder out/batch-campaign]
 
-Prints a table. Sweeps have 9 to 40 points; one is corrupt. Models are made before time is taken.
+Prints a table. Sweeps have 9 to 400 points; one is corrupt. Models are made before time is taken.
 """
 
 import json
@@ -21,7 +21,7 @@ from batch_cases import CORRUPT, write_specimen, write_sweeps
 
 from instrument.progress import LINES
 
-POINTS = (9, 16, 25, 40)
+POINTS = (9, 25, 100, 400)
 
 
 @click.command()
@@ -42,8 +42,9 @@ def main(count: int, folder: Path, tolerances: bool) -> None:
     print(f"scaling 1 to 2: {rates[2] / rates[1]:.2f}")
     killed(sweeps, plate, folder / "killed", count)
     same(folder, "w1", "w2", "killed")
-    clustered(sweeps, plate, folder / "dask")
-    same(folder, "w1", "dask")
+    rates = {n: clustered(sweeps, plate, folder / f"dask{n}", n) for n in (1, 2)}
+    print(f"scaling 1 to 2 Dask workers: {rates[2] / rates[1]:.2f}")
+    same(folder, "w1", "dask1", "dask2")
 
 
 def command(sweeps, plate, out, options):
@@ -96,7 +97,7 @@ def same(folder, first, *others):
         )
 
 
-def clustered(sweeps, plate, out):
+def clustered(sweeps, plate, out, count):
     dask = [sys.executable, "-m", "dask"]
     scheduler = subprocess.Popen(
         [*dask, "scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard"],
@@ -105,11 +106,12 @@ def clustered(sweeps, plate, out):
     )
     address = next(line.split()[-1] for line in scheduler.stderr if "Scheduler at:" in line)
     worker = [*dask, "worker", address, "--nthreads", "1", "--no-nanny", "--no-dashboard"]
-    workers = [subprocess.Popen(worker, stderr=subprocess.DEVNULL) for _ in range(2)]
-    one_go("two Dask workers", sweeps, plate, out, ["--scheduler", address])
+    workers = [subprocess.Popen(worker, stderr=subprocess.DEVNULL) for _ in range(count)]
+    rate = one_go(f"{count} Dask workers", sweeps, plate, out, ["--scheduler", address])
     for process in (*workers, scheduler):
         process.terminate()
         process.wait()
+    return rate
 
 
 if __name__ == "__main__":
