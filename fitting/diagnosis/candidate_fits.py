@@ -6,7 +6,7 @@ from itertools import permutations
 
 import numpy as np
 
-from fitting.diagnosis.candidates import CandidateFit, Known, Start, look, polished
+from fitting.diagnosis.candidates import CandidateFit, Known, Start, has_place, look, polished
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.prediction import held_out
@@ -104,9 +104,13 @@ class CandidateFits:
         self.learn(name, state)
         bare = kept(response_of(self.problem, ()), self.evidence, best.law, best.z)
         there = [self._beside(bare, c.effect) for c in self.candidates[name]]
+        # From a law far off a linear step says nothing of a stiffness anywhere within six decades.
+        astray = self.none.chi2_per_dof > SEARCH.wrong
         for candidate, from_there in zip(self.candidates[name], there, strict=True):
             able = from_there.is_open or from_there.promise > SEARCH.able * (bare.chi2 - best.chi2)
             near = [*candidate.briefly(), *(from_there.near if able else [])]
+            if astray and _is_over_decades(candidate.effect):
+                near += candidate.quick
             candidate.learn(Known(near=sorted(near, key=lambda f: f.chi2)))
         return FirstLook(name, [f for c in self.candidates[name] for f in c.near], self.state(name))
 
@@ -201,3 +205,7 @@ class CandidateFits:
 
 def _best_first(fits: list[tuple[CandidateFit, Refitted]]) -> list[tuple[CandidateFit, Refitted]]:
     return sorted(fits, key=lambda one: one[1].chi2)
+
+
+def _is_over_decades(effect: Effect) -> bool:
+    return not has_place(effect) and any(q.logarithmic and not q.fixed for q in effect.parameters)
