@@ -60,3 +60,22 @@ def _slow(rng, points):
         (rng.normal() + 1j * rng.normal()) * np.cos(np.pi * k * t + rng.uniform(0, 2 * np.pi)) for k in every
     ]
     return np.sum(waves, axis=0) / np.sqrt(len(waves))
+
+
+HEAVIER_KG = MASSES_KG[1:]
+
+
+def fixture_factor(f):
+    """Gain low by 3 %, a degree of phase, and a mode of the fixture at 240 Hz."""
+    r = f / 240.0
+    return 0.97 * np.exp(0.02j) * (1 + 0.02 * r**2 / (1 - r**2 + 0.1j * r))
+
+
+def sweeps_of_masses(points, *, alike):
+    """A sweep of each mass: behind one fixture, or each wandering by itself."""
+    given = []
+    for k, m in enumerate(HEAVIER_KG):
+        s = sweep(pair(m), seed=k, noise=5e-4, points=points, wander=0.0 if alike else 0.01)
+        v = s.velocity_m_s * (fixture_factor(s.frequency_hz) if alike else 1.0)
+        given.append(Sweep(**{**vars(s), "velocity_m_s": v}))
+    return given

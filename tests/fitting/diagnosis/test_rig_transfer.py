@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from shear_pair_cases import LAW, pair, sweep
+from shear_pair_cases import HEAVIER_KG, LAW, fixture_factor, pair, sweeps_of_masses
 
 from fitting.diagnosis.begin import begin
 from fitting.diagnosis.rig_transfer import rig_transfer, thinned, validation_of
@@ -12,28 +12,10 @@ from fitting.diagnosis.several import SeveralProblem
 from fitting.diagnosis.small_problem import SmallProblem
 from fitting.diagnosis.wandering import Wandering
 from fitting.noise import Noise, noise_of
-from fitting.sweep import Sweep
-
-MASSES_KG = (0.2533, 0.573, 1.196)
-
-
-def transfer(f):
-    """Gain low by 3 %, a degree of phase, and a mode of the fixture at 240 Hz."""
-    r = f / 240.0
-    return 0.97 * np.exp(0.02j) * (1 + 0.02 * r**2 / (1 - r**2 + 0.1j * r))
-
-
-def read(*, alike):
-    given = []
-    for k, m in enumerate(MASSES_KG):
-        s = sweep(pair(m), seed=k, noise=5e-4, points=120, wander=0.0 if alike else 0.01)
-        v = s.velocity_m_s * (transfer(s.frequency_hz) if alike else 1.0)
-        given.append(Sweep(**{**vars(s), "velocity_m_s": v}))
-    return given
 
 
 def task(sweeps):
-    members = [SmallProblem.of_small(s, pair(m)) for s, m in zip(sweeps, MASSES_KG, strict=True)]
+    members = [SmallProblem.of_small(s, pair(m)) for s, m in zip(sweeps, HEAVIER_KG, strict=True)]
     problem = SeveralProblem.of_members(members, [None] * len(members))
     return problem, Noise(np.concatenate([noise_of(s).std_m_s for s in sweeps]), "local scatter")
 
@@ -44,32 +26,34 @@ def law_error(law, f=(100.0, 200.0, 400.0)):
 
 
 def test_what_all_masses_have_in_common_is_found_and_leaves_the_law():
-    problem, noise = task(read(alike=True))
+    problem, noise = task(sweeps_of_masses(120, alike=True))
     begun = begin(problem, None, noise, None, LAW)
     found = rig_transfer(begun.problem, begun.evidence, begun.none, begun.problem.file_of_points)
     assert found.nats > 50
     assert found.wandering.of_all > 3 * found.wandering.of_each
     inside = (problem.sweep.frequency_hz > 100) & (problem.sweep.frequency_hz < 400)
-    off = found.ln_g - np.log(transfer(problem.sweep.frequency_hz))
+    off = found.ln_g - np.log(fixture_factor(problem.sweep.frequency_hz))
     assert np.sqrt(np.mean(np.abs(off[inside]) ** 2)) < 0.01
     thin = np.zeros(len(problem.sweep), bool)
     thin[found.taken] = True
     starts = problem.starts_at
-    few, its_noise = task([s.take(thin[part]) for s, part in zip(read(alike=True), starts, strict=True)])
+    few, its_noise = task(
+        [s.take(thin[part]) for s, part in zip(sweeps_of_masses(120, alike=True), starts, strict=True)]
+    )
     after = begin(replace(few, wandering=found.wandering), None, its_noise, None, LAW)
     assert law_error(begun.none.law).max() > 0.05
     assert law_error(after.none.law).max() < 0.4 * law_error(begun.none.law).max()
 
 
 def test_files_that_wander_each_by_itself_have_nothing_in_common():
-    problem, noise = task(read(alike=False))
+    problem, noise = task(sweeps_of_masses(120, alike=False))
     begun = begin(problem, None, noise, None, LAW)
     assert begun.none.chi2_per_dof > 3
     assert rig_transfer(begun.problem, begun.evidence, begun.none, begun.problem.file_of_points) is None
 
 
 def test_held_out_it_predicts_better_than_a_law_alone():
-    problem, noise = task(read(alike=True))
+    problem, noise = task(sweeps_of_masses(120, alike=True))
     begun = begin(problem, None, noise, None, LAW)
     found = rig_transfer(begun.problem, begun.evidence, begun.none, begun.problem.file_of_points)
     held = validation_of(found, problem.sweep.segment, np.ones(len(problem.sweep)))

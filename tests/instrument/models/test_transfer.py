@@ -2,29 +2,16 @@
 
 import numpy as np
 import pytest
-from shear_pair_cases import LAW, pair, sweep
+from shear_pair_cases import HEAVIER_KG, LAW, fixture_factor, pair, sweeps_of_masses
 
-from fitting.sweep import Sweep
 from instrument.models.files import File
 from instrument.models.together import _Work, diagnose_together
 from instrument.models.transfer import with_transfer
 from instrument.progress import quiet
 
-MASSES_KG = (0.2533, 0.573, 1.196)
-
-
-def factor(f):
-    r = f / 240.0
-    return 0.97 * np.exp(0.02j) * (1 + 0.02 * r**2 / (1 - r**2 + 0.1j * r))
-
 
 def files(*, alike):
-    given = []
-    for k, m in enumerate(MASSES_KG):
-        s = sweep(pair(m), seed=k, noise=5e-4, points=90, wander=0.0 if alike else 0.01)
-        v = s.velocity_m_s * (factor(s.frequency_hz) if alike else 1.0)
-        given.append(File(Sweep(**{**vars(s), "velocity_m_s": v}), pair(m)))
-    return given
+    return [File(s, pair(m)) for s, m in zip(sweeps_of_masses(90, alike=alike), HEAVIER_KG, strict=True)]
 
 
 def law_off(band):
@@ -47,7 +34,7 @@ def test_only_what_all_files_have_in_common_is_listed_and_changes_the_law(alike)
         assert found is before
         return
     values = {k: p.value for k, p in listed["fixture_transfer"].parameters.items()}
-    true = np.log(factor(np.concatenate([one.sweep.frequency_hz for one in given])))
+    true = np.log(fixture_factor(np.concatenate([one.sweep.frequency_hz for one in given])))
     assert values["gain"] == pytest.approx(np.mean(np.expm1(true.real)), abs=0.015)
     assert values["phase"] == pytest.approx(np.mean(true.imag), abs=0.01)
     assert values["largest"] == pytest.approx(np.abs(np.expm1(true)).max(), abs=0.05)

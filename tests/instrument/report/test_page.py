@@ -3,13 +3,11 @@
 import base64
 import re
 import shutil
-from dataclasses import replace
 from html import unescape
 from html.parser import HTMLParser
 from pathlib import Path
 from xml.etree import ElementTree
 
-import numpy as np
 import pytest
 from diagnosed_session import diagnosed_session
 from diagnosis_cases import diagnosis
@@ -20,7 +18,6 @@ from instrument.files.acceleration import show_acceleration_in
 from instrument.files.column import ColumnPoint
 from instrument.files.point_columns import in_report
 from instrument.report.blocks import typeset
-from instrument.report.measured import explained, segments_of
 from instrument.report.page import report_of
 from instrument.report.setting import rig_section
 from instrument.results.diagnosis_words import verdict_line
@@ -226,28 +223,6 @@ def test_the_result_is_the_law_after_the_diagnosis(tmp_path):
     assert typeset(words) in head
     assert typeset(verdict_line(found)) in typeset(words)
     assert "the law before the diagnosis" in section(page, "Identification of the core, before the diagnosis")
-
-
-def test_the_response_with_what_was_found_is_drawn_beside_the_points(tmp_path):
-    path = diagnosed_session(tmp_path)
-    with SessionFile(path) as file:
-        contents = contents_of(file)
-    measured = segments_of(contents)[0]
-    left = {p.frequency_hz: p.after for p in diagnosis().points}
-    at_hz, with_effects = explained(measured, diagnosis())
-    both = [k for k, f in enumerate(measured.frequency_hz) if f in left]
-    off = [0.01 * complex(left[f].re_percent, left[f].im_percent) for f in at_hz]
-    assert list(at_hz) == list(measured.frequency_hz[both])
-    assert with_effects == pytest.approx(measured.over_base[both] * (1 + np.array(off)))
-    assert explained(measured, diagnosis(verdict="unknown")) is None
-    assert explained(measured, diagnosis(phase=False)) is None
-    elsewhere = replace(measured, frequency_hz=measured.frequency_hz + 0.1)
-    assert explained(elsewhere, diagnosis()) is None
-
-
-def test_a_page_prints_what_a_terminal_writes_in_ascii_and_leaves_names_alone():
-    assert typeset("k 2 +- 1 N/m^3, 0.3 -> 0.4 m/s^2") == "k 2 ± 1 N/m³, 0.3 → 0.4 m/s²"
-    assert typeset("a->b^2+-c.toml") == "a->b^2+-c.toml"
 
 
 # Sessions with something missing
