@@ -174,12 +174,16 @@ class SyntheticSession:
             self.step("calibration", 1, 0, frequency)
         self.emit(SegmentEnded(1, 0))
 
+    def begin_sweep(self):
+        """Aim, acquire, set the range."""
+        self.emit(OperatorDid("aimed", "pickup"))
+        self.acquire("sweep", ("base", "velocity", "temperature"))
+        self.emit(_RANGE)
+
     def sweep(self, segments=(1, 2, 3), *, steps=9, begin=True):
         """Segments with the sentinel before the first and after each; `steps` of the last one."""
         if begin:
-            self.emit(OperatorDid("aimed", "pickup"))
-            self.acquire("sweep", ("base", "velocity", "temperature"))
-            self.emit(_RANGE)
+            self.begin_sweep()
         for k, number in enumerate(segments):
             low, high = SEGMENTS[number - 1]
             if k == 0 and begin:
