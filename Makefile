@@ -5,6 +5,9 @@ BIN     := $(VENV)/bin
 READY   := $(VENV)/.ready
 OUT     := out
 
+# The tests start hundreds of processes: each would compile every room anew where this is set.
+export PYTHONDONTWRITEBYTECODE :=
+
 .DEFAULT_GOAL := help
 .PHONY: help setup demo test test-long checks unit coverage lint types contracts format bench benchmark docs clean
 
