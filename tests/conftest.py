@@ -3,11 +3,13 @@
 import gc
 import os
 import signal
+import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
+import warm_processes
 from hypothesis import settings
 from plugin_sites import describe
 
@@ -48,6 +50,25 @@ def cache_of_this_run(tmp_path_factory):
     os.environ["VISCORIG_CACHE"] = str(folder / "cache")
     # The tests fill both processors by themselves.
     os.environ[PROCESSES] = "1"
+
+
+@pytest.fixture(scope="session")
+def forking():
+    with warm_processes.forking():
+        yield
+
+
+@pytest.fixture(scope="module")
+def warm(forking):
+    """Processes begin with everything loaded, unless a test asks for `cold`."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(subprocess, "Popen", warm_processes.Popen)
+        yield
+
+
+@pytest.fixture
+def cold(monkeypatch):
+    monkeypatch.delenv(warm_processes.FORK_AT, raising=False)
 
 
 @pytest.fixture(scope="session")

@@ -8,6 +8,8 @@ from PySide6.QtCore import Qt
 
 from instrument.stream.raw import FollowUpDecided
 
+pytestmark = pytest.mark.usefixtures("warm")
+
 LEFT = Qt.MouseButton.LeftButton
 PATIENCE_MS = 120_000
 SWEEP = "[[sweep.segments]]\nlow_hz = 95.0\nhigh_hz = 107.0\npoints = 4\n"

@@ -8,6 +8,8 @@ from gui.feeds.live import LiveFeed
 from instrument.engine import Engine, Order
 from instrument.session.configuration import read_whole_experiment
 
+pytestmark = pytest.mark.usefixtures("warm")
+
 SWEEP = """
 [[sweep.segments]]
 low_hz = 95.0

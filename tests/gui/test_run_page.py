@@ -20,6 +20,8 @@ from instrument.session.storage import SessionFile
 from instrument.simulated_case import write_case
 from instrument.stream.raw import OperatorDid
 
+pytestmark = pytest.mark.usefixtures("warm")
+
 LEFT = Qt.MouseButton.LeftButton
 SWEEP = "[[sweep.segments]]\nlow_hz = 95.0\nhigh_hz = 107.0\npoints = 5\n"
 

@@ -26,6 +26,8 @@ from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import DampingFound, HitRevised
 
+pytestmark = pytest.mark.usefixtures("warm")
+
 LEFT = Qt.MouseButton.LeftButton
 BAND_HZ = (10.0, 550.0)
 PATIENCE_MS = 60_000

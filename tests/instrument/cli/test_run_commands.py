@@ -16,6 +16,8 @@ from instrument.cli.main import run
 from instrument.session.storage import SessionFile
 from instrument.stream.raw import SessionEnded
 
+pytestmark = pytest.mark.usefixtures("warm")
+
 SEGMENTS = "[[sweep.segments]]\nlow_hz = 80.0\nhigh_hz = 290.0\npoints = 400\n"
 STARTS_S = 60.0
 
@@ -178,7 +180,7 @@ def of_a_process(*words):
 
 
 @pytest.mark.parametrize("command", ["run", "hammer", "sweep", "check"])
-def test_a_missing_experiment_is_one_line_and_exit_2(tmp_path, capsys, command):
+def test_a_missing_experiment_is_one_line_and_exit_2(tmp_path, capsys, cold, command):
     words = (command, str(tmp_path / "absent.toml"))
     status, error = of_a_process(*words) if command == "run" else (run(words), capsys.readouterr().err)
     assert status == 2

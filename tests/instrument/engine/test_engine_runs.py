@@ -47,6 +47,8 @@ from instrument.stream.raw import (
     SessionEnded,
 )
 
+pytestmark = pytest.mark.usefixtures("warm")
+
 POINTS = 49
 SWEEP_OF_POINTS = SWEEP.replace("points = 6", "points = 40")
 """Long beside what a word to the engine takes, on a busy machine too."""
@@ -298,7 +300,7 @@ def _exists(pid: int) -> bool:
         return file.read().rpartition(")")[2].split()[0] != "Z"
 
 
-def test_an_engine_stands_up_a_simulated_rig_itself(tmp_path):
+def test_an_engine_stands_up_a_simulated_rig_itself(tmp_path, cold):
     order = Order(write_case(tmp_path), tmp_path, ("hammer",), ask_content=True)
     with engine_of(order, ENGINE) as engine:
         messages = follow(

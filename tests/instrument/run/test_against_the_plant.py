@@ -18,6 +18,8 @@ from instrument.simulated_case import write_case
 from instrument.stream.derived import CalibrationFound, FitUpdated, HitJudged
 from instrument.stream.raw import StepBegan
 
+pytestmark = pytest.mark.usefixtures("warm")
+
 RATIOS = np.array([0.29, 0.13, 0.18, 0.21, 0.11, 0.07, 0.09, 0.04]) / 100
 
 
