@@ -96,6 +96,10 @@ class PointLeft(Result):
     noise_percent: Number
     before: Residual
     after: Residual
+    file: int | None = None
+    """From 1, of several."""
+    pickup: int | None = None
+    """From 0, of several."""
 
     def stage(self, name: StageName) -> Residual:
         """Of one fit."""

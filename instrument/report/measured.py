@@ -1,18 +1,41 @@
-"""The sweep's points as arrays to draw: velocity over base acceleration, segment by segment."""
+"""The sweep's points as arrays to draw: velocity over base acceleration, by segment and spot."""
 
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from instrument.facts.diagnosis import DiagnosisResult
+from instrument.facts.diagnosis import DiagnosisResult, PointLeft
 from instrument.session.contents import Contents
 from instrument.stream.derived import PointMeasured
 
 
 @dataclass(frozen=True)
+class Which:
+    """What tells one point of a session from all others, in whatever result it stands."""
+
+    sweep: int
+    level_m_s2: float
+    pickup: int
+    frequency_hz: float
+    repeat: int
+    """How often it had been measured before: a sentinel may be at the frequency of a step."""
+
+    @classmethod
+    def of(cls, points: Iterable[PointMeasured | PointLeft]) -> Iterator["Which"]:
+        """Of points in the order of measuring. Segments are no part: several files number them on."""
+        seen: Counter[tuple[int, float, int, float]] = Counter()
+        for p in points:
+            key = (p.sweep, p.level_m_s2, p.pickup or 0, p.frequency_hz)
+            yield cls(*key, seen[key])
+            seen[key] += 1
+
+
+@dataclass(frozen=True)
 class Measured:
-    """Points of one segment, all its sweeps, ascending in frequency. Shape (points,) each."""
+    """Points of one segment, all its passes, ascending in frequency. Shape (points,) each."""
 
     segment: int
     frequency_hz: Array
@@ -20,6 +43,9 @@ class Measured:
     """Velocity over base acceleration in s."""
     std: Array
     """Of each part of it, by the noise of both channels."""
+    which: tuple[Which, ...]
+    elsewhere: str = ""
+    """Another spot or a known mass, in words; empty where the plate was read as the specimen file says."""
 
     @property
     def margin_hz(self) -> float:
@@ -34,37 +60,51 @@ class Measured:
         return np.unique(np.concatenate([f, np.linspace(f[0] - self.margin_hz, f[-1] + self.margin_hz, 241)]))
 
 
-def explained(measured: Measured, found: DiagnosisResult | None) -> tuple[Array, Complex] | None:
-    """Frequencies in Hz, and velocity over base acceleration in s with the effects found: (points,) each.
+def explained(measured: Measured, found: DiagnosisResult | None) -> list[tuple[Array, Complex]]:
+    """What a diagnosis predicts at its points with the effects found; empty where it named nothing.
 
-    What a diagnosis predicts at its points, of one sweep at one level; None where it named nothing.
+    For each pass, level and spot: frequencies in Hz, velocity over base acceleration in s, (points,) each.
     """
     if found is None or not found.effects or found.verdict not in ("effect", "ambiguous"):
-        return None
-    left = {p.frequency_hz: p.after for p in reversed(found.points) if p.after.has_phase}
-    at = [k for k, f in enumerate(measured.frequency_hz) if float(f) in left]
-    if not at:
-        return None
-    f = measured.frequency_hz[at]
-    once = np.concatenate([[True], np.diff(f) > 0])
-    ratio = np.array([1 + 0.01 * complex(left[float(x)].re_percent, left[float(x)].im_percent) for x in f])
-    return f[once], (measured.over_base[at] * ratio)[once]
+        return []
+    after = {w: p.after for w, p in zip(Which.of(found.points), found.points, strict=True)}
+    lines: dict[tuple[int, float, int], list[tuple[float, complex]]] = {}
+    for w, over_base in zip(measured.which, measured.over_base.tolist(), strict=True):
+        left = after.get(w)
+        if left is not None and left.has_phase:
+            ratio = 1 + 0.01 * complex(left.re_percent, left.im_percent)
+            lines.setdefault((w.sweep, w.level_m_s2, w.pickup), []).append(
+                (w.frequency_hz, over_base * ratio)
+            )
+    return [(np.array([f for f, _ in line]), np.array([z for _, z in line])) for line in lines.values()]
 
 
 def segments_of(contents: Contents) -> list[Measured]:
-    """Every segment with points in it; sentinels are not among them."""
-    steps = [p for p in contents.measured if p.purpose == "step"]
-    return [_segment(n, steps) for n in sorted({p.segment for p in steps})]
+    """Every segment with points in it, what was read elsewhere by itself; sentinels are not among them."""
+    every = zip(Which.of(contents.measured), contents.measured, strict=True)
+    steps = [(w, p) for w, p in every if p.purpose == "step"]
+    places = sorted({(p.segment, p.pickup, p.mass_kg) for _, p in steps})
+    return [
+        _segment([(w, p) for w, p in steps if (p.segment, p.pickup, p.mass_kg) == place]) for place in places
+    ]
 
 
-def _segment(number: int, steps: list[PointMeasured]) -> Measured:
-    mine = sorted((p for p in steps if p.segment == number), key=lambda p: float(p.frequency_hz))
+def _segment(steps: list[tuple[Which, PointMeasured]]) -> Measured:
+    which, mine = zip(*sorted(steps, key=lambda one: one[0].frequency_hz), strict=True)
     base, v = np.array([p.base_m_s2 for p in mine]), np.array([p.velocity_m_s for p in mine])
     noise = np.hypot(noise_of(mine, "velocity"), noise_of(mine, "base"))
-    return Measured(number, np.array([p.frequency_hz for p in mine]), v / base, noise * np.abs(v / base))
+    f = np.array([p.frequency_hz for p in mine])
+    return Measured(mine[0].segment, f, v / base, noise * np.abs(v / base), which, _elsewhere(mine[0]))
 
 
-def noise_of(points: list[PointMeasured], channel: str) -> Array:
+def _elsewhere(p: PointMeasured) -> str:
+    said = [f"spot {p.spot_mm[0]:g}, {p.spot_mm[1]:g} mm"] if p.spot_mm is not None else []
+    if p.mass_at_mm is not None:
+        said.append(f"{1e3 * p.mass_kg:g} g at {p.mass_at_mm[0]:g}, {p.mass_at_mm[1]:g} mm")
+    return ", ".join(said)
+
+
+def noise_of(points: Sequence[PointMeasured], channel: str) -> Array:
     """Standard deviation of each part over the amplitude: a fraction. Shape (points,)."""
     if channel == "velocity":
         return np.array([p.velocity_std_m_s / abs(p.velocity_m_s) for p in points])

@@ -45,7 +45,7 @@ def _response(segments: Sequence[Measured], fitted: ReportedFit, found: Diagnosi
         _draw_segment(amplitude, phase, measured, fitted, explained(measured, found))
     label(above[0], y="|v / a| / ms")
     label(below[0], y="Phase / degree")
-    legend_above(figure, above[0])
+    legend_above(figure, *above)
     return figure
 
 
@@ -54,10 +54,11 @@ def _draw_segment(
     phase: Axes,
     m: Measured,
     fitted: ReportedFit,
-    after: tuple[Array, Complex] | None,
+    after: list[tuple[Array, Complex]],
 ) -> None:
     f, size = m.frequency_hz, np.abs(m.over_base)
-    model = fitted.over_base(m.grid_hz)
+    # The model is of the spot and the plate that the specimen file says.
+    model = fitted.over_base(m.grid_hz) if not m.elsewhere else None
     if model is None:
         angle = np.unwrap(np.angle(m.over_base))
     else:
@@ -67,16 +68,16 @@ def _draw_segment(
         angle = at + np.angle(m.over_base * np.exp(-1j * at))
         line: dict[str, Any] = {"color": MODEL, "linewidth": 1.3, "linestyle": "-"}
         name = "model fitted"
-        if after is not None:
+        if after:
             name, line["linestyle"] = "model without any effect", "--"
         amplitude.plot(m.grid_hz, _MS * np.abs(model), label=name, **line)
         phase.plot(m.grid_hz, np.degrees(course), **line)
-    if after is not None:
-        at_hz, with_effects = after
+    for n, (at_hz, with_effects) in enumerate(after):
         near = np.interp(at_hz, f, angle)
         turned = near + np.angle(with_effects * np.exp(-1j * near))
         line = {"color": MARK, "linewidth": 1.3, "linestyle": "-"}
-        amplitude.plot(at_hz, _MS * np.abs(with_effects), label="with what the diagnosis found", **line)
+        name = "" if n else "with what the diagnosis found"
+        amplitude.plot(at_hz, _MS * np.abs(with_effects), label=name or None, **line)
         phase.plot(at_hz, np.degrees(turned), **line)
     bars: dict[str, Any] = {"fmt": "o", "markersize": 3.5, "color": DATA, "capsize": 2, "elinewidth": 0.8}
     amplitude.errorbar(
@@ -84,7 +85,7 @@ def _draw_segment(
     )
     phase.errorbar(f, np.degrees(angle), np.degrees(TWO_STD * m.std / size), **bars)
     from_zero(amplitude, _MS * (size if model is None else np.concatenate([size, np.abs(model)])))
-    label(amplitude, title=f"Segment {m.segment}")
+    label(amplitude, title=f"Segment {m.segment}" + (f"\n{m.elsewhere}" if m.elsewhere else ""))
     label(phase, x="Frequency / Hz")
 
 

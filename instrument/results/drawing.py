@@ -67,7 +67,10 @@ def legend(ax: Axes) -> None:
         ax.legend(fontsize=8, frameon=False)
 
 
-def legend_above(figure: Figure, ax: Axes) -> None:
-    """One for all panels, off the data."""
-    handles, names = ax.get_legend_handles_labels()
-    figure.legend(handles, names, loc="outside upper center", ncols=len(names), fontsize=8, frameon=False)
+def legend_above(figure: Figure, *axes: Axes) -> None:
+    """One for all panels, off the data: what any of some axes has, each name once."""
+    of_name = {name: h for ax in axes for h, name in zip(*ax.get_legend_handles_labels(), strict=True)}
+    names = list(of_name)
+    figure.legend(
+        of_name.values(), names, loc="outside upper center", ncols=len(names), fontsize=8, frameon=False
+    )

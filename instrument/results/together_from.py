@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from instrument.facts.diagnosis import DiagnosisResult
+from instrument.facts.diagnosis import DiagnosisResult, PointLeft
 from instrument.facts.identification import IdentificationResult, PointFitted
 from instrument.facts.rows import StretchSetAside
 from instrument.models.files import File, name_of, numbers_of
@@ -25,9 +25,14 @@ def identified_together_from(found: Together, files: Sequence[File]) -> Identifi
 
 
 def diagnosed_together_from(found: DiagnosedTogether, files: Sequence[File]) -> DiagnosisResult:
-    """The result of `diagnose`, with the files' names and what was set aside of which."""
+    """The result of `diagnose`, each point with its file (from 1), and what was set aside."""
     result = diagnosis_from(found.found, found.sweep)
-    return result.but(files=_names(files), set_aside=_set_aside(found.aside, files))
+    owned = zip(result.points, _owners(files, result.points), strict=True)
+    return result.but(
+        points=tuple(point.but(file=number, pickup=f.pickup) for point, (number, f) in owned),
+        files=_names(files),
+        set_aside=_set_aside(found.aside, files),
+    )
 
 
 def _names(files: Sequence[File]) -> tuple[str, ...]:
@@ -50,7 +55,7 @@ def _set_aside(aside: Sequence[SetAside], files: Sequence[File]) -> tuple[Stretc
     )
 
 
-def _owners(files: Sequence[File], points: Sequence[PointFitted]) -> list[tuple[int, File]]:
+def _owners(files: Sequence[File], points: Sequence[PointFitted | PointLeft]) -> list[tuple[int, File]]:
     """By segments: every file's, and every spot's, are numbered on from the last one's."""
     counts = np.cumsum([len(np.unique(f.sweep.segment)) for f in files])
     owners = list(zip(numbers_of(files), files, strict=True))
