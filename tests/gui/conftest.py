@@ -9,7 +9,10 @@ from PySide6.QtCore import QEvent, QSettings
 from pytestqt.qtbot import QtBot
 from session_cases import whole_session
 
+from fitting.plugins import Registry
+from gui import page_set
 from gui.garbage import Collector
+from gui.pages import PAGES
 from gui.settings import Settings
 from gui.theme import Appearance
 from gui.window import Window
@@ -62,6 +65,17 @@ def appearance(qapp):
     return Appearance(qapp, "light", dressed=False)
 
 
+@pytest.fixture(scope="module", autouse=True)
+def pages_there(request):
+    """A module marked `pages` has windows with these alone: to make and draw all of them takes a second."""
+    marker = request.node.get_closest_marker("pages")
+    with pytest.MonkeyPatch.context() as patch:
+        if marker is not None:
+            named = {name: PAGES[name] for name in marker.args}
+            patch.setattr(page_set, "PAGES", Registry("viscorig.pages", named, lambda name, found: found))
+        yield
+
+
 @pytest.fixture
 def window(qtbot, appearance, settings):
     window = Window(appearance, settings)
@@ -80,7 +94,7 @@ def end_run(window):
 
 
 @pytest.fixture(scope="module")
-def window_of_the_module(qapp, tmp_path_factory):
+def window_of_the_module(qapp, pages_there, tmp_path_factory):
     settings = str(tmp_path_factory.mktemp("settings"))
     QSettings.setPath(QSettings.Format.IniFormat, QSettings.Scope.UserScope, settings)
     window = Window(Appearance(qapp, "light", dressed=False), Settings())

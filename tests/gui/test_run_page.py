@@ -20,7 +20,7 @@ from instrument.session.storage import SessionFile
 from instrument.simulated_case import write_case
 from instrument.stream.raw import OperatorDid
 
-pytestmark = pytest.mark.usefixtures("warm")
+pytestmark = [pytest.mark.usefixtures("warm"), pytest.mark.pages("run", "hammer")]
 
 LEFT = Qt.MouseButton.LeftButton
 SWEEP = "[[sweep.segments]]\nlow_hz = 95.0\nhigh_hz = 107.0\npoints = 5\n"
@@ -122,7 +122,7 @@ def test_a_hit_is_rejected_and_taken_back_while_the_run_waits(qtbot, window, unc
         qtbot.waitUntil(lambda: page.banner.isVisible())
         assert "2 good hits" in page.banner.words.text()
         window.show_page("hammer")
-        hits = window.pages[2].hits
+        hits = window.pages[-1].hits
         first = hits.table.visualRect(hits.table.model().index(0, 0))
         qtbot.mouseClick(hits.table.viewport(), LEFT, pos=first.center())
         qtbot.mouseClick(hits.reject, LEFT)

@@ -11,6 +11,8 @@ from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
 from instrument.facts.follow_up import FollowUp
 from instrument.results.next_words import advice
 
+pytestmark = pytest.mark.pages("run", "material", "diagnosis")
+
 LEFT = Qt.MouseButton.LeftButton
 LONG_MS = 300_000
 RANKED = tuple(FollowUp.model_validate(o) for o in (SPOT, BACKWARDS))

@@ -26,7 +26,7 @@ from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import DampingFound, HitRevised
 
-pytestmark = pytest.mark.usefixtures("warm")
+pytestmark = [pytest.mark.usefixtures("warm"), pytest.mark.pages("run", "hammer")]
 
 LEFT = Qt.MouseButton.LeftButton
 BAND_HZ = (10.0, 550.0)
@@ -44,7 +44,7 @@ def hits(session_path):
 def page(qtbot, opened):
     """Of the session, its hits drawn."""
     opened.show_page("hammer")
-    page = opened.pages[2]
+    page = opened.pages[-1]
     qtbot.waitUntil(lambda: page._averaged is not None, timeout=PATIENCE_MS)
     return page
 
@@ -53,7 +53,7 @@ def page(qtbot, opened):
 def looked_at(qtbot, kept):
     """The same in the window of the whole module, everything computed; for tests that select at most."""
     kept.show_page("hammer")
-    page = kept.pages[2]
+    page = kept.pages[-1]
     qtbot.waitUntil(lambda: page._averaged is not None, timeout=PATIENCE_MS)
     return computed_whole(qtbot, page)
 
@@ -99,7 +99,7 @@ def may_press(page):
 
 def test_without_a_session_it_says_what_to_do(window):
     window.show_page("hammer")
-    page = window.pages[2]
+    page = window.pages[-1]
     assert page.nothing.isVisible()
     assert "start a run" in page.nothing.text()
 
@@ -113,8 +113,8 @@ def test_an_experiment_without_a_hammer_test_says_so(qtbot, window, tmp_path):
     index.end()
     window.show_page("hammer")
     window.open(index.save(tmp_path))
-    qtbot.waitUntil(lambda: "no hammer test" in window.pages[2].nothing.text(), timeout=PATIENCE_MS)
-    assert window.pages[2].nothing.isVisible()
+    qtbot.waitUntil(lambda: "no hammer test" in window.pages[-1].nothing.text(), timeout=PATIENCE_MS)
+    assert window.pages[-1].nothing.isVisible()
 
 
 def test_the_table_shows_what_was_recorded(looked_at, kept):
@@ -256,7 +256,7 @@ def live(window, tmp_path):
 
 
 def test_a_word_about_a_hit_goes_to_the_run(qtbot, window, live):
-    page = window.pages[2]
+    page = window.pages[-1]
     qtbot.waitUntil(page.hits.use.isVisible, timeout=PATIENCE_MS)
     assert "use them" in page.hits.prompt.text()
     page.hits.select(1)

@@ -14,6 +14,8 @@ from instrument.results.session_result import recorded_result
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 
+pytestmark = pytest.mark.pages("run", "material")
+
 LEFT = Qt.MouseButton.LeftButton
 
 

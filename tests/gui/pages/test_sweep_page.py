@@ -7,6 +7,8 @@ from gui.pages.sweep.drawing import FORESEEN
 from gui.theme import DARK, LIGHT
 from instrument.stepped_sine.sine_fit import sine_fit
 
+pytestmark = pytest.mark.pages("run", "sweep")
+
 PATIENCE_MS = 60_000
 
 
