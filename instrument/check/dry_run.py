@@ -23,6 +23,7 @@ from instrument.check.forecast import (
 from instrument.check.sensors import sensor_remarks
 from instrument.errors import BadInput
 from instrument.facts.check import CheckResult, SegmentForecast, SoakForecast
+from instrument.files.acceleration import in_both
 from instrument.files.devices import ranges_of
 from instrument.files.experiment_file import experiment_faults, read_experiment
 from instrument.files.rig_file import RigDocument
@@ -135,9 +136,7 @@ def _sweep(
     segments = tuple(_segment(experiment, forecast, s, settings) for s in planned)
     warnings = [w for s in segments for w in _warnings(s, settings)]
     if level > settings.limits.base_m_s2:
-        warnings.append(
-            f"level {level:.3g} m/s^2 is over the base limit {settings.limits.base_m_s2:.3g} m/s^2"
-        )
+        warnings.append(f"level {in_both(level)} is over the base limit {in_both(settings.limits.base_m_s2)}")
     unverified = [r.name for r in ranges if r.name in names and not r.verified]
     if unverified:
         warnings.append(

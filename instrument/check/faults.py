@@ -7,6 +7,7 @@ from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Specimen
 from instrument.check.forecast import Forecast, distinct, planned_segment, sections_of
 from instrument.errors import BadInput
+from instrument.files.acceleration import in_both
 from instrument.files.devices import ranges_of
 from instrument.files.specimen_file import SpecimenDocument, read_specimen
 from instrument.files.structure_file import BeamDocument, ShearPairDocument
@@ -158,5 +159,5 @@ def _sweep(experiment: Experiment, forecast: Forecast) -> Iterator[str]:
     limits = sweep_settings(experiment.document, experiment.rig).limits
     level = table.level_g * PUBLISHED_G_M_S2
     if level > limits.base_m_s2:
-        limit = f"{limits.base_m_s2:.3g} m/s^2"
-        yield f"{path}: sweep.level_g = {table.level_g:g} is {level:.3g} m/s^2, limit {limit}"
+        limit = in_both(limits.base_m_s2)
+        yield f"{path}: sweep.level_g = {table.level_g:g} is {in_both(level)}, limit {limit}"

@@ -4,19 +4,23 @@ from pathlib import Path
 
 import click
 
+from fitting.gravity import PUBLISHED_G_M_S2
 from instrument.check.dry_run import all_faults, dry_run
-from instrument.cli.options import file_argument, force_option, json_option
+from instrument.cli.options import acceleration_option, file_argument, force_option, json_option
 from instrument.cli.output import Output
 from instrument.cli.printable import printable
 from instrument.errors import BadInput
+from instrument.files.acceleration import acceleration_unit
 from instrument.files.plausible import question_specimen
 from instrument.models.tolerance_words import tolerance_rows
 from instrument.progress import bar
-from instrument.session.configuration import read_whole_experiment
+from instrument.session.configuration import Experiment, read_whole_experiment
+from instrument.session.setup import sweep_settings
 
 
 @click.command()
 @file_argument("experiment")
+@acceleration_option
 @force_option
 @json_option
 def check(experiment: Path, insist: bool, json_path: str | None) -> None:
@@ -30,7 +34,8 @@ def check(experiment: Path, insist: bool, json_path: str | None) -> None:
         for fault in faults:
             click.echo(printable(" ".join(fault.split())), err=True)
         raise BadInput(f"{len(faults)} fault{'s' if len(faults) > 1 else ''}, nothing can be run")
-    question_specimen(read_whole_experiment(experiment).specimen_path, insist=insist)
+    whole = read_whole_experiment(experiment)
+    question_specimen(whole.specimen_path, insist=insist)
     with bar("dry run"):
         run = dry_run(experiment)
     rows = [
@@ -48,6 +53,7 @@ def check(experiment: Path, insist: bool, json_path: str | None) -> None:
     columns = ["segment", "f/Hz", "steps", "velocity/(mm/s)", "range", "base travel/mm", "at most/s"]
     if rows:
         out.table("predicted", columns, rows)
+        out.say(_level(whole))
     out.say("modes expected at " + ", ".join(f"{f:.4g}" for f in run.mode_hz) + " Hz")
     if run.hammer_record_s is not None:
         out.say(f"hammer: records of {run.hammer_record_s:g} s")
@@ -59,3 +65,11 @@ def check(experiment: Path, insist: bool, json_path: str | None) -> None:
     for warning in run.warnings:
         out.say(f"warning: {warning}")
     out.result(run.result)
+
+
+def _level(experiment: Experiment) -> str:
+    """Of the sweep's base, beside its limit."""
+    sweep, shown = experiment.document.sweep, acceleration_unit()
+    assert sweep is not None
+    limit = sweep_settings(experiment.document, experiment.rig).limits.base_m_s2
+    return f"base at {shown.typed(sweep.level_g * PUBLISHED_G_M_S2)}, its limit {shown.typed(limit)}"

@@ -9,6 +9,7 @@ import click
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.gravity import PUBLISHED_G_M_S2
 from instrument.files.acceleration import UNITS, USUAL, show_acceleration_in
 
 _MOST_FREQUENCIES = 100_000
@@ -50,6 +51,25 @@ acceleration_option: Any = click.option(
     callback=_show_in,
     help="Unit in which accelerations are shown; files and JSON keep theirs.",
 )
+
+
+class Level(click.ParamType):  # type: ignore[type-arg]
+    """A level of the base as `level_g` counts it (`0.5` or `0.5g`), or in m/s^2 (`4.9m/s2`)."""
+
+    name = "LEVEL"
+    least_g, most_g = 1e-4, 1e3
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """As `level_g`."""
+        said = str(value).strip()
+        unit = next((name for name in UNITS if said.endswith(name)), "g")
+        try:
+            level = float(said.removesuffix(unit)) / (1.0 if unit == "g" else PUBLISHED_G_M_S2)
+        except ValueError:
+            self.fail(f"{value!r}, expected a level as 0.5g or 4.9m/s2", param, ctx)
+        if not self.least_g <= level <= self.most_g:
+            self.fail(f"{value!r}, expected {self.least_g:g}g to {self.most_g:g}g", param, ctx)
+        return level
 
 
 def figures_option(said: str) -> Any:

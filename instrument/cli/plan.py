@@ -6,7 +6,7 @@ import click
 
 from fitting.planning.sensitivity import ReadingNoise
 from fitting.specimen import Specimen
-from instrument.cli.options import figures_option, file_argument, json_option
+from instrument.cli.options import Level, acceleration_option, figures_option, file_argument, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_plan import print_plan
 from instrument.errors import BadInput
@@ -68,9 +68,8 @@ class Band(click.ParamType):  # type: ignore[type-arg]
 )
 @click.option(
     "--level",
-    type=click.FloatRange(1e-4, 1e3),
-    metavar="G",
-    help="Level of the base in g; proposed where none is given.",
+    type=Level(),
+    help="Of the base: 0.5 or 0.5g as `level_g` counts it, or 4.9m/s2; proposed where none is given.",
 )
 @click.option(
     "--causes",
@@ -91,6 +90,7 @@ class Band(click.ParamType):  # type: ignore[type-arg]
     type=click.Path(path_type=Path),
     help="Write the plan as the [sweep] of this experiment file; a new one where there is none.",
 )
+@acceleration_option
 @figures_option("Save the plan on the response, and the map of spots, as PNG.")
 @json_option
 def plan(

@@ -9,9 +9,10 @@ from numpy.typing import NDArray
 from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
 from fitting.specimen import Core, Specimen, StatedSpecimen
 from fitting.structures.small_modes import small_velocity
-from instrument.cli.options import Frequencies, file_argument, force_option, json_option
+from instrument.cli.options import Frequencies, acceleration_option, file_argument, force_option, json_option
 from instrument.cli.output import Output
 from instrument.facts.prediction import PredictionResult
+from instrument.files.acceleration import acceleration_unit
 from instrument.files.hammer_file import read_hammer
 from instrument.files.plausible import question_specimen
 from instrument.files.structure_file import read_structure
@@ -44,6 +45,7 @@ from instrument.results.prediction_from import of_spots, prediction_from, predic
     type=click.Path(path_type=Path),
     help="JSON of 'viscorig damping': stiffness and ratios as the bare plate's hammer test has them.",
 )
+@acceleration_option
 @force_option
 @json_option
 def predict(
@@ -104,8 +106,8 @@ def _show(out: Output, read: StatedSpecimen, result: PredictionResult) -> None:
         ]
         for p in result.points
     ]
-    per = f"{read.drive_amplitude:g} m/s^2 base acceleration" if read.drive == "base" else "a force of 1 N"
-    title = f"{read.reads} velocity at {per}" if read.drive == "base" else f"velocity for {per}"
+    per = acceleration_unit().typed(read.drive_amplitude, ".6g") + " base acceleration"
+    title = f"{read.reads} velocity at {per}" if read.drive == "base" else "velocity for a force of 1 N"
     out.table(title, [*several, "frequency/Hz", "amplitude/(m/s)", "real/(m/s)", "imaginary/(m/s)"], rows)
     for remark in result.notes:
         out.say(f"note: {remark}")

@@ -1,7 +1,9 @@
 """A plan as tables."""
 
+from fitting.gravity import PUBLISHED_G_M_S2
 from instrument.cli.output import Output
 from instrument.facts.plan import EffectForecast, PlanResult, SpotCompared
+from instrument.files.acceleration import acceleration_unit
 
 _MOST_SPOTS = 8
 _MOST_RIVALS = 3
@@ -30,7 +32,7 @@ def print_plan(out: Output, found: PlanResult) -> None:
 
 def _headline(out: Output, found: PlanResult) -> None:
     out.say(
-        f"{len(found.steps)} steps at {found.level_g:g} g in about {found.seconds:.0f} s leave at most "
+        f"{len(found.steps)} steps at {_level(found.level_g)} in about {found.seconds:.0f} s leave at most "
         f"{found.worst_percent:.2g} % on G' and the loss factor from {found.band_low_hz:g} to "
         f"{found.band_high_hz:g} Hz (predicted to first order)"
     )
@@ -47,12 +49,18 @@ def _headline(out: Output, found: PlanResult) -> None:
     )
 
 
+def _level(level_g: float) -> str:
+    """As the file has it, and in the unit chosen."""
+    return f"level_g {level_g:g} ({acceleration_unit().typed(PUBLISHED_G_M_S2 * level_g)})"
+
+
 def _levels(out: Output, found: PlanResult) -> None:
     if len(found.levels) < 2:
         return
     rows = [
         [
             f"{x.level_g:g}" + ("*" if x.level_g == found.level_g else ""),
+            f"{acceleration_unit().of(PUBLISHED_G_M_S2 * x.level_g):.4g}",
             f"{x.steps}",
             f"{x.seconds:.0f}",
             f"{x.worst_percent:.2g}",
@@ -62,7 +70,7 @@ def _levels(out: Output, found: PlanResult) -> None:
     ]
     out.table(
         "levels (steps for the law alone; * proposed: the lowest that is no slower)",
-        ["level/g", "steps", "s", "leaves/%", "exceeds"],
+        ["level_g", f"level/({acceleration_unit().plain})", "steps", "s", "leaves/%", "exceeds"],
         rows,
     )
 

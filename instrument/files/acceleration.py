@@ -31,6 +31,10 @@ class AccelerationUnit:
         """A value with its unit."""
         return f"{self.of(value_m_s2):{spec}} {self.symbol}"
 
+    def typed(self, value_m_s2: float, spec: str = ".4g") -> str:
+        """A value with its unit, in a terminal."""
+        return f"{self.of(value_m_s2):{spec}} {self.plain}"
+
     @property
     def under(self) -> str:
         """Behind a stroke: `mV/(m/s\u00b2)`."""
@@ -68,6 +72,12 @@ def shown_quantity(value: float, unit: str) -> tuple[float, str]:
     if unit != _SI:
         return value, unit
     return acceleration_unit().of(value), acceleration_unit().plain
+
+
+def in_both(value_m_s2: float, spec: str = ".3g") -> str:
+    """In a sentence that a result keeps, whatever unit is chosen: in m/s^2 and in g."""
+    usual, other = UNITS.values()
+    return f"{usual.typed(value_m_s2, spec)} ({other.typed(value_m_s2, spec)})"
 
 
 def said_beside(key: str, value: object) -> str:

@@ -8,6 +8,7 @@ from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.planning.aims import Aims
 from fitting.planning.choice import Choice, choose
 from fitting.planning.sensitivity import Sensitivity
+from instrument.files.acceleration import in_both
 from instrument.planning.outlook import Outlook
 from instrument.planning.wish import LEVELS_G, Wish
 
@@ -59,8 +60,9 @@ def chosen_level(levels: list[Level]) -> Level:
 def _exceeds(outlook: Outlook, s: Sensitivity, wish: Wish, level_g: float) -> str:
     limits, level = wish.settings.limits, level_g * PUBLISHED_G_M_S2
     travel = level / (2 * np.pi * outlook.band_hz[0]) ** 2
+    if level > limits.warn * limits.base_m_s2:
+        return f"base acceleration {in_both(level)}, limit {in_both(limits.base_m_s2)}"
     for what, value, limit, unit in (
-        ("base acceleration", level, limits.base_m_s2, "m/s^2"),
         ("travel of the base", 1e3 * travel, 1e3 * limits.travel_m, "mm"),
         ("velocity", float(np.abs(s.velocity_m_s).max()), limits.velocity_m_s, "m/s"),
     ):
