@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebvander
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
@@ -17,6 +18,9 @@ _HZ_A_NODE = 4.0
 """Of wide clusters: 10 nodes leave 2e-4 over a segment of 30 to 50 Hz (decision 16); wider ones keep pace."""
 MOST_POLES = 4
 """Taken out of a cluster: those in it and one on either side; more make the weights lose digits."""
+_STEADIEST = 10.0
+"""Times that the way back from points to nodes may magnify what a polynomial does not follow. High degrees
+through evenly spaced points magnify without bound (Runge; 56 nodes from 77 points: 8e7). A choice."""
 _FARTHEST, _LEAST_DAMPED = 0.4, 0.25
 """A pole followed further than this from the unchanged one, or losing more of its damping (relative), is
 another mode's."""
@@ -44,7 +48,7 @@ class Nodes:
     plain: Array
     """Interpolates what has no poles. Shape (points, nodes)."""
     fit: Array
-    """The way back: least squares of what has no poles. Shape (nodes, points)."""
+    """The way back: least squares of what has no poles and is smooth. Shape (nodes, points)."""
     cluster: NDArray[np.intp]
     """Number of each node's cluster. Shape (nodes,)."""
     poles: Complex
@@ -70,7 +74,9 @@ class Nodes:
             at = known if len(known) <= wanted else _chebyshev(known[0], known[-1], wanted)
             block = np.zeros((len(omega), len(at)))
             block[inside] = _interpolation(at, omega[inside])
-            plain, fit = np.hstack([plain, block]), np.vstack([fit, np.linalg.pinv(block)])
+            back = np.zeros((len(at), len(omega)))
+            back[:, inside] = _smoothing(at, omega[inside], block[inside])
+            plain, fit = np.hstack([plain, block]), np.vstack([fit, back])
             nodes.append(at)
             clusters.append(np.full(len(at), number))
         none = np.empty(0, dtype=np.intp)
@@ -155,6 +161,18 @@ class Nodes:
         square = omega**2
         p, q = poles[:, None] ** 2, moved[:, None] ** 2
         return np.asarray((square - p) * (square - q) / np.abs(p) ** 2)
+
+
+def _smoothing(nodes: Array, points: Array, plain: Array) -> Array:
+    """From points to nodes, by the highest degree that does not magnify. `plain` of shape (points, nodes)."""
+    found = np.asarray(np.linalg.pinv(plain))
+    middle, half = (nodes[0] + nodes[-1]) / 2, (nodes[-1] - nodes[0]) / 2
+    for degree in range(len(nodes) - 2, -1, -1):
+        if np.abs(found).sum(axis=1).max() <= _STEADIEST:
+            break
+        at_nodes, at_points = (chebvander((w - middle) / half, degree) for w in (nodes, points))
+        found = at_nodes @ np.linalg.pinv(at_points)
+    return found
 
 
 def _chebyshev(low: float, high: float, count: int) -> Array:

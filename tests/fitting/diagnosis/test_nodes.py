@@ -38,3 +38,17 @@ def test_few_points_are_nodes_themselves():
     nodes = Nodes.of(omega, 16)
     assert sorted(nodes.omega) == pytest.approx(sorted(omega))
     assert nodes.omega @ nodes.plain.T == pytest.approx(omega)
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "points"), [(380, 575, 77), (20, 40, 20), (20, 40, 25), (14, 26, 118)]
+)
+def test_the_way_back_from_points_to_nodes_magnifies_nothing(low, high, points):
+    """Evenly spaced points bear no high degrees: what jumps between them would be all there is."""
+    omega = 2 * np.pi * np.linspace(low, high, points)
+    nodes = Nodes.of(omega, 16)
+    jumps = 1e-3 * np.where(np.arange(points) % 2, 1, -1)
+    assert np.abs(nodes.plain @ (nodes.fit @ jumps)).max() < 2e-2
+    t = (nodes.omega - omega.mean()) / np.ptp(omega), (omega - omega.mean()) / np.ptp(omega)
+    smooth = [1 - 0.1 * x + 0.05 * x**2 - 0.02 * x**6 for x in t]
+    assert nodes.fit @ smooth[1] == pytest.approx(smooth[0], rel=1e-9)
