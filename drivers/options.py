@@ -11,7 +11,7 @@ NOT_KEPT = "-"
 class DeviceOptions(BaseModel):
     """Unknown keys and wrong types are refused. What stands below a key describes it."""
 
-    model_config = ConfigDict(extra="forbid", strict=True, use_attribute_docstrings=True, defer_build=True)
+    model_config = ConfigDict(extra="forbid", strict=True, defer_build=True)
 
     kind: str
     """Which driver."""

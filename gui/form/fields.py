@@ -13,6 +13,7 @@ from fitting.laws import LAWS
 from fitting.laws.base import Quantity
 from fitting.laws.table import Tabulated
 from gui.form.labels import LABELS
+from instrument.facts.docstrings import docstrings_of
 from instrument.files.devices import DEVICES, options_of
 from instrument.files.law_table import COLUMNS
 
@@ -88,7 +89,7 @@ def section_of(
     default: object = None,
 ) -> FormSection:
     """All that the model of a file, or of a table in it, asks for; `default` counts where it is left out."""
-    schema = model.model_json_schema()["properties"]
+    schema, said = model.model_json_schema()["properties"], docstrings_of(model)
     fields: list[Field] = []
     sections: list[FormSection] = []
     for field_name, info in model.model_fields.items():
@@ -107,7 +108,7 @@ def section_of(
             sections.append(FormSection("law", "How the core's modulus depends on frequency.", (law_kind(),)))
         else:
             counts = getattr(default, field_name, info.get_default(call_default_factory=True))
-            fields.append(_field(name, info, schema[name], counts))
+            fields.append(_field(name, info, schema[name], counts, said.get(field_name)))
     return FormSection(key, _first_line(model), tuple(fields), tuple(sections), off, repeated)
 
 
@@ -151,7 +152,7 @@ def law_fields(kind: object) -> tuple[Field, ...]:
     )
 
 
-def _field(name: str, info: FieldInfo, schema: dict[str, Any], default: object) -> Field:
+def _field(name: str, info: FieldInfo, schema: dict[str, Any], default: object, said: str | None) -> Field:
     options = [o for o in schema.get("anyOf", [schema]) if o.get("type") != "null"]
     choices = tuple(
         str(c) for o in options for c in (*o.get("enum", ()), *([o["const"]] if "const" in o else ()))
@@ -165,7 +166,7 @@ def _field(name: str, info: FieldInfo, schema: dict[str, Any], default: object) 
         info.is_required(),
         "" if default is PydanticUndefined else shown(default),
         choices if kind == "choice" else (),
-        " ".join(filter(None, (info.description, _range(options)))),
+        " ".join(filter(None, (info.description or said, _range(options)))),
     )
 
 

@@ -13,6 +13,7 @@ from instrument.facts.check import CheckResult
 from instrument.facts.comparison import CompareResult
 from instrument.facts.damping import DampingResult
 from instrument.facts.diagnosis import DiagnosisResult
+from instrument.facts.docstrings import DescribedSchema
 from instrument.facts.doctor import DoctorResult
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.modal import ModalResult
@@ -56,7 +57,10 @@ _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 
 def schema_of(command: str) -> dict[str, Any]:
     """Of what a command writes with `--json`."""
-    return {"$schema": _DIALECT, **RESULTS[command].model_json_schema(mode="serialization")}
+    return {
+        "$schema": _DIALECT,
+        **RESULTS[command].model_json_schema(mode="serialization", schema_generator=DescribedSchema),
+    }
 
 
 def write_schemas(folder: Path) -> list[Path]:

@@ -25,7 +25,7 @@ _COMMA = re.compile(r"(?m)^\s*[\w.-]+\s*=\s*(-?\d+,\d+)\s*(?:#.*)?$")
 class TomlTable(BaseModel):
     """A table of a file: unknown keys and wrong types are refused. What stands below a key describes it."""
 
-    model_config = ConfigDict(extra="forbid", strict=True, use_attribute_docstrings=True, defer_build=True)
+    model_config = ConfigDict(extra="forbid", strict=True, defer_build=True)
 
 
 T = TypeVar("T", bound=BaseModel)
