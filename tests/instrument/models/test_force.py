@@ -4,38 +4,13 @@ import json
 
 import numpy as np
 import pytest
+from plate_files import plate_text
 
 from instrument.cli.main import run
 from instrument.files.specimen_file import read_specimen
 
-FREE = """
-[plate]
-length_mm = 300.0
-width_mm = 200.0
-boundary = "free"
-[substrate]
-thickness_mm = 2.0
-young_gpa = 69.0
-poisson = 0.3
-density_kg_m3 = 2700.0
-[constraining]
-thickness_mm = 0.5
-young_gpa = 69.0
-poisson = 0.3
-density_kg_m3 = 2700.0
-[core]
-thickness_mm = 0.5
-poisson = 0.49
-density_kg_m3 = 1000.0
-[core.law]
-kind = "fractional-zener"
-g0_mpa = 0.4
-ginf_mpa = 4.0
-tau_s = 1.5e-4
-alpha = 0.8
-[mesh]
-elements_x = 14
-elements_y = 10
+LAW = "ginf_mpa = 4.0\ntau_s = 1.5e-4\nalpha = 0.8"
+FORCED = """
 [pickup]
 x_mm = 220.0
 y_mm = 170.0
@@ -44,6 +19,7 @@ kind = "force"
 x_mm = 30.0
 y_mm = 50.0
 """
+FREE = plate_text("free", LAW, (14, 10)) + FORCED
 FORCE_N = 2.0 * np.exp(0.3j)
 
 

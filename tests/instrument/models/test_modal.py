@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 from mode_cases import TRUTH, read_off, solid_modes, stated
+from plate_files import plate_text
 
 from fitting.mode_tables.fit import fit_modes
 from instrument.cli.main import run
@@ -29,35 +30,7 @@ def test_six_modes_of_a_solid_plate_give_its_law_within_the_band(name):
         assert np.mean(eta_error / eta) < 0.06
 
 
-PLATE = """
-[plate]
-length_mm = 300.0
-width_mm = 200.0
-boundary = "cantilever"
-[substrate]
-thickness_mm = 2.0
-young_gpa = 69.0
-poisson = 0.3
-density_kg_m3 = 2700.0
-[constraining]
-thickness_mm = 0.5
-young_gpa = 69.0
-poisson = 0.3
-density_kg_m3 = 2700.0
-[core]
-thickness_mm = 0.5
-poisson = 0.49
-density_kg_m3 = 1000.0
-[core.law]
-kind = "fractional-zener"
-g0_mpa = 0.4
-ginf_mpa = 8.0
-tau_s = 1.0e-4
-alpha = 0.7
-[mesh]
-elements_x = 12
-elements_y = 8
-"""
+PLATE = plate_text("cantilever", "ginf_mpa = 8.0\ntau_s = 1.0e-4\nalpha = 0.7", (12, 8))
 
 
 @pytest.fixture
