@@ -15,7 +15,7 @@ from instrument.run.replay import replay
 from instrument.session.configuration import read_whole_experiment
 from instrument.session.storage import SessionFile
 from instrument.simulated_case import write_case
-from instrument.stream.derived import CalibrationFound, FitUpdated, HitJudged
+from instrument.stream.derived import CalibrationFound, DiagnosisFound, FitUpdated, HitJudged
 from instrument.stream.raw import StepBegan
 
 pytestmark = pytest.mark.usefixtures("warm")
@@ -25,6 +25,10 @@ RATIOS = np.array([0.29, 0.13, 0.18, 0.21, 0.11, 0.07, 0.09, 0.04]) / 100
 
 def no_fit(number, last_step, points, damping, specimen):
     return FitUpdated(number, last_step, None, "not fitted")
+
+
+def no_diagnosis(number, last_step, *_):
+    return DiagnosisFound(number, last_step, None, "not diagnosed")
 
 
 @pytest.fixture(scope="module")
@@ -42,9 +46,10 @@ def quiet_run(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def demo_run(tmp_path_factory):
-    """The case as it is, sensor noise and live fits included."""
+    """The case as it is, sensor noise and live fits included, up to its diagnosis."""
     folder = tmp_path_factory.mktemp("demo")
-    return run_experiment(read_whole_experiment(write_case(folder)), folder, ("hammer", "sweep"))
+    experiment = read_whole_experiment(write_case(folder))
+    return run_experiment(experiment, folder, ("hammer", "sweep"), diagnose=no_diagnosis)
 
 
 @pytest.fixture(scope="module")
@@ -142,11 +147,13 @@ def test_the_law_is_the_plants_within_its_band(demo_run):
 
 
 @pytest.mark.long
-def test_a_whole_session_replays_to_the_bit(demo_run):
-    with SessionFile(demo_run.session) as file:
+def test_a_whole_session_replays_to_the_bit(tmp_path):
+    run = run_experiment(read_whole_experiment(write_case(tmp_path)), tmp_path, ("hammer", "sweep"))
+    with SessionFile(run.session) as file:
         again = replay(file)
     assert again.differences == []
-    assert again.fit == demo_run.fit
+    assert again.fit == run.fit
+    assert again.diagnosis == run.diagnosis
 
 
 def test_nothing_the_rig_hides_is_in_the_session(tmp_path):
