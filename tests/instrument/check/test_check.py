@@ -6,6 +6,8 @@ from instrument.check.dry_run import all_faults, dry_run
 from instrument.cli.main import run
 from instrument.simulated_case import EFFECTS, write_case
 
+pytestmark = pytest.mark.usefixtures("warm")
+
 CHAMBER = """
 [chamber]
 address = "simulated"
