@@ -24,13 +24,14 @@ from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid
 from fitting.diagnosis.response import SweepResponse, spans_of
 from fitting.diagnosis.sharing import CHANNELS, OF_EACH_FILE, OF_EACH_PLATE, OF_EACH_SPOT, Places, shared
-from fitting.diagnosis.small_problem import BENT_MORE
+from fitting.diagnosis.small_problem import BENT_MORE, SmallProblem
 from fitting.diagnosis.strains import Reference
 from fitting.diagnosis.unknowns import STATED_NUMBER
 from fitting.diagnosis.wandering import Wandering
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.identification.adjusted import Adjusted
+from fitting.identification.validation import rms
 from fitting.laws import CoreLaw
 from fitting.nuisances import Nuisances
 from fitting.reduced import ReducedPlate
@@ -153,7 +154,20 @@ class SeveralProblem(DiagnosisProblem):
             rows.append(block)
         if self.wandering is not None:
             rows.append(self.wandering.rows(np.log(self.sweep.frequency_hz), self.file_of_points, v))
+        elif (alike := self.alike) > 0:
+            rows.append(alike * np.array([v, 1j * v]))
         return np.concatenate(rows)
+
+    @property
+    def alike(self) -> float:
+        """Gain and phase that all files have in common may be off by so much: as the files' misfit is.
+
+        The same accelerometers have read every one of them. Zero where noise explains the files, and of one
+        file alone, whose law would hide it.
+        """
+        misfits = [m.misfit for m in self.members if isinstance(m, SmallProblem)]
+        files = {b.file for b in self.belongs}
+        return rms(np.array(misfits)) if len(files) > 1 and len(misfits) == len(self.members) else 0.0
 
     def adjusted(self, z: Array, errors: Array) -> tuple[Adjusted, ...]:
         """Under the names of `nuisances`; each as its first owner states it. Shape (numbers,)."""

@@ -228,8 +228,9 @@ def identify_together(
                 sizes = ", ".join(f"{100 * m:.2g}" for m in work.misfit)
             further = (
                 f"the files follow no one law within their noise: each file's rms misfit ({sizes} %), once "
-                "for every 0.12 in ln f, is taken for the error of its readings, and for files whose cores "
-                "differ by a few percent; see 'viscorig diagnose'",
+                "for every 0.12 in ln f, is taken for the error of its readings, for files whose cores "
+                "differ by a few percent, and for a gain and a phase that all have in common; see "
+                "'viscorig diagnose'",
             )
         fit = fit_of(begun)
     seconds = perf_counter() - ready

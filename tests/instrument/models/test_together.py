@@ -1,10 +1,11 @@
 """One law from several files, and from a single shear pair."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
-from shear_pair_cases import LAW, MASSES_KG, pair, sweep
+from shear_pair_cases import HEAVIER_KG, LAW, MASSES_KG, pair, sweep
 
 from instrument.cli.main import run
 from instrument.cli.output import Output
@@ -16,8 +17,8 @@ from instrument.models.files import File
 from instrument.models.together import diagnose_together, identify_together
 
 REAL = Path(__file__).parents[3].parent / "shared/data/real/shear"
-AT_100_HZ = (6.11e6, 0.65)
-"""G' and loss factor of the same rubber on another machine at 21 C."""
+NOMINAL_C = 21.0
+"""Of the real records: their temperature is stated, not measured."""
 
 
 def files(masses=MASSES_KG, **more):
@@ -138,15 +139,48 @@ def test_where_no_law_fits_there_is_no_chi_square(capsys):
     assert "chi-square per degree" not in said
 
 
+def test_a_gain_and_a_phase_of_all_files_do_not_become_the_core_s():
+    """Two accelerometers that are 2 % and a degree apart, the same ones for every mass."""
+    apart = 0.98 * np.exp(0.02j)
+    given = [
+        File(sweep(pair(m), seed=k, points=120, wander=0.01, factor=apart), pair(m))
+        for k, m in enumerate(HEAVIER_KG)
+    ]
+    found = identify_together(given).found.result
+    assert found.noise.source == "misfit"
+    # Each file's own wandering is what is left: without what they have in common 8 and 10 %.
+    assert law_error(found.law, (60.0, 100.0)).max() < 0.045
+
+
 @pytest.mark.skipif(not REAL.exists(), reason="the real records are not here")
 def test_real_records_of_three_masses_follow_one_law():
-    names = ("253g", "573g", "1196g")
-    given = [_real(name) for name in names]
+    given = [_real(name, edges=True, every=5) for name in ("253g", "573g", "1196g")]
     band = identify_together(given).found.result.band
     k = int(np.flatnonzero(band.frequency_hz == 100.0)[0])
-    assert band.storage_modulus_pa[k] == pytest.approx(AT_100_HZ[0], rel=0.08)
-    # Phases of the heaviest mass lead by a degree below 80 Hz: the loss comes out low (docs/structures.md).
-    assert band.loss_factor[k] == pytest.approx(AT_100_HZ[1], rel=0.17)
+    for storage_pa, loss_factor in _on_another_machine():
+        assert band.storage_modulus_pa[k] == pytest.approx(storage_pa, rel=0.12)
+        assert band.loss_factor[k] == pytest.approx(loss_factor, rel=0.12)
+
+
+def _on_another_machine():
+    """G' and loss factor at 100 Hz, 0.15 % and 21 C: of its sweep over temperatures, and over strains.
+
+    The second was run at 22.8 C; what a kelvin does is the first one's.
+    """
+    columns = {"usecols": (1, 2, 3, 4, 8), "delimiter": ",", "skip_header": 1}
+    over_t = np.genfromtxt(REAL / "material_a_dma_tf_015p.csv", **columns)
+    over_t = over_t[(over_t[:, 0] == 100.0) & (np.abs(over_t[:, 1] - NOMINAL_C) < 5)]
+    over_strain = np.genfromtxt(REAL / "material_a_dma_sd_100hz.csv", **columns)
+    at = over_strain[np.abs(over_strain[:, 4] - 0.148).argmin()]
+    (t, log_storage, loss), (near, *has) = (
+        (one[..., 1].T, np.log(one[..., 2].T), (one[..., 3] / one[..., 2]).T) for one in (over_t, at)
+    )
+
+    def at_temperature(celsius):
+        return np.exp(np.interp(celsius, t, log_storage)), np.interp(celsius, t, loss)
+
+    here, there = at_temperature(NOMINAL_C), at_temperature(near)
+    return here, (np.exp(has[0]) * here[0] / there[0], has[1] + here[1] - there[1])
 
 
 @pytest.mark.long
@@ -158,10 +192,10 @@ def test_the_lightest_mass_s_disturbance_is_flagged():
     assert 310 < one.glitch.high_hz < 420
 
 
-def _real(name):
-    specimen = read_structure(REAL / f"material_a_{name}.toml")
-    data = read_sweep(REAL / f"material_a_1g_{name}.csv")
-    return File(data.sweep(specimen.base_acceleration_m_s2), specimen, name)
+def _real(name, *, edges=False, every=1):
+    specimen = replace(read_structure(REAL / f"material_a_{name}.toml"), edges=edges)
+    data = read_sweep(REAL / f"material_a_1g_{name}.csv").sweep(specimen.base_acceleration_m_s2)
+    return File(data.take(np.arange(len(data)) % every == 0), specimen, name)
 
 
 PAIR = """
