@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator
 from itertools import combinations
 
-from PySide6.QtCore import QSize, Qt
+from PySide6.QtCore import QRect, QSize, Qt
 from PySide6.QtGui import QAbstractTextDocumentLayout, QTextDocument
 from PySide6.QtWidgets import (
     QAbstractButton,
@@ -149,6 +149,10 @@ def _table(table: QTableView) -> list[str]:
             found.append(f"{_place(table)}: heading {name!r} has {wide} px")
         for row in range(model.rowCount()):
             index = model.index(row, column)
+            if table.wordWrap() and (high := _wrapped_px(table, index.data(), wide)):
+                if high > table.rowHeight(row) + _SLACK_PX:
+                    found.append(f"{_place(table)}: cell {index.data()!r} wants a row of {high} px")
+                continue
             wanted = table.sizeHintForIndex(index).width()
             if wanted > wide + _SLACK_PX:
                 found.append(f"{_place(table)}: cell {index.data()!r} has {wide} px and wants {wanted}")
@@ -157,6 +161,15 @@ def _table(table: QTableView) -> list[str]:
     if whole > table.viewport().width() + _SLACK_PX and not scrolls:
         found.append(f"{_place(table)}: columns end beyond its edge")
     return found
+
+
+def _wrapped_px(table: QTableView, text: str, wide: int) -> int:
+    """How high a cell's words are broken into lines; 0 where one of them is too long for that."""
+    inside = QRect(0, 0, wide - 2 * _SLACK_PX, 10_000)
+    metrics = table.fontMetrics()
+    if max(map(metrics.horizontalAdvance, str(text).split()), default=0) > inside.width():
+        return 0
+    return metrics.boundingRect(inside, Qt.TextFlag.TextWordWrap, str(text)).height()
 
 
 def _plot(plot: Plot) -> list[str]:

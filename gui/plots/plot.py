@@ -36,6 +36,8 @@ _BELOW = -1
 _RING_WIDTH = 2.0
 _TITLE_ROOM_PX = 44
 """Of a plot's side that its axis does not have: the other axis, and the edge."""
+_EDGE_PX = 12
+"""The edge alone, where the other axis has no numbers."""
 _LABEL_AT = 0.08  # of a vertical line's height
 
 
@@ -323,8 +325,10 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
 
     def _title(self, side: str, shown: Axis) -> str:
         room = self.width() if side == "bottom" else self.height()
+        beside = self.getAxis("left" if side == "bottom" else "bottom")
+        room -= _TITLE_ROOM_PX if beside.style["showValues"] else _EDGE_PX
         for title in (shown.title, shown.unit if shown.titled else ""):
-            if self.fontMetrics().horizontalAdvance(title) + _TITLE_ROOM_PX <= room:
+            if self.fontMetrics().horizontalAdvance(title) <= room:
                 return title
         return ""
 

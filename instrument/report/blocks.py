@@ -48,17 +48,6 @@ class Picture:
     """Below it, and read aloud in its place."""
 
 
-_TYPESET = ((" +- ", " ± "), (" -> ", " → "), ("/s^2", "/s²"), ("/m^3", "/m³"))
-"""What a terminal's sentences write in ASCII, as a page prints it. Names of files stay as they are."""
-
-
-def typeset(text: str) -> str:
-    """A sentence or cell as it is printed."""
-    for plain, printed in _TYPESET:
-        text = text.replace(plain, printed)
-    return text
-
-
 Block = Sentence | FactsBlock | TableBlock | Picture
 
 

@@ -16,6 +16,7 @@ from instrument.results.diagnosis_words import (
 from instrument.results.followed import followed_of, measured_words
 from instrument.results.next_words import NEXT_COLUMNS, NEXT_TITLE, next_row, separated_words
 from instrument.results.numbers import format_number, with_error
+from instrument.results.typeset import capitalised
 from instrument.session.contents import Contents
 
 _TITLE = "Diagnosis"
@@ -31,7 +32,7 @@ def diagnosis_sections(contents: Contents) -> list[ReportSection]:
         why = contents.diagnosis.message
         return [ReportSection(_TITLE, (Sentence(f"No diagnosis was possible: {why}.", "warning"),))]
     verdict = verdict_line(found)
-    blocks: list[Block] = [Sentence(f"{verdict[0].upper()}{verdict[1:]}.")]
+    blocks: list[Block] = [Sentence(f"{capitalised(verdict)}.")]
     blocks += [Sentence(text) for text in found.explanation]
     blocks += _followed(contents)
     if found.set_aside_hz:

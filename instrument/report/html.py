@@ -5,8 +5,9 @@ from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from instrument.report.blocks import ReportSection, typeset
+from instrument.report.blocks import ReportSection
 from instrument.report.picture import as_svg
+from instrument.results.typeset import typeset
 
 _TEMPLATE = "page.html"
 

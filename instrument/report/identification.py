@@ -20,6 +20,7 @@ from instrument.results.session_result import (
     recorded_result,
     result_of,
 )
+from instrument.results.typeset import typeset
 from instrument.session.contents import Contents
 
 _SAME = 1e-6
@@ -61,7 +62,7 @@ def identification_section(contents: Contents, fitted: ReportedFit) -> ReportSec
 
 def result_in_short(contents: Contents, fitted: ReportedFit) -> str:
     """The law to sign, in a line."""
-    return session_result(contents, fitted).words.replace("+-", "±")
+    return typeset(session_result(contents, fitted).words)
 
 
 def session_result(contents: Contents, fitted: ReportedFit) -> SessionResult:

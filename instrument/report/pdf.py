@@ -6,8 +6,9 @@ from pathlib import Path
 import matplotlib as mpl
 from matplotlib.backends.backend_pdf import PdfPages
 
-from instrument.report.blocks import FactsBlock, Picture, ReportSection, Sentence, TableBlock, typeset
+from instrument.report.blocks import FactsBlock, Picture, ReportSection, Sentence, TableBlock
 from instrument.report.paper import INSIDE_MM, MARGIN_MM, Sheets, broken, line_mm, width_mm
+from instrument.results.typeset import typeset
 
 _TITLE_PT, _HEAD_PT, _TEXT_PT, _TABLE_PT, _LEAST_PT = 15.0, 11.5, 9.0, 7.5, 6.0
 _KEPT_MM = 28.0

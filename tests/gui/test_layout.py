@@ -6,6 +6,7 @@ from PySide6.QtWidgets import QApplication, QLabel, QWidget
 
 from gui.background_task import BackgroundCommand, BackgroundTask
 from gui.icons import NAMES, icon
+from gui.tables import Cell, ReadTable
 from gui.theme import DARK, LIGHT, Appearance
 
 ON = ("window", "base", "button", "note")
@@ -47,6 +48,20 @@ def test_what_is_cut_or_overlaps_is_found(qtbot, appearance):
     cut, upon = layout_faults(whole)[::-1]
     assert "far too long" in cut
     assert "lies upon" in upon
+
+
+def test_a_cell_broken_into_lines_is_whole_and_one_that_lacks_a_line_is_found(qtbot, appearance):
+    table = ReadTable({"what": ""}, wide=(0,))
+    qtbot.addWidget(table)
+    table.setWordWrap(True)
+    table.resize(160, 200)
+    table.show_rows([[Cell("several words that are far too long for one line", left=True)]])
+    table.show()
+    table.resizeRowsToContents()
+    assert layout_faults(table) == []
+    table.setRowHeight(0, 20)
+    (fault,) = layout_faults(table)
+    assert "wants a row" in fault
 
 
 @pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])

@@ -28,6 +28,18 @@ def plot(qtbot, appearance):
     return plot
 
 
+def test_an_axis_without_numbers_below_it_leaves_its_room_to_the_title(qtbot, appearance):
+    plot = Plot(Axis("frequency", "Hz", titled=False), Axis("distortion", "%"))
+    qtbot.addWidget(plot)
+    plot.show()
+    high = plot.fontMetrics().horizontalAdvance("distortion / %") + 20
+    plot.resize(300, high)
+    assert plot.getAxis("left").labelText == "%"
+    plot.getAxis("bottom").setStyle(showValues=False)
+    plot.resize(300, high + 1)
+    assert plot.getAxis("left").labelText == "distortion / %"
+
+
 def export(plot, kind, path, monkeypatch):
     """By the plot's own menu."""
     monkeypatch.setattr("gui.plots.export.ask_save", lambda *asked: asked[-1](path))

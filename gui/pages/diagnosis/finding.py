@@ -10,6 +10,7 @@ from gui.mark import Mark
 from gui.rediagnosis import ShownDiagnosis
 from gui.theme import Role, current_theme
 from instrument.results.diagnosis_words import verdict_line
+from instrument.results.typeset import capitalised, typeset
 
 _EDGE_PX = 5
 _GAP_PX = 12
@@ -73,10 +74,10 @@ class Finding(QWidget):
 
 def headline(shown: ShownDiagnosis) -> str:
     """The verdict, or what a person decided: then the data were not asked."""
-    said = verdict_line(shown.found).removeprefix("verdict: ").replace("+-", "±")
+    said = typeset(verdict_line(shown.found).removeprefix("verdict: "))
     if shown.asked is not None and shown.asked.accept is not None:
         said = f"by hand: {said.partition(': ')[2]}"
-    return f"{said[0].upper()}{said[1:]}"
+    return capitalised(said)
 
 
 class Advice(QFrame):

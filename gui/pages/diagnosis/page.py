@@ -31,6 +31,7 @@ from gui.widgets import button, hint
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_words import set_aside_words
 from instrument.results.followed import followed_lines, followed_of
+from instrument.results.typeset import typeset
 
 _PERCENT = 100
 _HERE = (
@@ -272,4 +273,4 @@ def _story(shown: ShownDiagnosis) -> list[str]:
     said = list(found.explanation)
     if found.set_aside_hz:
         said.append(set_aside_words(found))
-    return said + [f"Note: {text}." for text in found.warnings]
+    return [typeset(text) for text in (*said, *(f"Note: {text}." for text in found.warnings))]

@@ -9,6 +9,7 @@ from fitting.effects import CATALOGUE
 from gui.rediagnosis import effects_of
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_words import log_odds, parameter_words, probability_words
+from instrument.results.typeset import typeset
 
 Standing = Literal["found", "equal", "none", "other", "not fitted"]
 WORDS: dict[Standing, str] = {
@@ -50,7 +51,7 @@ def ranked(found: DiagnosisResult) -> list[CandidateRow]:
             gain,
             probability_words(c, found).replace("-", "–"),
             c.chi2_per_dof,
-            tuple(parameter_words(key, p).replace("+-", "±") for key, p in c.parameters.items()),
+            tuple(typeset(parameter_words(key, p)) for key, p in c.parameters.items()),
         )
         for c, gain in zip(found.candidates, log_odds(found), strict=True)
     ]

@@ -26,6 +26,7 @@ from instrument.results.session_result import (
     recorded_result,
     result_of,
 )
+from instrument.results.typeset import capitalised, typeset
 from instrument.stream.derived import FitUpdated
 
 _NOTHING = (
@@ -128,7 +129,9 @@ class MaterialPage(Page):
             notes.insert(
                 0, f"{UNKNOWN}: nothing explains what the fit leaves, the law may be far off its band"
             )
-        self.notes.setPlainText("\n\n".join(f"{n[0].upper()}{n[1:]}." for n in notes) or "Nothing to note.")
+        self.notes.setPlainText(
+            "\n\n".join(f"{capitalised(typeset(n))}." for n in notes) or "Nothing to note."
+        )
         self.tabs.setTabText(self.tabs.indexOf(self.notes), f"Notes ({len(notes)})" if notes else "Notes")
         made_here = shown is not None and shown.asked is not None
         self.origin.say(f"● diagnosis {shown.origin}" if shown and made_here else "", "fair", bold=True)
@@ -230,7 +233,7 @@ def _conditions(state: SessionState | None, shown: ShownDiagnosis) -> Conditions
 
 
 def _in_words(result: SessionResult) -> str:
-    return result.words.replace("+-", "±")
+    return typeset(result.words)
 
 
 @overload

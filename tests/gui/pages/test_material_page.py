@@ -11,6 +11,7 @@ from gui.pages.material import MaterialPage, comparison
 from gui.pages.material.compared import PAPER
 from gui.pages.material.numbers import headline, parameters
 from instrument.results.session_result import recorded_result
+from instrument.results.typeset import typeset
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 
@@ -74,7 +75,7 @@ def test_its_words_are_those_of_every_command(looked_at, diagnosed_path):
     page = looked_at
     with SessionFile(diagnosed_path) as file:
         words = recorded_result(contents_of(file, with_hits=False)).words
-    assert page.said.text() == words.replace("+-", "±")
+    assert page.said.text() == typeset(words)
 
 
 def test_curves_and_bands_are_those_of_the_law_to_sign(looked_at):

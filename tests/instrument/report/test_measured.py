@@ -1,4 +1,4 @@
-"""What a page draws beside the points, and how it prints a terminal's words."""
+"""What a page draws beside the points."""
 
 from dataclasses import replace
 
@@ -7,7 +7,6 @@ from diagnosed_session import diagnosed_session
 from diagnosis_cases import diagnosis
 
 from instrument.facts.diagnosis import PointLeft
-from instrument.report.blocks import typeset
 from instrument.report.measured import explained, segments_of
 from instrument.session.contents import TimedPoint, contents_of
 from instrument.session.storage import SessionFile
@@ -98,8 +97,3 @@ def test_what_was_read_elsewhere_has_panels_of_its_own(contents):
         (2, "spot 250, 100 mm", 9),
         (3, "", 18),
     ]
-
-
-def test_a_page_prints_what_a_terminal_writes_in_ascii_and_leaves_names_alone():
-    assert typeset("k 2 +- 1 N/m^3, 0.3 -> 0.4 m/s^2") == "k 2 ± 1 N/m³, 0.3 → 0.4 m/s²"
-    assert typeset("a->b^2+-c.toml") == "a->b^2+-c.toml"

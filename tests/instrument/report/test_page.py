@@ -17,11 +17,11 @@ from instrument.cli.main import run
 from instrument.files.acceleration import show_acceleration_in
 from instrument.files.column import ColumnPoint
 from instrument.files.point_columns import in_report
-from instrument.report.blocks import typeset
 from instrument.report.page import report_of
 from instrument.report.setting import rig_section
 from instrument.results.diagnosis_words import verdict_line
 from instrument.results.session_result import recorded_result
+from instrument.results.typeset import typeset
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 from instrument.stream.derived import LimitWarned

@@ -1,0 +1,22 @@
+"""How a page or a window prints a terminal's words."""
+
+import pytest
+
+from instrument.results.typeset import capitalised, typeset
+
+
+def test_a_page_prints_what_a_terminal_writes_in_ascii_and_leaves_names_alone():
+    assert typeset("k 2 +- 1 N/m^3, 0.3 -> 0.4 m/s^2") == "k 2 ± 1 N/m³, 0.3 → 0.4 m/s²"
+    assert typeset("a->b^2+-c.toml") == "a->b^2+-c.toml"
+
+
+@pytest.mark.parametrize(
+    ("said", "printed"),
+    [
+        ("the residual is large", "The residual is large"),
+        ("ginf_pa and tau_s are correlated", "ginf_pa and tau_s are correlated"),
+        ("", ""),
+    ],
+)
+def test_a_sentence_begins_with_a_capital_and_a_name_with_its_own_letter(said, printed):
+    assert capitalised(said) == printed
