@@ -11,6 +11,7 @@ from gui.asking import ask_open, tell
 from gui.controller import EXPERIMENT_ENDING, SESSION_ENDINGS
 from gui.export import Export
 from gui.page_set import key_of
+from gui.printing import Printing
 from gui.shell import Shell
 from gui.theme import SCALES, Mode
 from instrument.files.acceleration import UNITS, acceleration_unit
@@ -24,7 +25,8 @@ Ctrl+F9\tend the run in order
 Ctrl+Return\twhat the run asks for is done
 Ctrl+N\ta new experiment
 Ctrl+O\topen a session, an experiment or other data
-Ctrl+R, Ctrl+P\tsave the report as a page, as a PDF
+Ctrl+R, Ctrl+Shift+P\tsave the report as a page, as a PDF
+Ctrl+P\tprint the report
 Ctrl+Space\tplay, pause
 Ctrl+Left, Ctrl+Right\tto the mark before, to the next
 Ctrl++, Ctrl+-, Ctrl+0\tlarger, smaller, usual type
@@ -42,6 +44,9 @@ class Menus(QObject):
         self._export = Export(window.controller, window)
         self._export.done.connect(window.notice.say)
         self._export.failed.connect(window.notice.refuse)
+        self._printing = Printing(window.controller, window)
+        self._printing.done.connect(window.notice.say)
+        self._printing.failed.connect(window.notice.refuse)
         self._file()
         self._pages()
         self._view()
@@ -68,8 +73,9 @@ class Menus(QObject):
         menu.addSeparator()
         self._of_session = [close, self._add(menu, "Save &report...", self._export.report, "Ctrl+R")]
         self._of_session.append(
-            self._add(menu, "Save report as &PDF, to print...", self._export.report_to_print, "Ctrl+P")
+            self._add(menu, "Save report as &PDF...", self._export.report_to_print, "Ctrl+Shift+P")
         )
+        self._of_session.append(self._add(menu, "Pr&int report...", self._printing.ask, "Ctrl+P"))
         data = menu.addMenu("&Export data")
         for kind, said in (("csv", "CSV..."), ("uff", "Universal file..."), ("mat", "MATLAB...")):
             action = self._add(data, said, self._export.data)

@@ -19,7 +19,7 @@ from instrument.session.storage import SessionFile
 @click.option(
     "--out",
     type=click.Path(path_type=Path, dir_okay=False),
-    help="The page (.html, or .pdf for sheets of A4); beside the session otherwise.",
+    help="The page (.html; .pdf for sheets of A4, .png for a picture of each); beside the session otherwise.",
 )
 @click.option(
     "--pdf",
@@ -41,13 +41,18 @@ def report(session: Path, out: Path | None, pdf: Path | None, json_path: str | N
     with SessionFile(session) as file:
         contents = contents_of(file)
     made = report_of(contents, bar)
+    sheets: tuple[Path, ...] = ()
     for path in wanted:
         try:
-            if path is pdf or path.suffix.lower() == ".pdf":
+            if path is not pdf and path.suffix.lower() == ".png":
+                sheets = made.save_pictures(path)
+            elif path is pdf or path.suffix.lower() == ".pdf":
                 made.save_pdf(path)
             else:
                 path.write_text(made.html(), encoding="utf-8")
         except OSError as error:
             raise BadInput(f"{path}: {error.strerror or error}") from None
-        output.say(f"wrote {path}")
-    output.result(ReportResult(report=str(page), pdf=str(pdf) if pdf is not None else None))
+        for written in sheets if path is page and sheets else (path,):
+            output.say(f"wrote {written}")
+    found = ReportResult(report=str(page), pdf=str(pdf) if pdf is not None else None)
+    output.result(found.but(sheets=tuple(map(str, sheets))) if sheets else found)

@@ -35,6 +35,8 @@ class ReportResult(Result):
     report: str
     pdf: str | None = None
     """The same on sheets of A4, where it was asked for beside the page."""
+    sheets: tuple[str, ...] = ()
+    """Pictures of the sheets, where it was asked for as such."""
 
 
 class RecoverResult(Result):

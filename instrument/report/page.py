@@ -17,7 +17,7 @@ from instrument.report.identification import (
     result_in_short,
     unexplained_section,
 )
-from instrument.report.pdf import save_pdf
+from instrument.report.pdf import save_pdf, save_pictures
 from instrument.report.setting import rig_section, specimen_section, versions_section
 from instrument.report.sweep import sweep_section
 from instrument.session.contents import Contents
@@ -40,6 +40,10 @@ class Report:
     def save_pdf(self, path: Path) -> None:
         """Sheets of A4. Raises `OSError`."""
         save_pdf(path, self.title, self.header, self.sections)
+
+    def save_pictures(self, path: Path) -> tuple[Path, ...]:
+        """The same sheets, a PNG each, numbered behind the name. Raises `OSError`."""
+        return save_pictures(path, self.title, self.header, self.sections)
 
 
 def report_of(contents: Contents, progress: Progress = quiet) -> Report:

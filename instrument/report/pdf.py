@@ -16,6 +16,8 @@ _KEPT_MM = 28.0
 _BETWEEN_MM = 4.0
 """Columns of a table."""
 _GROUNDS = {"note": ("#f4f7fa", "#0b63a5"), "warning": ("#fdf1e3", "#c2571a")}
+_PAPER_DPI = 300
+"""What a laser printer shows."""
 _NOTES_MM, _SIGN_MM = 60.0, 14.0
 
 
@@ -30,6 +32,18 @@ def save_pdf(
     ):
         for page in sheets.pages:
             pdf.savefig(page)
+
+
+def save_pictures(
+    path: Path, title: str, header: Sequence[tuple[str, str]], sections: Sequence[ReportSection]
+) -> tuple[Path, ...]:
+    """The same pages as pictures for paper: NAME-01.png and so on. Raises `OSError`."""
+    pages = sheets_of(title, header, sections).pages
+    names = tuple(path.with_name(f"{path.stem}-{k:02d}{path.suffix}") for k in range(1, len(pages) + 1))
+    for name, page in zip(names, pages, strict=True):
+        # Kept for as long as printing takes: small is not worth the time.
+        page.savefig(name, format="png", dpi=_PAPER_DPI, pil_kwargs={"compress_level": 1})
+    return names
 
 
 def sheets_of(title: str, header: Sequence[tuple[str, str]], sections: Sequence[ReportSection]) -> Sheets:

@@ -82,7 +82,16 @@ def test_every_dialog_there_is_leaves_the_stop_key_and_the_button_alive(qtbot, b
         close_all()
     assert len(seen) >= 10, sorted(seen)
     titles = " ".join(seen)
-    for known in ("Keys", "Open", "A run goes on", "New experiment", "Export PNG", "Save report", "Compare"):
+    for known in (
+        "Keys",
+        "Open",
+        "A run goes on",
+        "New experiment",
+        "Export PNG",
+        "Save report",
+        "Print report",
+        "Compare",
+    ):
         assert known in titles
     assert {name: faults for name, faults in seen.items() if faults} == {}
 

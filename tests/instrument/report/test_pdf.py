@@ -2,11 +2,12 @@
 
 import pytest
 from matplotlib.figure import Figure
+from matplotlib.image import imread
 from matplotlib.text import Text
 
 from instrument.report.blocks import FactsBlock, Picture, ReportSection, Sentence, TableBlock
 from instrument.report.paper import HEIGHT_MM, INSIDE_MM, MARGIN_MM, WIDTH_MM, broken, width_mm
-from instrument.report.pdf import save_pdf, sheets_of
+from instrument.report.pdf import save_pdf, save_pictures, sheets_of
 
 LONG = "a_name_without_a_place_to_break_it_" * 4
 COLUMNS = ("step", "f / Hz", "remark")
@@ -90,3 +91,13 @@ def test_the_file_is_a_pdf_of_a4_with_letters_in_it(tmp_path):
     # 210 by 297 mm in points of 1/72 inch.
     assert b"/MediaBox [ 0 0 595.2755905512 841.8897637795 ]" in raw
     assert b"/FontFile2" in raw
+
+
+def test_a_picture_of_every_sheet_is_as_large_as_the_paper(tmp_path):
+    section = ReportSection("Said", tuple(Sentence("well " * 400) for _ in range(12)))
+    names = save_pictures(tmp_path / "sheet.png", "A title", (("operator", "A. Tester"),), (section,))
+    assert [name.name for name in names] == [f"sheet-{k:02d}.png" for k in range(1, len(names) + 1)]
+    assert len(names) > 1
+    for name in names:
+        high, wide = imread(name).shape[:2]
+        assert (wide, high) == pytest.approx((300 * WIDTH_MM / 25.4, 300 * HEIGHT_MM / 25.4), abs=1)
