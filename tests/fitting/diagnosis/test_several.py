@@ -1,0 +1,47 @@
+"""What several members have in common beyond their stated numbers."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from shear_pair_cases import LAW, pair, sweep
+
+from fitting.diagnosis.of_files import Place
+from fitting.diagnosis.several import SeveralProblem
+from fitting.diagnosis.small_problem import SmallProblem
+
+MASSES_KG = (0.3, 0.6)
+
+
+def members(misfits):
+    each = zip(MASSES_KG, misfits, strict=True)
+    return [replace(SmallProblem.of_small(sweep(pair(m), points=20), pair(m)), misfit=x) for m, x in each]
+
+
+def of(misfits, files=(1, 2)):
+    return SeveralProblem.of_members(members(misfits), [None, None], [Place(k) for k in files])
+
+
+def common_rows(problem):
+    """Rows of the model's error that reach both members. Shape (any, points)."""
+    v = problem.sweep.response_m_s
+    rows = problem.model_error(LAW, v)
+    first = problem.starts_at[0].stop
+    both = np.any(rows[:, :first] != 0, axis=1) & np.any(rows[:, first:] != 0, axis=1)
+    return rows[both] / v
+
+
+def test_files_with_a_misfit_share_a_gain_and_a_phase_of_its_size():
+    problem = of((0.01, 0.02))
+    size = np.sqrt((0.01**2 + 0.02**2) / 2)
+    assert problem.alike == pytest.approx(size)
+    gain, phase = common_rows(problem)
+    np.testing.assert_allclose(gain, size)
+    np.testing.assert_allclose(phase, 1j * size)
+
+
+@pytest.mark.parametrize(("misfits", "files"), [((0.0, 0.0), (1, 2)), ((0.01, 0.02), (1, 1))])
+def test_nothing_is_shared_where_noise_explains_the_files_or_there_is_one(misfits, files):
+    problem = of(misfits, files)
+    assert problem.alike == 0.0
+    assert len(common_rows(problem)) == 0
