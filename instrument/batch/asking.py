@@ -28,7 +28,8 @@ def tasks_of(
         lonely = next((t for t in found if t.specimen is None and not is_session(Path(t.data))), None)
         if lonely is not None:
             raise BadInput(
-                f"{lonely.data}: Missing option '--specimen': a sweep does not say which plate it was"
+                f"{lonely.data}: Missing option '--specimen': a sweep does not say which plate it was "
+                "(a table of sweeps begins with a column 'data', commas between its columns)"
             )
     return [replace(task, diagnose=diagnose) for task in found]
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import click
 import numpy as np
 
-from instrument.cli.options import json_option
+from instrument.cli.options import file_arguments, json_option
 from instrument.cli.output import Output
 from instrument.facts.comparison import CompareResult
 from instrument.material.comparing import LEVEL, Comparison, compared_pair
@@ -21,7 +21,7 @@ _SAYS = {True: "differ", False: "agree", None: "cannot be told"}
 
 
 @click.command()
-@click.argument("files", type=click.Path(path_type=Path), nargs=-1, required=True)
+@file_arguments("files")
 @click.option(
     "--spread",
     "with_spread",

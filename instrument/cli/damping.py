@@ -5,7 +5,13 @@ from pathlib import Path
 import click
 
 from fitting.modal.frf import DampingEstimate, Refusal
-from instrument.cli.options import DECIMAL_COMMA, figures_option, is_decimal_comma, json_option
+from instrument.cli.options import (
+    DECIMAL_COMMA,
+    figures_option,
+    file_arguments,
+    is_decimal_comma,
+    json_option,
+)
 from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.files.records import Named, read_records
@@ -46,7 +52,7 @@ def _at(_: click.Context, __: click.Parameter, text: str | None) -> tuple[float,
 
 
 @click.command()
-@click.argument("records", nargs=-1, required=True, type=click.Path(path_type=Path), metavar="RECORD...")
+@file_arguments("records", "RECORD...")
 @click.option("--band", callback=_band, metavar="LOW:HIGH", help="Where to look for modes, in Hz.")
 @click.option(
     "--at", callback=_at, metavar="F1,F2,...", help="Modes by name, in Hz, instead of looking for them."

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.gravity import PUBLISHED_G_M_S2
+from instrument.errors import BadInput
 from instrument.files.acceleration import UNITS, USUAL, show_acceleration_in
 
 _MOST_FREQUENCIES = 100_000
@@ -20,9 +21,24 @@ def file_argument(name: str) -> Any:
     return click.argument(name, type=click.Path(path_type=Path))
 
 
-def file_arguments(name: str) -> Any:
-    """One file to read, or several."""
-    return click.argument(name, type=click.Path(path_type=Path), nargs=-1, required=True)
+def _each_once(_: click.Context, __: click.Parameter, files: tuple[Path, ...]) -> tuple[Path, ...]:
+    """What is counted twice seems to be known better than it is."""
+    for k, path in enumerate(files):
+        if path.resolve() in [before.resolve() for before in files[:k]]:
+            raise BadInput(f"{path}: named twice, expected every file once")
+    return files
+
+
+def file_arguments(name: str, metavar: str | None = None) -> Any:
+    """One file to read, or several, each once."""
+    return click.argument(
+        name,
+        type=click.Path(path_type=Path),
+        nargs=-1,
+        required=True,
+        metavar=metavar,
+        callback=_each_once,
+    )
 
 
 json_option: Any = click.option(

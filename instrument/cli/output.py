@@ -28,6 +28,22 @@ class _Screen(Console):
             os.dup2(nowhere.fileno(), sys.stdout.fileno())
 
 
+_WRITTEN = ("json_path", "out", "pdf")
+"""Parameters of commands that name files to be written."""
+
+
+def _keep_what_is_read() -> None:
+    """No file that the command reads is written over. Raises `BadInput`."""
+    context = click.get_current_context(silent=True)
+    given = context.params if context is not None else {}
+    written = [Path(str(given[name])) for name in _WRITTEN if given.get(name) is not None]
+    values = [value for name, value in given.items() if name not in _WRITTEN]
+    read = [one for value in values for one in (value if isinstance(value, tuple) else (value,))]
+    for path in written:
+        if path.is_file() and any(isinstance(r, Path) and r.is_file() and path.samefile(r) for r in read):
+            raise BadInput(f"{path}: read by this command, expected another name for what it writes")
+
+
 class Output:
     """Where a command's results go, as `--json` decides."""
 
@@ -36,6 +52,9 @@ class Output:
         if json_path not in (None, "-") and not Path(str(json_path)).parent.is_dir():
             # Said before the work, not after it.
             raise BadInput(f"{json_path}: no such folder to write to")
+        if json_path is not None and Path(json_path).is_dir():
+            raise BadInput(f"{json_path}: is a folder, expected a file to write to")
+        _keep_what_is_read()
         self._console = _Screen(highlight=False, quiet=json_path == "-", soft_wrap=True)
 
     def say(self, text: str = "") -> None:

@@ -29,6 +29,8 @@ def write_real(folder: Path) -> Path:
 def write_new(kind: str, path: Path | None) -> Path:
     """Write one, by default as KIND.toml here. Raises `BadInput` where there is a file already."""
     where = path if path is not None else Path(f"{kind}.toml")
+    if where.suffix.lower() != ".toml" and not where.exists():
+        raise BadInput(f"{where}: ending {where.suffix!r}, expected .toml")
     try:
         with open(where, "x", encoding="utf-8") as file:
             file.write(read_text(TEMPLATES[kind]))

@@ -53,6 +53,12 @@ _SIZE = {
     "length_mm": Usual(5.0, 5_000.0, "plates 50 to 1000", _LENGTH),
     "width_mm": Usual(2.0, 5_000.0, "plates 10 to 1000", _LENGTH),
 }
+_PAIR = {
+    "mass_kg": Usual(1e-3, 100.0, "0.1 to 5", {"g": 1e-3}),
+    "thickness_mm": Usual(0.1, 100.0, "discs 1 to 20", _LENGTH),
+    "outer_diameter_mm": Usual(2.0, 1_000.0, "discs 10 to 100", _LENGTH),
+    "area_mm2": Usual(3.0, 1e6, "discs 100 to 10 000", {"cm2": 100.0, "m2": 1e6}),
+}
 _BASE = {"acceleration_m_s2": Usual(1e-3, 2_000.0, f"1 g is {PUBLISHED_G_M_S2:g}", {"mm/s^2": 1e-3})}
 
 
@@ -67,6 +73,7 @@ def question_specimen(path: Path, *, insist: bool = False) -> None:
 def specimen_doubts(tables: dict[str, Any]) -> list[str]:
     """Everything in a specimen's tables that asks for a question; empty for a usual one."""
     wanted = {**dict.fromkeys(_LAYERS, _FACE), "core": _CORE, "plate": _SIZE, "beam": _SIZE, "base": _BASE}
+    wanted["shear-pair"] = _PAIR
     found: list[str] = []
     for name, usual in wanted.items():
         found += _outside(name, tables.get(name), usual)

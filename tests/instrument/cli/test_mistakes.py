@@ -5,11 +5,11 @@ import shutil
 
 import pytest
 from attacked_files import write_files
-from mistakes import DATA, FILES, MISTAKES, SHEETS, SPECIMEN, column, velocity
+from mistakes import DATA, FILES, MISTAKES, PLACES, SHEETS, SPECIMEN, column, velocity
 
 from instrument.cli.main import run
 
-QUICK = (*SPECIMEN, *SHEETS, *FILES)
+QUICK = (*SPECIMEN, *SHEETS, *FILES, *PLACES)
 """Those that need no model of the plate."""
 
 
@@ -27,10 +27,16 @@ def here(valid, tmp_path, monkeypatch):
     return tmp_path
 
 
+def files_in(folder):
+    return {path: path.read_bytes() if path.is_file() else None for path in folder.rglob("*")}
+
+
 def refused(capsys, here, mistake):
-    """In one line, with nothing on standard output."""
+    """In one line, with nothing on standard output; no file is written or changed."""
     mistake.do(here)
+    before = files_in(here)
     assert run(mistake.command.split()) == 2
+    assert files_in(here) == before
     captured = capsys.readouterr()
     line = captured.err.strip()
     # `check` says all that is wrong at once.
