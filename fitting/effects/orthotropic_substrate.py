@@ -1,11 +1,12 @@
 """The substrate is a rolled sheet: stiffer along the rolling direction than across it."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import BarePlateModes, Effect, EffectParameter
+from fitting.effects.base import BarePlateModes, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
@@ -77,31 +78,50 @@ def substrate_coefficients(face: Face, D: Array) -> Complex:
     return (1 + 1j * face.loss_factor) * np.reshape(found, (len(STIFFNESS), -1)).sum(axis=1)
 
 
+ALONG, MEAN, ACROSS = 0.0, 0.5, 1.0
+"""Which modulus the stated one is."""
+
+
+def sheet(face: Face, ratio: float, stated: float) -> Array:
+    """The same of a face whose stated modulus is E_x^(1 - stated) E_y^stated. Shape (3, 3)."""
+    return plane_stress(replace(face, young_pa=face.young_pa * ratio**-stated), ratio)
+
+
 class OrthotropicSubstrateEffect(Effect):
-    """E_y over E_x, E_x as stated."""
+    """E_y over E_x; the stated modulus is that along (`stated` 0), across (1) or the mean of both (0.5)."""
 
     name = "orthotropic_substrate"
     enters = "stiffness"
     needs = frozenset({"isotropic substrate"})
     source = "orthotropic plane stress with Huber's shear modulus, e.g. Szilard, Plates (2004), ch. 4"
-    parameters = (EffectParameter("ratio", "1", 0.7, 1.4, 1.03, neutral=1.0, spread=0.03),)
+    parameters = (
+        EffectParameter("ratio", "1", 0.7, 1.4, 1.03, neutral=1.0, spread=0.03),
+        EffectParameter("stated", "1", ALONG, ACROSS, 0.0, neutral=None, fixed=True),
+    )
     spans = (Orthotropy(),)
     discriminating_test = (
         "torsional beside bending frequencies of the bare plate (hammer test); a strip cut across the sheet"
     )
 
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
+        return [np.array([1.03, stated]) for stated in (ALONG, MEAN, ACROSS)]
+
     def bare_shift(self, bare: BarePlateModes, u: Array) -> Array:
         face = bare.substrate
         now, stated = (
-            (bare.stiffness @ substrate_coefficients(face, plane_stress(face, ratio))).real
-            for ratio in (float(u[0]), 1.0)
+            (bare.stiffness @ substrate_coefficients(face, D)).real
+            for D in (sheet(face, float(u[0]), float(u[1])), plane_stress(face, 1.0))
         )
         return np.asarray(0.5 * np.log(now / stated))
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         face = plate.specimen.substrate
-        change = plane_stress(face, float(u[0])) - plane_stress(face, 1.0)
+        change = sheet(face, float(u[0]), float(u[1])) - plane_stress(face, 1.0)
         return Change(K=mixed(substrate_coefficients(face, change), plate.parts[: len(STIFFNESS)]))
 
     def story(self, u: Mapping[str, float]) -> str:
-        return f"the substrate is {100 * (u['ratio'] - 1):+.1f} % stiffer across than along"
+        which = {ALONG: "along", MEAN: "of both on average", ACROSS: "across"}[u["stated"]]
+        return (
+            f"the substrate is {100 * (u['ratio'] - 1):+.1f} % stiffer across than along, "
+            f"the stated modulus the one {which}"
+        )

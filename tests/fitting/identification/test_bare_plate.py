@@ -271,7 +271,7 @@ def test_a_rolled_sheet_shifts_the_modes_as_one_solved_anew(bare_test, zn1):
     solved, stated = (
         np.sqrt(np.sort(eigsh(A.tocsc(), 8, plate.M.tocsc(), sigma=0.0)[0])) for A in (K, plate.K_0.real)
     )
-    found = CATALOGUE["orthotropic_substrate"].bare_shift(bare, np.array([ratio]))
+    found = CATALOGUE["orthotropic_substrate"].bare_shift(bare, np.array([ratio, 0.0]))
     expected = np.log(solved / stated)
     assert np.ptp(expected) > 4e-3
     np.testing.assert_allclose(found[: len(expected)], expected, atol=0.4 * FREQUENCY_SCATTER)
