@@ -10,7 +10,7 @@ from scipy.optimize import least_squares
 
 from fitting.arrays import Array
 from fitting.bent_law import BentLaw
-from fitting.diagnosis.candidates import polished
+from fitting.diagnosis.candidates import at_rest, polished
 from fitting.diagnosis.evidence import BareModes, Evidence
 from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.problem import DiagnosisProblem
@@ -83,7 +83,7 @@ def begin(
         law, u = none.law, none.u
         if moved < _FAR:
             break
-    return Begun(here, evidence, none, first)
+    return Begun(here, evidence, at_rest(here, evidence, none), first)
 
 
 def within_search(law: CoreLaw, omega: Array) -> CoreLaw:

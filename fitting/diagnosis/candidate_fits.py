@@ -6,7 +6,7 @@ from itertools import permutations
 
 import numpy as np
 
-from fitting.diagnosis.candidates import CandidateFit, Known, Start, has_place, look, polished
+from fitting.diagnosis.candidates import CandidateFit, Known, Start, at_rest, has_place, look, polished
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.prediction import held_out
@@ -185,6 +185,10 @@ class CandidateFits:
     def ended(self, rough: Refitted) -> Refitted:
         """A rough fit followed to the end."""
         return polished(self.problem, rough.effects, self.evidence, rough.law, rough.u)
+
+    def at_rest(self, fitted: Refitted) -> Refitted:
+        """A fit followed to its very end."""
+        return at_rest(self.problem, self.evidence, fitted)
 
     def together(self, one: tuple[Refitted, dict[str, State]]) -> list[Refitted]:
         """A pair again, each of its effects beside the other fitted alone, in wide valleys."""

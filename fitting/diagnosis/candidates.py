@@ -11,7 +11,7 @@ from fitting.bent_law import BentLaw
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.of_files import OfFiles
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import ROUGH, Refitted, refit
+from fitting.diagnosis.refit import AT_REST, ROUGH, Refitted, refit
 from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
@@ -296,3 +296,18 @@ def polished(
         if moved < _FAR:
             break
     return fitted
+
+
+def at_rest(problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted) -> Refitted:
+    """A fit followed until nothing is left to be gained; itself where it is there.
+
+    What was followed far enough to compare may be on its way still, along a valley that winds: there
+    chi-square hardly falls from step to step, and the law has far to go.
+    """
+    if fitted.owed < SEARCH.least_owed:
+        return fitted
+    response = response_of(problem.around(fitted.law), fitted.effects)
+    found = refit(response, evidence, fitted.law, fitted.u, tolerance=AT_REST)
+    if fitted.chi2 - found.chi2 < SEARCH.least_owed:
+        return fitted
+    return polished(problem, found.effects, evidence, found.law, found.u)

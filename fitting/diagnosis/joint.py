@@ -1,7 +1,7 @@
 """The joint fit as an identification: the posterior of the law, and the stated numbers as it has them."""
 
 from fitting.diagnosis.begin import Begun
-from fitting.diagnosis.refit import posterior
+from fitting.diagnosis.posterior import posterior
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.stage import adjusted_of
 from fitting.identification.fit import Fit

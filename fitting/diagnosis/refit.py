@@ -14,14 +14,16 @@ from fitting.laws import CoreLaw
 
 _MOST_EVALUATIONS = 25
 """To compare; what has not come to its end by then says `converged = False`. A bound on time."""
+_TO_REST_EVALUATIONS = 150
+"""To report: a valley that winds (a law against a drift) takes 75. A bound on time."""
 _ROUGH_EVALUATIONS = 10
 """To choose between starts. A choice: what a good one gains it gains soon."""
 _BRIEF_EVALUATIONS = 3
 """Where little is to be gained: a look whether that is so."""
-_WIDEST = 3.0
-"""Times a standard error, that a flat chi-square may widen it."""
-ROUGH, COMPARABLE = 1e-3, 1e-5
-"""Relative change of chi-square and parameters at which a fit stops: to choose, and to compare."""
+_NO_SLOPE, _DEPENDENT = 1e-300, 1e-6
+"""Of columns of a Jacobian: one that is zero; the share below which a direction is made of the others."""
+ROUGH, COMPARABLE, AT_REST = 1e-3, 1e-5, 1e-8
+"""Relative change of chi-square and parameters at which a fit stops: to choose, to compare, and to report."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,6 +77,14 @@ class Refitted:
         return self.u[: self.stated]
 
     @property
+    def owed(self) -> float:
+        """Chi-square that one more step would gain, were the residuals linear; none at the end of a fit."""
+        J = self.jacobian[:, self._moving]
+        J = J / np.maximum(np.linalg.norm(J, axis=0), _NO_SLOPE)
+        step = np.linalg.lstsq(J, self.residuals, rcond=_DEPENDENT)[0]
+        return float(np.sum((J @ step) ** 2))
+
+    @property
     def unexplained(self) -> float:
         """What the stated numbers had to be moved: their sum of squares."""
         return float(self.z @ self.z)
@@ -107,8 +117,7 @@ class Refitted:
         scale = chi2 if np.isfinite(chi2) else 1.0
         if self.noise_known:
             scale = max(1.0, scale)
-        fixed = limits_reached(self.law)
-        kept = np.array([name not in fixed for name in self.law.names] + [True] * self._others)
+        kept = self._moving
         J = self.jacobian[:, kept]
         # An unknown noise is the readings'; a misfit is everyone's.
         J[slice(None) if self.noise_known else slice(self.data)] /= np.sqrt(scale)
@@ -118,8 +127,11 @@ class Refitted:
         return np.vstack([J, bounds[:, kept]]), kept
 
     @property
-    def _others(self) -> int:
-        return self.jacobian.shape[1] - len(self.law.names)
+    def _moving(self) -> Mask:
+        """Which columns are of what does not sit at a limit of the law."""
+        fixed = limits_reached(self.law)
+        others = self.jacobian.shape[1] - len(self.law.names)
+        return np.array([name not in fixed for name in self.law.names] + [True] * others)
 
 
 def refit(
@@ -158,31 +170,9 @@ def refit(
 
 
 def _most(tolerance: float) -> int:
-    return _ROUGH_EVALUATIONS if tolerance >= ROUGH else _MOST_EVALUATIONS
-
-
-def posterior(response: SweepResponse, evidence: Evidence, fitted: Refitted) -> Array:
-    """`Refitted.covariance`, wider where chi-square is flatter than its curvature says. Shape as there.
-
-    Looked at along the directions of the stated numbers that the fit has moved by more than a standard
-    deviation: one posterior standard deviation off, chi-square must have risen by one.
-    """
-    C = fitted.covariance
-    moved = np.flatnonzero(np.abs(fitted.z) > 1)
-    if not len(moved) or not fitted.noise_known:
-        return C
-    problem = JointProblem(response, evidence, fitted.law, fitted.u, None)
-    x, (lower, upper) = problem.start, problem.limits
-    n = len(fitted.law.names)
-    for k in n + moved:
-        step = C[:, k] / np.sqrt(C[k, k])
-        rises = [
-            np.sum(problem.residuals(np.clip(x + s * step, lower, upper)) ** 2) - fitted.chi2 for s in (1, -1)
-        ]
-        rise = float(np.clip(np.mean(rises), 1 / _WIDEST**2, None))
-        if rise < 1:
-            C = C + (1 / rise - 1) * np.outer(step, step)
-    return C
+    if tolerance >= ROUGH:
+        return _ROUGH_EVALUATIONS
+    return _MOST_EVALUATIONS if tolerance >= COMPARABLE else _TO_REST_EVALUATIONS
 
 
 def kept(response: SweepResponse, evidence: Evidence, law: CoreLaw, u: Array) -> Refitted:

@@ -6,8 +6,9 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.posterior import posterior
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import Refitted, posterior
+from fitting.diagnosis.refit import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.result import FoundEffect, ParameterEstimate, Stage
 from fitting.diagnosis.search import ScoredFit, Search

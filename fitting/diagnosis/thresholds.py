@@ -87,6 +87,12 @@ class SearchThresholds:
     least_gain: float = 1.0
     """Chi-square gained, or still to be made good, after a few steps: then a start is followed after all."""
 
+    least_owed: float = 0.1
+    """Chi-square that a fit good enough to compare must still gain to have been on its way: a tenth of what a
+    standard error is worth."""
+    reported: float = 12.0
+    """In cost above the best, tempered: up to there (one in 400) fits are followed to their very end."""
+
     # How many
 
     leaders: int = 5

@@ -13,7 +13,8 @@ from fitting.arrays import Array
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.begin import within_search
 from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.refit import ROUGH, Refitted, posterior, refit
+from fitting.diagnosis.posterior import posterior
+from fitting.diagnosis.refit import ROUGH, Refitted, refit
 from fitting.errors import OutsideModel, TooFewPoints
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.uncertainty import Uncertainty, limits_reached

@@ -12,7 +12,7 @@ from fitting.bent_law import BentLaw
 from fitting.diagnosis.begin import begin, within_search
 from fitting.diagnosis.joint import fit_of
 from fitting.diagnosis.model_error import model_error
-from fitting.diagnosis.refit import posterior
+from fitting.diagnosis.posterior import posterior
 from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.whitening import SHARE
 from fitting.identification.uncertainty import uncertainty_of

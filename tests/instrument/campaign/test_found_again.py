@@ -1,5 +1,6 @@
 """Cases of the campaign on solid plates whose cause a search once passed by."""
 
+import numpy as np
 import pytest
 
 from instrument.campaign.plates.cases import draw_case
@@ -17,3 +18,21 @@ def test_what_was_passed_by_is_found(name, seed):
     answer = diagnosed(draw_case(name, seed))
     assert answer.verdict == "effect"
     assert answer.effects == (name,)
+
+
+WAS_OFF = {
+    "law and drift were still on their way along a valley that winds": ("temperature_drift", 1400011),
+    "the stated modulus of a rolled sheet was taken for the one along": ("orthotropic_substrate", 1400061),
+}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("name", "seed"), WAS_OFF.values(), ids=WAS_OFF)
+def test_the_law_is_where_the_band_says(name, seed):
+    case = draw_case(name, seed)
+    answer = diagnosed(case)
+    assert answer.effects[0] == name
+    f = case.truth.resonances_hz
+    G, band = case.truth.law.modulus(2 * np.pi * np.array(f)), answer.after.at(f)
+    off = np.array([band.storage_pa - G.real, band.loss - G.imag / G.real])
+    assert np.abs(off / [band.storage_error_pa, band.loss_error]).max() < 2
