@@ -108,8 +108,9 @@ def test_a_recorded_session_replays_to_the_same_events(capsys, monkeypatch, file
     found["diagnose"].pop("next_measurements", None)
     # Words since of the ranking; `instrument/planning/reasons.py` has tests of its own.
     found["diagnose"].pop("next_measurement", None)
-    if storing() or same_arithmetic("replay"):
-        # Recorded before rivals were followed to their end: the search finds more beside the best since.
+    if same_arithmetic("small"):
+        # On a machine like the one that recorded it, before rivals were followed to their end: the search
+        # finds more beside the best since.
         assert not equal
         assert [difference.split(".")[0] for difference in apart] == ["DiagnosisFound"]
     assert_kept("replay", found, SEARCHED)
