@@ -72,9 +72,9 @@ def sheet(name: str, change: Callable[[str], str | bytes], said: str, command: s
     return Mistake(name, do, command, said)
 
 
-def wrong(command: str, said: str) -> Mistake:
+def wrong(command: str, said: str, *, insists: bool = False) -> Mistake:
     """A file of another kind."""
-    return Mistake(command, lambda folder: None, command, said)
+    return Mistake(command, lambda folder: None, command, said, insists)
 
 
 def made(name: str, command: str, said: str, content: str | None = None) -> Mistake:
@@ -98,6 +98,15 @@ def pair(key: str, value: str, said: str) -> Mistake:
 
     command = "predict shear-pair.toml --frequencies 20"
     return Mistake(f"shear-pair.{key} = {value}", do, command, rf"shear-pair\.{key}.*{said}", True)
+
+
+def in_khz(folder):
+    path = folder / "modes.csv"
+    head, *rows = [line.split(",") for line in path.read_text().splitlines()]
+    k = head.index("frequency_hz")
+    for row in rows:
+        row[k] = f"{float(row[k]) / 1000:.6g}"
+    path.write_text("\n".join(",".join(row) for row in (head, *rows)) + "\n")
 
 
 def velocity(c, factor):
@@ -307,6 +316,8 @@ PLACES = [
     wrong("doctor sweep.csv", "sweep.csv"),
     wrong("compare found.json", "one file, expected two"),
     wrong("modes grö\u00dfe².toml", "grö\u00dfe².toml: No such file"),
+    wrong("identify modes.csv --specimen coarse.toml", "modes.csv: no core.*another specimen", insists=True),
+    Mistake("modes in kHz", in_khz, "identify modes.csv --specimen beam.toml", "modes.csv.*in kHz", True),
     pair("mass_kg", "573.0", "is it in g"),
     pair("thickness_mm", "0.006", "is it in m"),
     pair("outer_diameter_mm", "30000.0", "is it in um"),

@@ -156,7 +156,7 @@ def identify(
                 "--pointwise, --method paper, --hammer, --with, --budget, --uncertainty with modal tables: "
                 "expected sweeps"
             )
-        identify_modes(out, data, specimen, bare)
+        identify_modes(out, data, specimen, bare, insist=insist)
         return
     if bare is not None:
         raise click.UsageError("--bare: expected a table of modes of a beam")
