@@ -6,9 +6,16 @@
 So every number that is fitted is paid for by how much narrower the data made it than it was expected to be: a
 law free to bend, a place chosen among many, a small gain, by one rule. `cost` is -2 ln Z, without what all
 explanations share; the prior probability of the effects themselves is in it.
+
+A number that cannot be negative, and that the data find to be nothing, has half of that integral or less:
+
+    integral over x > 0 of exp(-(x^2 / s^2 + 2 g x) / 2) / (sqrt(2 pi) s) = exp(t^2 / 2) Phi(-t),   t = g s
+
+where g is how fast -ln p rises from the limit and s the width with everything else free.
 """
 
 import numpy as np
+from scipy.special import log_ndtr
 
 from fitting.arrays import Array
 from fitting.diagnosis.refit import Refitted
@@ -19,6 +26,8 @@ _TYPICALS = 3.0
 """An unknown whose `spread` is not stated is expected to be of a few typical sizes."""
 _UNIFORM = 12.0
 """Variance of a uniform density is its width squared over this."""
+_AT_A_LIMIT = 0.1
+"""Standard deviations from a limit within which a fit is held by it: a bounded fit stops a little before."""
 
 
 def cost(fitted: Refitted, plate: EnrichedReducedPlate) -> float:
@@ -26,16 +35,18 @@ def cost(fitted: Refitted, plate: EnrichedReducedPlate) -> float:
     law_widths = fitted.law.search_widths
     priors = _priors(fitted, plate)
     densities = np.array([*np.log(1 / (law_widths * np.sqrt(_UNIFORM))), *(density for density, _ in priors)])
-    J = fitted.jacobian
+    J, r = fitted.jacobian, fitted.residuals
     if not fitted.noise_known:
         # Of the readings: what is stated is as well known as it is said.
-        J = J.copy()
+        J, r = J.copy(), r.copy()
         J[: fitted.data] /= np.sqrt(_mean_square(fitted))
+        r[: fitted.data] /= np.sqrt(_mean_square(fitted))
     H = J.T @ J
     H += np.diag(prior_precision(fitted, plate))
     _, logdet = np.linalg.slogdet(H)
     k = len(densities)
     paid = float(logdet) - k * np.log(2 * np.pi) - 2 * float(densities.sum())
+    paid -= 2 * _log_share_within(fitted, plate, H, J.T @ r)
     return _misfit(fitted) + paid + sum(_odds(e) for e in fitted.effects)
 
 
@@ -51,6 +62,35 @@ def prior_precision(fitted: Refitted, plate: EnrichedReducedPlate) -> Array:
     found[: len(widths)] = 1 / widths**2
     if effects:
         found[-len(effects) :] = 1 / np.array(effects) ** 2
+    return found
+
+
+def _log_share_within(fitted: Refitted, plate: EnrichedReducedPlate, H: Array, slope: Array) -> float:
+    """Ln of the share of Laplace's integral that lies within the limits of the effects' unknowns.
+
+    Of those that have a size; each for itself. `slope` is the derivative of -ln p to the fitted numbers.
+    Shapes (columns, columns) and (columns,).
+    """
+    start, found = fitted.stated, 0.0
+    # Directions that no reading feels leave H all but singular, in units far apart.
+    d = 1 / np.sqrt(np.diag(H))
+    C = np.linalg.inv(H * np.outer(d, d) + 1e-12 * np.eye(len(H))) * np.outer(d, d)
+    # The effects' unknowns come last among the columns.
+    column = len(H) - int(fitted.free[start:].sum())
+    for effect in fitted.effects:
+        lower, upper = effect.limits(plate)
+        for k, q in enumerate(effect.parameters):
+            if not fitted.free[start + k]:
+                continue
+            if q.neutral is not None and not q.logarithmic:
+                s, u = float(np.sqrt(C[column, column])), float(fitted.u[start + k])
+                low, high = (u - float(lower[k])) / s, (float(upper[k]) - u) / s
+                away = float(slope[column]) * (1.0 if low < high else -1.0) * s
+                # Within the limits a slope is only what the fit left undone.
+                t = max(away, 0.0) if min(low, high) < _AT_A_LIMIT else 0.0
+                found += t**2 / 2 + float(log_ndtr(min(low, high) - t))
+            column += 1
+        start += len(effect.parameters)
     return found
 
 

@@ -211,14 +211,35 @@ def test_a_small_value_is_likelier_than_a_large_one():
     assert at[2] - at[0] == pytest.approx(2 * np.log(901), abs=0.3)
 
 
-def test_at_a_physical_limit_there_is_one_side_only():
-    class OneSided(Effect):
-        name, chance = "one_sided", 0.05
-        parameters = (EffectParameter("size", "1", 0.0, 10.0, 0.1, spread=0.1),)
+class OneSided(Effect):
+    name, chance = "one_sided", 0.05
+    parameters = (EffectParameter("size", "1", 0.0, 10.0, 0.1, spread=0.1),)
 
-    columns, data = design(15, 3), np.random.default_rng(16).normal(size=N)
+
+def test_well_within_its_limits_what_has_one_side_only_is_twice_as_likely_there():
+    columns = design(15, 3)
+    data = np.random.default_rng(16).normal(size=N) + 0.3 * columns[:, 2]
     one, both = (cost(linear(columns, data, effects=[e()]), None) for e in (OneSided, Small))
     assert both - one == pytest.approx(2 * np.log(2))
+
+
+@pytest.mark.parametrize("deviations", [-3.0, -1.0, 0.0, 1.0])
+def test_a_fit_that_a_limit_holds_has_only_what_lies_within(deviations):
+    columns = design(26, 3)
+    data = np.random.default_rng(27).normal(size=N)
+    free = linear(columns, data)
+    s = float(np.sqrt(np.linalg.inv(columns.T @ columns)[2, 2]))
+    data = data + (deviations * s - free.u[0]) * columns[:, 2]
+    held = linear(columns, data, effects=[OneSided()])
+    if deviations <= 0:
+        law = linear(columns[:, :2], data)
+        held = replace(held, u=np.zeros(1), residuals=law.residuals)
+    # The integral over its size, everything else as it comes out for each.
+    u = np.linspace(0, 12 * s, 400)
+    each = np.array([cost(linear(columns[:, :2], data - size * columns[:, 2]), None) for size in u])
+    p = np.exp(-(each - each.min()) / 2) * 2 * PRIORS[Small](u)
+    expected = each.min() - 2 * np.log(np.trapezoid(p, u)) + odds(OneSided)
+    assert cost(held, None) == pytest.approx(expected, abs=0.06)
 
 
 def test_where_the_noise_is_unknown_only_ratios_count():
