@@ -45,6 +45,10 @@ def felt(specimen: Specimen, plate: EnrichedReducedPlate, *, has_phase: bool) ->
     ]
     weighed = tolerance(specimen, "mass")
     found += [Nuisance(f"mass_{k + 1}", "mass", weighed) for k in range(len(specimen.masses))]
+    laid = tolerance(specimen, "place")
+    found += [
+        Nuisance(f"place_{k + 1}_{axis}", "place", laid) for k in range(len(specimen.masses)) for axis in "xy"
+    ]
     found.append(Nuisance("gain", "gain", tolerance(specimen, "gain")))
     if has_phase:
         found.append(Nuisance("delay", "delay", tolerance(specimen, "delay")))

@@ -17,6 +17,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisance import Nuisance, felt
 from fitting.nuisance_sums import Kept, between
 from fitting.parts import coefficients, loaded, names_of
+from fitting.placed import Masses, Placed, Points
 from fitting.specimen import PlacedMass, Specimen
 from fitting.tolerances import PLATE, moved
 
@@ -164,9 +165,7 @@ class Nuisances:
             for a, b in ((0, n_0), (n_0, n_0 + n_1), (n_0 + n_1, n_0 + n_1 + n_M))
         )
         M, load = M.real, self._load(plate, c) + self._force_change(plate, z)
-        for mass, w in self._masses(plate, z):
-            M, load = M + mass * np.outer(w, w), load - mass * w
-        return Change(
+        own = Change(
             K=K,
             K_1=K_1.real,
             M=M,
@@ -174,15 +173,22 @@ class Nuisances:
             observe=self._row_change(plate, z),
             damping=self._damping(len(plate.d), z),
         )
+        return own.and_then(self._masses.change(plate, z)) if self.masses else own
 
-    def _masses(self, plate: EnrichedReducedPlate, z: Array) -> list[tuple[float, Array]]:
-        """Each mass in kg, and what reads the deflection where it is. Shape (k,)."""
-        found = []
-        for k, m in enumerate(self.masses):
-            at = self._places.get(f"mass_{k + 1}")
-            more = np.exp(self._sigma[at] * z[at]) if at is not None else 1.0
-            found.append((m.mass_kg * float(more), plate.row(m.x_m, m.y_m)))
-        return found
+    def masses_moved(self, plate: EnrichedReducedPlate, z: Array, longer_m: float) -> Change:
+        """What masses change more where an effect makes the free length another one (`Masses.moved`).
+
+        `z` of shape (numbers,).
+        """
+        return self._masses.moved(plate, z, longer_m)
+
+    @cached_property
+    def _points(self) -> Points:
+        return Points(self.specimen, self.reference, self._places, self._sigma)
+
+    @cached_property
+    def _masses(self) -> Masses:
+        return Masses(self.masses, self._points)
 
     def _load(self, plate: EnrichedReducedPlate, c: Array) -> Array:
         """What the load becomes more. Shape (k,)."""
@@ -218,28 +224,12 @@ class Nuisances:
                 found |= {k: size * slope for k, size in slopes.items()}
         return found
 
-    def _spot(self, spot: Spot, z: Array) -> list[tuple[float, dict[int, float]]]:
+    def _spot(self, spot: Spot, z: Array) -> Placed:
         """X and y in m of the point on the plate of `reference`, and how they go with z."""
-        s, r = self.specimen, self.reference
+        s = self.specimen
         place = s.pickup_m if spot == "pickup" else s.force_m
         assert place is not None
-        found = []
-        for side, axis, at in (("length", "x", place[0]), ("width", "y", place[1])):
-            side_m = getattr(s, f"{side}_m") + self._by(side, z)
-            stretch = getattr(r, f"{side}_m") / side_m
-            at = at + self._by(f"{spot}_{axis}", z)
-            slopes = {f"{spot}_{axis}": stretch, side: -at * stretch / side_m}
-            by = {
-                self._places[n]: v * self._sigma[self._places[n]]
-                for n, v in slopes.items()
-                if n in self._places
-            }
-            found.append((at * stretch, by))
-        return found
-
-    def _by(self, name: str, z: Array) -> float:
-        k = self._places.get(name)
-        return float(self._sigma[k] * z[k]) if k is not None else 0.0
+        return self._points.at(place, spot, z)
 
     def _damping(self, modes: int, z: Array) -> Array:
         found = np.ones(modes)
@@ -261,21 +251,12 @@ class Nuisances:
         """
         found = self._by_matrices(plate, omega, G, q, adjoint, z)
         found -= self._by_load(plate, adjoint, z)
-        if self.specimen.drive == "base":
-            for k, change, w in self._by_masses(plate, z):
-                found[k] -= change * (adjoint @ w)
+        for k, moved_load in self._masses.by_load(plate, adjoint, z).items():
+            found[k] += moved_load
         if self.specimen.drive == "force":
             for k, row in self._rows_by("force", plate, z).items():
                 found[k] += adjoint @ row
         return found
-
-    def _by_masses(self, plate: EnrichedReducedPlate, z: Array) -> list[tuple[int, float, Array]]:
-        """Which number each mass is, its change in kg by that, and its row."""
-        return [
-            (at, float(self._sigma[at]) * mass, w)
-            for n, (mass, w) in enumerate(self._masses(plate, z))
-            if (at := self._places.get(f"mass_{n + 1}")) is not None
-        ]
 
     def _by_load(self, plate: EnrichedReducedPlate, adjoint: Complex, z: Array) -> Complex:
         by = self.by_coefficients(z)[:, sum(self.counts) :].real
@@ -300,8 +281,8 @@ class Nuisances:
         found = np.asarray(-(by @ each), dtype=complex)
         for k, row in self.rows_by(plate, z).items():
             found[k] += q @ row
-        for k, change, w in self._by_masses(plate, z):
-            found[k] += omega**2 * change * (adjoint @ w) * (q @ w)
+        for k, moved_mass in self._masses.by_mass(plate, q, adjoint, z).items():
+            found[k] += omega**2 * moved_mass
         factor = self._damping(len(plate.d), z)
         for k, mode in self._damped:
             u = plate.U[:, mode]
@@ -311,7 +292,7 @@ class Nuisances:
 
     def reading(self, v: Complex, omega: Array, z: Array) -> Complex:
         """What the velocity channel makes of a velocity. Shape (points,)."""
-        gain, delay = self._by("gain", z), self._by("delay", z)
+        gain, delay = self._points.by("gain", z), self._points.by("delay", z)
         if not gain and not delay:
             return v
         return np.asarray(v * ((1 + gain) * np.exp(-1j * omega * delay)))
@@ -321,7 +302,7 @@ class Nuisances:
         found: dict[int, Complex] = {}
         k = self._places.get("gain")
         if k is not None:
-            found[k] = read * (self._sigma[k] / (1 + self._by("gain", z)))
+            found[k] = read * (self._sigma[k] / (1 + self._points.by("gain", z)))
         k = self._places.get("delay")
         if k is not None:
             found[k] = read * (-1j * omega * self._sigma[k])

@@ -50,6 +50,7 @@ _STATED = (
     StatedNumber("gain", "1", 0.003, "two calibrated channels"),
     StatedNumber("delay", "s", 2e-6, "decoder against accelerometer, a known delay taken out"),
     StatedNumber("mass", "1", 0.02, "what sits on the plate, on a letter balance"),
+    StatedNumber("place", "m", 5e-4, "where a mass sits, by a rule from the free end; each coordinate"),
     StatedNumber("area", "1", 0.01, "a disc's diameters by caliper"),
     StatedNumber("substrate_young_y", "1", 0.03, "a laminate's or a rolled sheet's second axis"),
     StatedNumber("substrate_shear", "1", 0.05, "seldom measured"),

@@ -220,7 +220,13 @@ class SweepResponse:
         return reduce(Change.and_then, found, Change())
 
     def _change(self, k: int, u: Array, plate: EnrichedReducedPlate) -> Change:
-        return self._moving(self.effects[k].change(plate, self._unknowns.of(k, u)))
+        own = self._unknowns.of(k, u)
+        change = self._moving(self.effects[k].change(plate, own))
+        longer = self.effects[k].longer_m(own)
+        if longer and self.nuisances.masses:
+            moved = self.nuisances.masses_moved(plate, u[self._unknowns.stated], longer)
+            change = change.and_then(self._moving(moved))
+        return change
 
     def _moving(self, change: Change | None) -> Change:
         change = change or Change()

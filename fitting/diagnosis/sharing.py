@@ -18,7 +18,7 @@ CHANNELS = ("gain", "delay")
 """What a mounting does not keep."""
 OF_EACH_FILE = ("force",)
 """And in every file, its spots sharing them."""
-OF_EACH_PLATE = ("mass", "damping", "length", "width")
+OF_EACH_PLATE = ("mass", "place", "damping", "length", "width")
 """And in every file, but of one plate that is struck elsewhere: it was not mounted anew."""
 Places = tuple[NDArray[np.intp], ...]
 

@@ -240,6 +240,13 @@ class Effect:
         """What the channels make of the velocity `v` in m/s; None: nothing. Shape (points,), as `v`."""
         return None
 
+    def longer_m(self, u: Array) -> float:
+        """By how much more than its stated length the plate is free over; masses stay by the free end.
+
+        `u` of shape (parameters,).
+        """
+        return 0.0
+
     def bare_shift(self, bare: BarePlateModes, u: Array) -> Array:
         """Change of ln f of the bare plate's modes. Shape (modes,)."""
         return np.zeros(len(bare.lowering_per_density))

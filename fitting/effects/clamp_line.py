@@ -89,5 +89,9 @@ class ClampLineEffect(Effect):
         place = (x + float(u[0] * u[1])) * plate.length_m / length
         return replace(found, observe=plate.row(place, y) - plate.pickup_row)
 
+    def longer_m(self, u: Array) -> float:
+        """As `Effect.longer_m`, of `u` of shape (parameters,)."""
+        return float(u[0])
+
     def story(self, u: Mapping[str, float]) -> str:
         return f"the plate is free over {1e3 * u['dlength']:+.1f} mm more than its stated length"

@@ -74,6 +74,9 @@ def stated_number(specimen: StatedSpecimen, n: Nuisance) -> tuple[float, float, 
         return specimen.modal_ratios[int(n.name.split("_")[1]) - 1], 1e2, "%"
     if n.kind == "mass":
         return specimen.masses[int(n.name.split("_")[1]) - 1].mass_kg, 1e3, "g"
+    if n.kind == "place":
+        mass = specimen.masses[int(n.name.split("_")[1]) - 1]
+        return getattr(mass, f"{n.name[-1]}_m"), 1e3, "mm"
     if n.kind == "gain":
         return 1.0, 1.0, "1"
     if n.kind == "delay":

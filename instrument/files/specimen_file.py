@@ -122,6 +122,7 @@ class TolerancesSection(TomlTable):
     glue_shear_percent: NotNegative | None = None
     patch_mm: NotNegative | None = None
     mass_percent: NotNegative | None = None
+    place_mm: NotNegative | None = None
     area_percent: NotNegative | None = None
     exact: bool = False
 

@@ -14,7 +14,7 @@ _UNITS = {
     "rad": ("deg", "°", 180 / pi),
 }
 """Ending of the file's key, unit for people, factor."""
-_NOT_OF_A_SWEEP = ("mass", "area")
+_NOT_OF_A_SWEEP = ("mass", "place", "area")
 
 
 def asked(specimen: AnySpecimen) -> list[str]:

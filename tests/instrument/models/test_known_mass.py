@@ -41,10 +41,19 @@ def test_it_does_what_a_mass_found_there_does(problems):
     assert np.abs(v / bare - 1).max() > 0.05
 
 
-def test_its_tolerance_is_an_unknown_with_a_derivative(problems):
+TOLERANCES = {
+    "mass_1": (8.0, 0.16, "g"),
+    "place_1_x": (210.0, 0.5, "mm"),
+    "place_1_y": (50.0, 0.5, "mm"),
+    "length": (300.2, 0.3, "mm"),
+}
+
+
+@pytest.mark.parametrize("name", TOLERANCES)
+def test_its_tolerances_are_unknowns_with_derivatives(problems, name):
     heavy = problems[1]
     names = [n.name for n in heavy.nuisances.each]
-    k, law = names.index("mass_1"), heavy.stated_law
+    k, law = names.index(name), heavy.stated_law
     response = SweepResponse(heavy, ())
     z = heavy.as_stated
     _, by = response.with_derivatives(law, z)
@@ -53,7 +62,39 @@ def test_its_tolerance_is_an_unknown_with_a_derivative(problems):
     mine = by[len(law.names) + k]
     assert np.abs(mine - slope).max() < 0.01 * np.abs(slope).max()
     stated = heavy.adjusted(z, np.ones(len(z)))[k]
-    assert (stated.stated, stated.tolerance, stated.unit) == pytest.approx((8.0, 0.16, "g"))
+    assert (stated.stated, stated.tolerance, stated.unit) == pytest.approx(TOLERANCES[name])
+
+
+def of_a_longer_plate(plain, u):
+    """What is found with the clamp's line 2 mm further back, and a mass."""
+    effects = [CATALOGUE["clamp_line"], CATALOGUE["added_mass"]]
+    start = np.concatenate([plain.as_stated, [2e-3, 1.0], u])
+    return SweepResponse(plain, effects).velocity(plain.stated_law, start)
+
+
+def test_where_the_clamp_line_is_elsewhere_it_stays_so_far_from_the_free_end(problems):
+    plain, heavy = problems
+    z = np.concatenate([heavy.as_stated, [2e-3, 1.0]])
+    v = SweepResponse(heavy, [CATALOGUE["clamp_line"]]).velocity(heavy.stated_law, z)
+    length = heavy.specimen.length_m
+    # The mesh is that of the stated plate, stretched.
+    by_tip = (MASS.x_m + 2e-3) * length / (length + 2e-3)
+    assert np.abs(v / of_a_longer_plate(plain, [MASS.mass_kg, by_tip, MASS.y_m]) - 1).max() < 1e-9
+    stretched = of_a_longer_plate(plain, [MASS.mass_kg, MASS.x_m, MASS.y_m])
+    assert np.abs(v / stretched - 1).max() > 1e-3
+
+
+def test_a_length_that_is_another_one_leaves_it_by_the_free_end_too(problems):
+    plain, heavy = problems
+    k = [n.name for n in heavy.nuisances.each].index("length")
+    z = heavy.as_stated + 3 * np.eye(len(heavy.as_stated))[k]
+    v = SweepResponse(heavy, ()).velocity(heavy.stated_law, z)
+    length, longer = heavy.specimen.length_m, 3 * heavy.nuisances.each[k].sigma
+    u = [MASS.mass_kg, (MASS.x_m + longer) * length / (length + longer), MASS.y_m]
+    m = [n.name for n in plain.nuisances.each].index("length")
+    start = np.concatenate([plain.as_stated + 3 * np.eye(len(plain.as_stated))[m], u])
+    found = SweepResponse(plain, [CATALOGUE["added_mass"]]).velocity(plain.stated_law, start)
+    assert np.abs(v / found - 1).max() < 1e-9
 
 
 def test_other_commands_say_that_they_do_not_know_it(problems):
