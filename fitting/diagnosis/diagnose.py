@@ -28,6 +28,9 @@ from fitting.noise import Noise, noise_of
 from fitting.reduced import ReducedPlate
 from fitting.sweep import Sweep
 
+_BEYOND = 0.005
+"""Of what the group holds: what is less likely does not decide what to measure next. A choice."""
+
 Report = Callable[[float], None]
 Settle = Callable[[Search, Judgement], Judgement]
 
@@ -126,7 +129,7 @@ def diagnose_task(
         by_hand=judgement.by_hand,
         p_value=resampled.p_value,
         nested_held_out_rms_percent=resampled.nested_rms_percent,
-        rivals=_rivals(problem, reduced, search, judgement),
+        rivals=_rivals(problem, reduced, search, judgement, scored_fits),
     )
 
 
@@ -187,12 +190,22 @@ def _noise_left(search: Search, scored_fits: Sequence[ScoredFit]) -> float:
 
 
 def _rivals(
-    problem: DiagnosisProblem, reduced: ReducedPlate | None, search: Search, judgement: Judgement
+    problem: DiagnosisProblem,
+    reduced: ReducedPlate | None,
+    search: Search,
+    judgement: Judgement,
+    scored_fits: Sequence[ScoredFit],
 ) -> Rivals | None:
+    """`scored_fits`: one of every explanation."""
     if not judgement.group or judgement.by_hand:
         return None
     each = tuple((scored.fitted, share) for scored, share in judgement.group)
-    return Rivals(problem, search.evidence, each, reduced, search.temper(judgement.group[0][0]))
+    inside = {scored.names for scored, _ in judgement.group}
+    whole = sum(judgement.probability[names] for names in inside)
+    others = {t.names: t for t in scored_fits if t.names not in inside}
+    shares = [(t.fitted, judgement.probability.get(names, 0.0) / whole) for names, t in others.items()]
+    beyond = tuple(sorted((one for one in shares if one[1] > _BEYOND), key=lambda one: -one[1]))
+    return Rivals(problem, search.evidence, each, reduced, search.temper(judgement.group[0][0]), beyond)
 
 
 def _cost(scored: ScoredFit) -> float:

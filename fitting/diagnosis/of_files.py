@@ -46,9 +46,10 @@ def among(effect: Effect, files: int, spots: Sequence[int], *, one_plate: bool =
 class OfFiles(Effect):
     """`inner` in every file (`file` 0) or in one, counted from 1; the forms are tried apart.
 
-    With `spots` also at one of them in every file (`pickup`, -1 for all). What comes of a mounting is also
-    tried with a size of its own in each file (`file` -1): those of further files have their number behind,
-    and lie about the first one's as one mounting lies about another (`EffectParameter.mounting`).
+    With `spots` also at one of them in every file (`pickup`, -1 for all), what moves the reading at the
+    first spot of the first file alone too. What comes of a mounting is also tried with a size of its own in
+    each file (`file` -1): those of further files have their number behind, and lie about the first one's as
+    one mounting lies about another (`EffectParameter.mounting`).
     """
 
     def __init__(
@@ -138,6 +139,9 @@ class OfFiles(Effect):
         numbers = [*files, EACH] if self.files > 1 and self.needs_mounting else files
         found = [OfFiles(form, self.files, k, self.spots) for k in numbers for form in forms]
         found += [OfFiles(form, self.files, 0, self.spots, k) for k in self.spots for form in forms]
+        if self.files > 1 and self.spots and self.inner.enters == "observation":
+            # A laser that was aimed once more is off once.
+            found += [OfFiles(form, self.files, 1, self.spots, self.spots[0]) for form in forms]
         return tuple(found)
 
     def story(self, u: Mapping[str, float]) -> str:
@@ -145,7 +149,8 @@ class OfFiles(Effect):
         if u[FILE] == EACH:
             where = "in every file, in each of another size (that of the first is said),"
         if u.get(PICKUP, _ALL) != _ALL:
-            where = f"at pickup {u[PICKUP]:.0f}"
+            at = f"at pickup {u[PICKUP]:.0f}"
+            where = at if u[FILE] <= ALIKE else f"{where} {at}"
         elif self.files == 1:
             where = "at every pickup"
         return f"{where} {self.inner.story(u)}"

@@ -10,14 +10,16 @@ from fitting.laws import CoreLaw
 
 _STEPS = 3
 """Of Rayleigh's quotient, from poles whose law was taken in the middle of the range."""
+PLAIN, ODD = "plate", "plate/odd"
+"""Groups of the unchanged plate's motions: those that its load excites; those odd across its width."""
 
 
 class PlatePoles:
     """p of (K_0 + G K_1 + i p C_1 - p^2 M) y = 0 with y the motion."""
 
-    def __init__(self, plate: EnrichedReducedPlate, law: CoreLaw) -> None:
+    def __init__(self, plate: EnrichedReducedPlate, law: CoreLaw, group: str = PLAIN) -> None:
         self.law = law
-        own = np.flatnonzero(plate.group == "plate")
+        own = np.flatnonzero(plate.group == group)
         square = np.ix_(own, own)
         self.K_0, self.K_1, self.M = plate.K_0[square], plate.K_1[square], plate.M[square]
         U = plate.U[own]

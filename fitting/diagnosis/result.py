@@ -105,11 +105,18 @@ class Rivals:
     """For what the model gets wrong; None for what knows its own error."""
     temper: float = 1.0
     """How much less a difference in chi-square says (`fitting.diagnosis.predictive.temper`)."""
+    beyond: tuple[tuple[Refitted, float], ...] = ()
+    """What comes next, by the same measure: once some of the others are ruled out, it is in their place."""
 
     @property
     def names(self) -> tuple[str, ...]:
         """`none`, an effect, or two joined by " + "."""
-        return tuple(" + ".join(e.name for e in f.effects) or "none" for f, _ in self.each)
+        return tuple(name_of(f) for f, _ in self.each)
+
+
+def name_of(fitted: Refitted) -> str:
+    """`none`, an effect, or two joined by " + "."""
+    return " + ".join(e.name for e in fitted.effects) or "none"
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import Refitted
 from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.responses import response_of
-from fitting.diagnosis.result import Rivals
+from fitting.diagnosis.result import Rivals, name_of
 from fitting.diagnosis.several import SeveralProblem
 from fitting.diagnosis.whitening import SHARE
 from fitting.effects.base import Effect
@@ -89,8 +89,8 @@ class Expecting:
     def __init__(self, rivals: Rivals, most: int) -> None:
         """`most`: how many rivals are asked, the likeliest first."""
         self.problem, self.evidence, self.temper = rivals.problem, rivals.evidence, rivals.temper
-        each = rivals.each[:most]
-        self.names = rivals.names[:most]
+        each = (*rivals.each, *rivals.beyond)[:most]
+        self.names = tuple(name_of(fitted) for fitted, _ in each)
         forms = [
             (k, fitted, p * share)
             for k, (one, p) in enumerate(each)
@@ -185,8 +185,9 @@ class Expecting:
         effects, places = self._effects(fitted, further.without)
         u = np.concatenate([fitted.u[stated], *(fitted.u[p] for p in places)])
         if further.mass is not None:
+            longer = sum(e.longer_m(fitted.u[p]) for e, p in zip(effects, places, strict=True))
             effects = [*effects, further.mass]
-            u = np.concatenate([u, further.mass.values])
+            u = np.concatenate([u, further.mass.unknowns_on(member.plate.length_m, longer)])
         new = [k for k, q in enumerate(member.nuisances.each) if q.kind in further.new]
         u[new] = 0.0
         v, dv = self._response(known, further, effects, u)
@@ -210,6 +211,7 @@ class Expecting:
             at += len(place)
         if further.mass is not None:
             fresh.append(further.mass.sigma_kg * dv[at])
+            fresh += [further.mass.off_m * dv[at + 1], further.mass.off_m * dv[at + 2]]
         near = further.at if further.like is None else further.like
         e = self._errors[:, self.part][:, near]
         first = fitted.velocity_m_s[self.part][near]

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 from instrument.check.piece import Kind, Work
 from instrument.facts.follow_up import FollowUp
-from instrument.planning.measurable import HANDS_S
+from instrument.planning.measurement import HANDS_S
 from instrument.stream.derived import DiagnosisFound, FitUpdated, HitJudged, PointMeasured
 from instrument.stream.event import Event
 from instrument.stream.raw import (

@@ -14,7 +14,8 @@ from fitting.specimen import Specimen
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.follow_up import FollowUp
 from instrument.models.diagnosis import Diagnosed
-from instrument.planning.measurable import Measurable, Template
+from instrument.planning.measurable import Template
+from instrument.planning.measurement import Measurable
 from instrument.planning.struck import bare_modes_expected
 from instrument.results.next_words import advice
 from instrument.stepped_sine.settings import SweepSettings
@@ -96,7 +97,7 @@ def _asked(expecting: Expecting, possible: Possible) -> Iterator[tuple[Measurabl
         if measurable.needs_hands and not possible.hands:
             continue
         one = measurable
-        if one.kind == "spot":
+        if one.spot_m is not None:
             v = expecting.velocity_m_s(one.further)
             if v.max() > limits.warn * limits.velocity_m_s:
                 continue

@@ -21,75 +21,31 @@ from fitting.planning.sensitivity import ReadingNoise
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.tolerances import STATED
-from instrument.facts.follow_up import FollowUp, FollowUpKind
+from instrument.facts.follow_up import FollowUpKind
 from instrument.planning.costs import dwell_seconds, step_seconds
 from instrument.planning.gaps import gaps_of, nearest, steps_between
-from instrument.planning.reasons import why
+from instrument.planning.measurement import HANDS_S, Measurable
+from instrument.planning.steps import Steps, about, twists_hz, where
 from instrument.stepped_sine.settings import SweepSettings
 
 STEPS_A_SEGMENT = 20
 """Of a further sweep: enough that scatter shows its noise (15 are needed), a third of a usual segment."""
-HANDS_S = {"spot": 120.0, "added_mass": 180.0, "clamping": 300.0, "bare_hammer": 600.0}
-"""Of a person's time, and of the laser's; a choice."""
 LEVELS = (0.25, 0.5, 2.0, 4.0)
 """Times the level of the sweep."""
 _SPOTS = [(0.95, 0.5), (0.6, 0.5), (0.3, 0.5), (0.95, 0.12), (0.5, 0.12)]
 """Of length and width. A base that heaves moves the plate evenly; on the axis twist does not show."""
+_BESIDE = [(0.5, 0.12), (0.95, 0.12)]
+"""The same, beside the axis: where a plate clamped anew is read, and its twist."""
 _MASS_AT = [(0.95, 0.5), (0.6, 0.5)]
 _ELSEWHERE_M = 0.03
 """A spot nearer than this to one that was read tells little else."""
+_ANEW = "Loosen the clamp, clamp the plate anew with a fifth of the torque"
 _PAUSE_S = 60.0
 """Between two sweeps."""
 OF_THE_SPOT = frozenset({"spot_offset"})
 _OF_A_MOUNTING = frozenset({*OF_EACH_SPOT, *OF_EACH_FILE, *OF_EACH_PLATE})
 """Stated numbers that are other ones in a file of its own, as the joint fit has them."""
 _LEAST_HZ, _MOST_HZ = 5.0, 2000.0
-
-
-@dataclass(frozen=True)
-class Measurable:
-    """One measurement that could be made."""
-
-    kind: FollowUpKind
-    further: Further
-    frequencies_hz: tuple[float, ...]
-    segments: tuple[int, ...]
-    level_g: float
-    seconds: float
-    todo: str
-    needs_hands: bool = False
-    spot_m: tuple[float, float] | None = None
-    mass: KnownMass | None = None
-    velocities_m_s: tuple[float, ...] = ()
-    """Foreseen at each step, where that matters."""
-    reason: str = ""
-    """Why, where that does not depend on the explanations."""
-
-    def follow_up(
-        self, names: tuple[str, ...], separation: float, resolved: float, between: tuple[str, ...]
-    ) -> FollowUp:
-        """As it is offered."""
-        given = {
-            "kind": self.kind,
-            "needs_hands": self.needs_hands,
-            "frequencies_hz": self.frequencies_hz,
-            "segments": self.segments,
-            "level_g": self.level_g if self.frequencies_hz else None,
-            "seconds": self.seconds,
-            "separation": separation,
-            "probability_resolved": resolved,
-            "between": between,
-            "why": self.reason or why(self.kind, between),
-            "todo": self.todo,
-        }
-        if self.velocities_m_s:
-            given["velocities_m_s"] = self.velocities_m_s
-        if self.spot_m is not None:
-            given["spot_mm"] = tuple(1e3 * s for s in self.spot_m)
-        if self.mass is not None:
-            given["mass_kg"] = float(self.mass.values[0])
-            given["mass_at_mm"] = tuple((1e3 * self.mass.values[1:]).tolist())
-        return FollowUp.model_validate(given)
 
 
 @dataclass(frozen=True)
@@ -105,6 +61,10 @@ class Template:
     """Of each step."""
     poles_hz: Complex
     """Of the likeliest explanation."""
+    twists: Steps
+    """About resonances that the base does not excite, where the plate is alike at either side of its axis."""
+    twists_at: str
+    """Their frequencies in words; empty where there are none."""
     read_m: tuple[tuple[float, float], ...]
     """Spots that were read."""
     in_time: bool
@@ -123,6 +83,8 @@ class Template:
         poles = resonances_hz(
             PlatePoles(member.plate, first.law), max(_LEAST_HZ, 0.5 * f.min()), min(1.2 * f.max(), _MOST_HZ)
         )
+        twists = twists_hz(member.plate, first.law, float(sweep.frequency_hz.min()), float(f.max()))
+        every = np.concatenate([poles, twists])
         dwell = dwell_seconds(sweep.frequency_hz, settings)
         part = expecting.part
         noise = noise_seen(first.velocity_m_s[part], expecting.evidence.noise_m_s[part], dwell)
@@ -133,6 +95,8 @@ class Template:
             noise,
             step_seconds(f, poles, settings),
             poles,
+            about(twists, int(sweep.segment.max()) + 1, every, settings),
+            where(twists),
             expecting.read_m,
             expecting.in_time,
             expecting.reduced,
@@ -158,7 +122,7 @@ class Template:
             if mass_kg is not None:
                 yield from self._masses(specimen, mass_kg)
             if specimen.boundary == "cantilever":
-                yield self._clamping()
+                yield from self._clampings(specimen)
 
     def struck(self) -> Measurable:
         """The bare plate's hammer test."""
@@ -210,38 +174,72 @@ class Template:
             )
 
     def _spots(self, specimen: Specimen, reduced: ReducedPlate) -> Iterator[Measurable]:
-        _, places = np.unique(self.member.sweep.frequency_hz[self.at], return_inverse=True)
-        for x, y in _SPOTS:
-            spot = (x * specimen.length_m, y * specimen.width_m)
-            if min(np.hypot(spot[0] - a, spot[1] - b) for a, b in self.read_m) < _ELSEWHERE_M:
-                continue
-            further = Further(
-                self._read_at(spot, reduced),
-                places,
-                self._read(self.at)[1],
-                same_errors=False,
-                new=frozenset(OF_EACH_SPOT),
-                without=OF_THE_SPOT,
-                like=self.at,
-            )
-            todo = f"Point the laser at {_words(spot)} and make the same steps."
-            yield self._measurable("spot", further, self.at, self._level_g, todo, spot=spot)
+        for share in _SPOTS:
+            spot = _on(specimen, share)
+            if min(np.hypot(spot[0] - a, spot[1] - b) for a, b in self.read_m) >= _ELSEWHERE_M:
+                todo = f"Point the laser at {_words(spot)} and make the same steps."
+                yield self._elsewhere("spot", spot, reduced, self._same, todo)
+        for spot in self._beside(specimen):
+            todo = f"Point the laser at {_words(spot)} and measure its twist, about {self.twists_at} Hz."
+            yield self._elsewhere("spot", spot, reduced, self.twists, todo)
 
-    def _read_at(self, spot_m: tuple[float, float], reduced: ReducedPlate) -> DiagnosisProblem:
+    def _beside(self, specimen: Specimen) -> list[tuple[float, float]]:
+        """Spots from which a twist is seen, where there is one to be seen."""
+        return [_on(specimen, share) for share in _BESIDE] if self.twists_at else []
+
+    def _elsewhere(
+        self,
+        kind: FollowUpKind,
+        spot: tuple[float, float],
+        reduced: ReducedPlate,
+        steps: Steps,
+        todo: str,
+        new: frozenset[str] = frozenset(OF_EACH_SPOT),
+    ) -> Measurable:
+        """Another spot is read, of a plate clamped anew where that is what is done."""
+        _, places = np.unique(steps.frequency_hz, return_inverse=True)
+        further = Further(
+            self._read_at(spot, reduced, steps),
+            places,
+            dwell_seconds(steps.frequency_hz, self.settings),
+            same_errors=False,
+            new=new,
+            without=OF_THE_SPOT,
+            remounted=kind == "clamping",
+            like=nearest(steps.frequency_hz, self.member.sweep.frequency_hz),
+        )
+        return Measurable(
+            kind,
+            further,
+            tuple(steps.frequency_hz.tolist()),
+            tuple(steps.segment.tolist()),
+            self._level_g,
+            float(steps.seconds.sum()) + HANDS_S[kind],
+            todo,
+            needs_hands=True,
+            spot_m=spot,
+        )
+
+    @property
+    def _same(self) -> Steps:
+        sweep = self.member.sweep
+        return Steps(sweep.frequency_hz[self.at], sweep.segment[self.at], self.seconds)
+
+    def _read_at(self, spot_m: tuple[float, float], reduced: ReducedPlate, steps: Steps) -> DiagnosisProblem:
         """The plate read at another spot, at each of the frequencies once."""
         member = self.member
-        f, first = np.unique(member.sweep.frequency_hz[self.at], return_index=True)
+        f, first = np.unique(steps.frequency_hz, return_index=True)
         plate, reduced, moved = read_elsewhere(member.plate, reduced, member.nuisances, spot_m)
         specimen = moved.specimen
         assert isinstance(specimen, Specimen)
-        time = float(member.points.time_s.max()) + _PAUSE_S + np.cumsum(self.seconds)[first]
-        segment = member.sweep.segment[self.at][first]
-        there = exact_problem(f, segment, self.level_m_s2, specimen, plate, reduced, time)
+        time = float(member.points.time_s.max()) + _PAUSE_S + np.cumsum(steps.seconds)[first]
+        there = exact_problem(f, steps.segment[first], self.level_m_s2, specimen, plate, reduced, time)
         return replace(there, nuisances=moved)
 
     def _masses(self, specimen: Specimen, mass_kg: float) -> Iterator[Measurable]:
         for x, y in _MASS_AT:
-            mass = KnownMass(mass_kg, (x * specimen.length_m, y * specimen.width_m), STATED["mass"].typical)
+            known = STATED["mass"].typical, STATED["place"].typical
+            mass = KnownMass(mass_kg, _on(specimen, (x, y)), *known)
             further = Further(
                 self._later(self.member, self.at),
                 *self._read(self.at),
@@ -254,16 +252,23 @@ class Template:
             todo = f"Put {grams} on the plate at {place}, state it as [[mass]], make the same steps."
             yield self._measurable("added_mass", further, self.at, self._level_g, todo, mass=mass)
 
-    def _clamping(self) -> Measurable:
+    def _clampings(self, specimen: Specimen) -> Iterator[Measurable]:
         further = Further(
             self._later(self.member, self.at),
             *self._read(self.at),
             same_errors=False,
             new=_OF_A_MOUNTING,
+            without=OF_THE_SPOT,
             remounted=True,
         )
-        todo = "Loosen the clamp, clamp the plate anew with a fifth of the torque, and make the same steps."
-        return self._measurable("clamping", further, self.at, self._level_g, todo)
+        todo = f"{_ANEW}, and make the same steps."
+        yield self._measurable("clamping", further, self.at, self._level_g, todo)
+        if self.reduced is not None:
+            for spot in self._beside(specimen):
+                todo = f"{_ANEW}, point the laser at {_words(spot)}, make the same steps there, and measure "
+                todo += f"its twist, about {self.twists_at} Hz."
+                steps = self._same.then(self.twists)
+                yield self._elsewhere("clamping", spot, self.reduced, steps, todo, _OF_A_MOUNTING)
 
     def _measurable(
         self,
@@ -272,7 +277,6 @@ class Template:
         order: NDArray[np.intp],
         level_g: float,
         todo: str,
-        spot: tuple[float, float] | None = None,
         mass: KnownMass | None = None,
     ) -> Measurable:
         sweep = self.member.sweep
@@ -285,8 +289,7 @@ class Template:
             float(self.seconds.sum()) + HANDS_S.get(kind, 0.0),
             todo,
             kind in HANDS_S,
-            spot,
-            mass,
+            mass=mass,
         )
 
     @property
@@ -331,6 +334,10 @@ def _thinned(member: DiagnosisProblem) -> NDArray[np.intp]:
         found.append(one[np.unique(np.linspace(0, len(one) - 1, STEPS_A_SEGMENT).round().astype(int))])
     at = np.concatenate(found)
     return at[np.argsort(member.points.time_s[at], kind="stable")]
+
+
+def _on(specimen: Specimen, share: tuple[float, float]) -> tuple[float, float]:
+    return share[0] * specimen.length_m, share[1] * specimen.width_m
 
 
 def _words(place_m: tuple[float, float]) -> str:

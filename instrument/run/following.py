@@ -157,9 +157,10 @@ class Following:
             self._loaded = False
         clamping = offer if offer.kind == "clamping" else self._clamping
         if clamping is not None:
-            self._clamp(clamping, rig)
+            self._clamp(clamping, rig, aim=offer.spot_mm is None)
         if offer.spot_mm is not None:
-            self.emit(rig.operator.change(offer))
+            # What is to be done to the clamp has been asked for.
+            self.emit(rig.operator.change(offer.but(kind="spot", todo=_aimed(offer.spot_mm))))
             self._at = self._number_of(offer.spot_mm)
             self.emit(SpotMoved(self._at, offer.spot_mm))
         elif self._at:
@@ -175,13 +176,14 @@ class Following:
         segments = follow_up_segments(offer, own, self.sweep.passes + number, calibrated or every)
         self.sweep.follow(runner, segments, self._mounting)
 
-    def _clamp(self, clamping: FollowUp, rig: Rig) -> None:
-        self.emit(rig.operator.change(clamping))
+    def _clamp(self, clamping: FollowUp, rig: Rig, *, aim: bool) -> None:
+        self.emit(rig.operator.change(clamping.but(spot_mm=None)))
         self._mounting += 1
         self.emit(ClampedAnew(self._mounting))
         self._clamping = None
-        # The plate is not quite where it was.
-        self.emit(rig.operator.aim("pickup"))
+        if aim:
+            # The plate is not quite where it was.
+            self.emit(rig.operator.aim("pickup"))
         self._at = 0
 
     def _number_of(self, spot_mm: tuple[float, float]) -> int:
@@ -191,3 +193,7 @@ class Following:
         number = known[0] if known else len(self._spots)
         self._spots[number] = at
         return number
+
+
+def _aimed(spot_mm: tuple[float, float]) -> str:
+    return f"Point the laser at ({spot_mm[0]:.0f}, {spot_mm[1]:.0f}) mm."

@@ -109,25 +109,29 @@ class SimulatedRig:
         return replace(self, schedule=whole, files=(first, *others))
 
     def _at_spot(self, follow_up: FollowUp, rng: np.random.Generator) -> "SimulatedRig":
-        assert follow_up.spot_mm is not None
-        spot = 1e-3 * follow_up.spot_mm[0], 1e-3 * follow_up.spot_mm[1]
+        spot = _spot_of(follow_up)
+        assert spot is not None
         # Half of those that measured from a wrong edge do it again.
         again = rng.random() < _WRONG_EDGE_AGAIN
         there = _aimed(self.truth, spot, rng, keep=again)
-        sweep = measured(there, self.plate, self._steps(follow_up), rng)
+        steps = self._steps(follow_up)
+        sweep = measured(there, self._built(there), steps, rng)
         near = _near(self.truth.plate, self._stated, spot)
-        # Spots are of the first file; one of another mounting or mass stays by itself.
-        files = [replace(f, number=1, pickup=f.pickup or 0) if f.number < 2 else f for f in self.files]
-        number = 1 + max(f.pickup or 0 for f in files)
-        more = File(sweep, replace(self._stated, pickup_m=spot), "", 1, number, near)
-        return replace(self, files=(*files, more))
+        files = [replace(f, number=f.number or 1) for f in self.files]
+        # Of the first file: what was mounted anew or made heavier is another one.
+        more = File(sweep, replace(self._stated, pickup_m=spot), "", 1, None, near)
+        return replace(self, files=_by_spot((*files, more)))
 
     def _heavier(self, follow_up: FollowUp, rng: np.random.Generator) -> "SimulatedRig":
         assert follow_up.mass_at_mm is not None
         assert follow_up.mass_kg is not None
         x, y = (1e-3 * at for at in follow_up.mass_at_mm)
         weighed = follow_up.mass_kg * float(np.exp(STATED["mass"].typical * rng.standard_normal()))
-        patch = HIDDEN["added_mass"](weighed, x, y, _SIDE_M)  # type: ignore[call-arg]
+        # By a rule from the free end.
+        longer = self.truth.plate.length_m - self._stated.length_m
+        off = STATED["place"].typical * rng.standard_normal(2)
+        at = x + longer + float(off[0]), y + float(off[1])
+        patch = HIDDEN["added_mass"](weighed, *at, _SIDE_M)  # type: ignore[call-arg]
         there = replace(self.truth, effects=(*self.truth.effects, patch))
         sweep = measured(there, self._built(there), self._steps(follow_up), rng)
         masses = (PlacedMass(follow_up.mass_kg, x, y),)
@@ -135,21 +139,37 @@ class SimulatedRig:
 
     def _clamped_anew(self, follow_up: FollowUp, rng: np.random.Generator) -> "SimulatedRig":
         """With a fifth of the torque: what gives then gives more, the line hardly moves."""
-        stated = self._stated.pickup_m
-        assert stated is not None
-        there = _aimed(self.truth, stated, rng, keep=False)
+        stated = replace(self._stated, pickup_m=_spot_of(follow_up) or self._stated.pickup_m)
+        assert stated.pickup_m is not None
+        there = _aimed(self.truth, stated.pickup_m, rng, keep=False)
         held = float(np.exp(_AS_BEFORE * rng.standard_normal()))
         softer = held * _TORQUE ** float(rng.uniform(*_BY_TORQUE))
         line = HiddenClampLine(_LINE_M * float(rng.standard_normal()))
         there = replace(there, effects=(*(_softer(h, softer) for h in there.effects), line))
-        sweep = measured(there, self._built(there), self._steps(follow_up), rng)
-        return self._and_file(sweep, self._stated)
+        steps = self._steps(follow_up)
+        sweep = measured(there, self._built(there), steps, rng)
+        like = _near(self.truth.plate, stated, stated.pickup_m) if follow_up.spot_mm is not None else None
+        return self._and_file(sweep, stated, like)
 
-    def _and_file(self, sweep: Sweep, specimen: Specimen) -> "SimulatedRig":
+    def _and_file(self, sweep: Sweep, specimen: Specimen, like: Specimen | None = None) -> "SimulatedRig":
         files = [replace(f, number=f.number or 1) for f in self.files]
         number = max(f.number for f in files) + 1
-        more = replace(files[0], sweep=sweep, specimen=specimen, number=number, pickup=None)
-        return replace(self, files=(*files, more))
+        more = File(sweep, specimen, "", number, None, like or files[0].like)
+        return replace(self, files=_by_spot((*files, more)))
+
+
+def _by_spot(files: tuple[File, ...]) -> tuple[File, ...]:
+    """Spots numbered where there are several, as a run numbers them."""
+    spots = list(dict.fromkeys(f.specimen.pickup_m for f in files if isinstance(f.specimen, Specimen)))
+    if len(spots) < 2:
+        return files
+    numbers = (spots.index(f.specimen.pickup_m) for f in files if isinstance(f.specimen, Specimen))
+    return tuple(replace(f, pickup=k) for f, k in zip(files, numbers, strict=True))
+
+
+def _spot_of(follow_up: FollowUp) -> tuple[float, float] | None:
+    at = follow_up.spot_mm
+    return None if at is None else (1e-3 * at[0], 1e-3 * at[1])
 
 
 def _softer(h: Hidden, times: float) -> Hidden:

@@ -63,3 +63,13 @@ def test_a_hammer_test_is_of_the_first_files_plate():
     everywhere, second = OfFiles(STIFFNESS, 2, 0), OfFiles(STIFFNESS, 2, 2)
     assert everywhere.bare_shift(Bare, np.array([1.1, 0.0])) == pytest.approx(0.5 * np.log(1.1) * np.ones(3))
     assert second.bare_shift(Bare, np.array([1.1, 2.0])) == pytest.approx(np.zeros(3))
+
+
+def test_a_spot_may_be_off_once_where_the_laser_is_aimed_at_it_in_every_file():
+    forms = among(CATALOGUE["spot_offset"], 2, (0, 1)).variants()
+    once = [f for f in forms if f.file == 1 and f.spot == 0]
+    assert len(once) == 1
+    assert [once[0].holds(Place(*p)) for p in ((1, 0), (1, 1), (2, 0))] == [True, False, False]
+    u = dict(zip((q.key for q in once[0].parameters), (1e-3, 0.0, 1.0, 0.0), strict=True))
+    assert once[0].story(u).startswith("in file 1 at pickup 0")
+    assert not [f for f in among(GAIN, 2, (0, 1)).variants() if f.file == 1 and f.spot == 0]

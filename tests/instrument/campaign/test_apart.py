@@ -100,11 +100,22 @@ def test_clamped_anew_is_a_file_of_its_own_whose_clamp_gives_more(monkeypatch):
     assert two.truth.effects == (CLAMP,)
 
 
+def test_clamped_anew_the_laser_may_be_aimed_elsewhere():
+    two = rig(CLAMP).after(proposed("clamping", spot_mm=(200.0, 50.0)), rng())
+    assert [(f.number, f.pickup) for f in two.files] == [(1, 0), (2, 1)]
+    assert [f.specimen.pickup_m for f in two.files] == [
+        two.files[0].specimen.pickup_m,
+        pytest.approx((0.2, 0.05)),
+    ]
+    first, anew = (np.abs(f.sweep.velocity_m_s[0]) for f in two.files)
+    assert anew > 1.5 * first
+
+
 def test_a_spot_beside_another_mounting_is_a_spot_of_the_first_one():
     three = (
         rig(CLAMP).after(proposed("clamping"), rng()).after(proposed("spot", spot_mm=(200.0, 50.0)), rng())
     )
-    assert [(f.number, f.pickup) for f in three.files] == [(1, 0), (2, None), (1, 1)]
+    assert [(f.number, f.pickup) for f in three.files] == [(1, 0), (2, 0), (1, 1)]
     assert three.files[2].specimen.pickup_m == pytest.approx((0.2, 0.05))
 
 

@@ -22,6 +22,7 @@ from instrument.models.set_up import set_up
 from instrument.planning import follow_up
 from instrument.planning.follow_up import Possible, rank_follow_ups, with_follow_ups
 from instrument.planning.measurable import Template
+from instrument.planning.measurement import HANDS_S
 from instrument.planning.struck import bare_modes_expected
 from instrument.results.next_words import advice
 from instrument.simulated_case import case_file
@@ -163,6 +164,40 @@ def test_clamped_anew_each_clamp_is_another_one_by_what_mountings_differ(clamps)
         assert more == pytest.approx(np.outer(column, column), rel=1e-6, abs=1e-9 * np.abs(more).max())
 
 
+@pytest.fixture(scope="module")
+def uneven(clamps):
+    """A clamp that yields, evenly or not, which nobody can tell from a spot on the axis."""
+    problem, evidence = clamps.problem, clamps.evidence
+    clamp = clamps.each[1][0]
+    start = np.concatenate([clamp.u, [0.0]])
+    other = polished(problem, [CATALOGUE["uneven_clamp"]], evidence, clamp.law, start)
+    return replace(clamps, each=((clamp, 0.5), (other, 0.5)), temper=1.0)
+
+
+def test_where_the_plate_twists_a_spot_beside_the_axis_tells_whether_a_clamp_is_uneven(uneven):
+    asked = Expecting(uneven, 6)
+    template = Template.of(asked, SweepSettings())
+    told = [
+        (m, outcome(asked.forecasts(m.further, template.noise), EVEN, of=asked.of).between(0, 1))
+        for m in template.measurable(None)
+    ]
+    twist = [between for m, between in told if m.kind == "spot" and "twist" in m.todo]
+    same = [between for m, between in told if m.kind == "spot" and "twist" not in m.todo]
+    assert min(twist) > 3 * max(same)
+    # Clamped anew it is read there too, at the same steps and about the twist.
+    clamped = [(m, between) for m, between in told if m.kind == "clamping" and m.spot_m is not None]
+    assert all(len(m.frequencies_hz) == 100 and between > 3 * max(same) for m, between in clamped)
+    assert len(clamped) == 2
+
+
+def test_what_the_group_just_leaves_out_is_asked_too(clamps):
+    first, second = clamps.each
+    alone = replace(clamps, each=((first[0], 1.0),), beyond=((second[0], 0.04),))
+    asked = Expecting(alone, 6)
+    assert asked.names == ("clamp_line", "clamp_compliance")
+    assert asked.probabilities[-1] == pytest.approx(0.04 / 1.04)
+
+
 def of_kind(ranked, kind):
     return next(f for f in ranked if f.kind == kind)
 
@@ -180,7 +215,8 @@ def test_no_level_beyond_the_rigs_limits_is_proposed(expecting):
 
 def test_between_the_segments_it_is_expected_what_the_fit_reads_there(expecting, template):
     sweep = expecting.member.sweep
-    gaps = [m for m in template.measurable(None) if m.segments[0] not in sweep.segment]
+    new = [m for m in template.measurable(None) if m.segments[0] not in sweep.segment]
+    gaps = [m for m in new if m.spot_m is None]
     assert {m.kind for m in gaps} == {"frequencies"}
     assert [m.segments[0] for m in gaps] == [4, 5]
     for m in gaps:
@@ -213,10 +249,12 @@ def test_what_is_advised_is_the_first_of_the_ranking(rivals, ranked, monkeypatch
 def test_a_proposal_is_a_sweep_that_can_be_made(ranked):
     spot = of_kind(ranked, "spot")
     assert spot.needs_hands
-    assert len(spot.frequencies_hz) == len(spot.segments) == 60
+    # About the first two resonances of twist.
+    assert len(spot.frequencies_hz) == len(spot.segments) == 40
+    assert set(spot.segments) == {4, 5}
     assert spot.level_g == pytest.approx(1.0, rel=1e-3)
     assert f"({spot.spot_mm[0]:.0f}, {spot.spot_mm[1]:.0f}) mm" in spot.todo
-    assert spot.seconds > 120
+    assert spot.seconds > HANDS_S["spot"]
 
 
 def test_a_bare_plate_says_less_of_gain_and_spot_than_another_spot(expecting, ranked):

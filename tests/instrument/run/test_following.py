@@ -35,7 +35,13 @@ from instrument.session.storage import SessionFile
 from instrument.simulated_case import write_case
 from instrument.stream.derived import DiagnosisFound, PointMeasured
 from instrument.stream.event import from_line, to_line
-from instrument.stream.raw import FollowUpDecided, FollowUpEnded, FollowUpProposed, SpotMoved
+from instrument.stream.raw import (
+    FollowUpDecided,
+    FollowUpEnded,
+    FollowUpProposed,
+    OperatorDid,
+    SpotMoved,
+)
 
 FOLLOWS = '[diagnosis]\nfollow_up = "{}"\n'
 KILLS = (4, 17, 20)
@@ -249,6 +255,18 @@ def test_what_is_read_after_the_plate_was_clamped_anew_knows_it(clamped):
     assert [(p.sweep, p.mounting) for p in whole.points if p.sweep > 1] == [(2, 1)] * 3 + [(3, 1)] * 3
     with SessionFile(whole.session) as file:
         assert replay(file, fit=a_law, diagnose=grouped(CLAMPING, BACKWARDS)).differences == []
+
+
+def test_a_plate_clamped_anew_may_be_read_at_another_spot_at_once(tmp_path):
+    beside = {**CLAMPING, "spot_mm": SPOT_MM}
+    with formula_rig(tmp_path, sweep=SWEEP) as (_, experiment):
+        found = run(that_follows(experiment), tmp_path, (beside, BACKWARDS))
+    # The next one is read where the laser was at first, on the plate as it is clamped now.
+    assert [(p.mounting, p.pickup) for p in found.points if p.sweep > 1] == [(1, 1)] * 3 + [(1, 0)] * 3
+    with SessionFile(found.session) as file:
+        done = [e.what for e in file.events(with_samples=False) if isinstance(e, OperatorDid)]
+        assert replay(file, fit=a_law, diagnose=grouped(beside, BACKWARDS)).differences == []
+    assert done[-3:] == ["changed", "changed", "aimed"]
 
 
 def test_a_clamping_that_was_broken_off_is_another_one_and_is_begun_again(clamped):
