@@ -8,6 +8,7 @@ from fitting.identification.result import law_band
 from fitting.identification.uncertainty import Uncertainty
 from fitting.identification.validation import HeldOutSegment, Validation
 from fitting.sweep import Sweep
+from instrument.facts.diagnosis import UnseenEffect
 from instrument.models.diagnosis import Diagnosed
 from instrument.results.diagnosis_from import diagnosis_from
 
@@ -89,6 +90,22 @@ def diagnosed(s, *, verdict="effect", one_by_one=None):
         warnings=("the points carry no time",),
     )
     return Diagnosed(result, 1.5, 0.25)
+
+
+UNSEEN = (
+    UnseenEffect(
+        name="temperature_drift",
+        parameter="warming",
+        size=2.27,
+        unit="K",
+        storage_modulus_percent=26.9,
+        loss_factor_percent=7.7,
+        standard_errors=8.0,
+    ),
+    UnseenEffect(
+        name="absolute_velocity", storage_modulus_percent=4.0, loss_factor_percent=9.0, standard_errors=3.0
+    ),
+)
 
 
 def diagnosis(**how):

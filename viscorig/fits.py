@@ -19,6 +19,7 @@ from instrument.models.identification import identify as identify_sweep
 from instrument.models.pointwise import pointwise_of
 from instrument.models.together import diagnose_together, identify_together
 from instrument.planning.follow_up import with_follow_ups
+from instrument.planning.unseen import with_unseen
 from instrument.progress import bar
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
@@ -108,7 +109,7 @@ def diagnose(
         several = diagnose_together(spots, declined, bar, accept)
         return Diagnosis(with_follow_ups(diagnosed_together_from(several, spots), several.found))
     found = diagnose_sweep(points, model, given.modes, declined, bar, accept, resamples=resamples)
-    return Diagnosis(given.said(with_follow_ups(diagnosis_from(found, points), found)))
+    return Diagnosis(given.said(with_unseen(with_follow_ups(diagnosis_from(found, points), found), found)))
 
 
 def _whole_sweeps_alone(given: Given, *, pointwise: bool = False, method: Method = "direct") -> None:

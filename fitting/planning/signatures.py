@@ -94,39 +94,46 @@ def _neutral(q: EffectParameter) -> float:
 def signatures_of(
     problem: DiagnosisProblem,
     law: CoreLaw,
-    z: Array,
+    known: Array,
     effects: Sequence[Effect],
     report: Callable[[float], None] = lambda share: None,
+    beside: Sequence[Effect] = (),
 ) -> list[Signature]:
-    """Of the effects that the points of `problem` can be asked about; `z` has shape (stated numbers,)."""
-    v = response_of(problem, ()).velocity(law, z)
+    """Of the effects that the points of `problem` can be asked about, `beside` some that are there.
+
+    `known` are the stated numbers and the unknowns of these. Shape (unknowns,).
+    """
+    plain = response_of(problem, beside, problem.coarse).velocity(law, known)
     found = []
     for done, effect in enumerate(effects):
         report(done / len(effects))
         if judged_elsewhere(effect) or effect.objection(problem.points, problem.plate) is not None:
             continue
-        response = response_of(problem, [effect], problem.coarse)
-        plain = response_of(problem, (), problem.coarse).velocity(law, z)
+        response = response_of(problem, [*beside, effect], problem.coarse)
         starts = effect.starts(response.plate, problem.points)
         starts = [starts[k] for k in np.unique(np.linspace(0, len(starts) - 1, _FEW).astype(int))]
-        moved = _linear(response, law, z, starts, plain)
+        moved = _linear(response, law, known, starts, plain)
         kept = [
-            k for k, m in enumerate(moved) if np.all(np.isfinite(m)) and np.any(np.abs(m) > 1e-12 * np.abs(v))
+            k
+            for k, m in enumerate(moved)
+            if np.all(np.isfinite(m)) and np.any(np.abs(m) > 1e-12 * np.abs(plain))
         ]
         if kept:
             found.append(Signature(effect, tuple(starts[k] for k in kept), moved[kept]))
     return found
 
 
-def _linear(response: SweepResponse, law: CoreLaw, z: Array, starts: Sequence[Array], v: Complex) -> Complex:
+def _linear(
+    response: SweepResponse, law: CoreLaw, known: Array, starts: Sequence[Array], v: Complex
+) -> Complex:
     """What an effect changes, to first order, in the strength of its starts. Shape (starts, points)."""
     effect = response.effects[-1]
     by_adjoint = has_place(effect) and type(effect).change is not Effect.change
     if by_adjoint or not effect.parameters:
-        return moves(response, law, z, starts, v)
+        return moves(response, law, known, starts, v)
     # Two small strengths: interpolated otherwise than without the effect, zero has an error of its own.
     weak, twice = ([effect.scaled(u, k * _SMALL) for u in starts] for k in (1, 2))
-    return np.asarray((moves(response, law, z, twice, v) - moves(response, law, z, weak, v)) / _SMALL)
+    return np.asarray((moves(response, law, known, twice, v) - moves(response, law, known, weak, v)) / _SMALL)
 
 
 def judged_elsewhere(effect: Effect) -> bool:

@@ -14,6 +14,7 @@ from instrument.cli.reading import are_tables, read_each, reading_options, toget
 from instrument.models.diagnosis import diagnose as diagnose_sweep
 from instrument.models.together import diagnose_together
 from instrument.planning.follow_up import with_follow_ups
+from instrument.planning.unseen import with_unseen
 from instrument.progress import bar
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.session_result import Conditions, result_of
@@ -80,7 +81,7 @@ def diagnose(
         found = diagnose_sweep(
             given.sweep, given.specimen, given.modes, declined, bar, accepted, resamples=resamples
         )
-        result = with_follow_ups(diagnosis_from(found, given.sweep), found)
+        result = with_unseen(with_follow_ups(diagnosis_from(found, given.sweep), found), found)
     result = given.said(result)
     print_diagnosis(out, result)
     if files is None:

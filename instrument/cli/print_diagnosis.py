@@ -16,10 +16,12 @@ from instrument.results.diagnosis_words import (
     with_verdict,
 )
 from instrument.results.next_words import NEXT_COLUMNS, NEXT_TITLE, next_row, separated_words
+from instrument.results.unseen_words import UNSEEN_COLUMNS, UNSEEN_TITLE, unseen_row
 
 _MOST_CANDIDATES = 8
 _WIDTH = 100
 _MOST_NEXT = 3
+_MOST_UNSEEN = 5
 
 
 def print_diagnosis(out: Output, found: DiagnosisResult) -> None:
@@ -49,6 +51,7 @@ def print_story(out: Output, found: DiagnosisResult) -> None:
     if found.next_measurement:
         out.say(textwrap.fill(f"Next measurement: {found.next_measurement}", _WIDTH))
     _print_next(out, found)
+    _print_unseen(out, found)
 
 
 def _print_next(out: Output, found: DiagnosisResult) -> None:
@@ -61,6 +64,15 @@ def _print_next(out: Output, found: DiagnosisResult) -> None:
     # Of the first the sentence above says so already.
     for f in shown[1:]:
         out.say(textwrap.fill(f"{f.kind}: {f.why} It separates {separated_words(f.between)}.", _WIDTH))
+
+
+def _print_unseen(out: Output, found: DiagnosisResult) -> None:
+    """The worst few of what may be there all the same."""
+    shown = found.unseen[:_MOST_UNSEEN]
+    if shown:
+        out.say()
+        more = f", {len(shown)} of {len(found.unseen)}" if len(shown) < len(found.unseen) else ""
+        out.table(f"{UNSEEN_TITLE}{more}", list(UNSEEN_COLUMNS), [list(unseen_row(one)) for one in shown])
 
 
 def print_before_after(out: Output, found: DiagnosisResult) -> None:

@@ -120,6 +120,22 @@ class ModeLeft(Result):
     after_loss_factor: Number
 
 
+class UnseenEffect(Result):
+    """An effect that may be there without being named, and what it would do to the law."""
+
+    name: str
+    parameter: str | None = None
+    """That says how strong it is; None for an effect that is there or not."""
+    size: MaybeNumber = None
+    """The largest that would not be seen, no larger than it is expected to be where a laboratory has it."""
+    unit: str | None = None
+    storage_modulus_percent: Number
+    """By how much it would shift G', where in the band it shifts it most."""
+    loss_factor_percent: Number
+    standard_errors: Number
+    """The larger of both, in standard errors of the law's band."""
+
+
 class DiagnosisResult(Result):
     """What the specimen's law cannot explain, traced to an effect."""
 
@@ -141,6 +157,8 @@ class DiagnosisResult(Result):
     next_measurement: str = ""
     next_measurements: tuple[FollowUp, ...] = ()
     """What would tell the explanations left apart, best first; empty where one is left."""
+    unseen: tuple[UnseenEffect, ...] = ()
+    """What may be there without being named and would shift the law beyond its 95 % band, worst first."""
     explanation: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
     by_hand: bool = False

@@ -29,6 +29,8 @@ class Diagnosed:
     """Models made or loaded."""
     seconds: float
     """Everything else."""
+    effects: tuple[Effect, ...] = ()
+    """What was looked for."""
 
 
 def effects_on(
@@ -106,4 +108,4 @@ def diagnose(
     if before:
         further += (f"before, without any effect, the law is outside the theory: {before}",)
     result = replace(result, warnings=(*result.warnings, *further))
-    return Diagnosed(result, ready - began, seconds)
+    return Diagnosed(result, ready - began, seconds, () if accept is not None else tuple(effects))

@@ -17,6 +17,7 @@ from instrument.results.followed import followed_of, measured_words
 from instrument.results.next_words import NEXT_COLUMNS, NEXT_TITLE, next_row, separated_words
 from instrument.results.numbers import format_number, with_error
 from instrument.results.typeset import capitalised
+from instrument.results.unseen_words import UNSEEN_COLUMNS, UNSEEN_TITLE, unseen_row
 from instrument.session.contents import Contents
 
 _TITLE = "Diagnosis"
@@ -40,6 +41,7 @@ def diagnosis_sections(contents: Contents) -> list[ReportSection]:
     if found.next_measurement:
         blocks.append(Sentence(f"Next measurement: {found.next_measurement}", "note"))
     blocks += _next(found)
+    blocks += _unseen(found)
     blocks += [Sentence(text, "note") for text in found.warnings]
     resampled = resampling_words(found)
     blocks += [Sentence(f"By resampling: {resampled}.")] if resampled else []
@@ -70,6 +72,13 @@ def _next(found: DiagnosisResult) -> list[Block]:
     title = f"{NEXT_TITLE[0].upper()}{NEXT_TITLE[1:]}"
     words = (NEXT_COLUMNS[0], "separates", "why")
     return [TableBlock(title, (*NEXT_COLUMNS, *words[1:]), rows, words=words)] if rows else []
+
+
+def _unseen(found: DiagnosisResult) -> list[Block]:
+    """What may be there all the same."""
+    title = capitalised(UNSEEN_TITLE)
+    rows = tuple(unseen_row(one) for one in found.unseen)
+    return [TableBlock(title, UNSEEN_COLUMNS, rows, words=UNSEEN_COLUMNS[:1])] if rows else []
 
 
 def _before_after(found: DiagnosisResult) -> TableBlock:

@@ -16,6 +16,7 @@ from instrument.interchange.files_of import files_of
 from instrument.models.diagnosis import diagnose
 from instrument.models.together import diagnose_together
 from instrument.planning.follow_up import Possible, with_follow_ups
+from instrument.planning.unseen import with_unseen
 from instrument.progress import Progress, quiet
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.together_from import diagnosed_together_from
@@ -72,7 +73,8 @@ def _result(
         result = with_follow_ups(diagnosed_together_from(several, files), several.found, able).untimed
     else:
         found = diagnose(sweep, specimen, hammer, progress=progress)
-        result = with_follow_ups(diagnosis_from(found, sweep), found, able).untimed
+        result = with_follow_ups(diagnosis_from(found, sweep), found, able)
+        result = with_unseen(result, found).untimed
     return result.but(warnings=(*result.warnings, *uncalibrated(points)))
 
 

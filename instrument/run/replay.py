@@ -27,7 +27,7 @@ from instrument.stream.raw import (
 
 Watch = Callable[[Event], None]
 _MOST_DIFFERENCES = 20
-_SAID_SINCE = ("next_measurements",)
+_SAID_SINCE = ("next_measurements", "unseen")
 """Of a diagnosis: what a recording of an older version does not have is not compared."""
 
 
@@ -137,8 +137,9 @@ def _as_known_then(computed: Event, recorded: Event) -> Event:
         return computed
     since = [key for key in _SAID_SINCE if key not in recorded.result.model_fields_set]
     result = computed.result.without(*since)
-    # What is advised follows from these.
-    advised = {"next_measurement": recorded.result.next_measurement} if since else {}
+    # What is advised follows from the ranking.
+    old = "next_measurements" in since
+    advised = {"next_measurement": recorded.result.next_measurement} if old else {}
     return replace(computed, result=result.but(**advised))
 
 

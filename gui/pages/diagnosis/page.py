@@ -25,6 +25,7 @@ from gui.pages.diagnosis.comparison import HeldOutBars, LawChange
 from gui.pages.diagnosis.finding import Finding
 from gui.pages.diagnosis.next_table import NextTable
 from gui.pages.diagnosis.residual_plots import ResidualPlots
+from gui.pages.diagnosis.unseen_table import UnseenTable
 from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
 from gui.state import SessionState
 from gui.widgets import button, hint
@@ -54,7 +55,7 @@ class DiagnosisPage(Page):
         super().__init__(controller)
         self.finding, self.candidates = Finding(), Candidates()
         self.residual, self.held_out, self.law = ResidualPlots(), HeldOutBars(), LawChange()
-        self.next = NextTable()
+        self.next, self.unseen = NextTable(), UnseenTable()
         self.story = QTextBrowser()
         self.empty = hint(_HERE)
         self.diagnose = button(
@@ -105,13 +106,14 @@ class DiagnosisPage(Page):
             self.candidates.show_candidates(rediagnosis.ranking(self.controller.state) or shown.found)
             self.story.setPlainText("\n".join(_story(shown)))
             self.views.setTabVisible(self.views.indexOf(self.next), bool(shown.found.next_measurements))
+            self.views.setTabVisible(self.views.indexOf(self.unseen), bool(shown.found.unseen))
             self._show_view()
 
     def _show_view(self) -> None:
         """The one that is seen; the others when they are."""
         if self._shown is None:
             return
-        for view in (self.residual, self.held_out, self.law, self.next):
+        for view in (self.residual, self.held_out, self.law, self.next, self.unseen):
             seen = view is self.views.currentWidget()
             if seen and self._found_of.get(view) is not self._shown.found:
                 self._found_of[view] = self._shown.found
@@ -247,6 +249,7 @@ class DiagnosisPage(Page):
             (self.held_out, "Error", "On data held out, and on all: before, after, noise alone"),
             (self.law, "Law", "What the effects do to the material"),
             (self.next, "Next", "What would tell the explanations apart, ranked"),
+            (self.unseen, "Unseen", "What may be there without being named, and what it would do to the law"),
         ):
             self.views.setTabToolTip(self.views.addTab(view, name), tip)
         left = QSplitter(Qt.Orientation.Vertical)

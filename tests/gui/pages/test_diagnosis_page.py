@@ -1,11 +1,12 @@
 import pytest
 from diagnosed_session import diagnosed_session
-from diagnosis_cases import diagnosis
+from diagnosis_cases import UNSEEN, diagnosis
 from following_cases import BACKWARDS, SPOT
 from PySide6.QtCore import Qt
 
 from gui.pages.diagnosis import DiagnosisPage
 from gui.pages.diagnosis.next_table import NextTable
+from gui.pages.diagnosis.unseen_table import UnseenTable
 from gui.pages.material import MaterialPage
 from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
 from instrument.facts.follow_up import FollowUp
@@ -16,7 +17,9 @@ pytestmark = pytest.mark.pages("run", "material", "diagnosis")
 LEFT = Qt.MouseButton.LeftButton
 LONG_MS = 300_000
 RANKED = tuple(FollowUp.model_validate(o) for o in (SPOT, BACKWARDS))
-AMBIGUOUS = diagnosis(verdict="ambiguous").but(next_measurement=advice(RANKED[0]), next_measurements=RANKED)
+AMBIGUOUS = diagnosis(verdict="ambiguous").but(
+    next_measurement=advice(RANKED[0]), next_measurements=RANKED, unseen=UNSEEN
+)
 
 
 @pytest.fixture(scope="module")
@@ -78,6 +81,14 @@ def test_what_could_be_measured_next_is_ranked_and_the_first_is_what_is_advised(
     assert page.next.table.texts(4) == ["spot_offset and gain_error"] * 2
     assert "aim it elsewhere" in page.finding.next.text
     assert page.next.table.cell(0, 0).tip == SPOT["why"]
+
+
+def test_what_may_be_there_unseen_has_a_view_where_there_is_any(looked_at):
+    page = looked_at
+    assert isinstance(page.unseen, UnseenTable)
+    page.views.setCurrentWidget(page.unseen)
+    assert page.unseen.table.texts(0) == ["temperature_drift", "absolute_velocity"]
+    assert page.unseen.table.texts(1) == ["warming 2.27 K", "-"]
 
 
 def test_candidates_are_ranked_with_their_group(looked_at):

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 from conftest import DATA
-from diagnosis_cases import diagnosed, diagnosis
+from diagnosis_cases import UNSEEN, diagnosed, diagnosis
 from diagnosis_cases import sweep as some_sweep
 from following_cases import BACKWARDS, SPOT
 from session_cases import RATE, whole_session
@@ -113,8 +113,10 @@ def test_what_would_tell_rivals_apart_is_listed_with_its_cost(capsys, given, mon
     changed = {"next_measurements": ranked, "next_measurement": advice(one)}
     monkeypatch.setattr(command, "with_follow_ups", lambda result, found: result.but(**changed))
     path = tmp_path / "found.json"
+    monkeypatch.setattr(command, "with_unseen", lambda result, found: result.but(unseen=UNSEEN))
     status, out, err = call(capsys, "diagnose", TABLE5, "--specimen", ZN1, "--json", path)
     assert (status, err) == (0, "")
+    assert "warming 2.27 K" in out
     assert "Point the laser at (285, 24) mm" in out
     assert "level: A gain is the same at every spot. It separates gain_error and no effect." in out
     said = " ".join(out.split())
@@ -245,8 +247,10 @@ def test_the_report_tells_the_recorded_diagnosis(contents):
 
 def test_the_report_ranks_what_would_tell_the_explanations_apart(contents):
     ranked = tuple(FollowUp.model_validate(o) for o in (SPOT, BACKWARDS))
-    contents.diagnosis = DiagnosisFound(1, 9, diagnosis().but(next_measurements=ranked))
+    contents.diagnosis = DiagnosisFound(1, 9, diagnosis().but(next_measurements=ranked, unseen=UNSEEN))
     (section,) = diagnosis_sections(contents)
+    (hidden,) = (b for b in section.blocks if b.kind == "table" and "unseen" in b.title)
+    assert hidden.rows[0][:3] == ("temperature_drift", "warming 2.27 K", "26.9")
     (table,) = (b for b in section.blocks if b.kind == "table" and "tell the explanations apart" in b.title)
     assert [row[0] for row in table.rows] == [SPOT["todo"], BACKWARDS["todo"]]
     assert table.rows[0][1:] == ("30", "80 %", "4.0", "spot_offset and gain_error", SPOT["why"])

@@ -15,6 +15,7 @@ from fitting.noise import noise_of
 from fitting.planning.forms import forms_of
 from fitting.planning.further import Expecting
 from fitting.planning.rivalry import outcome
+from fitting.planning.unseen import unseen
 from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.models.diagnosis import Diagnosed
@@ -24,6 +25,7 @@ from instrument.planning.follow_up import Possible, rank_follow_ups, with_follow
 from instrument.planning.measurable import Template
 from instrument.planning.measurement import HANDS_S
 from instrument.planning.struck import bare_modes_expected
+from instrument.planning.unseen import with_unseen
 from instrument.results.next_words import advice
 from instrument.simulated_case import case_file
 from instrument.stepped_sine.settings import Limits, SweepSettings
@@ -244,6 +246,21 @@ def test_what_is_advised_is_the_first_of_the_ranking(rivals, ranked, monkeypatch
     said = with_follow_ups(diagnosis(), ambiguous(rivals))
     assert said.next_measurements == ranked
     assert said.next_measurement == advice(ranked[0])
+
+
+def test_what_could_not_be_seen_is_said_in_percent(rivals):
+    asked = replace(ambiguous(rivals), effects=(CATALOGUE["temperature_drift"], CATALOGUE["gain_error"]))
+    (said,) = with_unseen(diagnosis(), asked).unseen
+    (one,) = unseen(rivals, asked.effects)
+    assert (said.name, said.parameter, said.unit) == ("temperature_drift", "warming", "K")
+    assert said.storage_modulus_percent == 100 * one.storage_modulus > 1
+    assert said.standard_errors == one.errors
+
+
+def test_where_nothing_was_looked_for_nothing_is_said_of_it(rivals):
+    result = diagnosis()
+    assert with_unseen(result, ambiguous(rivals)) is result
+    assert with_unseen(result, replace(diagnosed(sweep()), effects=tuple(CATALOGUE.values()))) is result
 
 
 def test_a_proposal_is_a_sweep_that_can_be_made(ranked):

@@ -1,0 +1,25 @@
+"""What a sweep that was diagnosed could not have seen, as its result has it."""
+
+from fitting.planning.unseen import Unseen, unseen
+from instrument.facts.diagnosis import DiagnosisResult, UnseenEffect
+from instrument.models.diagnosis import Diagnosed
+
+
+def with_unseen(result: DiagnosisResult, diagnosed: Diagnosed) -> DiagnosisResult:
+    """The result of a diagnosis with it; as it is where nothing was looked for or no noise is known."""
+    rivals = diagnosed.result.rivals
+    if rivals is None or not diagnosed.effects or not rivals.evidence.scale_known:
+        return result
+    return result.but(unseen=tuple(_fact(one) for one in unseen(rivals, diagnosed.effects)))
+
+
+def _fact(one: Unseen) -> UnseenEffect:
+    return UnseenEffect(
+        name=one.name,
+        parameter=one.key,
+        size=one.size,
+        unit=one.unit,
+        storage_modulus_percent=100 * one.storage_modulus,
+        loss_factor_percent=100 * one.loss_factor,
+        standard_errors=one.errors,
+    )

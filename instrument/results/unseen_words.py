@@ -1,0 +1,19 @@
+"""What a sweep could not have seen, as people read it."""
+
+from instrument.facts.diagnosis import UnseenEffect
+
+UNSEEN_TITLE = "may be there unseen, and would shift the law beyond its band"
+UNSEEN_COLUMNS = ("effect", "up to", "G' by/%", "loss factor by/%", "in standard errors")
+
+
+def unseen_row(one: UnseenEffect) -> tuple[str, ...]:
+    """One row under `UNSEEN_COLUMNS`."""
+    shifts = one.storage_modulus_percent, one.loss_factor_percent
+    return one.name, _size(one), *(f"{s:.1f}" for s in shifts), f"{one.standard_errors:.1f}"
+
+
+def _size(one: UnseenEffect) -> str:
+    if one.parameter is None or one.size is None:
+        return "-"
+    unit = "" if one.unit in (None, "1") else f" {one.unit}"
+    return f"{one.parameter} {one.size:.5g}{unit}"

@@ -1,0 +1,14 @@
+from instrument.results.unseen_words import UNSEEN_COLUMNS, unseen_row
+from tests.diagnosis_cases import UNSEEN
+
+
+def test_a_row_says_how_large_it_may_be_and_what_it_would_do():
+    row = unseen_row(UNSEEN[0])
+    assert row == ("temperature_drift", "warming 2.27 K", "26.9", "7.7", "8.0")
+    assert len(row) == len(UNSEEN_COLUMNS)
+
+
+def test_what_is_there_or_not_has_no_size_and_a_factor_no_unit():
+    assert unseen_row(UNSEEN[1])[1] == "-"
+    factor = UNSEEN[0].but(parameter="scale", size=1.00042, unit="1")
+    assert unseen_row(factor)[1] == "scale 1.0004"
