@@ -7,11 +7,10 @@ import sys
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
-from PySide6.QtCore import QObject, QRectF, QSizeF, Qt, Signal
+from PySide6.QtCore import QDir, QObject, QRectF, QSizeF, Qt, QTemporaryDir, Signal
 from PySide6.QtGui import QImage, QPageSize, QPainter
-from PySide6.QtPrintSupport import QAbstractPrintDialog, QPrintDialog, QPrinter
+from PySide6.QtPrintSupport import QAbstractPrintDialog, QPrintDialog, QPrinter, QPrinterInfo
 from PySide6.QtWidgets import QWidget
 
 from gui.asking import show
@@ -43,6 +42,9 @@ class Printing(QObject):
         if self._controller.running and not _OWN_DIALOG:
             self.failed.emit("this system's print dialog would stand before STOP: print after the run")
             return
+        if not has_printer():
+            self.failed.emit("no printer is set up on this computer: File > Save report as PDF")
+            return
         session = self._controller.recorded.path
         printer = QPrinter(QPrinter.PrinterMode.HighResolution)
         printer.setPageSize(QPageSize(QPageSize.PageSizeId.A4))
@@ -51,6 +53,8 @@ class Printing(QObject):
         dialog = QPrintDialog(printer, self._window)
         dialog.setWindowTitle(_TITLE)
         dialog.setOption(QAbstractPrintDialog.PrintDialogOption.PrintCurrentPage, False)
+        # A PDF has an entry of its own; of a file that cannot be written Qt would ask in a box of its own.
+        dialog.setOption(QAbstractPrintDialog.PrintDialogOption.PrintToFile, False)
         dialog.accepted.connect(partial(self._draw, session, printer))
         show(dialog, self._window, _TITLE)
 
@@ -71,8 +75,9 @@ class _Job(QObject):
     def __init__(self, session: Path, printer: QPrinter, parent: QObject) -> None:
         super().__init__(parent)
         self._printer = printer
-        self._folder = TemporaryDirectory(prefix="viscorig-print-")
-        sheets = Path(self._folder.name) / "sheet.png"
+        # Goes with the job, also where the window is closed in the middle.
+        self._folder = QTemporaryDir(QDir.tempPath() + "/viscorig-print-XXXXXX")
+        sheets = Path(self._folder.path()) / "sheet.png"
         self._command = BackgroundCommand(
             ["report", str(session), "--out", str(sheets), *shown_as()], ReportResult, self
         )
@@ -99,8 +104,13 @@ class _Job(QObject):
         self._end()
 
     def _end(self) -> None:
-        self._folder.cleanup()
+        self._folder.remove()
         self.deleteLater()
+
+
+def has_printer() -> bool:
+    """Whether this computer knows one."""
+    return bool(QPrinterInfo.availablePrinterNames())
 
 
 def paint(printer: QPrinter, sheets: Sequence[Path], progress: Progress) -> int:

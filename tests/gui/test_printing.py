@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from openers import close_all, opened_by, openers
 from PySide6.QtGui import QColor, QImage
-from PySide6.QtPrintSupport import QPrintDialog, QPrinter
+from PySide6.QtPrintSupport import QAbstractPrintDialog, QPrintDialog, QPrinter
 
 import gui.printing
 from gui.background_task import BackgroundCommand
@@ -74,7 +74,14 @@ def ask(window):
     return opened_by(next(o for o in openers(window) if o[0] == "Pr&int report..."))
 
 
+def test_without_a_printer_the_pdf_is_named(opened, monkeypatch):
+    monkeypatch.setattr(gui.printing, "has_printer", lambda: False)
+    opened.menus._printing.ask()
+    assert "Save report as PDF" in opened.notice.text
+
+
 def test_the_command_draws_what_the_dialog_prints(qtbot, opened, sheets, printer, monkeypatch):
+    monkeypatch.setattr(gui.printing, "has_printer", lambda: True)
     asked = []
 
     def draws(command):
@@ -85,6 +92,7 @@ def test_the_command_draws_what_the_dialog_prints(qtbot, opened, sheets, printer
     dialog = ask(opened)
     assert isinstance(dialog, QPrintDialog)
     assert not dialog.isModal()
+    assert not dialog.testOption(QAbstractPrintDialog.PrintDialogOption.PrintToFile)
     dialog.printer().setOutputFileName(printer.outputFileName())
     dialog.accepted.emit(dialog.printer())
     qtbot.waitUntil(lambda: f"{COUNT} sheets sent to" in opened.notice.text)

@@ -180,4 +180,5 @@ def test_a_file_is_never_written_over_itself(capsys, tmp_path):
     path = tmp_path / "a.csv"
     path.write_text("frequency_hz,velocity_m_s\n1,2\n2,3\n")
     assert run(["import", str(path), "--out", str(path)]) == 2
-    assert "written over" in capsys.readouterr().err
+    assert "read by this command, expected another name" in capsys.readouterr().err
+    assert path.read_text().startswith("frequency_hz")
