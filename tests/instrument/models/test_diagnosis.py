@@ -67,7 +67,7 @@ def test_a_hidden_effect_is_named_and_the_law_put_right(shifted_spot):
 
 def test_numbers_that_may_be_otherwise_do_not_hide_it():
     effects, law = PRACTICE["005"]
-    found = diagnose(every(2, practice("005")), as_a_laboratory_states_it()).result
+    found = diagnose(every(4, practice("005")), as_a_laboratory_states_it()).result
     assert {e.name for e in found.effects} == effects
     band, true = found.after.band, FractionalZener(*law)
     off = np.abs(band.storage_modulus_pa - true.modulus(2 * np.pi * band.frequency_hz).real)
