@@ -28,7 +28,7 @@ from instrument.stream.raw import (
     StepBegan,
 )
 
-_SETTLES = 0.55
+_SETTLES = 0.53
 """Of the time from scratch that settling takes as a rule: a step begins near its end. Of twenty plans by
 chance no forecast at 10, 30 and 60 % of a run is off by 15 % then (tests/campaigns/time_to_go.py)."""
 _PRIOR = 2.0
