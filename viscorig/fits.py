@@ -18,8 +18,7 @@ from instrument.models.identification import Method
 from instrument.models.identification import identify as identify_sweep
 from instrument.models.pointwise import pointwise_of
 from instrument.models.together import diagnose_together, identify_together
-from instrument.planning.follow_up import with_follow_ups
-from instrument.planning.unseen import with_unseen
+from instrument.planning.open_questions import with_open_questions
 from instrument.progress import bar
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
@@ -107,9 +106,9 @@ def diagnose(
         _whole_sweeps_alone(given)
         spots = spots_of(points, model)
         several = diagnose_together(spots, declined, bar, accept)
-        return Diagnosis(with_follow_ups(diagnosed_together_from(several, spots), several.found))
+        return Diagnosis(with_open_questions(diagnosed_together_from(several, spots), several.found))
     found = diagnose_sweep(points, model, given.modes, declined, bar, accept, resamples=resamples)
-    return Diagnosis(given.said(with_unseen(with_follow_ups(diagnosis_from(found, points), found), found)))
+    return Diagnosis(given.said(with_open_questions(diagnosis_from(found, points), found)))
 
 
 def _whole_sweeps_alone(given: Given, *, pointwise: bool = False, method: Method = "direct") -> None:

@@ -13,8 +13,7 @@ from instrument.cli.print_run import print_result
 from instrument.cli.reading import are_tables, read_each, reading_options, together
 from instrument.models.diagnosis import diagnose as diagnose_sweep
 from instrument.models.together import diagnose_together
-from instrument.planning.follow_up import with_follow_ups
-from instrument.planning.unseen import with_unseen
+from instrument.planning.open_questions import with_open_questions
 from instrument.progress import bar
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.session_result import Conditions, result_of
@@ -75,13 +74,13 @@ def diagnose(
     files, given = together(every, data), every[0]
     if files is not None:
         several = diagnose_together(files, declined, bar, accepted, given.modes)
-        result = with_follow_ups(diagnosed_together_from(several, files), several.found)
+        result = with_open_questions(diagnosed_together_from(several, files), several.found)
     else:
         assert isinstance(given.specimen, Specimen)
         found = diagnose_sweep(
             given.sweep, given.specimen, given.modes, declined, bar, accepted, resamples=resamples
         )
-        result = with_unseen(with_follow_ups(diagnosis_from(found, given.sweep), found), found)
+        result = with_open_questions(diagnosis_from(found, given.sweep), found)
     result = given.said(result)
     print_diagnosis(out, result)
     if files is None:

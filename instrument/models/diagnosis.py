@@ -30,7 +30,7 @@ class Diagnosed:
     seconds: float
     """Everything else."""
     effects: tuple[Effect, ...] = ()
-    """What was looked for."""
+    """What was looked for in one sweep; empty where effects were accepted by hand, or files were several."""
 
 
 def effects_on(

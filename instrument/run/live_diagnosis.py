@@ -15,8 +15,8 @@ from instrument.files.hammer_file import accepted_modes
 from instrument.interchange.files_of import files_of
 from instrument.models.diagnosis import diagnose
 from instrument.models.together import diagnose_together
-from instrument.planning.follow_up import Possible, with_follow_ups
-from instrument.planning.unseen import with_unseen
+from instrument.planning.follow_up import Possible
+from instrument.planning.open_questions import with_open_questions
 from instrument.progress import Progress, quiet
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.together_from import diagnosed_together_from
@@ -70,11 +70,10 @@ def _result(
     files = files_of(sweep, points, specimen)
     if len(files) > 1 or not isinstance(specimen, Specimen):
         several = diagnose_together(files, progress=progress, hammer=hammer)
-        result = with_follow_ups(diagnosed_together_from(several, files), several.found, able).untimed
+        result = with_open_questions(diagnosed_together_from(several, files), several.found, able).untimed
     else:
         found = diagnose(sweep, specimen, hammer, progress=progress)
-        result = with_follow_ups(diagnosis_from(found, sweep), found, able)
-        result = with_unseen(result, found).untimed
+        result = with_open_questions(diagnosis_from(found, sweep), found, able).untimed
     return result.but(warnings=(*result.warnings, *uncalibrated(points)))
 
 

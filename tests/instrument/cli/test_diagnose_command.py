@@ -110,10 +110,9 @@ def test_what_would_tell_rivals_apart_is_listed_with_its_cost(capsys, given, mon
         todo="Point the laser at (285, 24) mm and make the same steps.",
     )
     ranked = (one, *(one.but(kind=kind) for kind in ("level", "frequencies", "clamping")))
-    changed = {"next_measurements": ranked, "next_measurement": advice(one)}
-    monkeypatch.setattr(command, "with_follow_ups", lambda result, found: result.but(**changed))
+    changed = {"next_measurements": ranked, "next_measurement": advice(one), "unseen": UNSEEN}
+    monkeypatch.setattr(command, "with_open_questions", lambda result, found: result.but(**changed))
     path = tmp_path / "found.json"
-    monkeypatch.setattr(command, "with_unseen", lambda result, found: result.but(unseen=UNSEEN))
     status, out, err = call(capsys, "diagnose", TABLE5, "--specimen", ZN1, "--json", path)
     assert (status, err) == (0, "")
     assert "warming 2.27 K" in out

@@ -24,6 +24,7 @@ from instrument.planning import follow_up
 from instrument.planning.follow_up import Possible, rank_follow_ups, with_follow_ups
 from instrument.planning.measurable import Template
 from instrument.planning.measurement import HANDS_S
+from instrument.planning.open_questions import with_open_questions
 from instrument.planning.struck import bare_modes_expected
 from instrument.planning.unseen import with_unseen
 from instrument.results.next_words import advice
@@ -255,6 +256,14 @@ def test_what_could_not_be_seen_is_said_in_percent(rivals):
     assert (said.name, said.parameter, said.unit) == ("temperature_drift", "warming", "K")
     assert said.storage_modulus_percent == 100 * one.storage_modulus > 1
     assert said.standard_errors == one.errors
+
+
+def test_what_is_left_open_is_both(rivals, ranked, monkeypatch):
+    monkeypatch.setattr(follow_up, "rank_follow_ups", lambda *given: ranked)
+    asked = replace(ambiguous(rivals), effects=(CATALOGUE["temperature_drift"],))
+    said = with_open_questions(diagnosis(), asked)
+    assert said.next_measurements == ranked
+    assert said.unseen == with_unseen(diagnosis(), asked).unseen != ()
 
 
 def test_where_nothing_was_looked_for_nothing_is_said_of_it(rivals):
