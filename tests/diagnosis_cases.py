@@ -95,6 +95,7 @@ def diagnosed(s, *, verdict="effect", one_by_one=None):
 UNSEEN = (
     UnseenEffect(
         name="temperature_drift",
+        chance=0.04,
         parameter="warming",
         size=2.27,
         unit="K",
@@ -103,7 +104,11 @@ UNSEEN = (
         standard_errors=8.0,
     ),
     UnseenEffect(
-        name="absolute_velocity", storage_modulus_percent=4.0, loss_factor_percent=9.0, standard_errors=3.0
+        name="absolute_velocity",
+        chance=0.02,
+        storage_modulus_percent=4.0,
+        loss_factor_percent=9.0,
+        standard_errors=3.0,
     ),
 )
 

@@ -34,6 +34,8 @@ class Unseen:
     """An effect that may be there without being named."""
 
     name: str
+    chance: float
+    """That a laboratory's set-up has it at all, before any data."""
     key: str | None
     """Of the unknown that says how strong it is; None for an effect that is there or not."""
     unit: str | None
@@ -76,6 +78,7 @@ def _of(s: Signature, evidence: Evidence, fitted: Refitted, aims: Aims) -> Unsee
     by_G, by_eta = np.max(shifts[at], axis=1)
     return Unseen(
         s.effect.name,
+        s.effect.chance,
         q.key if q else None,
         q.unit if q else None,
         s.size(at, float(strengths[at])),

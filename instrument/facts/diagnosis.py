@@ -124,6 +124,8 @@ class UnseenEffect(Result):
     """An effect that may be there without being named, and what it would do to the law."""
 
     name: str
+    chance: Number
+    """That a laboratory's set-up has it at all, before any data."""
     parameter: str | None = None
     """That says how strong it is; None for an effect that is there or not."""
     size: MaybeNumber = None

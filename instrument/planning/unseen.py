@@ -16,6 +16,7 @@ def with_unseen(result: DiagnosisResult, diagnosed: Diagnosed) -> DiagnosisResul
 def _fact(one: Unseen) -> UnseenEffect:
     return UnseenEffect(
         name=one.name,
+        chance=one.chance,
         parameter=one.key,
         size=one.size,
         unit=one.unit,

@@ -2,14 +2,15 @@
 
 from instrument.facts.diagnosis import UnseenEffect
 
-UNSEEN_TITLE = "may be there unseen, and would shift the law beyond its band"
-UNSEEN_COLUMNS = ("effect", "up to", "G' by/%", "loss factor by/%", "in standard errors")
+UNSEEN_TITLE = "not found, but would not be seen if it were there: how far off the law would be"
+UNSEEN_COLUMNS = ("effect", "up to", "chance/%", "G' by/%", "loss factor by/%", "in standard errors")
 
 
 def unseen_row(one: UnseenEffect) -> tuple[str, ...]:
     """One row under `UNSEEN_COLUMNS`."""
     shifts = one.storage_modulus_percent, one.loss_factor_percent
-    return one.name, _size(one), *(f"{s:.1f}" for s in shifts), f"{one.standard_errors:.1f}"
+    chance = f"{100 * one.chance:.2g}"
+    return one.name, _size(one), chance, *(f"{s:.1f}" for s in shifts), f"{one.standard_errors:.1f}"
 
 
 def _size(one: UnseenEffect) -> str:

@@ -9,6 +9,7 @@ from instrument.results.unseen_words import UNSEEN_COLUMNS, unseen_row
 _TIPS = (
     "Law and stated numbers would imitate it: nothing shows",
     "The largest size that would not be seen, no larger than where a laboratory usually has it",
+    "That a laboratory's set-up has it at all, before any data",
     "By how much it would shift G', where in the band it shifts it most",
     "The same of the loss factor",
     "The larger of both, in standard errors of the law's band: it covers two",

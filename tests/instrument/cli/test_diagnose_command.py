@@ -248,8 +248,8 @@ def test_the_report_ranks_what_would_tell_the_explanations_apart(contents):
     ranked = tuple(FollowUp.model_validate(o) for o in (SPOT, BACKWARDS))
     contents.diagnosis = DiagnosisFound(1, 9, diagnosis().but(next_measurements=ranked, unseen=UNSEEN))
     (section,) = diagnosis_sections(contents)
-    (hidden,) = (b for b in section.blocks if b.kind == "table" and "unseen" in b.title)
-    assert hidden.rows[0][:3] == ("temperature_drift", "warming 2.27 K", "26.9")
+    (hidden,) = (b for b in section.blocks if b.kind == "table" and "would not be seen" in b.title)
+    assert hidden.rows[0][:4] == ("temperature_drift", "warming 2.27 K", "4", "26.9")
     (table,) = (b for b in section.blocks if b.kind == "table" and "tell the explanations apart" in b.title)
     assert [row[0] for row in table.rows] == [SPOT["todo"], BACKWARDS["todo"]]
     assert table.rows[0][1:] == ("30", "80 %", "4.0", "spot_offset and gain_error", SPOT["why"])

@@ -256,6 +256,7 @@ def test_what_could_not_be_seen_is_said_in_percent(rivals):
     assert (said.name, said.parameter, said.unit) == ("temperature_drift", "warming", "K")
     assert said.storage_modulus_percent == 100 * one.storage_modulus > 1
     assert said.standard_errors == one.errors
+    assert said.chance == CATALOGUE["temperature_drift"].chance
 
 
 def test_what_is_left_open_is_both(rivals, ranked, monkeypatch):

@@ -4,7 +4,7 @@ from tests.diagnosis_cases import UNSEEN
 
 def test_a_row_says_how_large_it_may_be_and_what_it_would_do():
     row = unseen_row(UNSEEN[0])
-    assert row == ("temperature_drift", "warming 2.27 K", "26.9", "7.7", "8.0")
+    assert row == ("temperature_drift", "warming 2.27 K", "4", "26.9", "7.7", "8.0")
     assert len(row) == len(UNSEEN_COLUMNS)
 
 
