@@ -4,6 +4,9 @@ Soni's beam (Shock Vib. Bull. 55 (1981)) with the numbers that Daya and Potier-F
 (2001)) compare theirs with: 177.8 mm long, faces of 1.524 mm aluminium, a core of 0.127 mm, E = 1.794 MPa,
 mu = 0.3, loss factor 0.1. Held against a second list of
 them: it has 0.088 for the fourth share and 2261 Hz for the fifth mode, so the last digit is known to one.
+
+And a published sandwich plate on supports, where the formula's sines are the modes themselves: Johnson and
+Kienholz (AIAA J. 20 (1982)), reprinted by Cupial and Niziol (J. Sound Vib. 183 (1995)).
 """
 
 import numpy as np
@@ -73,3 +76,35 @@ def test_the_formula_is_a_tenth_off_where_sines_stand_in_for_a_cantilevers_shape
 def test_the_formula_objects_to_the_first_mode_and_to_a_core_that_hardly_counts():
     assert "first mode" in by_formula(1).objections[0]
     assert "nearly equal numbers" in by_formula(5).objections[0]
+
+
+PLATE = {(1, 1): (60.3, 0.190), (2, 1): (115.4, 0.203), (1, 2): (130.6, 0.199), (2, 2): (178.7, 0.181)}
+PLATE |= {(3, 1): (195.7, 0.174)}
+"""Printed frequency in Hz and loss factor of mode (m, n)."""
+NAVIER = {(1, 1): (60.237, 0.19013), (2, 1): (115.229, 0.20344), (1, 2): (130.433, 0.19920)}
+NAVIER |= {(2, 2): (178.474, 0.18062), (3, 1): (195.437, 0.17369)}
+"""The same plate's exact modes from the stated numbers."""
+
+
+def on_supports(plate, mode, frequency_hz, loss_factor):
+    """The formula with a plate's wavenumber and rigidity in the place of a cantilever's."""
+    face, core = plate.substrate, plate.core
+    k = np.pi * np.hypot(mode[0] / plate.length_m, mode[1] / plate.width_m)
+    stiff = face.young_pa / (1 - face.poisson**2)
+    bare = k**2 * np.sqrt(stiff * face.thickness_m**2 / (12 * face.density_kg_m3)) / (2 * np.pi)
+    length = np.sqrt(2 * np.pi * mode_coefficient(2)) / k
+    density = core.density_kg_m3 / face.density_kg_m3
+    return sandwich(
+        stiff, face.thickness_m, core.thickness_m, density, length, 2, bare, frequency_hz, loss_factor
+    )
+
+
+@pytest.mark.parametrize("mode", PLATE)
+def test_on_supports_the_formula_gives_the_core_back_to_the_printed_digits(johnson_kienholz, mode):
+    exact = on_supports(johnson_kienholz, mode, *NAVIER[mode])
+    assert exact.modulus_pa == pytest.approx(0.896e6, rel=2e-4)
+    assert exact.loss_factor == pytest.approx(0.5, rel=1e-4)
+    printed = on_supports(johnson_kienholz, mode, *PLATE[mode])
+    assert printed.loss_factor == pytest.approx(0.5, rel=0.0005 / PLATE[mode][1] + 2e-3)
+    assert 1.004 < printed.modulus_pa / 0.896e6 < 1.008
+    assert PLATE[mode][0] / NAVIER[mode][0] == pytest.approx(1.0013, abs=3e-4)
