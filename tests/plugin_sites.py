@@ -11,6 +11,7 @@ from fitting.plugins import TOLD
 
 ROOT = Path(__file__).parents[1]
 EXAMPLES = ROOT / "examples"
+_GIVEN = os.environ.get("PYTHONPATH")
 
 
 def install(source: Path, site: Path) -> None:
@@ -33,13 +34,17 @@ def describe(site: Path, name: str, version: str, entries: dict[str, dict[str, s
     (folder / "entry_points.txt").write_text("\n".join(lines))
 
 
+def python_path(site: Path) -> str:
+    """PYTHONPATH of a process that is to find the packages of a site."""
+    return os.pathsep.join([str(site), str(ROOT), *filter(None, [_GIVEN])])
+
+
 def python(site: Path, folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
     """Run in a folder, with the packages of a site installed."""
-    paths = [str(site), str(ROOT), *filter(None, [os.environ.get("PYTHONPATH")])]
     return subprocess.run(
         [sys.executable, *arguments],
         cwd=folder,
-        env={**os.environ, "PYTHONPATH": os.pathsep.join(paths), TOLD: ""},
+        env={**os.environ, "PYTHONPATH": python_path(site), TOLD: ""},
         capture_output=True,
         text=True,
         timeout=600,

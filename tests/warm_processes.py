@@ -100,11 +100,14 @@ def forking() -> Iterator[None]:
     with _COLD(
         [sys.executable, __file__], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
     ) as process:
+        before = os.environ.get(FORK_AT)
         os.environ[FORK_AT] = process.stdout.readline().rstrip()
         try:
             yield
         finally:
             del os.environ[FORK_AT]
+            if before is not None:
+                os.environ[FORK_AT] = before
 
 
 # In the process that forks, and those it forks.

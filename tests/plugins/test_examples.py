@@ -16,6 +16,8 @@ from instrument.simulated_case import case_file
 from instrument.stream.derived import PointMeasured
 from instrument.stream.raw import SessionBegan
 
+pytestmark = pytest.mark.usefixtures("warm_site")
+
 LAW = """[core.law]
 kind = "fractional-kelvin-voigt"
 g0_mpa = 0.4
@@ -79,7 +81,7 @@ def facts(done):
     return json.loads(done.stdout)
 
 
-def test_the_version_lists_what_is_added_and_by_whom(viscorig):
+def test_the_version_lists_what_is_added_and_by_whom(cold, viscorig):
     done = viscorig("--version")
     assert done.stdout.splitlines()[1:] == [
         "  core law fractional-kelvin-voigt, from viscorig-example-plugin 0.1.0",
