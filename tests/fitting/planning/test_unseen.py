@@ -12,11 +12,10 @@ from fitting.effects import CATALOGUE
 from fitting.noise import noise_of
 from fitting.planning.confusion import SEEN
 from fitting.planning.unseen import unseen
-from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.models.set_up import set_up
-from instrument.simulated_case import case_file
 from tests.conftest import DATA
+from tests.rig_plate import plate_of_the_rig
 
 ASKED = [
     CATALOGUE[name]
@@ -50,7 +49,7 @@ class Clean:
     """A sweep without any effect, its noise left out, and its fit."""
 
     def __init__(self, sweep):
-        specimen = replace(read_specimen(case_file("specimen.toml")), tolerances={}, exact=False)
+        specimen = replace(plate_of_the_rig(), exact=False)
         self.ready = set_up(sweep, specimen)
         self.law, self.stated = specimen.core.law.lifted(), self.ready.problem.as_stated
         self.begun = self.fitted(SweepResponse(self.ready.problem, ()).velocity(self.law, self.stated))

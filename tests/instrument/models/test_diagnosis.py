@@ -17,8 +17,8 @@ from instrument.files.sweep_file import read_sweep
 from instrument.models.diagnosis import diagnose
 from instrument.models.second_process import VARIABLE
 from instrument.paper_case import case_file
-from instrument.simulated_case import case_file as simulated_file
 from tests.conftest import DATA
+from tests.rig_plate import MESH, plate_of_the_rig
 
 OMEGA = 2 * np.pi * np.array([20.0, 100.0, 280.0])
 PRACTICE = {
@@ -27,13 +27,9 @@ PRACTICE = {
 """What is in the files, and the core's law: never seen by what is tested."""
 
 
-def specimen():
-    return replace(read_specimen(simulated_file("specimen.toml")), tolerances={})
-
-
 def as_a_laboratory_states_it():
     """The same plate, each number within its typical tolerance."""
-    return replace(specimen(), exact=False)
+    return replace(plate_of_the_rig(), exact=False)
 
 
 def practice(name):
@@ -48,7 +44,7 @@ def every(nth, sweep):
 @pytest.fixture(scope="module")
 def shifted_spot():
     """What is said of the file with a shifted spot, the specimen exact."""
-    return diagnose(practice("005"), specimen()).result
+    return diagnose(practice("005"), plate_of_the_rig()).result
 
 
 def test_a_hidden_effect_is_named_and_the_law_put_right(shifted_spot):
@@ -85,7 +81,7 @@ def all_but(*names):
 def test_what_only_fits_is_refused_and_said_to_be_nearest():
     """A shifted spot is well imitated by a gain beside a mass: their chi-square per degree is 1.2."""
     without = all_but("gain_error", "added_mass")
-    found = diagnose(practice("005"), specimen(), without=without).result
+    found = diagnose(practice("005"), plate_of_the_rig(), without=without).result
     assert found.verdict == "unknown"
     assert min(c.chi2_per_dof for c in found.candidates) < 1.25
     assert "gain_error with added_mass, would leave such data once in" in " ".join(found.explanation)
@@ -94,7 +90,8 @@ def test_what_only_fits_is_refused_and_said_to_be_nearest():
 def test_where_all_that_lead_fail_every_place_is_tried():
     """The mass's own place promises least of seven by a linear step."""
     case = draw("added_mass", 96002)
-    found = diagnose(case.sweep, case.specimen, without=all_but("added_mass")).result
+    plate = replace(case.specimen, elements=MESH)
+    found = diagnose(case.sweep, plate, without=all_but("added_mass")).result
     (mass,) = found.effects
     place = mass.parameters["x"].value, mass.parameters["y"].value
     truth = case.truth.effects["added_mass"]
@@ -103,7 +100,9 @@ def test_where_all_that_lead_fail_every_place_is_tried():
 
 def test_one_mass_is_not_taken_for_two():
     """From the law without it a single mass ends elsewhere; a search for two comes upon its place."""
-    found = diagnose(practice("007"), specimen(), without=all_but("added_mass", "added_masses")).result
+    found = diagnose(
+        practice("007"), plate_of_the_rig(), without=all_but("added_mass", "added_masses")
+    ).result
     (mass,) = found.effects
     assert (found.verdict, mass.name) == ("effect", "added_mass")
     assert np.hypot(mass.parameters["x"].value - 0.27, mass.parameters["y"].value - 0.06) < 4e-3
@@ -120,17 +119,17 @@ def test_a_rival_that_promises_little_by_a_linear_step_is_followed_all_the_same(
 def test_a_second_process_changes_nothing(monkeypatch):
     some = all_but("spot_offset", "gain_error", "added_mass", "core_law", "base_rocking", "channel_delay")
     sweep = every(3, practice("005"))
-    alone = diagnose(sweep, specimen(), without=some).result
+    alone = diagnose(sweep, plate_of_the_rig(), without=some).result
     assert len(alone.candidates) > len(CATALOGUE) - len(some)
     monkeypatch.delenv(VARIABLE)
     monkeypatch.setattr("instrument.models.second_process.processors", lambda: 2)
-    shared = diagnose(sweep, specimen(), without=some).result
+    shared = diagnose(sweep, plate_of_the_rig(), without=some).result
     assert repr(shared.candidates) == repr(alone.candidates)
     assert shared.explanation == alone.explanation
     assert np.array_equal(shared.after.law.values, alone.after.law.values)
 
 
-@pytest.mark.parametrize(("stated", "sure"), [(specimen, 0.8), (as_a_laboratory_states_it, 0.5)])
+@pytest.mark.parametrize(("stated", "sure"), [(plate_of_the_rig, 0.8), (as_a_laboratory_states_it, 0.5)])
 def test_a_clean_sweep_is_said_to_be_clean(stated, sure):
     found = diagnose(practice("002"), stated()).result
     assert found.verdict == "none"
@@ -173,7 +172,7 @@ def test_nine_amplitudes_cannot_name_one_effect():
 
 def test_nine_amplitudes_do_not_make_a_misfit_likely_where_much_is_uncertain():
     """More stated numbers than amplitudes, and noise of unknown size: what fits three times worse is none."""
-    plate = replace(read_specimen(case_file("zn1.toml")), exact=False)
+    plate = replace(read_specimen(case_file("zn1.toml")), exact=False, elements=(10, 10))
     sweep = read_sweep(case_file("table5.csv")).sweep(plate.base_acceleration_m_s2)
     without = all_but("absolute_velocity", "gain_error")
     found = diagnose(sweep, plate, without=without, resamples=0).result
@@ -182,18 +181,18 @@ def test_nine_amplitudes_do_not_make_a_misfit_likely_where_much_is_uncertain():
 
 
 def test_effects_are_accepted_and_declined_by_hand():
-    told = diagnose(practice("005"), specimen(), accept=("gain_error", "channel_delay")).result
+    told = diagnose(practice("005"), plate_of_the_rig(), accept=("gain_error", "channel_delay")).result
     assert told.verdict == "effect"
     assert [e.name for e in told.effects] == ["gain_error", "channel_delay"]
     assert "By your word" in " ".join(told.explanation)
     assert told.after.chi2_per_dof < told.before.chi2_per_dof
-    declined = diagnose(practice("005"), specimen(), accept=()).result
+    declined = diagnose(practice("005"), plate_of_the_rig(), accept=()).result
     assert (declined.verdict, declined.effects) == ("none", ())
     assert declined.before.chi2_per_dof == pytest.approx(told.before.chi2_per_dof)
 
 
 def test_another_law_and_an_effect_beside_it_are_accepted_by_hand():
-    told = diagnose(practice("005"), specimen(), accept=("spot_offset", "core_law")).result
+    told = diagnose(practice("005"), plate_of_the_rig(), accept=("spot_offset", "core_law")).result
     assert {e.name for e in told.effects} == {"core_law", "spot_offset"}
     assert told.after.chi2_per_dof < 1.1
 
@@ -201,10 +200,10 @@ def test_another_law_and_an_effect_beside_it_are_accepted_by_hand():
 def test_unknown_names_and_bare_plates_are_refused():
     sweep = practice("002").take(np.arange(20))
     with pytest.raises(BadInput, match="effect 'gremlins', expected one of"):
-        diagnose(sweep, specimen(), without={"gremlins"})
+        diagnose(sweep, plate_of_the_rig(), without={"gremlins"})
     with pytest.raises(BadInput, match="effect 'gremlins', expected one of"):
-        diagnose(sweep, specimen(), accept=["gremlins"])
+        diagnose(sweep, plate_of_the_rig(), accept=["gremlins"])
     with pytest.raises(BadInput, match="both accepted and left out"):
-        diagnose(sweep, specimen(), accept=["core_law"], without=["core_law"])
+        diagnose(sweep, plate_of_the_rig(), accept=["core_law"], without=["core_law"])
     with pytest.raises(OutsideModel, match="no core to diagnose"):
-        diagnose(sweep, specimen().bare)
+        diagnose(sweep, plate_of_the_rig().bare)

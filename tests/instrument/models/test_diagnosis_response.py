@@ -10,11 +10,10 @@ from fitting.diagnosis.plate_answer import answer
 from fitting.diagnosis.response import SweepResponse
 from fitting.effects import CATALOGUE
 from fitting.effects.temperature_drift import C_1, C_2_K
-from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.models.set_up import set_up
-from instrument.simulated_case import case_file
 from tests.conftest import DATA
+from tests.rig_plate import plate_of_the_rig
 
 ROOT_N_M3 = 1.5e13
 WARMING_K, TIME_CONSTANT_S = 6.0, 500.0
@@ -51,7 +50,7 @@ def at_every_point(problem, law, effect, u, G):
 @pytest.mark.parametrize("make", [lambda s: s, again], ids=["one pass", "two passes"])
 def test_a_core_that_warms_on_a_root_that_yields(once_up, make):
     with threadpool_limits(1, "blas"):
-        problem = set_up(make(once_up), read_specimen(case_file("specimen.toml"))).problem
+        problem = set_up(make(once_up), plate_of_the_rig()).problem
         law = problem.stated_law
         problem = problem.condensed(law).around(law)
         clamp, drift = CATALOGUE["clamp_compliance"], CATALOGUE["temperature_drift"]

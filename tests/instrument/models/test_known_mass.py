@@ -16,6 +16,7 @@ from instrument.models.set_up import set_up
 from instrument.models.specimen_models import Models
 from instrument.simulated_case import case_file
 from tests.conftest import DATA
+from tests.rig_plate import plate_of_the_rig
 
 MASS = PlacedMass(8e-3, 0.21, 0.05)
 
@@ -24,7 +25,7 @@ MASS = PlacedMass(8e-3, 0.21, 0.05)
 def problems():
     """Of the same sweep, without a mass and with one."""
     sweep = read_sweep(DATA / "practice-005.csv").sweep(9.81).take(np.arange(0, 240, 8))
-    plain = replace(read_specimen(case_file("specimen.toml")), tolerances={}, exact=False)
+    plain = replace(plate_of_the_rig(), exact=False)
     heavy = replace(plain, masses=(MASS,))
     return [set_up(sweep, s).problem for s in (plain, heavy)]
 

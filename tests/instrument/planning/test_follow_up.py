@@ -16,7 +16,6 @@ from fitting.planning.forms import forms_of
 from fitting.planning.further import Expecting
 from fitting.planning.rivalry import outcome
 from fitting.planning.unseen import unseen
-from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.models.diagnosis import Diagnosed
 from instrument.models.set_up import set_up
@@ -28,10 +27,10 @@ from instrument.planning.open_questions import with_open_questions
 from instrument.planning.struck import bare_modes_expected
 from instrument.planning.unseen import with_unseen
 from instrument.results.next_words import advice
-from instrument.simulated_case import case_file
 from instrument.stepped_sine.settings import Limits, SweepSettings
 from tests.conftest import DATA
 from tests.diagnosis_cases import diagnosed, diagnosis, sweep
+from tests.rig_plate import plate_of_the_rig
 
 EVEN = np.array([0.5, 0.5])
 
@@ -40,7 +39,7 @@ EVEN = np.array([0.5, 0.5])
 def rivals():
     """Of a plate known within tolerances whose channel reads 3 % too much: a gain, or a shifted spot."""
     steps = read_sweep(DATA / "practice-005.csv").sweep(9.81)
-    specimen = replace(read_specimen(case_file("specimen.toml")), tolerances={}, exact=False)
+    specimen = replace(plate_of_the_rig(), exact=False)
     ready = set_up(steps, specimen)
     law, problem = specimen.core.law.lifted(), ready.problem
     v = 1.03 * SweepResponse(problem, ()).velocity(law, problem.as_stated)

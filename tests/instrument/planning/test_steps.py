@@ -8,13 +8,12 @@ import pytest
 from fitting.laws.constant import ConstantModulus
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
-from instrument.files.specimen_file import read_specimen
 from instrument.files.sweep_file import read_sweep
 from instrument.models.set_up import set_up
 from instrument.planning.steps import about, twists_hz, where
-from instrument.simulated_case import case_file
 from instrument.stepped_sine.settings import SweepSettings
 from tests.conftest import DATA
+from tests.rig_plate import plate_of_the_rig
 
 STIFF = ConstantModulus(0.5e6, 0.01)
 
@@ -22,7 +21,7 @@ STIFF = ConstantModulus(0.5e6, 0.01)
 @pytest.fixture(scope="module")
 def twists():
     sweep = read_sweep(DATA / "practice-005.csv").sweep(9.81).take(np.arange(0, 240, 8))
-    specimen = replace(read_specimen(case_file("specimen.toml")), tolerances={}, exact=False)
+    specimen = replace(plate_of_the_rig(), exact=False)
     plate = set_up(sweep, specimen).problem.plate
     return specimen, twists_hz(plate, STIFF, 15.0, 300.0)
 
