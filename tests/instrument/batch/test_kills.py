@@ -18,7 +18,7 @@ from instrument.errors import BadInput
 from instrument.models.processes import in_processes
 from instrument.progress import LINES
 
-COUNT = 24
+COUNT = 12
 
 
 @pytest.fixture(scope="module")
