@@ -69,13 +69,11 @@ class Moved:
 
 @pytest.fixture(scope="module", params=["as published", "lossy and on its side"])
 def moved(request, zn1):
-    plain = replace(zn1, exact=False, elements=(20, 14))
+    plain = replace(zn1, exact=False, elements=(10, 8))
     if request.param == "as published":
         return Moved(plain)
     faces = {name: replace(getattr(plain, name), loss_factor=0.01) for name in ("substrate", "constraining")}
-    return Moved(
-        replace(plain, **faces, length_m=0.18, width_m=0.24, elements=(14, 18), pickup_m=(0.15, 0.1))
-    )
+    return Moved(replace(plain, **faces, length_m=0.18, width_m=0.24, elements=(8, 10), pickup_m=(0.15, 0.1)))
 
 
 def test_the_moved_plate_answers_as_one_built_anew(moved):

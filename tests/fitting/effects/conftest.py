@@ -37,7 +37,7 @@ class Full:
     """The plate as stated, and what a full solve makes of it with something else."""
 
     def __init__(self):
-        self.specimen = replace(read_specimen(case_file("zn1.toml")), elements=(20, 14))
+        self.specimen = replace(read_specimen(case_file("zn1.toml")), elements=(14, 10))
         self.plate = Plate(self.specimen)
         self.damping = viscous_damping(self.plate)
         self.full = FullPlate(self.plate, self.damping)

@@ -106,15 +106,15 @@ def test_noisy_sweep_gives_back_its_law(many_residuals, zn1):
 
 @pytest.mark.parametrize("noise", ["stated", "local scatter"])
 def test_standard_errors_cover_the_truth_over_200_seeds(zn1, zn1_models, noise):
-    frame = synthetic_sweep(zn1)
-    clean = zn1_models.predict(TABLE_4, GRID_HZ)
-    model = SweepModel.of(frame, zn1_models.rational(2 * np.pi * GRID_HZ), "relative")
+    frame = synthetic_sweep(zn1).take(np.arange(0, len(GRID_HZ), 2))
+    clean = zn1_models.predict(TABLE_4, frame.frequency_hz)
+    model = SweepModel.of(frame, zn1_models.rational(frame.omega), "relative")
     z, inside = [], []
     omega = 2 * np.pi * np.array([20.0, 100.0, 280.0])
     G_true, eta_true = TABLE_4.storage_and_loss(omega)
     for seed in range(200):
         rng = np.random.default_rng(seed)
-        scatter = 0.005 * np.abs(clean) * (rng.normal(size=353) + 1j * rng.normal(size=353))
+        scatter = 0.005 * np.abs(clean) * (rng.normal(size=len(clean)) + 1j * rng.normal(size=len(clean)))
         sweep = replace(
             frame,
             velocity_m_s=clean + scatter,

@@ -16,6 +16,11 @@ def problem(table5, zn1_models):
     return PaperProblem.of(table5, zn1_models.real_modes, "relative")
 
 
+@pytest.fixture(scope="module")
+def fitted(problem, zn1):
+    return fit_paper(problem, zn1.core.law)
+
+
 def rms_percent(problem, law):
     return 100 * np.sqrt(np.mean(problem.linearise(law)[0] ** 2))
 
@@ -29,23 +34,22 @@ def test_weights_of_the_file_replace_the_printed_ones(table5, zn1_models):
     np.testing.assert_array_equal(own.weight, 1)
 
 
-def test_table_5_ends_within_the_known_remainder(problem, zn1):
-    fit = fit_paper(problem, zn1.core.law)
-    assert fit.converged
-    assert fit.criterion_met is False
-    assert rms_percent(problem, fit.law) < 6.2
+def test_table_5_ends_within_the_known_remainder(problem, fitted):
+    assert fitted.converged
+    assert fitted.criterion_met is False
+    assert rms_percent(problem, fitted.law) < 6.2
 
 
-def test_the_end_does_not_depend_on_the_start(problem, zn1):
-    one = fit_paper(problem, zn1.core.law).law
+def test_the_end_does_not_depend_on_the_start(problem, fitted):
+    one = fitted.law
     other = fit_paper(problem, FractionalZener(0.25e6, 6e6, 1e-4, 0.8)).law
     np.testing.assert_allclose(other.values, one.values, rtol=2e-2)
     assert rms_percent(problem, other) == pytest.approx(rms_percent(problem, one), abs=0.02)
 
 
-def test_the_end_is_the_least_of_the_weighted_differences(problem, zn1):
+def test_the_end_is_the_least_of_the_weighted_differences(problem, fitted):
     # Where Eq. (25) rests, S^T W_x^T W_x dx = 0: the weights of the parameters only slow it down.
-    law = fit_paper(problem, zn1.core.law).law
+    law = fitted.law
     np.testing.assert_allclose(paper.refit(problem, law).values, law.values, rtol=5e-3)
 
 
