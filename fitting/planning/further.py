@@ -265,12 +265,12 @@ class Expecting:
 
     def _over(self, raw: _Raw, sigma: Array) -> Forecast:
         """In standard deviations of the noise, parts side by side."""
-        both = np.concatenate([raw.by_known, raw.by_new])
+        both, known = np.concatenate([raw.by_known, raw.by_new]), len(raw.by_known)
         if self.evidence.has_phase:
             mean, root = raw.v / sigma, both / sigma
-            return Forecast(np.r_[mean.real, mean.imag], np.hstack([root.real, root.imag]).T)
+            return Forecast(np.r_[mean.real, mean.imag], np.hstack([root.real, root.imag]).T, known)
         size = np.abs(raw.v)
-        return Forecast(size / sigma, (np.real(np.conj(raw.v) * both) / (size * sigma)).T)
+        return Forecast(size / sigma, (np.real(np.conj(raw.v) * both) / (size * sigma)).T, known)
 
     def _struck(self, known: Known, bare: BareModes) -> Forecast:
         fitted, nuisances = known.fitted, self.member.nuisances
@@ -298,8 +298,8 @@ class Expecting:
                     by[column[start + m]] += scale[start + m] * (there - shifts.mean(axis=0)) / h
             start += len(e.parameters)
         rows = known.root[: len(by)].T @ by
-        rows = np.concatenate([rows, np.array(fresh)]) if fresh else rows
-        return Forecast(bare.whitened_change(shift), bare.whitened_change(rows.T))
+        every = np.concatenate([rows, np.array(fresh)]) if fresh else rows
+        return Forecast(bare.whitened_change(shift), bare.whitened_change(every.T), len(rows))
 
 
 def _rest(evidence: Evidence, v: Complex) -> Complex:

@@ -18,6 +18,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg as la
+from numpy.typing import NDArray
 from scipy.special import softmax
 
 from fitting.arrays import Array
@@ -38,6 +39,16 @@ class Forecast:
     """Shape (data,)."""
     root: Array
     """S = 1 + R R^T. Shape (data, any)."""
+    known: int = 0
+    """So many columns, the first, are unknowns that every measurement shares; the others are of this one."""
+
+    def then(self, other: "Forecast") -> "Forecast":
+        """Of this measurement and of another, taken together."""
+        k, n, m = self.known, len(self.mean), len(other.mean)
+        own, others = self.root[:, k:], other.root[:, k:]
+        apart = np.block([[own, np.zeros((n, others.shape[1]))], [np.zeros((m, own.shape[1])), others]])
+        shared = np.concatenate([self.root[:, :k], other.root[:, :k]])
+        return Forecast(np.r_[self.mean, other.mean], np.hstack([shared, apart]), k)
 
 
 @dataclass(frozen=True)
@@ -68,41 +79,86 @@ def outcome(
     `temper`: how much less than it says a difference of likelihoods is worth. `of`: whose form each is, from
     0; a form a rival where nothing is said.
     """
-    L = [np.linalg.cholesky(np.eye(len(f.mean)) + f.root @ f.root.T) for f in forecasts]
-    logdet = np.array([2 * np.log(np.diag(one)).sum() for one in L])
-    count = len(forecasts)
-    D = np.zeros((count, count))
-    # Each S_j^-1/2 once, on everything that is asked of it.
-    draws = np.maximum(_FEWEST_DRAWS, np.round(_DRAWS * probabilities)).astype(int)
-    random = np.random.default_rng(_SEED)
-    n = len(forecasts[0].mean)
-    data = np.concatenate(
-        [
+    drawn = _Drawn.of(forecasts, probabilities, temper, of)
+    after, weight = drawn.after, drawn.weight
+    entropy = -np.sum(np.where(after > 0, after * np.log(np.maximum(after, 1e-300)), 0.0), axis=0)
+    whole = drawn.member @ probabilities
+    before = float(-np.sum(whole * np.log(whole)))
+    D = _divergences(forecasts, drawn.L)
+    nearest = np.array([np.where(one, D, np.inf).min(axis=1) for one in drawn.member]).T
+    return Outcome(
+        np.maximum((drawn.member * probabilities) @ nearest / whole[:, None], 0.0) / temper,
+        before - float(weight @ entropy),
+        drawn.resolved(credible),
+    )
+
+
+def resolved(
+    forecasts: Sequence[Forecast],
+    probabilities: Array,
+    temper: float = 1.0,
+    credible: float = 0.95,
+    of: Sequence[int] | None = None,
+) -> float:
+    """The chance that one rival holds `credible` afterwards, and nothing else; arguments as of `outcome`.
+
+    `probabilities` of shape (forms,).
+    """
+    return _Drawn.of(forecasts, probabilities, temper, of).resolved(credible)
+
+
+@dataclass(frozen=True)
+class _Drawn:
+    """Data drawn from each form in turn, and what becomes of the rivals."""
+
+    L: list[Array]
+    """S = L L^T of each form."""
+    member: NDArray[np.bool_]
+    """Whose each form is. Shape (rivals, forms)."""
+    after: Array
+    """Probabilities of the rivals. Shape (rivals, draws)."""
+    weight: Array
+    """Of each draw; they add up to one."""
+
+    @classmethod
+    def of(
+        cls, forecasts: Sequence[Forecast], probabilities: Array, temper: float, of: Sequence[int] | None
+    ) -> "_Drawn":
+        L = [np.asarray(np.linalg.cholesky(np.eye(len(f.mean)) + f.root @ f.root.T)) for f in forecasts]
+        draws = np.maximum(_FEWEST_DRAWS, np.round(_DRAWS * probabilities)).astype(int)
+        random = np.random.default_rng(_SEED)
+        n, count = len(forecasts[0].mean), len(forecasts)
+        data = [
             f.mean[:, None] + one @ random.standard_normal((n, k))
             for f, one, k in zip(forecasts, L, draws, strict=True)
-        ],
-        axis=1,
-    )
-    fits = np.zeros((count, data.shape[1]))
+        ]
+        every = np.concatenate(data, axis=1)
+        fits = np.array(
+            [_log_density(every - f.mean[:, None], one) for f, one in zip(forecasts, L, strict=True)]
+        )
+        whose = np.arange(count) if of is None else np.array(of)
+        member = np.arange(whose.max() + 1)[:, None] == whose
+        after = member @ softmax(np.log(probabilities)[:, None] + fits / temper, axis=0)
+        return cls(L, member, after, np.repeat(probabilities / draws, draws))
+
+    def resolved(self, credible: float) -> float:
+        return float(self.weight @ (self.after.max(axis=0) >= credible))
+
+
+def _log_density(off: Array, L: Array) -> Array:
+    """Of N(0, L L^T) but for a constant; `off` of shape (data, draws)."""
+    squares = np.sum(la.solve_triangular(L, off, lower=True) ** 2, axis=0)
+    return np.asarray(-squares / 2 - np.log(np.diag(L)).sum())
+
+
+def _divergences(forecasts: Sequence[Forecast], L: Sequence[Array]) -> Array:
+    """D(i, j) of forms. Shape (forms, forms)."""
+    count, n = len(forecasts), len(forecasts[0].mean)
+    logdet = np.array([2 * np.log(np.diag(one)).sum() for one in L])
+    D = np.zeros((count, count))
     for j, f in enumerate(forecasts):
         off = np.array([g.mean - f.mean for g in forecasts]).T
-        solved = la.solve_triangular(L[j], np.hstack([off, *L, data - f.mean[:, None]]), lower=True)
-        squares = np.sum(solved**2, axis=0)
-        traces = squares[count : count + count * n].reshape(count, n).sum(axis=1)
+        squares = np.sum(la.solve_triangular(L[j], np.hstack([off, *L]), lower=True) ** 2, axis=0)
+        traces = squares[count:].reshape(count, n).sum(axis=1)
         D[:, j] = (traces - n + squares[:count] + logdet[j] - logdet) / 2
-        fits[j] = -(squares[count + count * n :] + logdet[j]) / 2
-    logs = np.log(probabilities)[:, None] + fits / temper
-    whose = np.arange(count) if of is None else np.array(of)
-    member = np.arange(whose.max() + 1)[:, None] == whose
-    after = member @ softmax(logs, axis=0)
-    entropy = -np.sum(np.where(after > 0, after * np.log(np.maximum(after, 1e-300)), 0.0), axis=0)
-    which = np.repeat(np.arange(count), draws)
-    weight = (probabilities / draws)[which]
-    whole = member @ probabilities
-    before = float(-np.sum(whole * np.log(whole)))
-    nearest = np.array([np.where(one, D, np.inf).min(axis=1) for one in member]).T
-    return Outcome(
-        np.maximum((member * probabilities) @ nearest / whole[:, None], 0.0) / temper,
-        before - float(weight @ entropy),
-        float(weight @ (after.max(axis=0) >= credible)),
-    )
+    return D

@@ -34,6 +34,10 @@ class FollowUp(Result):
     """Expected gain of what explains the data over the nearest rival: nats of log Bayes factor."""
     probability_resolved: Number
     """Chance that one explanation holds 95 % afterwards."""
+    then: FollowUpKind | None = None
+    """What would follow best where this settles nothing; None where nothing would be worth it."""
+    expected_seconds: MaybeNumber = None
+    """Until one explanation is left, with what would follow; what stays open counts as an hour."""
     between: tuple[str, ...]
     """Explanations that it separates, the likeliest first: `none`, an effect, two joined by " + "."""
     why: str

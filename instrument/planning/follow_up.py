@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from math import sqrt
 
 import numpy as np
 
@@ -16,6 +15,7 @@ from instrument.facts.follow_up import FollowUp
 from instrument.models.diagnosis import Diagnosed
 from instrument.planning.measurable import Template
 from instrument.planning.measurement import Measurable
+from instrument.planning.order import Asked, best_courses
 from instrument.planning.struck import bare_modes_expected
 from instrument.results.next_words import advice
 from instrument.stepped_sine.settings import SweepSettings
@@ -30,8 +30,6 @@ _EVEN = 0.5
 """Probability of none up to which something is likelier than nothing."""
 _WORTH = 0.02
 """Nats of the entropy of which is right, below which a measurement is not offered."""
-_ALWAYS_S = 60.0
-"""That any further measurement costs, whatever it is: to decide, to start, to diagnose again. A choice."""
 
 
 @dataclass(frozen=True)
@@ -48,21 +46,20 @@ class Possible:
 def rank_follow_ups(diagnosed: Diagnosed, possible: Possible | None = None) -> tuple[FollowUp, ...]:
     """Next measurements, best first: the best of each kind; none where one explanation is left.
 
-    Ordered by the expected fall of the entropy of which explanation is right, over the root of the time it
-    takes: of two that tell as much the shorter, and no long one for little.
+    Ordered by the time until the explanations are told apart, as expected (`instrument.planning.order`).
     """
     possible = possible or Possible()
     rivals = diagnosed.result.rivals
     if rivals is None or not _doubtful(diagnosed, rivals):
         return ()
     expecting = Expecting(rivals, _MOST_RIVALS)
-    found: dict[str, tuple[float, FollowUp]] = {}
-    for measurable, forecasts in _asked(expecting, possible):
-        told = outcome(forecasts, expecting.probabilities, expecting.temper, VERDICT.credible, expecting.of)
-        score = told.information / sqrt(measurable.seconds + _ALWAYS_S)
-        if told.information > _WORTH and score > found.get(measurable.kind, (0.0, None))[0]:
-            found[measurable.kind] = score, measurable.follow_up(expecting.names, *_said(told, expecting))
-    return tuple(one for _, one in sorted(found.values(), key=lambda f: -f[0]))
+    worth = [one for one in _asked(expecting, possible) if one.told.information > _WORTH]
+    return tuple(
+        course.first.measurable.follow_up(expecting.names, *_said(course.first.told, expecting)).but(
+            then=course.then, expected_seconds=course.expected_s
+        )
+        for course in best_courses(worth, expecting)
+    )
 
 
 def with_follow_ups(
@@ -90,7 +87,13 @@ def _doubtful(diagnosed: Diagnosed, rivals: Rivals) -> bool:
     return result.verdict == "ambiguous" or (result.verdict == "none" and none < _EVEN)
 
 
-def _asked(expecting: Expecting, possible: Possible) -> Iterator[tuple[Measurable, list[Forecast]]]:
+def _asked(expecting: Expecting, possible: Possible) -> Iterator[Asked]:
+    for measurable, forecasts in _forecast(expecting, possible):
+        told = outcome(forecasts, expecting.probabilities, expecting.temper, VERDICT.credible, expecting.of)
+        yield Asked(measurable, forecasts, told)
+
+
+def _forecast(expecting: Expecting, possible: Possible) -> Iterator[tuple[Measurable, list[Forecast]]]:
     template = Template.of(expecting, possible.settings)
     limits = possible.settings.limits
     for measurable in template.measurable(possible.mass_kg):

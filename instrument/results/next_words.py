@@ -2,16 +2,28 @@
 
 from collections.abc import Sequence
 
-from instrument.facts.follow_up import FollowUp
+from instrument.facts.follow_up import FollowUp, FollowUpKind
 
 NEXT_TITLE = "what would tell the explanations apart, best first"
 NEXT_COLUMNS = ("what to measure", "s of rig and hands", "settles it", "nats apart")
+
+_FOLLOWING: dict[FollowUpKind, str] = {
+    "frequencies": "more steps",
+    "level": "another level",
+    "reversed": "the steps in reversed order",
+    "spot": "another spot",
+    "added_mass": "a known mass",
+    "clamping": "clamping anew",
+    "bare_hammer": "the bare plate's hammer test",
+    "damped_struck": "the damped plate struck",
+}
 
 
 def advice(offer: FollowUp) -> str:
     """Which explanations, by which measurement, where, why, what it costs and what may be hoped for."""
     what = f"{offer.todo[0].lower()}{offer.todo[1:]}"
-    cost = f"It takes {offer.seconds:.0f} s and settles the matter with {_percent(offer)} chance."
+    cost = f"It takes {offer.seconds:.0f} s and settles the matter with {_percent(offer)} chance"
+    cost += f"; if not, {_FOLLOWING[offer.then]} should follow." if offer.then else "."
     return f"To tell {separated_words(offer.between)} apart, {what} {offer.why} {cost}"
 
 

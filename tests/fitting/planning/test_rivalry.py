@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from fitting.planning.rivalry import Forecast, outcome
+from fitting.planning.rivalry import Forecast, outcome, resolved
 
 EVEN = np.array([0.5, 0.5])
 
@@ -79,3 +79,19 @@ def test_tempering_is_worth_fewer_data():
 def test_the_same_data_give_the_same_chances():
     one, again = (outcome([sharp(0), sharp(2)], EVEN) for _ in range(2))
     assert (one.information, one.resolved) == (again.information, again.resolved)
+
+
+def test_two_measurements_share_what_is_the_same_in_both_and_nothing_else():
+    a = Forecast(np.array([1.0]), np.array([[2.0, 5.0]]), known=1)
+    b = Forecast(np.array([3.0, 4.0]), np.array([[7.0, 1.0, 0.0], [8.0, 0.0, 1.0]]), known=1)
+    both = a.then(b)
+    assert both.mean.tolist() == [1.0, 3.0, 4.0]
+    assert both.root @ both.root.T == pytest.approx(
+        np.array([[29.0, 14.0, 16.0], [14.0, 50.0, 56.0], [16.0, 56.0, 65.0]])
+    )
+
+
+def test_the_chance_alone_is_that_of_the_outcome():
+    rivals = [sharp(0), sharp(3), sharp(1)]
+    p = np.array([0.5, 0.3, 0.2])
+    assert resolved(rivals, p, of=[0, 1, 1]) == outcome(rivals, p, of=[0, 1, 1]).resolved

@@ -1,9 +1,11 @@
 """What is advised, in words: the same numbers as in its row."""
 
+from typing import get_args
+
 import pytest
 from following_cases import SPOT
 
-from instrument.facts.follow_up import FollowUp
+from instrument.facts.follow_up import FollowUp, FollowUpKind
 from instrument.results.next_words import NEXT_COLUMNS, advice, next_row, separated_words
 
 OFFER = FollowUp.model_validate(SPOT)
@@ -14,6 +16,16 @@ def test_the_advice_says_which_measurement_why_and_what_it_costs():
         "To tell spot_offset and gain_error apart, aim it elsewhere. A gain is the same at every spot. "
         "It takes 30 s and settles the matter with 80 % chance."
     )
+
+
+def test_the_advice_says_what_follows_where_it_settles_nothing():
+    after = advice(OFFER.but(then="bare_hammer"))
+    assert after.endswith("with 80 % chance; if not, the bare plate's hammer test should follow.")
+
+
+def test_every_measurement_has_words_to_follow_by():
+    for kind in get_args(FollowUpKind):
+        assert advice(OFFER.but(then=kind)).endswith("should follow.")
 
 
 def test_a_row_has_a_cell_under_every_heading():

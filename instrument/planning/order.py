@@ -1,0 +1,81 @@
+"""In which order measurements are worth making: the time until explanations are told apart, as expected.
+
+A short measurement that settles little is no bargain where another must follow it, nor a long one where a
+short one would do. So each is judged with the one that would follow it best:
+
+    E(a) = t_a + (1 - r_a) t_b + (1 - r_ab) T
+
+t: seconds of rig and hands; r_a: chance that one explanation holds 95 % after a; r_ab: after a and b, whose
+readings have the specimen's unknowns in common; T: what an open question costs. Where nothing is worth to
+follow, t_b = 0 and r_ab = r_a.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import sqrt
+
+from fitting.diagnosis.thresholds import VERDICT
+from fitting.planning.further import Expecting
+from fitting.planning.rivalry import Forecast, Outcome, resolved
+from instrument.facts.follow_up import FollowUpKind
+from instrument.planning.measurement import Measurable
+
+OPEN_S = 3600.0
+"""What it costs to leave the question open: another specimen fetched, mounted and measured. A choice."""
+ALWAYS_S = 60.0
+"""That any further measurement costs, whatever it is: to decide, to start, to diagnose again. A choice."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A measurement, what each explanation expects of it, and what it would tell."""
+
+    measurable: Measurable
+    forecasts: list[Forecast]
+    told: Outcome
+
+    @property
+    def seconds(self) -> float:
+        """With what any measurement costs."""
+        return self.measurable.seconds + ALWAYS_S
+
+
+@dataclass(frozen=True)
+class Course:
+    """A measurement with what would follow it."""
+
+    first: Asked
+    then: FollowUpKind | None
+    expected_s: float
+    """E(a)."""
+
+
+def best_courses(asked: Sequence[Asked], expecting: Expecting) -> list[Course]:
+    """The best of each kind, the one that is expected to end soonest first."""
+    each = _best_of_each_kind(asked)
+    found = [min(_courses(one, each, expecting), key=lambda c: c.expected_s) for one in each]
+    return sorted(found, key=lambda c: c.expected_s)
+
+
+def _best_of_each_kind(asked: Sequence[Asked]) -> list[Asked]:
+    """By the expected fall of the entropy of which explanation is right, over the root of the time."""
+    best: dict[str, Asked] = {}
+    for one in sorted(asked, key=lambda a: a.told.information / sqrt(a.seconds)):
+        best[one.measurable.kind] = one
+    return list(best.values())
+
+
+def _courses(first: Asked, each: Sequence[Asked], expecting: Expecting) -> list[Course]:
+    r = first.told.resolved
+    found = [Course(first, None, first.seconds + (1 - r) * OPEN_S)]
+    for other in each:
+        if other is first:
+            continue
+        both = [a.then(b) for a, b in zip(first.forecasts, other.forecasts, strict=True)]
+        p, temper = expecting.probabilities, expecting.temper
+        r_both = resolved(both, p, temper, VERDICT.credible, expecting.of)
+        # More data never settle less: what falls short of one alone is the draws' own scatter.
+        left = 1 - max(r, r_both)
+        expected = first.seconds + (1 - r) * other.seconds + left * OPEN_S
+        found.append(Course(first, other.measurable.kind, expected))
+    return found

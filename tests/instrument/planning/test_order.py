@@ -1,0 +1,64 @@
+"""What is measured first, where something else may have to follow it."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from fitting.planning.rivalry import Forecast, outcome
+from instrument.planning.order import ALWAYS_S, OPEN_S, Asked, best_courses
+
+EVEN = np.array([0.5, 0.5])
+RIVALS = SimpleNamespace(probabilities=EVEN, temper=1.0, of=[0, 1])
+
+
+def asked(kind, seconds, apart):
+    """Read once, in standard deviations of its noise."""
+    forecasts = [Forecast(np.array([mean]), np.zeros((1, 0))) for mean in (0.0, apart)]
+    measurable = SimpleNamespace(kind=kind, seconds=seconds - ALWAYS_S)
+    return Asked(measurable, forecasts, outcome(forecasts, EVEN))
+
+
+def kinds(courses):
+    return [c.first.measurable.kind for c in courses]
+
+
+def test_what_settles_little_comes_after_what_settles_all_though_it_is_shorter():
+    # By information over the root of time the level would come first: 0.11 nats in 90 s, ln 2 in 3400.
+    level, spot = asked("level", 90.0, 1.0), asked("spot", 3400.0, 20.0)
+    assert level.told.information / np.sqrt(level.seconds) > spot.told.information / np.sqrt(spot.seconds)
+    spot_first, level_first = best_courses([level, spot], RIVALS)
+    assert kinds([spot_first, level_first]) == ["spot", "level"]
+    assert (spot_first.then, level_first.then) == (None, "spot")
+    assert spot_first.expected_s == pytest.approx(3400.0)
+
+
+def test_a_short_one_that_may_settle_it_comes_first_and_says_what_would_follow():
+    short, sure = asked("frequencies", 100.0, 4.0), asked("spot", 600.0, 20.0)
+    first, second = best_courses([sure, short], RIVALS)
+    assert (first.first, first.then) == (short, "spot")
+    assert first.expected_s == pytest.approx(100 + (1 - short.told.resolved) * 600)
+    assert (second.then, second.expected_s) == (None, pytest.approx(600.0))
+
+
+def test_of_a_kind_the_best_alone_is_kept():
+    near, far = asked("spot", 300.0, 2.0), asked("spot", 300.0, 6.0)
+    (only,) = best_courses([near, far], RIVALS)
+    assert only.first is far
+    assert only.then is None
+    assert only.expected_s == pytest.approx(300 + (1 - far.told.resolved) * OPEN_S)
+
+
+def test_two_that_settle_it_only_together_are_worth_more_than_either():
+    # Neither reading knows the gain; their difference is what the rivals differ in.
+    gain = np.array([[1e3]])
+    one = [Forecast(np.array([m]), gain, 1) for m in (0.0, 20.0)]
+    other = [Forecast(np.array([0.0]), gain, 1) for _ in range(2)]
+    pair = [
+        Asked(SimpleNamespace(kind=kind, seconds=100.0 - ALWAYS_S), f, outcome(f, EVEN))
+        for kind, f in (("level", one), ("spot", other))
+    ]
+    assert all(a.told.resolved == 0 for a in pair)
+    first, _ = best_courses(pair, RIVALS)
+    assert first.then is not None
+    assert first.expected_s == pytest.approx(200.0)
