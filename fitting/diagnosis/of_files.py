@@ -16,12 +16,16 @@ _ALL = -1
 """In the place of a spot's number: common to all of them."""
 ALIKE, EACH = 0, -1
 """In the place of a file's number: the same in all of them; in each of its own size."""
-_ONE_CHANNEL = 1 / 30
-"""Chance that a channel is at fault at one spot alone, over that it is at all: one channel reads them all."""
+_ALONE = 1 / 30
+"""Chance that what would be in all data is in a part of them alone, over that it is there at all: one channel
+reads all spots of a file, and one plate has on it, and one rig does, in every file what they do in one. A
+judgement."""
 _OF_A_SPOT = ("observation", "channel")
 """Where an effect enters that may be of one spot alone."""
 _OF_THE_PLATE = ("stiffness", "damping", "core law")
 """Where it enters that is of the plate itself, however it is driven."""
+_STAYS = ("mass", "load")
+"""Where it enters that is on the plate, or of the rig that shakes it: seldom of one file alone."""
 
 
 class Place(NamedTuple):
@@ -36,11 +40,14 @@ class Place(NamedTuple):
 def among(effect: Effect, files: int, spots: Sequence[int], *, one_plate: bool = False) -> Effect:
     """An effect among so many files, of which some have several spots.
 
-    Of `one_plate`, measured again in every file, what is of the plate itself is of all of them.
+    Of `one_plate`, measured again in every file, what is of the plate itself is of all of them, and what is
+    on it, or of the rig, seldom of one alone.
     """
+    if files == 1 and not (spots and effect.enters in _OF_A_SPOT):
+        return effect
     by_spot = tuple(spots) if effect.enters in _OF_A_SPOT else ()
     apart = not (one_plate and effect.enters in _OF_THE_PLATE)
-    return OfFiles(effect, files, spots=by_spot, apart=apart) if files > 1 or by_spot else effect
+    return OfFiles(effect, files, spots=by_spot, apart=apart, stays=one_plate and effect.enters in _STAYS)
 
 
 class OfFiles(Effect):
@@ -61,9 +68,10 @@ class OfFiles(Effect):
         spot: int = _ALL,
         *,
         apart: bool = True,
+        stays: bool = False,
     ) -> None:
-        """`apart`: whether it may be of one file alone."""
-        self.apart = apart
+        """`apart`: whether it may be of one file alone; `stays`: whether it is seldom of one alone."""
+        self.apart, self.stays = apart, stays
         self.inner, self.files, self.file, self.spots, self.spot = inner, files, file, spots, spot
         where = [EffectParameter(FILE, "1", float(EACH), float(files), float(file), neutral=None, fixed=True)]
         self.copies = files if file == EACH else 1
@@ -71,7 +79,7 @@ class OfFiles(Effect):
         further = [
             replace(q, key=f"{q.key}_{k + 1}") for k in range(1, self.copies) for q in inner.parameters
         ]
-        one_spot = inner.enters == "channel" and spot != _ALL
+        alone = (inner.enters == "channel" and spot != _ALL) or (stays and file > ALIKE)
         if spots:
             last = float(max(spots))
             where.append(EffectParameter(PICKUP, "1", _ALL, last, float(spot), neutral=None, fixed=True))
@@ -80,7 +88,7 @@ class OfFiles(Effect):
             name=inner.name,
             enters=inner.enters,
             source=inner.source,
-            chance=inner.chance * (_ONE_CHANNEL if one_spot else 1.0),
+            chance=inner.chance * (_ALONE if alone else 1.0),
             unexplained_share=inner.unexplained_share,
             discriminating_test=inner.discriminating_test,
             parameters=(*inner.parameters, *further, *where),
@@ -137,7 +145,9 @@ class OfFiles(Effect):
         forms = self.inner.variants()
         files = range(self.files + 1) if self.files > 1 and self.apart else range(1)
         numbers = [*files, EACH] if self.files > 1 and self.needs_mounting else files
-        found = [OfFiles(form, self.files, k, self.spots) for k in numbers for form in forms]
+        found = [
+            OfFiles(form, self.files, k, self.spots, stays=self.stays) for k in numbers for form in forms
+        ]
         found += [OfFiles(form, self.files, 0, self.spots, k) for k in self.spots for form in forms]
         if self.files > 1 and self.spots and self.inner.enters == "observation":
             # A laser that was aimed once more is off once.

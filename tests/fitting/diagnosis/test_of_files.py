@@ -56,6 +56,15 @@ def test_one_channel_is_rarely_wrong_at_one_spot_alone():
     assert {f.chance for f in spot} == {CATALOGUE["spot_offset"].chance}
 
 
+def test_what_is_on_a_plate_is_seldom_on_it_in_one_file_alone():
+    mass = CATALOGUE["added_mass"]
+    chances = {f.file: f.chance for f in among(mass, 2, (), one_plate=True).variants()}
+    assert chances == pytest.approx({0: mass.chance, 1: mass.chance / 30, 2: mass.chance / 30})
+    assert {f.chance for f in among(mass, 2, ()).variants()} == {mass.chance}
+    # A channel or a room may be another one on another day.
+    assert {f.chance for f in among(GAIN, 2, (), one_plate=True).variants()} == {GAIN.chance}
+
+
 def test_a_hammer_test_is_of_the_first_files_plate():
     class Bare:
         lowering_per_density = np.zeros(3)
