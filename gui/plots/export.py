@@ -1,6 +1,7 @@
 """A plot as a picture or as numbers, from its menu."""
 
 import csv
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
@@ -98,12 +99,23 @@ class _Exporter(QObject):
         """Where to, then save."""
         action = self.sender()
         kind = action.data() if isinstance(action, QAction) else "PNG"
-        ask_save(self._plot, f"Export {kind}", "", _KINDS[kind], partial(self._save, kind))
+        name = f"{_word(self._plot.y.label)}.{_ending(kind)}"
+        ask_save(self._plot, f"Export {kind}", name, _KINDS[kind], partial(self._save, kind))
 
     def _save(self, kind: str, path: Path) -> None:
         if not path.suffix:
-            path = path.with_suffix("." + kind.split()[-1].lower())
+            path = path.with_suffix("." + _ending(kind))
         try:
             _SAVERS[kind](self._plot, path)
         except OSError as error:
             tell(self._plot, "Export", f"{path}: {error.strerror or error}")
+
+
+def _ending(kind: str) -> str:
+    """Of a file's name."""
+    return kind.split()[-1].lower()
+
+
+def _word(text: str) -> str:
+    """What a plot shows, as a name for its file."""
+    return re.sub(r"[^a-z0-9]+", "-", text.lower()).strip("-") or "plot"

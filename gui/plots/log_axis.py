@@ -8,6 +8,7 @@ import pyqtgraph as pg
 _NAMED = (1, 2, 5)
 _MOST_DECADES = 3
 """With lines between the decades."""
+_WITHOUT_POWER = 0.9e-4, 0.9e4
 
 
 class LogAxis(pg.AxisItem):  # type: ignore[misc]
@@ -26,8 +27,15 @@ class LogAxis(pg.AxisItem):  # type: ignore[misc]
 
     def logTickStrings(self, values: Sequence[float], scale: float, spacing: float) -> list[str]:
         """Empty where a line goes without a number."""
-        said = super().logTickStrings(values, scale, spacing)
+        powers = super().logTickStrings(values, scale, spacing)
+        said = [_plain(scale * 10**value) or power for value, power in zip(values, powers, strict=True)]
         return [text if _digit(value) in _NAMED else "" for text, value in zip(said, values, strict=True)]
+
+
+def _plain(value: float) -> str:
+    """Without a power of ten where people would write none; empty otherwise."""
+    low, high = _WITHOUT_POWER
+    return f"{float(f'{value:.1g}'):g}" if low <= value < high else ""
 
 
 def _digit(exponent: float) -> int:

@@ -5,70 +5,32 @@ all it has at every refresh, and never keeps a curve.
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
-from itertools import zip_longest
-from typing import Any, Literal
+from typing import Any
 
-import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtCore import QEvent, Signal
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from fitting.arrays import Array
 from gui.plots.axis import Axis
 from gui.plots.cursors import Cursors
+from gui.plots.curve import Curve, Kind, Symbol, items_of
 from gui.plots.export import add_export_menu
 from gui.plots.log_axis import LogAxis
+from gui.plots.marks import LABEL_AT, Marks
 from gui.plots.readout import Readout
 from gui.plots.view import View
 from gui.theme import Role, current_theme
 
-Symbol = Literal["o", "s", "t", "t1", "d", "+", "x", "star"]
-
-_SMOOTH = 5000
-"""Curves of more points are drawn without smoothed edges, which would cost several times as much."""
-_BAND_ALPHA = 0.25
 _LEGEND_ALPHA = 0.6
 """Of the ground behind the legend."""
 _BELOW = -1
 """What is faint lies below everything else, whenever it came."""
-_RING_WIDTH = 2.0
 _TITLE_ROOM_PX = 44
 """Of a plot's side that its axis does not have: the other axis, and the edge."""
 _EDGE_PX = 12
 """The edge alone, where the other axis has no numbers."""
-_LABEL_AT = 0.08  # of a vertical line's height
-
-
-@dataclass
-class _Curve:
-    """A curve and how it is drawn, so that it can be drawn in other colours."""
-
-    items: tuple[Any, ...]
-    role: Role
-    kind: Literal["line", "points", "band", "trace"]
-    columns: dict[str, Array]
-    symbol: Symbol = "o"
-    width: float = 1.5
-    dashed: bool = False
-    size: float = 8.0
-    hollow: bool = False
-    look: tuple[Any, ...] = ()
-    """As it was last styled."""
-
-
-@dataclass
-class _Marks:
-    """Vertical lines of one meaning."""
-
-    role: Role
-    lines: Sequence[pg.InfiniteLine]
-    wanted: tuple[Any, ...]
-    """What they were asked for with: the same again changes nothing."""
-
-
-_NO_MARKS = _Marks("faint", (), ())
 
 
 class Plot(pg.PlotWidget):  # type: ignore[misc]
@@ -85,8 +47,8 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
     def __init__(self, x: Axis, y: Axis, parent: QWidget | None = None, *, legend: bool = True) -> None:
         super().__init__(parent, axisItems={at: LogAxis(at) for at in ("bottom", "left")}, viewBox=View())
         self.x, self.y = x, y
-        self._curves: dict[str, _Curve] = {}
-        self._marks: dict[str, _Marks] = {}
+        self._curves: dict[str, Curve] = {}
+        self.marks = Marks(self)
         self._legend = self.addLegend(offset=(-8, 8)) if legend else None
         self.setLogMode(x.log, y.log)
         for side in ("bottom", "left", "top", "right"):
@@ -105,7 +67,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         """A line through points in order of x."""
         curve = self._curve(name, "line", role)
         curve.width, curve.dashed = width, dashed
-        self._set(curve, x, y)
+        self._set(name, curve, x, y)
 
     def trace(self, name: str, x: Array, y: Array, role: Role = "data", *, listed: bool = True) -> None:
         """A line through many points evenly spaced in x: drawn by its extremes, two a pixel.
@@ -114,7 +76,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         """
         curve = self._curve(name, "trace", role, listed=listed)
         curve.width = 1.0
-        self._set(curve, x, y)
+        self._set(name, curve, x, y)
 
     def points(
         self,
@@ -131,14 +93,12 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         """Points that can be clicked (`picked`)."""
         curve = self._curve(name, "points", role, listed=listed)
         curve.symbol, curve.size, curve.hollow = symbol, size, hollow
-        self._set(curve, x, y)
+        self._set(name, curve, x, y)
 
     def band(self, name: str, x: Array, low: Array, high: Array, role: Role = "model") -> None:
         """The area between two lines."""
         curve = self._curve(name, "band", role)
-        for item, edge in zip(curve.items, (low, high), strict=False):
-            item.setData(np.asarray(x, dtype=float), np.asarray(edge, dtype=float))
-        curve.columns = {"": np.asarray(x), f"{name} low": np.asarray(low), f"{name} high": np.asarray(high)}
+        curve.show_between(name, x, low, high)
         self._style(curve)
 
     def mark(
@@ -148,7 +108,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         *,
         name: str = "",
         labels: Sequence[str] = (),
-        label_at: float = _LABEL_AT,
+        label_at: float = LABEL_AT,
         level: bool = False,
     ) -> None:
         """Vertical lines, instead of those there were under this name; each with its label, if any.
@@ -156,28 +116,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         A label stands beside its line, `label_at` of the way up. `level` ones lie across, at values of y.
         None of them moves the axes.
         """
-        wanted = role, tuple(zip_longest(at, labels)), label_at, level
-        log = self.y.log if level else self.x.log
-        if name in self._marks and self._marks[name].wanted == wanted:
-            return
-        for old in self._marks.pop(name, _NO_MARKS).lines:
-            self.removeItem(old)
-        drawn = [
-            pg.InfiniteLine(
-                np.log10(x) if log else x,
-                angle=0 if level else 90,
-                label=label,
-                labelOpts={"position": label_at},
-            )
-            for x, label in wanted[1]
-            if x > 0 or not log
-        ]
-        if not drawn:
-            return
-        self._marks[name] = _Marks(role, drawn, wanted)
-        for line in drawn:
-            self.addItem(line, ignoreBounds=True)
-        self._style_marks()
+        self.marks.show(name, at, role, labels, label_at, level=level)
 
     def show_axes(self, x: Axis, y: Axis) -> None:
         """Other quantities or scales from now on; what is shown is to be given again."""
@@ -199,8 +138,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
     def empty(self) -> None:
         """Take away everything."""
         self.keep(())
-        for name in tuple(self._marks):
-            self.mark((), name=name)
+        self.marks.empty()
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -228,66 +166,28 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         if event.type() in (QEvent.Type.PaletteChange, QEvent.Type.FontChange) and hasattr(self, "cursors"):
             self._paint()
 
-    def _curve(
-        self, name: str, kind: Literal["line", "points", "band", "trace"], role: Role, *, listed: bool = True
-    ) -> _Curve:
+    def _curve(self, name: str, kind: Kind, role: Role, *, listed: bool = True) -> Curve:
         known = self._curves.get(name)
         if known is not None and known.kind == kind:
             known.role = role
             return known
         if known is not None:
             self.keep(n for n in self._curves if n != name)
-        curve = _Curve(self._items(name if listed else None, kind), role, kind, {})
+        curve = Curve(items_of(name if listed else None, kind), role, kind, {})
+        if kind == "points":
+            curve.items[0].sigPointsClicked.connect(self._clicked)
         for item in curve.items:
             item.setZValue(_BELOW if role == "faint" else 0)
             self.addItem(item)
         self._curves[name] = curve
         return curve
 
-    def _items(self, name: str | None, kind: str) -> tuple[Any, ...]:
-        if kind == "band":
-            edges = pg.PlotDataItem(), pg.PlotDataItem()
-            return (*edges, pg.FillBetweenItem(*edges))
-        item = pg.PlotDataItem(name=name)
-        if kind == "points":
-            item.sigPointsClicked.connect(self._clicked)
-        return (item,)
-
-    def _set(self, curve: _Curve, x: Array, y: Array) -> None:
-        x, y = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
-        name = next(n for n, c in self._curves.items() if c is curve)
-        curve.columns = {"": x, name: y}
+    def _set(self, name: str, curve: Curve, x: Array, y: Array) -> None:
         self._style(curve)
-        few = len(x) <= _SMOOTH
-        if curve.kind == "trace":
-            # Extremes of a few samples each would make stairs of a slope.
-            _thin_out(curve.items[0], few)
-        curve.items[0].setData(x, y, antialias=few)
+        curve.show(name, x, y)
 
-    def _style(self, curve: _Curve) -> None:
-        shape = (curve.symbol, curve.size, curve.width, curve.dashed, curve.hollow)
-        look = (curve.role, *shape, current_theme())
-        if look == curve.look:
-            # Styling again costs as much as drawing again.
-            return
-        curve.look = look
-        color = current_theme().color(curve.role)
-        if curve.kind == "band":
-            for edge in curve.items[:2]:
-                edge.setPen(None)
-            curve.items[2].setBrush(current_theme().color(curve.role, _BAND_ALPHA))
-        elif curve.kind == "points":
-            item = curve.items[0]
-            item.setPen(None)
-            item.setSymbol(curve.symbol)
-            item.setSymbolSize(curve.size)
-            item.setSymbolPen(pg.mkPen(color, width=_RING_WIDTH if curve.hollow else 1.0))
-            item.setSymbolBrush(None if curve.hollow else current_theme().color(curve.role, 0.6))
-        else:
-            style = Qt.PenStyle.DashLine if curve.dashed else Qt.PenStyle.SolidLine
-            # In pixels of the screen: at scale 2 a line of one would be half as thick.
-            wide = curve.width * (self.devicePixelRatioF() if curve.kind == "line" else 1.0)
-            curve.items[0].setPen(pg.mkPen(color, width=wide, style=style))
+    def _style(self, curve: Curve) -> None:
+        curve.style(self.devicePixelRatioF())
 
     def _paint(self) -> None:
         theme = current_theme()
@@ -310,7 +210,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         self.cursors.paint(theme)
         for curve in self._curves.values():
             self._style(curve)
-        self._style_marks()
+        self.marks.style()
 
     def resizeEvent(self, event: QResizeEvent | None) -> None:
         """A title that has not room enough beside its axis is shortened to the unit."""
@@ -332,23 +232,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
                 return title
         return ""
 
-    def _style_marks(self) -> None:
-        for marks in self._marks.values():
-            color = current_theme().color(marks.role)
-            for line in marks.lines:
-                line.setPen(pg.mkPen(color, style=Qt.PenStyle.DashLine))
-                if hasattr(line, "label"):
-                    line.label.setColor(color)
-
     def _clicked(self, item: Any, points: Any) -> None:
         name = next((n for n, c in self._curves.items() if c.items[0] is item), "")
         if name and len(points):
             self.picked.emit(name, int(points[0].index()))
-
-
-def _thin_out(item: pg.PlotDataItem, few: bool) -> None:
-    """Two points a pixel of many; after it is in the plot, which sets its own wishes on what is added."""
-    if item.opts["autoDownsample"] == few or not item.opts["clipToView"]:
-        item.setDownsampling(auto=not few, method="peak")
-        item.opts["autoDownsampleFactor"] = 1.0
-        item.setClipToView(True)

@@ -87,5 +87,5 @@ def test_limits_lie_on_the_level_plot_and_leave_its_axes(qtbot, opened):
     low, high = plot.viewRange()[1]
     limit = opened.controller.state.limits.limits.base_m_s2
     assert high < limit
-    assert {round(line.value()) for line in plot._marks["abort"].lines} == {round(limit), -round(limit)}
+    assert {round(line.value()) for line in plot.marks.groups["abort"].lines} == {round(limit), -round(limit)}
     assert low < 0 < high

@@ -76,6 +76,14 @@ def test_csv_has_every_number(plot, tmp_path, monkeypatch):
     assert "model's band low: velocity (m/s)" in columns
 
 
+def test_a_picture_is_offered_the_name_of_what_it_shows(plot, monkeypatch):
+    offered = []
+    monkeypatch.setattr("gui.plots.export.ask_save", lambda *asked: offered.append(asked[2]))
+    action = next(a for a in plot.getViewBox().getMenu().actions() if a.text() == "Export SVG...")
+    action.trigger()
+    assert offered == ["velocity.svg"]
+
+
 def test_where_nothing_can_be_written_one_message_says_so(plot, tmp_path, monkeypatch):
     said = []
     monkeypatch.setattr("gui.plots.export.tell", lambda *a: said.append(a[-1]))

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QLabel, QScro
 
 from gui.pages.diagnosis.residual import NAMES, Panel, limit, panel, quantities, segments
 from gui.plots import Axis, Plot
-from gui.plots.plot import Symbol
+from gui.plots.curve import Symbol
 from gui.theme import Role, current_theme
 from instrument.facts.diagnosis import STAGES, DiagnosisResult, StageName
 

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 from fitting.arrays import Array
 from gui.pages.sweep.points import Group, Index
 from gui.plots import Axis, Plot
-from gui.plots.plot import Symbol
+from gui.plots.curve import Symbol
 from gui.theme import Role, current_theme
 
 CHOSEN = "point looked at"

@@ -16,7 +16,7 @@ from instrument.session.contents import TimedPoint
 from instrument.stepped_sine.settings import SweepSettings
 
 if TYPE_CHECKING:
-    from gui.plots.plot import Symbol
+    from gui.plots.curve import Symbol
     from gui.theme import Role
 
 Index = NDArray[np.intp]

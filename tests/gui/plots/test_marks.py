@@ -3,6 +3,7 @@ import pytest
 
 from gui.plots import Axis, Plot
 from gui.plots.log_axis import LogAxis
+from gui.plots.marks import Marks
 
 
 @pytest.fixture
@@ -13,7 +14,7 @@ def plot(qtbot):
 
 
 def lines_of(plot):
-    return sorted(line.value() for marks in plot._marks.values() for line in marks.lines)
+    return sorted(line.value() for marks in plot.marks.groups.values() for line in marks.lines)
 
 
 def test_marks_of_another_name_stay(plot):
@@ -21,9 +22,17 @@ def test_marks_of_another_name_stay(plot):
     plot.mark([5.0], "good", name="usable", labels=["to 5 Hz"])
     plot.mark([3.0])
     assert lines_of(plot) == [3.0, 5.0]
-    assert plot._marks["usable"].lines[0].label.toPlainText() == "to 5 Hz"
+    assert plot.marks.groups["usable"].lines[0].label.toPlainText() == "to 5 Hz"
     plot.empty()
     assert lines_of(plot) == []
+
+
+def test_a_mark_is_a_point_wide_on_any_screen(plot, monkeypatch):
+    marks = Marks(plot)
+    monkeypatch.setattr(plot, "devicePixelRatioF", lambda: 2.0)
+    marks.show("limit", [2.0], "bad", (), 0.1, level=True)
+    (line,) = marks.groups["limit"].lines
+    assert line.pen.widthF() == 2.0
 
 
 def test_what_is_faint_lies_below_what_came_before(plot):
@@ -40,3 +49,10 @@ def test_a_decade_names_three_of_its_lines(qapp):
     axis.setLogMode(True)
     said = axis.logTickStrings(list(np.log10(np.arange(1, 10))), 1.0, 1.0)
     assert [text for text in said if text] == ["1", "2", "5"]
+
+
+def test_a_number_that_people_write_without_a_power_has_none(qapp):
+    axis = LogAxis("left")
+    axis.setLogMode(True)
+    said = axis.logTickStrings([-5.0, -4.0, -2.0, 0.0, 1.0, 3.0, 4.0], 1.0, 1.0)
+    assert said == ["10⁻⁵", "0.0001", "0.01", "1", "10", "1000", "10⁴"]
