@@ -15,7 +15,12 @@ from instrument.interchange.given import is_session
 
 
 def tasks_of(
-    files: Sequence[Path], specimen: Path | None, hammer: Path | None = None, *, diagnose: bool = False
+    files: Sequence[Path],
+    specimen: Path | None,
+    hammer: Path | None = None,
+    *,
+    diagnose: bool = False,
+    insist: bool = False,
 ) -> list[Task]:
     """A row each, in order. Raises `BadInput` for what is wrong with the question, not with a file."""
     tables = [path for path in files if _is_table(path)]
@@ -31,7 +36,7 @@ def tasks_of(
                 f"{lonely.data}: Missing option '--specimen': a sweep does not say which plate it was "
                 "(a table of sweeps begins with a column 'data', commas between its columns)"
             )
-    return [replace(task, diagnose=diagnose) for task in found]
+    return [replace(task, diagnose=diagnose, insist=insist) for task in found]
 
 
 def _task(data: Path, specimen: Path | None, hammer: Path | None) -> Task:

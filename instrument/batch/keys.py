@@ -26,7 +26,7 @@ class Keys:
 
         A file's name counts, its folder does not: messages name files.
         """
-        said: list[object] = [program(), task.diagnose]
+        said: list[object] = [program(), task.diagnose, task.insist]
         for path in (task.data, task.specimen, task.hammer, task.like):
             try:
                 said.append([Path(path).name, self._digest(path)] if path else None)

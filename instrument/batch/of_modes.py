@@ -5,27 +5,33 @@ from typing import Any
 
 import numpy as np
 
+from fitting.mode_tables.fit import modal_fit_of
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.modal import ModalResult
 from instrument.files.modal_table import read_modal_table
 from instrument.files.structure_file import read_structure
+from instrument.interchange.questions import question_modes
 from instrument.models.modal import diagnose_tables, identify_tables
 from instrument.results.modal_diagnosis_from import modal_diagnosis_from
 from instrument.results.modal_from import mean_temperature, modal_from
 
 
-def identified_modes(data: Path, specimen: Path) -> tuple[ModalResult, dict[str, Any]]:
+def identified_modes(data: Path, specimen: Path, *, insist: bool) -> tuple[ModalResult, dict[str, Any]]:
     """What `identify` says of the table; points and band of it. Raises `BadInput`, `FittingError`."""
     tables = [read_modal_table(data)]
     found = identify_tables(tables, [read_structure(specimen)])
+    if not insist:
+        question_modes(tables, found.fit, [data])
     result = modal_from(found, tables, [data.name])
     return result, _measured(tables[0].frequency_hz, mean_temperature(tables))
 
 
-def diagnosed_modes(data: Path, specimen: Path) -> tuple[DiagnosisResult, dict[str, Any]]:
+def diagnosed_modes(data: Path, specimen: Path, *, insist: bool) -> tuple[DiagnosisResult, dict[str, Any]]:
     """What `diagnose` says of it, and the same. Raises `BadInput`, `FittingError`."""
     tables = [read_modal_table(data)]
     found = diagnose_tables(tables, [read_structure(specimen)])
+    if not insist:
+        question_modes(tables, modal_fit_of(found.found.begun), [data])
     result = modal_diagnosis_from(found, tables, [data.name])
     return result, _measured(tables[0].frequency_hz, mean_temperature(tables))
 

@@ -16,3 +16,5 @@ class Task:
     like: str | None = None
     """A specimen file whose models may serve this one."""
     diagnose: bool = False
+    insist: bool = False
+    """Nothing is questioned."""

@@ -16,8 +16,11 @@ from instrument.facts.diagnosis import DiagnosisResult, StageFitted
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.modal import ModalResult
 from instrument.files.modal_table import is_modal_table
+from instrument.files.plausible import question_specimen
 from instrument.files.specimen_file import read_specimen
+from instrument.files.structure_file import read_structure
 from instrument.interchange.given import Given, read_given
+from instrument.interchange.questions import question_data
 from instrument.models.diagnosis import diagnose
 from instrument.models.files import File, spots_of
 from instrument.models.identification import identify
@@ -81,12 +84,18 @@ def _worked(task: Task) -> Outcome:
     assert data is not None
     if specimen is None and not data.suffix:
         raise BadInput(f"{data}: neither a session nor a sweep")
-    if specimen is not None and data.suffix.lower() == ".csv" and is_modal_table(data):
-        return _of_modes(task, data, specimen)
+    if specimen is not None:
+        # Whatever else is wrong with it is said on reading.
+        read_structure(specimen)
+        question_specimen(specimen, insist=task.insist)
+        if data.suffix.lower() == ".csv" and is_modal_table(data):
+            return _of_modes(task, data, specimen)
     given = read_given(data, specimen, hammer)
     if hammer is not None and not isinstance(given.specimen, Specimen):
         raise BadInput(f"{hammer}: a hammer test with a {given.specimen.kind}, expected a plate")
     like = _lender(task, given)
+    if not task.insist:
+        question_data(given, data, like=like)
     if given.diagnosis is not None and not task.diagnose:
         like, facts = None, _of_diagnosis(given.diagnosis)
     else:
@@ -106,9 +115,9 @@ def _of_modes(task: Task, data: Path, specimen: Path) -> Outcome:
     if task.hammer is not None:
         raise BadInput(f"{task.hammer}: a hammer test with a table of modes, expected a sweep")
     if task.diagnose:
-        diagnosed, measured = diagnosed_modes(data, specimen)
+        diagnosed, measured = diagnosed_modes(data, specimen, insist=task.insist)
         return _done(measured, _of_diagnosis(diagnosed))
-    result, measured = identified_modes(data, specimen)
+    result, measured = identified_modes(data, specimen, insist=task.insist)
     return _done(measured, _of_fit(result) | {"rms_percent": rms_percent(result)})
 
 

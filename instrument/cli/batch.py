@@ -10,7 +10,7 @@ from instrument.batch.counted import Counted
 from instrument.batch.page import write_page
 from instrument.batch.run import here, run_batch, there
 from instrument.batch.table import CSV, write_tables
-from instrument.cli.options import json_option
+from instrument.cli.options import force_option, json_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.models.second_process import VARIABLE, processors
@@ -52,6 +52,7 @@ _FAILURES_SHOWN = 20
     help="A Dask scheduler, as tcp://host:8786, instead of this machine (extra 'cluster'). Its workers see "
     "the files at the same paths.",
 )
+@force_option
 @json_option
 def batch(
     files: tuple[Path, ...],
@@ -61,19 +62,21 @@ def batch(
     folder: Path,
     workers: int | None,
     scheduler: str | None,
+    insist: bool,
     json_path: str | None,
 ) -> None:
     """A law for each of FILES: sessions (.h5), sweeps, or one table with the columns data and specimen.
 
     A table's other columns are hammer and temperature_c; its paths are from its own folder. A row that
-    fails says why and stops nothing. Stopped or killed, the same command goes on where it was.
+    fails, or is questioned as `identify` does, says why and stops nothing. Stopped or killed, the same
+    command goes on where it was.
     """
     out = Output(json_path)
     if scheduler is not None and workers is not None:
         raise click.UsageError("--workers and --scheduler exclude each other")
     if any(path.absolute() == (folder / CSV).absolute() for path in files):
         raise BadInput(f"{folder / CSV}: both given and to be written, expected another --out")
-    tasks = tasks_of(files, specimen, hammer, diagnose=diagnose)
+    tasks = tasks_of(files, specimen, hammer, diagnose=diagnose, insist=insist)
     runner = there(scheduler) if scheduler is not None else here(workers or processors())
     with run_batch(tasks, folder, runner, bar) as rows:
         counted = Counted.of(rows)

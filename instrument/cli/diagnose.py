@@ -67,7 +67,7 @@ def diagnose(
             raise click.UsageError(
                 "--hammer, --accept, --resamples, --figures with tables of modes: expected sweeps"
             )
-        diagnose_modes(out, data, specimen, frozenset(without))
+        diagnose_modes(out, data, specimen, frozenset(without), insist=insist)
         return
     every = read_each(out, data, specimen, hammer, no_hammer=no_hammer, insist=insist, one_plate=True)
     declined, accepted = frozenset(without), _accepted(accept)

@@ -3,20 +3,27 @@
 from collections.abc import Collection, Sequence
 from pathlib import Path
 
+from fitting.mode_tables.fit import modal_fit_of
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
 from instrument.cli.reading import read_tables
+from instrument.interchange.questions import question_modes
 from instrument.models.modal import diagnose_tables
 from instrument.progress import bar
 from instrument.results.modal_diagnosis_from import modal_diagnosis_from
 
 
 def diagnose_modes(
-    out: Output, data: Sequence[Path], specimens: Sequence[Path], without: Collection[str]
+    out: Output, data: Sequence[Path], specimens: Sequence[Path], without: Collection[str], *, insist: bool
 ) -> None:
-    """The effect behind what one law leaves. Raises `BadInput`, `FittingError`, `UsageError`."""
-    tables, read = read_tables(data, specimens)
+    """The effect behind what one law leaves. Raises `BadInput`, `FittingError`, `UsageError`.
+
+    What no core comes near is refused unless someone insists.
+    """
+    tables, read = read_tables(data, specimens, insist=insist)
     found = diagnose_tables(tables, read, without, bar)
+    if not insist:
+        question_modes(tables, modal_fit_of(found.found.begun), data)
     result = modal_diagnosis_from(found, tables, [path.name for path in data])
     print_diagnosis(out, result)
     out.result(result)

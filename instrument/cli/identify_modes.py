@@ -4,17 +4,14 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import click
-import numpy as np
 
 from fitting.structures.beam import Beam
 from instrument.cli.output import Output
 from instrument.cli.print_modes import print_formulas, print_modal_law, print_modes
 from instrument.cli.reading import read_tables
-from instrument.errors import BadInput
 from instrument.files.modal_table import read_modal_table
-from instrument.files.plausible import INSIST
+from instrument.interchange.questions import question_modes
 from instrument.models.modal import identify_tables
-from instrument.models.modal_look import modal_doubt
 from instrument.progress import bar
 from instrument.results.modal_from import modal_from
 
@@ -31,16 +28,13 @@ def identify_modes(
 
     What no core comes near is refused unless someone insists.
     """
-    tables, read = read_tables(data, specimens)
+    tables, read = read_tables(data, specimens, insist=insist)
     if bare is not None and not all(isinstance(s, Beam) for s in read):
         raise click.UsageError(f"--bare with a {read[0].kind}: expected a beam")
     found = identify_tables(tables, read, bar, read_modal_table(bare) if bare is not None else None)
+    if not insist:
+        question_modes(tables, found.fit, data)
     result = modal_from(found, tables, [path.name for path in data])
-    doubt = modal_doubt(
-        np.array([m.frequency_hz for m in result.modes]), np.array([m.predicted_hz for m in result.modes])
-    )
-    if doubt and not insist:
-        raise BadInput(f"{', '.join(map(str, data))}: {doubt}; {INSIST}")
     rows = [[n, f"{v:.5g}", f"{result.standard_errors[n]:.2g}"] for n, v in result.parameters.items()]
     out.table(f"{result.law_kind} by modes", ["parameter", "value", "standard error"], rows)
     out.say()

@@ -12,11 +12,11 @@ from instrument.cli.options import force_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.files.modal_table import is_modal_table, read_modal_table
-from instrument.files.plausible import INSIST, question_specimen
+from instrument.files.plausible import question_specimen
 from instrument.files.structure_file import read_structure
 from instrument.interchange.given import Given, read_given
+from instrument.interchange.questions import question_data
 from instrument.models.files import File, spots_of
-from instrument.models.quick_look import data_doubt
 from instrument.progress import bar
 
 _OPTIONS = (
@@ -91,7 +91,7 @@ def read_each(
         raise click.UsageError("--hammer with plates of unlike substrates: expected one bare plate")
     if not insist:
         for one, path in zip(given, data, strict=True):
-            question_data(one, path)
+            question_data(one, path, bar)
     return given
 
 
@@ -110,27 +110,21 @@ def are_tables(data: Sequence[Path], specimens: Sequence[Path]) -> bool:
 
 
 def read_tables(
-    data: Sequence[Path], specimens: Sequence[Path]
+    data: Sequence[Path], specimens: Sequence[Path], *, insist: bool
 ) -> tuple[list[ModalTable], list[AnySpecimen]]:
-    """Tables of modes with their specimens, paired in order. Raises `BadInput`, `UsageError`."""
+    """Tables of modes with their specimens, paired in order. Raises `BadInput`, `UsageError`.
+
+    Stated numbers that no such specimen has are questioned, unless someone insists.
+    """
     if len(specimens) not in (1, len(data)):
         raise click.UsageError(
             f"{len(specimens)} times --specimen for {len(data)} tables, expected one for each or one for all"
         )
     paths = list(specimens) if len(specimens) == len(data) else [specimens[0]] * len(data)
-    return [read_modal_table(path) for path in data], [read_structure(path) for path in paths]
-
-
-def question_data(given: Given, path: Path) -> None:
-    """Ask about the sweep of a plate shaken at its base and seen at one spot. Raises `BadInput`."""
-    plate = given.specimen
-    if given.session or not isinstance(plate, Specimen) or plate.core is None or plate.pickup_m is None:
-        return
-    if plate.force_m is not None or plate.further_pickups_m or plate.masses:
-        return
-    doubt = data_doubt(given.sweep, plate, bar)
-    if doubt:
-        raise BadInput(f"{path}: {doubt}; {INSIST}")
+    read = [read_structure(path) for path in paths]
+    for path in dict.fromkeys(paths):
+        question_specimen(path, insist=insist)
+    return [read_modal_table(path) for path in data], read
 
 
 def together(given: Sequence[Given], data: Sequence[Path]) -> list[File] | None:

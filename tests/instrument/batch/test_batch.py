@@ -14,6 +14,8 @@ from pyarrow import parquet
 from instrument.batch.asking import tasks_of
 from instrument.batch.page import short_names
 from instrument.batch.run import here, run_batch
+from instrument.batch.task import Task
+from instrument.batch.work import outcome_of
 from instrument.cli.main import run
 from instrument.errors import BadInput
 from instrument.facts.schema import schema_of
@@ -76,6 +78,17 @@ def test_a_row_says_what_identify_says(tmp_path, sweeps, plate):
     for name, value in alone["parameters"].items():
         assert float(row[name]) == pytest.approx(value, rel=1e-9)
     assert float(row["rms_percent"]) == pytest.approx(alone["rms_percent"], rel=1e-9)
+
+
+def test_a_sweep_in_another_unit_is_a_row_that_fails_unless_someone_insists(tmp_path, sweeps, plate):
+    head, *rows = (line.split(",") for line in sweeps[0].read_text().splitlines())
+    lines = [head] + [[row[0], *(repr(1e3 * float(x)) for x in row[1:])] for row in rows]
+    (tmp_path / "mm.csv").write_text("\n".join(map(",".join, lines)) + "\n")
+    task = Task(str(tmp_path / "mm.csv"), str(plate))
+    said = "it looks as if the velocity is in mm/s, expected m/s; --force to go on all the same"
+    assert outcome_of(task)["failed"] == said
+    assert batch(task.data, "--specimen", plate, "--out", tmp_path, "--force") == 0
+    assert rows_of(tmp_path)[0]["status"] == "done"
 
 
 def test_the_page_needs_nothing_beside_it(whole):

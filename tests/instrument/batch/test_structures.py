@@ -1,10 +1,12 @@
 """Rows of a batch that are no sweeps of a plate at one spot."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from instrument.batch.keys import Keys
 from instrument.batch.of_modes import rms_percent
 from instrument.batch.task import Task
 from instrument.batch.work import outcome_of
@@ -46,6 +48,37 @@ def test_a_row_of_any_structure_says_what_identify_says(folder, capsys, data, sp
     assert run(["identify", files[0], "--specimen", files[1], "--json", "-"]) == 0
     alone = json.loads(capsys.readouterr().out)
     assert {key: found[key] for key in SHARED} == {key: alone[key] for key in SHARED}
+
+
+@pytest.fixture
+def in_kilohertz(folder):
+    path = folder / "kilo.csv"
+    head, *rows = [line.split(",") for line in MODES.splitlines()]
+    rows = [[mode, repr(float(f) / 1e3), eta] for mode, f, eta in rows]
+    path.write_text("\n".join(map(",".join, [head, *rows])) + "\n")
+    return Task(str(path), str(folder / "beam.toml"))
+
+
+@pytest.mark.parametrize("diagnose", [False, True])
+def test_a_table_in_kilohertz_is_a_row_that_fails(in_kilohertz, diagnose):
+    asked = "the frequencies are in kHz, expected Hz; --force to go on all the same"
+    assert outcome_of(replace(in_kilohertz, diagnose=diagnose))["failed"] == asked
+
+
+def test_a_table_in_kilohertz_is_a_law_where_someone_insists(in_kilohertz):
+    assert outcome_of(replace(in_kilohertz, insist=True))["failed"] is None
+
+
+def test_whether_someone_insists_is_part_of_what_a_row_is_known_by(folder):
+    task = Task(str(folder / "modes.csv"), str(folder / "beam.toml"))
+    assert Keys().key(task) != Keys().key(replace(task, insist=True))
+
+
+def test_a_specimen_in_another_unit_is_a_row_that_fails(folder):
+    path = folder / "grams.toml"
+    path.write_text((folder / "beam.toml").read_text().replace("= 2700.0", "= 2.7", 1))
+    said = outcome_of(Task(str(folder / "modes.csv"), str(path)))["failed"]
+    assert said.startswith("grams.toml: substrate.density_kg_m3 = 2.7 ")
 
 
 def test_a_hammer_test_is_refused_where_there_is_no_plate(folder):

@@ -1,0 +1,52 @@
+"""What is asked of data beside their specimen, by every command in the same words."""
+
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from conftest import DATA
+
+from instrument.errors import BadInput
+from instrument.interchange.given import read_given
+from instrument.interchange.questions import question_data, question_modes
+from instrument.paper_case import case_file
+
+HZ = np.array([74.3, 365.6, 922.2, 1670.0])
+
+
+def tables_and_fit(measured_hz, loss_factor=0.2, temperature_c=None):
+    """Two tables of two modes, and a fit that knows them in Hz."""
+    eta, warm = np.full(2, loss_factor), None if temperature_c is None else np.full(2, temperature_c)
+    tables = [
+        SimpleNamespace(frequency_hz=part, loss_factor=eta, temperature_c=warm)
+        for part in np.split(measured_hz, 2)
+    ]
+    return tables, SimpleNamespace(predicted_hz=tuple(np.split(HZ, 2)))
+
+
+def test_modes_are_asked_about_with_all_their_files():
+    with pytest.raises(BadInput, match=r"^a\.csv, b\.csv: the frequencies are in kHz, expected Hz; --force"):
+        question_modes(*tables_and_fit(1e-3 * HZ), [Path("a.csv"), Path("b.csv")])
+
+
+def test_modes_near_the_fit_are_not_asked_about():
+    question_modes(*tables_and_fit(1.1 * HZ), [Path("a.csv")])
+
+
+@pytest.mark.parametrize(
+    ("stated", "asked"),
+    [({"loss_factor": 22.0}, "22: is it in percent"), ({"temperature_c": 293.0}, "293: is it in K")],
+)
+def test_other_columns_of_modes_are_asked_about_in_another_unit(stated, asked):
+    with pytest.raises(BadInput, match=asked):
+        question_modes(*tables_and_fit(HZ, **stated), [Path("a.csv")])
+
+
+def test_a_sweep_in_kilohertz_is_asked_about_and_a_session_is_not():
+    given = read_given(DATA / "practice-002.csv", case_file("zn1.toml"), None)
+    kilo = replace(given, sweep=replace(given.sweep, frequency_hz=1e-3 * given.sweep.frequency_hz))
+    with pytest.raises(BadInput, match=r"sweep\.csv: .* the frequencies are in kHz"):
+        question_data(kilo, Path("sweep.csv"))
+    question_data(replace(kilo, session="monday"), Path("monday.h5"))
