@@ -201,10 +201,10 @@ COLUMNS: tuple[Column, ...] = (
     plain(
         "control_error_percent",
         "%",
-        report=told("control / %", "control_error_percent", "+.2f"),
+        report=told("control / %", "control_error_percent", "+z.2f"),
         record=ShownQuantity(
             "Level error",
-            lambda r: f"{r.point.control_error_percent:+.3f} % (\u00b1{r.tolerance_percent:g} %)",
+            lambda r: f"{r.point.control_error_percent:+z.3f} % (\u00b1{r.tolerance_percent:g} %)",
         ),
     ),
     plain(

@@ -16,7 +16,7 @@ from instrument.results.diagnosis_words import (
 from instrument.results.followed import followed_of, measured_words
 from instrument.results.next_words import NEXT_COLUMNS, NEXT_TITLE, next_row, separated_words
 from instrument.results.numbers import format_number, with_error
-from instrument.results.typeset import capitalised
+from instrument.results.typeset import capitalised, heading, note
 from instrument.results.unseen_words import UNSEEN_COLUMNS, UNSEEN_TITLE, unseen_row
 from instrument.session.contents import Contents
 
@@ -42,7 +42,7 @@ def diagnosis_sections(contents: Contents) -> list[ReportSection]:
         blocks.append(Sentence(f"Next measurement: {found.next_measurement}", "note"))
     blocks += _next(found)
     blocks += _unseen(found)
-    blocks += [Sentence(text, "note") for text in found.warnings]
+    blocks += [Sentence(note(text), "note") for text in found.warnings]
     resampled = resampling_words(found)
     blocks += [Sentence(f"By resampling: {resampled}.")] if resampled else []
     blocks += [
@@ -78,7 +78,8 @@ def _unseen(found: DiagnosisResult) -> list[Block]:
     """What may be there all the same."""
     title = capitalised(UNSEEN_TITLE)
     rows = tuple(unseen_row(one) for one in found.unseen)
-    return [TableBlock(title, UNSEEN_COLUMNS, rows, words=UNSEEN_COLUMNS[:1])] if rows else []
+    columns = tuple(map(heading, UNSEEN_COLUMNS))
+    return [TableBlock(title, columns, rows, words=UNSEEN_COLUMNS[:2])] if rows else []
 
 
 def _before_after(found: DiagnosisResult) -> TableBlock:

@@ -20,7 +20,7 @@ from instrument.results.session_result import (
     recorded_result,
     result_of,
 )
-from instrument.results.typeset import typeset
+from instrument.results.typeset import note, quantity, typeset
 from instrument.session.contents import Contents
 
 _SAME = 1e-6
@@ -45,7 +45,7 @@ def identification_section(contents: Contents, fitted: ReportedFit) -> ReportSec
             f"{r.law.kind} law from {len(fit.sweep)} points by {r.method} least squares, {_hammer(fit)}."
         ),
         *_doubt(contents),
-        *(Sentence(warning, "note") for warning in r.warnings),
+        *(Sentence(note(warning), "note") for warning in r.warnings),
         Picture(law_figure(fit), f"Shear modulus and loss factor in the measured band, {_banded(r)}"),
         _band(r),
         _parameters(r),
@@ -162,9 +162,9 @@ def _parameters(r: Identification) -> TableBlock:
         below = is_below_floor(error, value)
         said = format_number(float(value), 5) if below else with_error(float(value), error)
         percent = percent_words(error, value)
-        rows.append((name, said, percent, f"at its {bound} bound" if bound else ""))
+        rows.append((quantity(name), said, percent, f"at its {bound} bound" if bound else ""))
     return TableBlock(
-        "Parameters (SI units), ± one standard error",
+        "Parameters, ± one standard error",
         ("parameter", "value", "error / %", "remark"),
         tuple(rows),
     )
@@ -173,10 +173,14 @@ def _parameters(r: Identification) -> TableBlock:
 def _correlations(r: Identification) -> TableBlock:
     C, names = r.uncertainty.correlations, r.law.names
     rows = tuple(
-        (name, *(f"{c:+.3f}" if np.isfinite(c) else "-" for c in row))
+        (quantity(name).split(" / ")[0], *(f"{c:+.3f}" if np.isfinite(c) else "-" for c in row))
         for name, row in zip(names, C, strict=True)
     )
-    return TableBlock("Correlations of the logarithms of the parameters", ("", *names), rows)
+    return TableBlock(
+        "Correlations of the logarithms of the parameters",
+        ("", *(quantity(n).split(" / ")[0] for n in names)),
+        rows,
+    )
 
 
 def _adjusted(fit: SessionFit) -> list[Block]:

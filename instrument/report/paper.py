@@ -22,6 +22,8 @@ LINE = 1.35
 """Of a line, in heights of its type."""
 _DENSER = 0.72
 """Type and lines of a figure made for a wide screen."""
+_LEGEND = 1.3
+"""Room that a legend has, in heights of it: it keeps off the edge above."""
 _RULE, _INK, _SOFT = "#bbbbbb", "#000000", "#444444"
 
 
@@ -36,13 +38,16 @@ class Sheet(Figure):
         """A figure over the whole width, its panels and type arranged anew for it."""
         figure.set_size_inches(*self.get_size_inches())
         figure.patch.set_alpha(0.0)
-        low = 1 - (top_mm + height_mm) / HEIGHT_MM
-        inside = (MARGIN_MM / WIDTH_MM, low, INSIDE_MM / WIDTH_MM, height_mm / HEIGHT_MM)
-        figure.set_layout_engine("constrained", rect=inside)
-        for legend in figure.legends:
-            # One that stands above all panels: above these, not on the edge of the sheet.
-            legend.set_bbox_to_anchor(inside, transform=figure.transSubfigure)
         _make_denser(figure)
+        left, wide = MARGIN_MM / WIDTH_MM, INSIDE_MM / WIDTH_MM
+        low, high = 1 - (top_mm + height_mm) / HEIGHT_MM, height_mm / HEIGHT_MM
+        above = 0.0
+        for legend in figure.legends:
+            # One that stands above all panels: above these, not on the edge of the sheet, where the layout
+            # would leave room for it.
+            legend.set_bbox_to_anchor((left, low, wide, high), transform=figure.transSubfigure)
+            above = max(above, _LEGEND * legend.get_window_extent().height / figure.bbox.height)
+        figure.set_layout_engine("constrained", rect=(left, low, wide, high - above))
         self._laid.append(figure)
 
     def draw(self, renderer: RendererBase) -> None:

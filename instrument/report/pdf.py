@@ -40,9 +40,11 @@ def save_pictures(
     """The same pages as pictures for paper: NAME-01.png and so on. Raises `OSError`."""
     pages = sheets_of(title, header, sections).pages
     names = tuple(path.with_name(f"{path.stem}-{k:02d}{path.suffix}") for k in range(1, len(pages) + 1))
-    for name, page in zip(names, pages, strict=True):
-        # Kept for as long as printing takes: small is not worth the time.
-        page.savefig(name, format="png", dpi=_PAPER_DPI, pil_kwargs={"compress_level": 1})
+    # Letters fitted to the pixels would be wider than the lines they were broken into.
+    with mpl.rc_context({"text.hinting": "no_hinting"}):
+        for name, page in zip(names, pages, strict=True):
+            # Kept for as long as printing takes: small is not worth the time.
+            page.savefig(name, format="png", dpi=_PAPER_DPI, pil_kwargs={"compress_level": 1})
     return names
 
 
@@ -80,15 +82,14 @@ def _head(sheets: Sheets, title: str) -> None:
     sheets.gap(2.0)
 
 
-def _subtitle(sheets: Sheets, title: str) -> None:
-    if not title:
-        return
-    lines = broken(title, INSIDE_MM, _TEXT_PT, bold=True)
-    sheets.need(len(lines) * line_mm(_TEXT_PT) + 12.0)
+def _subtitle(sheets: Sheets, title: str, below_mm: float = 12.0) -> None:
+    """With what has to stand below it on the same page, also where there is no title."""
+    lines = broken(title, INSIDE_MM, _TEXT_PT, bold=True) if title else []
+    sheets.need(len(lines) * line_mm(_TEXT_PT) + below_mm)
     for line in lines:
         sheets.text(MARGIN_MM, line, _TEXT_PT, bold=True)
         sheets.gap(line_mm(_TEXT_PT))
-    sheets.gap(0.8)
+    sheets.gap(0.8 if lines else 0.0)
 
 
 def _sentence(sheets: Sheets, sentence: Sentence) -> None:
@@ -125,7 +126,6 @@ def _facts(sheets: Sheets, facts: FactsBlock) -> None:
 
 
 def _table(sheets: Sheets, table: TableBlock) -> None:
-    _subtitle(sheets, table.title)
     rows = [[typeset(cell) for cell in row] for row in table.rows]
     cells = [table.columns, *rows]
     size, widths = _widths(cells)
@@ -135,9 +135,11 @@ def _table(sheets: Sheets, table: TableBlock) -> None:
         k > 0 and widths[k] >= natural[k] and table.columns[k] not in table.words for k in range(len(widths))
     ]
     head = _row_lines(table.columns, widths, size, bold=True)
+    every = [_row_lines(row, widths, size) for row in rows]
+    first_mm = _row_mm(head, size) + (_row_mm(every[0], size) if every else 0.0)
+    _subtitle(sheets, table.title, first_mm)
     _row(sheets, head, widths, right, size, bold=True)
-    for row in rows:
-        lines = _row_lines(row, widths, size)
+    for lines in every:
         if sheets.need(_row_mm(lines, size)):
             _row(sheets, head, widths, right, size, bold=True)
         _row(sheets, lines, widths, right, size)

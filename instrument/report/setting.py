@@ -11,12 +11,20 @@ from instrument.report.blocks import Block, FactsBlock, Picture, ReportSection, 
 from instrument.results.numbers import format_number
 from instrument.results.sketch import Mark, sketch_of
 from instrument.results.sketch_figure import sketch_figure
+from instrument.results.typeset import quantity
 from instrument.session.contents import Contents
+from instrument.stream.raw import OperatorDid
 
 _ACCELEROMETERS = ("base", "response")
 _OTHERS = {"force": "mV/N", "temperature": "mV/°C"}
 _MOST_LISTED = 8
 _TITLES = {"plate": "Plate", "beam": "Beam", "shear-pair": "Shear pair"}
+_DONE = {
+    ("mounted", "bare"): "bare plate mounted",
+    ("mounted", "damped"): "damped plate mounted",
+    ("aimed", "base"): "laser pointed at the base",
+    ("aimed", "pickup"): "laser pointed at the spot",
+}
 _LAYERS = ("substrate", "core", "constraining")
 
 
@@ -29,7 +37,7 @@ def specimen_section(contents: Contents) -> ReportSection:
     )
     blocks: list[Block] = [drawn, _layers(s), geometry]
     if s.core is not None:
-        rows = [(k, _law_value(v)) for k, v in s.core.law.items()]
+        rows = [(quantity(k), _law_value(v)) for k, v in s.core.law.items()]
         blocks.append(FactsBlock("Core law to start from", tuple(rows)))
     blocks.append(FactsBlock("Tolerances (one standard deviation)", tuple(tolerance_rows(contents.specimen))))
     return ReportSection("Specimen", tuple(blocks))
@@ -98,7 +106,7 @@ def rig_section(contents: Contents) -> ReportSection:
         ("torque", f"{m.torque_n_m:g} N m" if m.torque_n_m else "not stated"),
         ("remounted", f"{m.remount} times" if m.remount != 1 else "once"),
     ]
-    mounting += [("operator", f"{did.what} {did.detail}".strip()) for did in contents.operator if not did.hit]
+    mounting += [("by hand", _done(did)) for did in contents.operator if not did.hit]
     instruments: Block = Sentence("The session holds no instrument's identity.", "note")
     if contents.began:
         named = {**contents.began[-1].instruments, "sampled at": _rates(contents)}
@@ -107,6 +115,12 @@ def rig_section(contents: Contents) -> ReportSection:
         instruments = FactsBlock(f"Instruments of {c.rig.name!r}", rows)
     blocks = (instruments, _sensors(contents), FactsBlock("Mounting", tuple(mounting)))
     return ReportSection("Rig", (*blocks, *_temperature(contents)))
+
+
+def _done(did: OperatorDid) -> str:
+    """What a person did at the rig."""
+    named = _DONE.get((did.what, did.detail))
+    return named or f"{did.what} {did.detail}".strip()
 
 
 def _temperature(contents: Contents) -> tuple[Block, ...]:

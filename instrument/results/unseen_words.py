@@ -16,5 +16,6 @@ def unseen_row(one: UnseenEffect) -> tuple[str, ...]:
 def _size(one: UnseenEffect) -> str:
     if one.parameter is None or one.size is None:
         return "-"
-    unit = "" if one.unit in (None, "1") else f" {one.unit}"
-    return f"{one.parameter} {one.size:.5g}{unit}"
+    # A factor is near 1: what counts of it stands further behind.
+    said = f"{one.size:.5g}" if one.unit in (None, "1") else f"{one.size:.3g} {one.unit}"
+    return f"{one.parameter} {said}"

@@ -192,7 +192,7 @@ def test_sweep_lists_remarks_and_drift(page):
 
 def test_identification_gives_the_law_and_its_errors(page):
     words = section(page, "Identification of the core")
-    value, error = row(words, "g0_pa")[:2]
+    value, error = row(words, "g0 / Pa")[:2]
     assert abs(value - 0.27e6) < 4 * error
     assert "Correlations" in words
     assert "The live identification of the run ended with the same parameters." in words
@@ -279,7 +279,7 @@ def test_hits_that_are_all_bad(tmp_path):
 def test_too_few_points_for_a_law(tmp_path):
     page = made(tmp_path, lambda synthetic: synthetic.sweep(segments=(1,), steps=1))
     words = section(page, "Identification of the core")
-    assert "too few points: 2 (4 numbers) for 4 parameters" in words
+    assert "Too few points: 2 (4 numbers) for 4 parameters" in words
     assert "without bands: these points carry no standard error" in words
     assert "Segment 1 of sweep 1 is not complete: 1 of 9" in section(page, "How it ended")
 

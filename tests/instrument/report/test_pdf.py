@@ -19,6 +19,7 @@ def drawing():
     for ax in figure.subplots(1, 3):
         ax.plot([1, 2, 3], [1e-3, 2e-3, 5e-3], label="measured")
         ax.set_ylabel("|v / a| / ms")
+        ax.set_title("Segment")
     figure.legend(*figure.axes[0].get_legend_handles_labels(), loc="outside upper center")
     return figure
 
@@ -58,6 +59,15 @@ def test_nothing_is_left_out_and_every_page_has_the_head_of_its_table(laid):
     assert "measured by, date" in said[-1]
 
 
+def test_a_table_begins_where_its_first_row_has_room():
+    for lines in range(20, 60):
+        said = ReportSection("Said", tuple(Sentence("well") for _ in range(lines)))
+        table = ReportSection("Table", (TableBlock("Much", ("what", "why"), (("row " * 90, "row"),)),))
+        for page in sheets_of("A title", (), (said, table)).pages:
+            words = " ".join(one.get_text() for one in texts(page)).split()
+            assert ("why" in words) == ("row" in words)
+
+
 def test_what_no_paper_shows_is_not_on_it(laid):
     assert not any("\x1b" in one.get_text() for page in laid.pages for one in texts(page))
 
@@ -73,6 +83,7 @@ def test_a_figure_and_its_legend_lie_where_there_is_room(laid):
             low, high = box.transformed(figure.transFigure.inverted()).get_points()
             assert MARGIN_MM / WIDTH_MM - 0.01 < low[0] < high[0] < 1 - MARGIN_MM / WIDTH_MM + 0.01
             assert 0.0 < low[1] < high[1] < 1 - MARGIN_MM / HEIGHT_MM + 0.01
+        assert not any(ax.get_tightbbox().overlaps(legend.get_window_extent()) for ax in figure.axes)
     tops = [figure.legends[0].get_window_extent().y1 for figure in page._laid]
     assert len(set(tops)) == len(tops)
 

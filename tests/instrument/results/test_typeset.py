@@ -2,7 +2,7 @@
 
 import pytest
 
-from instrument.results.typeset import capitalised, typeset
+from instrument.results.typeset import capitalised, heading, note, typeset
 
 
 def test_a_page_prints_what_a_terminal_writes_in_ascii_and_leaves_names_alone():
@@ -20,3 +20,12 @@ def test_a_page_prints_what_a_terminal_writes_in_ascii_and_leaves_names_alone():
 )
 def test_a_sentence_begins_with_a_capital_and_a_name_with_its_own_letter(said, printed):
     assert capitalised(said) == printed
+
+
+def test_a_note_names_parameters_without_their_unit_and_other_keys_whole():
+    said = "ginf_pa and tau_s are correlated -0.994; g_1_pa is not; settle.most_s = 4 s"
+    assert note(said) == "ginf and tau are correlated -0.994; g_1 is not; settle.most_s = 4 s."
+
+
+def test_a_heading_has_room_about_its_unit():
+    assert heading("loss factor by/%") == "loss factor by / %"
