@@ -1,8 +1,11 @@
 """How widgets look: edges, room, states of a button. Colours come from the theme, room in steps of 4 px."""
 
 from collections.abc import Mapping
+from pathlib import Path
 from string import Template
 
+_TICK = (Path(__file__).parent / "tick.svg").as_posix()
+"""In a colour that is seen on light and on dark."""
 PRIMARY, STOP = "primary", "stop"
 """Object names of the one button that goes on, and of the one that stops."""
 
@@ -24,10 +27,10 @@ QPushButton#stop:hover { border-color: $stop_text; }
 QPushButton#stop:pressed { background: $text; color: $base; }
 QPushButton#stop:disabled { background: $window; color: $faint; border-color: $grid; }
 QToolButton:hover { background: $grid; border-radius: 4px; }
-QCheckBox::indicator:unchecked, QTreeView::indicator:unchecked { border: 1px solid $faint; }
-QCheckBox::indicator:unchecked, QTreeView::indicator:unchecked { background: $base; border-radius: 3px; }
-QCheckBox::indicator:unchecked, QTreeView::indicator:unchecked { width: 12px; height: 12px; }
-QCheckBox::indicator:unchecked:disabled { border-color: $grid; }
+QCheckBox::indicator, QTreeView::indicator { border: 1px solid $faint; border-radius: 3px; }
+QCheckBox::indicator, QTreeView::indicator { background: $base; width: 12px; height: 12px; }
+QCheckBox::indicator:checked, QTreeView::indicator:checked { image: url("$tick"); }
+QCheckBox::indicator:disabled { border-color: $grid; }
 QTabWidget::pane { border: none; border-top: 1px solid $grid; }
 QTabBar { qproperty-drawBase: 0; }
 QTabBar::tab { color: $faint; padding: 5px 12px; border: none; border-bottom: 2px solid transparent; }
@@ -66,4 +69,4 @@ QDockWidget::title { background: $window; padding: 4px 8px; border-top: 1px soli
 
 def style_sheet(colors: Mapping[str, str]) -> str:
     """Of the whole application, in the colours of a theme, by their names there."""
-    return _SHEET.substitute(colors)
+    return _SHEET.substitute(colors, tick=_TICK)

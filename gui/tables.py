@@ -61,6 +61,8 @@ class ReadTable(QTableView):
         Heading to its tool tip.
     wide : sequence of int
         Columns that share what room there is; the last one alone otherwise.
+    fills : bool
+        False where no column takes more than it needs.
     """
 
     def __init__(
@@ -70,6 +72,7 @@ class ReadTable(QTableView):
         *,
         selects: bool = False,
         wide: Sequence[int] = (),
+        fills: bool = True,
     ) -> None:
         super().__init__(parent)
         self._rows = _Rows(columns, self)
@@ -85,8 +88,8 @@ class ReadTable(QTableView):
         header = self.horizontalHeader()
         header.setHighlightSections(False)
         header.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        header.setStretchLastSection(not wide)
-        self._shares = bool(wide)
+        header.setStretchLastSection(fills and not wide)
+        self._last_fills = fills and not wide
         for column in wide:
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.Stretch)
         self._size_rows()
@@ -140,7 +143,7 @@ class ReadTable(QTableView):
         self._fit_last()
 
     def _fit_last(self) -> None:
-        if self._shares:
+        if not self._last_fills:
             return
         header, last = self.horizontalHeader(), self.model().columnCount() - 1
         before = sum(header.sectionSize(k) for k in range(last))

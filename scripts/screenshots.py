@@ -15,8 +15,9 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from unittest.mock import patch
 
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 ROOT = Path(__file__).resolve().parents[1]
@@ -29,6 +30,7 @@ from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QApplication, QWidget
 from shiboken6 import isValid
 
+from gui import printing
 from gui.background_task import BackgroundCommand, BackgroundTask
 from gui.controller import AppController
 from gui.pages.run import RunPage
@@ -124,15 +126,12 @@ def _dialogs(window: Window) -> dict[str, QWidget]:
 
 @contextmanager
 def _nothing_runs() -> Iterator[None]:
-    """A button pressed to see what it opens does nothing else."""
-    kept = {of: of.start for of in (BackgroundCommand, AppController)}
-    for of in kept:
-        of.start = lambda *_, **__: None
-    try:
+    """A button pressed to see what it opens does nothing else; a printer is taken for granted."""
+    with ExitStack() as changed:
+        for of in (BackgroundCommand, AppController):
+            changed.enter_context(patch.object(of, "start", lambda *_, **__: None))
+        changed.enter_context(patch.object(printing, "has_printer", lambda: True))
         yield
-    finally:
-        for of, does in kept.items():
-            of.start = does
 
 
 def _fill(window: Window, session: Path) -> None:

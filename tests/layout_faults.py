@@ -43,12 +43,17 @@ def places(window: Window) -> Iterator[str]:
     for page in window.pages:
         window.show_page(page.objectName())
         yield page.objectName()
+        named: set[str] = set()
         for tabs in page.findChildren(QTabWidget):
             first = tabs.currentIndex()
             for k in range(tabs.count()):
                 if k != first and tabs.isVisible() and tabs.isTabVisible(k):
                     tabs.setCurrentIndex(k)
-                    yield f"{page.objectName()}-{word(tabs.tabText(k))}"
+                    name = word(tabs.tabText(k))
+                    # A page may have two tabs of one name: a form, and what is drawn of it.
+                    name = f"{name}-{k + 1}" if name in named else name
+                    named.add(name)
+                    yield f"{page.objectName()}-{name}"
             tabs.setCurrentIndex(first)
 
 

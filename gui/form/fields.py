@@ -33,8 +33,13 @@ _NOT_ASKED = {"effects", "core", "log", "specimen", "memory"}
 _NOT_SHOWN = {"further_pickups", "mass"}
 """What a document holds of `[[pickup]]` after the first, no key of a file; and masses put on for one sweep,
 which stay as the file has them."""
-_FILES = {"specimen", "rig", "path", "sensors"}
-"""Keys whose value is the name of a file."""
+FILES = {
+    "specimen": "Specimen (*.toml)",
+    "rig": "Rig (*.toml)",
+    "sensors": "Sensors (*.toml)",
+    "path": "Table (*.csv)",
+}
+"""Keys whose value is the name of a file, and of which kind."""
 
 
 @dataclass(frozen=True)
@@ -158,8 +163,11 @@ def _field(name: str, info: FieldInfo, schema: dict[str, Any], default: object, 
         str(c) for o in options for c in (*o.get("enum", ()), *([o["const"]] if "const" in o else ()))
     )
     kind = _kind(options, choices)
-    if kind == "text" and name in _FILES:
+    if kind == "text" and name in FILES:
         kind = "file"
+    if kind == "switch" and default is None:
+        # A file that does not say so says no.
+        default = False
     return Field(
         name,
         kind,

@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
 
 from gui.asking import ask_open
 from gui.form.draft import Draft
-from gui.form.fields import Field, FormSection, Place, device_fields, law_fields, section_of
+from gui.form.fields import FILES, Field, FormSection, Place, device_fields, law_fields, section_of
 from gui.theme import current_theme
 from gui.widgets import tool
 from instrument.files.acceleration import said_beside
@@ -237,7 +237,8 @@ class Form(QTreeWidget):
         folder = self.draft.path.parent
         known = folder / self.draft.shown(place)
         start = str(known if known.is_file() else folder)
-        ask_open(self, "Choose a file", start, "", partial(self._picked, place))
+        kinds = f"{FILES.get(str(place[-1]), 'Files (*.toml *.csv)')};;All files (*)"
+        ask_open(self, "Choose a file", start, kinds, partial(self._picked, place))
 
     def _picked(self, place: Place, path: Path) -> None:
         """Named as seen from the file that names it, where it lies beside or below."""

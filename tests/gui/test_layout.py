@@ -2,7 +2,7 @@
 
 import pytest
 from layout_faults import layout_faults, places
-from PySide6.QtWidgets import QApplication, QLabel, QWidget
+from PySide6.QtWidgets import QApplication, QCheckBox, QLabel, QWidget
 
 from gui.background_task import BackgroundCommand, BackgroundTask
 from gui.icons import NAMES, icon
@@ -11,6 +11,8 @@ from gui.theme import DARK, LIGHT, Appearance
 
 ON = ("window", "base", "button", "note")
 READ = ("text", "faint", "data", "model", "second", "third", "fourth", "good", "fair", "bad")
+TICK = "#3d8fc4"
+"""Of gui/tick.svg."""
 LEAST_CONTRAST = 4.5
 """Of text, WCAG 2.2, 1.4.3."""
 
@@ -36,6 +38,12 @@ def test_nothing_is_cut_and_nothing_overlaps(qtbot, opened, size):
         qtbot.waitUntil(lambda: at_rest(opened), timeout=240_000)
         faults += [f"{place}: {fault}" for fault in layout_faults(opened)]
     assert faults == []
+
+
+@pytest.mark.pages("run")
+def test_every_place_has_a_name_of_its_own(opened):
+    found = list(places(opened))
+    assert len(set(found)) == len(found)
 
 
 def test_what_is_cut_or_overlaps_is_found(qtbot, appearance):
@@ -92,6 +100,22 @@ def luminance(color: str) -> float:
 def test_every_sign_is_drawn_in_the_colours_of_its_button(appearance, mode, theme):
     appearance.choose(mode)
     assert [name for name in NAMES if theme.text not in opaque_colours(name)] == []
+
+
+@pytest.mark.parametrize(("mode", "theme"), [("light", LIGHT), ("dark", DARK)], ids=["light", "dark"])
+@pytest.mark.parametrize("ticked", [False, True])
+def test_a_box_to_tick_has_its_frame_ticked_or_not(qtbot, appearance, mode, theme, ticked):
+    appearance.choose(mode)
+    box = QCheckBox("one pane each")
+    qtbot.addWidget(box)
+    box.setChecked(ticked)
+    image = box.grab().toImage()
+    # Of its left edge; the text, in another colour, is further right.
+    edge = [image.pixelColor(x, image.height() // 2).name() for x in range(4)]
+    assert theme.faint in edge
+    colours = {image.pixelColor(x, y).name() for x in range(14) for y in range(image.height())}
+    assert (TICK in colours) == ticked
+    assert min(contrast(TICK, getattr(theme, ground)) for ground in ("base", "window")) > 3
 
 
 def opaque_colours(name):

@@ -3,15 +3,20 @@
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from gui.tables import Cell, ReadTable
+from gui.widgets import hint
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.follow_up import FollowUp
 from instrument.results.next_words import NEXT_COLUMNS, next_row, separated_words
 
 _TIPS = (
-    "Best first: by what it is expected to tell, over the root of the time it takes",
+    "Best first: by the time until one explanation is left, with what would follow",
     "Rig time, and a person's where it needs hands",
     "Chance that one explanation holds 95 % afterwards",
     "Expected logarithm of the odds between the two it separates best; 3 are odds of twenty",
+)
+_SAID = (
+    "Settles it: the chance that one explanation holds 95 % afterwards. Nats apart: how far the two that it "
+    "separates best are expected to part; 3 are odds of twenty."
 )
 
 
@@ -26,7 +31,8 @@ class NextTable(QWidget):
         self.table.horizontalHeader().sectionResized.connect(lambda *_: self.table.resizeRowsToContents())
         column = QVBoxLayout(self)
         column.setContentsMargins(4, 4, 4, 0)
-        column.addWidget(self.table)
+        column.addWidget(self.table, 1)
+        column.addWidget(hint(_SAID))
 
     def show_diagnosis(self, found: DiagnosisResult) -> None:
         """Its ranking."""

@@ -3,7 +3,9 @@
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from gui.tables import Cell, ReadTable
+from gui.widgets import hint
 from instrument.facts.diagnosis import DiagnosisResult, UnseenEffect
+from instrument.results.typeset import heading, typeset
 from instrument.results.unseen_words import UNSEEN_COLUMNS, unseen_row
 
 _TIPS = (
@@ -14,6 +16,10 @@ _TIPS = (
     "The same of the loss factor",
     "The larger of both, in standard errors of the law's band: it covers two",
 )
+_SAID = (
+    "Not found, but up to this size it would not be seen if it were there: law and stated numbers imitate "
+    "it, and the law would be off by as much as stands here."
+)
 
 
 class UnseenTable(QWidget):
@@ -21,10 +27,11 @@ class UnseenTable(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.table = ReadTable(dict(zip(UNSEEN_COLUMNS, _TIPS, strict=True)), wide=(0, 1))
+        self.table = ReadTable(dict(zip(map(heading, UNSEEN_COLUMNS), _TIPS, strict=True)))
         column = QVBoxLayout(self)
         column.setContentsMargins(4, 4, 4, 0)
-        column.addWidget(self.table)
+        column.addWidget(self.table, 1)
+        column.addWidget(hint(_SAID))
 
     def show_diagnosis(self, found: DiagnosisResult) -> None:
         """Its list."""
@@ -33,4 +40,4 @@ class UnseenTable(QWidget):
 
 def _cells(one: UnseenEffect) -> list[Cell]:
     name, size, *shifts = unseen_row(one)
-    return [Cell(name, left=True), Cell(size, left=True), *(Cell(shift) for shift in shifts)]
+    return [Cell(name, left=True), Cell(typeset(size), left=True), *(Cell(shift) for shift in shifts)]

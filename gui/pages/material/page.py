@@ -26,7 +26,7 @@ from instrument.results.session_result import (
     recorded_result,
     result_of,
 )
-from instrument.results.typeset import capitalised, typeset
+from instrument.results.typeset import note, typeset
 from instrument.stream.derived import FitUpdated
 
 _NOTHING = (
@@ -123,15 +123,15 @@ class MaterialPage(Page):
 
     def _show_notes(self, result: IdentificationResult | None, shown: ShownDiagnosis | None) -> None:
         notes = list(result.warnings) if result is not None else []
+        if shown is not None and shown.found.equivalent:
+            notes = [f"{BEFORE_DIAGNOSIS}: {said}" for said in notes]
         if shown is not None:
             notes += shown.found.warnings
         if self._is_unknown:
             notes.insert(
                 0, f"{UNKNOWN}: nothing explains what the fit leaves, the law may be far off its band"
             )
-        self.notes.setPlainText(
-            "\n\n".join(f"{capitalised(typeset(n))}." for n in notes) or "Nothing to note."
-        )
+        self.notes.setPlainText("\n\n".join(map(note, notes)) or "Nothing to note.")
         self.tabs.setTabText(self.tabs.indexOf(self.notes), f"Notes ({len(notes)})" if notes else "Notes")
         made_here = shown is not None and shown.asked is not None
         self.origin.say(f"● diagnosis {shown.origin}" if shown and made_here else "", "fair", bold=True)

@@ -19,7 +19,7 @@ _PLACES = {
     "η": "Loss factor: after the diagnosis where there is one, ± one standard error",
 }
 _PLACES_BEFORE = {
-    "G' before": "Storage modulus in MPa before the diagnosis: without the effects it found",
+    "G' before / MPa": "Storage modulus before the diagnosis: without the effects it found",
     "η before": "Loss factor before the diagnosis: without the effects it found",
 }
 _PARAMETERS = {
@@ -66,8 +66,7 @@ class Correlations(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.table = ReadTable({})
-        self.table.horizontalHeader().setStretchLastSection(False)
+        self.table = ReadTable({}, fills=False)
         column = QVBoxLayout(self)
         column.setContentsMargins(4, 4, 4, 0)
         column.addWidget(self.table, 1)

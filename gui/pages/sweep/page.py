@@ -283,7 +283,7 @@ class SweepPage(Page):
         self.tabs.setDocumentMode(True)
         top = QWidget()
         column = QVBoxLayout(top)
-        column.setContentsMargins(0, 0, 0, 0)
+        column.setContentsMargins(6, 4, 6, 4)
         column.addWidget(self.chooser, 1)
         column.addWidget(self.follow)
         left = QSplitter(Qt.Orientation.Vertical)

@@ -134,7 +134,7 @@ class StepPane(QWidget):
         if base is not None and began.level_m_s2 is not None:
             off = 100 * (base / began.level_m_s2 - 1)
             shown = acceleration_unit()
-            said["Level"] = f"{shown.of(base):.4g} of {shown.said(began.level_m_s2)}, {off:+.2f} %"
+            said["Level"] = f"{shown.of(base):.4g} of {shown.said(began.level_m_s2)}, {off:+z.2f} %"
         _, percent, noise = following.remaining()
         if percent.size:
             limit = f"{100 * limits.settle.tolerance:g}, noise {_little(noise[-1])}"

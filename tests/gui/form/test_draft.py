@@ -107,6 +107,11 @@ def test_segments_are_added_and_taken_away():
     assert [s.get("mode") for s in edited.plain()["sweep"]["segments"]] == [3, None, None]
 
 
+def test_what_a_file_does_not_say_yes_to_is_a_no():
+    plate = next(s for s in section_of(SpecimenDocument).sections if s.key == "plate")
+    assert next(f.default for f in plate.fields if f.key == "both_sides") == "no"
+
+
 def test_each_law_asks_for_its_own():
     assert [f.key for f in law_fields("fractional-zener")] == ["g0_mpa", "ginf_mpa", "tau_s", "alpha"]
     assert law_fields("isd112") == law_fields("nonsense") == ()

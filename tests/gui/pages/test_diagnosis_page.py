@@ -3,6 +3,7 @@ from diagnosed_session import diagnosed_session
 from diagnosis_cases import UNSEEN, diagnosis
 from following_cases import BACKWARDS, SPOT
 from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QLabel
 
 from gui.pages.diagnosis import DiagnosisPage
 from gui.pages.diagnosis.next_table import NextTable
@@ -89,6 +90,9 @@ def test_what_may_be_there_unseen_has_a_view_where_there_is_any(looked_at):
     page.views.setCurrentWidget(page.unseen)
     assert page.unseen.table.texts(0) == ["temperature_drift", "absolute_velocity"]
     assert page.unseen.table.texts(1) == ["warming 2.27 K", "-"]
+    assert page.unseen.table.text.splitlines()[0].split("\t")[2:4] == ["chance / %", "G' by / %"]
+    (said,) = page.unseen.findChildren(QLabel)
+    assert "would not be seen if it were there" in said.text()
 
 
 def test_candidates_are_ranked_with_their_group(looked_at):

@@ -118,6 +118,15 @@ def test_parameters_and_correlations_are_the_fits_own(looked_at):
         fit_of(page).correlations["ginf_pa"]["tau_s"], abs=6e-4
     )
     assert found.cell(1, 3).fill == "model"
+    # None of the columns is stretched over what the others leave.
+    sizes = [found.horizontalHeader().sectionSize(k) for k in range(1, 5)]
+    assert max(sizes) < 2 * min(sizes)
+
+
+def test_a_note_on_the_law_before_the_diagnosis_says_so_and_names_no_keys(looked_at):
+    notes = looked_at.notes.toPlainText()
+    assert notes.startswith("Before the diagnosis: ")
+    assert "_pa" not in notes
 
 
 def test_a_fit_without_a_diagnosis_says_what_it_is_made_of(qtbot, window, page, session_path):
