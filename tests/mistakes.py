@@ -10,6 +10,7 @@ import numpy as np
 
 IDENTIFY = "identify sweep.csv --specimen coarse.toml"
 MODES = "modes coarse.toml --count 2"
+OF_MODES = "identify modes.csv --specimen beam.toml"
 
 
 @dataclass(frozen=True)
@@ -100,6 +101,27 @@ def pair(key: str, value: str, said: str) -> Mistake:
     return Mistake(f"shear-pair.{key} = {value}", do, command, rf"shear-pair\.{key}.*{said}", True)
 
 
+def table_of_modes(pattern: str, by: str, column: str = ""):
+    """Every row changed, and a column more."""
+
+    def do(folder: Path) -> None:
+        head, *rows = (folder / "modes.csv").read_text().splitlines()
+        changed = [re.sub(pattern, by, row, count=1) for row in rows]
+        (folder / "modes.csv").write_text("\n".join([head + column, *changed]) + "\n")
+
+    return do
+
+
+def dma(pattern: str, by: str):
+    """A DMA's rows."""
+
+    def do(folder: Path) -> None:
+        path = folder / "dma.csv"
+        path.write_text(re.sub(pattern, by, path.read_text()))
+
+    return do
+
+
 def in_khz(folder):
     path = folder / "modes.csv"
     head, *rows = [line.split(",") for line in path.read_text().splitlines()]
@@ -128,6 +150,10 @@ def swapped(c):
 def base_in_g(c):
     for part in ("re", "im"):
         c[f"base_accel_{part}_m_s2"] = c[f"base_accel_{part}_m_s2"] / 9.80665
+
+
+def turned(c):
+    c["velocity_re_m_s"], c["velocity_im_m_s"] = c["velocity_im_m_s"], c["velocity_re_m_s"]
 
 
 def conjugated(c):
@@ -215,6 +241,38 @@ SPECIMEN = [
         "line 10.*decimal point",
     ),
 ]
+SPECIMEN += [
+    stated("substrate.poisson", "0.03"),
+    text(
+        "tolerance as a fraction",
+        "coarse.toml",
+        "exact = true ",
+        "core_thickness_percent = 0.03 ",
+        MODES,
+        "core_thickness_percent.*fraction",
+        plausibility=True,
+    ),
+    text(
+        "tolerance in um",
+        "coarse.toml",
+        "exact = true ",
+        "pickup_mm = 300.0 ",
+        MODES,
+        "pickup_mm.*in um",
+        plausibility=True,
+    ),
+    text("clamped", "coarse.toml", '"cantilever"', '"clamped"', MODES, "plate.boundary.*'cantilever'"),
+    text("[core] twice", "coarse.toml", "[damping]", "[core]\n\n[damping]", MODES, "line 33"),
+    text(
+        "no brackets",
+        "coarse.toml",
+        "[0.29, 0.13, 0.18, 0.21, 0.11, 0.07, 0.09, 0.04]",
+        "0.29",
+        MODES,
+        "list",
+    ),
+    text("a number in quotes", "coarse.toml", "= 68.9", '= "68.9"', MODES, "young_gpa.*valid number"),
+]
 SHEETS = [
     sheet("level for level_g", lambda t: t.replace("level_g", "level"), "level.*nearest.*level_g"),
     sheet("freq_hz", lambda t: t.replace("frequency_hz", "freq_hz"), "frequency_hz missing.*freq_hz"),
@@ -227,9 +285,14 @@ SHEETS = [
     sheet("empty", lambda t: "", "empty"),
     sheet("a header alone", lambda t: t.splitlines()[0], "no rows"),
     sheet("doubled rows", lambda t: t + t.splitlines()[-1] + "\n", "same point"),
+    sheet("units below the head", lambda t: t.replace("\n", "\n-,-,g,Hz,m/s,m/s,m/s2,m/s2,s\n", 1), "line 2"),
+    sheet("capitals", lambda t: t.replace("frequency_hz", "Frequency_Hz"), "is it Frequency_Hz"),
+    sheet("a column twice", lambda t: t.replace("time_s", "level_g", 1), "level_g twice"),
+    sheet("a row cut short", lambda t: t.rstrip().rpartition(",")[0] + "\n", "8 columns, expected 9"),
     sheet("a word for a number", lambda t: t.replace("0.", "o.", 1), "expected a number"),
 ]
 DATA = [
+    column("kelvin", lambda c: c.update(temperature_c=np.full_like(c["level_g"], 293.15)), "in K"),
     column("velocity in mm/s", lambda c: velocity(c, 1e3), "mm/s"),
     column("velocity in um/s", lambda c: velocity(c, 1e6), "um/s"),
     column("velocity in km/s", lambda c: velocity(c, 1e-3), "1000 times"),
@@ -249,6 +312,16 @@ DATA = [
     ),
     stated("substrate.thickness_mm", "4.0", IDENTIFY, "plate|layer"),
     stated("plate.length_mm", "180.0", IDENTIFY, "plate"),
+    text(
+        "length and width swapped",
+        "coarse.toml",
+        "length_mm = 300.2          # x, from the clamp\nwidth_mm = 199.9",
+        "length_mm = 199.9\nwidth_mm = 300.2",
+        IDENTIFY,
+        "plate",
+        plausibility=True,
+    ),
+    column("real and imaginary part swapped", turned, "plate"),
 ]
 FILES = [
     Mistake("hammer of another plate", hammer(of_another_plate), f"{IDENTIFY} --hammer hammer.json", "mode"),
@@ -317,7 +390,49 @@ PLACES = [
     wrong("compare found.json", "one file, expected two"),
     wrong("modes grö\u00dfe².toml", "grö\u00dfe².toml: No such file"),
     wrong("identify modes.csv --specimen coarse.toml", "modes.csv: no core.*another specimen", insists=True),
-    Mistake("modes in kHz", in_khz, "identify modes.csv --specimen beam.toml", "modes.csv.*in kHz", True),
+    Mistake("modes in kHz", in_khz, OF_MODES, "modes.csv.*in kHz", True),
+    Mistake("a loss in percent", table_of_modes(r"0\.221$", "22.1"), OF_MODES, "22.1.*in percent", True),
+    Mistake("modes in kelvin", table_of_modes(r"$", ",293.0", ",temperature_c"), OF_MODES, "in K", True),
+    Mistake("kHz to diagnose", in_khz, "diagnose modes.csv --specimen beam.toml", "modes.csv.*in kHz", True),
+    Mistake("DMA in MPa", dma(r",300000,", ",0.3,"), f"{IDENTIFY} --with dma.csv", "dma.csv.*in MPa"),
+    Mistake("DMA's loss modulus", dma(r",0\.8\n", ",240000\n"), f"{IDENTIFY} --with dma.csv", "loss modulus"),
+    text("rate in kHz", "hits.csv", "1024.0", "1.024", "damping hits.csv", "not kHz"),
+    wrong("identfy sweep.csv", "is it 'identify'"),
+    wrong("sweep.csv", "a file, expected a command before it"),
+    made(
+        "a report for a word processor",
+        "report taken --out report.docx",
+        "ending '.docx', expected .html",
+        "x",
+    ),
+    made(
+        "sheets with a page's ending", "report taken --pdf report.html", "ending '.html', expected .pdf", "x"
+    ),
+    wrong("predict coarse.toml --frequencies 14:310", "A:B:STEP"),
+    wrong("predict coarse.toml --frequencies 0,20", "above 0 Hz"),
+    wrong("modes coarse.toml --count 0", "range"),
+    text(
+        "segment upside down",
+        "experiment.toml",
+        "low_hz = 235.0\nhigh_hz = 295.0",
+        "low_hz = 295.0\nhigh_hz = 235.0",
+        "check experiment.toml",
+        "low_hz = 295 is not below",
+    ),
+    text("no hits", "experiment.toml", "hits = 4", "hits = 0", "check experiment.toml", "hammer.hits"),
+    text("hit beside it", "experiment.toml", "= 285.0", "= 385.0", "check experiment.toml", "off the plate"),
+    text(
+        "level in m/s2",
+        "experiment.toml",
+        "level_g = 1.0",
+        "level_g = 9.81",
+        "check experiment.toml",
+        "limit 50",
+    ),
+    text("one input twice", "rig.toml", "input = 2", "input = 1", "check experiment.toml", "both base and"),
+    text(
+        "rate of a rig in kHz", "rig.toml", "= 8192.0", "= 8.192", "check experiment.toml", "sample_rate_hz"
+    ),
     pair("mass_kg", "573.0", "is it in g"),
     pair("thickness_mm", "0.006", "is it in m"),
     pair("outer_diameter_mm", "30000.0", "is it in um"),

@@ -86,6 +86,15 @@ class _Commands(click.Group):
             return found if isinstance(found, click.Command) else None
         return BY_NAME.get(name)
 
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """The command that `args` begin with. Raises `UsageError` with what was probably meant."""
+        name = args[0]
+        if not name.startswith("-") and self.get_command(ctx, name) is None:
+            raise click.UsageError(_no_command(name, self.list_commands(ctx)), ctx)
+        return super().resolve_command(ctx, args)
+
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Ours by their summaries, which loads none of them; what other packages add by its own words."""
         names = self.list_commands(ctx)
@@ -98,6 +107,16 @@ class _Commands(click.Group):
                 rows.append((name, command.get_short_help_str(room)))
         with formatter.section("Commands"):
             formatter.write_dl(rows)
+
+
+def _no_command(name: str, known: list[str]) -> str:
+    """What to say of it."""
+    from instrument.files.nearest import nearest
+
+    if os.path.exists(name):
+        return f"{name!r} is a file, expected a command before it, as in 'viscorig identify {name}'"
+    near = nearest(name, known)
+    return f"No such command {name!r}{f': is it {near!r}?' if near else ''}"
 
 
 def _version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:

@@ -13,6 +13,8 @@ from instrument.report.page import report_of
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 
+_PAGE, _SHEETS = (".html", ".htm", ".pdf", ".png"), (".pdf",)
+
 
 @click.command()
 @file_argument("session")
@@ -34,7 +36,9 @@ def report(session: Path, out: Path | None, pdf: Path | None, json_path: str | N
     output = Output(json_path)
     page = out if out is not None else session.with_suffix(".html")
     wanted = [page, *([pdf] if pdf is not None else [])]
-    for path in wanted:
+    for path, endings in zip(wanted, (_PAGE, _SHEETS), strict=False):
+        if path.suffix.lower() not in endings:
+            raise BadInput(f"{path}: ending {path.suffix!r}, expected {' or '.join(endings)}")
         if not path.parent.is_dir():
             # Said before the work, not after it.
             raise BadInput(f"{path}: no such folder to write to")

@@ -19,6 +19,9 @@ _ABOVE_ZERO = ("frequency_hz", "storage_modulus_pa", "storage_modulus_std_pa", "
 _NUMBERS = (*_ABOVE_ZERO, "temperature_c", "loss_factor", "loss_modulus_pa")
 _SAID = re.compile(r"^\s*#\s*(kind|poisson)\s*:\s*(\S+)\s*$", re.MULTILINE)
 
+_SOFTEST_PA, _LOSSIEST = 10.0, 10.0
+"""Softer than any gel that keeps its shape; more than any polymer loses."""
+
 
 @dataclass(frozen=True)
 class DmaTable:
@@ -62,8 +65,14 @@ def read_dma(path: Path, poisson: float) -> DmaTable:
         if not -1 < nu <= 0.5:
             raise BadInput(f"{path}: poisson: {nu:g}, expected more than -1, at most 0.5")
     storage = columns["storage_modulus_pa"]
+    if storage.min() < _SOFTEST_PA:
+        raise BadInput(f"{path}: storage_modulus_pa = {storage.min():g}, expected Pa: is it in MPa?")
     nothing = np.full(len(storage), np.nan)
     eta = columns["loss_factor"] if "loss_factor" in columns else columns["loss_modulus_pa"] / storage
+    if eta.max() > _LOSSIEST:
+        raise BadInput(
+            f"{path}: loss factor {eta.max():g}, expected E''/E': is it the loss modulus, or percent?"
+        )
     return DmaTable(
         path,
         kind,

@@ -13,7 +13,8 @@ from instrument.impact.record import Hit
 
 SMALLEST = 1e-30
 """A size in SI units that no channel's largest value has."""
-_RATES_HZ = (1.0, 1e8)
+_RATES_HZ = (20.0, 1e8)
+"""Slower than any blow; a rate in kHz is below."""
 _LEAST_SAMPLES = 8
 _LONGEST = 100
 _FAULTS = (ArithmeticError, AttributeError, LookupError, MemoryError, TypeError, ValueError)
@@ -41,7 +42,7 @@ def checked_hits(path: Path, hits: list[Hit]) -> list[Hit]:
         if not _RATES_HZ[0] <= hit.sample_rate_hz <= _RATES_HZ[1]:
             raise BadInput(
                 f"{path}: {hit.source}: {hit.sample_rate_hz:g} samples/s, expected {_RATES_HZ[0]:g} to "
-                f"{_RATES_HZ[1]:g}"
+                f"{_RATES_HZ[1]:g} (Hz, not kHz)"
             )
         for name, samples in (("force", hit.force_n), *((c.name, c.samples) for c in hit.responses)):
             said = _fault(samples, len(hit.force_n))

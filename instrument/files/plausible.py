@@ -25,6 +25,8 @@ _MODULUS_PA = (2e3, 2e10)
 """|G*| of a soft foam, and of a stiff glassy polymer with room to spare."""
 _RATIO_PERCENT = (0.003, 12.0)
 """The largest of a bare plate's modal damping ratios."""
+_KNOWN_PERCENT, _UNKNOWN_MM = 0.05, 20.0
+"""A stiffness, thickness or gain is known no better; a place on a plate is not known worse."""
 _SPOT_MM = 0.3
 """No laser's spot is so near an edge: it would be half beside it."""
 
@@ -43,6 +45,7 @@ _FACE = {
     "young_gpa": Usual(0.5, 700.0, "aluminium 69, steel 205", {"MPa": 1e-3, "Pa": 1e-9, "TPa": 1e3}),
     "density_kg_m3": Usual(300.0, 23_000.0, "aluminium 2700, steel 7850", {"g/cm3": 1e3, "g/m3": 1e-3}),
     "thickness_mm": Usual(0.01, 100.0, "sheet 0.1 to 10", _LENGTH),
+    "poisson": Usual(0.1, 0.5, "metals 0.25 to 0.35", {}),
     "loss_factor": Usual(0.0, 0.5, "metals below 0.01", {"%": 1e-2}),
 }
 _CORE = {
@@ -77,7 +80,7 @@ def specimen_doubts(tables: dict[str, Any]) -> list[str]:
     found: list[str] = []
     for name, usual in wanted.items():
         found += _outside(name, tables.get(name), usual)
-    return [*found, *_damping(tables), *_pickup(tables), *_law(tables)]
+    return [*found, *_damping(tables), *_pickup(tables), *_tolerances(tables), *_law(tables)]
 
 
 def _outside(place: str, table: Any, usual: dict[str, Usual]) -> Iterator[str]:
@@ -121,6 +124,17 @@ def _pickup(tables: dict[str, Any]) -> Iterator[str]:
             at = one.get(key) if isinstance(one, dict) else None
             if isinstance(at, int | float) and 0 < at < _SPOT_MM:
                 yield f"pickup.{key} = {at:g} is nearer to the edge than a laser's spot is wide: is it in m?"
+
+
+def _tolerances(tables: dict[str, Any]) -> Iterator[str]:
+    stated = tables.get("tolerances")
+    for key, value in stated.items() if isinstance(stated, dict) else ():
+        if isinstance(value, bool) or not isinstance(value, int | float):
+            continue
+        if key.endswith("_percent") and 0 < value < _KNOWN_PERCENT:
+            yield f"tolerances.{key} = {value:g}: nobody knows it to {value:g} %: is it a fraction?"
+        if key.endswith("_mm") and value > _UNKNOWN_MM:
+            yield f"tolerances.{key} = {value:g} is no reading of a ruler: is it in um?"
 
 
 def _law(tables: dict[str, Any]) -> Iterator[str]:

@@ -46,7 +46,7 @@ class Given:
     remark: str = ""
     """For people, where a file leaves something to say."""
     recorded: SessionResult | None = None
-    """What a session ended with, where it was diagnosed."""
+    """What a session ended with, where it was diagnosed and its specimen is its own."""
     diagnosis: DiagnosisResult | None = None
     """A session's own, where specimen and hammer test are its own too."""
     temperature_c: float | None = None
@@ -137,6 +137,8 @@ def _of_session(data: Path, specimen: Path | None, *, own_hammer: bool) -> Given
         contents = contents_of(session, with_hits=False)
     reads = contents.configuration.rig.vibrometer.reads
     read = contents.specimen if specimen is None else replace(read_structure(specimen), reads=reads)
+    if read.kind != contents.specimen.kind:
+        raise BadInput(f"{specimen}: a {read.kind}, expected a {contents.specimen.kind} as the session's own")
     modes = session_modes(contents) if own_hammer else None
     sweep = session_sweep(contents, read)
     files = files_of(sweep, contents.measured, read)
@@ -153,7 +155,7 @@ def _of_session(data: Path, specimen: Path | None, *, own_hammer: bool) -> Given
         name,
         reads,
         said,
-        recorded_result(contents) if diagnosis is not None else None,
+        recorded_result(contents) if diagnosis is not None and specimen is None else None,
         diagnosis if own else None,
         _temperature_c(contents),
         () if is_one_mounting(contents.measured) else tuple(files),

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from functools import partial
 from time import perf_counter
 
+import numpy as np
 from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array
@@ -35,6 +36,8 @@ from instrument.models.theory import theory_over
 from instrument.progress import Progress, quiet
 
 Report = Callable[[float], None]
+_LOST = 0.1
+"""Relative: stated numbers within their tolerances move frequencies by a tenth of that."""
 _WARMER = 2.0
 """K between rows of a table, from which a damping polymer is another one."""
 
@@ -69,7 +72,8 @@ def identify_tables(
         for t, s in zip(tables, specimens, strict=True)
     )
     seconds = perf_counter() - began
-    return TablesIdentified(found, seconds, remarks_on_tables(tables, specimens), formulas)
+    said = (*remark_on_fit(found, tables), *remarks_on_tables(tables, specimens))
+    return TablesIdentified(found, seconds, said, formulas)
 
 
 @dataclass(frozen=True)
@@ -134,6 +138,18 @@ def check_theories(law: CoreLaw, tables: Sequence[ModalTable], specimens: Sequen
     for table, specimen in zip(tables, specimens, strict=True):
         if isinstance(specimen, Specimen):
             theory_over(specimen, law, table.frequency_hz)
+
+
+def remark_on_fit(fit: ModalFit, tables: Sequence[ModalTable]) -> tuple[str, ...]:
+    """That a law leaves more of the frequencies than any tolerance would; nothing where it does not."""
+    measured = np.concatenate([t.frequency_hz for t in tables])
+    off = float(np.sqrt(np.mean((np.concatenate(fit.predicted_hz) / measured - 1) ** 2)))
+    if off <= _LOST:
+        return ()
+    return (
+        f"the fit does not follow the modes (rms {100 * off:.3g} % in frequency): check mode numbers, "
+        "specimen and unit",
+    )
 
 
 def remarks_on_tables(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> tuple[str, ...]:

@@ -32,6 +32,14 @@ def test_a_new_specimen_can_be_predicted(tmp_path, kind):
     assert run(["modes", path, "--count", "1"]) == 0
 
 
+def test_a_new_plate_stands_on_a_new_rig_and_a_new_experiment_goes(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    for kind, name in (("plate", "specimen.toml"), ("rig", "rig.toml"), ("experiment", "experiment.toml")):
+        assert run(["new", kind, name]) == 0
+    assert run(["check", "experiment.toml"]) == 0
+    assert "fault" not in capsys.readouterr().err
+
+
 def test_a_file_that_is_there_is_kept(tmp_path, capsys):
     path = tmp_path / "mine.toml"
     path.write_text("mine")

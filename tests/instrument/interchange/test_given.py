@@ -41,6 +41,12 @@ def test_a_known_mass_that_a_run_put_on_is_on_the_plate_of_its_points(finished):
     assert given.plate.further_pickups_m == ((1e-3 * SPOT_MM[0], 1e-3 * SPOT_MM[1]),)
 
 
+def test_a_session_is_not_fitted_as_a_structure_of_another_kind(finished, tmp_path):
+    write_new("beam", tmp_path / "beam.toml")
+    with pytest.raises(BadInput, match=r"beam\.toml: a beam, expected a plate as the session's own"):
+        read_given(finished.session, tmp_path / "beam.toml", None)
+
+
 def test_as_long_as_nothing_was_changed_there_is_one_file(finished):
     with SessionFile(finished.session) as file:
         contents = contents_of(file)

@@ -1,6 +1,7 @@
 """Tables of modes of plates that are 3D solids: neither matrices nor formulas of the fit's."""
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from plate_files import plate_text
 
 from fitting.mode_tables.fit import fit_modes
 from instrument.cli.main import run
+from instrument.models.modal import remark_on_fit
 
 
 @pytest.mark.long
@@ -80,3 +82,11 @@ def test_a_table_beside_a_sweep_is_refused(table, capsys):
     assert "tables of modes beside other data" in capsys.readouterr().err
     assert run(["identify", files[0]]) == 2
     assert "--specimen" in capsys.readouterr().err
+
+
+def test_a_fit_that_leaves_the_modes_says_so():
+    tables = [SimpleNamespace(frequency_hz=np.array([100.0, 200.0]))]
+    near, far = (SimpleNamespace(predicted_hz=(np.array([100.0, f]),)) for f in (210.0, 240.0))
+    assert remark_on_fit(near, tables) == ()
+    (said,) = remark_on_fit(far, tables)
+    assert said.startswith("the fit does not follow the modes (rms 14.1 % in frequency)")
