@@ -118,7 +118,7 @@ class BackgroundCommand(QObject):
 
     def __init__(self, arguments: list[str], result: type[Result], parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._result = result
+        self._result, self._command = result, arguments[0]
         self._unwanted = False
         self.over = False
         self._process = QProcess(self)
@@ -176,7 +176,8 @@ class BackgroundCommand(QObject):
             return
         self._hear()
         if status != 0:
-            self.failed.emit(self._said[-1].removeprefix("viscorig: ") if self._said else "it failed")
+            said = self._said[-1].removeprefix("viscorig: ") if self._said else "it failed"
+            self.failed.emit(self._without_option(said))
             return
         try:
             found = self._result.model_validate_json(bytes(self._process.readAllStandardOutput().data()))
@@ -184,6 +185,12 @@ class BackgroundCommand(QObject):
             self.failed.emit("it gave no result")
             return
         self.done.emit(found)
+
+    def _without_option(self, said: str) -> str:
+        """A window has no options: what goes on all the same is the command line."""
+        from instrument.files.plausible import INSIST
+
+        return said.replace(INSIST, f"'viscorig {self._command} --force' goes on all the same")
 
     def _broken(self, error: QProcess.ProcessError) -> None:
         if error == QProcess.ProcessError.FailedToStart:

@@ -13,6 +13,9 @@ from gui.controller import AppController
 from instrument.facts.written import ExportResult, ReportResult
 from instrument.files.acceleration import shown_as
 
+_NAMED = 2
+"""Files of which each is named."""
+
 
 class Export(QObject):
     """Asks where to, then has it written."""
@@ -75,7 +78,11 @@ class Export(QObject):
     def _written(self, found: ExportResult | ReportResult) -> None:
         self._forget()
         files = (found.report,) if isinstance(found, ReportResult) else found.files
-        self.done.emit(f"wrote {', '.join(files)}")
+        # Of many their folder says more than all names.
+        many = len(files) > _NAMED
+        self.done.emit(
+            f"wrote {len(files)} files into {Path(files[0]).parent}" if many else f"wrote {', '.join(files)}"
+        )
 
     @property
     def _session(self) -> Path | None:

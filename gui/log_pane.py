@@ -4,6 +4,7 @@ from PySide6.QtWidgets import QDockWidget, QPlainTextEdit, QWidget
 
 from gui.state import SessionState
 from gui.state.log import LogLine
+from instrument.results.typeset import typeset
 
 _MOST_LINES = 5000
 _NO_CLOCK = 8 * "\u2007"
@@ -47,4 +48,4 @@ class LogPane(QDockWidget):
 def _written(line: LogLine) -> str:
     minutes, seconds = divmod(line.time_s, 60)
     wall = line.wall.astimezone().strftime("%H:%M:%S") if line.wall is not None else _NO_CLOCK
-    return f"{wall} {int(minutes):4d}:{seconds:04.1f} {_SIGNS[line.kind]} {line.text}"
+    return f"{wall} {int(minutes):4d}:{seconds:04.1f} {_SIGNS[line.kind]} {typeset(line.text)}"

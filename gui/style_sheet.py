@@ -36,7 +36,6 @@ QTabBar { qproperty-drawBase: 0; }
 QTabBar::tab { color: $faint; padding: 5px 12px; border: none; border-bottom: 2px solid transparent; }
 QTabBar::tab:hover { color: $text; }
 QTabBar::tab:selected { color: $text; border-bottom-color: $accent; }
-QTabBar::tab:disabled { color: $grid; }
 QHeaderView { background: $window; border: none; }
 QHeaderView::section { background: $window; color: $faint; border: none; padding: 3px 4px; }
 QHeaderView::section { border-bottom: 1px solid $grid; }

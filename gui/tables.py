@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from PySide6.QtCore import QAbstractTableModel, QEvent, QModelIndex, QPersistentModelIndex, QRectF, Qt
+from PySide6.QtCore import QAbstractTableModel, QEvent, QModelIndex, QPersistentModelIndex, QRectF, QSize, Qt
 from PySide6.QtGui import QFont, QGuiApplication, QKeyEvent, QKeySequence, QPainter, QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -215,10 +215,19 @@ class _Delegate(QStyledItemDelegate):
         super().__init__(table)
         self._table = table
 
+    def sizeHint(self, option: QStyleOptionViewItem, index: _Index) -> QSize:
+        """With room for the stripe."""
+        size = super().sizeHint(option, index)
+        cell = self._table.cell(index.row(), index.column())
+        return size if cell.edge is None else size + QSize(_EDGE_PX, 0)
+
     def paint(self, painter: QPainter, option: QStyleOptionViewItem, index: _Index) -> None:
         """Bar or tint, then the text, then the stripe."""
         cell, theme = self._table.cell(index.row(), index.column()), current_theme()
         area = QRectF(option.rect)
+        if cell.edge is not None:
+            # The text begins beside the stripe.
+            option.rect.setLeft(option.rect.left() + _EDGE_PX)
         if cell.fill is not None:
             bar = area.adjusted(1, 1, -1, -1)
             bar.setWidth(bar.width() * min(max(cell.share, 0.0), 1.0))

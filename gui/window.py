@@ -272,7 +272,9 @@ class Window(Shell):
 
     def _ask_compare(self) -> None:
         endings = " ".join(f"*{ending}" for ending in SESSION_ENDINGS)
-        ask_open_many(self, "Compare with", "", f"Sessions ({endings})", self._compare)
+        shown = self.controller.recorded
+        start = str(shown.path.parent) if shown is not None else ""
+        ask_open_many(self, "Compare with", start, f"Sessions ({endings})", self._compare)
 
     def _compare(self, path: Path) -> None:
         """Shown where laws are drawn beside each other."""

@@ -4,6 +4,7 @@ import re
 
 _TYPESET = ((" +- ", " ± "), (" -> ", " → "), ("/s^2", "/s²"), ("/m^2", "/m²"), ("/m^3", "/m³"))
 """What is written in ASCII, and what is printed. Names of files stay as they are."""
+_MICROSECONDS = re.compile(r"(?<=\d) us\b")
 _UNITS = {"_mpa": "MPa", "_pa": "Pa", "_rad_s": "rad/s", "_s": "s"}
 _LAW_KEY = re.compile(r"\b(g\w*|tau\w*)_(?:pa|s)\b")
 """A parameter of a law as results have it, its unit behind it."""
@@ -13,7 +14,7 @@ def typeset(text: str) -> str:
     """A sentence or cell as it is printed."""
     for plain, printed in _TYPESET:
         text = text.replace(plain, printed)
-    return text
+    return _MICROSECONDS.sub(" µs", text)
 
 
 def heading(text: str) -> str:

@@ -1,5 +1,6 @@
 """A recorded session through the same analysis again: derived events computed anew and compared."""
 
+import json
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from time import monotonic, sleep
@@ -27,6 +28,8 @@ from instrument.stream.raw import (
 
 Watch = Callable[[Event], None]
 _MOST_DIFFERENCES = 20
+_SHOWN = 80
+"""Letters of a value."""
 _SAID_SINCE = ("next_measurements", "unseen")
 """Of a diagnosis: what a recording of an older version does not have is not compared."""
 
@@ -149,7 +152,29 @@ def _first_difference(computed: Event, recorded: Event) -> str:
         return f"{name} recorded, {type(computed).__name__} computed"
     a, b = computed.facts(), recorded.facts()
     key = next((k for k in b if a.get(k) != b[k]), "?")
-    return f"{name}.{key}: {str(b.get(key))[:80]} recorded, {str(a.get(key))[:80]} computed"
+    place, was, now = _where(f"{name}.{key}", _opened(b.get(key)), _opened(a.get(key)))
+    return f"{place}: {str(was)[:_SHOWN]} recorded, {str(now)[:_SHOWN]} computed"
+
+
+def _opened(value: object) -> object:
+    """What a field holds as JSON, as that."""
+    try:
+        return json.loads(value) if isinstance(value, str) else value
+    except ValueError:
+        return value
+
+
+def _where(place: str, recorded: object, computed: object) -> tuple[str, object, object]:
+    """The innermost place of the first difference, and both values there."""
+    if isinstance(recorded, dict) and isinstance(computed, dict):
+        for key in dict.fromkeys([*recorded, *computed]):
+            if recorded.get(key) != computed.get(key):
+                return _where(f"{place}.{key}", recorded.get(key), computed.get(key))
+    if isinstance(recorded, list) and isinstance(computed, list):
+        for k, (was, now) in enumerate(zip(recorded, computed, strict=False)):
+            if was != now:
+                return _where(f"{place}.{k}", was, now)
+    return place, recorded, computed
 
 
 class _ReplayPace:

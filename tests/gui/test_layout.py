@@ -72,6 +72,17 @@ def test_a_cell_broken_into_lines_is_whole_and_one_that_lacks_a_line_is_found(qt
     assert "wants a row" in fault
 
 
+def test_a_cells_text_begins_beside_its_stripe(qtbot, appearance):
+    table = ReadTable({"what": "", "": ""})
+    qtbot.addWidget(table)
+    wide = []
+    for edge in (None, "data"):
+        table.show_rows([[Cell("spot_offset", edge=edge, left=True), Cell("")]])
+        table.show()
+        wide.append(table.columnWidth(0))
+    assert wide[1] == wide[0] + 4
+
+
 @pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
 def test_everything_written_can_be_read(theme):
     pairs = [(one, ground) for one in READ for ground in ON]

@@ -192,7 +192,9 @@ def test_what_is_wrong_is_said_beside_the_field_and_nothing_can_be_started(qtbot
     assert ["-1" in said and "greater" in said for said in form.said] == [True]
     assert not page.starting.start.isEnabled()
     assert "1" in page.files.tabs.tabText(0)
+    assert page.files.fault.text().startswith("experiment: sweep.level_g: -1")
     typed(qtbot, form.editor("sweep", "level_g"), "0.5")
+    assert page.files.fault.text() == ""
     assert form.said == []
     assert form.item("sweep", "level_g").text(2) == "g = 4.905 m/s\u00b2"
     assert page.starting.start.isEnabled()

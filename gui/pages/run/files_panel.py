@@ -66,6 +66,8 @@ class FilesPanel(QWidget):
         self.save_button.setShortcut("Ctrl+S")
         self.save_as_button = button("Save as...", "The experiment and its files in another place")
         self.faults_button = button("", "Go to the first field that is wrong")
+        self.fault = QLabel()
+        self.fault.setWordWrap(True)
         self.tabs = QTabWidget()
         self.tabs.setDocumentMode(True)
         self.nothing = hint(
@@ -196,10 +198,19 @@ class FilesPanel(QWidget):
         count = sum(len(form.draft.faults()) for form in self.forms.values())
         self.faults_button.setText(f"\u2716 {count} wrong: show" if count else "")
         self.faults_button.setVisible(bool(count))
+        self.fault.setText(self._first_fault())
+        self.fault.setVisible(bool(count))
         self.name.setText(str(self.path) if self.path is not None else "")
         self.name.setToolTip(self.name.text())
         self.save_button.setEnabled(self.changed)
         self.save_as_button.setEnabled(self.drafts is not None)
+
+    def _first_fault(self) -> str:
+        """In whole: beside its field there is room for some words only."""
+        for name, form in self.forms.items():
+            for place, said in form.draft.faults().items():
+                return f"{name}: {'.'.join(map(str, place))}: {said}".replace(": : ", ": ")
+        return ""
 
     def _ask_open(self) -> None:
         start = str(self.path.parent) if self.path is not None else ""
@@ -232,6 +243,7 @@ class FilesPanel(QWidget):
         column.setContentsMargins(6, 6, 6, 6)
         column.addLayout(buttons)
         column.addWidget(self.name)
+        column.addWidget(self.fault)
         column.addWidget(self.nothing)
         column.addWidget(self.tabs, 1)
         self.filler = QWidget()

@@ -7,6 +7,7 @@ from instrument.results.typeset import capitalised, heading, note, typeset
 
 def test_a_page_prints_what_a_terminal_writes_in_ascii_and_leaves_names_alone():
     assert typeset("k 2 +- 1 N/m^3, 0.3 -> 0.4 m/s^2") == "k 2 ± 1 N/m³, 0.3 → 0.4 m/s²"
+    assert typeset("delay 1160.46 +- 1 us tells us") == "delay 1160.46 ± 1 µs tells us"
     assert typeset("a->b^2+-c.toml") == "a->b^2+-c.toml"
 
 

@@ -42,8 +42,8 @@ def test_every_step_and_mode_is_the_other_plates(tmp_path):
     write_new("plate", tmp_path / "plate.toml")
     text = (tmp_path / "plate.toml").read_text()
     for old, new in (
-        ("300.0 ", "250.0 "),
-        ("200.0 ", "150.0 "),
+        ("300.2 ", "250.0 "),
+        ("199.9 ", "150.0 "),
         ("# [damping]", "[damping]"),
         ("# modal", "modal"),
     ):
