@@ -16,6 +16,8 @@ _TIPS = (
     "The same of the loss factor",
     "The larger of both, in standard errors of the law's band: it covers two",
 )
+_COLUMNS = tuple(heading(name).replace("loss factor", "η") for name in UNSEEN_COLUMNS)
+"""With the sign that the window's other tables have: there is no room for the word."""
 _SAID = (
     "Not found, but up to this size it would not be seen if it were there: law and stated numbers imitate "
     "it, and the law would be off by as much as stands here."
@@ -27,7 +29,7 @@ class UnseenTable(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.table = ReadTable(dict(zip(map(heading, UNSEEN_COLUMNS), _TIPS, strict=True)))
+        self.table = ReadTable(dict(zip(_COLUMNS, _TIPS, strict=True)))
         column = QVBoxLayout(self)
         column.setContentsMargins(4, 4, 4, 0)
         column.addWidget(self.table, 1)

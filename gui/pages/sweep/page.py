@@ -297,7 +297,7 @@ class SweepPage(Page):
             across.setStretchFactor(across.count() - 1, stretch)
         across.setSizes([_LEFT_PX, _MIDDLE_PX, _RIGHT_PX])
         inside = QVBoxLayout(self)
-        inside.setContentsMargins(6, 4, 6, 4)
+        inside.setContentsMargins(6, 0, 6, 0)
         self._layers = QStackedLayout()
         inside.addLayout(self._layers)
         none = hint(_NONE)
