@@ -16,6 +16,8 @@ def sensor_remarks(rig: RigDocument, today: date) -> Iterator[str]:
     if rig.is_simulated:
         return
     for name, sensor in rig.channels.named().items():
+        if sensor.calibrated is not None and sensor.calibrated > today:
+            yield f"channels.{name}: calibrated on {sensor.calibrated.isoformat()}, which is still to come"
         until = sensor.valid_until
         remark = calibration_remark(until, today) if until is not None else ""
         if remark:

@@ -11,7 +11,7 @@ from instrument.cli.output import Output
 from instrument.cli.printable import printable
 from instrument.errors import BadInput
 from instrument.files.acceleration import acceleration_unit
-from instrument.files.plausible import question_specimen
+from instrument.files.plausible_rig import question_experiment
 from instrument.models.tolerance_words import tolerance_rows
 from instrument.progress import bar
 from instrument.session.configuration import Experiment, read_whole_experiment
@@ -35,7 +35,7 @@ def check(experiment: Path, insist: bool, json_path: str | None) -> None:
             click.echo(printable(" ".join(fault.split())), err=True)
         raise BadInput(f"{len(faults)} fault{'s' if len(faults) > 1 else ''}, nothing can be run")
     whole = read_whole_experiment(experiment)
-    question_specimen(whole.specimen_path, insist=insist)
+    question_experiment(whole.path, whole.rig_path, whole.specimen_path, insist=insist)
     with bar("dry run"):
         run = dry_run(experiment)
     rows = [

@@ -9,7 +9,7 @@ from instrument.cli.output import Output
 from instrument.cli.print_run import print_finished, run_result
 from instrument.cli.stopping import safe_stop
 from instrument.cli.watching import Watcher
-from instrument.files.plausible import question_specimen
+from instrument.files.plausible_rig import question_experiment
 from instrument.progress import bar
 from instrument.run.control import RunControl
 from instrument.run.experiment import run_experiment
@@ -54,7 +54,7 @@ def run_parts(
     """Run some parts of an experiment and print what they gave."""
     output = Output(json_path)
     experiment = read_whole_experiment(path)
-    question_specimen(experiment.specimen_path, insist=insist)
+    question_experiment(path, experiment.rig_path, experiment.specimen_path, insist=insist)
     control = RunControl()
     with safe_stop(control), Watcher() as watch:
         finished = run_experiment(

@@ -44,6 +44,13 @@ class Hammer(TomlTable):
     wait_s: Annotated[float, Field(ge=1, le=3600)] = 60.0
     """For a hit, before the test gives up."""
 
+    @model_validator(mode="after")
+    def _ordered(self) -> "Hammer":
+        low, high = self.band_hz
+        if low >= high:
+            raise ValueError(f"band_hz = [{low:g}, {high:g}], expected the lower frequency first")
+        return self
+
 
 class SegmentSection(TomlTable):
     """A resonance region: from low to high, around a mode of the specimen as it is known, or step by step."""

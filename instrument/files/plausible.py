@@ -27,7 +27,7 @@ _RATIO_PERCENT = (0.003, 12.0)
 """The largest of a bare plate's modal damping ratios."""
 _KNOWN_PERCENT, _UNKNOWN_MM = 0.05, 20.0
 """A stiffness, thickness or gain is known no better; a place on a plate is not known worse."""
-_SPOT_MM = 0.3
+SPOT_MM = 0.3
 """No laser's spot is so near an edge: it would be half beside it."""
 
 
@@ -79,11 +79,12 @@ def specimen_doubts(tables: dict[str, Any]) -> list[str]:
     wanted["shear-pair"] = _PAIR
     found: list[str] = []
     for name, usual in wanted.items():
-        found += _outside(name, tables.get(name), usual)
+        found += outside(name, tables.get(name), usual)
     return [*found, *_damping(tables), *_pickup(tables), *_tolerances(tables), *_law(tables)]
 
 
-def _outside(place: str, table: Any, usual: dict[str, Usual]) -> Iterator[str]:
+def outside(place: str, table: Any, usual: dict[str, Usual]) -> Iterator[str]:
+    """A question for each number of a table that lies beyond its limits."""
     if not isinstance(table, dict):
         return
     for key, limits in usual.items():
@@ -122,7 +123,7 @@ def _pickup(tables: dict[str, Any]) -> Iterator[str]:
     for one in found if isinstance(found, list) else [found]:
         for key in ("x_mm", "y_mm"):
             at = one.get(key) if isinstance(one, dict) else None
-            if isinstance(at, int | float) and 0 < at < _SPOT_MM:
+            if isinstance(at, int | float) and 0 < at < SPOT_MM:
                 yield f"pickup.{key} = {at:g} is nearer to the edge than a laser's spot is wide: is it in m?"
 
 

@@ -24,6 +24,7 @@ def rig_with(**changes):
     [
         ({}, ""),
         ({"calibrated": date(2026, 6, 1)}, ""),
+        ({"calibrated": date(2062, 6, 1)}, "channels.base: calibrated on 2062-06-01, which is still to come"),
         ({"calibrated": date(2025, 6, 1)}, "channels.base (serial A7): calibration expired on 2026-06-01"),
         ({"calibrated": date(2025, 7, 1)}, "channels.base (serial A7): calibration expires on 2026-07-01"),
         ({"calibrated": date(2024, 2, 29)}, "expired on 2025-02-28"),
