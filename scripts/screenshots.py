@@ -9,6 +9,7 @@ the pictures of the guide in docs/.
 """
 
 import argparse
+import json
 import os
 import subprocess
 import sys
@@ -71,9 +72,9 @@ def main() -> int:
 
 
 def _take(session: Path, folder: Path, screen: str, *, docs: bool) -> int:
-    application = QApplication([])
     faults: list[str] = []
     with tempfile.TemporaryDirectory() as name:
+        application = QApplication([sys.argv[0], "-platform", _platform(screen, Path(name))])
         QSettings.setPath(QSettings.Format.IniFormat, QSettings.Scope.UserScope, name)
         appearance = Appearance(application, "light")
         window = Window(appearance, Settings())
@@ -101,6 +102,18 @@ def _take(session: Path, folder: Path, screen: str, *, docs: bool) -> int:
     for fault in dict.fromkeys(faults):
         print(fault)
     return 1 if faults else 0
+
+
+def _platform(screen: str, folder: Path) -> str:
+    """A screen as large as it is said to be: dialogs are no wider than theirs."""
+    if os.environ["QT_QPA_PLATFORM"] != "offscreen":
+        return os.environ["QT_QPA_PLATFORM"]
+    wide, high, scale = SCREENS[screen]
+    one = {"name": screen, "x": 0, "y": 0, "width": wide * int(scale), "height": high * int(scale)}
+    (folder / "screens.json").write_text(
+        json.dumps({"screens": [one | {"logicalDpi": 96, "logicalBaseDpi": 96, "dpr": 1}]})
+    )
+    return f"offscreen:configfile={folder / 'screens.json'}"
 
 
 def _faults(place: str, seen: QWidget) -> list[str]:

@@ -65,7 +65,28 @@ def word(text: str) -> str:
 def layout_faults(window: QWidget) -> list[str]:
     """One line for each text that has not room enough, and for each pair of neighbours that overlap."""
     seen = [w for w in (window, *window.findChildren(QWidget)) if w.isVisible()]
-    return [fault for widget in seen for fault in (*_cut(widget), *_overlaps(widget))]
+    return [
+        fault for widget in seen for fault in (*_cut(widget), *_beyond(window, widget), *_overlaps(widget))
+    ]
+
+
+def _beyond(window: QWidget, widget: QWidget) -> list[str]:
+    """What ends outside its window, unless it can be scrolled to."""
+    if not isinstance(widget, (QLabel, QAbstractButton, QLineEdit)) or _scrolls(widget, window):
+        return []
+    right = widget.mapTo(window, widget.rect().bottomRight())
+    if right.x() < window.width() + _SLACK_PX and right.y() < window.height() + _SLACK_PX:
+        return []
+    return [f"{_place(widget)}: ends at {right.x()}, {right.y()} of {window.width()}, {window.height()} px"]
+
+
+def _scrolls(widget: QWidget, window: QWidget) -> bool:
+    above = widget.parentWidget()
+    while above is not None and above is not window:
+        if isinstance(above, QAbstractScrollArea):
+            return True
+        above = above.parentWidget()
+    return False
 
 
 def _cut(widget: QWidget) -> list[str]:

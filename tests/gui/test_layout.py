@@ -58,6 +58,16 @@ def test_what_is_cut_or_overlaps_is_found(qtbot, appearance):
     assert "lies upon" in upon
 
 
+def test_what_ends_outside_its_window_is_found(qtbot, appearance):
+    whole = QWidget()
+    qtbot.addWidget(whole)
+    QLabel("as wide as its words", whole).setGeometry(10, 0, 300, 20)
+    whole.resize(100, 40)
+    whole.show()
+    (fault,) = layout_faults(whole)
+    assert "ends at 309, 19 of 100, 40 px" in fault
+
+
 def test_a_cell_broken_into_lines_is_whole_and_one_that_lacks_a_line_is_found(qtbot, appearance):
     table = ReadTable({"what": ""}, wide=(0,))
     qtbot.addWidget(table)
