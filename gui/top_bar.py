@@ -1,7 +1,7 @@
 """Always seen: how the run stands, what comes next, how near the limits are; and the stop button."""
 
 from PySide6.QtCore import QEvent, Qt
-from PySide6.QtGui import QColor, QPainter, QPaintEvent
+from PySide6.QtGui import QColor, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import (
     QFrame,
     QGridLayout,
@@ -22,6 +22,7 @@ from gui.stop_button import StopButton
 from gui.theme import current_theme
 from gui.widgets import button
 from instrument.files.acceleration import acceleration_unit
+from instrument.results.typeset import typeset
 
 _PERMILLE = 1000
 _EDGE_PX = 2
@@ -33,6 +34,7 @@ class TopBar(QFrame):
     def __init__(self, controller: AppController, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._controller, self._recorded = controller, False
+        self._words = ""
         self.state, self.next, self.left = QLabel(), QLabel(), QLabel()
         self.next.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.next.setTextFormat(Qt.TextFormat.PlainText)
@@ -64,14 +66,14 @@ class TopBar(QFrame):
             one.setEnabled(running)
         self.stop.setEnabled(running or self._controller.starting)
         if state is None:
-            self._say("idle", "no session")
+            self._say("idle", WORDS["idle"], "no session")
             self.left.clear()
             self.progress.hide()
             self._show_gauges(None)
             return
         run = state.run
         self.hold.setText("Resume" if run.state == "held" else "Hold")
-        self._say(run.state, run.next_words)
+        self._say(run.state, run.word, run.next_words)
         self._show_progress(state)
         self._show_gauges(state)
 
@@ -98,13 +100,24 @@ class TopBar(QFrame):
         ):
             label.setFixedWidth(self.fontMetrics().horizontalAdvance(longest) * 6 // 5)
 
-    def _say(self, state: str, words: str) -> None:
+    def _say(self, state: str, word: str, words: str) -> None:
         recorded = self._controller.recorded is not None
         sign = "RECORDED" if recorded else "\u25cf"
-        self.state.setText(f"<b style='color:{state_color(state)}'>{sign} {WORDS[state]}</b>")  # type: ignore[index]
+        self.state.setText(f"<b style='color:{state_color(state)}'>{sign} {word}</b>")
         self._look(recorded)
-        self.next.setText(words)
-        self.next.setToolTip(words)
+        self._words = typeset(words)
+        self.next.setToolTip(self._words)
+        self._show_next()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """More words, or fewer."""
+        super().resizeEvent(event)
+        self._show_next()
+
+    def _show_next(self) -> None:
+        """As much as there is room for; all of it stands on Run."""
+        room = self.next.width()
+        self.next.setText(self.fontMetrics().elidedText(self._words, Qt.TextElideMode.ElideRight, room))
 
     def _show_progress(self, state: SessionState) -> None:
         feed = self._controller.feed

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from instrument.files.experiment_file import ExperimentDocument
+from instrument.results.next_words import apart_words
 from instrument.stepped_sine.soak import Soak
 from instrument.stream.derived import HitJudged, HitRevised, StepsChosen
 from instrument.stream.event import Event
@@ -53,6 +54,7 @@ WORDS: dict[State, str] = {
     "done": "done",
     "stopped": "stopped",
 }
+_WAITING = "waiting for you"
 OVER: tuple[State, ...] = ("idle", "done", "stopped")
 """States in which nothing is going on."""
 _MEASURING: tuple[State, ...] = ("hammer", "calibration", "soaking", "sweep", "held")
@@ -147,6 +149,11 @@ class Run:
         return self.why + (f": {self.message}" if self.message else "")
 
     @property
+    def word(self) -> str:
+        """The state, in large: what only a person can carry on waits for one."""
+        return _WAITING if self.question and self.state == "preparing" else WORDS[self.state]
+
+    @property
     def next_words(self) -> str:
         """What is being done or waited for, in a line."""
         if self.question:
@@ -187,7 +194,7 @@ class Run:
             case "sentinel":
                 return f"sentinel at {f}"
         if self._following and self.proposed is not None:
-            return f"{f}, to tell {' from '.join(self.proposed.offers[0].between)}"
+            return f"{f}, {apart_words(self.proposed.offers[0].between)}"
         why = self.choice.why if self.choice is not None and self.step.sweep > 0 else ""
         return f"step at {f}" + (f": {why}" if why else "")
 

@@ -7,6 +7,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 
 from instrument.files.acceleration import shown_quantity
 from instrument.results.diagnosis_words import verdict_line
+from instrument.results.next_words import apart_words
 from instrument.stepped_sine.soak import Soak
 from instrument.stream.derived import (
     CalibrationFound,
@@ -120,7 +121,7 @@ def said_of(event: Event) -> str | None:
             return "tracing what the fit cannot explain"
         case FollowUpProposed():
             best = event.offers[0]
-            return f"to tell {' from '.join(best.between)}: {best.todo} {best.why}"
+            return f"{apart_words(best.between)}: {best.todo} {best.why}"
         case FollowUpDecided():
             said = "measured next" if event.agreed else "declined"
             return f"follow-up {event.number}: {said}, by the {event.by}'s word"

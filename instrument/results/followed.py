@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from instrument.facts.follow_up import FollowedUp, FollowUp
 from instrument.results.diagnosis_words import verdict_line
+from instrument.results.next_words import apart_words
 from instrument.stream.derived import DiagnosisFound
 from instrument.stream.event import Event
 from instrument.stream.raw import FollowUpDecided, FollowUpProposed
@@ -36,7 +37,7 @@ def followed_lines(followed: Sequence[FollowedUp]) -> list[str]:
     for k, one in enumerate(followed, start=1):
         lines += [
             f"before: {one.verdict_before}",
-            f"measured, to tell {' from '.join(one.measured.between)} ({k} of {len(followed)}): "
+            f"measured, {apart_words(one.measured.between)} ({k} of {len(followed)}): "
             f"{measured_words(one.measured)}",
             f"after: {one.verdict_after or 'not diagnosed'}",
         ]

@@ -24,12 +24,17 @@ def advice(offer: FollowUp) -> str:
     what = f"{offer.todo[0].lower()}{offer.todo[1:]}"
     cost = f"It takes {offer.seconds:.0f} s and settles the matter with {_percent(offer)} chance"
     cost += f"; if not, {_FOLLOWING[offer.then]} should follow." if offer.then else "."
-    return f"To tell {separated_words(offer.between)} apart, {what} {offer.why} {cost}"
+    return f"T{apart_words(offer.between)[1:]}, {what} {offer.why} {cost}"
 
 
 def next_row(offer: FollowUp) -> tuple[str, ...]:
     """One row under `NEXT_COLUMNS`."""
     return offer.todo, f"{offer.seconds:.0f}", _percent(offer), f"{offer.separation:.1f}"
+
+
+def apart_words(between: Sequence[str]) -> str:
+    """What a measurement is for."""
+    return f"to tell {separated_words(between)} apart"
 
 
 def separated_words(between: Sequence[str]) -> str:

@@ -9,6 +9,7 @@ import httpx
 
 from instrument.errors import RigStopped
 from instrument.facts.follow_up import FollowUp
+from instrument.results.next_words import apart_words
 from instrument.run.control import RunControl
 from instrument.stream.raw import OperatorDid
 
@@ -149,7 +150,7 @@ class Person:
 
     def agree(self, offer: FollowUp) -> bool:
         """Ask; where nobody is there to answer, no."""
-        click.echo(f"to tell {' from '.join(offer.between)} apart: {offer.todo} {offer.why}", err=True)
+        click.echo(f"{apart_words(offer.between)}: {offer.todo} {offer.why}", err=True)
         click.echo(f"{follow_up_words(offer)}. Enter to measure it, n not to ... ", err=True, nl=False)
         try:
             return input().strip().lower() in ("", "y", "yes")

@@ -10,12 +10,12 @@ from gui.gauge import Gauge
 from gui.pages.run.overrule import OverruleRow
 from gui.run_gauges import RunGauges, state_color
 from gui.state import SessionState
-from gui.state.run import WORDS
 from gui.tables import Cell, ReadTable
 from gui.theme import Role
 from gui.widgets import hint
 from instrument.engine.messages import Ended
 from instrument.files.acceleration import acceleration_unit
+from instrument.results.typeset import typeset
 
 _COLUMNS = {
     "sweep": "Pass over all segments; 0 is the calibration",
@@ -57,7 +57,7 @@ class NowPane(QWidget):
         self._whole.show()
         run = state.run
         self._say_state(state)
-        self.next.setText(run.next_words)
+        self.next.setText(typeset(run.next_words))
         self.overrule.show_state(state)
         self._show_gauges(state)
         words = path_words(live) if live is not None else ending_words(ending)
@@ -73,7 +73,7 @@ class NowPane(QWidget):
 
     def _say_state(self, state: SessionState) -> None:
         style = f"font-size:x-large; color:{state_color(state.run.state)}"
-        self.state.setText(f"<span style='{style}'><b>{WORDS[state.run.state]}</b></span>")
+        self.state.setText(f"<span style='{style}'><b>{state.run.word}</b></span>")
 
     def show_segments(self, state: SessionState) -> None:
         """How far each segment is."""

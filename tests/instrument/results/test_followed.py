@@ -27,7 +27,7 @@ def test_the_offer_that_was_taken_stands_between_both_verdicts():
     assert one.verdict_after == "no diagnosis: too few points"
     assert followed_lines([one]) == [
         f"before: {one.verdict_before}",
-        "measured, to tell spot_offset from gain_error (1 of 1): Aim it elsewhere; 3 steps",
+        "measured, to tell spot_offset and gain_error apart (1 of 1): Aim it elsewhere; 3 steps",
         "after: no diagnosis: too few points",
     ]
 

@@ -1,0 +1,17 @@
+"""What a run is said to do."""
+
+from gui.state.run import Run
+from instrument.files.experiment_file import read_experiment
+from instrument.simulated_case import case_file
+from instrument.stream.raw import OperatorDid
+
+
+def test_a_run_that_only_a_person_carries_on_says_so_until_it_is_done():
+    run = Run(read_experiment(case_file("experiment.toml")), state="preparing")
+    assert run.word == "preparing"
+    run.question = "Mount the damped plate"
+    assert run.word == "waiting for you"
+    run.take(OperatorDid("mounted", "damped"))
+    assert run.word == "preparing"
+    run.state, run.question = "sweep", "Use these hits"
+    assert run.word == "sweep"
