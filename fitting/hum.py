@@ -31,6 +31,9 @@ _REACH_HZ = 1.0
 """No curve takes points so near to a multiple, or to the point it judges."""
 _SPREAD_HZ = 10.0
 """Where hum is found, single points as far as this may be set aside."""
+_BEYOND = 0.01
+"""Of its frequency: how far beyond its neighbours a point is judged by their curve. A resonance just beyond a
+coarse sweep's end would else pass for hum: damped structures have none that is narrower."""
 _ONCE_FOUND = 1e-3
 """Chance that is enough for a further point, once there is hum."""
 _NEIGHBOURS = 10
@@ -178,8 +181,8 @@ def _in_group(f: Array, v: NDArray[Any], std: Array, aside: Points) -> _Deviatio
         quiet, near = away, _neighbours(f, middle, away)
     if near is None:
         return None
-    t = f[near] - f[:, None]
-    t = t / np.abs(t).max(axis=1, keepdims=True)
+    apart = f[near] - f[:, None]
+    t = apart / np.abs(apart).max(axis=1, keepdims=True)
     solve = np.linalg.pinv(local_model(t, v[near]))
     unknowns = np.einsum("pun,pn->pu", solve, v[near])
     curve = unknowns[:, 0]
@@ -196,9 +199,19 @@ def _in_group(f: Array, v: NDArray[Any], std: Array, aside: Points) -> _Deviatio
         return None
     z2 = z2 / scale2
     chance = stats.f.sf(z2 / parts, parts, _freedom(int(quiet.sum()), parts))
+    chance = np.where(_is_within(f, apart), chance, 1.0)
     beside = np.argsort(np.where(quiet, np.abs(f - middle[:, None]), np.inf), axis=1)[:, :_NEIGHBOURS]
     stands_out = z2 > _STANDS_OUT**2 * z2[beside].max(axis=1)
     return _Deviations(v - curve, (v - curve) / curve, chance, stands_out)
+
+
+def _is_within(f: Array, apart: Array) -> Points:
+    """Where the curve is drawn between neighbours, or reaches little beyond them, as at a sweep's end.
+
+    `apart` has shape (points, neighbours).
+    """
+    between = (apart.min(axis=1) < 0) & (apart.max(axis=1) > 0)
+    return np.asarray(between | (np.abs(apart).min(axis=1) <= np.maximum(2 * _REACH_HZ, _BEYOND * f)))
 
 
 def _neighbours(f: Array, middle: Array, quiet: Points) -> NDArray[np.intp] | None:

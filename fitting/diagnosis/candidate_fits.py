@@ -150,6 +150,13 @@ class CandidateFits:
         far = _best_first([(c, f) for c in candidates for f in c.far])[: SEARCH.finished] if astray else []
         return [c.finished(f) for c, f in [*near, *far]]
 
+    def from_stated(self, one: tuple[str, State]) -> list[Refitted]:
+        """In wide valleys from what is stated; the best to the end."""
+        name, state = one
+        self.learn(name, state)
+        far = _best_first([(c, f) for c in self.candidates[name] for f in c.far])
+        return [c.finished(f) for c, f in far[: SEARCH.finished]]
+
     def everywhere(self, one: tuple[str, State]) -> list[Refitted]:
         """From starts not followed so far; the best to the end."""
         name, state = one

@@ -2,11 +2,12 @@
 
 from collections.abc import Callable, Iterable, Sequence
 
+from fitting.chances import chi2_above
 from fitting.diagnosis.candidate_fits import FirstLook, Form
 from fitting.diagnosis.candidates import has_place
 from fitting.diagnosis.refit import Refitted
 from fitting.diagnosis.search import ScoredFit, Search
-from fitting.diagnosis.thresholds import SEARCH
+from fitting.diagnosis.thresholds import SEARCH, VERDICT
 
 Report = Callable[[float], None]
 
@@ -42,6 +43,9 @@ class Singles:
             begun = self._each(work.begun, [(n, work.state(n)) for n in first], self._part(0.1, 0.1))
             self._begin(begun)
             self._keep(self._each(work.finished, [f for t in self._order()[:1] for f in self._near(t)]))
+            again = [(n, work.state(n)) for t in self._order()[:1] if self._leans(t) for n in t.names]
+            for fits in self._each(work.from_stated, again):
+                self._keep(fits)
         if not self._settle(self._part(0.2, 0.2)):
             left = [n for n in (*self._laws, *self._effects) if n not in first]
             self._begin(self._each(work.begun, [(n, work.state(n)) for n in left], self._part(0.2, 0.2)))
@@ -74,6 +78,15 @@ class Singles:
             self._search.none.cost - scored.cost > SEARCH.promising and best.chi2_per_dof < SEARCH.unclear
         )
         return enough and not scored.fails and not any(e.replaces_law for e in best.effects)
+
+    def _leans(self, scored: ScoredFit) -> bool:
+        """Whether a fit, begun where no law will do, has kept stated numbers that were moved there.
+
+        However much it explains: they are held against their tolerances alone.
+        """
+        fitted = scored.fitted
+        asked = chi2_above(float(fitted.z @ fitted.z), fitted.stated) if fitted.stated else 1.0
+        return self._astray and asked < VERDICT.check_level
 
     # What has been found.
 

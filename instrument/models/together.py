@@ -103,10 +103,13 @@ class _Work:
     used: list[Mask] = field(default_factory=list)
     misfit: list[float] = field(default_factory=list)
     aside: list[SetAside] = field(default_factory=list)
+    start: CoreLaw = field(init=False)
+    """What fits begin with."""
 
     def __post_init__(self) -> None:
         self.used = [np.ones(len(f.sweep), bool) for f in self.files]
         self.misfit = [0.0] * len(self.files)
+        self.start = _start_of(self.files)
 
     def problem(self) -> tuple[SeveralProblem, Noise]:
         """Of the points in use."""
@@ -138,16 +141,6 @@ class _Work:
             source = "misfit"
         places = [Place(n, f.pickup) for n, f in zip(numbers_of(self.files), self.files, strict=True)]
         return SeveralProblem.of_members(members, reduced, places), Noise(np.concatenate(std), source)
-
-    @property
-    def start(self) -> CoreLaw:
-        """Of the first file's specimen."""
-        laws = [f.specimen.core.law for f in self.files if f.specimen.core is not None]
-        if len(laws) < len(self.files):
-            raise OutsideModel("a bare specimen has no core to identify, expected a core in every one")
-        if len({law.kind for law in laws}) > 1:
-            raise OutsideModel("the specimens name different core laws, expected one: it is one material")
-        return laws[0]
 
     def without_glitches(self) -> tuple[Begun, Noise]:
         """The fit of what is no local disturbance."""
@@ -204,6 +197,16 @@ class _Work:
         return any(self.misfit)
 
     _deaf_taken: bool = False
+
+
+def _start_of(files: Sequence[File]) -> CoreLaw:
+    """The law of the first file's specimen. Raises `OutsideModel`."""
+    laws = [f.specimen.core.law for f in files if f.specimen.core is not None]
+    if len(laws) < len(files):
+        raise OutsideModel("a bare specimen has no core to identify, expected a core in every one")
+    if len({law.kind for law in laws}) > 1:
+        raise OutsideModel("the specimens name different core laws, expected one: it is one material")
+    return laws[0]
 
 
 def identify_together(

@@ -139,5 +139,8 @@ def _explanation(
         others = ["no effect" if n == NONE else n for n in group if n != name]
         if others:
             said.append(f"These data cannot tell {name} from {', '.join(others)}.")
-    said.append(f"With it {after.rms_percent:.2g} % is left.")
+    them = "it" if len(effects) == 1 else "them"
+    said.append(f"With {them} {after.rms_percent:.2g} % is left.")
+    if not judgement.confirmed:
+        said.append("Modes that were left out are predicted no better by two effects than by none.")
     return tuple(said)

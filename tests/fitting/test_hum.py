@@ -177,3 +177,15 @@ def test_few_points_and_noiseless_ones_say_nothing(table5):
 
 def test_a_clean_practice_sweep_has_none():
     assert found(read_sweep(DATA / "practice-002.csv").sweep(9.81)) is None
+
+
+def test_a_resonance_just_beyond_a_coarse_sweep_is_no_hum():
+    # The last point lies at a multiple, 56 Hz from its neighbour, below a peak of 12 % loss at 1563 Hz.
+    f = np.geomspace(15, 1500, 120)
+    v = sum(1 / (1 - (f / at) ** 2 + 1j * loss) for at, loss in ((330.0, 0.2), (840.0, 0.17), (1563.0, 0.12)))
+    ones = np.ones(len(f), dtype=int)
+    for seed in range(10):
+        rng = np.random.default_rng(seed)
+        noise = 0.002 * np.abs(v) * (rng.normal(size=len(f)) + 1j * rng.normal(size=len(f)))
+        sweep = Sweep(f, v + noise, 9.81 * ones, ones, ones, base_m_s2=9.81 * ones + 0j)
+        assert found(sweep) is None

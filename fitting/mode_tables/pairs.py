@@ -1,0 +1,72 @@
+"""Two effects together on tables of modes, where there is one.
+
+A table has few numbers: pairs are ranked by marginal likelihood as single effects are, and named only where
+they predict modes that were left out better than no effect does.
+"""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from fitting.diagnosis.search import ScoredFit
+from fitting.diagnosis.thresholds import SEARCH
+from fitting.effects.base import Effect
+from fitting.mode_tables.explaining import Explaining
+
+LEADERS = 3
+"""Single effects that a second one is looked for beside."""
+FOLLOWED, FOLLOWED_A_LEADER = 8, 4
+"""Pairs that are fitted, and of those, with one leader: each has its say. Choices, for time."""
+Report = Callable[[float], None]
+
+
+def called_for(work: Explaining, none: ScoredFit, singles: Sequence[ScoredFit]) -> bool:
+    """Whether the best single effect is more than a chance find."""
+    known = work.begun.evidence.scale_known
+    return known and bool(singles) and none.cost - singles[0].cost > SEARCH.promising
+
+
+def best_pairs(
+    work: Explaining, singles: Sequence[ScoredFit], effects: Sequence[Effect], report: Report
+) -> list[ScoredFit]:
+    """Second effects beside the leading single ones; the effects of the best pair alone, too.
+
+    `singles` best first. One of every explanation, best first.
+    """
+    beside = [e for e in effects if not e.replaces_law]
+    leaders = [t for t in singles if not any(e.replaces_law for e in t.fitted.effects)][:LEADERS]
+    asked = [
+        (t, form, starts)
+        for t in leaders
+        for e in beside
+        if e.name not in t.names
+        for form in work.forms(e)
+        if (starts := work.starts(form, t.fitted))
+    ]
+    expected = [t.fitted.chi2 - starts[0][0] for t, _, starts in asked]
+    chosen: dict[frozenset[str], int] = {}
+    of_leader: dict[int, int] = {}
+    for k in np.argsort(expected):
+        leader, form, _ = asked[k]
+        if len(chosen) < FOLLOWED and of_leader.get(id(leader), 0) < FOLLOWED_A_LEADER:
+            of_leader[id(leader)] = of_leader.get(id(leader), 0) + 1
+            chosen.setdefault(frozenset((*leader.names, form.name)), int(k))
+    found: dict[frozenset[str], ScoredFit] = {}
+    for n, k in enumerate(chosen.values()):
+        leader, form, starts = asked[k]
+        for f in work.fits(form, leader.fitted, starts):
+            scored = work.scored(f)
+            known = found.get(frozenset(scored.names))
+            if work.determined(f) and (known is None or scored.cost < known.cost):
+                found[frozenset(scored.names)] = scored
+        report((n + 1) / len(chosen))
+    ranked = sorted(found.values(), key=lambda t: t.cost)
+    return [*ranked, *(one for pair in ranked[:1] for one in _alone(work, pair))]
+
+
+def _alone(work: Explaining, pair: ScoredFit) -> list[ScoredFit]:
+    """Each effect of a pair fitted alone from where the pair left it."""
+    both = pair.fitted
+    return [
+        work.scored(work.ended([e], both.law, np.concatenate([both.z, both.of(e)]))) for e in both.effects
+    ]

@@ -1,0 +1,35 @@
+"""Tables of modes of a sandwich beam, stated exactly, with noise that they state; the fit without effects."""
+
+import numpy as np
+
+from fitting.laws.constant import ConstantModulus
+from fitting.mode_tables.build import member_of
+from fitting.mode_tables.explaining import Explaining
+from fitting.mode_tables.fit import begin_modal, start_of
+from fitting.mode_tables.problem import ModalProblem
+from fitting.mode_tables.table import ModalTable
+from fitting.specimen import Core, Face
+from fitting.structures.beam import Beam
+from fitting.structures.small_modes import small_modes
+
+LAW = ConstantModulus(3e6, 0.5)
+FACE = Face(2e-3, 70e9, 0.3, 2700.0)
+BEAM = Beam(0.2, 0.02, "clamped-free", FACE, FACE, Core(0.5e-3, 0.49, 1000.0, LAW), exact=True)
+
+
+def read(true, count=6, seed=0):
+    modes, rng = small_modes(true, LAW, count), np.random.default_rng(seed)
+    f, eta = (np.array([getattr(m, name) for m in modes]) for name in ("frequency_hz", "loss_factor"))
+    return ModalTable(
+        np.arange(1.0, count + 1),
+        f * (1 + 1e-3 * rng.standard_normal(count)),
+        eta * (1 + 0.03 * rng.standard_normal(count)),
+        1e-3 * f,
+        0.03 * eta,
+    )
+
+
+def begun(*tables):
+    beams = [BEAM] * len(tables)
+    problem = ModalProblem.of([member_of(t, b) for t, b in zip(tables, beams, strict=True)])
+    return Explaining(begin_modal(problem, start_of(tables, beams)))

@@ -1,0 +1,33 @@
+"""Explanations of tables of modes, weighed one by one."""
+
+from dataclasses import replace
+
+import numpy as np
+from beam_tables import BEAM, FACE, begun, read
+
+from fitting.diagnosis.of_files import OfFiles
+from fitting.mode_tables.stated_off import standing
+
+STIFFER = next(e for e in standing(BEAM) if e.name == "substrate_stiffness")
+
+
+def test_modes_left_out_are_predicted_within_their_errors_and_not_from_a_wrong_beam():
+    work = begun(read(BEAM))
+    assert 0.4 < work.held_out(work.scored(work.begun.none)) < 2.5
+    stiff = begun(read(replace(BEAM, substrate=replace(FACE, young_pa=1.35 * 70e9))))
+    none = stiff.scored(stiff.begun.none)
+    (fitted,) = stiff.fits(STIFFER, stiff.begun.none)
+    assert stiff.held_out(stiff.scored(fitted)) < 0.7 * stiff.held_out(none)
+    assert stiff.scored(fitted).cost < none.cost
+
+
+def test_another_law_is_not_held_to_what_was_left_out():
+    work = begun(read(BEAM))
+    other = next(e for e in standing(BEAM) if e.replaces_law)
+    fitted = work.fits(other, work.begun.none)
+    assert all(np.isnan(work.held_out(work.scored(f))) for f in fitted[:1])
+
+
+def test_in_several_tables_an_effect_may_be_of_one():
+    work = begun(read(BEAM, 5), read(BEAM, 5, seed=1))
+    assert all(isinstance(form, OfFiles) for form in work.forms(STIFFER))
