@@ -5,6 +5,9 @@ import numpy as np
 _FAR = 0.05
 """Beyond this share of the frequency the gain is not carried over: a loop check measures it. A choice."""
 
+_STEEP = 0.16
+"""Of ln gain from one step to the next: a cube of the frequency over `_FAR` is less. A choice."""
+
 
 class DriveModel:
     """Base acceleration per volt, as measured so far."""
@@ -32,5 +35,10 @@ class DriveModel:
         ln_gain = np.log([self._gains[f] for f in near])
         if len(near) == 2 and abs(ln_f[1] - ln_f[0]) > 1e-9:
             slope = (ln_gain[0] - ln_gain[1]) / (ln_f[0] - ln_f[1])
-            return float(level_m_s2 / np.exp(ln_gain[0] - slope * ln_f[0]))
+            change = -slope * ln_f[0]
+            if change < -_STEEP:
+                # Where the gain falls so fast it may turn before this frequency: either way the base stays
+                # below its limit, and a correction takes it up.
+                change = -change
+            return float(level_m_s2 / np.exp(ln_gain[0] + change))
         return float(level_m_s2 / np.exp(ln_gain[0]))
