@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from itertools import groupby
 from math import isnan, nan
 
+from fitting.diagnosis.of_files import ALIKE, EACH, FILE
 from instrument.facts.diagnosis import CandidateFitted, DiagnosisResult, EffectFound, ParameterFound
 from instrument.facts.rows import LawRow
 from instrument.results.error_words import FLOOR_PERCENT, is_below_floor
@@ -14,6 +15,7 @@ _LEAST = 1e-3
 """Probability below which, or above one less which, no digits are said."""
 _RANGE = 3
 """Neighbours from which only the first and the last are said."""
+_FILES = {EACH: "in each file its own", ALIKE: "in every file"}
 _SAID = {"none": "nothing beyond noise", "unknown": "structure that nothing in the catalogue explains"}
 
 
@@ -99,6 +101,8 @@ def _sized(effect: EffectFound) -> str:
 
 def parameter_words(key: str, p: ParameterFound) -> str:
     """Name, value, standard error where there is one, unit."""
+    if key == FILE:
+        return _FILES.get(round(p.value), f"in file {p.value:.0f}")
     unit = "" if p.unit == "1" else f" {p.unit}"
     spread = ""
     if not isnan(p.standard_error):

@@ -6,9 +6,11 @@ from diagnosis_cases import diagnosis
 
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
+from instrument.facts.diagnosis import ParameterFound
 from instrument.results.diagnosis_figures import law_figure
 from instrument.results.diagnosis_words import (
     log_odds,
+    parameter_words,
     probability_words,
     resampling_words,
     set_aside_words,
@@ -37,6 +39,14 @@ def test_nothing_was_weighed_by_hand_nor_before_there_were_probabilities():
     first = found.candidates[0]
     assert probability_words(first, found.but(by_hand=True)) == "-"
     assert probability_words(first.without("probability"), found) == "-"
+
+
+@pytest.mark.parametrize(
+    ("value", "said"), [(-1.0, "in each file its own"), (0.0, "in every file"), (2.0, "in file 2")]
+)
+def test_whose_file_an_effect_is_in_is_said_in_words(value, said):
+    where = ParameterFound(value=value, standard_error=float("nan"), unit="1")
+    assert parameter_words("file", where) == said
 
 
 def test_a_law_of_an_unknown_cause_says_so():
