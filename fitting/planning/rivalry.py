@@ -59,6 +59,8 @@ class Outcome:
     """D(i, j) in nats. Shape (rivals, rivals)."""
     information: float
     """Expected fall of the entropy of which rival is right, in nats."""
+    left: float
+    """Share of that entropy that is expected to be left."""
     resolved: float
     """Chance that one rival holds `credible` afterwards."""
 
@@ -80,31 +82,31 @@ def outcome(
     0; a form a rival where nothing is said.
     """
     drawn = _Drawn.of(forecasts, probabilities, temper, of)
-    after, weight = drawn.after, drawn.weight
-    entropy = -np.sum(np.where(after > 0, after * np.log(np.maximum(after, 1e-300)), 0.0), axis=0)
     whole = drawn.member @ probabilities
-    before = float(-np.sum(whole * np.log(whole)))
+    before, left = float(_entropy(whole)), drawn.left(probabilities)
     D = _divergences(forecasts, drawn.L)
     nearest = np.array([np.where(one, D, np.inf).min(axis=1) for one in drawn.member]).T
     return Outcome(
         np.maximum((drawn.member * probabilities) @ nearest / whole[:, None], 0.0) / temper,
-        before - float(weight @ entropy),
+        before * (1 - left),
+        left,
         drawn.resolved(credible),
     )
 
 
-def resolved(
+def left_and_resolved(
     forecasts: Sequence[Forecast],
     probabilities: Array,
     temper: float = 1.0,
     credible: float = 0.95,
     of: Sequence[int] | None = None,
-) -> float:
-    """The chance that one rival holds `credible` afterwards, and nothing else; arguments as of `outcome`.
+) -> tuple[float, float]:
+    """`left` and `resolved` of the outcome, and nothing else; arguments as of `outcome`.
 
     `probabilities` of shape (forms,).
     """
-    return _Drawn.of(forecasts, probabilities, temper, of).resolved(credible)
+    drawn = _Drawn.of(forecasts, probabilities, temper, of)
+    return drawn.left(probabilities), drawn.resolved(credible)
 
 
 @dataclass(frozen=True)
@@ -141,8 +143,16 @@ class _Drawn:
         after = member @ softmax(np.log(probabilities)[:, None] + fits / temper, axis=0)
         return cls(L, member, after, np.repeat(probabilities / draws, draws))
 
+    def left(self, probabilities: Array) -> float:
+        return float(self.weight @ _entropy(self.after) / _entropy(self.member @ probabilities))
+
     def resolved(self, credible: float) -> float:
         return float(self.weight @ (self.after.max(axis=0) >= credible))
+
+
+def _entropy(p: Array) -> Array:
+    """In nats, of probabilities along the first axis."""
+    return np.asarray(-np.sum(np.where(p > 0, p * np.log(np.maximum(p, 1e-300)), 0.0), axis=0))
 
 
 def _log_density(off: Array, L: Array) -> Array:

@@ -37,7 +37,7 @@ class FollowUp(Result):
     then: FollowUpKind | None = None
     """What would follow best where this settles nothing; None where nothing would be worth it."""
     expected_seconds: MaybeNumber = None
-    """Until one explanation is left, with what would follow; what stays open counts as an hour."""
+    """Until one explanation is left, with what would follow; the question, left open, counts as an hour."""
     between: tuple[str, ...]
     """Explanations that it separates, the likeliest first: `none`, an effect, two joined by " + "."""
     why: str

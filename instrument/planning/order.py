@@ -3,11 +3,13 @@
 A short measurement that settles little is no bargain where another must follow it, nor a long one where a
 short one would do. So each is judged with the one that would follow it best:
 
-    E(a) = t_a + (1 - r_a) t_b + (1 - r_ab) T
+    E(a) = t_a + (1 - r_a) t_b + h_ab T
 
-t: seconds of rig and hands; r_a: chance that one explanation holds 95 % after a; r_ab: after a and b, whose
-readings have the specimen's unknowns in common; T: what an open question costs. Where nothing is worth to
-follow, t_b = 0 and r_ab = r_a.
+t: seconds of rig and hands; r_a: chance that one explanation holds 95 % after a; h_ab: what share of the
+question is open after a and b, whose readings have the specimen's unknowns in common, as entropy of which
+explanation is right over that of now; T: what the open question costs. A share, not the chance that it stays
+open: of many explanations two measurements may end none, and yet one pair leaves two of them and another
+all. Where nothing is worth to follow, t_b = 0 and h_ab = h_a.
 """
 
 from collections.abc import Sequence
@@ -16,7 +18,7 @@ from math import sqrt
 
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.planning.further import Expecting
-from fitting.planning.rivalry import Forecast, Outcome, resolved
+from fitting.planning.rivalry import Forecast, Outcome, left_and_resolved
 from instrument.facts.follow_up import FollowUpKind
 from instrument.planning.measurement import Measurable
 
@@ -66,16 +68,16 @@ def _best_of_each_kind(asked: Sequence[Asked]) -> list[Asked]:
 
 
 def _courses(first: Asked, each: Sequence[Asked], expecting: Expecting) -> list[Course]:
-    r = first.told.resolved
-    found = [Course(first, None, first.seconds + (1 - r) * OPEN_S)]
+    alone = first.told.left
+    found = [Course(first, None, first.seconds + alone * OPEN_S)]
     for other in each:
         if other is first:
             continue
         both = [a.then(b) for a, b in zip(first.forecasts, other.forecasts, strict=True)]
         p, temper = expecting.probabilities, expecting.temper
-        r_both = resolved(both, p, temper, VERDICT.credible, expecting.of)
-        # More data never settle less: what falls short of one alone is the draws' own scatter.
-        left = 1 - max(r, r_both)
-        expected = first.seconds + (1 - r) * other.seconds + left * OPEN_S
+        left, _ = left_and_resolved(both, p, temper, VERDICT.credible, expecting.of)
+        # More data never leave more: what exceeds one alone is the draws' own scatter.
+        left = min(left, alone)
+        expected = first.seconds + (1 - first.told.resolved) * other.seconds + left * OPEN_S
         found.append(Course(first, other.measurable.kind, expected))
     return found

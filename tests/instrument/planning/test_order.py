@@ -24,13 +24,11 @@ def kinds(courses):
 
 
 def test_what_settles_little_comes_after_what_settles_all_though_it_is_shorter():
-    # By information over the root of time the level would come first: 0.11 nats in 90 s, ln 2 in 3400.
-    level, spot = asked("level", 90.0, 1.0), asked("spot", 3400.0, 20.0)
-    assert level.told.information / np.sqrt(level.seconds) > spot.told.information / np.sqrt(spot.seconds)
+    level, spot = asked("level", 100.0, 1.0), asked("spot", 600.0, 20.0)
     spot_first, level_first = best_courses([level, spot], RIVALS)
     assert kinds([spot_first, level_first]) == ["spot", "level"]
     assert (spot_first.then, level_first.then) == (None, "spot")
-    assert spot_first.expected_s == pytest.approx(3400.0)
+    assert spot_first.expected_s == pytest.approx(600.0)
 
 
 def test_a_short_one_that_may_settle_it_comes_first_and_says_what_would_follow():
@@ -46,7 +44,7 @@ def test_of_a_kind_the_best_alone_is_kept():
     (only,) = best_courses([near, far], RIVALS)
     assert only.first is far
     assert only.then is None
-    assert only.expected_s == pytest.approx(300 + (1 - far.told.resolved) * OPEN_S)
+    assert only.expected_s == pytest.approx(300 + far.told.left * OPEN_S)
 
 
 def test_two_that_settle_it_only_together_are_worth_more_than_either():
@@ -62,3 +60,17 @@ def test_two_that_settle_it_only_together_are_worth_more_than_either():
     first, _ = best_courses(pair, RIVALS)
     assert first.then is not None
     assert first.expected_s == pytest.approx(200.0)
+
+
+def test_of_many_explanations_what_leaves_two_comes_before_what_leaves_all():
+    # Neither ends the question, and the one that tells most of them apart takes longer.
+    means = {"level": (0.0, 0.0, 0.3, 0.3), "clamping": (0.0, 0.0, 20.0, 20.0)}
+    four = SimpleNamespace(probabilities=np.full(4, 0.25), temper=1.0, of=[0, 1, 2, 3])
+    pair = []
+    for kind, mean in means.items():
+        f = [Forecast(np.array([m]), np.zeros((1, 0))) for m in mean]
+        seconds = 100.0 if kind == "level" else 400.0
+        measurable = SimpleNamespace(kind=kind, seconds=seconds - ALWAYS_S)
+        pair.append(Asked(measurable, f, outcome(f, four.probabilities)))
+    assert all(a.told.resolved == 0 for a in pair)
+    assert kinds(best_courses(pair, four)) == ["clamping", "level"]
