@@ -5,11 +5,12 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+from fitting.gravity import STANDARD_GRAVITY_M_S2
 from instrument.errors import BadInput
 from instrument.files.plausible import INSIST, SPOT_MM, Usual, outside, question_specimen
 from instrument.files.text import read_text
 
-_PER_G = 1 / 9.80665
+_PER_G = 1 / STANDARD_GRAVITY_M_S2
 _ACCELEROMETER = {
     "sensitivity_mv_per_unit": Usual(
         0.02, 500.0, "accelerometers 0.1 to 100, per m/s^2", {"V": 1e3, "mV per g": _PER_G}
