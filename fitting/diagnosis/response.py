@@ -20,7 +20,7 @@ from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid
 from fitting.diagnosis.strains import Reference, Strains
 from fitting.diagnosis.unknowns import Unknowns, stepped
 from fitting.effects.added_mass import AddedMassEffect
-from fitting.effects.base import Effect, ModulusAt
+from fitting.effects.base import Effect, ModulusAt, Strain
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.span import Span
@@ -232,11 +232,11 @@ class SweepResponse:
         change = change or Change()
         return change if self.problem.points.drive == "base" else change.at_rest
 
-    def _modulus(self, law: CoreLaw, u: Array, G_law: Complex, strained: CoreLaw | None = None) -> Complex:
-        """G* at every point; strains are those of the law `strained` where it is a step away."""
+    def _modulus(self, law: CoreLaw, u: Array, G_law: Complex, strain: Strain | None = None) -> Complex:
+        """G* at every point; `strain` where the law is a step away from the one that strains are of."""
         G = G_law
         for k in self._shifting:
-            at = ModulusAt(law, self.problem.points, lambda s: self._strain(strained or law, u, s))
+            at = ModulusAt(law, self.problem.points, strain or self._strain(law, u))
             shifted = self.effects[k].modulus(at, self.problem.points, self._unknowns.of(k, u))
             if shifted is not None:
                 G = G * (shifted / G_law)
@@ -246,23 +246,22 @@ class SweepResponse:
         omega = self.problem.points.omega
         if not self._shifting:
             return np.asarray(law.jacobian(omega) * law.values[:, None])
-        G = self._modulus(law, u, law.modulus(omega))
         found = []
         upper = law.log_limits[1]
-        logs = np.log(law.values)
+        logs, strain = np.log(law.values), self._strain(law, u)
         for k in range(len(logs)):
             h = _H if logs[k] + _H < upper[k] else -_H
             other = law.with_logs(stepped(logs, k, h))
-            found.append((self._modulus(other, u, other.modulus(omega), law) - G) / h)
+            found.append((self._modulus(other, u, other.modulus(omega), strain) - at.G) / h)
         return np.array(found)
 
-    def _strain(self, law: CoreLaw, u: Array, softened: Array) -> Array:
-        """Of the core at every point, softened by a share, over the reference. Shape (points,) both."""
+    def _strain(self, law: CoreLaw, u: Array) -> Strain:
+        """Of the core at every point, softened by a share, over the reference."""
         key = (
             b"".join(self._unknowns.of(k, u).tobytes() for k in self._changing)
             + u[self._unknowns.stated].tobytes()
         )
-        return self._strains.at(law, key, lambda: self._changes(u), softened)
+        return self._strains.under(law, key, lambda: self._changes(u))
 
     # Derivatives to unknown n.
 

@@ -2,12 +2,14 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
 from fitting.arrays import Array
 from fitting.diagnosis.plate_answer import core_strain
 from fitting.diagnosis.problem import DiagnosisProblem
+from fitting.effects.base import Strain
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.gravity import PUBLISHED_G_M_S2
@@ -36,17 +38,22 @@ class Strains:
         self._problem, self._plate, self._reference = problem, plate, reference
         self._known: dict[bytes, Array] = {}
 
-    def at(self, law: CoreLaw, key: bytes, changes: Callable[[], Change], softened: Array) -> Array:
+    def under(self, law: CoreLaw, key: bytes, changes: Callable[[], Change]) -> Strain:
         """At every point, softened by a share, over the reference; `changes` of the plate go by `key`.
 
-        Shape (points,), as `softened`.
+        Solved for when it is first asked for, and once: who looks for how far a core softens asks many times.
         """
-        table = self._table(law, key, changes)
-        logs_here = ((table[0] * softened + table[1]) * softened + table[2]) * softened + table[3]
-        assert self._reference.strain is not None
         points = self._problem.points
         drive = points.acceleration_m_s2 if points.force_n is None else points.force_n
-        return np.asarray(np.exp(logs_here) * drive / self._reference.strain)
+        table = cache(lambda: self._table(law, key, changes))
+
+        def strain(softened: Array) -> Array:
+            cubic = table()
+            logs_here = ((cubic[0] * softened + cubic[1]) * softened + cubic[2]) * softened + cubic[3]
+            assert self._reference.strain is not None
+            return np.asarray(np.exp(logs_here) * drive / self._reference.strain)
+
+        return strain
 
     def _table(self, law: CoreLaw, key: bytes, changes: Callable[[], Change]) -> Array:
         """Ln strain for a unit of what drives it as a cubic of the softening. Shape (4, points)."""

@@ -1,12 +1,13 @@
 """The core softens with strain (Payne effect): the harder the plate is driven, the softer it is."""
 
 from collections.abc import Mapping
+from functools import lru_cache
 
 import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import Effect, EffectParameter, ModulusAt, Points
+from fitting.effects.base import Effect, EffectParameter, ModulusAt, Points, Strain
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.span import Span
@@ -20,7 +21,7 @@ _ITERATIONS = 60
 """Half steps halve the distance where strain hardly falls: 1e-10 is reached in 34. A bound."""
 
 
-class Strain(Span):
+class CoreStrain(Span):
     """The core's shear strain: mean square over its volume."""
 
     name = "strain"
@@ -44,7 +45,7 @@ class AmplitudeSofteningEffect(Effect):
     enters = "level"
     source = "Payne, J. Appl. Polym. Sci. 6 (1962), first order in the strain amplitude"
     parameters = (EffectParameter("k", "1", -0.5, 0.8, 0.1, spread=0.15),)
-    spans = (Strain(),)
+    spans = (CoreStrain(),)
     unexplained_share = 0.004
     chance = 0.03
     discriminating_test = "a second level"
@@ -61,15 +62,7 @@ class AmplitudeSofteningEffect(Effect):
         return None if several else "one size of the force does not tell softening from the law"
 
     def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex:
-        softened = np.zeros(len(points.omega))
-        for _ in range(_ITERATIONS):
-            goal = np.clip(u[0] * G.strain(softened), -1.0, 1 - LEAST)
-            # Half steps: where the strain falls with softening full ones may swing.
-            step = 0.5 * (goal - softened)
-            softened = softened + step
-            if np.max(np.abs(step)) < 1e-10:
-                break
-        return np.asarray(G() * (1 - softened))
+        return np.asarray(G() * (1 - _softened(float(u[0]), G.strain, len(points.omega))))
 
     def story(self, u: Mapping[str, float]) -> str:
         return (
@@ -86,3 +79,20 @@ class SofteningBySizeEffect(AmplitudeSofteningEffect):
             return "a free layer does not shear"
         # Over one level strain is a function of frequency, as the law is.
         return None if points.levels > 1 else "one level does not tell softening from the law"
+
+
+@lru_cache(maxsize=2)
+def _softened(k: float, strain: Strain, points: int) -> Array:
+    """Share by which the core softens at the strain that it then has. Shape (points,).
+
+    Kept: a derivative to the law asks once for each of its parameters, the strain being the same.
+    """
+    softened = np.zeros(points)
+    for _ in range(_ITERATIONS):
+        goal = np.clip(k * strain(softened), -1.0, 1 - LEAST)
+        # Half steps: where the strain falls with softening full ones may swing.
+        step = 0.5 * (goal - softened)
+        softened = softened + step
+        if np.max(np.abs(step)) < 1e-10:
+            break
+    return softened

@@ -21,7 +21,7 @@ from fitting.direct import displacement_direct, solve_direct
 from fitting.domain import domain_of
 from fitting.effects import CATALOGUE
 from fitting.effects.added_mass import PointMass
-from fitting.effects.amplitude_softening import Strain
+from fitting.effects.amplitude_softening import CoreStrain
 from fitting.effects.change import Change
 from fitting.effects.enriching import enriched
 from fitting.effects.full_plate import FullPlate
@@ -47,7 +47,7 @@ class Driven:
         self.damping = viscous_damping(self.plate)
         self.reduced = reduce_plate(self.plate, self.damping, domain_of(specimen, F_HZ))
         full = FullPlate(self.plate, self.damping)
-        self.widened = enriched(full, self.plate.carried @ self.reduced.V, [PointMass(), Strain()])
+        self.widened = enriched(full, self.plate.carried @ self.reduced.V, [PointMass(), CoreStrain()])
         self.law = specimen.core.law
         self.G = self.law.modulus(OMEGA)
 
@@ -282,7 +282,7 @@ def test_strain_is_told_over_the_largest_at_a_newton_and_goes_with_the_force(fre
     forces, reference = np.array([1.0, 2.0, 3.0, 1.0, 2.0]), Reference()
     response = free.response([CATALOGUE["amplitude_softening"]], forces + 0j)
     strains = Strains(response.problem, response.plate, reference)
-    at = strains.at(free.law, b"", Change, np.zeros(len(forces)))
+    at = strains.under(free.law, b"", Change)(np.zeros(len(forces)))
     assert (at / forces).max() == pytest.approx(1.0, rel=1e-6)
     square = free.widened.matrix("strain.mean_square")
     largest = core_strain(free.widened, OMEGA, free.G, square, Change()).max()
