@@ -192,7 +192,6 @@ def _interpolation(nodes: Array, at: Array) -> Array:
     exact = np.abs(distance) < 1e-9 * np.abs(nodes)
     distance[exact] = 1.0
     terms = weight / distance
-    rows = terms / terms.sum(axis=1, keepdims=True)
     hit = exact.any(axis=1)
-    rows[hit] = exact[hit]
-    return np.asarray(rows)
+    terms[hit] = exact[hit]
+    return np.asarray(terms / terms.sum(axis=1, keepdims=True))

@@ -40,6 +40,13 @@ def test_few_points_are_nodes_themselves():
     assert nodes.omega @ nodes.plain.T == pytest.approx(omega)
 
 
+def test_two_frequencies_a_radian_a_second_apart_are_their_own_nodes_without_a_warning():
+    omega = np.array([100.0, 101.0])
+    with np.errstate(all="raise"):
+        nodes = Nodes.of(omega, 8)
+    assert nodes.plain.tolist() == [[1.0, 0.0], [0.0, 1.0]]
+
+
 @pytest.mark.parametrize(
     ("low", "high", "points"), [(380, 575, 77), (20, 40, 20), (20, 40, 25), (14, 26, 118)]
 )
