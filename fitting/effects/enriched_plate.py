@@ -32,6 +32,8 @@ Place = tuple[float, float]
 
 CONDENSED = 1e-4
 """Of the largest singular value, what a condensed plate may leave out; its reading is then off by 1e-5."""
+_MOST_TAKEN = 12
+"""Plates with some spans' columns that are kept. A bound on memory: one takes up to 6 MB."""
 _OVERLAP = 1e-6
 """Columns of two groups closer than this are one."""
 
@@ -72,9 +74,28 @@ class EnrichedReducedPlate:
     layers: Array
     """What is stated of them (`fitting.parts.layers_of`), zero for a plate that carries no effects."""
 
-    def take(self, spans: Iterable[Span], *, wanted: Sequence[str] | None = None) -> "EnrichedReducedPlate":
-        """The plate on its own columns and those of `spans`, matrices of other spans left out."""
+    def take(self, spans: Iterable[Span]) -> "EnrichedReducedPlate":
+        """The plate on its own columns and those of `spans`, matrices of other spans left out.
+
+        The latest are kept: a search comes back to the same few.
+        """
         spans = list(spans)
+        key = frozenset(s.name for s in spans)
+        if key not in self._taken:
+            while len(self._taken) >= _MOST_TAKEN:
+                del self._taken[next(iter(self._taken))]
+            self._taken[key] = self._take(spans)
+        return self._taken[key]
+
+    @cached_property
+    def _taken(self) -> dict[frozenset[str], "EnrichedReducedPlate"]:
+        return {}
+
+    def __getstate__(self) -> dict[str, object]:
+        # Another process takes what it needs itself.
+        return {name: value for name, value in vars(self).items() if name != "_taken"}
+
+    def _take(self, spans: Sequence[Span]) -> "EnrichedReducedPlate":
         groups = {"plate", *(s.name for s in spans)}
         if any(s.odd for s in spans):
             groups |= {"plate/odd", *(f"{s.name}/odd" for s in spans)}
@@ -89,7 +110,8 @@ class EnrichedReducedPlate:
             **{name: getattr(self, name)[square] for name in ("M", "K_0", "K_1", "gram")},
             **{name: getattr(self, name)[columns] for name in ("U", "load", "pitch", "observe")},
             load_part=self.load_part[..., columns],
-            parts=self.parts[:, columns][:, :, columns],
+            # Taken column by column they lie across: every sum over them would set them right again.
+            parts=np.ascontiguousarray(self.parts[:, columns][:, :, columns]),
             names=self.names[kept],
             matrices=self.matrices[kept][:, columns][:, :, columns],
             vector_names=self.vector_names[kept_vectors],

@@ -1,5 +1,6 @@
 """The widened reduced plate beside full solves on every degree of freedom, effect by effect."""
 
+import pickle
 from dataclasses import replace
 
 import numpy as np
@@ -165,3 +166,17 @@ def test_condensing_keeps_the_answers_it_was_condensed_on(full):
         answer(p, OMEGA, G, Change(), [], np.array([], int), with_pitch=False).heave for p in (fewer, plate)
     )
     assert error(found, expected) < 1e-6
+
+
+def test_the_plate_of_the_latest_effects_is_taken_once_and_stays_in_its_process(full):
+    plate = replace(full.spanned)
+    spans = CATALOGUE["tether"].spans
+    taken = plate.take(spans)
+    assert plate.take(list(spans)) is taken
+    for span in all_spans():
+        plate.take([span])
+    few = [plate.take([span]) for span in all_spans()[:3]]
+    assert len({id(one) for one in few}) == 3
+    sent = pickle.loads(pickle.dumps(plate))
+    assert len(pickle.dumps(plate)) == len(pickle.dumps(replace(plate)))
+    np.testing.assert_array_equal(sent.take(spans).parts, taken.parts)
