@@ -94,19 +94,14 @@ def outcome(
     )
 
 
-def left_and_resolved(
+def share_left(
     forecasts: Sequence[Forecast],
     probabilities: Array,
     temper: float = 1.0,
-    credible: float = 0.95,
     of: Sequence[int] | None = None,
-) -> tuple[float, float]:
-    """`left` and `resolved` of the outcome, and nothing else; arguments as of `outcome`.
-
-    `probabilities` of shape (forms,).
-    """
-    drawn = _Drawn.of(forecasts, probabilities, temper, of)
-    return drawn.left(probabilities), drawn.resolved(credible)
+) -> float:
+    """`left` of the outcome, and nothing else; arguments as of `outcome`, `probabilities` of shape (forms,)."""
+    return _Drawn.of(forecasts, probabilities, temper, of).left(probabilities)
 
 
 @dataclass(frozen=True)

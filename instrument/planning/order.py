@@ -16,9 +16,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import sqrt
 
-from fitting.diagnosis.thresholds import VERDICT
 from fitting.planning.further import Expecting
-from fitting.planning.rivalry import Forecast, Outcome, left_and_resolved
+from fitting.planning.rivalry import Forecast, Outcome, share_left
 from instrument.facts.follow_up import FollowUpKind
 from instrument.planning.measurement import Measurable
 
@@ -74,8 +73,7 @@ def _courses(first: Asked, each: Sequence[Asked], expecting: Expecting) -> list[
         if other is first:
             continue
         both = [a.then(b) for a, b in zip(first.forecasts, other.forecasts, strict=True)]
-        p, temper = expecting.probabilities, expecting.temper
-        left, _ = left_and_resolved(both, p, temper, VERDICT.credible, expecting.of)
+        left = share_left(both, expecting.probabilities, expecting.temper, expecting.of)
         # More data never leave more: what exceeds one alone is the draws' own scatter.
         left = min(left, alone)
         expected = first.seconds + (1 - first.told.resolved) * other.seconds + left * OPEN_S

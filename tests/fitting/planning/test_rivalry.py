@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.stats import norm
 
-from fitting.planning.rivalry import Forecast, left_and_resolved, outcome
+from fitting.planning.rivalry import Forecast, outcome, share_left
 
 EVEN = np.array([0.5, 0.5])
 
@@ -95,5 +95,5 @@ def test_what_is_left_and_the_chance_alone_are_those_of_the_outcome():
     rivals = [sharp(0), sharp(3), sharp(1)]
     p = np.array([0.5, 0.3, 0.2])
     whole = outcome(rivals, p, of=[0, 1, 1])
-    assert left_and_resolved(rivals, p, of=[0, 1, 1]) == (whole.left, whole.resolved)
+    assert share_left(rivals, p, of=[0, 1, 1]) == whole.left
     assert whole.information == pytest.approx((1 - whole.left) * np.log(2))
