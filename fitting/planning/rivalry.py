@@ -100,7 +100,7 @@ def share_left(
     temper: float = 1.0,
     of: Sequence[int] | None = None,
 ) -> float:
-    """`left` of the outcome, and nothing else; arguments as of `outcome`, `probabilities` of shape (forms,)."""
+    """`left` of the outcome, and nothing else; arguments as its own, `probabilities` of shape (forms,)."""
     return _Drawn.of(forecasts, probabilities, temper, of).left(probabilities)
 
 

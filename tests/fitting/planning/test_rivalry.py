@@ -91,7 +91,7 @@ def test_two_measurements_share_what_is_the_same_in_both_and_nothing_else():
     )
 
 
-def test_what_is_left_and_the_chance_alone_are_those_of_the_outcome():
+def test_what_is_left_alone_is_that_of_the_outcome():
     rivals = [sharp(0), sharp(3), sharp(1)]
     p = np.array([0.5, 0.3, 0.2])
     whole = outcome(rivals, p, of=[0, 1, 1])
