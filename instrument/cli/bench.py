@@ -1,6 +1,7 @@
 """`viscorig bench`: the performance table, or how often a diagnosis is right."""
 
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 
 import click
@@ -9,7 +10,7 @@ from instrument.campaign.bench import run_bench
 from instrument.campaign.cases import KINDS
 from instrument.campaign.plates.apart import apart_jobs, run_apart, write_apart_summary
 from instrument.campaign.plates.cases import KINDS as PLATE_KINDS
-from instrument.campaign.plates.judged import diagnosed, diagnosed_without_the_truth
+from instrument.campaign.plates.judged import diagnosed, diagnosed_without_the_truth, identified
 from instrument.campaign.plates.run import plate_jobs, run_plates, write_plate_summary
 from instrument.campaign.plates.weak import WEAK
 from instrument.campaign.run import jobs_of, run_campaign, write_summary
@@ -45,6 +46,7 @@ from instrument.progress import bar
 )
 @click.option("--exact", is_flag=True, help="With --plates: what is stated is exact.")
 @click.option("--without-truth", is_flag=True, help="With --plates: what is hidden is not in the catalogue.")
+@click.option("--law-alone", is_flag=True, help="With --plates: identify, and diagnose nothing.")
 @click.option(
     "--count", type=click.IntRange(min=1), default=300, show_default=True, help="Sweeps to diagnose."
 )
@@ -72,6 +74,7 @@ def bench(
     apart_folder: Path | None,
     exact: bool,
     without_truth: bool,
+    law_alone: bool,
     count: int,
     seed: int,
     kinds: tuple[str, ...],
@@ -97,9 +100,10 @@ def bench(
         click.echo(write_apart_summary(lines, apart_folder))
         return
     if plates_folder is not None:
-        judged = diagnosed_without_the_truth if without_truth else diagnosed
         jobs = plate_jobs(count, seed, kinds)
-        found = run_plates(jobs, plates_folder, exact=exact, diagnose=judged, workers=workers, progress=bar)
+        run = partial(run_plates, jobs, plates_folder, exact=exact, workers=workers, progress=bar)
+        judged = diagnosed_without_the_truth if without_truth else diagnosed
+        found = run(identify=identified) if law_alone else run(diagnose=judged)
         click.echo(write_plate_summary(found, plates_folder))
         return
     assert folder is not None

@@ -1,4 +1,4 @@
-"""Cases of the campaign on many plates given to `diagnose`: functions of a module, for other processes."""
+"""What `identify` and `diagnose` say of a case: functions of a module, for other processes."""
 
 from collections.abc import Collection
 from dataclasses import replace
@@ -8,14 +8,22 @@ import numpy as np
 
 from fitting.effects import CATALOGUE
 from fitting.specimen import Specimen
-from instrument.campaign.plates.answers import Answer, answer_from
+from instrument.campaign.plates.answers import Answer, Band, answer_from, band_from
 from instrument.campaign.plates.cases import PlateCase
 from instrument.campaign.plates.geometry import plate_named
 from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
 from instrument.models.diagnosis import diagnose
+from instrument.models.identification import identify
 from instrument.results.diagnosis_from import diagnosis_from
+from instrument.results.identification_from import identification_from
 
 _SEED, _MIDDLE_HZ, _RATIO = 7, 100.0, 2e-3
+
+
+def identified(case: PlateCase) -> Band:
+    """The law with its errors."""
+    found = identify(case.sweep, case.specimen, hammer=case.hammer, like=_like(case))
+    return band_from(identification_from(found, case.sweep, case.specimen).law)
 
 
 def diagnosed(case: PlateCase) -> Answer:
@@ -29,9 +37,12 @@ def diagnosed_without_the_truth(case: PlateCase) -> Answer:
 
 
 def _diagnosed(case: PlateCase, without: Collection[str] = ()) -> Answer:
-    like = None if case.exact else models_of(case.truth.plate.name)
-    found = diagnose(case.sweep, case.specimen, hammer=case.hammer, without=without, like=like)
+    found = diagnose(case.sweep, case.specimen, hammer=case.hammer, without=without, like=_like(case))
     return answer_from(diagnosis_from(found, case.sweep))
+
+
+def _like(case: PlateCase) -> Specimen | None:
+    return None if case.exact else models_of(case.truth.plate.name)
 
 
 @lru_cache

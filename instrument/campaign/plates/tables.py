@@ -19,13 +19,16 @@ def summary(outcomes: Sequence[PlateOutcome]) -> str:
     """The whole score."""
     found = scores(outcomes)
     plates = len({o.plate for o in outcomes})
-    parts = [
-        f"# {len(outcomes)} sweeps of {plates} solid plates",
-        "## Naming\n"
-        "first: an effect that is there was named first (clean: nothing; in no catalogue: refused). "
-        f"in group: the same, or in its group of at most {MOST_IN_GROUP}. "
-        "whole: all that is there and nothing else.",
-        _naming(found),
+    parts = [f"# {len(outcomes)} sweeps of {plates} solid plates"]
+    if any(o.said is not None for o in outcomes):
+        parts += [
+            "## Naming\n"
+            "first: an effect that is there was named first (clean: nothing; in no catalogue: refused). "
+            f"in group: the same, or in its group of at most {MOST_IN_GROUP}. "
+            "whole: all that is there and nothing else.",
+            _naming(found),
+        ]
+    parts += [
         "## The law at three frequencies\n"
         "Share of true values within the 68 % and the 95 % band; rms of error over standard error; error.",
         _coverages(found),

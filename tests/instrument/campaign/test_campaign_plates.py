@@ -326,6 +326,15 @@ def test_the_command_runs_it_and_keeps_the_summary(tmp_path, monkeypatch):
     assert (tmp_path / "summary.md").read_text(encoding="utf-8") == result.output[:-1]
 
 
+def test_the_law_alone_can_be_asked_for_and_nothing_is_said_of_names(tmp_path, monkeypatch):
+    monkeypatch.setattr("instrument.cli.bench.identified", true_band)
+    options = ["--count", "1", "--seed", "11", "--kind", "none", "--workers", "1"]
+    result = CliRunner().invoke(bench, ["--plates", str(tmp_path), "--law-alone", *options])
+    assert result.exit_code == 0, result.output
+    assert "| none | identify | 3 | 1.00 | 1.00 |" in result.output
+    assert "Naming" not in result.output
+
+
 def test_the_command_takes_kinds_of_one_campaign_only(tmp_path):
     result = CliRunner().invoke(bench, ["--plates", str(tmp_path), "--kind", "mains_hum"])
     assert isinstance(result.exception, BadInput)
