@@ -1,4 +1,4 @@
-"""Chances of the normal and the chi-square distribution, by the special functions behind `scipy.stats`.
+"""Chances of the normal, chi-square and F distributions, by the special functions behind `scipy.stats`.
 
 The same numbers; but loading `scipy.stats` would be a sixth of the start of every command, engine and window.
 """
@@ -6,7 +6,7 @@ The same numbers; but loading `scipy.stats` would be a sixth of the start of eve
 from typing import Any
 
 import numpy as np
-from scipy.special import chdtrc, chdtri, gammaincinv, ndtr
+from scipy.special import chdtrc, chdtri, fdtrc, gammaincinv, gammaln, ndtr, xlogy
 
 
 def normal_above(z: Any) -> Any:
@@ -27,3 +27,17 @@ def chi2_exceeded(chance: Any, freedom: Any) -> Any:
 def chi2_median(freedom: Any) -> Any:
     """What half of all X exceed."""
     return 2 * gammaincinv(np.asarray(freedom) / 2, 0.5)
+
+
+def chi2_density(x: Any, freedom: Any) -> Any:
+    """Of a chi-square at x. Numbers or arrays that broadcast."""
+    half = np.asarray(freedom) / 2
+    return np.exp(xlogy(half - 1, x) - x / 2 - gammaln(half) - half * np.log(2))
+
+
+def f_above(x: Any, above: Any, below: Any) -> Any:
+    """P(X > x) of Fisher's F, the ratio of two variances with degrees of freedom `above` and `below`.
+
+    Numbers or arrays that broadcast.
+    """
+    return fdtrc(above, below, np.maximum(x, 0.0))

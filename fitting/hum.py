@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array
+from fitting.chances import chi2_density, chi2_median, f_above
 from fitting.noise import FEWEST, Noise, groups_of, local_model
 from fitting.sweep import Sweep
 
@@ -191,14 +192,11 @@ def _in_group(f: Array, v: NDArray[Any], std: Array, aside: Points) -> _Deviatio
     variance = std**2 + np.sum(np.abs(solve[:, 0] * denominator * std[near]) ** 2, axis=1)
     z2 = np.abs(v - curve) ** 2 / variance
     parts = 2 if np.iscomplexobj(v) else 1
-    # Loaded where it is needed: it is a tenth of the window's start.
-    from scipy import stats
-
-    scale2 = np.median(z2[quiet]) / stats.chi2.median(parts)
+    scale2 = np.median(z2[quiet]) / chi2_median(parts)
     if not scale2 > 0:
         return None
     z2 = z2 / scale2
-    chance = stats.f.sf(z2 / parts, parts, _freedom(int(quiet.sum()), parts))
+    chance = f_above(z2 / parts, parts, _freedom(int(quiet.sum()), parts))
     chance = np.where(_is_within(f, apart), chance, 1.0)
     beside = np.argsort(np.where(quiet, np.abs(f - middle[:, None]), np.inf), axis=1)[:, :_NEIGHBOURS]
     stands_out = z2 > _STANDS_OUT**2 * z2[beside].max(axis=1)
@@ -225,8 +223,6 @@ def _neighbours(f: Array, middle: Array, quiet: Points) -> NDArray[np.intp] | No
 
 def _freedom(count: int, parts: int) -> float:
     """Degrees of freedom a variance by the median is worth: 2 / (its relative variance)."""
-    from scipy import stats
-
-    median = float(stats.chi2.median(parts))
-    density = float(stats.chi2.pdf(median, parts))
+    median = float(chi2_median(parts))
+    density = float(chi2_density(median, parts))
     return 8 * count * (density * median) ** 2
