@@ -4,8 +4,10 @@ import os
 import signal
 import subprocess
 import sys
+import time
 
 import pytest
+from warm_processes import standing_in
 
 pytestmark = [
     pytest.mark.usefixtures("warm"),
@@ -62,3 +64,26 @@ def test_its_pid_is_its_own(number):
 def test_what_it_starts_is_warm_too():
     code = f"import subprocess, sys; subprocess.run([sys.executable, '-c', {LOADED!r}])"
     assert python("-c", code).stdout == "True\n"
+
+
+def stood_in(code):
+    command = standing_in([sys.executable, "-c", code])
+    return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+
+
+def test_what_stands_in_for_it_has_its_streams_and_its_end():
+    with stood_in(f"{LOADED}; print(input()); sys.exit(3)") as process:
+        assert process.communicate("said\n")[0] == "True\nsaid\n"
+        assert process.returncode == 3
+
+
+def test_who_kills_what_stands_in_for_it_kills_it():
+    with stood_in("import os, time; print(os.getpid(), flush=True); time.sleep(60)") as process:
+        pid = int(process.stdout.readline())
+        process.kill()
+        # The end of its output: nobody has it open any more.
+        assert process.stdout.read() == ""
+    deadline = time.monotonic() + 10
+    while os.path.exists(f"/proc/{pid}") and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert not os.path.exists(f"/proc/{pid}")

@@ -4,7 +4,9 @@ A command or an engine takes a second of processor time to import what it needs.
 of it, and has done nothing with it, forks instead: what is started has a pid, pipes, environment, folder,
 session and signals of its own, and ends as Python ends. What it starts in turn is warm too. What is no
 program of this Python, wants another environment of Python or is to start in a special way starts as ever;
-so does everything where there is no Linux.
+so does everything where there is no Linux. What starts programs without `Popen`, as Qt does, starts this file
+with the program's words (`standing_in`): it has the streams and the end of the process forked, and is killed
+with it.
 """
 
 import gc
@@ -36,6 +38,7 @@ _PIPES = ("p2cread", "p2cwrite", "c2pread", "c2pwrite", "errread", "errwrite")
 _COLD = subprocess.Popen
 _SIGNATURE = inspect.signature(_COLD._execute_child)
 _LONGEST = 1 << 17
+_STANDING_IN = "--standing-in"
 
 
 class Popen(subprocess.Popen):
@@ -47,16 +50,13 @@ class Popen(subprocess.Popen):
         asked = _SIGNATURE.bind(self, *given).arguments
         words = [os.fspath(w) for w in ([asked["args"]] if isinstance(asked["args"], str) else asked["args"])]
         environment = dict(os.environ if asked["env"] is None else asked["env"])
-        if any(asked[n] != v for n, v in _SPECIAL.items()) or not _known(words, environment):
+        if any(asked[n] != v for n, v in _SPECIAL.items()) or not known(words, environment):
             super()._execute_child(*given)
             return
         pipes = {name: asked[name] for name in _PIPES}
         ends = pipes["p2cread"], pipes["c2pwrite"], pipes["errwrite"]
-        connection = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
-        connection.connect(os.environ[FORK_AT])
-        order = words, environment, os.path.abspath(asked["cwd"] or ""), asked["start_new_session"]
-        streams = [number if end == -1 else end for number, end in enumerate(ends)]
-        socket.send_fds(connection, [pickle.dumps(order)], streams)
+        order = words, environment, os.path.abspath(asked["cwd"] or ""), asked["start_new_session"], False
+        connection = _asked(order, [number if end == -1 else end for number, end in enumerate(ends)])
         self._close_pipe_fds(*pipes.values())
         self._over = threading.Event()
         self.pid = int(connection.recv(_LONGEST))
@@ -79,7 +79,30 @@ class Popen(subprocess.Popen):
         return self.returncode
 
 
-def _known(words: list[str], environment: dict[str, str]) -> bool:
+def _asked(order: tuple, streams: list[int]) -> socket.socket:
+    """Where the pid is told, and then the end."""
+    connection = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    connection.connect(os.environ[FORK_AT])
+    socket.send_fds(connection, [pickle.dumps(order)], streams)
+    return connection
+
+
+def standing_in(words: list[str]) -> list[str]:
+    """A command that is that of `words`, forked, and begins in hundredths of a second."""
+    return [sys.executable, "-S", __file__, _STANDING_IN, *words]
+
+
+def _stand_in(words: list[str]) -> None:
+    """For another process, in its streams; who kills this one kills that."""
+    with _asked((words, dict(os.environ), os.getcwd(), False, True), [0, 1, 2]) as connection:
+        connection.recv(_LONGEST)
+        code = os.waitstatus_to_exitcode(int(connection.recv(_LONGEST)))
+    if code < 0:
+        os.kill(os.getpid(), -code)
+    os._exit(code)
+
+
+def known(words: list[str], environment: dict[str, str]) -> bool:
     """Whether the process that forks is what this would be once it has begun."""
     if FORK_AT not in os.environ or words[0] != sys.executable or len(words) < 2:
         return False
@@ -147,6 +170,7 @@ def _bury() -> None:
 def _begun(connection: socket.socket) -> tuple:
     """The order, in the process that has to follow it; another one stays and tells its pid and its end."""
     message, streams, _, _ = socket.recv_fds(connection, _LONGEST, 3)
+    *order, tied = pickle.loads(message)
     child = os.fork()
     if child != 0:
         for signal_of_all in (signal.SIGHUP, signal.SIGTERM):
@@ -154,15 +178,26 @@ def _begun(connection: socket.socket) -> tuple:
         os.closerange(0, 3)
         for stream in streams:
             os.close(stream)
-        connection.send(str(child).encode())
+        with suppress(OSError):
+            connection.send(str(child).encode())
+        if tied:
+            _end_with(connection, child)
         _, status = os.waitpid(child, 0)
-        connection.send(str(status).encode())
+        with suppress(OSError):
+            connection.send(str(status).encode())
         os._exit(0)
     connection.close()
     for number, stream in enumerate(streams):
         os.dup2(stream, number)
         os.close(stream)
-    return pickle.loads(message)
+    return tuple(order)
+
+
+def _end_with(connection: socket.socket, child: int) -> None:
+    """Wait for the child's end, and bring it about where nobody waits for it any more."""
+    ended = os.pidfd_open(child)
+    if connection in select.select([connection, ended], [], [])[0]:
+        os.kill(child, signal.SIGKILL)
 
 
 def _become(words: list[str], environment: dict[str, str], folder: str, session: bool) -> None:
@@ -185,7 +220,9 @@ def _become(words: list[str], environment: dict[str, str], folder: str, session:
         runpy.run_path(kind, run_name="__main__")
 
 
-if __name__ == "__main__":
+if __name__ == "__main__" and sys.argv[1:2] == [_STANDING_IN]:
+    _stand_in(sys.argv[2:])
+elif __name__ == "__main__":
     place = Path(tempfile.mkdtemp(prefix="fork-"))
     wanted = _ordered(place)
     if wanted is None:

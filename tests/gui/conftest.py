@@ -8,9 +8,10 @@ import pytest
 from PySide6.QtCore import QEvent, QSettings
 from pytestqt.qtbot import QtBot
 from session_cases import whole_session
+from warm_commands import WarmProcess
 
 from fitting.plugins import Registry
-from gui import page_set
+from gui import background_task, page_set
 from gui.garbage import Collector
 from gui.pages import PAGES
 from gui.settings import Settings
@@ -51,6 +52,14 @@ def rubbish_dies_in_the_main_thread(qapp):
     yield
     qapp.sendPostedEvents(None, QEvent.Type.DeferredDelete)
     collector.stop()
+
+
+@pytest.fixture(scope="module", autouse=True)
+def warm_commands(forking):
+    """The window's commands begin at once; with `cold` as a user's do."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(background_task, "QProcess", WarmProcess)
+        yield
 
 
 @pytest.fixture
