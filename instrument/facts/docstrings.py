@@ -6,6 +6,7 @@ Read when somebody asks: pydantic's own reading of them takes a tenth of the tim
 import ast
 import inspect
 import textwrap
+from functools import cache
 from itertools import pairwise
 from typing import Any
 
@@ -22,6 +23,7 @@ def docstrings_of(model: type[BaseModel]) -> dict[str, str]:
     return found
 
 
+@cache
 def _docstrings_in(kind: type) -> dict[str, str]:
     try:
         source = inspect.getsource(kind)
