@@ -16,6 +16,14 @@ from instrument.paper_case import case_file
 ZN1, TABLE5 = str(case_file("zn1.toml")), str(case_file("table5.csv"))
 
 
+@pytest.fixture(scope="module")
+def plate(tmp_path_factory):
+    """The same on the paper's mesh, for what is said of any plate."""
+    path = tmp_path_factory.mktemp("plate") / "coarse.toml"
+    path.write_text(Path(ZN1).read_text() + "\n[mesh]\nelements_x = 10\nelements_y = 10\n")
+    return path
+
+
 def call(capsys, *arguments):
     """Exit status, standard output, standard error."""
     status = run([str(a) for a in arguments])
@@ -29,8 +37,8 @@ def facts(capsys, *arguments):
     return json.loads(out)
 
 
-def test_modes(capsys):
-    found = facts(capsys, "modes", ZN1, "--count", 3)["modes"]
+def test_modes(capsys, plate):
+    found = facts(capsys, "modes", plate, "--count", 3)["modes"]
     assert len(found) == 3
     assert set(found[0]) == {"frequency_hz", "loss_factor"}
     assert [m["frequency_hz"] for m in found] == sorted(m["frequency_hz"] for m in found)
@@ -45,43 +53,43 @@ def test_modes_of_a_bare_plate(capsys, tmp_path):
     assert found[0]["loss_factor"] == 0
 
 
-def test_predict(capsys):
-    points = facts(capsys, "predict", ZN1, "--frequencies", "18.4:20.2:0.9")["points"]
+def test_predict(capsys, plate):
+    points = facts(capsys, "predict", plate, "--frequencies", "18.4:20.2:0.9")["points"]
     np.testing.assert_allclose([p["frequency_hz"] for p in points], [18.4, 19.3, 20.2])
     for p in points:
         assert p["velocity_m_s"] == pytest.approx(np.hypot(p["velocity_re_m_s"], p["velocity_im_m_s"]))
 
 
-def test_predict_range_includes_its_end(capsys):
-    points = facts(capsys, "predict", ZN1, "--frequencies", "10:11:0.3")["points"]
+def test_predict_range_includes_its_end(capsys, plate):
+    points = facts(capsys, "predict", plate, "--frequencies", "10:11:0.3")["points"]
     np.testing.assert_allclose([p["frequency_hz"] for p in points], [10, 10.3, 10.6, 10.9, 11])
 
 
-def test_absolute_reading_adds_the_base(capsys, tmp_path):
+def test_absolute_reading_adds_the_base(capsys, plate, tmp_path):
     path = tmp_path / "absolute.toml"
-    path.write_text(Path(ZN1).read_text().replace("y_mm = 60.0", 'y_mm = 60.0\nreads = "absolute"'))
+    path.write_text(plate.read_text().replace("y_mm = 60.0", 'y_mm = 60.0\nreads = "absolute"'))
     relative, absolute = (
-        facts(capsys, "predict", p, "--frequencies", "19.3")["points"][0] for p in (ZN1, path)
+        facts(capsys, "predict", p, "--frequencies", "19.3")["points"][0] for p in (plate, path)
     )
     base = 9.81 / (1j * 2 * np.pi * 19.3)
     assert absolute["velocity_im_m_s"] - relative["velocity_im_m_s"] == pytest.approx(base.imag)
     assert absolute["velocity_re_m_s"] == pytest.approx(relative["velocity_re_m_s"])
 
 
-def test_real_modes_differ_from_the_full_equation(capsys):
+def test_real_modes_differ_from_the_full_equation(capsys, plate):
     full, real = (
-        facts(capsys, "predict", ZN1, "--frequencies", "19.3", *more)["points"][0]["velocity_m_s"]
+        facts(capsys, "predict", plate, "--frequencies", "19.3", *more)["points"][0]["velocity_m_s"]
         for more in ((), ("--real-modes",))
     )
     assert 0.002 < abs(real / full - 1) < 0.1
 
 
-def test_uncertified_points_are_solved_in_full(capsys, tmp_path, zn1, monkeypatch):
+def test_uncertified_points_are_solved_in_full(capsys, plate, tmp_path, zn1, monkeypatch):
     from instrument.models import specimen_models as models
 
-    plain = facts(capsys, "predict", ZN1, "--frequencies", "19.3,101")["points"]
+    plain = facts(capsys, "predict", plate, "--frequencies", "19.3,101")["points"]
     monkeypatch.setattr(models, "CERTIFIED", 0.0)
-    solved = facts(capsys, "predict", ZN1, "--frequencies", "19.3,101")["points"]
+    solved = facts(capsys, "predict", plate, "--frequencies", "19.3,101")["points"]
     for a, b in zip(plain, solved, strict=True):
         assert a["velocity_m_s"] == pytest.approx(b["velocity_m_s"], rel=1e-6)
         assert a != b
@@ -95,8 +103,8 @@ IDENTIFY_KEYS = {
 
 
 @pytest.mark.parametrize("method", ["direct", "paper"])
-def test_identify_table_5(capsys, method):
-    found = facts(capsys, "identify", TABLE5, "--specimen", ZN1, "--method", method)
+def test_identify_table_5(capsys, plate, method):
+    found = facts(capsys, "identify", TABLE5, "--specimen", plate, "--method", method)
     assert set(found) >= IDENTIFY_KEYS
     assert set(found["parameters"]) == {"g0_pa", "ginf_pa", "tau_s", "alpha"}
     assert set(found["standard_errors"]) == set(found["parameters"])
@@ -116,25 +124,25 @@ def test_identify_table_5(capsys, method):
     assert found["rms_percent"] < limit
 
 
-def test_identify_a_dense_sweep_holds_segments_out(capsys):
-    found = facts(capsys, "identify", DATA / "practice-002.csv", "--specimen", ZN1)
+def test_identify_a_dense_sweep_holds_segments_out(capsys, plate):
+    found = facts(capsys, "identify", DATA / "practice-002.csv", "--specimen", plate)
     assert [h["segment"] for h in found["held_out"]] == [1, 2, 3]
     assert set(found["held_out"][0]) == {"segment", "rms_percent", "noise_percent"}
     assert found["leave_one_out_rms_percent"] is None
     assert found["held_out_rms_percent"] > 0
 
 
-def test_without_the_viscous_damping_the_core_seems_lossier(capsys):
+def test_without_the_viscous_damping_the_core_seems_lossier(capsys, plate):
     with_it, without = (
-        facts(capsys, "identify", TABLE5, "--specimen", ZN1, *more)["law"][1]["loss_factor"]
+        facts(capsys, "identify", TABLE5, "--specimen", plate, *more)["law"][1]["loss_factor"]
         for more in ((), ("--no-viscous-damping",))
     )
     assert without > with_it
 
 
-def test_core_far_from_the_start_widens_the_domain(capsys, tmp_path):
+def test_core_far_from_the_start_widens_the_domain(capsys, plate, tmp_path):
     # A core 100 times stiffer than the default domain's middle, found from the paper's start.
-    stiff = Path(ZN1).read_text()
+    stiff = plate.read_text()
     stiff = re.sub(
         r"\[core\.law\].*?\n\n",
         '[core.law]\nkind = "constant"\ng_mpa = 60.0\nloss_factor = 0.4\n\n',
@@ -152,9 +160,9 @@ def test_core_far_from_the_start_widens_the_domain(capsys, tmp_path):
     assert found["parameters"]["loss_factor"] == pytest.approx(0.4, rel=1e-2)
 
 
-def test_json_to_a_file_holds_the_same_facts(capsys, tmp_path):
+def test_json_to_a_file_holds_the_same_facts(capsys, plate, tmp_path):
     path = tmp_path / "modes.json"
-    status, out, _ = call(capsys, "modes", ZN1, "--count", 1, "--json", path)
+    status, out, _ = call(capsys, "modes", plate, "--count", 1, "--json", path)
     assert status == 0
     f = json.loads(path.read_text())["modes"][0]["frequency_hz"]
     assert f"{f:.3f}" in out

@@ -80,13 +80,14 @@ def test_a_usual_core_is_identified_and_its_error_stated(coarse):
 
 
 def test_predict_notes_it(capsys, tmp_path):
-    path = tmp_path / "soft.toml"
-    text = case_file("zn1.toml").read_text()
-    path.write_text(
+    usual, soft = tmp_path / "usual.toml", tmp_path / "soft.toml"
+    text = case_file("zn1.toml").read_text() + "\n[mesh]\nelements_x = 10\nelements_y = 10\n"
+    usual.write_text(text)
+    soft.write_text(
         text.replace("g0_mpa = 0.40268", "g0_mpa = 0.01").replace("ginf_mpa = 4.1946", "ginf_mpa = 0.01")
     )
     notes = []
-    for specimen in (path, case_file("zn1.toml")):
+    for specimen in (soft, usual):
         assert run(["predict", str(specimen), "--frequencies", "20,300", "--json", "-"]) == 0
         notes.append(json.loads(capsys.readouterr().out)["notes"])
     assert [len(n) for n in notes] == [1, 0]
