@@ -78,6 +78,12 @@ class Driven:
 
 
 @pytest.fixture(scope="module")
+def coarse(zn1):
+    """Of a mesh that gives both sides of every comparison alike: coarser still than the paper's."""
+    return replace(zn1, elements=(8, 6))
+
+
+@pytest.fixture(scope="module")
 def free(coarse):
     return Driven(replace(coarse, boundary="free", force_m=FORCE_M, exact=False))
 

@@ -19,7 +19,7 @@ kind = "force"
 x_mm = 30.0
 y_mm = 50.0
 """
-FREE = plate_text("free", LAW, (14, 10)) + FORCED
+FREE = plate_text("free", LAW, (8, 6)) + FORCED
 FORCE_N = 2.0 * np.exp(0.3j)
 
 
