@@ -25,7 +25,9 @@ demo: $(READY) ## a whole experiment on the simulated rig, then the published ca
 
 test: checks unit ## all checks, and all tests but the long ones
 
-checks: lint types contracts ## style, types and import directions
+# Beside each other: the types take longest, and one processor.
+checks: $(READY) ## style, types and import directions
+	@$(MAKE) --no-print-directory --jobs 2 types lint contracts
 
 lint: $(READY)
 	@$(BIN)/ruff check .
@@ -38,8 +40,9 @@ types: $(READY)
 contracts: $(READY)
 	@$(BIN)/lint-imports
 
+# Three for two processors: one of them often waits, for a process or a time constant.
 unit: $(READY) ## the tests that take less than some seconds each
-	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 2 --dist worksteal -m "not timing and not long"
+	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 3 --dist worksteal -m "not timing and not long"
 
 test-long: $(READY) ## the tests that take longer, and those that look at a clock
 	@$(BIN)/pytest -m timing
