@@ -1,10 +1,13 @@
-"""What is typed during a hammer test."""
+"""What is typed during a hammer test, and what the simulated rig's person does."""
+
+import threading
+from http.server import BaseHTTPRequestHandler, HTTPServer
 
 import pytest
 
 from instrument.errors import RigStopped
 from instrument.run.control import RunControl
-from instrument.run.operator import Person, decision, overruling
+from instrument.run.operator import Person, SimulatedOperator, decision, overruling
 from instrument.stream.raw import OperatorDid
 
 
@@ -46,3 +49,30 @@ def test_other_words_overrule_nothing(typed):
     control = RunControl()
     assert not overruling(typed, control)
     assert control.word() is None
+
+
+def test_the_simulated_rig_is_reached_past_a_proxy_of_the_environment(monkeypatch):
+    asked = []
+
+    class Rig(BaseHTTPRequestHandler):
+        def do_PUT(self):
+            asked.append(self.path)
+            self.send_response(200)
+            self.send_header("Content-Length", "0")
+            self.end_headers()
+
+        def log_message(self, *said):
+            pass
+
+    monkeypatch.setenv("HTTP_PROXY", "http://127.0.0.1:9")
+    monkeypatch.setenv("http_proxy", "http://127.0.0.1:9")
+    monkeypatch.setenv("NO_PROXY", "")
+    monkeypatch.setenv("no_proxy", "")
+    with HTTPServer(("127.0.0.1", 0), Rig) as server:
+        server.timeout = 10.0
+        thread = threading.Thread(target=server.handle_request, daemon=True)
+        thread.start()
+        person = SimulatedOperator(f"http://127.0.0.1:{server.server_port}", (0.0, 0.0), (0.0, 0.0))
+        person.hit(0, 1)
+        thread.join()
+    assert asked == ["/simulated/hit"]
