@@ -10,6 +10,7 @@ from fitting.diagnosis.candidates import CandidateFit, Known, Start, at_rest, ha
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.prediction import held_out
+from fitting.diagnosis.predictive import temper
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import ROUGH, Refitted, kept, refit
 from fitting.diagnosis.responses import response_of
@@ -103,7 +104,11 @@ class CandidateFits:
             return FirstLook(name, self.other_laws(self.effects[name]), [])
         self.learn(name, state)
         bare = kept(response_of(self.problem, ()), self.evidence, best.law, best.z)
-        there = [self._beside(bare, c.effect) for c in self.candidates[name]]
+        goal = self.goal(best)
+        there = [
+            CandidateFit(self.problem, self.evidence, bare, c.effect, goal=goal)
+            for c in self.candidates[name]
+        ]
         # From a law far off a linear step says nothing of a stiffness anywhere within six decades.
         astray = self.none.chi2_per_dof > SEARCH.wrong
         for candidate, from_there in zip(self.candidates[name], there, strict=True):
@@ -131,10 +136,16 @@ class CandidateFits:
         fits = [((name, k), f) for k, c in enumerate(self.candidates[name]) for f in c.near]
         return sorted((one for one in fits if not one[1].converged), key=lambda one: one[1].chi2)[:1]
 
-    def finished(self, one: tuple[Form, Refitted]) -> Refitted:
-        """A rough fit followed to the end."""
-        (name, number), rough = one
-        return self.candidates[name][number].finished(rough)
+    def goal(self, best: Refitted) -> float:
+        """Chi-square that a rival must come near to, where a fit explains everything there is."""
+        if not self.evidence.scale_known:
+            return np.inf
+        return best.chi2 + SEARCH.near * temper(self.none, best)
+
+    def finished(self, one: tuple[Form, Refitted, float]) -> Refitted:
+        """A rough fit followed to the end, or to where a chi-square is out of reach."""
+        (name, number), rough, goal = one
+        return self.candidates[name][number].finished(rough, goal)
 
     def thorough(self, one: tuple[str, State, bool]) -> list[Refitted]:
         """Further starts, the best of them followed to the end, but for the one that has been.

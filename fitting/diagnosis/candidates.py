@@ -103,10 +103,11 @@ class CandidateFit:
         before: Refitted,
         effect: Effect,
         starts: Sequence[Start] | None = None,
+        goal: float = np.inf,
     ) -> None:
-        """`starts` as `look` gives them, where they are known."""
+        """`starts` as `look` gives them, where they are known; `goal` as `refit` takes it."""
         self.problem, self.evidence, self.before = problem, evidence, before
-        self.effect = effect
+        self.effect, self._goal = effect, goal
         self._known = Known(starts)
 
     @property
@@ -142,7 +143,9 @@ class CandidateFit:
             # Without the effect the stated numbers may have been moved to do its work.
             known[: self.before.stated] = 0.0
         start = np.concatenate([known, u])
-        return refit(self._response, evidence, law, start, tolerance=ROUGH, brief=brief)
+        # In a valley made wider chi-square is another one.
+        goal = self._goal if evidence is self.evidence else np.inf
+        return refit(self._response, evidence, law, start, tolerance=ROUGH, brief=brief, goal=goal)
 
     @property
     def near(self) -> list[Refitted]:
@@ -260,9 +263,9 @@ class CandidateFit:
         fits = [self._rough(law, u, blunt, as_stated=True) for law in laws]
         return sorted(fits, key=_chi2)
 
-    def finished(self, rough: Refitted) -> Refitted:
-        """A rough fit followed to the end."""
-        return polished(self.problem, rough.effects, self.evidence, rough.law, rough.u)
+    def finished(self, rough: Refitted, goal: float = np.inf) -> Refitted:
+        """A rough fit followed to the end, or to where a chi-square of `goal` is out of reach."""
+        return polished(self.problem, rough.effects, self.evidence, rough.law, rough.u, goal)
 
 
 def bent_as(law: CoreLaw, other: CoreLaw) -> CoreLaw:
@@ -280,15 +283,20 @@ def has_place(effect: Effect) -> bool:
 
 
 def polished(
-    problem: DiagnosisProblem, effects: Sequence[Effect], evidence: Evidence, law: CoreLaw, u: Array
+    problem: DiagnosisProblem,
+    effects: Sequence[Effect],
+    evidence: Evidence,
+    law: CoreLaw,
+    u: Array,
+    goal: float = np.inf,
 ) -> Refitted:
     """A fit to the end, its grid made for the law it starts from, and again where the law has moved far.
 
-    `u` of shape (unknowns,).
+    `u` of shape (unknowns,). `goal` as `refit` takes it.
     """
     for _ in range(_ROUNDS):
-        fitted = refit(response_of(problem.around(law), effects), evidence, law, u)
-        if fitted.chi2_per_dof > SEARCH.hopeless:
+        fitted = refit(response_of(problem.around(law), effects), evidence, law, u, goal=goal)
+        if fitted.chi2_per_dof > SEARCH.hopeless or not fitted.may_reach(goal):
             break
         omega = problem.fine.nodes.omega
         moved = np.max(np.abs(fitted.law.modulus(omega) / law.modulus(omega) - 1))

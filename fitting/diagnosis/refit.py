@@ -7,6 +7,7 @@ from scipy.optimize import least_squares
 
 from fitting.arrays import Array, Complex, Mask
 from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.pace import Steps, is_within_reach
 from fitting.diagnosis.response import SweepResponse
 from fitting.effects.base import Effect
 from fitting.identification.uncertainty import limits_reached
@@ -49,6 +50,8 @@ class Refitted:
     iterations: int = 0
     evaluations: int = 0
     converged: bool = True
+    pace: float = np.inf
+    """Chi-square gained by the better one of the last two steps; infinite where there were too few."""
 
     @property
     def parameter_count(self) -> int:
@@ -83,6 +86,10 @@ class Refitted:
         J = J / np.maximum(np.linalg.norm(J, axis=0), _NO_SLOPE)
         step = np.linalg.lstsq(J, self.residuals, rcond=_DEPENDENT)[0]
         return float(np.sum((J @ step) ** 2))
+
+    def may_reach(self, goal: float) -> bool:
+        """Whether a chi-square is within all the steps that a fit may have, at the pace of the last ones."""
+        return is_within_reach(self.chi2, goal, self.pace)
 
     @property
     def unexplained(self) -> float:
@@ -143,13 +150,16 @@ def refit(
     tolerance: float = COMPARABLE,
     points: Mask | None = None,
     brief: bool = False,
+    goal: float = np.inf,
 ) -> Refitted:
     """The best law and unknowns from `law` and `u` on; `points` limits the sweep's points that count.
 
-    Shapes: `u` as in `Refitted`, `points` (points,). `brief` where little is to be gained.
+    Shapes: `u` as in `Refitted`, `points` (points,). `brief` where little is to be gained. Ends early where
+    a chi-square of `goal` is out of reach (`Refitted.may_reach`).
     """
     problem = JointProblem(response, evidence, law, u, points)
     lower, upper = problem.limits
+    steps = Steps(goal)
     found = least_squares(
         problem.residuals,
         np.clip(problem.start, lower, upper),
@@ -160,12 +170,14 @@ def refit(
         ftol=tolerance,
         gtol=1e-10,
         max_nfev=_BRIEF_EVALUATIONS if brief else _most(tolerance),
+        callback=steps,
     )
     return replace(
         problem.fitted(found.x),
         iterations=int(found.njev),
         evaluations=int(found.nfev),
         converged=bool(found.status > 0),
+        pace=steps.pace,
     )
 
 

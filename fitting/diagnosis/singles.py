@@ -2,6 +2,8 @@
 
 from collections.abc import Callable, Iterable, Sequence
 
+import numpy as np
+
 from fitting.chances import chi2_above
 from fitting.diagnosis.candidate_fits import FirstLook, Form
 from fitting.diagnosis.candidates import has_place
@@ -27,8 +29,8 @@ class Singles:
         """One trial of each effect, best first."""
         self._first_pass()
         ahead = [best for name in self._ahead() for best in self._work.best_near(name)]
-        self._keep(self._each(self._work.finished, ahead, self._part(0.4, 0.2)))
-        self._keep(self._each(self._work.finished, self._dismissed_on_the_way(), self._part(0.6, 0.1)))
+        self._finish(ahead, self._part(0.4, 0.2))
+        self._finish(self._dismissed_on_the_way(), self._part(0.6, 0.1))
         self._second_pass()
         places = [(name, self._work.state(name)) for name in self._misplaced()]
         for fits in self._each(self._work.everywhere, places, self._part(0.9, 0.1)):
@@ -42,7 +44,7 @@ class Singles:
         if first:
             begun = self._each(work.begun, [(n, work.state(n)) for n in first], self._part(0.1, 0.1))
             self._begin(begun)
-            self._keep(self._each(work.finished, [f for t in self._order()[:1] for f in self._near(t)]))
+            self._finish([f for t in self._order()[:1] for f in self._near(t)])
             again = [(n, work.state(n)) for t in self._order()[:1] if self._leans(t) for n in t.names]
             for fits in self._each(work.from_stated, again):
                 self._keep(fits)
@@ -95,6 +97,12 @@ class Singles:
             name = scored.names[0]
             if name not in self._found or scored.cost < self._found[name].cost:
                 self._found[name] = scored
+
+    def _finish(self, rough: Iterable[tuple[Form, Refitted]], report: Report = lambda fraction: None) -> None:
+        """What may come near to what explains everything, if anything does, followed to its end."""
+        goal = self._work.goal(self._order()[0].fitted) if self._settled else np.inf
+        tasks = [(form, f, goal) for form, f in rough if f.may_reach(goal)]
+        self._keep(self._each(self._work.finished, tasks, report))
 
     def _begin(self, tasks: Iterable[FirstLook]) -> None:
         for begun in tasks:

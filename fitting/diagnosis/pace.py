@@ -1,0 +1,40 @@
+"""How fast a fit gets on, and whether it may still get to where it would matter."""
+
+import numpy as np
+from scipy.optimize import OptimizeResult
+
+_MOST_STEPS = 75
+"""As many as a fit may have, its grid made anew twice: what would take more of them is not on its way."""
+_SEEN = 2
+"""Steps that a pace is judged by: one may have been cut short."""
+
+
+def is_within_reach(chi2: float, goal: float, pace: float) -> bool:
+    """Whether a fit that gains `pace` of chi-square a step may come down to `goal`."""
+    return chi2 - goal <= _MOST_STEPS * pace
+
+
+class Steps:
+    """The steps of a fit as it takes them: a callback of scipy's.
+
+    It ends the fit where a chi-square of `goal` is out of reach.
+    """
+
+    def __init__(self, goal: float = np.inf) -> None:
+        self._goal, self._chi2 = goal, list[float]()
+
+    def __call__(self, intermediate_result: OptimizeResult) -> None:
+        """Take note of a step. Raises `StopIteration` to end the fit."""
+        self._chi2.append(2 * float(intermediate_result.cost))
+        if not is_within_reach(self._chi2[-1], self._goal, self.pace):
+            raise StopIteration
+
+    @property
+    def pace(self) -> float:
+        """Chi-square gained by the better one of the last two steps; without bound before there are three.
+
+        The first one is from where it began, which says nothing.
+        """
+        if len(self._chi2) <= _SEEN:
+            return np.inf
+        return float(np.max(-np.diff(self._chi2[-_SEEN - 1 :])))
