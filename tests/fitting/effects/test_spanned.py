@@ -180,3 +180,33 @@ def test_the_plate_of_the_latest_effects_is_taken_once_and_stays_in_its_process(
     sent = pickle.loads(pickle.dumps(plate))
     assert len(pickle.dumps(plate)) == len(pickle.dumps(replace(plate)))
     np.testing.assert_array_equal(sent.take(spans).parts, taken.parts)
+
+
+def test_a_condensed_plate_has_what_the_whole_one_has_along_the_same_motions(full):
+    plate = full.spanned
+    fewer = plate.condensed(OMEGA, G)
+    own = plate.group == "plate"
+    count = np.sum(fewer.group == "plate")
+    # Its motions, from rows that read them: as many places as it takes to know every column.
+    T = np.zeros((len(plate.group), len(fewer.group)))
+    T[~own, count:] = np.eye(np.sum(~own))
+    read = plate.deflection.reshape(-1, len(own))
+    T[own, :count] = np.linalg.lstsq(read[:, own], fewer.deflection.reshape(-1, len(fewer.group)))[0][
+        :, :count
+    ]
+    for name in ("M", "K_0", "K_1", "gram", "matrices", "parts"):
+        expected = T.T @ getattr(plate, name) @ T
+        np.testing.assert_allclose(getattr(fewer, name), expected, atol=1e-6 * np.abs(expected).max())
+    for name in ("load", "pitch", "observe", "vectors", "load_part"):
+        expected = getattr(plate, name) @ T
+        np.testing.assert_allclose(getattr(fewer, name), expected, atol=1e-6 * np.abs(expected).max())
+    np.testing.assert_allclose(fewer.U, T.T @ plate.U, atol=1e-6 * np.abs(plate.U).max())
+
+
+def test_a_spans_matrices_are_looked_up_once(full):
+    plate = full.spanned.take(CATALOGUE["partial_debond"].spans)
+    stack = plate.stack("strips_x.")
+    assert plate.stack("strips_x.") is stack
+    assert np.shares_memory(stack, plate.matrices)
+    places = [k for k, name in enumerate(plate.names) if str(name).startswith("strips_x.")]
+    np.testing.assert_array_equal(stack, plate.matrices[places])
