@@ -38,7 +38,7 @@ class ManyResiduals:
         problem, z = self.task.begun.problem, self.task.begun.none.z
         plate = self.reduced
         if len(z):
-            plate = moved_plate(plate, problem.nuisances, problem.plate, z)
+            plate = moved_plate(plate, problem.nuisances, self.task.begun.plate, z)
         return rational_sweep(plate, problem.sweep.omega)
 
     @cached_property

@@ -16,6 +16,7 @@ from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import ROUGH, Refitted, refit
 from fitting.diagnosis.responses import response_of
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.identification.direct import fit_direct
 from fitting.identification.fit import Fit
 from fitting.identification.model import SweepModel
@@ -37,7 +38,9 @@ class Begun:
     """Where everything starts."""
 
     problem: DiagnosisProblem
-    """Its grids made for the law found."""
+    """Its grids made for the law found, its plate condensed."""
+    plate: EnrichedReducedPlate
+    """As it was given: on the reduced plate's columns."""
     evidence: Evidence
     none: Refitted
     first: Fit
@@ -83,7 +86,7 @@ def begin(
         law, u = none.law, none.u
         if moved < _FAR:
             break
-    return Begun(here, evidence, at_rest(here, evidence, none), first)
+    return Begun(here, problem.plate, evidence, at_rest(here, evidence, none), first)
 
 
 def within_search(law: CoreLaw, omega: Array) -> CoreLaw:

@@ -26,6 +26,8 @@ _ANGLES = (0.2, 0.6, 1.0)
 """Of the modulus' argument, rad."""
 _EVERY = 2
 """Of the nodes, those that a condensed plate answers at."""
+_SMALL = 40
+"""Columns of a plate that is not condensed: a small structure, or one whose basis was never large."""
 _PLACES, _REACH, _PLACES_SEED = 4, 2.0, 5
 """Of the tolerances' box, that a condensed plate answers for: how many, how far in standard deviations."""
 _SECONDS_A_POINT = 10.0
@@ -111,8 +113,8 @@ class DiagnosisProblem:
 
         `sides` are further loads that it shall answer. Shape (k,) each.
         """
-        if not len(self.plate.names) and not sides:
-            # Nothing but what is stated changes this plate: it is small as it is.
+        nothing = not len(self.plate.names) and not sides
+        if nothing and (self.nuisances.change_nothing or len(self.plate.load) <= _SMALL):
             return self
         # With several sides each point has as many answers: fewer points have as much to say.
         omega = self.coarse.nodes.omega[:: _EVERY * max(2, len(sides)) // 2]

@@ -86,7 +86,7 @@ def _rational(joint: Joint) -> RationalSweep:
     problem = joint.begun.problem
     if joint.reduced is None:
         raise OutsideModel("band by band: several were fitted together, expected one plate read at one spot")
-    plate = moved_plate(joint.reduced, problem.nuisances, problem.plate, joint.begun.none.z)
+    plate = moved_plate(joint.reduced, problem.nuisances, joint.begun.plate, joint.begun.none.z)
     return rational_sweep(plate, np.unique(problem.sweep.omega))
 
 
