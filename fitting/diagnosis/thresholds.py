@@ -16,6 +16,9 @@ class VerdictThresholds:
     than one in twenty sweeps without any effect would show too names nothing."""
     least_doubted: float = 0.2
     """Probability of none up to which an effect is named; of a clean sweep none keeps four fifths."""
+    favoured: float = 2.0
+    """Times the best effect's probability: where none has no more, that effect is named too. Of a clean sweep
+    none has twenty times as much."""
     stand_in: float = 0.6
     """Most that an effect is worth which no point shows by itself, beside others that nothing refuses: it may
     stand in for a cause that is in no catalogue."""

@@ -100,7 +100,9 @@ def judge(
 
     visible = [t for t, _ in group if not hidden & set(t.names)]
     named = [t for t in visible if t.names]
-    if probability[()] > VERDICT.least_doubted or not named:
+    if not named or probability[()] > max(
+        VERDICT.least_doubted, VERDICT.favoured * probability[named[0].names]
+    ):
         if none.fails or not visible:
             return _unknown(judgement, none, ranked)
         return judgement("none", None)

@@ -39,17 +39,16 @@ def judged(none, *scored_fits, temper=1.0, hidden=(), off=None):
 POOR_NONE = scored(cost=1000.0, fails=True)
 
 
-NAMED = 2 * np.log((1 - VERDICT.least_doubted) / VERDICT.least_doubted)
-"""In cost: so far below none, an effect may be named."""
+NAMED = -2 * np.log(VERDICT.favoured)
+"""In cost: so far below none, an effect that stands alone is named; here it may be above."""
 
 
 @pytest.mark.parametrize(
-    ("gain", "verdict"), [(0.9 * NAMED, "none"), (1.1 * NAMED, "ambiguous"), (1.1 * EVEN, "effect")]
+    ("gain", "verdict"), [(NAMED - 0.1, "none"), (NAMED + 0.1, "ambiguous"), (1.1 * EVEN, "effect")]
 )
-def test_an_effect_is_named_where_none_is_improbable(gain, verdict):
+def test_an_effect_is_named_where_none_is_not_twice_as_likely(gain, verdict):
     said = judged(scored(cost=100.0), scored("spot_offset", cost=100.0 - gain))
     assert said.verdict == verdict
-    assert (said.probability[()] > VERDICT.least_doubted) == (verdict == "none")
     assert (said.accepted is not None) == (verdict != "none")
     # That nothing is there stays in the group while it has more than 5 %.
     assert (
@@ -60,6 +59,14 @@ def test_an_effect_is_named_where_none_is_improbable(gain, verdict):
             "effect": {"spot_offset": ("spot_offset",)},
         }[verdict]
     )
+
+
+@pytest.mark.parametrize(("count", "verdict"), [(6, "none"), (len(CATALOGUE), "ambiguous")])
+def test_where_none_is_improbable_an_effect_is_named_though_each_is_less_likely(count, verdict):
+    each = [scored(name, cost=2 * np.log(2 * VERDICT.favoured)) for name in list(CATALOGUE)[:count]]
+    said = judged(scored(cost=0.0), *each)
+    assert said.verdict == verdict
+    assert (said.probability[()] > VERDICT.least_doubted) == (verdict == "none")
 
 
 def test_where_nothing_is_needed_nothing_is_named():
