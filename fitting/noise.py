@@ -10,7 +10,6 @@ from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import nnls
 
 from fitting.arrays import Array
 from fitting.sweep import Sweep
@@ -20,6 +19,8 @@ WINDOW = 7
 amplitudes."""
 FEWEST = 15
 """Points a segment needs before its scatter says anything."""
+_SPLITS = 24
+"""Of a floor's part in the variance at the peak, that are tried: a choice, fine beside what scatter tells."""
 
 
 @dataclass(frozen=True)
@@ -76,8 +77,7 @@ def _scatter(frequency_hz: Array, response: NDArray[np.complex128] | Array) -> A
     middle, left_over = _local_residuals(f, v)
     parts = 2 if np.iscomplexobj(v) else 1
     square = np.abs(left_over) ** 2 / parts
-    variance = _variance_model(np.abs(v[middle]) ** 2, square)
-    floor, share = variance
+    floor, share = _variance_model(np.abs(v[middle]) ** 2, square, parts)
     std = np.empty(len(f))
     std[order] = np.sqrt(floor + share * np.abs(v) ** 2)
     return std
@@ -108,15 +108,21 @@ def local_model(t: Array, v: NDArray[Any]) -> NDArray[Any]:
     return np.stack([t**k for k in range(6)], axis=-1)
 
 
-def _variance_model(size_squared: Array, square: Array) -> tuple[float, float]:
-    """Floor and share of variance = floor + share |v|^2, by reweighted non-negative least squares."""
-    mean = float(np.mean(square))
-    tiny = 1e-12 * float(np.max(size_squared)) + 1e-300
-    floor, share = mean, 0.0
-    for _ in range(10):
-        weight = 1 / (floor + share * size_squared + tiny)
-        columns = np.column_stack([np.ones_like(size_squared), size_squared])
-        scale = np.abs(columns).max(axis=0)
-        found, _ = nnls(columns / scale * weight[:, None], square * weight)
-        floor, share = (float(x) for x in found / scale)
-    return floor + tiny, share
+def _variance_model(size_squared: Array, square: Array, parts: int) -> tuple[float, float]:
+    """Floor and share of variance = floor + share |v|^2: their means, the floor's part as likely anywhere.
+
+    `square` are squared residuals of a part, `parts` of each reading. Shape (residuals,) each. Few points
+    hardly say how much of their scatter is a floor: the likeliest split is often none, and far from the peak
+    readings would then count for several times what they are worth.
+    """
+    largest = float(np.max(size_squared))
+    tiny = 1e-12 * largest + 1e-300
+    floor = (np.arange(_SPLITS) + 0.5) / _SPLITS
+    # var = s (floor + (1 - floor) |v|^2 / largest); for each floor s has an inverse gamma distribution.
+    form = floor[:, None] + (1 - floor[:, None]) * size_squared / largest
+    freedom = parts * len(square) / 2
+    sums = parts / 2 * np.sum((square + tiny) / form, axis=1)
+    log_weight = -parts / 2 * np.sum(np.log(form), axis=1) - freedom * np.log(sums)
+    weight = np.exp(log_weight - log_weight.max())
+    scale = weight / weight.sum() * sums / (freedom - 1)
+    return float(scale @ floor) + tiny, float(scale @ (1 - floor)) / largest

@@ -32,6 +32,24 @@ def test_scatter_recovers_a_floor_and_a_share():
     assert np.all(np.abs(np.mean(ratios, axis=0) - 1) < 0.15)
 
 
+def test_twenty_points_do_not_make_readings_far_from_the_peak_sure():
+    rng = np.random.default_rng(4)
+    f = np.linspace(14, 26, 20)
+    v = peak(f)
+    true = np.hypot(0.004 * np.abs(v).max(), 0.002 * np.abs(v))
+    weakest = np.argsort(np.abs(v))[:5]
+    ratios, square = [], []
+    for _ in range(150):
+        noise = true * (rng.normal(size=20) + 1j * rng.normal(size=20))
+        seen = noise_of(sweep_of(f, v + noise)).std_m_s
+        ratios.append(seen[weakest[0]] / true[weakest[0]])
+        square.append(np.abs(noise / seen) ** 2 / 2)
+    # Of the likeliest split of each sweep they are 0.26, 1.6 and 1.15.
+    assert np.quantile(ratios, 0.02) > 0.5
+    assert np.mean(np.array(square)[:, weakest]) < 1.3
+    assert np.mean(square) == pytest.approx(1, abs=0.1)
+
+
 @pytest.mark.parametrize("points", [121, 61, 31])
 def test_a_noiseless_peak_is_not_taken_for_noise(points):
     f = np.linspace(14, 26, points)
