@@ -50,8 +50,7 @@ def explain(
         said.append(judgement.why)
         return tuple(said)
     stories = [story(e, f) for e, f in zip(scored.fitted.effects, found, strict=True)]
-    likely = "By your word" if judgement.by_hand else "Most likely"
-    said.append(f"{likely} {' and '.join(stories)}.")
+    said.append(f"{how_likely(judgement, scored.names)} {' and '.join(stories)}.")
     if not all(e.replaces_law for e in scored.fitted.effects):
         said.append(_moved(problem, scored.fitted))
     if scored.stands_in and not judgement.by_hand:
@@ -74,6 +73,14 @@ def explain(
     )
     said.append(_law(before, after))
     return tuple(said)
+
+
+def how_likely(judgement: Judgement, names: tuple[str, ...]) -> str:
+    """How a sentence on an accepted explanation begins: none may be likelier, up to twice."""
+    if judgement.by_hand:
+        return "By your word"
+    nothing = judgement.probability.get((), 0.0)
+    return "If anything," if nothing > judgement.probability[names] else "Most likely"
 
 
 def _beside_none(judgement: Judgement) -> list[str]:
