@@ -317,22 +317,25 @@ def test_a_campaign_goes_on_where_it_was_stopped(tmp_path):
         run_plates(jobs, tmp_path, exact=True, identify=true_band, diagnose=no_effect, workers=1)
 
 
+def summary_of_one(folder, kind, how):
+    options = ["--count", "1", "--seed", "11", "--kind", kind, "--workers", "1"]
+    result = CliRunner().invoke(bench, ["--plates", str(folder), how, *options])
+    assert result.exit_code == 0, result.output
+    return result.output
+
+
 def test_the_command_runs_it_and_keeps_the_summary(tmp_path, monkeypatch):
     monkeypatch.setattr("instrument.cli.bench.diagnosed_without_the_truth", no_effect)
-    options = ["--count", "1", "--seed", "11", "--kind", "gain_error", "--workers", "1"]
-    result = CliRunner().invoke(bench, ["--plates", str(tmp_path), "--without-truth", *options])
-    assert result.exit_code == 0, result.output
-    assert "gain_error" in result.output
-    assert (tmp_path / "summary.md").read_text(encoding="utf-8") == result.output[:-1]
+    said = summary_of_one(tmp_path, "gain_error", "--without-truth")
+    assert "gain_error" in said
+    assert (tmp_path / "summary.md").read_text(encoding="utf-8") == said[:-1]
 
 
 def test_the_law_alone_can_be_asked_for_and_nothing_is_said_of_names(tmp_path, monkeypatch):
     monkeypatch.setattr("instrument.cli.bench.identified", true_band)
-    options = ["--count", "1", "--seed", "11", "--kind", "none", "--workers", "1"]
-    result = CliRunner().invoke(bench, ["--plates", str(tmp_path), "--law-alone", *options])
-    assert result.exit_code == 0, result.output
-    assert "| none | identify | 3 | 1.00 | 1.00 |" in result.output
-    assert "Naming" not in result.output
+    said = summary_of_one(tmp_path, "none", "--law-alone")
+    assert "| none | identify | 3 | 1.00 | 1.00 |" in said
+    assert "Naming" not in said
 
 
 def test_the_command_takes_kinds_of_one_campaign_only(tmp_path):
