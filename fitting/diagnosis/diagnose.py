@@ -106,7 +106,8 @@ def diagnose_task(
         found = found_effects(accepted.fitted, problem.plate, scale)
     if judgement.verdict != "unknown":
         after = replace(after, band=mixed_band(problem, search, judgement.group))
-    scored_fits = sorted([search.none, *scored_fits], key=_cost)
+    absent, scored_fits = search.tempered(scored_fits)
+    scored_fits = sorted([absent, *scored_fits], key=_cost)
     seen = tuple(text.story(catalogue[c.name], c) for c in channels)
     return Diagnosis(
         verdict=judgement.verdict,
@@ -148,9 +149,7 @@ def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, lis
     singles = _bettered(singles, [one for pair in pairs[:1] for one in search.alone(pair)])
     scored_fits = _at_rest(search, sorted([*singles, *pairs], key=_cost))
     judgement = judge(
-        search.none,
-        scored_fits,
-        temper=search.temper(min([search.none, *scored_fits], key=_cost)),
+        *search.tempered(scored_fits),
         hidden=frozenset(e.name for e in search.unnamed),
         held_out=lambda scored: over_noise(search.validation(scored)),
     )

@@ -30,24 +30,33 @@ _AT_A_LIMIT = 0.1
 """Standard deviations from a limit within which a fit is held by it: a bounded fit stops a little before."""
 
 
-def cost(fitted: Refitted, plate: EnrichedReducedPlate) -> float:
-    """-2 ln of prior times marginal likelihood. Where the noise is unknown its size is integrated too."""
+def cost(fitted: Refitted, plate: EnrichedReducedPlate, temper: float = 1.0) -> float:
+    """-2 ln of prior times marginal likelihood. Where the noise is unknown its size is integrated too.
+
+    `temper`: how much less the readings say than their noise has it (`predictive.temper`). What is known
+    without them, of the effects and of the plate, says what it says.
+    """
     law_widths = fitted.law.search_widths
     priors = _priors(fitted, plate)
     densities = np.array([*np.log(1 / (law_widths * np.sqrt(_UNIFORM))), *(density for density, _ in priors)])
     J, r = fitted.jacobian, fitted.residuals
-    if not fitted.noise_known:
+    size = temper * (1.0 if fitted.noise_known else _mean_square(fitted))
+    if size != 1.0:
         # Of the readings: what is stated is as well known as it is said.
         J, r = J.copy(), r.copy()
-        J[: fitted.data] /= np.sqrt(_mean_square(fitted))
-        r[: fitted.data] /= np.sqrt(_mean_square(fitted))
+        J[: fitted.data] /= np.sqrt(size)
+        r[: fitted.data] /= np.sqrt(size)
     H = J.T @ J
     H += np.diag(prior_precision(fitted, plate))
     _, logdet = np.linalg.slogdet(H)
     k = len(densities)
     paid = float(logdet) - k * np.log(2 * np.pi) - 2 * float(densities.sum())
     paid -= 2 * _log_share_within(fitted, plate, H, J.T @ r)
-    return _misfit(fitted) + paid + sum(_odds(e) for e in fitted.effects)
+    if temper != 1.0:
+        # Readings that say less pull the stated numbers less far: one step towards where they end then.
+        back = (1 - 1 / temper) * (J[fitted.data :].T @ r[fitted.data :])
+        paid -= float(back @ np.linalg.solve(H, back))
+    return _misfit(fitted, temper) + paid + sum(_odds(e) for e in fitted.effects)
 
 
 def prior_precision(fitted: Refitted, plate: EnrichedReducedPlate) -> Array:
@@ -94,11 +103,11 @@ def _log_share_within(fitted: Refitted, plate: EnrichedReducedPlate, H: Array, s
     return found
 
 
-def _misfit(fitted: Refitted) -> float:
+def _misfit(fitted: Refitted, temper: float) -> float:
+    r, priors = fitted.residuals[: fitted.data], fitted.residuals[fitted.data :]
     if fitted.noise_known:
-        return fitted.chi2
-    priors = fitted.residuals[fitted.data :]
-    return fitted.data * float(np.log(_mean_square(fitted))) + float(priors @ priors)
+        return fitted.chi2 if temper == 1.0 else float(r @ r) / temper + float(priors @ priors)
+    return fitted.data * float(np.log(_mean_square(fitted))) / temper + float(priors @ priors)
 
 
 def _mean_square(fitted: Refitted) -> float:
@@ -147,7 +156,7 @@ def expected_size(q: EffectParameter) -> float:
     return q.spread or _TYPICALS * q.typical
 
 
-def probabilities(costs: Array, temper: float = 1.0) -> Array:
+def probabilities(costs: Array) -> Array:
     """Of explanations from their costs, one of them being right. Shape of `costs`."""
-    relative = np.exp(-(costs - costs.min()) / (2 * temper))
+    relative = np.exp(-(costs - costs.min()) / 2)
     return np.asarray(relative / relative.sum())

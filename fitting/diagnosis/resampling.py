@@ -83,9 +83,7 @@ class Again:
         problem = self.remade(self.problem.sweep.take(~held))
         search, scored_fits = self.searched(problem)
         judged = judge(
-            search.none,
-            scored_fits,
-            temper=search.temper(min([search.none, *scored_fits], key=lambda t: t.cost)),
+            *search.tempered(scored_fits),
             hidden=frozenset(),
             held_out=lambda scored: float("nan"),
         )

@@ -1,7 +1,7 @@
 """The catalogue tried on a residual, effect by effect."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -85,6 +85,13 @@ class Search:
         found = checks(self.problem.sweep, self.evidence, self._none, fitted)
         doubt = stands_in(self.problem, fitted)
         return ScoredFit(fitted, cost(fitted, self.problem.plate), found, doubt)
+
+    def tempered(self, scored_fits: Sequence[ScoredFit]) -> tuple[ScoredFit, list[ScoredFit]]:
+        """None and the others with what they are worth where the best explains far more than noise."""
+        t = self.temper(min([self.none, *scored_fits], key=lambda one: one.cost))
+        plate = self.problem.plate
+        none, *others = (replace(one, cost=cost(one.fitted, plate, t)) for one in (self.none, *scored_fits))
+        return none, others
 
     def temper(self, best: ScoredFit) -> float:
         """How much less a difference of costs says, where the best explains far more than noise."""

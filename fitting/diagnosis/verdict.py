@@ -78,17 +78,16 @@ def judge(
     none: ScoredFit,
     scored_fits: Sequence[ScoredFit],
     *,
-    temper: float,
     hidden: frozenset[str],
     held_out: Callable[[ScoredFit], float],
 ) -> Judgement:
     """Weigh explanations.
 
-    `temper`: how much less a difference of costs says. `hidden`: effects that may not be named, fitted for
-    comparison. `held_out`: error of a trial over noise on data it has not seen, NaN where there are none.
+    `hidden`: effects that may not be named, fitted for comparison. `held_out`: error of a trial over noise on
+    data it has not seen, NaN where there are none.
     """
     every = _best_of_each([none, *scored_fits])
-    p = shares_of(every, temper)
+    p = shares_of(every)
     order = np.argsort(-p, kind="stable")
     ranked = [(every[k], float(p[k])) for k in order]
     probability = {t.names: share for t, share in ranked}
@@ -117,7 +116,7 @@ def judge(
     return judgement("effect" if alone and sure and firm else "ambiguous", best, confirmed=sure)
 
 
-def shares_of(every: Sequence[ScoredFit], temper: float) -> Array:
+def shares_of(every: Sequence[ScoredFit]) -> Array:
     """Probabilities, where what no point shows by itself shares with what nothing refuses.
 
     A cause that is in no catalogue is fitted by what bends most freely, and far better than by the rest. So
@@ -125,14 +124,14 @@ def shares_of(every: Sequence[ScoredFit], temper: float) -> Array:
     costs; that there is an effect at all is not in doubt. Shape (explanations,).
     """
     costs = np.array([t.cost for t in every])
-    p = probabilities(costs, temper)
+    p = probabilities(costs)
     unseen = np.array([bool(t.stands_in) for t in every])
     others = np.array([bool(t.names) and not t.fails and not t.stands_in for t in every])
     both = float(p[unseen | others].sum())
     if not others.any() or p[unseen].sum() <= VERDICT.stand_in * both:
         return p
     p[unseen] *= VERDICT.stand_in * both / p[unseen].sum()
-    p[others] = (1 - VERDICT.stand_in) * both * probabilities(costs[others], temper)
+    p[others] = (1 - VERDICT.stand_in) * both * probabilities(costs[others])
     return p
 
 

@@ -59,10 +59,12 @@ def diagnose_modes(
         found = _best_of_each(
             [*found, *best_pairs(work, found, seen, lambda x: report(_SINGLES + (1 - _SINGLES) * x))]
         )
-    every = sorted([none, *found], key=_cost)
-    t = temper(begun.none, every[0].fitted) if begun.evidence.scale_known else 1.0
-    judgement = judge(none, found, temper=t, hidden=frozenset(), held_out=work.held_out)
+    best = min([none, *found], key=_cost)
+    t = temper(begun.none, best.fitted) if begun.evidence.scale_known else 1.0
+    none, *found = (work.scored(one.fitted, t) for one in (none, *found))
+    judgement = judge(none, found, hidden=frozenset(), held_out=work.held_out)
     report(1.0)
+    every = sorted([none, *found], key=_cost)
     return DiagnosedModes(begun, _in_light_of_the_law(work, none, seen, judgement), tuple(every), t)
 
 

@@ -82,10 +82,10 @@ class Explaining:
         """Whether the tables leave over what a fit needs."""
         return fitted.parameter_count <= self.begun.evidence.count - _SPARE
 
-    def scored(self, fitted: Refitted) -> ScoredFit:
-        """A fit with what it is worth."""
+    def scored(self, fitted: Refitted, temper: float = 1.0) -> ScoredFit:
+        """A fit with what it is worth where what was explained is `temper` times as far above the noise."""
         plate = self.begun.problem.response(fitted.effects).plate
-        return ScoredFit(fitted, cost(fitted, plate), self._checks(fitted))
+        return ScoredFit(fitted, cost(fitted, plate, temper), self._checks(fitted))
 
     def held_out(self, scored: ScoredFit) -> float:
         """Rms error of every mode predicted from all others, in its standard deviations.

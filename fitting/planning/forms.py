@@ -30,7 +30,8 @@ def forms_of(rivals: Rivals, fitted: Refitted) -> Weighted:
         every.append(polished(rivals.problem, fitted.effects, rivals.evidence, fitted.law, u))
     if len(every) == 1:
         return [(fitted, 1.0)]
-    shares = probabilities(np.array([cost(f, rivals.problem.plate) for f in every]), rivals.temper)
+    plate = rivals.problem.plate
+    shares = probabilities(np.array([cost(f, plate, rivals.temper) for f in every]))
     kept = [(f, float(p)) for f, p in zip(every, shares, strict=True) if f is fitted or p > _LEAST]
     whole = sum(p for _, p in kept)
     return [(f, p / whole) for f, p in kept]

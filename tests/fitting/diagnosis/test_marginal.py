@@ -277,8 +277,31 @@ def test_what_a_stated_number_is_moved_costs_as_its_prior_says():
     assert costs[1] - costs[0] == pytest.approx(9)
 
 
+@pytest.mark.parametrize("stated", [0, 3])
+def test_tempered_readings_are_worth_what_noisier_ones_would_be(stated):
+    columns = design(28, 3 + stated)
+    data = np.random.default_rng(29).normal(size=N) + 0.3 * columns[:, -1]
+    data += 0.1 * columns[:, 2 : 2 + stated].sum(axis=1)
+    for temper in (2.0, 30.0):
+        found = cost(linear(columns, data, stated=stated, effects=[Small()]), None, temper)
+        root = np.sqrt(temper)
+        noisier = cost(linear(columns / root, data / root, stated=stated, effects=[Small()]), None)
+        assert found == pytest.approx(noisier, abs=0.1)
+
+
+def test_tempering_leaves_how_rare_an_effect_is():
+    columns, data = design(13, 3), np.random.default_rng(14).normal(size=N)
+
+    class Rare(Small):
+        chance = 0.001
+
+    fits = [linear(columns, data, effects=[e()]) for e in (Rare, Small)]
+    differences = [cost(fits[0], None, t) - cost(fits[1], None, t) for t in (1.0, 50.0)]
+    assert differences[0] == pytest.approx(differences[1])
+    assert differences[0] > 0
+
+
 def test_probabilities_follow_the_costs():
     costs = np.array([0.0, 2 * np.log(19), 1e4])
     assert probabilities(costs) == pytest.approx([0.95, 0.05, 0])
     assert probabilities(costs + 1e5) == pytest.approx([0.95, 0.05, 0])
-    assert probabilities(costs, temper=2.0)[1] == pytest.approx(1 / (1 + np.sqrt(19)))

@@ -26,7 +26,7 @@ def costs(monkeypatch):
     monkeypatch.setattr(
         forms, "polished", lambda problem, effects, evidence, law, u: fitted(effects[0], *u[2:])
     )
-    monkeypatch.setattr(forms, "cost", lambda f, plate: by_choice[f.u[3]])
+    monkeypatch.setattr(forms, "cost", lambda f, plate, temper: by_choice[f.u[3]])
     return by_choice
 
 
