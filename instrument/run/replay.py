@@ -3,6 +3,7 @@
 import json
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from itertools import islice
 from time import monotonic, sleep
 
 from threadpoolctl import threadpool_limits
@@ -69,9 +70,9 @@ def _replay(
     session: SessionFile, pace: "_ReplayPace", watch: Watch, fit: Fitter, diagnose: Diagnoser
 ) -> Replayed:
     configuration = session.configuration
-    analysis = Analysis(setup_of(configuration))
     specimen = configuration.the_specimen()
     setup, table = setup_of(configuration), configuration.experiment.sweep
+    analysis = Analysis(setup)
     adaptive = table is not None and table.plan == "adaptive"
     chooser = None
     if adaptive and table is not None and isinstance(specimen, Specimen):
@@ -80,7 +81,7 @@ def _replay(
     expected: list[Derived] = []
     apart: dict[tuple[type[Derived], int], Derived] = {}
     ended = False
-    for event in session.events():
+    for before, event in enumerate(session.events()):
         pace.wait(event)
         if isinstance(event, FitUpdated | DiagnosisFound | StepsChosen):
             # Recorded whenever its thread was done: paired with its computation by number.
@@ -90,8 +91,11 @@ def _replay(
             _compare(again, expected.pop(0) if expected else None, event)
             continue
         if isinstance(event, SessionBegan):
-            # A broken-off step ends here; what it began is not carried on.
-            expected = []
+            # The run is carried on with what is recorded: a broken-off step ends here, and what was found by
+            # then and did not get onto the disk is found again.
+            expected, analysis = [], Analysis(setup)
+            for earlier in islice(session.events(with_samples=False), before):
+                analysis.restore(earlier)
         watch(event)
         derived = analysis.feed(event)
         expected += derived

@@ -9,9 +9,10 @@ from instrument.run.control import RunControl
 from instrument.run.experiment import run_experiment
 from instrument.run.replay import replay
 from instrument.session.configuration import read_whole_experiment
-from instrument.session.journal import SessionJournal
-from instrument.session.storage import SessionFile
+from instrument.session.journal import JOURNAL, SessionJournal
+from instrument.session.storage import SessionFile, part_events
 from instrument.stream.derived import CalibrationFound, FitUpdated, PointMeasured
+from instrument.stream.raw import SegmentEnded
 
 SWEEP = """
 [[sweep.segments]]
@@ -64,6 +65,32 @@ def test_a_calibration_broken_off_anywhere_is_the_same_in_the_end(tmp_path, afte
     assert sorted(e.range_name for e in found) == ["10mm/s/V", "20mm/s/V", "5mm/s/V"]
     assert all(e.points == 3 for e in found)
     assert [e.delay_s for e in found] == pytest.approx([1.1e-3] * 3, abs=2e-6)
+    assert [p.remarks for p in finished.points if p.remarks] == []
+
+
+def cut_before(running, kind):
+    """As a run is found that was killed before the first event of a kind was on the disk; the last one there."""
+    journal = running / JOURNAL
+    kept = []
+    for line, entry in zip(journal.read_text().splitlines(), SessionJournal(running).entries(), strict=True):
+        events = list(part_events(running / entry.file))
+        if any(isinstance(e, kind) for e in events):
+            break
+        kept.append(line)
+        last = events[-1]
+    journal.write_text("".join(f"{line}\n" for line in kept))
+    return last
+
+
+def test_a_calibration_that_a_kill_kept_off_the_disk_is_found_again_and_by_a_replay_too(tmp_path):
+    with formula_rig(tmp_path, sweep=SWEEP) as (_, experiment):
+        experiment = calibrated(experiment)
+        running = broken_off(experiment, tmp_path, 5)
+        assert isinstance(cut_before(running, CalibrationFound), SegmentEnded)
+        finished = run(experiment, tmp_path, resume=running)
+    with SessionFile(finished.session) as file:
+        again = replay(file, fit=no_fit)
+    assert again.differences == []
     assert [p.remarks for p in finished.points if p.remarks] == []
 
 
