@@ -69,7 +69,7 @@ def test_a_calibration_broken_off_anywhere_is_the_same_in_the_end(tmp_path, afte
 
 
 def cut_before(running, kind):
-    """As a run is found that was killed before the first event of a kind was on the disk; the last one there."""
+    """A run as killed before the first event of a kind was on the disk; the last one that was."""
     journal = running / JOURNAL
     kept = []
     for line, entry in zip(journal.read_text().splitlines(), SessionJournal(running).entries(), strict=True):
