@@ -50,6 +50,10 @@ class CandidateFits:
         name, number = form
         return self.effects[name].variants()[number]
 
+    def has_places(self, name: str) -> bool:
+        """Whether an effect has a form whose place is to be found."""
+        return any(has_place(c.effect) for c in self.candidates[name])
+
     def state(self, name: str) -> State:
         """What is known of an effect so far."""
         return [c.known for c in self.candidates[name]]
@@ -178,13 +182,16 @@ class CandidateFits:
     def look(self, one: tuple[Refitted, Form]) -> list[Start]:
         """Starts of a second effect beside a fit."""
         before, form = one
-        return look(self.problem, self.evidence, before, self.form(form))
+        return look(self.problem, self.evidence, before, self.form(form), again=True)
 
-    def second(self, one: tuple[Refitted, Form, list[Start]]) -> Refitted | None:
-        """A second effect beside a fit, from the starts that a look has found."""
-        before, form, starts = one
-        candidate = self._beside(before, self.form(form), starts)
-        return candidate.finished(candidate.near[0]) if candidate.near else None
+    def second(self, one: tuple[Refitted, Form, list[Start], float]) -> Refitted | None:
+        """A second effect beside a fit, from the starts that a look has found; `goal` as `refit` takes it."""
+        before, form, starts, goal = one
+        candidate = CandidateFit(self.problem, self.evidence, before, self.form(form), starts, goal)
+        if not candidate.near:
+            return None
+        rough = candidate.near[0]
+        return candidate.finished(rough, goal) if rough.may_reach(goal) else rough
 
     def alone(self, one: tuple[Refitted, Effect]) -> Refitted:
         """One effect of a pair as the pair has it, law and all, the other one taken away."""
@@ -221,8 +228,8 @@ class CandidateFits:
                 found += [c.finished(f) for c in [self._beside(rough, second)] for f in c.far[:1]]
         return found
 
-    def _beside(self, before: Refitted, effect: Effect, starts: list[Start] | None = None) -> CandidateFit:
-        return CandidateFit(self.problem, self.evidence, before, effect, starts)
+    def _beside(self, before: Refitted, effect: Effect) -> CandidateFit:
+        return CandidateFit(self.problem, self.evidence, before, effect)
 
 
 def _best_first(fits: list[tuple[CandidateFit, Refitted]]) -> list[tuple[CandidateFit, Refitted]]:

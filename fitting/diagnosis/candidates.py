@@ -27,24 +27,43 @@ _FAR = 0.02
 """Relative change of the modulus from which the grid is made anew for the new poles. A choice."""
 
 
-def look(problem: DiagnosisProblem, evidence: Evidence, before: Refitted, effect: Effect) -> list[Start]:
-    """Starts of an effect, scaled by a linear step, with the chi-square each may gain; best first."""
+def look(
+    problem: DiagnosisProblem, evidence: Evidence, before: Refitted, effect: Effect, *, again: bool = False
+) -> list[Start]:
+    """Starts of an effect, scaled by a linear step, with the chi-square each may gain; best first.
+
+    `again`: a step of the size that the first one ends with tells once more, where there is no place to be
+    found. A large one bends, and what is all but another effect's work is then lost in the bend.
+    """
     response = response_of(problem, [*before.effects, effect], problem.coarse)
     plain = response_of(problem, before.effects, problem.coarse)
-    return promising(response, plain, problem.points, evidence, before)
+    found = promising(response, plain, problem.points, evidence, before)
+    if not again or has_place(effect) or not effect.parameters:
+        return found
+    told = [u for promise, u in found[: SEARCH.followed] if promise > 0]
+    steps = promising(response, plain, problem.points, evidence, before, told)
+    return sorted([*found, *steps], key=lambda f: -f[0])
 
 
 def promising(
-    response: SweepResponse, plain: SweepResponse, points: Points, evidence: Evidence, before: Refitted
+    response: SweepResponse,
+    plain: SweepResponse,
+    points: Points,
+    evidence: Evidence,
+    before: Refitted,
+    starts: Sequence[Array] | None = None,
 ) -> list[Start]:
-    """The same of the last effect of `response`; `plain` is without it. `points` has shape (points,) each."""
+    """The same of the last effect of `response`; `plain` is without it. Its own starts are the default.
+
+    Shapes: `points` (points,) each; `starts` (parameters,) each.
+    """
     effect = response.effects[-1]
     law, known = before.law, before.u
     v = plain.velocity(law, known)
     r = before.residuals
     Q, _ = np.linalg.qr(before.jacobian)
     lower, upper = effect.limits(response.plate)
-    starts, found = effect.starts(response.plate, points), []
+    starts, found = effect.starts(response.plate, points) if starts is None else starts, []
     for u, moved in zip(starts, moves(response, law, known, starts, v), strict=True):
         s = np.zeros(len(r))
         rows = np.concatenate([evidence.jacobian(v, moved[None])[:, 0], evidence.bare_moves(effect, u)])

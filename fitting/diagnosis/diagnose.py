@@ -147,7 +147,9 @@ def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, lis
     singles = _bettered(singles, [one for t in leading for one in search.simpler(t)])
     pairs = _pairs(search, singles, lambda x: report(0.5 + 0.3 * x))
     singles = _bettered(singles, [one for pair in pairs[:1] for one in search.alone(pair)])
-    scored_fits = _at_rest(search, sorted([*singles, *pairs], key=_cost))
+    found = [*singles, *pairs]
+    best = min([search.none, *found], key=_cost)
+    scored_fits = sorted(search.at_rest(found, best), key=_cost)
     judgement = judge(
         *search.tempered(scored_fits),
         hidden=frozenset(e.name for e in search.unnamed),
@@ -163,19 +165,6 @@ def _bettered(known: Sequence[ScoredFit], found: Sequence[ScoredFit]) -> list[Sc
         if scored.names not in cheapest or scored.cost < cheapest[scored.names].cost:
             cheapest[scored.names] = scored
     return sorted(cheapest.values(), key=_cost)
-
-
-def _at_rest(search: Search, scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
-    """What may be in the group followed to its very end; best first."""
-    if not scored_fits:
-        return []
-    best = min([search.none, *scored_fits], key=_cost)
-    within = best.cost + SEARCH.reported * search.temper(best)
-    near = [t for t in scored_fits if t.cost < within]
-    ends = search.executor.each(search.work.at_rest, [t.fitted for t in near])
-    # A cost is one at a least chi-square only: what is reached counts, though it were dearer.
-    found = [search.judged(end) if end.chi2 < t.fitted.chi2 else t for t, end in zip(near, ends, strict=True)]
-    return sorted([*found, *(t for t in scored_fits if t.cost >= within)], key=_cost)
 
 
 def _noise_left(search: Search, scored_fits: Sequence[ScoredFit]) -> float:

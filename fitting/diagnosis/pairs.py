@@ -5,9 +5,9 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from fitting.diagnosis.candidate_fits import Form
-from fitting.diagnosis.candidates import has_place
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.thresholds import SEARCH
+from fitting.effects.base import Effect
 
 Report = Callable[[float], None]
 
@@ -39,7 +39,7 @@ class Pairs:
             if not many and (wide or expected[k] < enough):
                 beside[scored] = beside.get(scored, 0) + 1
                 chosen.setdefault(frozenset((*scored.names, name)), int(k))
-        full = [(tasks[k][0].fitted, tasks[k][1], looks[k]) for k in chosen.values()]
+        full = [(tasks[k][0].fitted, tasks[k][1], looks[k], np.inf) for k in chosen.values()]
         fits = each(work.second, full, lambda x: report(0.4 + 0.4 * x))
         found = sorted((search.judged(f) for f in fits if f is not None), key=lambda t: t.cost)
         if wide and found and not self._will_do([*leaders[:1], *found]):
@@ -48,8 +48,9 @@ class Pairs:
             found += [search.judged(f) for fits in each(work.together, again) for f in fits]
             if not self._will_do(found):
                 found += self._every_second([t for t in singles if _plainly(t)], found)
-            found += self._swapped(found)
-        report(1.0)
+        report(0.9)
+        if found and min(t.cost for t in found) < singles[0].cost:
+            found += self._improved(found)
         return _best_of_each(found)
 
     def _will_do(self, scored_fits: Sequence[ScoredFit]) -> bool:
@@ -87,23 +88,41 @@ class Pairs:
         best = sorted(rough, key=lambda f: f.chi2)[: SEARCH.pairs_a_leader]
         return [search.judged(f) for f in each(work.ended, best)]
 
-    def _swapped(self, pairs: Sequence[ScoredFit]) -> list[ScoredFit]:
-        """Other effects beside those of the best pair that have a place: a wrong second may have found it."""
-        search, work, each = self._search, self._search.work, self._search.executor.each
-        plain = [t for t in sorted(pairs, key=lambda t: t.cost) if len(_plainly(t)) == 2]
-        best = next((t for t in plain if not t.fails), plain[0] if plain else None)
-        if best is None:
-            return []
-        placed = [e for e in best.fitted.effects if has_place(e)]
-        befores = list(each(work.alone, [(best.fitted, e) for e in placed]))
-        asked = [(before, form) for before in befores for form in self._others(best.names)]
-        looks = list(each(work.look, asked))
-        promising = sorted(
-            (one for one in zip(asked, looks, strict=True) if one[1]),
-            key=lambda one: one[0][0].chi2 - one[1][0][0],
-        )[: SEARCH.pairs_a_leader]
-        fits = each(work.second, [(before, form, starts) for (before, form), starts in promising])
-        return [search.judged(f) for f in fits if f is not None]
+    def _improved(self, pairs: Sequence[ScoredFit]) -> list[ScoredFit]:
+        """What is found by exchanging one effect of the best pair, and then of what that leads to.
+
+        A wrong one may have led to the right other one, and stands where the right one would begin.
+        """
+        found, heard = list[ScoredFit](), set[str]()
+        for _ in range(SEARCH.exchanges):
+            plain = [t for t in sorted([*pairs, *found], key=lambda t: t.cost) if len(_plainly(t)) == 2]
+            best = next((t for t in plain if not t.fails), plain[0] if plain else None)
+            if best is None or heard >= set(best.names):
+                break
+            kept = [e for e in best.fitted.effects if e.name not in heard]
+            heard |= set(best.names)
+            new = [*self._exchanged(best, kept), *self._search.simpler(best)]
+            # One that a winding valley leads to would be dismissed on its way.
+            found += self._search.at_rest(new, min([best, *new], key=lambda t: t.cost))
+        return found
+
+    def _exchanged(self, pair: ScoredFit, kept: Sequence[Effect]) -> list[ScoredFit]:
+        """Another effect, or another place of the same, beside each of those of a pair that are kept."""
+        work, each = self._search.work, self._search.executor.each
+        promising = []
+        for before in each(work.alone, [(pair.fitted, e) for e in kept]):
+            name = before.effects[0].name
+            gone = {*pair.names} - {name}
+            asked = [
+                (before, form)
+                for form in self._others([name])
+                if form[0] not in gone or work.has_places(form[0])
+            ]
+            looks = [one for one in zip(asked, each(work.look, asked), strict=True) if one[1]]
+            promising += sorted(looks, key=lambda one: -one[1][0][0])[: SEARCH.exchanged]
+        goal = work.goal(pair.fitted)
+        fits = each(work.second, [(before, form, starts, goal) for (before, form), starts in promising])
+        return [self._search.judged(f) for f in fits if f is not None]
 
 
 def _plainly(scored: ScoredFit) -> list[str]:

@@ -15,6 +15,7 @@ from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import Refitted, refit
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.stand_in import stands_in
+from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.identification.validation import Validation
@@ -121,16 +122,32 @@ class Search:
             for e in pair.effects
         ]
 
-    def simpler(self, scored: ScoredFit) -> list[ScoredFit]:
-        """What an effect contains, fitted from where the effect was found."""
-        fitted, known = scored.fitted, {e.name for e in self.effects}
-        parts = [one for e in fitted.effects[:1] for one in e.within(fitted.of(e)) if one[0].name in known]
-        if len(fitted.effects) != 1:
-            return []
-        return [
-            self.judged(polished(self.problem, [e], self.evidence, fitted.law, np.concatenate([fitted.z, u])))
-            for e, u in parts
+    def at_rest(self, scored_fits: Sequence[ScoredFit], best: ScoredFit) -> list[ScoredFit]:
+        """What may be in one group with `best` followed to its very end, the others as they are."""
+        within = best.cost + SEARCH.reported * self.temper(best)
+        near = [t for t in scored_fits if t.cost < within]
+        ends = self.executor.each(self.work.at_rest, [t.fitted for t in near])
+        # A cost is one at a least chi-square only: what is reached counts, though it were dearer.
+        found = [
+            self.judged(end) if end.chi2 < t.fitted.chi2 else t for t, end in zip(near, ends, strict=True)
         ]
+        return [*found, *(t for t in scored_fits if t.cost >= within)]
+
+    def simpler(self, scored: ScoredFit) -> list[ScoredFit]:
+        """What an effect contains in its place, fitted from where the effect was found."""
+        fitted, known = scored.fitted, {e.name for e in self.effects}
+        if any(e.replaces_law for e in fitted.effects):
+            return []
+        found = []
+        for k, effect in enumerate(fitted.effects):
+            for part, u in effect.within(fitted.of(effect)):
+                effects = [*fitted.effects[:k], part, *fitted.effects[k + 1 :]]
+                if part.name not in known or len({e.name for e in effects}) < len(effects):
+                    continue
+                parts = [u if e is part else fitted.of(e) for e in effects]
+                start = np.concatenate([fitted.z, *parts])
+                found.append(self.judged(polished(self.problem, effects, self.evidence, fitted.law, start)))
+        return found
 
     def determined(self, fitted: Refitted) -> bool:
         """Whether the data leave over what a fit needs."""

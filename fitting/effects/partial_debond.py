@@ -101,6 +101,11 @@ class PartialDebondEffect(Effect):
         count = int(side / _WIDTH_M)
         return [np.array([k / count * side, _WIDTH_M]) for k in range(count)]
 
+    def scaled(self, u: Array, a: float) -> Array:
+        width = max(0.0, a * u[1])
+        # The first look says how much is loose about the middle of what it tried.
+        return np.array([u[0] if self.at_edge else u[0] + (u[1] - width) / 2, width])
+
     def _ends(self, place: float, width: float) -> tuple[float, float]:
         """Between what places it is loose, in m."""
         inwards = -1 if self.at_edge and place > 0 else 1

@@ -3,8 +3,11 @@
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 
-from fitting.diagnosis.candidates import CandidateFit
+from fitting.diagnosis import candidates
+from fitting.diagnosis.candidates import CandidateFit, look
+from fitting.diagnosis.evidence import Evidence
 from fitting.effects.base import Effect, EffectParameter
 
 SIZE = EffectParameter("size", "m", -1.0, 1.0, 0.1)
@@ -50,3 +53,42 @@ def test_what_is_looked_at_briefly_is_looked_at_in_every_form(monkeypatch):
     known = [(promise, np.array(u)) for promise, u in starts]
     CandidateFit(None, None, SimpleNamespace(law=None), TwoForms(), known).briefly()
     assert begun == [[0.3, 0.0], [0.1, 1.0]]
+
+
+class Bent(Effect):
+    """Its first order is what the law does too, but for a little; its second order nobody else does."""
+
+    name, parameters = "bent", (EffectParameter("size", "1", -5.0, 5.0, 1.0),)
+
+
+class BentResponse:
+    """Readings (like the law, alone, by the bend)."""
+
+    effects, plate = (Bent(),), None
+
+    def velocity(self, law, u):
+        size = u[0] if len(u) else 0.0
+        return np.array([100 * size, size, 30 * size**2], complex)
+
+
+@pytest.fixture
+def bent(monkeypatch):
+    """A look at it, beside a law that takes up the first reading; the second asks for a third of it."""
+    monkeypatch.setattr(candidates, "response_of", lambda *_: BentResponse())
+    evidence = Evidence(np.zeros(3, complex), np.ones(3), np.ones(3), np.zeros((6, 1)), True)
+    before = SimpleNamespace(
+        effects=(),
+        law=None,
+        u=np.empty(0),
+        residuals=np.array([0, -10.0, 0, 0, 0, 0]),
+        jacobian=np.eye(6)[:, :1],
+    )
+    problem = SimpleNamespace(coarse=None, points=None)
+    return lambda **how: look(problem, evidence, before, Bent(), **how)
+
+
+def test_what_a_large_step_hides_in_its_bend_a_second_smaller_one_shows(bent):
+    hidden, shown = bent()[0], bent(again=True)[0]
+    # All of it were 10^2; of a size of one the bend is thirty times what is looked for.
+    assert hidden[0] < 1
+    assert shown[0] > 50

@@ -1,10 +1,12 @@
-"""Cases of the campaign on solid plates whose cause a search once passed by."""
+"""Cases of the campaigns on solid plates whose cause a search once passed by."""
 
 import numpy as np
 import pytest
 
+from instrument.campaign.cases import PAIR, draw
 from instrument.campaign.plates.cases import draw_case
 from instrument.campaign.plates.judged import diagnosed
+from instrument.models.diagnosis import diagnose
 
 PASSED_BY = {
     "a spot and a length far beyond their tolerances did a clamp line's work": ("clamp_line", 1300001),
@@ -36,3 +38,18 @@ def test_the_law_is_where_the_band_says(name, seed):
     G, band = case.truth.law.modulus(2 * np.pi * np.array(f)), answer.after.at(f)
     off = np.array([band.storage_pa - G.real, band.loss - G.imag / G.real])
     assert np.abs(off / [band.storage_error_pa, band.loss_error]).max() < 2
+
+
+TWO_PASSED_BY = {
+    "neither led by itself, and a third did most of what both do": 110049,
+    "two masses did a loose strip's work beside a wrong substrate": 110149,
+    "air is all but what a wrong substrate does, and a large step hid the rest": 110173,
+}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", TWO_PASSED_BY.values(), ids=TWO_PASSED_BY)
+def test_two_effects_that_were_passed_by_are_found(seed):
+    case = draw(PAIR, seed)
+    found = diagnose(case.sweep, case.specimen, hammer=case.hammer).result
+    assert {e.name for e in found.effects} == {*case.truth.names}
