@@ -19,24 +19,29 @@ class Pairs:
         self._search = search
 
     def best(self, singles: Sequence[ScoredFit], report: Report, *, wide: bool) -> list[ScoredFit]:
-        """Second effects beside the leading single ones, or the first alone; best first."""
+        """Second effects beside the leading single ones; best first.
+
+        Where it is not `wide`: beside the best what promises more than it costs, beside those near it what
+        promises to come as far as the best alone.
+        """
         search, work, each = self._search, self._search.work, self._search.executor.each
-        leaders = list(singles[: SEARCH.leaders if wide else 1])
+        scale = search.temper(singles[0])
+        near = singles[0].cost + SEARCH.near * scale
+        leaders = [t for t in singles[: SEARCH.leaders] if wide or t.cost < near]
         tasks = [(t, form) for t in leaders for form in self._others(t.names)]
         asked = [(t.fitted, form) for t, form in tasks]
         looks = list(each(work.look, asked, lambda x: report(0.4 * x)))
-        expected = [
-            t.fitted.chi2 - starts[0][0] if starts else np.inf
-            for (t, _), starts in zip(tasks, looks, strict=True)
-        ]
+        promised = [starts[0][0] if starts else 0.0 for starts in looks]
+        expected = [t.fitted.chi2 - gain for (t, _), gain in zip(tasks, promised, strict=True)]
         chosen: dict[frozenset[str], int] = {}
         beside: dict[ScoredFit, int] = {}
-        enough = singles[0].fitted.chi2 - SEARCH.least_expected * search.temper(singles[0])
+        enough = dict.fromkeys(leaders, singles[0].cost)
+        enough[singles[0]] -= SEARCH.least_expected * scale
         for k in np.argsort(expected):
             scored, (name, _) = tasks[k]
             # Each leader has its say: a linear step from a poor one promises too much.
             many = len(chosen) == SEARCH.pairs or beside.get(scored, 0) == SEARCH.pairs_a_leader
-            if not many and (wide or expected[k] < enough):
+            if not many and (wide or scored.cost - promised[k] < enough[scored]):
                 beside[scored] = beside.get(scored, 0) + 1
                 chosen.setdefault(frozenset((*scored.names, name)), int(k))
         full = [(tasks[k][0].fitted, tasks[k][1], looks[k], np.inf) for k in chosen.values()]

@@ -65,9 +65,9 @@ class World:
     def goal(self, best):
         return best.chi2
 
-    def found(self, single, *, wide=False):
-        one = self.judged(self.fit(next(e for e in self.effects if e.name == single)))
-        return [set(t.names) for t in Pairs(self).best([one], lambda fraction: None, wide=wide)]
+    def found(self, *singles, wide=False):
+        alone = [self.judged(self.fit(e)) for n in singles for e in self.effects if e.name == n]
+        return [set(t.names) for t in Pairs(self).best(alone, lambda fraction: None, wide=wide)]
 
 
 @pytest.mark.parametrize("wide", [False, True])
@@ -119,3 +119,13 @@ def test_what_an_effect_of_two_contains_is_fitted_in_its_place(monkeypatch):
     both = SimpleNamespace(effects=(other, wide), law=None, z=np.array([0.5]), of=values.get)
     Search.simpler(search, ScoredFit(both, 0.0))
     assert begun == [(["other", "narrow"], [0.5, 3.0])]
+
+
+def test_beside_what_is_near_the_best_a_second_effect_is_tried_that_may_come_as_far():
+    world = World("wab", w=200.0, a=230.0, a_b=195.0)
+    assert {"a", "b"} in world.found("w", "a")
+
+
+def test_beside_what_is_far_from_the_best_none_is():
+    world = World("wab", w=200.0, a=300.0, a_b=100.0)
+    assert {"a", "b"} not in world.found("w", "a")
