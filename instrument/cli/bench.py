@@ -12,6 +12,7 @@ from instrument.campaign.plates.apart import apart_jobs, run_apart, write_apart_
 from instrument.campaign.plates.cases import KINDS as PLATE_KINDS
 from instrument.campaign.plates.judged import diagnosed, diagnosed_without_the_truth, identified
 from instrument.campaign.plates.run import plate_jobs, run_plates, write_plate_summary
+from instrument.campaign.plates.visible import visible_chi2
 from instrument.campaign.plates.weak import WEAK
 from instrument.campaign.run import jobs_of, run_campaign, write_summary
 from instrument.cli.options import json_option
@@ -103,7 +104,7 @@ def bench(
         jobs = plate_jobs(count, seed, kinds)
         run = partial(run_plates, jobs, plates_folder, exact=exact, workers=workers, progress=bar)
         judged = diagnosed_without_the_truth if without_truth else diagnosed
-        found = run(identify=identified) if law_alone else run(diagnose=judged)
+        found = run(identify=identified) if law_alone else run(diagnose=judged, visible=visible_chi2)
         click.echo(write_plate_summary(found, plates_folder))
         return
     assert folder is not None

@@ -117,10 +117,16 @@ class PlateOutcome:
     identified: Band | None = None
     said: Answer | None = None
     error: str = ""
+    visible_chi2: float | None = None
+    """How plainly what is hidden shows (`visible.visible_chi2`); None where it was not asked."""
 
 
 def outcome_of(
-    case: PlateCase, identified: Band | None, said: Answer | None, error: str = ""
+    case: PlateCase,
+    identified: Band | None,
+    said: Answer | None,
+    error: str = "",
+    visible_chi2: float | None = None,
 ) -> PlateOutcome:
     """The case beside what was said of it."""
     truth, f = case.truth, case.truth.resonances_hz
@@ -145,6 +151,7 @@ def outcome_of(
         identified=identified.at(f) if identified is not None else None,
         said=said,
         error=error,
+        visible_chi2=visible_chi2,
     )
 
 

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from fitting.arrays import Array
+from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
@@ -83,6 +83,14 @@ class PlateTruth:
 
 
 @dataclass(frozen=True)
+class Silent:
+    """Readings of the same steps without noise, the shaker at its commanded level. Shape (points,) each."""
+
+    with_effects_m_s: Complex
+    without_m_s: Complex
+
+
+@dataclass(frozen=True)
 class PlateCase:
     """What an identification or a diagnosis is given, and the truth that it is not."""
 
@@ -94,6 +102,8 @@ class PlateCase:
     specimen_toml: str
     hammer_test: HammerTest | None
     truth: PlateTruth
+    silent: Silent | None = None
+    """None where the case was read from files."""
 
     @property
     def hammer(self) -> tuple[Array, Array] | None:
@@ -150,7 +160,12 @@ def draw_case(
     shares = [_share(clean_plate(true), found, r.frequency_hz) for r in chosen]
     truth = PlateTruth(true, hidden, found, noise, channel, middle, min(shares))
     sweep = measured(truth, plate_built, schedule, rng("noise"))
-    return PlateCase(kind, seed, exact, sweep, specimen_from(text), text, test, truth)
+    commanded = schedule.level_g * PUBLISHED_G_M_S2
+    silent = Silent(
+        commanded * _ratios(truth, plate_built, schedule),
+        commanded * _ratios(replace(truth, effects=()), clean_plate(true), schedule),
+    )
+    return PlateCase(kind, seed, exact, sweep, specimen_from(text), text, test, truth, silent)
 
 
 def _law_and_schedule(
@@ -187,9 +202,14 @@ def _share(clean: ReducedSolid, law: PlateMaterialLaw, frequency_hz: float) -> f
     return float(G * (phi[:, r] @ clean.whole_core @ phi[:, r]) / lam[r])
 
 
+def _ratios(truth: PlateTruth, plate: ReducedSolid, schedule: Schedule) -> Complex:
+    """Velocity over base acceleration without noise. Shape (points,)."""
+    return reading(plate, truth.plate, truth.effects, truth.law, schedule, truth.channel)
+
+
 def measured(truth: PlateTruth, plate: ReducedSolid, schedule: Schedule, rng: np.random.Generator) -> Sweep:
     """The sweep as the rig would record it."""
-    ratio = reading(plate, truth.plate, truth.effects, truth.law, schedule, truth.channel)
+    ratio = _ratios(truth, plate, schedule)
     commanded = schedule.level_g * PUBLISHED_G_M_S2
     white = truth.noise.white
     base = commanded * white.drive(rng, len(commanded))

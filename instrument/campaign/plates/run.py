@@ -20,6 +20,7 @@ ROTATION = (*KINDS, *(NONE,) * 8, *(PAIR,) * 4)
 
 Identify = Callable[[PlateCase], Band]
 Diagnose = Callable[[PlateCase], Answer]
+Visible = Callable[[PlateCase], float | None]
 
 
 def plate_jobs(count: int, seed: int, kinds: Sequence[str] = ()) -> list[Job]:
@@ -29,19 +30,20 @@ def plate_jobs(count: int, seed: int, kinds: Sequence[str] = ()) -> list[Job]:
 
 
 def judge_plate(
-    job: Job, exact: bool, identify: Identify | None, diagnose: Diagnose | None
+    job: Job, exact: bool, identify: Identify | None, diagnose: Diagnose | None, visible: Visible | None
 ) -> dict[str, Any]:
     """Draw, identify, diagnose, compare. What raises leaves no answer and is tried again."""
     case = draw_case(job.kind, job.seed, exact)
     band: Band | None = None
     said: Answer | None = None
-    error = ""
+    error, shows = "", None
     try:
         band = identify(case) if identify is not None else None
         said = diagnose(case) if diagnose is not None else None
+        shows = visible(case) if visible is not None else shows
     except Exception as raised:
         error = " ".join(f"{type(raised).__name__}: {raised}".split())
-    return line_of(outcome_of(case, band, said, error))
+    return line_of(outcome_of(case, band, said, error, shows))
 
 
 def run_plates(
@@ -51,14 +53,15 @@ def run_plates(
     exact: bool = False,
     identify: Identify | None = None,
     diagnose: Diagnose | None = None,
+    visible: Visible | None = None,
     workers: int = 2,
     progress: Progress = quiet,
 ) -> list[dict[str, Any]]:
     """Lines of all jobs, with those an earlier run left. Raises `BadInput`, `StoppedByUser`.
 
-    `identify` and `diagnose` go to other processes, so they must be functions of a module.
+    `visible` says how plainly what is hidden shows. All three go to other processes: functions of a module.
     """
-    judged_by = partial(judge_plate, exact=exact, identify=identify, diagnose=diagnose)
+    judged_by = partial(judge_plate, exact=exact, identify=identify, diagnose=diagnose, visible=visible)
     options = {"exact": exact, "by": [f.__name__ for f in (identify, diagnose) if f is not None]}
     return run_campaign(
         jobs, folder, workers=workers, judged_by=judged_by, options=options, progress=progress

@@ -13,6 +13,8 @@ UNKNOWN = "unknown"
 MOST_IN_GROUP = 3
 """A larger group names nothing."""
 _ONE_SIGMA, _TWO_SIGMA = 1.0, 1.959964
+_TRACES = (-np.inf, 10.0, 20.0, 40.0, 100.0, np.inf)
+"""Of chi-square: a rare effect costs some 6, the numbers that it brings as much."""
 _EDGES = (0.0, 0.05, 0.2, 0.5, 0.8, 0.95, 1.0)
 
 
@@ -67,6 +69,36 @@ class Bin:
     """Mean."""
     true: float
     """Share that is the truth."""
+
+
+@dataclass(frozen=True)
+class Trace:
+    """Cases with one effect whose trace in chi-square lies between two values. Counts are out of `cases`."""
+
+    low: float
+    high: float
+    cases: int
+    named: int
+    """Something was, or the verdict is `unknown`: that there is nothing was not said."""
+    first: int
+    """As `PlateScore` counts it."""
+    in_group: int
+
+
+def traces(outcomes: Sequence[PlateOutcome]) -> list[Trace]:
+    """How often what is hidden is named, by how plainly it shows; of single effects of the catalogue."""
+    single = [o for o in outcomes if len(o.truth) == 1 and not o.strange and o.said is not None]
+    found = []
+    for low, high in pairwise(_TRACES):
+        inside = [o for o in single if o.visible_chi2 is not None and low <= o.visible_chi2 < high]
+        if inside:
+            counts = (sum(map(holds, inside)) for holds in (_speaks, first_right, in_group))
+            found.append(Trace(low, high, len(inside), *counts))
+    return found
+
+
+def _speaks(outcome: PlateOutcome) -> bool:
+    return outcome.said is not None and (bool(named(outcome)) or outcome.said.verdict == UNKNOWN)
 
 
 def scores(outcomes: Sequence[PlateOutcome]) -> list[PlateScore]:

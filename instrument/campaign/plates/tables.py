@@ -2,15 +2,19 @@
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from instrument.campaign.plates.answers import PlateOutcome
 from instrument.campaign.plates.score import (
     MOST_IN_GROUP,
     Coverage,
     PlateScore,
+    Trace,
     in_group,
     named,
     reliability,
     scores,
+    traces,
 )
 from instrument.campaign.tables import markdown
 
@@ -27,6 +31,14 @@ def summary(outcomes: Sequence[PlateOutcome]) -> str:
             f"in group: the same, or in its group of at most {MOST_IN_GROUP}. "
             "whole: all that is there and nothing else.",
             _naming(found),
+        ]
+    shown = traces(outcomes)
+    if shown:
+        parts += [
+            "## One effect, by how plainly it shows\n"
+            "trace: chi-square that law and tolerances leave of the sweep without noise, beyond that of no "
+            "effect. spoken of: something named, or unknown.",
+            _traces(shown),
         ]
     parts += [
         "## The law at three frequencies\n"
@@ -48,6 +60,16 @@ def _naming(found: Sequence[PlateScore]) -> str:
         counts = (s.cases, s.first, s.in_group, s.whole, s.false_named, s.false_second, s.refused, s.failed)
         rows.append([s.name, *(str(n) for n in counts)])
     return markdown([*columns, "no answer"], rows)
+
+
+def _traces(found: Sequence[Trace]) -> str:
+    columns = ["trace", "cases", "spoken of", "first", "in group"]
+    rows = []
+    for t in found:
+        within = f"below {t.high:g}" if np.isneginf(t.low) else f"{t.low:g} to {t.high:g}"
+        within = f"above {t.low:g}" if np.isinf(t.high) else within
+        rows.append([within, *(str(n) for n in (t.cases, t.named, t.first, t.in_group))])
+    return markdown(columns, rows)
 
 
 def _coverages(found: Sequence[PlateScore]) -> str:

@@ -1,15 +1,17 @@
 """The campaign on many plates: its solid, its cases, what a specimen may know, its files and its score."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import scipy.sparse as sp
 from click.testing import CliRunner
 
+from fitting.noise import noise_of
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
-from instrument.campaign.plates import cases, kept, simulate
+from instrument.campaign.plates import cases, kept, simulate, visible
 from instrument.campaign.plates import reduced as reduced_plate
 from instrument.campaign.plates.answers import Answer, Band, line_of, outcome_from, outcome_of
 from instrument.campaign.plates.cases import KINDS, NONE, PAIR, draw_case
@@ -30,7 +32,7 @@ from instrument.campaign.plates.reduced import reduced
 from instrument.campaign.plates.response import BaseMotion, Shaken, remaining_damping
 from instrument.campaign.plates.run import plate_jobs, run_plates
 from instrument.campaign.plates.schedule import Schedule
-from instrument.campaign.plates.score import reliability, score
+from instrument.campaign.plates.score import reliability, score, traces
 from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, reading
 from instrument.campaign.plates.solid import Build, RootSprings, Solid, factorised
 from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
@@ -285,6 +287,35 @@ def test_the_score_of_hand_made_answers():
     assert outcome_from(line_of(grouped)) == grouped
 
 
+def test_names_are_counted_by_how_plainly_the_hidden_effect_shows():
+    late = draw_case("channel_delay", 1, plate="P2", law="fractional-zener")
+    right, unknown = answered(late, "effect", ["channel_delay"]), answered(late, "unknown")
+    plain, faint = (replace(right, visible_chi2=x) for x in (400.0, 12.0))
+    cases = [plain, faint, replace(unknown, visible_chi2=15.0), right, replace(plain, truth=(), kind=NONE)]
+    found = [(t.low, t.cases, t.named, t.first, t.in_group) for t in traces(cases)]
+    assert found == [(10.0, 2, 2, 1, 1), (100.0, 1, 1, 1, 1)]
+    assert outcome_from(line_of(faint)) == faint
+
+
+def test_what_shows_is_what_no_fit_takes_up_of_the_sweep_without_noise(monkeypatch):
+    case = draw_case("gain_error", 1, plate="P2")
+    clean = case.silent.without_m_s
+
+    def identify(sweep, specimen, hammer, like):
+        off = np.abs(sweep.velocity_m_s - clean) / sweep.std_m_s
+        assert np.all(sweep.base_m_s2 == case.sweep.commanded_m_s2)
+        return SimpleNamespace(
+            joint=SimpleNamespace(begun=SimpleNamespace(none=SimpleNamespace(chi2=7 + off @ off)))
+        )
+
+    monkeypatch.setattr(visible, "identify", identify)
+    (gain,) = case.truth.effects
+    std = noise_of(case.sweep).std_m_s
+    expected = np.sum((np.abs(clean) * (gain.factor - 1) / std) ** 2)
+    assert visible.visible_chi2(case) == pytest.approx(expected, rel=1e-6)
+    assert visible.visible_chi2(draw_case(NONE, 4, plate="P2")) is None
+
+
 def test_a_fault_of_no_catalogue_should_be_refused():
     case = draw_case("gain_error", 1, plate="P2")
     strange = replace(
@@ -299,6 +330,10 @@ def test_a_fault_of_no_catalogue_should_be_refused():
 
 def true_band(case):
     return answered(case, "none").identified
+
+
+def thirty(case):
+    return 30.0
 
 
 def no_effect(case):
@@ -326,8 +361,10 @@ def summary_of_one(folder, kind, how):
 
 def test_the_command_runs_it_and_keeps_the_summary(tmp_path, monkeypatch):
     monkeypatch.setattr("instrument.cli.bench.diagnosed_without_the_truth", no_effect)
+    monkeypatch.setattr("instrument.cli.bench.visible_chi2", thirty)
     said = summary_of_one(tmp_path, "gain_error", "--without-truth")
     assert "gain_error" in said
+    assert "| 20 to 40 | 1 | 0 | 0 | 0 |" in said
     assert (tmp_path / "summary.md").read_text(encoding="utf-8") == said[:-1]
 
 
