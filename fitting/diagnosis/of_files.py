@@ -126,6 +126,16 @@ class OfFiles(Effect):
         each = np.split(u[: -len(self._where)], self.copies)
         return np.concatenate([*(self.inner.scaled(one, a) for one in each), self._where])
 
+    def within(self, u: Array) -> tuple[tuple[Effect, Array], ...]:
+        each = [self.inner.within(one) for one in np.split(u[: -len(self._where)], self.copies)]
+        found = []
+        for parts in zip(*each, strict=True):
+            form = OfFiles(
+                parts[0][0], self.files, self.file, self.spots, self.spot, apart=self.apart, stays=self.stays
+            )
+            found.append((form, np.concatenate([*(part for _, part in parts), self._where])))
+        return tuple(found)
+
     @property
     def ties(self) -> tuple[Tie, ...]:
         inner = self.inner.parameters

@@ -82,3 +82,16 @@ def test_a_spot_may_be_off_once_where_the_laser_is_aimed_at_it_in_every_file():
     u = dict(zip((q.key for q in once[0].parameters), (1e-3, 0.0, 1.0, 0.0), strict=True))
     assert once[0].story(u).startswith("in file 1 at pickup 0")
     assert not [f for f in among(GAIN, 2, (0, 1)).variants() if f.file == 1 and f.spot == 0]
+
+
+def test_what_an_effect_contains_it_contains_in_each_file():
+    uneven, masses = OfFiles(CATALOGUE["uneven_clamp"], 2, EACH), OfFiles(CATALOGUE["added_masses"], 3, 2)
+    ((clamp, u),) = uneven.within(np.array([3e13, 0.5, 4e13, -0.2, EACH]))
+    assert (clamp.name, clamp.file, clamp.files) == ("clamp_compliance", EACH, 2)
+    assert u.tolist() == [3e13, 4e13, EACH]
+    found = masses.within(np.array([1e-3, 0.1, 0.0, 2e-3, 0.2, 0.0, 2.0]))
+    assert [(e.name, e.file, u.tolist()) for e, u in found] == [
+        ("added_mass", 2, [1e-3, 0.1, 0.0, 2.0]),
+        ("added_mass", 2, [2e-3, 0.2, 0.0, 2.0]),
+    ]
+    assert OfFiles(GAIN, 2).within(np.array([1.01, 0.0])) == ()
