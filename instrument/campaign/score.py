@@ -9,7 +9,7 @@ import numpy as np
 
 from instrument.campaign.cases import KINDS, NONE, PAIR
 from instrument.campaign.outcome import Outcome, Said, StageFacts
-from instrument.campaign.severities import OF_THE_CHANNELS_ALONE
+from instrument.campaign.severities import OF_THE_CHANNELS_ALONE, PLACES
 
 MOST_IN_GROUP = 3
 """A larger group names nothing."""
@@ -36,6 +36,8 @@ class Score:
     """Single: the effect named first. Pair: both named and nothing else. Clean: nothing named."""
     in_group: int
     """The same, or within declared groups of at most three."""
+    of_hidden: int
+    """Of the explanations by effects that the campaign can hide the likeliest is what was hidden."""
     part: int
     """Of pairs: at least one named."""
     too_many: int
@@ -76,6 +78,7 @@ def score(name: str, outcomes: Sequence[Outcome]) -> Score:
         failed=len(outcomes) - len(said),
         right=_count(outcomes, right),
         in_group=_count(outcomes, in_group),
+        of_hidden=_count(outcomes, of_hidden),
         part=_count(outcomes, part),
         too_many=_count(outcomes, lambda o, s: len(s.effects) > len(wanted(o))),
         taken_out=len(again),
@@ -110,6 +113,19 @@ def in_group(outcome: Outcome, said: Said) -> bool:
         orders = permutations(outcome.truth) if len(groups) == len(outcome.truth) else ()
         return any(all(n in g for n, g in zip(names, groups, strict=True)) for names in orders)
     return bool(wanted(outcome)) and bool(groups) and outcome.truth[0] in groups[0]
+
+
+def of_hidden(outcome: Outcome, said: Said) -> bool:
+    """Whether what was hidden is likelier than all else by effects that the campaign can hide.
+
+    What is in the catalogue beside them, an uneven clamp or a low-pass, may be as likely and is never true.
+    """
+    likeliest = [set(names.split(" + ")) - {NONE} for names, *_ in sorted(said.candidates, key=_cost_above)]
+    return next((e for e in likeliest if e <= set(PLACES)), None) == set(wanted(outcome))
+
+
+def _cost_above(candidate: tuple[str, float, float]) -> float:
+    return candidate[1]
 
 
 def part(outcome: Outcome, said: Said) -> bool:

@@ -15,7 +15,8 @@ def summary(outcomes: Sequence[Outcome]) -> str:
         f"# Diagnosis of {len(outcomes)} sweeps of the 3D plant",
         "## Naming\n"
         "right: named first (clean: nothing named; pair: both and nothing else). in group: the same, or in a "
-        f"declared group of at most {MOST_IN_GROUP}. taken out: diagnosed again without the true effect in "
+        f"declared group of at most {MOST_IN_GROUP}. of these: likeliest of what effects that are hidden in "
+        "some sweep explain. taken out: diagnosed again without the true effect in "
         "the catalogue; refused: then unknown; misnamed: then another effect named, and no group declared.",
         _naming(found),
         "## The material and the fit\nErrors of G' and eta at 20, 100 and 280 Hz against the truth.",
@@ -36,11 +37,11 @@ def markdown(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 
 def _naming(found: Sequence[Score]) -> str:
-    columns = ["hidden", "cases", "right", "in group", "one of two", "too many"]
+    columns = ["hidden", "cases", "right", "in group", "of these", "one of two", "too many"]
     columns += ["taken out", "refused", "misnamed", "no answer"]
     rows = []
     for s in found:
-        alike = [str(n) for n in (s.cases, s.right, s.in_group)]
+        alike = [str(n) for n in (s.cases, s.right, s.in_group, s.of_hidden)]
         pair = str(s.part) if s.name == PAIR else ""
         again = [str(n) for n in (s.taken_out, s.refused, s.misnamed)] if s.taken_out else ["", "", ""]
         rows.append([s.name, *alike, pair, str(s.too_many), *again, str(s.failed or "")])

@@ -16,7 +16,7 @@ from instrument.campaign.outcome import (
     line_of,
     outcome_of,
 )
-from instrument.campaign.score import answer, confusion, in_group, law_errors, right, score, scores
+from instrument.campaign.score import answer, confusion, in_group, law_errors, of_hidden, right, score, scores
 from instrument.campaign.tables import markdown, summary
 
 BEFORE = StageFacts(9.0, 4.0, 5.0, 2, (10.0, -20.0, 30.0), (1.0, 1.0, -60.0))
@@ -83,6 +83,15 @@ def test_one_group_does_not_stand_for_both_of_a_pair():
     assert not in_group(one, one.said)
 
 
+def test_what_is_never_hidden_takes_nothing_from_what_is():
+    candidates = (("spot_offset + tether", 0.0, 1.0), ("gain_error", 4.0, 1.0), ("sensor_lowpass", 2.0, 1.0))
+    one = replace(said("ambiguous", ["spot_offset", "tether"]), candidates=(*candidates, ("none", 9.0, 1.0)))
+    assert of_hidden(outcome("gain_error", one), one)
+    assert not of_hidden(outcome("spot_offset", one), one)
+    # A level that is off leaves nothing to be explained.
+    assert of_hidden(outcome("level_error", said()), said())
+
+
 def test_counts_of_some_cases():
     taken = [said("unknown"), said("effect", ["core_law"]), said(), None]
     answers = [said("effect", ["gain_error"]), said("effect", ["gain_error", "core_law"]), said(), None]
@@ -132,7 +141,7 @@ def test_single_effects_are_scored_together_too():
 def test_the_summary_lists_what_was_not_right():
     failed = replace(outcome("added_mass", None, seed=9), error="LinAlgError: singular")
     text = summary([SPOT, TOO_WIDE, failed])
-    assert "| spot_offset | 1 | 1 | 1 |" in text
+    assert "| spot_offset | 1 | 1 | 1 | 0 |" in text
     assert "| gain_error | 1 | gain_error | 1e+03 | ambiguous | core_law | core_law, gain_error" in text
     assert "LinAlgError: singular" in text
     assert "nan" not in text
