@@ -94,40 +94,54 @@ class Pairs:
         return [search.judged(f) for f in each(work.ended, best)]
 
     def _improved(self, pairs: Sequence[ScoredFit]) -> list[ScoredFit]:
-        """What is found by exchanging one effect of the best pair, and then of what that leads to.
+        """What is found by keeping one effect of the best pairs, each once, and exchanging the other one.
 
         A wrong one may have led to the right other one, and stands where the right one would begin.
         """
-        found, heard = list[ScoredFit](), set[str]()
+        found, kept, simplified = list[ScoredFit](), set[str](), set[frozenset[str]]()
         for _ in range(SEARCH.exchanges):
-            plain = [t for t in sorted([*pairs, *found], key=lambda t: t.cost) if len(_plainly(t)) == 2]
-            best = next((t for t in plain if not t.fails), plain[0] if plain else None)
-            if best is None or heard >= set(best.names):
+            pair = self._next([*pairs, *found], kept)
+            if pair is None:
                 break
-            kept = [e for e in best.fitted.effects if e.name not in heard]
-            heard |= set(best.names)
-            new = [*self._exchanged(best, kept), *self._search.simpler(best)]
+            one = next(e for e in pair.fitted.effects if e.name not in kept)
+            kept.add(one.name)
+            new = self._exchanged(pair, one)
+            if frozenset(pair.names) not in simplified:
+                simplified.add(frozenset(pair.names))
+                new += self._search.simpler(pair)
             # One that a winding valley leads to would be dismissed on its way.
-            found += self._search.at_rest(new, min([best, *new], key=lambda t: t.cost))
+            found += self._search.at_rest(new, min([pair, *new], key=_cost))
         return found
 
-    def _exchanged(self, pair: ScoredFit, kept: Sequence[Effect]) -> list[ScoredFit]:
-        """Another effect, or another place of the same, beside each of those of a pair that are kept."""
+    def _next(self, pairs: Sequence[ScoredFit], kept: set[str]) -> ScoredFit | None:
+        """The best pair that has an effect which was not kept so far, if it is near the best of all."""
+        plain = [t for t in sorted(pairs, key=_cost) if len(_plainly(t)) == 2]
+        if not plain:
+            return None
+        best = next((t for t in plain if not t.fails), plain[0])
+        within = best.cost + SEARCH.nearer * self._search.temper(best)
+        near = [best, *(t for t in plain if t.cost < within)]
+        return next((t for t in near if not kept >= set(t.names)), None)
+
+    def _exchanged(self, pair: ScoredFit, kept: Effect) -> list[ScoredFit]:
+        """Another effect, or another place of the same, beside the one of a pair that is kept."""
         work, each = self._search.work, self._search.executor.each
-        promising = []
-        for before in each(work.alone, [(pair.fitted, e) for e in kept]):
-            name = before.effects[0].name
-            gone = {*pair.names} - {name}
-            asked = [
-                (before, form)
-                for form in self._others([name])
-                if form[0] not in gone or work.has_places(form[0])
-            ]
-            looks = [one for one in zip(asked, each(work.look, asked), strict=True) if one[1]]
-            promising += sorted(looks, key=lambda one: -one[1][0][0])[: SEARCH.exchanged]
+        before = work.alone((pair.fitted, kept))
+        gone = {*pair.names} - {kept.name}
+        asked = [
+            (before, form)
+            for form in self._others([kept.name])
+            if form[0] not in gone or work.has_places(form[0])
+        ]
+        looks = [one for one in zip(asked, each(work.look, asked), strict=True) if one[1]]
+        promising = sorted(looks, key=lambda one: -one[1][0][0])[: SEARCH.exchanged]
         goal = work.goal(pair.fitted)
-        fits = each(work.second, [(before, form, starts, goal) for (before, form), starts in promising])
+        fits = each(work.second, [(before, form, starts, goal) for (_, form), starts in promising])
         return [self._search.judged(f) for f in fits if f is not None]
+
+
+def _cost(scored: ScoredFit) -> float:
+    return scored.cost
 
 
 def _plainly(scored: ScoredFit) -> list[str]:

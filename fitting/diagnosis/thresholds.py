@@ -110,8 +110,8 @@ class SearchThresholds:
     """... and of those, with one leader: each has its say."""
     retried: int = 3
     """Pairs begun again from other places where none of them will do."""
-    exchanges: int = 3
-    """Times that an effect of the best pair is exchanged, while that leads to another one ..."""
+    exchanges: int = 6
+    """Effects of pairs near the best that are kept while the other one is exchanged ..."""
     exchanged: int = 4
     """... and others that are fitted beside each that is kept."""
     every_second: int = 3

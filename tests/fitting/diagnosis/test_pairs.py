@@ -129,3 +129,13 @@ def test_beside_what_is_near_the_best_a_second_effect_is_tried_that_may_come_as_
 def test_beside_what_is_far_from_the_best_none_is():
     world = World("wab", w=200.0, a=300.0, a_b=100.0)
     assert {"a", "b"} not in world.found("w", "a")
+
+
+def test_of_pairs_as_good_as_the_best_each_has_its_say():
+    world = World("wabc", w=200.0, w_c=180.0, w_a=185.0, a_b=100.0)
+    assert world.found("w")[0] == {"a", "b"}
+
+
+def test_what_is_far_behind_the_best_pair_is_not_exchanged():
+    world = World("wabc", w=200.0, w_c=150.0, w_a=185.0, a_b=100.0)
+    assert {"a", "b"} not in world.found("w")
