@@ -17,7 +17,7 @@ _KEYS = (QEvent.Type.KeyPress, QEvent.Type.ShortcutOverride)
 
 
 class StopGuard(QObject):
-    """Of one window.
+    """Of one window; sees to nothing until it is on duty.
 
     Parameters
     ----------
@@ -35,12 +35,21 @@ class StopGuard(QObject):
         super().__init__(button)
         self._button, self._stop, self._escaped = button, stop, escaped
         self._escaped_s = -_TWICE_S
-        QApplication.instance().installEventFilter(self)  # type: ignore[union-attr]
+        self._on_duty = False
 
-    def release(self) -> None:
-        """The window goes."""
+    def be_on_duty(self, wanted: bool) -> None:
+        """While a run goes on or is about to begin.
+
+        Else nothing can be stopped; and a filter is asked about every event there is, thirty thousand of them
+        while the pages are made.
+        """
         application = QApplication.instance()
-        if application is not None:
+        if wanted == self._on_duty or application is None:
+            return
+        self._on_duty = wanted
+        if wanted:
+            application.installEventFilter(self)
+        else:
             application.removeEventFilter(self)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:

@@ -88,6 +88,7 @@ class Window(Shell):
     def turn(self) -> None:
         """Take what has come and show it."""
         self.controller.advance()
+        self._guard.be_on_duty(self.controller.running or self.controller.starting)
         state = self.controller.state
         self.bar.show_state(state)
         self.log.show_state(state)
@@ -169,7 +170,7 @@ class Window(Shell):
         for command in self.findChildren(BackgroundCommand):
             command.close()
         self.controller.close()
-        self._guard.release()
+        self._guard.be_on_duty(False)
         super().closeEvent(event)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:

@@ -27,9 +27,7 @@ class Cursors(QObject):
         self._plot = plot
         self.kind: Kind = ""
         self._lines: list[pg.InfiniteLine] = []
-        self._text = pg.TextItem(anchor=(0, 1))
-        self._text.setParentItem(plot.getViewBox())
-        self._text.hide()
+        self._text: pg.TextItem | None = None
         plot.getViewBox().fills.append(self._fill)
 
     def _fill(self, menu: QMenu) -> None:
@@ -43,7 +41,7 @@ class Cursors(QObject):
     @property
     def text(self) -> str:
         """As it stands in the plot; empty without a cursor."""
-        return str(self._text.toPlainText()) if self.kind else ""
+        return str(self._text.toPlainText()) if self._text is not None and self.kind else ""
 
     @property
     def x(self) -> list[float]:
@@ -56,9 +54,11 @@ class Cursors(QObject):
         for line in self._lines:
             self._plot.removeItem(line)
         self._lines, self.kind = [], kind
-        self._text.setVisible(bool(kind))
         if not kind:
+            if self._text is not None:
+                self._text.hide()
             return
+        self._shown()
         low, high = self._plot.viewRange()[0]
         if kind == "delta":
             for share in _PLACES:
@@ -81,7 +81,8 @@ class Cursors(QObject):
 
     def paint(self, theme: Theme) -> None:
         """In these colours."""
-        self._text.setColor(theme.text)
+        if self._text is not None:
+            self._text.setColor(theme.text)
         for line in self._lines:
             style = Qt.PenStyle.SolidLine if line.movable else Qt.PenStyle.DotLine
             line.setPen(pg.mkPen(theme.accent, style=style))
@@ -98,8 +99,17 @@ class Cursors(QObject):
     def _moved(self) -> None:
         if self.kind == "harmonic":
             self._follow()
-        self._text.setPos(6, self._plot.getViewBox().height() - 2)
-        self._text.setText(self._words())
+        text = self._shown()
+        text.setPos(6, self._plot.getViewBox().height() - 2)
+        text.setText(self._words())
+
+    def _shown(self) -> pg.TextItem:
+        """Where the numbers stand; made for the first cursor."""
+        if self._text is None:
+            self._text = pg.TextItem(anchor=(0, 1))
+            self._text.setParentItem(self._plot.getViewBox())
+        self._text.show()
+        return self._text
 
     def _follow(self) -> None:
         """Multiples of the first one."""

@@ -14,6 +14,19 @@ _WITHOUT_POWER = 0.9e-4, 0.9e4
 class LogAxis(pg.AxisItem):  # type: ignore[misc]
     """Of a decade only 1, 2 and 5 have their number."""
 
+    _said = ""
+    """Beside the axis."""
+
+    def _updateLabel(self) -> None:
+        """Laid out only where it says something else: the library asks forty times while a plot is made."""
+        said = self.labelString()
+        if said != self._said:
+            self._said = said
+            super()._updateLabel()
+        else:
+            self.picture = None
+            self.update()
+
     def logTickValues(
         self, minVal: float, maxVal: float, size: float, stdTicks: Sequence[tuple[float, Sequence[float]]]
     ) -> list[tuple[float | None, Sequence[float]]]:

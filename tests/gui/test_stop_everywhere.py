@@ -138,6 +138,17 @@ def test_the_key_stops_while_somebody_types(qtbot, busy, stops):
     assert len(stops) == 1
 
 
+def test_the_key_is_heard_for_as_long_as_the_button_can_be_pressed(stops, window):
+    for starting, running in ((False, False), (True, False), (False, True), (False, False)):
+        with pytest.MonkeyPatch.context() as patched:
+            patched.setattr(AppController, "starting", property(lambda controller, now=starting: now))
+            patched.setattr(AppController, "running", property(lambda controller, now=running: now))
+            window.turn()
+            before = len(stops)
+            press(window, Qt.Key.Key_F12)
+            assert window.bar.stop.isEnabled() == (len(stops) > before) == (starting or running)
+
+
 def test_escape_twice_stops_from_inside_a_dialog_too(qtbot, busy, stops):
     dialog = opened_by(next(o for o in openers(busy) if o[0] == "&Keys"))
     press(dialog, Qt.Key.Key_Escape)
