@@ -1,15 +1,16 @@
 """What the model gets wrong, as changes of the response of known size, marginalised in every fit.
 
-Of each segment: its resonances a little off, their damping, its gain and its phase, and a slow change of
-gain and phase along it, as instruments drift. Sizes are the specimen's own (`fitting.model_error`).
+Of each segment: its resonances a little off, their damping, and what the instruments read wrongly
+(`channel_error`). Sizes are the specimen's own (`fitting.model_error`).
 """
 
 import numpy as np
 
 from fitting.arrays import Complex
+from fitting.diagnosis.channel_error import channel_rows
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.laws import CoreLaw
-from fitting.model_error import DRIFT, GAIN, model_error_at
+from fitting.model_error import model_error_at
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
 
@@ -35,10 +36,6 @@ def model_error(problem: DiagnosisProblem, reduced: ReducedPlate | None, law: Co
         size = model_error_at(problem.specimen, middle, law.modulus(2 * np.pi * middle))
         # d ln f = 1/2 d ln K, and a loss is the imaginary part of ln K.
         by_loss = 0.5j * float(size.modal_loss[0]) * dv
-        rows += [size.frequency[0] * dv * inside, size.loss[0] * by_loss * inside, GAIN * v * inside]
-        along = np.zeros(len(v))
-        along[inside] = 2 * (f - f.min()) / max(float(np.ptp(f)), 1e-9) - 1
-        rows.append(DRIFT * along * v)
-        if problem.points.has_phase:
-            rows += [1j * GAIN * v * inside, 1j * DRIFT * along * v]
+        rows += [size.frequency[0] * dv * inside, size.loss[0] * by_loss * inside]
+        rows += channel_rows(problem.sweep, inside, v, has_phase=problem.points.has_phase)
     return np.array(rows)

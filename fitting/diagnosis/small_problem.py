@@ -6,11 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from fitting.diagnosis.channel_error import channel_rows
 from fitting.diagnosis.every_point import EveryPoint
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid, points_of
 from fitting.laws import CoreLaw
-from fitting.model_error import DRIFT, GAIN
 from fitting.noise import Noise
 from fitting.structures.small import SmallSpecimen, check_driven, nuisances_of, rational_of, system_of
 from fitting.sweep import Sweep
@@ -86,19 +86,13 @@ class SmallProblem(DiagnosisProblem):
         return Noise(np.hypot(noise.std_m_s, more) if noise.is_known else more, "misfit")
 
     def model_error(self, law: CoreLaw, v: Complex) -> Complex:
-        """Gain and phase of the instruments, and their drift from one end of a segment to the other.
+        """Gain and phase of the instruments, and how they drift.
 
         What the structure itself gets wrong is in its tolerances and in the law's bend. Shape (any, points).
         """
-        rows = []
-        for number in np.unique(self.sweep.segment):
-            inside = self.sweep.segment == number
-            f = self.sweep.frequency_hz[inside]
-            along = np.zeros(len(v))
-            along[inside] = 2 * (f - f.min()) / max(float(np.ptp(f)), 1e-9) - 1
-            rows += [GAIN * v * inside, DRIFT * along * v]
-            if self.points.has_phase:
-                rows += [1j * GAIN * v * inside, 1j * DRIFT * along * v]
+        has_phase = self.points.has_phase
+        segments = [self.sweep.segment == number for number in np.unique(self.sweep.segment)]
+        rows = [row for s in segments for row in channel_rows(self.sweep, s, v, has_phase=has_phase)]
         if self.misfit:
             t = np.log(self.sweep.frequency_hz)
             at = np.linspace(t.min(), t.max(), 2 + int(np.ptp(t) / OCTAVE))
