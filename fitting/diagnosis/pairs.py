@@ -101,7 +101,8 @@ class Pairs:
         found, kept, simplified = list[ScoredFit](), set[str](), set[frozenset[str]]()
         for _ in range(SEARCH.exchanges):
             pair = self._next([*pairs, *found], kept)
-            if pair is None:
+            # Where even the best will not do, neither will those that are as bad: two have been kept for it.
+            if pair is None or (pair.fails and len(kept) >= len(pair.names)):
                 break
             one = next(e for e in pair.fitted.effects if e.name not in kept)
             kept.add(one.name)

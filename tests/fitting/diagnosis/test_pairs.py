@@ -139,3 +139,10 @@ def test_of_pairs_as_good_as_the_best_each_has_its_say():
 def test_what_is_far_behind_the_best_pair_is_not_exchanged():
     world = World("wabc", w=200.0, w_c=150.0, w_a=185.0, a_b=100.0)
     assert {"a", "b"} not in world.found("w")
+
+
+def test_beside_a_best_pair_that_fails_those_as_bad_are_not_exchanged(monkeypatch):
+    world = World("wabc", w=200.0, w_c=180.0, w_a=185.0, a_b=100.0)
+    monkeypatch.setattr(World, "judged", lambda _, fitted: ScoredFit(fitted, fitted.chi2, {"size": 0.0}))
+    assert {"a", "b"} not in world.found("w")
+    assert sorted(world.kept) == ["c", "w"]
