@@ -6,9 +6,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import least_squares
 
-from fitting.arrays import Array
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.candidates import at_rest, polished
 from fitting.diagnosis.evidence import BareModes, Evidence
@@ -16,6 +14,7 @@ from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import ROUGH, Refitted, refit
 from fitting.diagnosis.responses import response_of
+from fitting.diagnosis.usual_law import within_search
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.identification.direct import fit_direct
 from fitting.identification.fit import Fit
@@ -29,8 +28,6 @@ _FAR = 0.1
 """Relative change of the modulus from which the grids and the model's error are made anew."""
 _ROUNDS = 3
 """A bound on time."""
-_OPEN = 1e-9
-"""A range of one value is none for a bounded fit."""
 
 
 @dataclass(frozen=True)
@@ -87,21 +84,3 @@ def begin(
         if moved < _FAR:
             break
     return Begun(here, problem.plate, evidence, at_rest(here, evidence, none), first)
-
-
-def within_search(law: CoreLaw, omega: Array) -> CoreLaw:
-    """The law of the ranges that are searched whose modulus is nearest to a law's; itself where it is one.
-
-    `omega` in rad/s, shape (points,).
-    """
-    low, high = np.log([q.search for q in law.limits]).T
-    logs = np.log(law.values)
-    if np.all((logs >= low) & (logs <= high)):
-        return law
-    wanted = np.log(law.modulus(omega))
-
-    def off(p: Array) -> Array:
-        d = np.log(law.with_logs(p).modulus(omega)) - wanted
-        return np.concatenate([d.real, d.imag])
-
-    return law.with_logs(least_squares(off, np.clip(logs, low, high), bounds=(low - _OPEN, high + _OPEN)).x)

@@ -331,7 +331,7 @@ def at_rest(problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted) -> 
     What was followed far enough to compare may be on its way still, along a valley that winds: there
     chi-square hardly falls from step to step, and the law has far to go.
     """
-    if fitted.owed < SEARCH.least_owed:
+    if fitted.converged and fitted.owed < SEARCH.least_owed:
         return fitted
     response = response_of(problem.around(fitted.law), fitted.effects)
     found = refit(response, evidence, fitted.law, fitted.u, tolerance=AT_REST)

@@ -11,10 +11,10 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.bent_law import BentLaw
-from fitting.diagnosis.begin import within_search
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.posterior import posterior
 from fitting.diagnosis.refit import ROUGH, Refitted, refit
+from fitting.diagnosis.usual_law import within_search
 from fitting.errors import OutsideModel, TooFewPoints
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.uncertainty import Uncertainty, limits_reached

@@ -1,16 +1,19 @@
 """A fit that has come far enough to compare, followed to its very end."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from fitting.diagnosis import candidates
+from fitting.diagnosis import candidate_fits, candidates
+from fitting.diagnosis.candidate_fits import CandidateFits
 from fitting.diagnosis.candidates import at_rest
 from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.refit import refit
+from fitting.diagnosis.refit import AT_REST, refit
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.laws.constant import ConstantModulus
+from fitting.laws.fractional_zener import FractionalZener
 
 BEGINNING, END = ConstantModulus(0.15e6, 0.4), ConstantModulus(0.5e6 * np.e, 0.3 * np.e)
 
@@ -49,3 +52,47 @@ def test_what_owes_nothing_stays_as_it_is(valley):
     problem, evidence = valley
     there = refit(Winding(), evidence, END, np.empty(0))
     assert at_rest(problem, evidence, there) is there
+
+
+def test_what_ran_out_of_steps_is_followed_though_one_step_promises_nothing(valley, monkeypatch):
+    problem, evidence = valley
+    there = refit(Winding(), evidence, END, np.empty(0))
+    followed = []
+
+    def follow(*what, **how):
+        followed.append(how["tolerance"])
+        return there
+
+    monkeypatch.setattr(candidates, "refit", follow)
+    at_rest(problem, evidence, replace(there, converged=False))
+    assert followed == [AT_REST]
+
+
+OMEGA = 2 * np.pi * np.geomspace(15, 400, 20)
+
+
+@pytest.mark.parametrize(("reached", "chi2"), [(True, 511.9), (False, 516.2)])
+def test_a_law_far_from_what_cores_are_is_left_where_a_usual_one_does_better(monkeypatch, reached, chi2):
+    """A drift's fit: in its own valley the law is G' 34 % off."""
+    far = FractionalZener(3.2e5, 9.4e10, 3.3e-10, 0.76)
+    begun = []
+
+    def polished(problem, effects, evidence, law, u):
+        begun.append(law)
+        return SimpleNamespace(law=law, chi2=511.9, may_reach=lambda goal: reached and goal == 516.2)
+
+    monkeypatch.setattr(candidate_fits, "polished", polished)
+    monkeypatch.setattr(candidate_fits, "at_rest", lambda problem, evidence, fitted: fitted)
+    work = SimpleNamespace(problem=SimpleNamespace(points=SimpleNamespace(omega=OMEGA)), evidence=None)
+    found = CandidateFits.at_rest(work, SimpleNamespace(law=far, chi2=516.2, effects=(), u=np.empty(0)))
+    (usual,) = begun
+    assert usual.ginf_pa <= 1.001e8
+    assert np.abs(usual.modulus(OMEGA) / far.modulus(OMEGA) - 1).max() < 0.1
+    assert found.chi2 == chi2
+
+
+def test_a_law_of_usual_size_is_begun_from_nowhere_else(monkeypatch):
+    fitted = SimpleNamespace(law=FractionalZener(3.5e5, 7.9e6, 1.1e-4, 0.79))
+    monkeypatch.setattr(candidate_fits, "at_rest", lambda problem, evidence, fitted: fitted)
+    work = SimpleNamespace(problem=SimpleNamespace(points=SimpleNamespace(omega=OMEGA)), evidence=None)
+    assert CandidateFits.at_rest(work, fitted) is fitted

@@ -9,11 +9,12 @@ from conftest import TABLE_4
 from threadpoolctl import threadpool_limits
 
 from fitting.bent_law import BentLaw
-from fitting.diagnosis.begin import begin, within_search
+from fitting.diagnosis.begin import begin
 from fitting.diagnosis.joint import fit_of
 from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.posterior import posterior
 from fitting.diagnosis.response import SweepResponse
+from fitting.diagnosis.usual_law import within_search
 from fitting.diagnosis.whitening import SHARE
 from fitting.identification.uncertainty import uncertainty_of
 from fitting.laws.fractional_zener import FractionalZener
