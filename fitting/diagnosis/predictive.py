@@ -4,6 +4,7 @@ Each check is a tail probability; an explanation fails where one of them is belo
 """
 
 from collections.abc import Mapping
+from types import MappingProxyType
 
 import numpy as np
 
@@ -14,15 +15,26 @@ from fitting.diagnosis.structure import along_frequency
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.sweep import Sweep
 
+NONE_ALONE: Mapping[str, float] = MappingProxyType({})
 
-def form_error(none: Refitted, fitted: Refitted) -> float:
-    """Chi-square that the formulas of a fit's effects may leave."""
-    share = max((max(VERDICT.formula_share, e.unexplained_share) for e in fitted.effects), default=0.0)
-    return share * max(0.0, none.chi2 - fitted.chi2)
+
+def form_error(none: Refitted, fitted: Refitted, alone: Mapping[str, float] = NONE_ALONE) -> float:
+    """Chi-square that the formulas of a fit's effects may leave.
+
+    `alone`: that of fits of single effects, by name. Of two that are among them the one that explains more by
+    itself answers for that, the other for what is left; else the looser formula answers for everything.
+    """
+    shares = {e.name: max(VERDICT.formula_share, e.unexplained_share) for e in fitted.effects}
+    explained = max(0.0, none.chi2 - fitted.chi2)
+    if len(shares) < 2 or not shares.keys() <= alone.keys():
+        return max(shares.values(), default=0.0) * explained
+    first, second = sorted(shares, key=lambda name: alone[name])
+    by_first = min(max(0.0, none.chi2 - alone[first]), explained)
+    return shares[first] * by_first + shares[second] * (explained - by_first)
 
 
 def _allowed(none: Refitted, fitted: Refitted) -> float:
-    """The same, of two effects as if the better known formula had explained all.
+    """The same for a check: of two effects as if the better known formula had explained all.
 
     What two loose formulas together come near to is no evidence for either.
     """
@@ -30,9 +42,12 @@ def _allowed(none: Refitted, fitted: Refitted) -> float:
     return share * max(0.0, none.chi2 - fitted.chi2)
 
 
-def temper(none: Refitted, best: Refitted) -> float:
-    """How much less a difference in chi-square says where what was explained is far above the noise."""
-    return 1.0 + form_error(none, best) / VERDICT.formula_shapes
+def temper(none: Refitted, best: Refitted, alone: Mapping[str, float] = NONE_ALONE) -> float:
+    """How much less a difference in chi-square says where what was explained is far above the noise.
+
+    `alone` as in `form_error`.
+    """
+    return 1.0 + form_error(none, best, alone) / VERDICT.formula_shapes
 
 
 def checks(sweep: Sweep, evidence: Evidence, none: Refitted, fitted: Refitted) -> Mapping[str, float]:

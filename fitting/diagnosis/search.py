@@ -73,6 +73,8 @@ class Search:
         self.beside_the_law = sorted(fitted, key=has_place, reverse=True)
         self.work = CandidateFits(problem, evidence, none, [*self.effects, *self.unnamed])
         self._none = none
+        self._alone: dict[str, float] = {}
+        """Least chi-square of each effect by itself."""
         self.none = self.judged(none)
 
     def with_evidence(self, evidence: Evidence) -> "Search":
@@ -85,6 +87,9 @@ class Search:
         """A fit with what it is worth."""
         found = checks(self.problem.sweep, self.evidence, self._none, fitted)
         doubt = stands_in(self.problem, fitted)
+        if len(fitted.effects) == 1:
+            (name,) = (e.name for e in fitted.effects)
+            self._alone[name] = min(fitted.chi2, self._alone.get(name, np.inf))
         return ScoredFit(fitted, cost(fitted, self.problem.plate), found, doubt)
 
     def tempered(self, scored_fits: Sequence[ScoredFit]) -> tuple[ScoredFit, list[ScoredFit]]:
@@ -96,12 +101,12 @@ class Search:
 
     def temper(self, best: ScoredFit) -> float:
         """How much less a difference of costs says, where the best explains far more than noise."""
-        return temper(self._none, best.fitted) if self.evidence.scale_known else 1.0
+        return temper(self._none, best.fitted, self._alone) if self.evidence.scale_known else 1.0
 
     def allowed(self, scored: ScoredFit) -> float:
         """Chi-square per degree of freedom that the formulas of a trial's effects may leave."""
         dof = max(1, scored.fitted.data - scored.fitted.parameter_count)
-        return 1 + form_error(self._none, scored.fitted) / dof
+        return 1 + form_error(self._none, scored.fitted, self._alone) / dof
 
     def validation(self, scored: ScoredFit) -> Validation:
         """What a trial says of data it has not seen."""

@@ -115,6 +115,24 @@ def test_what_a_formula_may_leave_is_a_share_of_what_it_explains():
     assert temper(one, one) == 1
 
 
+class Exact(Rough):
+    name, unexplained_share = "exact", 0.0
+
+
+@pytest.mark.parametrize(("rough", "exact"), [(0.9, 0.001), (0.001, 0.9)])
+def test_of_two_effects_each_formula_answers_for_what_its_effect_explains(rough, exact):
+    """`rough`, `exact`: the share of what both explain that each does alone."""
+    none, both = fitted(100 * white(8)), fitted(white(8), effects=[Rough(), Exact()])
+    explained = none.chi2 - both.chi2
+    alone = {"rough": none.chi2 - rough * explained, "exact": none.chi2 - exact * explained}
+    shares = {"rough": 0.01, "exact": VERDICT.formula_share}
+    first, second = ("rough", "exact") if rough > exact else ("exact", "rough")
+    expected = (0.9 * shares[first] + 0.1 * shares[second]) * explained
+    assert form_error(none, both, alone) == pytest.approx(expected)
+    assert form_error(none, both) == pytest.approx(0.01 * explained)
+    assert form_error(none, both, {"rough": 1.0}) == pytest.approx(0.01 * explained)
+
+
 def test_a_large_effect_may_leave_what_a_small_one_may_not():
     left = 2.0 * white(9)
     small, large = fitted(1.1 * white(9)), fitted(60 * white(9))
