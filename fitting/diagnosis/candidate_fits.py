@@ -6,7 +6,7 @@ from itertools import permutations
 
 import numpy as np
 
-from fitting.diagnosis.candidates import CandidateFit, Known, Start, at_rest, has_place, look, polished
+from fitting.diagnosis.candidates import CandidateFit, Known, Start, has_place, look, polished
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.prediction import held_out
@@ -15,7 +15,7 @@ from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import ROUGH, Refitted, kept, refit
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
-from fitting.diagnosis.usual_law import within_search
+from fitting.diagnosis.usual_law import followed
 from fitting.effects.base import Effect
 from fitting.identification.validation import Validation
 
@@ -213,15 +213,8 @@ class CandidateFits:
         return polished(self.problem, rough.effects, self.evidence, rough.law, rough.u)
 
     def at_rest(self, fitted: Refitted) -> Refitted:
-        """A fit followed to its very end, from where its law is of usual size too if it is not."""
-        found = at_rest(self.problem, self.evidence, fitted)
-        usual = within_search(found.law, self.problem.points.omega)
-        if usual is found.law:
-            return found
-        again = polished(self.problem, found.effects, self.evidence, usual, found.u)
-        if not again.may_reach(found.chi2):
-            return found
-        return min(found, at_rest(self.problem, self.evidence, again), key=lambda f: f.chi2)
+        """A fit followed to its very end."""
+        return followed(self.problem, self.evidence, fitted)
 
     def together(self, one: tuple[Refitted, dict[str, State]]) -> list[Refitted]:
         """A pair again, each of its effects beside the other fitted alone, in wide valleys."""

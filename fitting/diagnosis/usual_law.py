@@ -8,10 +8,26 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from fitting.arrays import Array
+from fitting.diagnosis.candidates import at_rest, polished
+from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.problem import DiagnosisProblem
+from fitting.diagnosis.refit import Refitted
 from fitting.laws import CoreLaw
 
 _OPEN = 1e-9
 """A range of one value is none for a bounded fit."""
+
+
+def followed(problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted) -> Refitted:
+    """A fit followed to its very end, from where its law is of usual size too if it is not."""
+    found = at_rest(problem, evidence, fitted)
+    usual = within_search(found.law, problem.points.omega)
+    if usual is found.law:
+        return found
+    again = polished(problem, found.effects, evidence, usual, found.u)
+    if not again.may_reach(found.chi2):
+        return found
+    return min(found, at_rest(problem, evidence, again), key=lambda f: f.chi2)
 
 
 def within_search(law: CoreLaw, omega: Array) -> CoreLaw:

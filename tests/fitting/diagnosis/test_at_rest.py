@@ -6,8 +6,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fitting.diagnosis import candidate_fits, candidates
-from fitting.diagnosis.candidate_fits import CandidateFits
+from fitting.diagnosis import candidates, usual_law
 from fitting.diagnosis.candidates import at_rest
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.refit import AT_REST, refit
@@ -81,10 +80,11 @@ def test_a_law_far_from_what_cores_are_is_left_where_a_usual_one_does_better(mon
         begun.append(law)
         return SimpleNamespace(law=law, chi2=511.9, may_reach=lambda goal: reached and goal == 516.2)
 
-    monkeypatch.setattr(candidate_fits, "polished", polished)
-    monkeypatch.setattr(candidate_fits, "at_rest", lambda problem, evidence, fitted: fitted)
-    work = SimpleNamespace(problem=SimpleNamespace(points=SimpleNamespace(omega=OMEGA)), evidence=None)
-    found = CandidateFits.at_rest(work, SimpleNamespace(law=far, chi2=516.2, effects=(), u=np.empty(0)))
+    monkeypatch.setattr(usual_law, "polished", polished)
+    monkeypatch.setattr(usual_law, "at_rest", lambda problem, evidence, fitted: fitted)
+    problem = SimpleNamespace(points=SimpleNamespace(omega=OMEGA))
+    fitted = SimpleNamespace(law=far, chi2=516.2, effects=(), u=np.empty(0))
+    found = usual_law.followed(problem, None, fitted)
     (usual,) = begun
     assert usual.ginf_pa <= 1.001e8
     assert np.abs(usual.modulus(OMEGA) / far.modulus(OMEGA) - 1).max() < 0.1
@@ -93,6 +93,6 @@ def test_a_law_far_from_what_cores_are_is_left_where_a_usual_one_does_better(mon
 
 def test_a_law_of_usual_size_is_begun_from_nowhere_else(monkeypatch):
     fitted = SimpleNamespace(law=FractionalZener(3.5e5, 7.9e6, 1.1e-4, 0.79))
-    monkeypatch.setattr(candidate_fits, "at_rest", lambda problem, evidence, fitted: fitted)
-    work = SimpleNamespace(problem=SimpleNamespace(points=SimpleNamespace(omega=OMEGA)), evidence=None)
-    assert CandidateFits.at_rest(work, fitted) is fitted
+    monkeypatch.setattr(usual_law, "at_rest", lambda problem, evidence, fitted: fitted)
+    problem = SimpleNamespace(points=SimpleNamespace(omega=OMEGA))
+    assert usual_law.followed(problem, None, fitted) is fitted
