@@ -1,20 +1,16 @@
-"""The campaign on many plates: its solid, its cases, what a specimen may know, its files and its score."""
+"""The campaign on many plates: its solid, its cases, what a specimen may know and its files."""
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import scipy.sparse as sp
-from click.testing import CliRunner
+from coarse_solid import COARSE, MODULI, P2
 
-from fitting.noise import noise_of
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
-from instrument.campaign.plates import cases, kept, simulate, visible
-from instrument.campaign.plates import reduced as reduced_plate
-from instrument.campaign.plates.answers import Answer, Band, line_of, outcome_from, outcome_of
-from instrument.campaign.plates.cases import KINDS, NONE, PAIR, draw_case
+from instrument.campaign.plates import cases, kept, simulate
+from instrument.campaign.plates.cases import NONE, PAIR, draw_case
 from instrument.campaign.plates.files import load_case, save_case
 from instrument.campaign.plates.geometry import PLATES, plate_named
 from instrument.campaign.plates.grid import Fineness
@@ -30,36 +26,14 @@ from instrument.campaign.plates.materials import KINDS as LAWS
 from instrument.campaign.plates.materials import LOSS, STORAGE_PA, PlateMaterialLaw, draw_law
 from instrument.campaign.plates.reduced import reduced
 from instrument.campaign.plates.response import BaseMotion, Shaken, remaining_damping
-from instrument.campaign.plates.run import plate_jobs, run_plates
 from instrument.campaign.plates.schedule import Schedule
-from instrument.campaign.plates.score import reliability, score, traces
 from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, reading
 from instrument.campaign.plates.solid import Build, RootSprings, Solid, factorised
 from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
-from instrument.campaign.plates.tables import summary
-from instrument.cli.bench import bench
-from instrument.errors import BadInput
 
-COARSE = Fineness(5, 3, (0.5, 2.0), (1.0,))
-P2 = plate_named("P2")
 LAW = PlateMaterialLaw("fractional-zener", (0.4e6, 8e6, 2e-4, 0.7))
-MODULI = (0.4e6, 1.6e6)
 
-
-@pytest.fixture(scope="module", autouse=True)
-def _coarse(tmp_path_factory):
-    """Cases of the coarse solid, kept in a cache of their own."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("VISCORIG_CACHE", str(tmp_path_factory.mktemp("cache")))
-        patch.setattr(kept, "Fineness", lambda: COARSE)
-        patch.setattr(kept, "MODULI_PA", MODULI)
-        patch.setattr(cases, "PLATES", (P2,))
-        patch.setattr(reduced_plate, "_AIR_PANELS", 300)
-        kept.clean_plate.cache_clear()
-        kept.bare_plate.cache_clear()
-        yield
-        kept.clean_plate.cache_clear()
-        kept.bare_plate.cache_clear()
+pytestmark = pytest.mark.usefixtures("coarse_plates")
 
 
 def few_points():
@@ -243,142 +217,3 @@ def test_a_pair_comes_from_two_places_of_the_catalogue():
 def test_an_unknown_kind_is_refused():
     with pytest.raises(ValueError, match="expected one of"):
         draw_case("gremlins", 1)
-
-
-def answered(case, verdict, effects=(), off=1.0, **more):
-    f = np.array(case.truth.resonances_hz)
-    G = case.truth.law.modulus(2 * np.pi * f)
-    storage, loss = off * G.real, G.imag / G.real
-    band = Band(*(tuple(v.tolist()) for v in (f, storage, loss, 0.02 * storage, 0.02 * loss)))
-    said = Answer(
-        verdict, tuple(effects), more.get("equivalent", {}), more.get("stated", {}), band, band, 1.0
-    )
-    return outcome_of(case, band, said)
-
-
-def test_the_score_of_hand_made_answers():
-    clean = draw_case(NONE, 4, plate="P2", law="fractional-zener")
-    late = draw_case("channel_delay", 1, plate="P2", law="fractional-zener")
-    right = answered(late, "effect", ["channel_delay"], stated={"channel_delay": 0.9, "gain_error": 0.1})
-    grouped = answered(
-        late,
-        "ambiguous",
-        ["sensor_lowpass"],
-        equivalent={"sensor_lowpass": ("sensor_lowpass", "channel_delay")},
-    )
-    wrong = answered(late, "effect", ["tether", "gain_error"], off=1.1)
-    nothing, alarm = answered(clean, "none"), answered(clean, "effect", ["tether"])
-    found = score("late", [right, grouped, wrong])
-    assert (found.first, found.in_group, found.whole, found.false_named, found.false_second) == (
-        1,
-        2,
-        1,
-        1,
-        1,
-    )
-    assert found.after["storage"].points == 9
-    assert found.after["storage"].inside_95 == pytest.approx(2 / 3)
-    assert found.after["loss"].rms_pull == pytest.approx(0.0, abs=1e-9)
-    assert score(NONE, [nothing, alarm]).first == score(NONE, [nothing, alarm]).false_named == 1
-    bins = reliability([right])
-    assert [(b.count, b.true) for b in bins] == [(1, 0.0), (1, 1.0)]
-    text = summary([right, grouped, wrong, nothing, alarm])
-    assert "| channel_delay | 3 | 1 | 2 |" in text
-    assert outcome_from(line_of(grouped)) == grouped
-
-
-def test_names_are_counted_by_how_plainly_the_hidden_effect_shows():
-    late = draw_case("channel_delay", 1, plate="P2", law="fractional-zener")
-    right, unknown = answered(late, "effect", ["channel_delay"]), answered(late, "unknown")
-    plain, faint = (replace(right, visible_chi2=x) for x in (400.0, 12.0))
-    cases = [plain, faint, replace(unknown, visible_chi2=15.0), right, replace(plain, truth=(), kind=NONE)]
-    found = [(t.low, t.cases, t.named, t.first, t.in_group) for t in traces(cases)]
-    assert found == [(10.0, 2, 2, 1, 1), (100.0, 1, 1, 1, 1)]
-    assert outcome_from(line_of(faint)) == faint
-
-
-def test_what_shows_is_what_no_fit_takes_up_of_the_sweep_without_noise(monkeypatch):
-    case = draw_case("gain_error", 1, plate="P2")
-    clean = case.silent.without_m_s
-
-    def identify(sweep, specimen, hammer, like):
-        off = np.abs(sweep.velocity_m_s - clean) / sweep.std_m_s
-        assert np.all(sweep.base_m_s2 == case.sweep.commanded_m_s2)
-        return SimpleNamespace(
-            joint=SimpleNamespace(begun=SimpleNamespace(none=SimpleNamespace(chi2=7 + off @ off)))
-        )
-
-    monkeypatch.setattr(visible, "identify", identify)
-    (gain,) = case.truth.effects
-    std = noise_of(case.sweep).std_m_s
-    expected = np.sum((np.abs(clean) * (gain.factor - 1) / std) ** 2)
-    assert visible.visible_chi2(case) == pytest.approx(expected, rel=1e-6)
-    assert visible.visible_chi2(draw_case(NONE, 4, plate="P2")) is None
-
-
-def test_a_fault_of_no_catalogue_should_be_refused():
-    case = draw_case("gain_error", 1, plate="P2")
-    strange = replace(
-        answered(case, "unknown"),
-        kind="tip_magnet",
-        truth=("tip_magnet",),
-        near={"tip_magnet": ()},
-        strange=True,
-    )
-    assert score("strange", [strange]).first == score("strange", [strange]).refused == 1
-
-
-def true_band(case):
-    return answered(case, "none").identified
-
-
-def thirty(case):
-    return 30.0
-
-
-def no_effect(case):
-    return answered(case, "none", stated={"none": 1.0}).said
-
-
-def test_a_campaign_goes_on_where_it_was_stopped(tmp_path):
-    jobs = plate_jobs(3, seed=11, kinds=(NONE, "gain_error"))
-    first = run_plates(jobs[:2], tmp_path, identify=true_band, diagnose=no_effect, workers=1)
-    with open(tmp_path / "outcomes.jsonl", "a", encoding="utf-8") as file:
-        file.write('{"kind": "none", "se')
-    lines = run_plates(jobs, tmp_path, identify=true_band, diagnose=no_effect, workers=1)
-    assert [line["seed"] for line in lines] == [11, 12, 13]
-    assert lines[:2] == first
-    with pytest.raises(BadInput, match="other sources or options"):
-        run_plates(jobs, tmp_path, exact=True, identify=true_band, diagnose=no_effect, workers=1)
-
-
-def summary_of_one(folder, kind, how):
-    options = ["--count", "1", "--seed", "11", "--kind", kind, "--workers", "1"]
-    result = CliRunner().invoke(bench, ["--plates", str(folder), how, *options])
-    assert result.exit_code == 0, result.output
-    return result.output
-
-
-def test_the_command_runs_it_and_keeps_the_summary(tmp_path, monkeypatch):
-    monkeypatch.setattr("instrument.cli.bench.diagnosed_without_the_truth", no_effect)
-    monkeypatch.setattr("instrument.cli.bench.visible_chi2", thirty)
-    said = summary_of_one(tmp_path, "gain_error", "--without-truth")
-    assert "gain_error" in said
-    assert "| 20 to 40 | 1 | 0 | 0 | 0 |" in said
-    assert (tmp_path / "summary.md").read_text(encoding="utf-8") == said[:-1]
-
-
-def test_the_law_alone_can_be_asked_for_and_nothing_is_said_of_names(tmp_path, monkeypatch):
-    monkeypatch.setattr("instrument.cli.bench.identified", true_band)
-    said = summary_of_one(tmp_path, "none", "--law-alone")
-    assert "| none | identify | 3 | 1.00 | 1.00 |" in said
-    assert "Naming" not in said
-
-
-def test_the_command_takes_kinds_of_one_campaign_only(tmp_path):
-    result = CliRunner().invoke(bench, ["--plates", str(tmp_path), "--kind", "mains_hum"])
-    assert isinstance(result.exception, BadInput)
-
-
-def test_every_kind_is_in_rotation():
-    assert {job.kind for job in plate_jobs(60, 0)} == set(KINDS)
