@@ -60,7 +60,8 @@ def diagnose_modes(
             [*found, *best_pairs(work, found, seen, lambda x: report(_SINGLES + (1 - _SINGLES) * x))]
         )
     best = min([none, *found], key=_cost)
-    t = temper(begun.none, best.fitted) if begun.evidence.scale_known else 1.0
+    alone = {name: one.fitted.chi2 for one in found for name in one.names if len(one.names) == 1}
+    t = temper(begun.none, best.fitted, alone) if begun.evidence.scale_known else 1.0
     none, *found = (work.scored(one.fitted, t) for one in (none, *found))
     judgement = judge(none, found, hidden=frozenset(), held_out=work.held_out)
     report(1.0)

@@ -20,6 +20,8 @@ def visible_chi2(case: PlateCase) -> float | None:
     """Chi-square that the joint fit leaves of the sweep without its noise, beyond that of no effect.
 
     The fit is that of `identify`: any smooth law, stated numbers within their tolerances, the hammer test.
+    Where the struck bare plate has the effect too, it has it in both fits: the difference then says too
+    little, and may be negative.
     None where nothing is hidden, of a case from files, and where the theory holds for no law that fits.
     """
     if case.silent is None or not case.truth.effects:
