@@ -10,6 +10,7 @@ from result_cases import identification
 from gui.pages.material import MaterialPage, comparison
 from gui.pages.material.compared import PAPER
 from gui.pages.material.numbers import headline, parameters
+from gui.pages.material.tables import Correlations
 from instrument.results.session_result import recorded_result
 from instrument.results.typeset import typeset
 from instrument.session.contents import contents_of
@@ -114,10 +115,11 @@ def test_parameters_and_correlations_are_the_fits_own(looked_at):
     assert page.parameters.texts(0) == ["g0 / MPa", "ginf / MPa", "tau / s", "alpha"]
     found = page.correlations.table
     assert found.cell(0, 1).text == "+1.000"
-    assert float(found.cell(1, 3).text) == pytest.approx(
-        fit_of(page).correlations["ginf_pa"]["tau_s"], abs=6e-4
+    # Not of ginf, which ends at its limit in these points: on it or just before it.
+    assert float(found.cell(2, 4).text) == pytest.approx(
+        fit_of(page).correlations["tau_s"]["alpha"], abs=6e-4
     )
-    assert found.cell(1, 3).fill == "model"
+    assert found.cell(2, 4).fill == "data"
     # None of the columns is stretched over what the others leave.
     sizes = [found.horizontalHeader().sectionSize(k) for k in range(1, 5)]
     assert max(sizes) < 2 * min(sizes)
@@ -148,6 +150,19 @@ def test_a_parameter_at_its_limit_or_loose_is_named(zn1):
     fit = identification(parameters=values, standard_errors=errors, correlations=correlations)
     said = [row.remark for row in parameters(fit, law, fit.correlations)]
     assert said == ["fixed only together with alpha", "at its upper limit", "not fixed by these data", ""]
+
+
+def test_a_negative_correlation_has_its_own_colour_and_one_at_a_limit_has_none(qtbot):
+    table = Correlations()
+    qtbot.addWidget(table)
+    table.show_fit(
+        identification(
+            correlations={"g0_pa": {"g0_pa": 1.0, "tau_s": -0.5}, "tau_s": {"g0_pa": None, "tau_s": 1.0}}
+        )
+    )
+    negative, none = table.table.cell(0, 2), table.table.cell(1, 1)
+    assert (negative.text, negative.fill) == ("-0.500", "model")
+    assert (none.text, none.fill) == ("–", None)
 
 
 def test_nothing_is_said_of_no_fit():
