@@ -36,10 +36,16 @@ TABLE_4 = FractionalZener(g0_pa=0.27e6, ginf_pa=4.1e6, tau_s=1.21e-4, alpha=0.83
 DATA = Path(__file__).parent / "data"
 
 
-def pytest_collection_finish():
-    """Modules and collected tests are there to stay: no collection has to walk through them again."""
-    gc.collect()
-    gc.freeze()
+@pytest.hookimpl(wrapper=True)
+def pytest_collection():
+    """Modules and collected tests are there to stay: the collector walks through them once, at the end."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.enable()
+        gc.collect()
+        gc.freeze()
 
 
 @pytest.fixture(scope="session", autouse=True)

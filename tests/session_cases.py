@@ -2,7 +2,9 @@
 
 from dataclasses import replace
 from datetime import date
+from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 from conftest import TABLE_4
@@ -255,6 +257,13 @@ class SyntheticSession:
 
 def whole_session(folder) -> Path:
     """Hammer test, calibration, three segments, a fit, done."""
+    path = folder / f"{configuration().name}.h5"
+    path.write_bytes(_whole_session())
+    return path
+
+
+@cache
+def _whole_session() -> bytes:
     synthetic = SyntheticSession(configuration())
     synthetic.begin()
     synthetic.hammer()
@@ -262,4 +271,5 @@ def whole_session(folder) -> Path:
     synthetic.sweep()
     synthetic.fit()
     synthetic.end()
-    return synthetic.save(folder)
+    with TemporaryDirectory() as folder:
+        return synthetic.save(Path(folder)).read_bytes()
