@@ -137,7 +137,8 @@ def test_quantity_and_segment_are_chosen_by_key(qtbot, page):
     qtbot.waitUntil(lambda: page.residual.plots[1, "before"].y.unit == "")
 
 
-def test_the_error_is_shown_beside_noise(qtbot, page):
+def test_the_error_is_shown_beside_noise(looked_at):
+    page = looked_at
     page.views.setCurrentWidget(page.held_out)
     first = [page.held_out.table.cell(0, k).text for k in range(5)]
     assert first == ["segment 1, predicted from the others", "% rms", "11.2", "0.224", "0.1"]
@@ -265,7 +266,8 @@ def test_another_session_lets_go_of_what_was_made_here(qtbot, window, page, sess
     assert page.finding.verdict.said == "This session holds no diagnosis"
 
 
-def test_colours_follow_the_theme(qtbot, window, page):
+def test_colours_follow_the_theme(qtbot, kept_window, looked_at):
+    page, window = looked_at, kept_window
     light = page.finding.verdict.text()
     window.appearance.choose("dark")
     qtbot.waitUntil(lambda: page.finding.verdict.text() != light)

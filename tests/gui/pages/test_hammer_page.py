@@ -153,7 +153,8 @@ def test_every_hit_has_its_verdict_and_what_can_be_said_of_it(looked_at):
     assert not page.hits.use.isVisible()
 
 
-def test_a_hit_rejected_is_a_what_if_and_the_file_stays(qtbot, page, opened, session_path, hits):
+def test_a_hit_rejected_is_a_what_if_and_the_file_stays(qtbot, looked_at, kept, session_path, hits):
+    page, opened = looked_at, kept
     before = session_path.read_bytes()
     page.hits.select(1)
     qtbot.mouseClick(page.hits.reject, LEFT)
@@ -168,7 +169,8 @@ def test_a_hit_rejected_is_a_what_if_and_the_file_stays(qtbot, page, opened, ses
     assert page.modes.source.text() == "As recorded: hits 1, 3 of 3."
 
 
-def test_keys_accept_and_undo(qtbot, page, opened):
+def test_keys_accept_and_undo(qtbot, looked_at, kept):
+    page, opened = looked_at, kept
     page.hits.select(2)
     qtbot.keyClick(opened, Qt.Key.Key_A)
     computed(qtbot, page, [1, 2, 3])

@@ -73,26 +73,28 @@ def test_the_amplitude_is_velocity_over_base(looked_at):
     assert y[f == 20.5] == pytest.approx(1e3 * abs(p.velocity_m_s / p.base_m_s2) * p.level_m_s2)
 
 
-def test_in_g_response_levels_and_record_are_shown_in_g(opened, page):
+def test_in_g_response_levels_and_record_are_shown_in_g(kept, looked_at):
+    page = looked_at
     page.choose(0)
     _, before = shown(page.response.amplitude, "good")
     assert value(page, "Level asked for") == "4.905 m/s\u00b2"
-    opened.show_acceleration_in("g")
+    kept.show_acceleration_in("g")
     try:
         assert page.response.amplitude.y.unit == "(mm/s)/g"
         np.testing.assert_allclose(shown(page.response.amplitude, "good")[1], 9.80665 * before)
         assert value(page, "Level asked for") == "0.5002 g"
         assert "0.5 g" in page.chooser.item(1).text()
-        assert opened.settings.acceleration == "g"
+        assert kept.settings.acceleration == "g"
     finally:
-        opened.show_acceleration_in("m/s2")
+        kept.show_acceleration_in("m/s2")
     np.testing.assert_allclose(shown(page.response.amplitude, "good")[1], before)
 
 
-def test_the_key_of_the_step_follows_the_mode(qtbot, opened, page):
-    opened.appearance.choose("dark")
+def test_the_key_of_the_step_follows_the_mode(qtbot, kept, looked_at):
+    page = looked_at
+    kept.appearance.choose("dark")
     qtbot.waitUntil(lambda: DARK.data in page.step.key.text())
-    opened.appearance.choose("light")
+    kept.appearance.choose("light")
     qtbot.waitUntil(lambda: LIGHT.data in page.step.key.text())
 
 
@@ -203,15 +205,18 @@ def test_a_page_that_is_left_computes_nothing(qtbot, opened, page):
 
 
 @pytest.mark.parametrize(("running", "most"), [(True, 1), (False, 3)])
-def test_in_a_run_a_page_that_is_shown_again_is_drawn_pane_by_pane(opened, page, monkeypatch, running, most):
+def test_in_a_run_a_page_that_is_shown_again_is_drawn_pane_by_pane(
+    kept, looked_at, monkeypatch, running, most
+):
+    page = looked_at
     drawn, draw = [], page.turns._draw
-    opened.show_page("run")
+    kept.show_page("run")
     with monkeypatch.context() as patched:
-        patched.setattr(type(opened.controller), "running", property(lambda controller: running))
+        patched.setattr(type(kept.controller), "running", property(lambda controller: running))
         patched.setattr(page.turns, "_draw", lambda pane: (drawn.append(pane), draw(pane)))
         page._mark_all()
         page._version = -1
-        opened.show_page("sweep")
+        kept.show_page("sweep")
         first = len(drawn)
     assert 1 <= first <= most
     assert (first == 3) == (not running)
@@ -226,15 +231,16 @@ def test_drift_of_the_sentinel(looked_at):
     assert page.drift.temperature.isVisible()
 
 
-def test_colours_follow_the_window(qtbot, opened, page):
+def test_colours_follow_the_window(qtbot, kept, looked_at):
+    page = looked_at
     page.tabs.setCurrentWidget(page.quality)
     before = page.quality.channels.text()
     row = page.chooser.item(1)
     assert row.foreground().color().lightness() < 100
-    opened.appearance.choose("dark")
+    kept.appearance.choose("dark")
     qtbot.waitUntil(lambda: page.quality.channels.text() != before)
     assert row.foreground().color().lightness() > 150
-    opened.appearance.choose("light")
+    kept.appearance.choose("light")
     qtbot.waitUntil(lambda: page.quality.channels.text() == before)
 
 
@@ -250,8 +256,9 @@ def test_a_sweep_of_another_file_is_drawn_even_without_a_session(qtbot, window, 
     assert page._layers.currentIndex() == 1
 
 
-def test_back_in_time_there_are_fewer_points(qtbot, opened, page):
-    feed = opened.controller.recorded
+def test_back_in_time_there_are_fewer_points(qtbot, kept, looked_at):
+    page = looked_at
+    feed = kept.controller.recorded
     page.walk(1)
     feed.jump(0.7 * feed.length_s)
     qtbot.waitUntil(lambda: 0 < len(page.seen.points) < 30)
