@@ -32,7 +32,7 @@ class Full:
     """The plate on all degrees of freedom, a coarse mesh."""
 
     def __init__(self):
-        self.specimen = replace(read_specimen(case_file("zn1.toml")), elements=(20, 14))
+        self.specimen = replace(read_specimen(case_file("zn1.toml")), elements=(14, 10))
         self.plate = Plate(self.specimen)
         self.damping = viscous_damping(self.plate)
         self.full = FullPlate(self.plate, self.damping)

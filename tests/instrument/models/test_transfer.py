@@ -11,7 +11,7 @@ from instrument.progress import quiet
 
 
 def files(*, alike):
-    return [File(s, pair(m)) for s, m in zip(sweeps_of_masses(90, alike=alike), HEAVIER_KG, strict=True)]
+    return [File(s, pair(m)) for s, m in zip(sweeps_of_masses(45, alike=alike), HEAVIER_KG, strict=True)]
 
 
 def law_off(band):

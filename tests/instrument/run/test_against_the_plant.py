@@ -31,14 +31,19 @@ def no_diagnosis(number, last_step, *_):
     return DiagnosisFound(number, last_step, None, "not diagnosed")
 
 
-@pytest.fixture(scope="module")
-def quiet_run(tmp_path_factory):
-    """The case without sensor noise, a third of its points: what is left is the measurement's own error."""
-    folder = tmp_path_factory.mktemp("quiet")
+def thinned_case(folder):
     path = write_case(folder)
     path.write_text(
         path.read_text().replace("points = 25", "points = 9").replace("points = 21", "points = 7")
     )
+    return path
+
+
+@pytest.fixture(scope="module")
+def quiet_run(tmp_path_factory):
+    """The case without sensor noise, a third of its points: what is left is the measurement's own error."""
+    folder = tmp_path_factory.mktemp("quiet")
+    path = thinned_case(folder)
     rig = folder / "rig.toml"
     rig.write_text(rig.read_text() + "noise = 0.0\n")
     return run_experiment(read_whole_experiment(path), folder, ("sweep",), fit=no_fit)
@@ -46,9 +51,9 @@ def quiet_run(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def demo_run(tmp_path_factory):
-    """The case as it is, sensor noise and live fits included, up to its diagnosis."""
+    """A third of the case's points, sensor noise and live fits included, up to its diagnosis."""
     folder = tmp_path_factory.mktemp("demo")
-    experiment = read_whole_experiment(write_case(folder))
+    experiment = read_whole_experiment(thinned_case(folder))
     return run_experiment(experiment, folder, ("hammer", "sweep"), diagnose=no_diagnosis)
 
 
