@@ -40,9 +40,12 @@ types: $(READY)
 contracts: $(READY)
 	@$(BIN)/lint-imports
 
+# Of glibc's allocator: memory of large arrays is kept for the next ones, not asked of the system each time.
+KEEPING := MALLOC_MMAP_THRESHOLD_=1000000000 MALLOC_TRIM_THRESHOLD_=1000000000 MALLOC_TOP_PAD_=67108864
+
 # Three for two processors: one of them often waits, for a process or a time constant.
 unit: $(READY) ## the tests that take less than some seconds each
-	@OPENBLAS_NUM_THREADS=1 $(BIN)/pytest -n 3 --dist worksteal -m "not timing and not long"
+	@OPENBLAS_NUM_THREADS=1 $(KEEPING) $(BIN)/pytest -n 3 --dist worksteal -m "not timing and not long"
 
 test-long: $(READY) ## the tests that take longer, and those that look at a clock
 	@$(BIN)/pytest -m timing

@@ -93,11 +93,19 @@ def test_after_a_kill_the_heartbeat_silences_the_shaker(tmp_path):
     assert_silent(tmp_path, 2.5, since)
 
 
+LIMITED = """
+import resource
+resource.setrlimit(resource.RLIMIT_FSIZE, (20 * 1024,) * 2)
+from instrument.cli.main import main
+main()
+"""
+"""Files may not grow beyond 20 kB: as far as the program can tell, the disk is full."""
+
+
 def test_a_full_disk_stops_the_run_and_keeps_what_was_whole(tmp_path):
     experiment = case(tmp_path)
-    # Files may not grow beyond 20 kB: as far as the program can tell, the disk is full.
-    limited = f"ulimit -f 20; exec {sys.executable} -m instrument.cli sweep {experiment} --out {tmp_path}"
-    process = subprocess.Popen(["bash", "-c", limited], stderr=subprocess.PIPE, text=True)
+    words = [sys.executable, "-c", LIMITED, "sweep", str(experiment), "--out", str(tmp_path)]
+    process = subprocess.Popen(words, stderr=subprocess.PIPE, text=True)
     _, error = process.communicate(timeout=60)
     assert process.returncode == 3, error
     assert "recording failed" in error

@@ -19,6 +19,7 @@ from instrument.models.second_process import VARIABLE
 from instrument.paper_case import case_file
 from tests.conftest import DATA
 from tests.rig_plate import MESH, plate_of_the_rig
+from tests.rivals import all_but, among
 
 OMEGA = 2 * np.pi * np.array([20.0, 100.0, 280.0])
 PRACTICE = {
@@ -41,15 +42,7 @@ def every(nth, sweep):
     return sweep.take(np.arange(0, len(sweep), nth))
 
 
-def all_but(*names):
-    return set(CATALOGUE) - set(names)
-
-
-RIVALS = all_but("spot_offset", "gain_error", "added_mass", "base_rocking", "channel_delay")
-whole_catalogue_or_rivals = pytest.mark.parametrize(
-    "without",
-    [pytest.param(RIVALS, id="rivals"), pytest.param(set(), id="whole catalogue", marks=pytest.mark.long)],
-)
+RIVALS = "spot_offset", "gain_error", "added_mass", "base_rocking", "channel_delay"
 
 
 @pytest.fixture(scope="module")
@@ -72,7 +65,7 @@ def test_a_hidden_effect_is_named_and_the_law_put_right(shifted_spot):
     assert "instead of" in " ".join(found.explanation)
 
 
-@whole_catalogue_or_rivals
+@among(*RIVALS)
 def test_numbers_that_may_be_otherwise_do_not_hide_it(without):
     effects, law = PRACTICE["005"]
     found = diagnose(every(4, practice("005")), as_a_laboratory_states_it(), without=without).result
@@ -141,7 +134,7 @@ def test_a_second_process_changes_nothing(monkeypatch):
     ("stated", "sure", "without"),
     [
         pytest.param(plate_of_the_rig, 0.8, set(), id="exact"),
-        pytest.param(as_a_laboratory_states_it, 0.5, RIVALS, id="tolerances, rivals"),
+        pytest.param(as_a_laboratory_states_it, 0.5, all_but(*RIVALS), id="tolerances, rivals"),
         pytest.param(as_a_laboratory_states_it, 0.5, set(), id="tolerances", marks=pytest.mark.long),
     ],
 )

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from rivals import all_but, among
 from shear_pair_cases import HEAVIER_KG, LAW, MASSES_KG, pair, sweep
 
-from fitting.effects import CATALOGUE
 from instrument.cli.main import run
 from instrument.cli.output import Output
 from instrument.cli.print_identification import print_identification
@@ -20,21 +20,6 @@ from instrument.models.together import diagnose_together, identify_together
 REAL = Path(__file__).parents[3].parent / "shared/data/real/shear"
 NOMINAL_C = 21.0
 """Of the real records: their temperature is stated, not measured."""
-
-
-def all_but(*names):
-    return set(CATALOGUE) - set(names)
-
-
-def whole_catalogue_or(*rivals):
-    """What is left out: all but the likeliest rivals, and nothing in the long tests."""
-    return pytest.mark.parametrize(
-        "without",
-        [
-            pytest.param(all_but(*rivals), id="rivals"),
-            pytest.param(set(), id="whole catalogue", marks=pytest.mark.long),
-        ],
-    )
 
 
 def files(masses=MASSES_KG, *, points=80, **more):
@@ -74,7 +59,7 @@ def test_one_mass_stated_wrongly_and_the_modulus_are_one():
     assert found.equivalent["added_mass"] == ("added_mass", "none")
 
 
-@whole_catalogue_or("added_mass", "gain_error", "channel_delay")
+@among("added_mass", "gain_error", "channel_delay")
 def test_four_masses_name_what_all_of_them_lack(without):
     more = 0.05 * MASSES_KG[0]
     found = diagnose_together(files(more_kg=more), without=without).found.result
@@ -104,7 +89,7 @@ def test_one_mass_with_wandering_channels_names_nothing():
     assert found.verdict == "ambiguous"
 
 
-@whole_catalogue_or("added_mass", "gain_error", "channel_delay")
+@among("added_mass", "gain_error", "channel_delay")
 def test_a_mass_of_one_file_is_that_file_s(without):
     given = files()
     given[2] = File(sweep(pair(0.573), seed=2, points=80, more_kg=0.05 * 0.573), pair(0.573))
@@ -129,7 +114,7 @@ def test_softening_is_not_told_from_one_level():
     assert "amplitude_softening" not in {e.name for e in one.effects}
 
 
-@whole_catalogue_or("amplitude_softening", "added_mass", "gain_error")
+@among("amplitude_softening", "added_mass", "gain_error")
 def test_softening_is_told_by_two_levels(without):
     two = diagnose_together(softened(9.81, 2.5), without=without).found.result
     assert two.verdict == "effect"
