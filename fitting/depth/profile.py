@@ -37,7 +37,8 @@ def profile(
     for k in wanted:
         for side in (0, 1):
             q, s = _along(quantities, k, (-1, 1)[side])
-            rising = np.concatenate([[True], np.diff(s) > 0])
+            # A look that has risen no further than one before it says nothing of the way between them.
+            rising = np.concatenate([[True], s[1:] > np.maximum.accumulate(s)[:-1]])
             if rising.sum() < 2:
                 continue
             curve = PchipInterpolator(s[rising], q[rising])

@@ -76,6 +76,15 @@ def test_a_posterior_of_one_seed_is_the_same_again(quantities, many):
     np.testing.assert_array_equal(first.intervals.bounds[68], again.intervals.bounds[68])
 
 
+def test_what_is_known_well_has_a_profile_as_wide_as_its_linear_error(quantities):
+    k = quantities.names.index("storage_modulus_pa at 100 Hz")
+    one = profile(quantities, only=[k])
+    for level in (68, 95):
+        wide, linear = (np.diff(np.log(b[level][k]))[0] for b in (one.bounds, one.linear))
+        assert wide == pytest.approx(linear, rel=0.2)
+    assert np.isnan(np.delete(one.bounds[68], k, axis=0)).all()
+
+
 def test_chains_that_disagree_are_seen():
     rng = np.random.default_rng(0)
     alike = rng.standard_normal((8, 200))
