@@ -188,6 +188,19 @@ def test_nine_amplitudes_do_not_make_a_misfit_likely_where_much_is_uncertain():
     assert next(c.probability for c in found.candidates if c.name == "absolute_velocity") < 0.01
 
 
+def test_of_few_points_it_is_said_what_a_search_finds_by_chance():
+    plate = replace(read_specimen(case_file("zn1.toml")), elements=(10, 10))
+    sweep = read_sweep(case_file("table5.csv")).sweep(plate.base_acceleration_m_s2)
+    sweep = sweep.take(np.arange(len(sweep)) % 3 > 0)
+    without = all_but("gain_error")
+    found = diagnose(sweep, plate, without=without, resamples=2).result
+    assert found.verdict == "none"
+    # Of two sweeps without any effect, and the one that was measured.
+    assert found.p_value in (2 / 3, 1.0)
+    # The selection repeated without each point: no better than one law alone.
+    assert found.nested_held_out_rms_percent > 0.95 * found.before.validation.leave_one_out_rms_percent
+
+
 def test_effects_are_accepted_and_declined_by_hand():
     told = diagnose(practice("005"), plate_of_the_rig(), accept=("gain_error", "channel_delay")).result
     assert told.verdict == "effect"
