@@ -51,7 +51,7 @@ def a_law(number, last_step, points, damping, specimen):
 def grouped(*offers):
     """A diagnosis that ends in a group as long as there are offers, one after another."""
 
-    def diagnose(number, last_step, points, times_s, damping, specimen, settings):
+    def diagnose(number, last_step, points, times_s, damping, specimen, possible):
         measured = {p.sweep for p in points if p.step <= last_step}
         left = offers[len(measured) - 1 :][:1]
         result = diagnosis().but(next_measurements=left)

@@ -5,7 +5,6 @@ further passes of the same segments: what a fit took for the plate's error at on
 Everything is linear about the rival's mode.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -13,7 +12,7 @@ import numpy as np
 import scipy.linalg as la
 from numpy.typing import NDArray
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Array, Complex, Mask
 from fitting.diagnosis.evidence import BareModes, Evidence
 from fitting.diagnosis.marginal import prior_precision
 from fitting.diagnosis.model_error import model_error
@@ -35,7 +34,7 @@ from fitting.specimen import Specimen
 Places = NDArray[np.intp]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Further:
     """Readings at frequencies of a sweep that was made, otherwise than they were made."""
 
@@ -45,8 +44,9 @@ class Further:
     """Points that are read."""
     dwell_s: Array
     """Of each of these."""
-    same_errors: bool = True
-    """Whether the model errs as in the first sweep, in proportion to what it reads; else anew."""
+    same_errors: bool | Mask = True
+    """Whether the model errs as in the first sweep, in proportion to what it reads; else anew. Of each of
+    these points where they differ."""
     new: frozenset[str] = frozenset()
     """Kinds of stated numbers that are others (`fitting.tolerances`): as uncertain as they are stated."""
     without: frozenset[str] = frozenset()
@@ -67,8 +67,6 @@ class Known:
     """Covariance is R R^T: of the fitted numbers, then of the model's errors. Shape (k, k)."""
     errors: Array
     """Their posterior mean, in standard deviations. Shape (errors,)."""
-    by_level: tuple[Complex, Complex] | None
-    """Velocity and derivatives at the first file's points, where they go in proportion to the level."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,6 +136,10 @@ class Expecting:
         sigma = np.hypot(noise.std_m_s(v, further.dwell_s), SHARE * np.abs(v))
         return [self._over(one, sigma) for one in raw]
 
+    def rows(self, part: Places, count: int) -> Places:
+        """Where data of some points stand in a forecast of `count` points. Shape (data,)."""
+        return np.concatenate([part, part + count]) if self.evidence.has_phase else part
+
     def velocity_m_s(self, further: Further) -> Array:
         """Amplitudes that the likeliest rival expects. Shape (points that are read,)."""
         return np.abs(self._raw(self.known[0], further).v)
@@ -165,12 +167,7 @@ class Expecting:
         L = np.linalg.cholesky(P * np.outer(d, d) + 1e-12 * np.eye(len(P)))
         root = wider * d[:, None] * la.solve_triangular(L, np.eye(len(P)), lower=True).T
         mean = np.asarray(np.linalg.solve(B.T @ B + np.eye(errors), B.T @ left), dtype=float)
-        effects, places = self._effects(fitted, frozenset())
-        by_level = None
-        if not any(type(e).modulus is not Effect.modulus for e in effects):
-            u = np.concatenate([fitted.u[self._stated], *(fitted.u[p] for p in places)])
-            by_level = SweepResponse(self.member, effects).with_derivatives(fitted.law, u)
-        return Known(fitted, root, mean, by_level)
+        return Known(fitted, root, mean)
 
     def _columns(self, fitted: Refitted, dv: Complex) -> Complex:
         """Derivatives to what is fitted, as it is fitted. Shape (columns, points)."""
@@ -190,7 +187,8 @@ class Expecting:
             u = np.concatenate([u, further.mass.unknowns_on(member.plate.length_m, longer)])
         new = [k for k, q in enumerate(member.nuisances.each) if q.kind in further.new]
         u[new] = 0.0
-        v, dv = self._response(known, further, effects, u)
+        every, by_every = SweepResponse(member, effects).with_derivatives(fitted.law, u)
+        v, dv = every[further.at], by_every[:, further.at]
         column = np.cumsum(fitted.free) - 1 + n
         by = np.zeros((n + int(fitted.free.sum()), len(v)), complex)
         by[:n] = dv[:n]
@@ -216,28 +214,13 @@ class Expecting:
         e = self._errors[:, self.part][:, near]
         first = fitted.velocity_m_s[self.part][near]
         e = e * (v / first)
-        k = len(by)
-        if further.same_errors:
-            mean, by_known = v + known.errors @ e, known.root.T @ np.concatenate([by, e])
-        else:
-            mean, by_known = v, known.root[:k].T @ by
-            fresh += list(e[np.any(e != 0, axis=1)])
+        again = e * further.same_errors
+        anew = e - again
+        mean = v + known.errors @ again
+        by_known = known.root.T @ np.concatenate([by, again])
+        fresh += list(anew[np.any(anew != 0, axis=1)])
         by_new = np.array(fresh) if fresh else np.zeros((0, len(v)), complex)
         return _Raw(mean, by_known, by_new)
-
-    def _response(
-        self, known: Known, further: Further, effects: Sequence[Effect], u: Array
-    ) -> tuple[Complex, Complex]:
-        """At the points that are read, as `SweepResponse.with_derivatives`."""
-        member, at = further.member, further.at
-        same = member.nuisances is self.member.nuisances and further.mass is None and not further.new
-        same = same and further.like is None
-        if known.by_level is not None and same:
-            v, dv = known.by_level
-            level = member.points.acceleration_m_s2[at] / self.member.points.acceleration_m_s2[at]
-            return v[at] * level, dv[:, at] * level
-        v, dv = SweepResponse(member, effects).with_derivatives(known.fitted.law, u)
-        return v[at], dv[:, at]
 
     @property
     def _stated(self) -> Places:

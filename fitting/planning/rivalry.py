@@ -50,6 +50,10 @@ class Forecast:
         shared = np.concatenate([self.root[:, :k], other.root[:, :k]])
         return Forecast(np.r_[self.mean, other.mean], np.hstack([shared, apart]), k)
 
+    def of(self, rows: NDArray[np.intp]) -> "Forecast":
+        """Of some of the data. Shape (any,)."""
+        return Forecast(self.mean[rows], self.root[rows], self.known)
+
 
 @dataclass(frozen=True)
 class Outcome:
@@ -109,7 +113,7 @@ class _Drawn:
     """Data drawn from each form in turn, and what becomes of the rivals."""
 
     L: list[Array]
-    """S = L L^T of each form."""
+    """1 + R^T R = L L^T of each form."""
     member: NDArray[np.bool_]
     """Whose each form is. Shape (rivals, forms)."""
     after: Array
@@ -121,18 +125,18 @@ class _Drawn:
     def of(
         cls, forecasts: Sequence[Forecast], probabilities: Array, temper: float, of: Sequence[int] | None
     ) -> "_Drawn":
-        L = [np.asarray(np.linalg.cholesky(np.eye(len(f.mean)) + f.root @ f.root.T)) for f in forecasts]
+        L = [np.asarray(np.linalg.cholesky(np.eye(f.root.shape[1]) + f.root.T @ f.root)) for f in forecasts]
         draws = np.maximum(_FEWEST_DRAWS, np.round(_DRAWS * probabilities)).astype(int)
         random = np.random.default_rng(_SEED)
         n, count = len(forecasts[0].mean), len(forecasts)
         data = [
-            f.mean[:, None] + one @ random.standard_normal((n, k))
-            for f, one, k in zip(forecasts, L, draws, strict=True)
+            f.mean[:, None]
+            + f.root @ random.standard_normal((f.root.shape[1], k))
+            + random.standard_normal((n, k))
+            for f, k in zip(forecasts, draws, strict=True)
         ]
         every = np.concatenate(data, axis=1)
-        fits = np.array(
-            [_log_density(every - f.mean[:, None], one) for f, one in zip(forecasts, L, strict=True)]
-        )
+        fits = np.array([_log_density(every, f, one) for f, one in zip(forecasts, L, strict=True)])
         whose = np.arange(count) if of is None else np.array(of)
         member = np.arange(whose.max() + 1)[:, None] == whose
         after = member @ softmax(np.log(probabilities)[:, None] + fits / temper, axis=0)
@@ -150,20 +154,32 @@ def _entropy(p: Array) -> Array:
     return np.asarray(-np.sum(np.where(p > 0, p * np.log(np.maximum(p, 1e-300)), 0.0), axis=0))
 
 
-def _log_density(off: Array, L: Array) -> Array:
-    """Of N(0, L L^T) but for a constant; `off` of shape (data, draws)."""
-    squares = np.sum(la.solve_triangular(L, off, lower=True) ** 2, axis=0)
+def _log_density(data: Array, f: Forecast, L: Array) -> Array:
+    """Of N(m, 1 + R R^T) but for a constant; `data` of shape (data, draws)."""
+    off = data - f.mean[:, None]
+    squares = np.sum(off**2, axis=0) - np.sum(_explained(off, f, L) ** 2, axis=0)
     return np.asarray(-squares / 2 - np.log(np.diag(L)).sum())
+
+
+def _explained(off: Array, f: Forecast, L: Array) -> Array:
+    """B with S^-1 = 1 - B^T B, applied: the part of data that its unknowns make up for."""
+    return np.asarray(la.solve_triangular(L, f.root.T @ off, lower=True))
 
 
 def _divergences(forecasts: Sequence[Forecast], L: Sequence[Array]) -> Array:
     """D(i, j) of forms. Shape (forms, forms)."""
-    count, n = len(forecasts), len(forecasts[0].mean)
+    count = len(forecasts)
     logdet = np.array([2 * np.log(np.diag(one)).sum() for one in L])
+    varies = np.array([np.sum(f.root**2) for f in forecasts])
+    ends = np.cumsum([f.root.shape[1] for f in forecasts])[:-1]
+    roots = np.hstack([f.root for f in forecasts])
     D = np.zeros((count, count))
     for j, f in enumerate(forecasts):
         off = np.array([g.mean - f.mean for g in forecasts]).T
-        squares = np.sum(la.solve_triangular(L[j], np.hstack([off, *L]), lower=True) ** 2, axis=0)
-        traces = squares[count:].reshape(count, n).sum(axis=1)
-        D[:, j] = (traces - n + squares[:count] + logdet[j] - logdet) / 2
+        squares = np.sum(off**2, axis=0) - np.sum(_explained(off, f, L[j]) ** 2, axis=0)
+        by_root = np.split(np.sum(_explained(roots, f, L[j]) ** 2, axis=0), ends)
+        # tr S_j^-1 S_i - n
+        own = np.sum(la.solve_triangular(L[j], f.root.T, lower=True) ** 2)
+        traces = varies - np.array([one.sum() for one in by_root]) - own
+        D[:, j] = (traces + squares + logdet[j] - logdet) / 2
     return D

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from itertools import groupby
 
 import numpy as np
 
@@ -41,6 +42,10 @@ class Possible:
     """Whether somebody is there."""
     mass_kg: float | None = 5e-3
     """A known mass at hand, of a small accelerometer's size; None for none."""
+    measurements: int = 2
+    """How many may still be made: with one left nothing can follow it."""
+    most_s: float = np.inf
+    """What one of them may take, hands included."""
 
 
 def rank_follow_ups(diagnosed: Diagnosed, possible: Possible | None = None) -> tuple[FollowUp, ...]:
@@ -58,7 +63,7 @@ def rank_follow_ups(diagnosed: Diagnosed, possible: Possible | None = None) -> t
         course.first.measurable.follow_up(expecting.names, *_said(course.first.told, expecting)).but(
             then=course.then, expected_seconds=course.expected_s
         )
-        for course in best_courses(worth, expecting)
+        for course in best_courses(worth, expecting, possible.measurements)
     )
 
 
@@ -96,20 +101,26 @@ def _asked(expecting: Expecting, possible: Possible) -> Iterator[Asked]:
 def _forecast(expecting: Expecting, possible: Possible) -> Iterator[tuple[Measurable, list[Forecast]]]:
     template = Template.of(expecting, possible.settings)
     limits = possible.settings.limits
-    for measurable in template.measurable(possible.mass_kg):
-        if measurable.needs_hands and not possible.hands:
+    every = template.measurable(possible.mass_kg, hands=possible.hands)
+    for further, each in groupby(every, key=lambda m: m.further):
+        measurable = [m for m in each if m.seconds <= possible.most_s]
+        if not measurable:
             continue
-        one = measurable
-        if one.spot_m is not None:
-            v = expecting.velocity_m_s(one.further)
-            if v.max() > limits.warn * limits.velocity_m_s:
-                continue
-            one = replace(one, velocities_m_s=tuple(v.tolist()))
-        yield one, expecting.forecasts(one.further, template.noise)
-    if possible.hands and expecting.evidence.bare is None:
+        # All steps of a place at once: each measurement reads some of them.
+        v = expecting.velocity_m_s(further)
+        whole = expecting.forecasts(further, template.noise)
+        for one in measurable:
+            if one.spot_m is not None:
+                if v[one.part].max() > limits.warn * limits.velocity_m_s:
+                    continue
+                one = replace(one, velocities_m_s=tuple(v[one.part].tolist()))
+            rows = expecting.rows(one.part, len(v))
+            yield one, [forecast.of(rows) for forecast in whole]
+    struck = template.struck()
+    if possible.hands and struck.seconds <= possible.most_s and expecting.evidence.bare is None:
         bare = bare_modes_expected(expecting.member)
         if bare is not None:
-            yield template.struck(), expecting.struck(bare)
+            yield struck, expecting.struck(bare)
 
 
 def _said(told: Outcome, expecting: Expecting) -> tuple[float, float, tuple[str, ...]]:

@@ -2,6 +2,9 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import NDArray
+
 from fitting.planning.further import Further
 from fitting.planning.known_mass import KnownMass
 from instrument.facts.follow_up import FollowUp, FollowUpKind
@@ -17,6 +20,8 @@ class Measurable:
 
     kind: FollowUpKind
     further: Further
+    part: NDArray[np.intp]
+    """Of the points that `further` reads; those of several measurements of one place are asked at once."""
     frequencies_hz: tuple[float, ...]
     segments: tuple[int, ...]
     level_g: float

@@ -14,7 +14,6 @@ all. Where nothing is worth to follow, t_b = 0 and h_ab = h_a.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import sqrt
 
 from fitting.planning.further import Expecting
 from fitting.planning.rivalry import Forecast, Outcome, share_left
@@ -51,24 +50,32 @@ class Course:
     """E(a)."""
 
 
-def best_courses(asked: Sequence[Asked], expecting: Expecting) -> list[Course]:
-    """The best of each kind, the one that is expected to end soonest first."""
+def best_courses(asked: Sequence[Asked], expecting: Expecting, measurements: int = 2) -> list[Course]:
+    """The best of each kind, the one that is expected to end soonest first.
+
+    `measurements`: how many may still be made; nothing follows the last one.
+    """
     each = _best_of_each_kind(asked)
-    found = [min(_courses(one, each, expecting), key=lambda c: c.expected_s) for one in each]
+    others = each if measurements > 1 else []
+    found = [min(_courses(one, others, expecting), key=lambda c: c.expected_s) for one in each]
     return sorted(found, key=lambda c: c.expected_s)
 
 
 def _best_of_each_kind(asked: Sequence[Asked]) -> list[Asked]:
-    """By the expected fall of the entropy of which explanation is right, over the root of the time."""
+    """As if nothing followed it."""
     best: dict[str, Asked] = {}
-    for one in sorted(asked, key=lambda a: a.told.information / sqrt(a.seconds)):
+    for one in sorted(asked, key=_alone_s, reverse=True):
         best[one.measurable.kind] = one
     return list(best.values())
 
 
+def _alone_s(one: Asked) -> float:
+    return one.seconds + one.told.left * OPEN_S
+
+
 def _courses(first: Asked, each: Sequence[Asked], expecting: Expecting) -> list[Course]:
     alone = first.told.left
-    found = [Course(first, None, first.seconds + alone * OPEN_S)]
+    found = [Course(first, None, _alone_s(first))]
     for other in each:
         if other is first:
             continue

@@ -39,6 +39,13 @@ class Steps:
         pairs = ((getattr(self, n), getattr(other, n)) for n in ("frequency_hz", "segment", "seconds"))
         return Steps(*(np.concatenate(pair) for pair in pairs))
 
+    def of(self, at: NDArray[np.intp]) -> "Steps":
+        """Some of them. Shape (any,)."""
+        return Steps(self.frequency_hz[at], self.segment[at], self.seconds[at])
+
+    def __len__(self) -> int:
+        return len(self.frequency_hz)
+
 
 def twists_hz(plate: EnrichedReducedPlate, law: CoreLaw, low_hz: float, high_hz: float) -> Complex:
     """The lowest resonances odd across the width, in a band. Shape (any,), as `resonances_hz`."""
@@ -60,6 +67,11 @@ def about(poles_hz: Complex, first: int, every_hz: Complex, settings: SweepSetti
     f = np.round(np.concatenate([np.zeros(0), *each]), 3)
     segment = first + np.repeat(np.arange(len(each)), _STEPS)
     return Steps(f, segment, step_seconds(f, every_hz, settings))
+
+
+def no_steps() -> Steps:
+    """None at all."""
+    return Steps(np.zeros(0), np.zeros(0, dtype=np.intp), np.zeros(0))
 
 
 def where(poles_hz: Sequence[complex] | Complex) -> str:

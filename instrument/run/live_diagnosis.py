@@ -11,6 +11,7 @@ from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
 from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult
+from instrument.files.experiment_file import DiagnosisTable
 from instrument.files.hammer_file import accepted_modes
 from instrument.interchange.files_of import files_of
 from instrument.models.diagnosis import diagnose
@@ -25,10 +26,21 @@ from instrument.stepped_sine.settings import SweepSettings
 from instrument.stream.derived import DampingFound, DiagnosisFound, PointMeasured
 
 Diagnoser = Callable[
-    [int, int, list[PointMeasured], list[float], DampingFound | None, AnySpecimen, SweepSettings],
+    [int, int, list[PointMeasured], list[float], DampingFound | None, AnySpecimen, Possible],
     DiagnosisFound,
 ]
-"""Number, last step, points, when each was read, hammer test, specimen, how the run steps and its limits."""
+"""Number, last step, points, when each was read, hammer test, specimen, what may be measured next."""
+
+
+def able(table: DiagnosisTable, settings: SweepSettings, number: int) -> Possible:
+    """What may follow the diagnosis of a number, of a run that steps so: as much as it still allows.
+
+    Once it allows nothing more a person may measure as after any diagnosis.
+    """
+    left = table.follow_up_at_most + 1 - number
+    if table.follow_up == "none" or left < 1:
+        return Possible(settings)
+    return Possible(settings, measurements=left, most_s=table.follow_up_most_s)
 
 
 def diagnose_points(
@@ -38,19 +50,19 @@ def diagnose_points(
     times_s: list[float],
     damping: DampingFound | None,
     specimen: AnySpecimen,
-    settings: SweepSettings,
+    possible: Possible,
     progress: Progress = quiet,
 ) -> DiagnosisFound:
     """Diagnose all points up to a step, jointly with the hammer test. Pure: the same in a replay.
 
-    What is proposed next stays within the limits of `settings`, and costs what their steps take.
+    What is proposed next is `possible`: within the run's limits, at what its steps take.
     """
     used = [(p, t) for p, t in zip(points, times_s, strict=True) if p.step <= last_step]
     try:
         # One thread: sums in another order would differ in the last bit.
         with threadpool_limits(1):
-            able = Possible(settings)
-            result = _result([p for p, _ in used], [t for _, t in used], damping, specimen, able, progress)
+            points, times_s = [p for p, _ in used], [t for _, t in used]
+            result = _result(points, times_s, damping, specimen, possible, progress)
             return DiagnosisFound(number, last_step, result)
     except (FittingError, BadInput, ValidationError, ValueError, ArithmeticError) as error:
         # Data may be such that nothing can be said of them: that is said, and the session is kept.
@@ -62,7 +74,7 @@ def _result(
     times_s: list[float],
     damping: DampingFound | None,
     specimen: AnySpecimen,
-    able: Possible,
+    possible: Possible,
     progress: Progress,
 ) -> DiagnosisResult:
     hammer = accepted_modes(damping.result) if damping is not None else None
@@ -70,10 +82,10 @@ def _result(
     files = files_of(sweep, points, specimen)
     if len(files) > 1 or not isinstance(specimen, Specimen):
         several = diagnose_together(files, progress=progress, hammer=hammer)
-        result = with_open_questions(diagnosed_together_from(several, files), several.found, able).untimed
+        result = with_open_questions(diagnosed_together_from(several, files), several.found, possible).untimed
     else:
         found = diagnose(sweep, specimen, hammer, progress=progress)
-        result = with_open_questions(diagnosis_from(found, sweep), found, able).untimed
+        result = with_open_questions(diagnosis_from(found, sweep), found, possible).untimed
     return result.but(warnings=(*result.warnings, *uncalibrated(points)))
 
 

@@ -11,7 +11,7 @@ from threadpoolctl import threadpool_limits
 from fitting.specimen import Specimen
 from instrument.run.analysis import Analysis
 from instrument.run.live_choice import Chooser
-from instrument.run.live_diagnosis import Diagnoser, diagnose_points
+from instrument.run.live_diagnosis import Diagnoser, able, diagnose_points
 from instrument.run.live_fit import Fitter, fit_points
 from instrument.session.setup import setup_of
 from instrument.session.storage import SessionFile
@@ -109,8 +109,9 @@ def _replay(
             derived = [*derived, chosen]
         elif isinstance(event, DiagnosisStarted):
             a = analysis
+            possible = able(configuration.experiment.diagnosis, setup.sweep, event.number)
             again.diagnosis = diagnose(
-                event.number, event.last_step, a.points, a.times_s, a.damping, specimen, setup.sweep
+                event.number, event.last_step, a.points, a.times_s, a.damping, specimen, possible
             )
             apart[DiagnosisFound, event.number] = again.diagnosis
             derived = [*derived, again.diagnosis]

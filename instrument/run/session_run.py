@@ -17,7 +17,7 @@ from instrument.run.analysis import Analysis
 from instrument.run.companion import Companion
 from instrument.run.control import RunControl
 from instrument.run.following import Earlier, Following
-from instrument.run.live_diagnosis import Diagnoser, apart
+from instrument.run.live_diagnosis import Diagnoser, able, apart
 from instrument.run.live_fit import Fitter
 from instrument.run.part import Part
 from instrument.run.rig import Rig, open_rig
@@ -205,7 +205,8 @@ class SessionRun:
         a, number, last = self.analysis, self._diagnoses, self.fit.last_step
         self._record(DiagnosisStarted(number, last))
         specimen = self._configuration.the_specimen()
-        given = (a.points, a.times_s, a.damping, specimen, self._setup.sweep)
+        possible = able(self._experiment.document.diagnosis, self._setup.sweep, number)
+        given = (a.points, a.times_s, a.damping, specimen, possible)
         found = apart(lambda: self._diagnoser(number, last, *given))
         self._record(found)
         return found

@@ -15,7 +15,7 @@ from instrument.campaign.plates.again import SimulatedRig
 from instrument.campaign.plates.weak import WEAK, draw_weak
 from instrument.campaign.run import SUMMARY, Job, run_campaign
 from instrument.models.diagnosis import Diagnosed
-from instrument.planning.follow_up import rank_follow_ups
+from instrument.planning.follow_up import Possible, rank_follow_ups
 from instrument.progress import Progress, quiet
 
 _MOST = 2
@@ -40,7 +40,7 @@ def judge_apart(job: Job) -> Line:
     line |= {"first": _said(rig, found), "first_s": rig.seconds, "measured": []}
     for number in range(_MOST):
         began = process_time()
-        ranked = rank_follow_ups(found)
+        ranked = rank_follow_ups(found, Possible(measurements=_MOST - number))
         cpu = process_time() - began
         if not ranked:
             break
@@ -49,6 +49,7 @@ def judge_apart(job: Job) -> Line:
         found = rig.diagnosed()
         how = best.model_dump(include={"kind", "level_g", "spot_mm", "seconds", "separation"})
         how |= {"probability_resolved": best.probability_resolved, "ranking_cpu_s": cpu}
+        how |= {"steps": len(best.frequencies_hz), "todo": best.todo}
         line["measured"].append({**how, **_said(rig, found)})
     return line
 

@@ -97,3 +97,23 @@ def test_what_is_left_alone_is_that_of_the_outcome():
     whole = outcome(rivals, p, of=[0, 1, 1])
     assert share_left(rivals, p, of=[0, 1, 1]) == whole.left
     assert whole.information == pytest.approx((1 - whole.left) * np.log(2))
+
+
+def test_some_of_the_data_are_expected_as_among_all():
+    whole = Forecast(np.arange(3.0), np.arange(6.0).reshape(3, 2), known=1)
+    some = whole.of(np.array([2, 0]))
+    assert some.mean.tolist() == [2.0, 0.0]
+    assert some.root.tolist() == [[4.0, 5.0], [0.0, 1.0]]
+    assert some.known == 1
+
+
+def test_divergences_are_those_of_the_covariances_in_full():
+    dice = np.random.default_rng(4)
+    a, b = (Forecast(dice.standard_normal(7), 3 * dice.standard_normal((7, 4))) for _ in range(2))
+    S, T = (np.eye(7) + f.root @ f.root.T for f in (a, b))
+    off = a.mean - b.mean
+    inverse = np.linalg.inv(T)
+    wanted = (
+        np.trace(inverse @ S) - 7 + off @ inverse @ off + np.linalg.slogdet(T)[1] - np.linalg.slogdet(S)[1]
+    )
+    assert outcome([a, b], EVEN).divergence[0, 1] == pytest.approx(wanted / 2, rel=1e-9)

@@ -185,12 +185,16 @@ GROUP = found("ambiguous", "gain_error", group=(("gain_error", 0.6), ("spot_offs
 RIGHT, WRONG = found("effect", "gain_error"), found("effect", "spot_offset")
 
 
-def judged(monkeypatch, *said):
+def judged(monkeypatch, *said, asked=None):
     monkeypatch.setattr(apart, "draw_weak", lambda kind, seed: Told(*said))
-    spot = proposed("spot", spot_mm=(200.0, 50.0))
-    monkeypatch.setattr(
-        apart, "rank_follow_ups", lambda d: (spot,) if d.result.verdict == "ambiguous" else ()
-    )
+    spot = proposed("spot", spot_mm=(200.0, 50.0), todo="Aim there.")
+
+    def ranked(diagnosed, possible):
+        if asked is not None:
+            asked.append(possible.measurements)
+        return (spot,) if diagnosed.result.verdict == "ambiguous" else ()
+
+    monkeypatch.setattr(apart, "rank_follow_ups", ranked)
     return apart.judge_apart(Job("gain_error", 1))
 
 
@@ -199,8 +203,12 @@ def test_what_is_proposed_is_measured_until_one_is_left_and_twice_at_most(monkey
     one = judged(monkeypatch, GROUP, RIGHT)
     assert [m["said"] for m in one["measured"]] == ["right"]
     assert one["measured"][0]["probability_resolved"] == 0.9
-    never = judged(monkeypatch, GROUP, GROUP, GROUP, GROUP)
+    assert (one["measured"][0]["steps"], one["measured"][0]["todo"]) == (2, "Aim there.")
+    asked = []
+    never = judged(monkeypatch, GROUP, GROUP, GROUP, GROUP, asked=asked)
     assert [m["said"] for m in never["measured"]] == ["ambiguous", "ambiguous"]
+    # The second time nothing can follow.
+    assert asked == [2, 1]
     json.dumps([one, never])
 
 

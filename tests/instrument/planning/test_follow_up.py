@@ -1,6 +1,7 @@
 """What tells a gain from a shifted spot: both fitted to one sweep, and asked what they expect of another."""
 
 from dataclasses import replace
+from itertools import groupby
 
 import numpy as np
 import pytest
@@ -13,13 +14,14 @@ from fitting.diagnosis.whitening import SHARE
 from fitting.effects import CATALOGUE
 from fitting.noise import noise_of
 from fitting.planning.forms import forms_of
-from fitting.planning.further import Expecting
+from fitting.planning.further import Expecting, Further
 from fitting.planning.rivalry import outcome
 from fitting.planning.unseen import unseen
 from instrument.files.sweep_file import read_sweep
 from instrument.models.diagnosis import Diagnosed
 from instrument.models.set_up import set_up
 from instrument.planning import follow_up
+from instrument.planning.costs import dwell_seconds
 from instrument.planning.follow_up import Possible, rank_follow_ups, with_follow_ups
 from instrument.planning.measurable import Template
 from instrument.planning.measurement import HANDS_S
@@ -79,12 +81,20 @@ def one(template, kind):
     return next(m for m in template.measurable(5e-3) if m.kind == kind)
 
 
+def read(expecting, template, measurable):
+    """What each expects of its own steps."""
+    further = measurable.further
+    rows = expecting.rows(measurable.part, len(further.at))
+    return [f.of(rows) for f in expecting.forecasts(further, template.noise)]
+
+
 def test_the_same_steps_again_are_expected_to_read_the_same(expecting, template):
-    again = one(template, "frequencies")
-    at = again.further.at
+    at = np.arange(0, 240, 4)
+    dwell = dwell_seconds(expecting.member.sweep.frequency_hz[at], SweepSettings())
+    further = Further(expecting.member, at, dwell)
     measured, v = expecting.evidence.measured_m_s[at], expecting.known[0].fitted.velocity_m_s[at]
-    sigma = np.hypot(template.noise.std_m_s(v, again.further.dwell_s), SHARE * np.abs(v))
-    for forecast in expecting.forecasts(again.further, template.noise):
+    sigma = np.hypot(template.noise.std_m_s(v, dwell), SHARE * np.abs(v))
+    for forecast in expecting.forecasts(further, template.noise):
         off = np.r_[measured.real, measured.imag] / np.tile(sigma, 2) - forecast.mean
         assert 0.8 < np.sqrt(np.mean(off**2)) < 1.2
 
@@ -95,7 +105,24 @@ def test_another_level_is_expected_in_proportion(expecting, template):
     quiet = replace(template.noise, floor_m_s=0.0)
     a, b = (expecting.forecasts(m.further, quiet)[0] for m in (again, level))
     # With no floor everything goes with the level, its noise too.
-    assert b.mean == pytest.approx(a.mean, rel=1e-9)
+    rows = expecting.rows(level.part, len(level.further.at))
+    assert b.of(rows).mean == pytest.approx(a.of(rows).mean, rel=1e-9)
+
+
+def test_steps_between_those_that_were_made_are_expected_to_err_like_them(expecting, template):
+    again = one(template, "frequencies")
+    f, known = np.array(again.frequencies_hz), expecting.known[0].fitted
+    made = expecting.member.sweep.frequency_hz
+    assert np.abs(f[:, None] / made - 1).min(axis=1).max() > 1e-5
+    mean = expecting.forecasts(again.further, template.noise)[0].mean
+    v = SweepResponse(again.further.member, known.effects).with_derivatives(known.law, known.u)[0]
+    v = v[again.further.at]
+    sigma = np.hypot(template.noise.std_m_s(v, again.further.dwell_s), SHARE * np.abs(v))
+    # In the segments by what the first sweep showed of its own plate, in the gaps by nothing.
+    off = np.abs(mean[: len(f)] - (v.real / sigma)[: len(f)])
+    gaps = ~template.plain.known
+    assert np.abs(mean[: len(v)][gaps] - (v.real / sigma)[gaps]).max() < 1e-9
+    assert off.max() > 0.01
 
 
 def test_another_spot_tells_a_gain_from_a_shifted_spot_and_repeating_does_not(expecting, template, ranked):
@@ -104,7 +131,7 @@ def test_another_spot_tells_a_gain_from_a_shifted_spot_and_repeating_does_not(ex
     assert spot.probability_resolved > 0.8
     assert set(spot.between) == {"gain_error", "spot_offset"}
     assert "the same at every spot; an offset belongs to one spot" in spot.why
-    repeated = expecting.forecasts(one(template, "frequencies").further, template.noise)
+    repeated = read(expecting, template, one(template, "frequencies"))
     assert outcome(repeated, EVEN).between(0, 1) < 0.3 * spot.separation
     assert all(f.separation < 0.3 * spot.separation for f in ranked if f.kind == "bare_hammer")
 
@@ -145,7 +172,9 @@ def test_clamped_anew_each_clamp_is_another_one_by_what_mountings_differ(clamps)
     assert asked.of == [0, 0, 1]
     assert asked.probabilities.sum() == pytest.approx(1.0)
     template = Template.of(asked, SweepSettings())
-    anew = one(template, "clamping").further
+    at = np.arange(0, 240, 4)
+    dwell = dwell_seconds(asked.member.sweep.frequency_hz[at], SweepSettings())
+    anew = replace(one(template, "clamping").further, member=asked.member, at=at, dwell_s=dwell, like=None)
     kept = replace(anew, remounted=False)
     for known, new, same in zip(
         asked.known, asked.forecasts(anew, template.noise), asked.forecasts(kept, template.noise), strict=True
@@ -177,17 +206,22 @@ def uneven(clamps):
 def test_where_the_plate_twists_a_spot_beside_the_axis_tells_whether_a_clamp_is_uneven(uneven):
     asked = Expecting(uneven, 6)
     template = Template.of(asked, SweepSettings())
-    told = [
-        (m, outcome(asked.forecasts(m.further, template.noise), EVEN, of=asked.of).between(0, 1))
-        for m in template.measurable(None)
-    ]
+    told = []
+    for further, each in groupby(template.measurable(None), key=lambda m: m.further):
+        # Those with gaps see a twist that lies in one of them.
+        some = [m for m in each if m.kind in ("spot", "clamping") and "between" not in m.todo]
+        whole = asked.forecasts(further, template.noise) if some else []
+        for m in some:
+            rows = asked.rows(m.part, len(further.at))
+            told.append((m, outcome([f.of(rows) for f in whole], EVEN, of=asked.of).between(0, 1)))
     twist = [between for m, between in told if m.kind == "spot" and "twist" in m.todo]
     same = [between for m, between in told if m.kind == "spot" and "twist" not in m.todo]
     assert min(twist) > 3 * max(same)
-    # Clamped anew it is read there too, at the same steps and about the twist.
-    clamped = [(m, between) for m, between in told if m.kind == "clamping" and m.spot_m is not None]
-    assert all(len(m.frequencies_hz) == 100 and between > 3 * max(same) for m, between in clamped)
-    assert len(clamped) == 2
+    # Clamped anew it is read there too, by itself and with the same segments.
+    clamped = [(m, between) for m, between in told if m.kind == "clamping" and "twist" in m.todo]
+    assert {m.spot_m for m, _ in clamped} == {m.spot_m for m, _ in told if "twist" in m.todo}
+    assert {len(m.frequencies_hz) for m, _ in clamped} == {40, 100, 160}
+    assert all(between > 3 * max(same) for _, between in clamped)
 
 
 def test_what_the_group_just_leaves_out_is_asked_too(clamps):
@@ -209,15 +243,16 @@ def test_the_rigs_own_measurements_are_all_that_is_offered_where_nobody_is_there
 
 def test_no_level_beyond_the_rigs_limits_is_proposed(expecting):
     tight = SweepSettings(limits=Limits(base_m_s2=10.0))
-    levels = [m.level_g for m in Template.of(expecting, tight).measurable(None) if m.kind == "level"]
-    assert levels == [0.25, 0.5]
+    levels = [
+        m.level_g for m in Template.of(expecting, tight).measurable(None, hands=False) if m.kind == "level"
+    ]
+    assert sorted(set(levels)) == [0.25, 0.5]
 
 
 def test_between_the_segments_it_is_expected_what_the_fit_reads_there(expecting, template):
     sweep = expecting.member.sweep
-    new = [m for m in template.measurable(None) if m.segments[0] not in sweep.segment]
-    gaps = [m for m in new if m.spot_m is None]
-    assert {m.kind for m in gaps} == {"frequencies"}
+    asked = [m for m in template.measurable(None, hands=False) if m.kind == "frequencies"]
+    gaps = [m for m in asked if not set(m.segments) & set(sweep.segment)]
     assert [m.segments[0] for m in gaps] == [4, 5]
     for m in gaps:
         f = np.array(m.frequencies_hz)
@@ -225,8 +260,32 @@ def test_between_the_segments_it_is_expected_what_the_fit_reads_there(expecting,
         # The law that was fitted, solved there on the same plate: nothing interpolated.
         known = expecting.known[0].fitted
         here = SweepResponse(m.further.member, known.effects).with_derivatives(known.law, known.u)[0]
-        assert expecting.velocity_m_s(m.further) == pytest.approx(np.abs(here), rel=1e-12)
-        assert all(np.isfinite(one.mean).all() for one in expecting.forecasts(m.further, template.noise))
+        here = here[m.further.at[m.part]]
+        assert expecting.velocity_m_s(m.further)[m.part] == pytest.approx(np.abs(here), rel=1e-12)
+        assert all(np.isfinite(one.mean).all() for one in read(expecting, template, m))
+
+
+def test_what_the_rig_measures_alone_is_a_gap_or_the_segments_in_two_lengths_with_them_or_without(template):
+    asked = [m for m in template.measurable(None, hands=False) if m.kind == "frequencies"]
+    gaps = [len(m.segments) for m in asked if not {1, 2, 3} & set(m.segments)]
+    assert [len(m.segments) for m in asked] == [60, 120, *gaps, 60 + sum(gaps), 120 + sum(gaps)]
+    long, short = asked[1], asked[0]
+    assert long.seconds == pytest.approx(2 * short.seconds, rel=0.02)
+    assert "40 steps each" in long.todo
+
+
+def test_what_takes_longer_than_it_may_is_not_proposed(rivals, ranked):
+    most_s = 0.9 * of_kind(ranked, "level").seconds
+    short = rank_follow_ups(ambiguous(rivals), Possible(hands=False, most_s=most_s))
+    assert short
+    assert max(f.seconds for f in short) <= most_s
+
+
+def test_nothing_follows_the_last_that_may_be_made(rivals, ranked):
+    assert any(f.then for f in ranked if not f.needs_hands)
+    last = rank_follow_ups(ambiguous(rivals), Possible(hands=False, measurements=1))
+    assert last
+    assert not any(f.then for f in last)
 
 
 def test_velocities_at_a_spot_are_foreseen_and_one_that_is_too_fast_is_not_proposed(rivals, ranked):
@@ -275,7 +334,7 @@ def test_a_proposal_is_a_sweep_that_can_be_made(ranked):
     assert spot.needs_hands
     # About the first two resonances of twist.
     assert len(spot.frequencies_hz) == len(spot.segments) == 40
-    assert set(spot.segments) == {4, 5}
+    assert set(spot.segments) == {6, 7}
     assert spot.level_g == pytest.approx(1.0, rel=1e-3)
     assert f"({spot.spot_mm[0]:.0f}, {spot.spot_mm[1]:.0f}) mm" in spot.todo
     assert spot.seconds > HANDS_S["spot"]

@@ -39,6 +39,23 @@ def test_a_short_one_that_may_settle_it_comes_first_and_says_what_would_follow()
     assert (second.then, second.expected_s) == (None, pytest.approx(600.0))
 
 
+def test_the_last_measurement_that_may_be_made_is_judged_by_itself():
+    short, sure = asked("level", 100.0, 3.0), asked("bare_hammer", 660.0, 20.0)
+    assert kinds(best_courses([short, sure], RIVALS)) == ["level", "bare_hammer"]
+    last = best_courses([short, sure], RIVALS, measurements=1)
+    assert kinds(last) == ["bare_hammer", "level"]
+    assert [c.then for c in last] == [None, None]
+
+
+def test_of_one_kind_a_longer_one_is_kept_where_what_it_settles_is_worth_its_time():
+    short, long = asked("spot", 200.0, 3.0), asked("spot", 300.0, 4.0)
+    (only,) = best_courses([short, long], RIVALS)
+    assert only.first is long
+    hardly = asked("spot", 1500.0, 3.1)
+    (only,) = best_courses([short, hardly], RIVALS)
+    assert only.first is short
+
+
 def test_of_a_kind_the_best_alone_is_kept():
     near, far = asked("spot", 300.0, 2.0), asked("spot", 300.0, 6.0)
     (only,) = best_courses([near, far], RIVALS)

@@ -5,6 +5,7 @@ import os
 import signal
 import threading
 
+import numpy as np
 import pytest
 from diagnosis_cases import diagnosis
 from formula_rig import formula_rig
@@ -17,9 +18,11 @@ from instrument.cli.print_run import print_finished, run_result
 from instrument.cli.watching import said_of
 from instrument.errors import BadInput, RigStopped, StoppedByUser
 from instrument.facts.damping import DampingResult, ModeFound
+from instrument.files.experiment_file import DiagnosisTable
+from instrument.planning.follow_up import Possible
 from instrument.run.control import RunControl
 from instrument.run.experiment import run_experiment
-from instrument.run.live_diagnosis import apart, diagnose_points
+from instrument.run.live_diagnosis import able, apart, diagnose_points
 from instrument.run.replay import replay
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
@@ -37,7 +40,7 @@ def a_law(number, last_step, points, damping, specimen):
     return FitUpdated(number, last_step, identification())
 
 
-def times(number, last_step, points, times_s, damping, specimen, settings):
+def times(number, last_step, points, times_s, damping, specimen, possible):
     """Says what it was given."""
     given = {"times_s": list(times_s), "points": sum(p.step <= last_step for p in points)}
     return DiagnosisFound(number, last_step, None, json.dumps(given))
@@ -48,7 +51,7 @@ def told(found):
     return json.loads(found.message)
 
 
-def whole(number, last_step, points, times_s, damping, specimen, settings):
+def whole(number, last_step, points, times_s, damping, specimen, possible):
     return DiagnosisFound(number, last_step, diagnosis())
 
 
@@ -141,12 +144,19 @@ def test_why_none_was_possible_is_the_result(finished):
         specimen = file.configuration.the_specimen()
     damping = DampingFound(DampingResult(modes=[ModeFound(frequency_hz=17.7, damping_ratio=0.33)]))
     points = list(finished.points)
-    found = diagnose_points(
-        1, points[-1].step, points, [0.0] * len(points), damping, specimen, SweepSettings()
-    )
+    found = diagnose_points(1, points[-1].step, points, [0.0] * len(points), damping, specimen, Possible())
     assert found.result is None
     assert "damping_ratio" in found.message
     assert "\n" not in found.message
+
+
+def test_a_run_is_offered_what_it_still_allows_and_a_person_what_anybody_may():
+    settings = SweepSettings()
+    table = DiagnosisTable(follow_up="do", follow_up_at_most=2, follow_up_most_s=500.0)
+    possible = [able(table, settings, number) for number in (1, 2, 3)]
+    assert [p.measurements for p in possible] == [2, 1, 2]
+    assert [p.most_s for p in possible] == [500.0, 500.0, np.inf]
+    assert able(DiagnosisTable(), settings, 2) == Possible(settings)
 
 
 def test_a_failure_of_the_thread_is_raised_where_it_is_waited_for():
