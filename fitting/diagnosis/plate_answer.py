@@ -8,31 +8,12 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
+from fitting.diagnosis.pole_following import KnownPoles, Matrices
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisances import Nuisances
-
-_POLE_STEPS = 2
-"""Of Rayleigh's quotient, from the answer at the nearest node, which is nearly the mode."""
-_OFF = 1e-9
-"""Beside a pole, so that there is something to solve."""
-
-
-@dataclass(frozen=True)
-class ModulusNear:
-    """G* near some frequencies, off the real axis too: to first order."""
-
-    omega: Array
-    G: Complex
-    slope: Complex
-    """dG/d omega, Pa s."""
-
-    def at(self, p: Complex) -> Complex:
-        """At p near the frequency of the same place. Shape of `omega`."""
-        return np.asarray(self.G + self.slope * (p - self.omega))
 
 
 @dataclass(frozen=True)
@@ -61,10 +42,8 @@ class Asked:
     """Shape (nodes,)."""
     G: Complex
     change: Change
-    pole_node: NDArray[np.intp]
-    """A node near every pole that is wanted. Shape (poles,)."""
-    modulus: ModulusNear | None
-    """What is near them; None: no poles are wanted."""
+    poles: KnownPoles | None
+    """Those of the unchanged plate that are to be followed."""
     with_pitch: bool
 
     @property
@@ -74,7 +53,7 @@ class Asked:
         return [*found, self.plate.pitch] if self.with_pitch else found
 
     @cached_property
-    def matrices(self) -> tuple[Complex, Array, Array, Array]:
+    def matrices(self) -> Matrices:
         """K_0, K_1, M and C_1 as changed. Shape (k, k) each."""
         plate, change = self.plate, self.change
         C_1 = (plate.U * (plate.d * change.damping)) @ plate.U.T
@@ -82,12 +61,14 @@ class Asked:
 
     def alike(self, other: "Asked") -> bool:
         """Whether another asks for the same matrix at the same nodes, but for what drives and reads it."""
-        pairs = [(getattr(self, n), getattr(other, n)) for n in ("omega", "G", "pole_node")]
+        pairs = [(self.omega, other.omega), (self.G, other.G)]
         pairs += list(zip(self.matrices, other.matrices, strict=True))
+        if self.poles is None or other.poles is None:
+            followed = self.poles is other.poles
+        else:
+            followed = self.poles.alike(other.poles)
         return (
-            (self.modulus is None) == (other.modulus is None)
-            and self.with_pitch == other.with_pitch
-            and all(np.array_equal(a, b) for a, b in pairs)
+            followed and self.with_pitch == other.with_pitch and all(np.array_equal(a, b) for a, b in pairs)
         )
 
 
@@ -129,21 +110,7 @@ def _together(asked: Sequence[Asked]) -> list[Motions]:
         places.append([_place(row, each) for row in rows])
     solved = np.asarray(np.linalg.solve(A, np.stack(each, axis=2).astype(complex)), dtype=np.complex128)
     columns = [solved[:, :, n] for n in range(len(each))]
-    poles = np.empty(0, complex)
-    if one.modulus is not None and len(one.pole_node):
-        loaded = np.array([columns[n] for n in dict.fromkeys(at[0] for at in places)])[:, one.pole_node]
-        # Of several loads the one that stirs a mode most.
-        most = np.argmax(np.linalg.norm(loaded, axis=2), axis=0)
-        poles = poles_near(
-            K_0,
-            K_1,
-            M,
-            C_1,
-            loaded[most, np.arange(len(most))],
-            one.omega[one.pole_node].astype(complex),
-            one.modulus,
-            _POLE_STEPS,
-        )[0]
+    poles = one.poles.followed(one.matrices)[0] if one.poles else np.empty(0, complex)
     return [
         Motions(columns[at[0]], columns[at[1]], columns[at[2]] if one.with_pitch else None, poles)
         for at in places
@@ -165,17 +132,15 @@ def answer(
     G: Complex,
     change: Change,
     nearby: list[tuple[Change, Change, float]],
-    pole_node: NDArray[np.intp],
-    modulus: ModulusNear | None = None,
     *,
     with_pitch: bool,
     nuisances: tuple[Nuisances, Array] | None = None,
 ) -> PlateAnswer:
-    """Solve the nodes, and read. As `Asked` and `read_off` have it.
+    """Solve the nodes, and read; no poles are followed. As `Asked` and `read_off` have it.
 
-    Shape (nodes,) for `omega` and `G`, (poles,) for `pole_node`.
+    Shape (nodes,) for `omega` and `G`.
     """
-    asked = Asked(plate, omega, G, change, pole_node, modulus, with_pitch)
+    asked = Asked(plate, omega, G, change, None, with_pitch)
     return read_off(asked, motions([asked])[0], nearby, nuisances)
 
 
@@ -222,39 +187,6 @@ def _dynamic(K_0: Complex, K_1: Array, M: Array, C_1: Array, omega: Array, G: Co
     # One product: several times faster than sums of stacks of matrices.
     parts = np.stack([K_0, K_1, M, C_1]).astype(complex).reshape(4, -1)
     return np.asarray((factors @ parts).reshape(len(omega), *M.shape))
-
-
-def poles_near(
-    K_0: Complex,
-    K_1: Array,
-    M: Array,
-    C_1: Array,
-    y: Complex,
-    p: Complex,
-    modulus: ModulusNear,
-    steps: int,
-) -> tuple[Complex, Complex]:
-    """Poles p of (K_0 + G(p) K_1 + i p C_1 - p^2 M) y = 0 from guesses, by Rayleigh's quotient iteration.
-
-    Shapes (poles,) of `p` and (poles, k) of `y`; better ones are returned in this order.
-    """
-    for _ in range(steps):
-        K = _stiffness(K_0, K_1, C_1, p, modulus)
-        My = y @ M
-        square = _rayleigh(K, y, My)
-        turned = np.linalg.solve(K - (square * (1 + _OFF))[:, None, None] * M, My[:, :, None])[:, :, 0]
-        y = np.asarray(turned / np.linalg.norm(turned, axis=1)[:, None], dtype=complex)
-        p = np.asarray(np.sqrt(_rayleigh(K, y, y @ M)), dtype=np.complex128)
-    return np.asarray(np.sqrt(_rayleigh(_stiffness(K_0, K_1, C_1, p, modulus), y, y @ M))), y
-
-
-def _stiffness(K_0: Complex, K_1: Array, C_1: Array, p: Complex, modulus: ModulusNear) -> Complex:
-    G = modulus.at(p)
-    return np.asarray(K_0 + G[:, None, None] * K_1 + (1j * p)[:, None, None] * C_1)
-
-
-def _rayleigh(K: Complex, y: Complex, My: Complex) -> Complex:
-    return np.asarray(((K @ y[:, :, None])[:, :, 0] * y).sum(axis=1) / (y * My).sum(axis=1))
 
 
 def _between(up: Change, down: Change, per_step: float) -> Change:

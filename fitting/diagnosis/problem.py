@@ -7,8 +7,8 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.nodes import Nodes
-from fitting.diagnosis.plate_answer import ModulusNear
 from fitting.diagnosis.plate_poles import PlatePoles
+from fitting.diagnosis.pole_following import KnownPoles, ModulusNear
 from fitting.effects.base import Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.identification.adjusted import Adjusted, adjusted
@@ -43,16 +43,20 @@ class NodeGrid:
     poles: PlatePoles | None = None
     """Of the unchanged plate, as the nodes are made for them."""
 
-    def modulus_near_poles(self, G: Complex) -> ModulusNear:
-        """G* near every pole, from its values at the nodes. `G` of shape (nodes,)."""
-        at = self.nodes.pole_node
-        return ModulusNear(self.nodes.omega[at], G[at], self.nodes.slope(G))
+    def known_poles(self, G: Complex) -> KnownPoles | None:
+        """Those of the unchanged plate, the modulus given at the nodes. Shape (nodes,)."""
+        if self.poles is None or not len(self.nodes.poles):
+            return None
+        nodes, at = self.nodes, self.nodes.pole_node
+        modulus = ModulusNear(nodes.omega[at], G[at], nodes.slope(G))
+        return self.poles.known(nodes.poles, nodes.cluster[at], modulus)
 
     def unchanged_poles(self, G: Complex) -> Complex:
         """Of the unchanged plate under a modulus, given at the nodes. Shape (poles,), of `G` (nodes,)."""
-        if self.poles is None:
+        known = self.known_poles(G)
+        if self.poles is None or known is None:
             return self.nodes.poles
-        return self.poles.moved(self.nodes.poles, self.modulus_near_poles(G))
+        return known.followed(self.poles.matrices)[0]
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,7 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.channels import Channels
 from fitting.diagnosis.plate_answer import Asked, Motions, motions, read_off
+from fitting.diagnosis.plate_poles import PLAIN
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid
 from fitting.diagnosis.strains import Reference, Strains
 from fitting.diagnosis.unknowns import Unknowns, stepped
@@ -194,10 +195,10 @@ class SweepResponse:
         return known == key + b"d" or (known == key and not derivatives)
 
     def _asked(self, G: Complex, change: Change) -> Asked:
-        nodes = self.grid.nodes
-        modulus = self.grid.modulus_near_poles(G)
-        pitching = bool(self._pitching)
-        return Asked(self.plate, nodes.omega, G, change, nodes.pole_node, modulus, pitching)
+        known, own = self.grid.known_poles(G), self.plate.group == PLAIN
+        if known is not None:
+            known = known.on(own)
+        return Asked(self.plate, self.grid.nodes.omega, G, change, known, bool(self._pitching))
 
     def asked(self, law: CoreLaw, u: Array, *, derivatives: bool) -> Asked | None:
         """What has to be solved there; None: nothing. `u` of shape (unknowns,)."""

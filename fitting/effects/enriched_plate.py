@@ -36,6 +36,8 @@ _MOST_TAKEN = 12
 """Plates with some spans' columns that are kept. A bound on memory: one takes up to 6 MB."""
 _OVERLAP = 1e-6
 """Columns of two groups closer than this are one."""
+_APART = 0.01
+"""Columns at least as far from one another are left as they are."""
 
 
 @dataclass(frozen=True)
@@ -232,13 +234,19 @@ class EnrichedReducedPlate:
         return np.concatenate(X / np.linalg.norm(X, axis=1, keepdims=True), axis=1)
 
     def _independent(self) -> "EnrichedReducedPlate":
-        """On an orthonormal basis of the same motions: two spans may share some."""
-        values, vectors = la.eigh(self.gram)
-        kept = values > _OVERLAP
-        if kept.all() and values[0] > 0.01:
+        """Its own columns, and an orthonormal basis of what is beside them: two spans may share some."""
+        if la.eigvalsh(self.gram)[0] > _APART:
             return self
-        T = vectors[:, kept] / np.sqrt(values[kept])
-        return self._on(T, np.full(T.shape[1], "mixed"))
+        is_own = self.group == "plate"
+        own, rest = np.flatnonzero(is_own), np.flatnonzero(~is_own)
+        shared = -np.linalg.solve(self.gram[np.ix_(own, own)], self.gram[np.ix_(own, rest)])
+        values, vectors = la.eigh(self.gram[np.ix_(rest, rest)] + self.gram[np.ix_(rest, own)] @ shared)
+        kept = values > _OVERLAP
+        beside = vectors[:, kept] / np.sqrt(values[kept])
+        T = np.zeros((len(is_own), len(own) + beside.shape[1]))
+        T[own, np.arange(len(own))] = 1.0
+        T[own, len(own) :], T[rest, len(own) :] = shared @ beside, beside
+        return self._on(T, np.repeat(["plate", "mixed"], [len(own), beside.shape[1]]))
 
     def _on(self, T: Array, group: Names) -> "EnrichedReducedPlate":
         """On the combinations T of its columns. Shape (k, fewer)."""

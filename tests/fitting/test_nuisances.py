@@ -52,7 +52,7 @@ class Moved:
 
     def answer(self, z, **how):
         change = self.nuisances.change(self.spanned, z)
-        return answer(self.spanned, OMEGA, G, change, [], np.array([], int), with_pitch=False, **how)
+        return answer(self.spanned, OMEGA, G, change, [], with_pitch=False, **how)
 
     def anew(self, z):
         by = dict(zip([n.name for n in self.nuisances.each], z, strict=True))
@@ -112,7 +112,7 @@ def test_derivatives_agree_with_differences(moved, share, tolerance):
 
 def test_as_stated_nothing_is_changed(moved):
     z = np.zeros(len(moved.nuisances))
-    plain = answer(moved.spanned, OMEGA, G, Change(), [], np.array([], int), with_pitch=False)
+    plain = answer(moved.spanned, OMEGA, G, Change(), [], with_pitch=False)
     np.testing.assert_allclose(moved.answer(z).heave, plain.heave, rtol=1e-12)
     np.testing.assert_allclose(plain.heave, moved.reduced.displacement(OMEGA, G), rtol=1e-9)
 
@@ -209,7 +209,7 @@ def test_a_sweep_of_the_moved_plate_is_that_of_the_reduced_one_at_every_point(re
         z = np.random.default_rng(seed).normal(size=len(nuisances))
         omega = problem.points.omega
         change = nuisances.change(problem.plate, z)
-        x = answer(problem.plate, omega, law.modulus(omega), change, [], np.array([], int), with_pitch=False)
+        x = answer(problem.plate, omega, law.modulus(omega), change, [], with_pitch=False)
         expected = 1j * omega * problem.points.acceleration_m_s2 * x.heave
         expected = nuisances.reading(expected, omega, z)
         assert np.abs(response.velocity(law, z) / expected - 1).max() < 3e-4

@@ -57,7 +57,7 @@ class Full:
     def reduced(self, effect, u, *, pitch=False):
         plate = self.spanned.take(effect.spans)
         change = effect.change(plate, np.array(u))
-        found = answer(plate, OMEGA, G, change, [], np.array([], int), with_pitch=pitch)
+        found = answer(plate, OMEGA, G, change, [], with_pitch=pitch)
         return found.pitch if pitch else found.heave
 
 
@@ -140,7 +140,7 @@ def test_a_shifted_spot(full):
 
 def test_a_pitching_base(full):
     plate = full.spanned.take(CATALOGUE["base_rocking"].spans)
-    found = answer(plate, OMEGA, G, Change(), [], np.array([], int), with_pitch=True).pitch
+    found = answer(plate, OMEGA, G, Change(), [], with_pitch=True).pitch
     assert error(found, full.direct(pitch=True)) < 1e-5
 
 
@@ -152,8 +152,7 @@ def test_between_what_it_was_condensed_on_a_reading_is_off_by_a_hundred_thousand
     for _ in range(5):
         here = abs(G) * random.uniform(0.3, 3) * np.exp(1j * random.uniform(0.2, 1))
         found, expected = (
-            answer(p, OMEGA, here, Change(), [], np.array([], int), with_pitch=False).heave
-            for p in (fewer, plate)
+            answer(p, OMEGA, here, Change(), [], with_pitch=False).heave for p in (fewer, plate)
         )
         assert error(found, expected) < 1e-5
 
@@ -162,9 +161,7 @@ def test_condensing_keeps_the_answers_it_was_condensed_on(full):
     plate = full.spanned.take([])
     fewer = plate.condensed(OMEGA, G)
     assert len(fewer.group) < len(plate.group) / 2
-    found, expected = (
-        answer(p, OMEGA, G, Change(), [], np.array([], int), with_pitch=False).heave for p in (fewer, plate)
-    )
+    found, expected = (answer(p, OMEGA, G, Change(), [], with_pitch=False).heave for p in (fewer, plate))
     assert error(found, expected) < 1e-6
 
 

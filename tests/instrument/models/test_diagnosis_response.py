@@ -43,7 +43,7 @@ def at_every_point(problem, law, effect, u, G):
     plate = problem.plate.take(effect.spans)
     change = effect.change(plate, np.array(u))
     omega = problem.points.omega
-    x = answer(plate, omega, G, change, [], np.array([], int), with_pitch=False).heave
+    x = answer(plate, omega, G, change, [], with_pitch=False).heave
     return 1j * omega * problem.points.acceleration_m_s2 * x
 
 
