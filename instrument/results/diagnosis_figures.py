@@ -1,7 +1,6 @@
 """Figures of a diagnosis: residual before and after, evidence, law. Drawn from its result alone."""
 
 from collections.abc import Sequence
-from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -26,6 +25,7 @@ from instrument.results.drawing import (
     label,
     legend_above,
 )
+from instrument.results.standing import Standing, standing
 
 _MOST_BARS = 12
 _PARTS = (
@@ -34,7 +34,8 @@ _PARTS = (
     ("amplitude_percent", "amplitude", DATA, "o"),
 )
 _MOST_SEGMENTS = 5
-_NO_EFFECT, _OTHER = "#444444", "#9bb8d3"
+_OTHER = "#9bb8d3"
+_BAR_COLOURS: dict[Standing, str] = {"found": MARK, "equal": MODEL, "none": "#444444", "other": _OTHER}
 _BAR_NAMES = {MARK: "accepted", MODEL: "not to be told from it", _OTHER: "others"}
 
 
@@ -108,7 +109,7 @@ def evidence_figure(found: DiagnosisResult) -> Figure:
     shown += tuple(c for c in candidates[_MOST_BARS:] if c.name == "none")
     odds = dict(zip((c.name for c in candidates), log_odds(found), strict=True))
     gain = np.array([odds[c.name] for c in shown], dtype=float)
-    colours = [_bar_colour(c.name, found) for c in shown]
+    colours = [_BAR_COLOURS[standing(c.name, found)] for c in shown]
     figure = Figure(figsize=(WIDTH_IN, 1.4 + 0.3 * len(shown)), layout="constrained")
     ax = figure.subplots()
     ax.barh(np.arange(len(shown)), gain, color=colours)
@@ -131,16 +132,6 @@ def evidence_figure(found: DiagnosisResult) -> Figure:
     handles = [Patch(color=colour, label=name) for colour, name in _BAR_NAMES.items() if colour in colours]
     figure.legend(handles=handles, loc="outside upper center", ncols=4, fontsize=8, frameon=False)
     return figure
-
-
-def _bar_colour(name: str, found: DiagnosisResult) -> str:
-    if name == "none":
-        return _NO_EFFECT
-    groups = found.equivalent
-    together = set(name.split(" + "))
-    if groups and together == set(groups):
-        return MARK
-    return MODEL if any(together == set(names) for names in product(*groups.values())) else _OTHER
 
 
 def law_figure(found: DiagnosisResult) -> Figure:

@@ -3,7 +3,15 @@
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QSizePolicy, QVBoxLayout, QWidget
 
-from gui.pages.diagnosis.ranking import WORDS, CandidateRow, Decisions, Standing, about, group_words, ranked
+from gui.pages.diagnosis.ranking import (
+    WORDS,
+    CandidateRow,
+    Decisions,
+    RowStanding,
+    about,
+    group_words,
+    ranked,
+)
 from gui.tables import Cell, ReadTable
 from gui.theme import Role
 from gui.widgets import button
@@ -18,7 +26,7 @@ _COLUMNS = {
     "χ²/degree": "What is left, in units of noise and model error: 1 where nothing is",
     "parameters ± standard error": "Of the effect, as fitted with the law",
 }
-_ROLES: dict[Standing, Role] = {
+_ROLES: dict[RowStanding, Role] = {
     "found": "data",
     "equal": "model",
     "none": "faint",

@@ -2,17 +2,17 @@
 
 from dataclasses import dataclass
 from inspect import getdoc, getmodule
-from itertools import product
 from typing import Literal
 
 from fitting.effects import CATALOGUE
 from gui.rediagnosis import effects_of
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_words import log_odds, parameter_words, probability_words
+from instrument.results.standing import Standing, standing
 from instrument.results.typeset import typeset
 
-Standing = Literal["found", "equal", "none", "other", "not fitted"]
-WORDS: dict[Standing, str] = {
+RowStanding = Standing | Literal["not fitted"]
+WORDS: dict[RowStanding, str] = {
     "found": "found",
     "equal": "not told from it",
     "none": "no effect",
@@ -26,7 +26,7 @@ class CandidateRow:
     """A candidate."""
 
     name: str
-    standing: Standing
+    standing: RowStanding
     gain: float | None = None
     """Ln odds over the fit without any effect."""
     probability: str = "–"
@@ -47,7 +47,7 @@ def ranked(found: DiagnosisResult) -> list[CandidateRow]:
     rows = [
         CandidateRow(
             c.name,
-            _standing(c.name, found),
+            standing(c.name, found),
             gain,
             probability_words(c, found).replace("-", "–"),
             c.chi2_per_dof,
@@ -57,16 +57,6 @@ def ranked(found: DiagnosisResult) -> list[CandidateRow]:
     ]
     single = {row.name for row in rows}
     return rows + [CandidateRow(name, "not fitted") for name in sorted(CATALOGUE) if name not in single]
-
-
-def _standing(name: str, found: DiagnosisResult) -> Standing:
-    if name == "none":
-        return "none"
-    together, groups = set(effects_of([name])), found.equivalent
-    if groups and together == set(groups):
-        return "found"
-    equal = groups and any(together == set(names) for names in product(*groups.values()))
-    return "equal" if equal else "other"
 
 
 def group_words(found: DiagnosisResult) -> str:

@@ -169,8 +169,13 @@ def test_of_two_effects_together_one_alone_is_neither_accepted_nor_its_equal(res
     pair = {"added_mass": ["added_mass", "gain_error"], "spot_offset": ["spot_offset"]}
     names = ("added_mass + spot_offset", "gain_error + spot_offset", "added_mass", "spot_offset", "none")
     one = result.candidates[0]
-    candidates = [one.but(name=n, delta_bic=float(k), chi2_per_dof=None) for k, n in enumerate(names)]
-    (ax,) = evidence_figure(result.but(equivalent=pair, candidates=candidates)).axes
+    shares = (0.7, 0.27, 0.01, 0.01, 0.01)
+    candidates = [
+        one.but(name=n, delta_bic=float(k), chi2_per_dof=None, probability=p)
+        for k, (n, p) in enumerate(zip(names, shares, strict=True))
+    ]
+    found = result.but(verdict="ambiguous", equivalent=pair, candidates=candidates)
+    (ax,) = evidence_figure(found).axes
     first, second, third, fourth, _ = (bar.get_facecolor() for bar in ax.patches)
     assert len({first, second, third}) == 3
     assert third == fourth

@@ -1,0 +1,40 @@
+"""How each candidate of a diagnosis stands: found, not told from it, or other."""
+
+from itertools import product
+from math import isnan
+from typing import Literal
+
+from fitting.diagnosis.thresholds import VERDICT
+from instrument.facts.diagnosis import DiagnosisResult
+
+Standing = Literal["found", "equal", "none", "other"]
+
+
+def standing(name: str, found: DiagnosisResult) -> Standing:
+    """Of a candidate by its name; two effects have theirs joined by " + "."""
+    if name == "none":
+        return "none"
+    groups = found.equivalent
+    together = set(name.split(" + "))
+    if groups and together == set(groups):
+        return "found"
+    if not groups or found.verdict != "ambiguous":
+        return "other"
+    group = _group(found)
+    if group is None:
+        # Nothing was weighed: one stands for another, effect by effect.
+        return "equal" if any(together == set(names) for names in product(*groups.values())) else "other"
+    return "equal" if name in group else "other"
+
+
+def _group(found: DiagnosisResult) -> set[str] | None:
+    """The likeliest that hold 95 %; None without probabilities."""
+    if found.by_hand or any(isnan(c.probability) for c in found.candidates):
+        return None
+    names, total = set(), 0.0
+    for c in sorted(found.candidates, key=lambda c: -c.probability):
+        if total >= VERDICT.credible:
+            break
+        names.add(c.name)
+        total += c.probability
+    return names
