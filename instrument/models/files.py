@@ -30,7 +30,7 @@ class File:
     """As `instrument.models.set_up.set_up` takes it."""
 
 
-def spots_of(sweep: Sweep, specimen: AnySpecimen, name: str = "", number: int = 0) -> list[File]:
+def spots_of(sweep: Sweep, specimen: AnySpecimen, name: str = "", number: int = 1) -> list[File]:
     """A file's data, each of its spots for itself."""
     if sweep.pickup is None or not isinstance(specimen, Specimen):
         return [File(sweep, specimen, name, number)]

@@ -5,16 +5,12 @@ import pytest
 from conftest import DATA
 from impact_cases import clean_hit, noisy_hits
 from rivals import all_but
+from timeless import timeless
 
 import viscorig as vr
 from instrument.files.impact_csv import write_impact_csv
 
 COARSE, TABLE5 = DATA / "numbers" / "coarse.toml", vr.example_file("table5.csv")
-SECONDS = {"seconds", "setup_seconds", "validation_seconds"}
-
-
-def timeless(facts):
-    return {key: value for key, value in facts.items() if key not in SECONDS}
 
 
 @pytest.fixture(scope="module")
