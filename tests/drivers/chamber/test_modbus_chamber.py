@@ -3,7 +3,7 @@ import threading
 
 import pytest
 
-from drivers.chamber.interface import Chamber
+from drivers.chamber import Chamber
 from drivers.chamber.modbus import ModbusChamber
 from drivers.chamber.registers import TemperatureRegisters
 from drivers.errors import Garbled, Refused, Unreachable

@@ -10,7 +10,8 @@ from drivers.front_end import lan_xi_documents as documents
 from drivers.front_end.interface import InputChannel, ReadsMemories, Transducer
 from drivers.front_end.lan_xi import LanXiFrontEnd
 from drivers.front_end.lan_xi_documents import HEADROOM
-from drivers.simulated.lan_xi_server import Acquired, LanXiServer
+from drivers.simulated.lan_xi_measurement import Acquired
+from drivers.simulated.lan_xi_server import LanXiServer
 
 RATES = (4096, 65536, 131072)
 CHANNELS = tuple(InputChannel(k, f"input {k}", iepe=k == 1) for k in (1, 2, 3, 4))

@@ -3,7 +3,7 @@ import re
 import pytest
 
 from drivers.errors import Garbled, Refused
-from drivers.shaker.interface import Alarm, Shaker, ShakerStatus
+from drivers.shaker import Alarm, Shaker, ShakerStatus
 from drivers.shaker.modbus import ModbusShaker
 from drivers.shaker.register_map import DEFAULT
 
