@@ -161,18 +161,18 @@ def _equivalent(
 ) -> dict[str, tuple[str, ...]]:
     """For each effect of the best what stands in its place in others of the group."""
     found = {}
+    # What comes beside the best itself stands in no place of its.
+    beside = {n for scored, _ in group if set(best.names) < set(scored.names) for n in scored.names}
     for name in best.names:
         rest = set(best.names) - {name}
         names = [name]
         for scored, _ in group:
-            instead = set(scored.names) - rest
             if not scored.names:
                 names.append(NONE)
-            elif name not in instead and rest <= set(scored.names):
-                names += [n for n in scored.names if n in instead and n not in hidden]
-            elif name not in scored.names and not rest & set(scored.names):
-                # Another explanation altogether stands for all of it.
-                names += [n for n in scored.names if n not in hidden and n not in best.names]
+            elif name not in scored.names and (rest <= set(scored.names) or not rest & set(scored.names)):
+                # With the rest of the best, or another explanation altogether.
+                visible = [n for n in scored.names if n not in rest and n not in hidden]
+                names += [n for n in visible if n not in beside] or visible
         found[name] = tuple(dict.fromkeys(names))
     return found
 

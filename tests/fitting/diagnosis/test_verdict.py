@@ -123,6 +123,28 @@ def test_where_all_that_may_be_named_fail_nothing_is_accepted_and_the_nearest_is
     assert judged(POOR_NONE, *both).verdict == "unknown"
 
 
+def test_what_comes_beside_the_best_does_not_stand_for_it():
+    """More damping beside a clamp that yields and beside a clamp line: only the line stands for it."""
+    said = judged(
+        POOR_NONE,
+        scored("clamp_compliance", cost=0.0),
+        scored("clamp_compliance", "viscous_damping", cost=1.0),
+        scored("clamp_line", "viscous_damping", cost=2.0),
+    )
+    assert said.verdict == "ambiguous"
+    assert said.equivalent == {"clamp_compliance": ("clamp_compliance", "clamp_line")}
+
+
+def test_alone_it_does_stand_for_it():
+    said = judged(
+        POOR_NONE,
+        scored("clamp_compliance", cost=0.0),
+        scored("clamp_compliance", "viscous_damping", cost=1.0),
+        scored("viscous_damping", cost=2.0),
+    )
+    assert said.equivalent == {"clamp_compliance": ("clamp_compliance", "viscous_damping")}
+
+
 def test_one_of_the_group_that_passes_is_enough():
     every = scored("gain_error", cost=0.0, fails=True), scored("spot_offset", cost=1.0)
     said = judged(POOR_NONE, *every)
