@@ -1,4 +1,5 @@
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ from hypothesis import strategies as st
 
 from drivers.simulated.plant import air as lattice
 from fitting.air import air_factor, air_lowering, still_air
+from fitting.effects.air_added_mass import AirAddedMassEffect
 from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
 from fitting.plate import Plate
 from fitting.real_modes import real_modes
@@ -174,3 +176,19 @@ def test_bare_frequencies_fall_as_the_plate_in_air_says(bare, modes, still):
     np.testing.assert_allclose(fall - 1.5 * fall**2, exact, atol=3e-5)
     np.testing.assert_allclose(air_lowering(bare, modes, 2 * density)[:MODES], 2 * fall)
     assert not air_lowering(bare, modes, 0.0).any()
+
+
+def test_air_that_the_bare_plate_felt_too_lowers_its_modes_and_air_it_did_not_feel_none():
+    effect, by_density = AirAddedMassEffect(), np.array([0.02, 0.01, 0.004])
+    bare = SimpleNamespace(lowering_per_density=by_density)
+    assert not effect.bare_shift(bare, np.array([1.2, 0.0])).any()
+    # Twice the fall of ln f is the share of mass added: f goes with the root of 1 / (1 + that).
+    found = np.exp(effect.bare_shift(bare, np.array([1.2, 1.0])))
+    assert found == pytest.approx(1 / np.sqrt(1 + 2 * 1.2 * by_density))
+
+
+def test_the_air_s_mass_goes_with_its_density():
+    carried = SimpleNamespace(matrix={"air.M": np.eye(2)}.get, vector={"air.load": np.ones(2)}.get)
+    change = AirAddedMassEffect().change(carried, np.array([0.6, 0.0]))
+    assert np.array_equal(change.M, 0.6 * np.eye(2))
+    assert np.array_equal(change.load, 0.6 * np.ones(2))

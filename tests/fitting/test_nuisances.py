@@ -14,6 +14,7 @@ from fitting.domain import domain_of
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.mesh import Mesh
+from fitting.moved_plate import moved_plate
 from fitting.nuisances import nuisances_of
 from fitting.plate import Plate
 from fitting.rational import rational_sweep
@@ -108,6 +109,14 @@ def test_derivatives_agree_with_differences(moved, share, tolerance):
             continue
         allowed = 1e-6 + tolerance * np.abs(difference / size).max()
         np.testing.assert_allclose(by[k] / size, difference / size, atol=allowed, err_msg=n.name)
+
+
+def test_a_reduced_plate_is_moved_as_the_widened_one(moved):
+    z = next(moved.places())
+    again = moved_plate(moved.reduced, moved.nuisances, moved.spanned, z)
+    np.testing.assert_allclose(again.displacement(OMEGA, G), moved.answer(z).heave, rtol=1e-9)
+    same = moved_plate(moved.reduced, moved.nuisances, moved.spanned, 0 * z)
+    np.testing.assert_allclose(same.displacement(OMEGA, G), moved.reduced.displacement(OMEGA, G), rtol=1e-9)
 
 
 def test_as_stated_nothing_is_changed(moved):

@@ -1,10 +1,11 @@
 import numpy as np
 import pytest
 
-from fitting.effects import CATALOGUE
 from fitting.effects.base import Points
+from fitting.effects.base_rocking import BaseRockingEffect
+from fitting.effects.fixture_resonance import FixtureResonanceEffect
 
-FIXTURE = CATALOGUE["fixture_resonance"]
+FIXTURE = FixtureResonanceEffect()
 OMEGA = 2 * np.pi * np.array([20.0, 90.0, 100.0, 110.0, 300.0])
 F0, ZETA = 100.0, 0.02
 
@@ -44,3 +45,8 @@ def test_a_fixture_is_seen_where_points_make_its_peak_apart_from_the_plates(f0, 
     points = Points(omega, np.ones(21), np.arange(21.0), True, True, "relative")
     resonances = 2 * np.pi * np.array([plate])
     assert FIXTURE.shows(points, resonances, np.array([f0, zeta, 0.02, 0.0, 1.0])) == seen
+
+
+def test_far_below_its_resonance_a_fixture_rocks_in_proportion():
+    stiff = FIXTURE.pitch(OMEGA, np.array([1e6, ZETA, 0.05, 0.0, 0.0]))
+    assert stiff == pytest.approx(BaseRockingEffect().pitch(OMEGA, np.array([0.05])), rel=1e-4)

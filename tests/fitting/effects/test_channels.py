@@ -4,10 +4,12 @@ import numpy as np
 import pytest
 
 from fitting.effects import CATALOGUE, Points
+from fitting.effects.ac_coupling import AcCouplingEffect
 from fitting.effects.phase_scale import continuous_phase
 
 F = np.concatenate([np.linspace(19, 23, 21), np.linspace(92, 106, 31), np.linspace(270, 290, 21)])
-LOWPASS, HIGHPASS, PHASE = (CATALOGUE[n] for n in ("sensor_lowpass", "ac_coupling", "phase_scale"))
+LOWPASS, PHASE = (CATALOGUE[n] for n in ("sensor_lowpass", "phase_scale"))
+HIGHPASS = AcCouplingEffect()
 
 
 def points(f=F):

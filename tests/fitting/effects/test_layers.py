@@ -7,15 +7,19 @@ import pytest
 import scipy.sparse as sp
 
 from fitting.effects import CATALOGUE
+from fitting.effects.clamp_line import ClampLineEffect
+from fitting.effects.constraining_stiffness import ConstrainingStiffnessEffect
+from fitting.effects.constraining_thickness import ConstrainingThicknessEffect, with_layer
 from fitting.effects.graded_core import GradedCoreEffect
 from fitting.effects.orthotropic_substrate import plane_stress, sheet, substrate_stiffness
+from fitting.effects.other_plates import changed_to, mixed
 from fitting.element import DOFS, THETA_Y, U_B, V_B, Shape, core_shear, face_stiffness
 from fitting.plate import Plate
 from fitting.specimen import Face
 
 ORTHOTROPIC, GRADED = CATALOGUE["orthotropic_substrate"], CATALOGUE["graded_core"]
-STIFFNESS, THICKNESS = CATALOGUE["constraining_stiffness"], CATALOGUE["constraining_thickness"]
-LENGTH = CATALOGUE["clamp_line"]
+STIFFNESS, THICKNESS = ConstrainingStiffnessEffect(), ConstrainingThicknessEffect()
+LENGTH = ClampLineEffect()
 
 
 def test_one_modulus_both_ways_is_the_plain_substrate(full):
@@ -92,6 +96,20 @@ def test_another_constraining_layer(full, scale):
     layer = full.specimen.constraining
     other = replace(full.specimen, constraining=replace(layer, thickness_m=scale * layer.thickness_m))
     assert full.error(THICKNESS, [scale], loose=Plate(replace(other, boundary="free"))) < 5e-4
+
+
+def test_another_plate_differs_in_the_parts_that_it_changes(full):
+    change = changed_to(full.spanned, with_layer(full.specimen, 1.1))
+    assert all(np.any(part) for part in (change.K, change.K_1, change.M, change.load))
+    same = changed_to(full.spanned, full.specimen)
+    assert not any(np.any(part) for part in (same.K, same.K_1, same.M, same.load))
+
+
+def test_parts_are_mixed_and_real_ones_stay_so():
+    parts = np.arange(12.0).reshape(3, 2, 2)
+    assert np.array_equal(mixed(np.array([2.0, 0.0, -1.0]), parts), 2 * parts[0] - parts[2])
+    assert np.isrealobj(mixed(np.array([2.0 + 0j, 0, 0]), parts))
+    assert np.array_equal(mixed(np.array([0, 1j, 0]), parts), 1j * parts[1])
 
 
 @pytest.mark.parametrize("too", [0.0, 1.0])

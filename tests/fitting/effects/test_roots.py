@@ -4,10 +4,12 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from fitting.effects import CATALOGUE
+from fitting.effects.released_root import along_root, root_dofs
+from fitting.effects.treatment_not_gripped import TreatmentNotGrippedEffect
+from fitting.effects.uneven_clamp import UnevenClampEffect
 from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
 
-FREE_TREATMENT, UNEVEN = CATALOGUE["treatment_not_gripped"], CATALOGUE["uneven_clamp"]
+FREE_TREATMENT, UNEVEN = TreatmentNotGrippedEffect(), UnevenClampEffect()
 
 
 def root_of(full, *dofs):
@@ -25,6 +27,18 @@ def line(full, weight=lambda t: 1.0):
             N = np.array([1 - s, s])
             found[j : j + 2, j : j + 2] += weight((j + s) / count) * p * b * np.outer(N, N)
     return found
+
+
+@pytest.mark.parametrize("weight", [lambda t: 1.0, lambda t: 2 * t - 1])
+def test_springs_along_the_root_are_the_integral_of_its_shape_functions(full, weight):
+    nodes = np.linspace(0, 1, full.specimen.mesh[1] + 1)
+    found = along_root(full.full, np.array([weight(t) for t in nodes])).toarray()
+    np.testing.assert_allclose(found, line(full, weight), atol=1e-12 * full.specimen.width_m)
+
+
+def test_the_root_s_motions_are_found_among_those_of_the_loose_plate(full):
+    assert np.array_equal(root_dofs(full.full, (W, U_C)), full.loose.free[root_of(full, W, U_C).ravel()])
+    assert not set(root_dofs(full.full, (W, U_C))) & set(full.clamped)
 
 
 @pytest.mark.parametrize("k", [1e6, 1e8, 5e8, 1e10])

@@ -2,6 +2,7 @@
 
 import pickle
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,10 +13,15 @@ from fitting.damping import viscous_damping
 from fitting.diagnosis.plate_answer import answer
 from fitting.domain import domain_of
 from fitting.effects import CATALOGUE, Change, all_spans
+from fitting.effects.base_rocking import BaseRockingEffect
 from fitting.effects.clamp_compliance import root_springs
+from fitting.effects.clamp_friction import ClampFrictionEffect
 from fitting.effects.enriching import enriched
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.partial_debond import LEFT, PartialDebondEffect, strips
+from fitting.effects.span import Span
+from fitting.effects.spot_offset import SpotOffsetEffect
+from fitting.effects.viscous_damping import ViscousDampingEffect
 from fitting.plate import Plate
 from fitting.reduced import reduce_plate
 from instrument.files.specimen_file import read_specimen
@@ -77,6 +83,21 @@ def test_a_yielding_root(full):
         assert error(full.reduced(CATALOGUE["clamp_compliance"], [k]), expected) < 5e-4
 
 
+def test_a_yielding_root_that_rubs(full):
+    S, (k, loss) = {axis: root_springs(full.full, axis) for axis in "xyz"}, (3e13, 0.2)
+    expected = full.direct(root=k * (1 + 1j * loss) * (S["x"] + S["z"]) + RIGID_N_M3 * S["y"])
+    assert error(full.reduced(ClampFrictionEffect(), [k, loss]), expected) < 5e-4
+
+
+def test_a_span_that_says_nothing_adds_no_motion(full):
+    span, answers = Span(), np.ones((full.full.loose.size, 1))
+    at = SimpleNamespace(x=answers[:, 0])
+    assert span.forces(full.full, at).shape == (full.full.loose.size, 0)
+    assert span.responses(full.full, at, answers) is answers
+    assert not span.matrices(full.full)
+    assert not span.vectors(full.full)
+
+
 def test_a_rigid_root_is_the_clamp(full):
     assert error(full.reduced(CATALOGUE["clamp_compliance"], [1e18]), full.direct()) < 1e-5
 
@@ -129,17 +150,17 @@ def test_a_strip_at_an_edge_is_the_one_that_ends_there(full, along):
 
 def test_more_viscous_damping(full):
     expected = full.direct(damping=2.5)
-    assert error(full.reduced(CATALOGUE["viscous_damping"], [2.5]), expected) < 1e-6
+    assert error(full.reduced(ViscousDampingEffect(), [2.5]), expected) < 1e-6
 
 
 def test_a_shifted_spot(full):
     x, y = full.full.pickup_m
     expected = full.direct(row=full.full.loose.observe(x + 8e-3, y - 5e-3))
-    assert error(full.reduced(CATALOGUE["spot_offset"], [8e-3, -5e-3]), expected) < 1e-5
+    assert error(full.reduced(SpotOffsetEffect(), [8e-3, -5e-3]), expected) < 1e-5
 
 
 def test_a_pitching_base(full):
-    plate = full.spanned.take(CATALOGUE["base_rocking"].spans)
+    plate = full.spanned.take(BaseRockingEffect.spans)
     found = answer(plate, OMEGA, G, Change(), [], with_pitch=True).pitch
     assert error(found, full.direct(pitch=True)) < 1e-5
 

@@ -1,0 +1,83 @@
+"""Effects that a reading, a reference or the time shows: what they make of a sweep."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fitting.effects.absolute_velocity import AbsoluteVelocityEffect
+from fitting.effects.base import ModulusAt, Points
+from fitting.effects.level_error import LevelErrorEffect
+from fitting.effects.mains_hum import MainsHumEffect
+from fitting.effects.temperature_drift import C_1, C_2_K, TemperatureDriftEffect
+from fitting.laws.fractional_zener import FractionalZener
+from fitting.noise import noise_of
+from fitting.sweep import Sweep
+
+LAW = FractionalZener(g0_pa=0.27e6, ginf_pa=4.1e6, tau_s=1.21e-4, alpha=0.83)
+OMEGA = 2 * np.pi * np.array([20.0, 90.0, 300.0])
+
+
+def points(time_s, *, reads="relative", timed=True):
+    n = len(time_s)
+    return Points(np.resize(OMEGA, n), np.full(n, 9.81), np.asarray(time_s, float), timed, True, reads)
+
+
+def sweep(level=1.0, hum_m_s=0.0):
+    """Sixty points about 50 and 100 Hz, the reference `level` times the command."""
+    f = np.concatenate([np.linspace(46, 56, 30), np.linspace(95, 106, 30)])
+    rng = np.random.default_rng(5)
+    scatter = 1 + 1e-3 * (rng.standard_normal(60) + 1j * rng.standard_normal(60))
+    v = (0.02 + 0.01j) * (f / 50) * scatter
+    for mains in (50.0, 100.0):
+        v = v + hum_m_s * np.sinc(f - mains)
+    one = np.ones(60, dtype=np.intp)
+    return Sweep(f, v, np.full(60, 9.81), np.repeat([1, 2], 30), one, base_m_s2=9.81 * level * scatter)
+
+
+def test_a_plate_that_moves_with_its_base_reads_the_base_s_velocity():
+    read = AbsoluteVelocityEffect().reading(np.zeros(3, complex), points([0, 1, 2]), np.empty(0))
+    assert 1j * OMEGA * read == pytest.approx(np.full(3, 9.81))
+
+
+def test_data_that_are_absolute_cannot_be_so_by_mistake():
+    effect = AbsoluteVelocityEffect()
+    assert effect.objection(points([0, 1, 2], reads="absolute"), None)
+    assert effect.objection(points([0, 1, 2]), None) is None
+
+
+def test_a_core_warms_from_what_the_law_says_to_shorter_times():
+    at = points([0.0, 0.0, 0.0]), points([1e6, 1e6, 1e6])
+    begun, ended = (
+        TemperatureDriftEffect().modulus(ModulusAt(LAW, p, None), p, np.array([10.0, 600.0])) for p in at
+    )
+    assert begun == pytest.approx(LAW.modulus(OMEGA))
+    shorter = 10 ** (-C_1 * 10 / (C_2_K + 10))
+    assert ended == pytest.approx(replace(LAW, tau_s=shorter * LAW.tau_s).modulus(OMEGA))
+    assert (np.abs(ended) < np.abs(begun)).all()
+
+
+def test_a_drift_is_not_judged_by_many_points_without_time():
+    effect, many = TemperatureDriftEffect(), np.arange(31.0)
+    assert effect.objection(points(many, timed=False), None)
+    assert effect.objection(points(many), None) is None
+    assert effect.objection(points(many[:30], timed=False), None) is None
+
+
+def test_a_level_off_the_command_is_seen_in_the_reference_and_spoils_no_point():
+    found = LevelErrorEffect().seen(sweep(level=0.9), None)
+    factor, error, unit = found.values["factor"]
+    assert factor == pytest.approx(0.9, abs=5 * error)
+    assert unit == "1"
+    assert not found.aside.any()
+    assert LevelErrorEffect().seen(sweep(), None) is None
+
+
+def test_the_points_that_hum_are_set_aside():
+    humming = sweep(hum_m_s=5e-3)
+    found = MainsHumEffect().seen(humming, noise_of(humming))
+    assert found.values["mains"][0] == 50.0
+    off_hz = np.abs(humming.frequency_hz - 50 * np.round(humming.frequency_hz / 50))
+    assert found.aside[off_hz < 0.3].all()
+    assert not found.aside[off_hz > 2.5].any()
+    assert MainsHumEffect().seen(sweep(), noise_of(sweep())) is None
