@@ -1,0 +1,52 @@
+"""Laws of several sweeps, nodes at every point, and poles near a range."""
+
+import numpy as np
+import pytest
+import scipy.linalg as la
+from shear_pair_cases import pair
+
+from fitting.diagnosis.every_point import EveryPoint
+from fitting.diagnosis.member_laws import by_all, law_at
+from fitting.diagnosis.plate_poles import PlatePoles
+from fitting.laws.constant import ConstantModulus
+from fitting.structures.small import system_of
+from fitting.structures.small_modes import small_modes
+from fitting.temperature.one_law import OwnLaws
+
+SOFT, HARD = ConstantModulus(1e6, 0.5), ConstantModulus(4e6, 0.2)
+OMEGA = 2 * np.pi * np.array([10.0, 20.0, 40.0])
+
+
+def test_where_nothing_is_interpolated_what_is_solved_comes_back():
+    nodes, values = EveryPoint.at(OMEGA), np.array([[1.0, 2j, 3.0], [0.0, 1.0, 1j]])
+    assert nodes.spread(values, values, values) is values
+    assert nodes.around(lambda low, high: np.array([30.0 + 1j])) is nodes
+    assert np.array_equal(nodes.omega, OMEGA)
+
+
+def test_each_sweep_has_its_own_law_and_all_have_one_modulus_in_a_row():
+    both = OwnLaws((SOFT, HARD), (2, 1))
+    assert law_at(both, 1).modulus(OMEGA) == pytest.approx(HARD.modulus(OMEGA))
+    assert law_at(SOFT, 1) is SOFT
+    assert both.modulus(OMEGA) == pytest.approx(np.append(SOFT.modulus(OMEGA[:2]), HARD.modulus(OMEGA[2:])))
+
+
+def test_derivatives_of_one_sweep_are_none_to_the_other_s_parameters():
+    both, dv = OwnLaws((SOFT, HARD), (2, 1)), np.array([[1.0 + 1j], [2.0]])
+    assert by_all(both, 1, dv)[:, 0] == pytest.approx([0, 0, 1 + 1j, 2])
+    assert by_all(SOFT, 1, dv) is dv
+
+
+def test_poles_of_a_pad_are_its_modes():
+    specimen = pair(0.2)
+    system = system_of(specimen, specimen.parts())
+    (mode,) = small_modes(specimen, SOFT, 1)
+    expected = np.sqrt(mode.eigenvalue)
+    poles = PlatePoles(system, SOFT)
+    found = poles.near(0.8 * expected.real, 1.2 * expected.real)
+    assert np.abs(found / expected - 1).min() < 1e-9
+    assert poles.near(0.8 * expected.real, 1.2 * expected.real) is found
+    K_0, K_1, M, _ = poles.matrices
+    every = np.sqrt(la.eigvals(K_0 + SOFT.modulus(np.ones(1))[0] * K_1, M))
+    far = poles.near(1e-3 * every.real.min(), 2e-3 * every.real.min())
+    assert not len(far)

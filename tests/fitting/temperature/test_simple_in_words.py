@@ -1,0 +1,99 @@
+"""When one law serves, when a cause is looked for, and which causes may be one of all sweeps."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from temperature_cases import LAW
+
+from fitting.effects import CATALOGUE
+from fitting.temperature.causes import REFUSED, common, explains
+from fitting.temperature.shifted_law import ShiftedLaw
+from fitting.temperature.simple import in_doubt, judge, serving
+
+T = np.array([5.0, 20.0])
+
+
+def fit(p=0.4, own=1.0, *, noise_known=True, off=1.0):
+    """Of two temperatures; at the second the loss factor is `off` times the joint law's."""
+
+    def of_its_own(k):
+        law = ShiftedLaw(LAW, a=(4.0, 1.0)[k])
+
+        def storage_and_loss(omega):
+            G, eta = law.storage_and_loss(omega)
+            return G, eta * (1.0, off)[k]
+
+        return SimpleNamespace(storage_and_loss=storage_and_loss)
+
+    return SimpleNamespace(
+        p_value=p,
+        own=SimpleNamespace(chi2_per_dof=own),
+        noise_known=noise_known,
+        chi2=110.0,
+        chi2_own=100.0,
+        degrees=4.0,
+        law=LAW,
+        own_law=of_its_own,
+        log_shift=np.log([4.0, 1.0]),
+        log_vertical=np.zeros(2),
+        bands_hz=[(14.0, 300.0)] * 2,
+        shift=SimpleNamespace(kind="wlf", temperature_c=T),
+    )
+
+
+def cause(name, cost, *, serves=True, p=0.5):
+    effect = CATALOGUE[name]
+    one = SimpleNamespace(of=lambda e: np.array([q.typical for q in e.parameters]))
+    its = fit(p=p)
+    its.one = one
+    return SimpleNamespace(effect=effect, fit=its, cost=cost, serves=serves)
+
+
+def test_one_law_that_leaves_noise_is_simple_and_its_wicket_is_one_curve():
+    said = judge(fit())
+    assert said.simple is True
+    assert said.wicket_percent < 0.1
+    assert not in_doubt(fit())
+
+
+def test_one_law_that_is_refused_is_not_and_says_by_how_much_and_where():
+    said = judge(fit(p=REFUSED / 2, off=1.2))
+    assert said.simple is False
+    assert (said.wicket_percent, said.wicket_at_c) == (pytest.approx(20.0, abs=0.1), 20.0)
+    assert "differs by up to 20 % at 20 degC" in said.words
+    assert "try --shift free" in said.words
+
+
+def test_without_noise_and_without_any_law_nothing_is_told():
+    assert judge(fit(p=0.0, noise_known=False)).simple is None
+    assert not in_doubt(fit(p=0.0, noise_known=False))
+    unfit = judge(fit(p=0.0, own=50.0))
+    assert unfit.simple is None
+    assert "not even a law for each temperature" in unfit.words
+
+
+def test_a_cause_beside_which_one_law_serves_is_named_with_what_is_as_good():
+    causes = [cause("gain_error", 10.0), cause("channel_delay", 14.0), cause("spot_offset", 40.0)]
+    assert [c.effect.name for c in serving(causes)] == ["gain_error", "channel_delay"]
+    said = judge(fit(p=0.0), causes)
+    assert said.simple is None
+    assert causes[0].effect.discriminating_test in said.words
+    assert said.p_value == 0.5
+    assert judge(fit(p=0.0, own=50.0), causes).simple is True
+
+
+def test_a_cause_that_cannot_serve_is_no_excuse():
+    poor = [cause("gain_error", 10.0, serves=False, p=1e-5)]
+    assert judge(fit(p=0.0), poor).simple is False
+    beside = judge(fit(p=0.0, own=50.0), poor)
+    assert beside.simple is False
+    assert beside.p_value == 1e-5
+
+
+def test_causes_of_all_sweeps_are_the_plate_s_and_the_rig_s_not_the_core_s_nor_time_s():
+    names = {e.name for e in common(list(CATALOGUE.values()))}
+    assert {"gain_error", "spot_offset", "clamp_compliance"} <= names
+    assert not {"core_law", "temperature_drift", "mains_hum", "absolute_velocity"} & names
+    assert explains(fit(own=1.0))
+    assert not explains(fit(own=50.0))
