@@ -1,0 +1,136 @@
+"""The sections of a report, one by one, of a session made by hand."""
+
+import base64
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+from session_cases import GAIN
+
+from instrument.interchange.point_table import columns
+from instrument.interchange.read_session import read_session
+from instrument.report.blocks import Picture, Sentence, TableBlock
+from instrument.report.calibration import calibration_section
+from instrument.report.ending import ending_section, missing_parts
+from instrument.report.fitted import ReportedFit
+from instrument.report.hammer import hammer_section
+from instrument.report.picture import as_svg
+from instrument.report.sweep import sweep_section
+from instrument.report.sweep_figures import quality_figure
+from instrument.session.contents import contents_of
+from instrument.session.storage import SessionFile
+from instrument.stream.raw import SessionEnded
+
+
+@pytest.fixture(scope="module")
+def contents(session_path):
+    with SessionFile(session_path) as file:
+        return contents_of(file)
+
+
+def blocks(section, kind):
+    return [block for block in section.blocks if isinstance(block, kind)]
+
+
+HIT_SHORT = "The hammer test has 2 good hits of 3 asked for."
+
+
+def test_a_double_hit_is_missing_and_without_a_hammer_test_nothing_is(contents):
+    assert missing_parts(contents) == [HIT_SHORT]
+    config = contents.configuration
+    asked = config.model_copy(update={"experiment": config.experiment.model_copy(update={"hammer": None})})
+    first, second = blocks(ending_section(replace(contents, configuration=asked)), Sentence)
+    assert first.text == "The run came to its planned end."
+    assert second.text == "Everything the experiment asked for was measured."
+
+
+def test_each_way_to_end_has_its_sentence(contents):
+    def first(ended):
+        return ending_section(replace(contents, ended=ended)).blocks[0].text
+
+    assert first(None).startswith("The recording stops without an end")
+    assert first(SessionEnded("stopped by the user", "")) == "The user stopped the run."
+    assert first(SessionEnded("stopped safely", "too hot")) == "The rig stopped itself: too hot"
+
+
+def test_what_was_not_measured_is_said_part_by_part(contents):
+    bare = replace(contents, hits=[], calibrations={}, segments={})
+    assert missing_parts(bare) == [
+        "No hammer test was made.",
+        "The vibrometer was not calibrated in place.",
+        "No sweep was made.",
+    ]
+    key = next(iter(contents.segments))
+    cut = {**contents.segments, key: replace(contents.segments[key], ended=False)}
+    short, said = missing_parts(replace(contents, segments=cut))
+    assert short == HIT_SHORT
+    assert said.startswith(f"Segment {key[1]} of sweep {key[0]} is not complete: ")
+    del cut[key]
+    assert missing_parts(replace(contents, segments=cut)) == [
+        HIT_SHORT,
+        f"Segment {key[1]} of sweep {key[0]} was not begun.",
+    ]
+
+
+def test_a_calibration_is_a_row_a_range_and_nothing_is_left_of_its_points(contents):
+    section = calibration_section(contents)
+    (table,), (picture,) = blocks(section, TableBlock), blocks(section, Picture)
+    assert [row[0] for row in table.rows] == list(contents.calibrations)
+    assert float(table.rows[0][1].split()[0]) == pytest.approx(GAIN, rel=0.01)
+    gain, _ = picture.figure.axes
+    for line in gain.lines[: len(contents.calibrations)]:
+        assert np.abs(line.get_ydata()).max() < 1.0
+    none = calibration_section(replace(contents, calibrations={}))
+    assert "not calibrated in place" in none.blocks[0].text
+
+
+def test_a_hit_left_out_says_why_and_the_run_had_found_the_same(contents):
+    section = hammer_section(contents)
+    hits, modes = blocks(section, TableBlock)
+    assert len(hits.rows) == len(contents.hits)
+    assert len(modes.rows) == len(contents.damping.result.modes)
+    said = [block.text for block in blocks(section, Sentence)]
+    assert "The run itself had found the same from these hits." in said
+    none = hammer_section(replace(contents, hits=[]))
+    assert none.blocks[0].text == "There is no hammer test in this session."
+
+
+def test_a_page_without_a_fit_says_so_and_draws_what_was_measured(contents):
+    section = sweep_section(contents, ReportedFit(None, "no law"))
+    pictures = blocks(section, Picture)
+    assert "no model is drawn, as there is no fit" in pictures[0].title
+    assert ReportedFit(None).over_base(np.array([20.0])) is None
+    assert len(blocks(section, TableBlock)[-1].rows) == len(contents.measured)
+    empty = sweep_section(replace(contents, points=[]), ReportedFit(None))
+    assert empty.blocks[0].text == "There is no point of a sweep in this session."
+
+
+def test_quality_is_drawn_point_after_point(contents):
+    _, control, _, _ = quality_figure(contents).axes
+    drawn = control.lines[0]
+    assert drawn.get_xdata().tolist() == [p.step for p in contents.measured]
+    assert drawn.get_ydata() == pytest.approx([p.control_error_percent for p in contents.measured])
+
+
+def test_a_picture_is_the_same_bytes_for_the_same_figure():
+    def made(y):
+        figure = Figure(figsize=(1, 1))
+        figure.add_axes((0, 0, 1, y)).set_axis_off()
+        figure.axes[0].plot([0, 1])
+        return as_svg(figure)
+
+    head, _, body = made(1).partition(",")
+    assert head == "data:image/svg+xml;base64"
+    assert b"<svg" in base64.b64decode(body)
+    assert made(1) == made(1) != made(0.5)
+
+
+def test_what_is_exported_and_read_beside_is_what_was_measured(contents, session_path):
+    by_name = {c.name: c for c in columns(contents)}
+    assert len(by_name["frequency_hz"].values) == len(contents.points)
+    assert by_name["frequency_hz"].unit == "Hz"
+    (beside,) = read_session(session_path).sweeps
+    steps = [t.point for t in contents.points if t.point.purpose == "step"]
+    assert beside["frequency_hz"].tolist() == [p.frequency_hz for p in steps]
+    assert beside["velocity_im_m_s"].tolist() == [p.velocity_m_s.imag for p in steps]
