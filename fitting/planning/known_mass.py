@@ -18,7 +18,6 @@ class KnownMass(AddedMassEffect):
         """Standard deviations: `relative_error` of the mass, `off_m` of each coordinate of its place."""
         self.values: Array = np.array([mass_kg, *at_m])
         self.off_m = off_m
-        self.off_m = off_m
         self.sigma_kg = relative_error * mass_kg
         mass, x, y = AddedMassEffect.parameters
         self.parameters = (
