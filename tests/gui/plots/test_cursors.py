@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from gui.plots import Axis, Plot
+from gui.plots.cursors import Cursors
 from gui.theme import DARK
 
 
@@ -65,3 +66,15 @@ def test_cursors_leave_the_axes_and_go_with_them(made):
     plot.cursors.paint(DARK)
     plot.show_axes(Axis("time", "s"), Axis("velocity", "m/s"))
     assert (plot.cursors.text, plot.cursors.x) == ("", [])
+
+
+def test_between_points_only_a_curve_that_reaches_over_both_places_is_read(made):
+    plot = made()
+    cursors = Cursors(plot)
+    cursors.choose("delta")
+    cursors.move(0, 10.5)
+    cursors.move(1, 11.5)
+    assert "model: 21 and 23" in cursors.text
+    plot.keep(["few"])
+    cursors.move(1, 11.75)
+    assert "few: 10.5 and 11.75" in cursors.text

@@ -1,0 +1,94 @@
+"""The widgets that draw a law and a diagnosis, each alone."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from diagnosis_cases import diagnosis
+
+from gui.pages.diagnosis.candidates import Candidates
+from gui.pages.diagnosis.comparison import HeldOutBars, LawChange
+from gui.pages.diagnosis.finding import Finding, headline
+from gui.pages.diagnosis.ranking import ranked
+from gui.pages.diagnosis.residual_plots import ResidualPlots
+from gui.pages.diagnosis.stages import compared
+from gui.pages.law.curve import LawCurve
+from gui.pages.law.plots import LawLine, LawPlots
+from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
+
+
+@pytest.fixture
+def made(qtbot, appearance):
+    def make(widget):
+        qtbot.addWidget(widget)
+        return widget
+
+    return make
+
+
+def test_the_shaded_band_is_as_wide_as_chosen(made):
+    f = np.array([10.0, 20.0])
+    curve = LawCurve(f, np.array([2.0, 3.0]), np.full(2, 0.1), np.array([0.5, 0.6]), np.full(2, np.nan))
+    plots = made(LawPlots())
+    plots.show_lines([LawLine("fit", curve, "data")])
+    assert plots.names == ("fit",)
+    np.testing.assert_allclose(plots.storage.curves["fit"], [f, [2.0, 3.0]])
+    narrow = plots.storage.columns()
+    plots.bands.setCurrentIndex(1)
+    wide = plots.storage.columns()
+    changed = [np.ptp([narrow[k], wide[k]], axis=0) for k in narrow if not np.array_equal(narrow[k], wide[k])]
+    assert len(changed) == 2
+    np.testing.assert_allclose(changed, 0.096)
+    plots.show_lines([])
+    assert list(plots.storage.names) == []
+
+
+def test_a_candidate_is_accepted_only_where_it_can_be_computed(made):
+    table, heard = made(Candidates()), []
+    table.recompute.connect(lambda: heard.append(table.decisions.accept_argument))
+    found = diagnosis()
+    table.show_candidates(found)
+    table.table.selectRow([row.name for row in ranked(found)].index("added_mass"))
+    table.accept.click()
+    assert not table.decisions.any
+    table.allow(True)
+    table.accept.click()
+    table.compute.click()
+    assert heard == [("added_mass",)]
+    table.clear()
+    assert not table.compute.isEnabled()
+
+
+def test_what_effects_change_is_said_in_numbers_and_doubted_where_nothing_fits(made):
+    found = diagnosis()
+    bars, change = made(HeldOutBars()), made(LawChange())
+    bars.show_diagnosis(found)
+    assert bars.table.model().rowCount() == len(compared(found))
+    change.show_diagnosis(found)
+    assert change.doubt.isHidden()
+    assert change.plots.names == ("before", "after: with added_mass")
+    change.show_diagnosis(diagnosis(verdict="unknown"))
+    assert not change.doubt.isHidden()
+
+
+def test_the_residual_of_every_segment_is_drawn_before_and_after(made, qtbot):
+    plots = made(ResidualPlots())
+    plots.show_diagnosis(diagnosis())
+    qtbot.waitUntil(lambda: plots.drawn)
+    assert set(plots.plots) == {(n, stage) for n in (1, 2, 3) for stage in ("before", "after")}
+    before, after = plots.plots[1, "before"], plots.plots[1, "after"]
+    before.setXRange(17.0, 19.0, padding=0)
+    assert after.viewRange()[0] == before.viewRange()[0] == pytest.approx([17.0, 19.0])
+
+
+def test_a_persons_word_is_not_said_to_be_the_datas(made):
+    shown = ShownDiagnosis(diagnosis(), "recorded")
+    asked = ShownDiagnosis(diagnosis(), "made here", DiagnosisAsked(Path("one.h5"), accept=("added_mass",)))
+    assert headline(asked).startswith("By hand: ")
+    assert not headline(shown).startswith("By hand")
+    finding = made(Finding())
+    finding.show_diagnosis(asked)
+    assert finding.verdict.said == headline(asked)
+    assert finding.origin.said == "● made here"
+    finding.show_none("no diagnosis")
+    assert (finding.verdict.said, finding.next.text) == ("no diagnosis", "")

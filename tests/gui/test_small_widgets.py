@@ -1,0 +1,165 @@
+"""The window's small parts, each alone."""
+
+from datetime import datetime, timedelta
+from types import SimpleNamespace
+
+import pytest
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtGui import QKeyEvent, QShowEvent
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QDialog, QPushButton
+
+from gui.feeds import feed
+from gui.log_pane import LogPane
+from gui.mark import Mark
+from gui.page import Page
+from gui.replay_bar import Scrubber
+from gui.run_gauges import state_color
+from gui.state.log import Log
+from gui.stop_button import StopButton
+from gui.stop_guard import StopGuard
+from gui.style_sheet import PRIMARY, style_sheet
+from gui.theme import DARK, LIGHT
+from gui.top_bar import duration
+from gui.widgets import button, hint, tool
+
+NO_KEY = Qt.KeyboardModifier.NoModifier
+
+
+@pytest.fixture
+def keep(qtbot, appearance):
+    def kept(widget):
+        qtbot.addWidget(widget)
+        return widget
+
+    return kept
+
+
+def test_a_line_in_a_colour_shows_signs_as_they_are(keep):
+    mark = keep(Mark())
+    mark.say("a < b", "bad")
+    assert mark.said == "a < b"
+    assert "a &lt; b" in mark.text()
+    assert LIGHT.color("bad").name() in mark.text()
+    mark.say("", "bad")
+    assert mark.text() == ""
+
+
+def test_a_sign_without_words_has_them_for_whoever_cannot_see_it(keep):
+    assert keep(tool("left", "The point before")).accessibleName() == "The point before"
+
+
+def test_only_the_button_that_goes_on_is_dressed_as_such(keep):
+    assert keep(button("Start", primary=True)).objectName() == PRIMARY
+    assert keep(button("Check", "Looks first")).objectName() == ""
+
+
+def test_what_stands_where_nothing_is_yet_is_pale_and_not_cut(keep):
+    made = keep(hint("Nothing yet"))
+    assert made.wordWrap()
+    assert not made.isEnabled()
+
+
+@pytest.mark.parametrize("theme", [LIGHT, DARK])
+def test_every_colour_of_the_style_sheet_is_the_themes(theme):
+    sheet = style_sheet(vars(theme))
+    assert "$" not in sheet
+    assert f"QPushButton#stop {{ background: {theme.stop}" in sheet
+
+
+def test_the_stop_button_is_larger_than_the_windows_type(keep):
+    stop = keep(StopButton())
+    assert stop.font().pointSizeF() == pytest.approx(1.3 * keep(QPushButton()).font().pointSizeF(), abs=0.5)
+    assert stop.minimumWidth() >= 2 * stop.fontMetrics().horizontalAdvance("STOP")
+
+
+def test_the_stop_key_is_taken_before_anybody_else_has_it(keep):
+    stopped = []
+    guard = StopGuard(keep(QPushButton()), lambda: stopped.append(1), lambda: None)
+    other = keep(QPushButton())
+    for kind in (QEvent.Type.ShortcutOverride, QEvent.Type.KeyPress):
+        assert guard.eventFilter(other, QKeyEvent(kind, Qt.Key.Key_F12, NO_KEY))
+    assert stopped == [1]
+    assert not guard.eventFilter(other, QKeyEvent(QEvent.Type.KeyPress, Qt.Key.Key_F11, NO_KEY))
+
+
+def test_no_dialog_holds_back_the_window_below_it(keep):
+    guard = StopGuard(keep(QPushButton()), lambda: None, lambda: None)
+    dialog = keep(QDialog())
+    dialog.setModal(True)
+    assert not guard.eventFilter(dialog, QShowEvent())
+    assert not dialog.isModal()
+
+
+@pytest.mark.parametrize(
+    ("seconds", "said"), [(-3.0, "0 s"), (59.4, "59 s"), (200.0, "3:20 min"), (3725.0, "1:02 h")]
+)
+def test_a_time_is_said_as_people_say_it(seconds, said):
+    assert duration(seconds) == said
+
+
+def test_a_stopped_run_has_the_colour_of_what_is_bad(appearance):
+    assert state_color("stopped") == LIGHT.color("bad").name()
+    assert state_color("held") == LIGHT.color("fair").name()
+    assert state_color("sweep") == LIGHT.color("data").name()
+
+
+def test_a_click_beside_the_handle_goes_there(keep):
+    slider = keep(Scrubber(Qt.Orientation.Horizontal))
+    slider.setMaximum(1000)
+    slider.resize(400, 20)
+    slider.show()
+    at = slider.rect().center()
+    at.setX(300)
+    QTest.mouseClick(slider, Qt.MouseButton.LeftButton, pos=at)
+    assert slider.value() == pytest.approx(750, abs=30)
+
+
+def test_the_log_is_written_on_and_its_oldest_lines_go_first(keep, monkeypatch):
+    monkeypatch.setattr("gui.state.log._MOST_LINES", 2)
+    log, pane = Log(began=datetime(2026, 1, 1)), keep(LogPane())
+    state = SimpleNamespace(log=log)
+    log.add(61.0, "first", "warning")
+    pane.show_state(state)
+    assert log.lines[0].wall == log.began + timedelta(seconds=61)
+    assert pane.text.endswith("   1:01.0 ! first")
+    for text in ("second", "third"):
+        log.add(62.0, text)
+        pane.show_state(state)
+    assert ([line.text for line in log.lines], log.dropped) == (["second", "third"], 1)
+    assert [line.split()[-1] for line in pane.text.splitlines()] == ["first", "second", "third"]
+    pane.show_state(None)
+    assert pane.text == ""
+
+
+def test_a_feeds_turn_ends_before_the_window_is_felt_to_wait(monkeypatch):
+    clock = iter((10.0, 10.0 + 0.9 * feed.MOST_S, 10.0 + 1.1 * feed.MOST_S))
+    monkeypatch.setattr(feed, "perf_counter", lambda: next(clock))
+    turn = feed.Turn()
+    assert [turn.over, turn.over] == [False, True]
+    assert feed.Feed().ages_s == (0.0, 0.0)
+
+
+def test_a_page_draws_only_what_is_new_and_only_while_it_is_seen(keep):
+    drawn = []
+
+    class Counting(Page):
+        def refresh(self, state):
+            drawn.append((self.news("run"), self.news("points")))
+
+        def clear(self):
+            drawn.append("cleared")
+
+    page, state = keep(Counting(None)), SimpleNamespace(version=1, changed={"run": 1, "points": 1})
+    page.show_state(state)
+    assert drawn == []
+    page.show()
+    page.show_state(state)
+    assert drawn == [(True, True)]
+    state.version, state.changed["run"] = 2, 2
+    page.show_state(state)
+    page.redraw()
+    assert drawn[1:] == [(True, False), (True, True)]
+    page.show_state(None)
+    page.show_state(None)
+    assert drawn[3:] == ["cleared"]
