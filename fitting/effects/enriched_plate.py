@@ -7,14 +7,13 @@ that its effects need beside them. A fit takes the columns of its effects alone.
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
-import scipy.linalg as la
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
 from fitting.effects.change import Change
+from fitting.effects.combined_columns import AllCombined, OwnCombined, own_and_beside
 from fitting.effects.span import Span
 from fitting.element import DOFS, THETA_X, THETA_Y, Shape, W
 from fitting.mesh import Mesh
@@ -34,45 +33,6 @@ CONDENSED = 1e-4
 """Of the largest singular value, what a condensed plate may leave out; its reading is then off by 1e-5."""
 _MOST_TAKEN = 12
 """Plates with some spans' columns that are kept. A bound on memory: one takes up to 6 MB."""
-_OVERLAP = 1e-6
-"""Columns of two groups closer than this are one."""
-_APART = 0.01
-"""Columns at least as far from one another are left as they are."""
-
-
-@dataclass(frozen=True)
-class _All:
-    """Combinations of all columns."""
-
-    T: Array
-    """Shape (columns, fewer)."""
-
-    def along(self, rows: Any) -> Any:
-        """Of what has a last axis of columns."""
-        return rows @ self.T
-
-    def square(self, A: Any) -> Any:
-        """Of what has two of them."""
-        return self.T.T @ A @ self.T
-
-
-@dataclass(frozen=True)
-class _Own:
-    """Combinations of some columns, then the rest as they are: most columns are of spans."""
-
-    V: Array
-    """Shape (own, fewer)."""
-    own: slice | NDArray[np.intp]
-    rest: slice | NDArray[np.intp]
-
-    def along(self, rows: Any) -> Any:
-        """Of what has a last axis of columns."""
-        return np.concatenate([rows[..., self.own] @ self.V, rows[..., self.rest]], axis=-1)
-
-    def square(self, A: Any) -> Any:
-        """Of what has two of them."""
-        half = self.along(A)
-        return np.concatenate([self.V.T @ half[..., self.own, :], half[..., self.rest, :]], axis=-2)
 
 
 @dataclass(frozen=True)
@@ -211,7 +171,7 @@ class EnrichedReducedPlate:
         # Motions that effects stir are of several sides more of its own and less beside them.
         V = V[:, size > CONDENSED / max(1.0, len(sides) / 2) * size[0]]
         rest = np.flatnonzero(self.group != "plate")
-        on = _Own(V, _as_slice(own), _as_slice(rest))
+        on = OwnCombined(V, _as_slice(own), _as_slice(rest))
         return self._with(on, np.concatenate([np.full(V.shape[1], "plate"), self.group[rest]]))
 
     def _answers(
@@ -235,24 +195,17 @@ class EnrichedReducedPlate:
 
     def _independent(self) -> "EnrichedReducedPlate":
         """Its own columns, and an orthonormal basis of what is beside them: two spans may share some."""
-        if la.eigvalsh(self.gram)[0] > _APART:
+        own = self.group == "plate"
+        T = own_and_beside(self.gram, own)
+        if T is None:
             return self
-        is_own = self.group == "plate"
-        own, rest = np.flatnonzero(is_own), np.flatnonzero(~is_own)
-        shared = -np.linalg.solve(self.gram[np.ix_(own, own)], self.gram[np.ix_(own, rest)])
-        values, vectors = la.eigh(self.gram[np.ix_(rest, rest)] + self.gram[np.ix_(rest, own)] @ shared)
-        kept = values > _OVERLAP
-        beside = vectors[:, kept] / np.sqrt(values[kept])
-        T = np.zeros((len(is_own), len(own) + beside.shape[1]))
-        T[own, np.arange(len(own))] = 1.0
-        T[own, len(own) :], T[rest, len(own) :] = shared @ beside, beside
-        return self._on(T, np.repeat(["plate", "mixed"], [len(own), beside.shape[1]]))
+        return self._on(T, np.where(np.arange(T.shape[1]) < own.sum(), "plate", "mixed"))
 
     def _on(self, T: Array, group: Names) -> "EnrichedReducedPlate":
         """On the combinations T of its columns. Shape (k, fewer)."""
-        return self._with(_All(T), group)
+        return self._with(AllCombined(T), group)
 
-    def _with(self, on: "_All | _Own", group: Names) -> "EnrichedReducedPlate":
+    def _with(self, on: AllCombined | OwnCombined, group: Names) -> "EnrichedReducedPlate":
         """On some combinations of its columns."""
         square, along = on.square, on.along
         return replace(
