@@ -145,14 +145,16 @@ def _unknown(
     return judgement("unknown", None, refused=best.names if why else (), why=why)
 
 
+def holding(shares: Sequence[float]) -> int:
+    """How many of the first hold 95 %, the likeliest first."""
+    before = np.cumsum(shares) - shares
+    return int(np.sum(before < VERDICT.credible))
+
+
 def _group(ranked: Sequence[tuple[ScoredFit, float]]) -> tuple[tuple[ScoredFit, float], ...]:
     """The first of them that hold 95 %, their shares scaled to one."""
-    found, total = [], 0.0
-    for scored, share in ranked:
-        if total >= VERDICT.credible:
-            break
-        found.append((scored, share))
-        total += share
+    found = ranked[: holding([share for _, share in ranked])]
+    total = sum(share for _, share in found)
     return tuple((t, share / total) for t, share in found)
 
 

@@ -4,7 +4,7 @@ from itertools import product
 from math import isnan
 from typing import Literal
 
-from fitting.diagnosis.thresholds import VERDICT
+from fitting.diagnosis.verdict import holding
 from instrument.facts.diagnosis import DiagnosisResult
 
 Standing = Literal["found", "equal", "none", "other"]
@@ -31,10 +31,5 @@ def _group(found: DiagnosisResult) -> set[str] | None:
     """The likeliest that hold 95 %; None without probabilities."""
     if found.by_hand or any(isnan(c.probability) for c in found.candidates):
         return None
-    names, total = set(), 0.0
-    for c in sorted(found.candidates, key=lambda c: -c.probability):
-        if total >= VERDICT.credible:
-            break
-        names.add(c.name)
-        total += c.probability
-    return names
+    ranked = sorted(found.candidates, key=lambda c: -c.probability)
+    return {c.name for c in ranked[: holding([c.probability for c in ranked])]}
