@@ -136,3 +136,14 @@ def opened(qtbot, window, session_path):
     window.open(session_path)
     qtbot.waitUntil(lambda: window.controller.recorded is not None)
     return window
+
+
+@pytest.fixture
+def made(qtbot, appearance):
+    """A widget by itself, closed at the end of its test."""
+
+    def make(widget):
+        qtbot.addWidget(widget)
+        return widget
+
+    return make

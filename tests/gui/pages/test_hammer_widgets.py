@@ -1,7 +1,6 @@
 """The widgets of the hammer test's page, each alone."""
 
 import numpy as np
-import pytest
 
 from gui.pages.hammer.bench import Latest
 from gui.pages.hammer.hit_list import HitList
@@ -12,15 +11,6 @@ from gui.pages.hammer.table import ChoiceTable
 from gui.pages.hammer.words import HIT_COLUMNS, HitRow
 from gui.tables import Cell
 from gui.theme import LIGHT
-
-
-@pytest.fixture
-def made(qtbot, appearance):
-    def make(widget):
-        qtbot.addWidget(widget)
-        return widget
-
-    return make
 
 
 def hit(number, *, used):

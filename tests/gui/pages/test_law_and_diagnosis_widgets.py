@@ -17,15 +17,6 @@ from gui.pages.law.plots import LawLine, LawPlots
 from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
 
 
-@pytest.fixture
-def made(qtbot, appearance):
-    def make(widget):
-        qtbot.addWidget(widget)
-        return widget
-
-    return make
-
-
 def test_the_shaded_band_is_as_wide_as_chosen(made):
     f = np.array([10.0, 20.0])
     curve = LawCurve(f, np.array([2.0, 3.0]), np.full(2, 0.1), np.array([0.5, 0.6]), np.full(2, np.nan))

@@ -17,15 +17,6 @@ from instrument.files.experiment_file import ExperimentDocument
 from instrument.simulated_case import case_file
 
 
-@pytest.fixture
-def made(qtbot, appearance):
-    def make(widget):
-        qtbot.addWidget(widget)
-        return widget
-
-    return make
-
-
 def test_a_question_has_the_button_that_answers_it(made):
     banner, heard = made(Banner()), []
     banner.answered.connect(lambda: heard.append("answered"))

@@ -30,15 +30,6 @@ TIMED = [
 SEEN = PaneContents(PointsMeasured.of(TIMED, SETTINGS), regions=((1, 15.0, 25.0), (2, 90.0, 110.0)))
 
 
-@pytest.fixture
-def made(qtbot, appearance):
-    def make(widget):
-        qtbot.addWidget(widget)
-        return widget
-
-    return make
-
-
 def test_a_click_on_a_point_names_it_among_all_points(made):
     plot, heard = made(Pointed(Axis("Frequency", "Hz"), Axis("|v/a|"))), []
     plot.chosen.connect(heard.append)
