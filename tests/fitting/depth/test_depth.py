@@ -12,6 +12,7 @@ from fitting.depth.bootstrap import refitted
 from fitting.depth.chains import r_hat
 from fitting.depth.intervals import Intervals
 from fitting.depth.many import ManyResiduals
+from fitting.depth.marginal import MarginalLaw
 from fitting.depth.posterior import sample
 from fitting.depth.profile import profile
 from fitting.depth.quantities import Quantities
@@ -24,8 +25,8 @@ AT = np.array([20.0, 100.0, 280.0])
 
 @pytest.fixture(scope="module")
 def found(coarse):
-    whole = read_sweep(DATA / "practice-005.csv").sweep(coarse.base_acceleration_m_s2)
-    sweep = whole.take(np.arange(len(whole)) % 8 == 0)
+    whole = read_sweep(DATA / "practice-002.csv").sweep(coarse.base_acceleration_m_s2)
+    sweep = whole.take(np.arange(len(whole)) % 6 == 0)
     with threadpool_limits(1, "blas"):
         return identify(sweep, replace(coarse, exact=False))
 
@@ -126,3 +127,57 @@ def test_every_refit_of_a_bootstrap_comes_to_rest(quantities, many):
             x_scale="jac",
         )
         assert np.sum((many(x[None])[0] + own) ** 2) < 2 * alone.cost + 0.05
+
+
+@pytest.fixture(scope="module")
+def marginal(many):
+    return MarginalLaw(many)
+
+
+def near(marginal, count, seed=7):
+    """Parameters of the law drawn as wide as the linear errors say."""
+    task, own = marginal.task, marginal.own
+    xi = np.random.default_rng(seed).standard_normal((count, task.root.shape[1]))
+    return (task.mode + xi @ task.root.T)[:, own]
+
+
+def test_only_the_law_s_own_parameters_are_sampled(marginal):
+    assert marginal.own.sum() == len(marginal.task.law.plain.names)
+    assert not marginal.own[marginal.own.sum() :].any()
+
+
+def test_the_rest_is_left_where_nothing_in_it_would_do_better(marginal, many):
+    """Against least squares in the rest alone, the law's parameters held."""
+    T, at = near(marginal, 3), marginal.task.mode
+    density, rest = marginal(T)
+    own, low_high = marginal.own, marginal.task.limits
+    for t, log_density, x in zip(T, density, rest, strict=True):
+
+        def whole(y, t=t):
+            found = np.empty(len(own))
+            found[own], found[~own] = t, y
+            return found[None]
+
+        best = least_squares(
+            lambda y: many(whole(y))[0],
+            x,
+            jac=lambda y: many.jacobians(whole(y))[0][:, ~own],
+            bounds=[side[~own] for side in low_high],
+        )
+        # A hundredth is what a seventh of a standard deviation costs; left where the fit ended it costs tens.
+        here, there = (np.sum(many(whole(y)) ** 2) / 2 for y in (x, at[~own]))
+        assert log_density == pytest.approx(-best.cost, abs=0.01)
+        assert here == pytest.approx(best.cost, abs=0.01)
+        assert there > best.cost + 10
+
+
+def test_the_rest_is_drawn_as_wide_as_the_linear_covariance_has_it_with_the_law_held(marginal):
+    T, own = np.tile(marginal.task.mode[marginal.own], (4000, 1)), marginal.own
+    best = np.tile(marginal.task.mode[~own], (4000, 1))
+    X, log_density = marginal.drawn(T, best, np.random.default_rng(1))
+    np.testing.assert_array_equal(X[:, own], T)
+    J = marginal.task.jacobian(marginal.task.mode)[:, ~own]
+    held = np.sqrt(np.diag(np.linalg.inv(J.T @ J)))
+    np.testing.assert_allclose(X[:, ~own].std(axis=0), held, rtol=0.06)
+    # Of so many independent normal numbers, half the sum of squares is half their count.
+    assert -log_density.mean() == pytest.approx((~own).sum() / 2, rel=0.05)

@@ -1,0 +1,78 @@
+"""What a law cannot explain of a table of modes, traced to what it can see."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shear_pair_cases as pads
+from beam_tables import BEAM, FACE, LAW, begun, read
+
+from fitting.effects.base import Effect
+from fitting.mode_tables.build import member_of
+from fitting.mode_tables.diagnose import diagnose_modes, visible
+from fitting.mode_tables.problem import ModalProblem
+from fitting.mode_tables.stated_off import standing
+from fitting.mode_tables.table import ModalTable
+from fitting.structures.small_modes import small_modes
+
+FORMS = {e.name: e for e in standing(BEAM)}
+STIFFER, THICKER = FORMS["substrate_stiffness"], FORMS["core_thickness"]
+
+
+def diagnosed(table, *effects):
+    told = []
+    found = diagnose_modes(ModalProblem.of([member_of(table, BEAM)]), effects, LAW, told.append)
+    assert told == sorted(told)
+    assert told[-1] == 1.0
+    return found
+
+
+def test_a_stiffer_face_is_named_and_its_factor_found():
+    found = diagnosed(read(replace(BEAM, substrate=replace(FACE, young_pa=1.35 * 70e9)), 4), STIFFER, THICKER)
+    assert found.judgement.verdict == "effect"
+    assert found.judgement.accepted.names == ("substrate_stiffness",)
+    fitted = found.judgement.accepted.fitted
+    error = np.sqrt(np.diag(fitted.covariance))[-1]
+    assert abs(np.log(fitted.of(STIFFER)[0] / 1.35)) < 3 * error
+    assert found.temper >= 1.0
+
+
+def test_of_a_beam_as_stated_nothing_is_named():
+    found = diagnosed(read(BEAM), STIFFER)
+    assert found.judgement.verdict == "none"
+    assert {t.names for t in found.scored} == {(), ("substrate_stiffness",)}
+    costs = [t.cost for t in found.scored]
+    assert costs == sorted(costs)
+
+
+@pytest.mark.parametrize(
+    ("name", "seen"),
+    [("gain_error", False), ("channel_delay", False), ("core_law", True), ("substrate_stiffness", True)],
+)
+def test_modes_see_structure_and_law_and_no_channel(name, seen):
+    assert visible(begun(read(BEAM, 3)).begun.problem, FORMS[name]) is seen
+
+
+def test_an_effect_that_changes_nothing_here_is_not_tried():
+    class Nothing(Effect):
+        name = "nothing"
+
+        def change(self, plate, u):
+            return None
+
+    assert not visible(begun(read(BEAM, 3)).begun.problem, Nothing())
+
+
+def test_a_pad_s_mass_hides_in_its_law_and_is_said_to():
+    law, specimens = LAW, [pads.pair(m) for m in (0.2533, 0.2533, 0.2533)]
+    members, rng = [], np.random.default_rng(2)
+    for specimen in specimens:
+        (mode,) = small_modes(specimen, law, 1)
+        f, eta = mode.frequency_hz * (1 + 1e-3 * rng.normal()), mode.loss_factor * (1 + 0.03 * rng.normal())
+        table = ModalTable(*np.array([[1.0], [f], [eta], [1e-3 * f], [0.03 * eta]]))
+        members.append(member_of(table, specimen))
+    mass = next(e for e in standing(specimens[0]) if e.name == "added_mass")
+    judgement = diagnose_modes(ModalProblem.of(members), [mass], law).judgement
+    assert judgement.verdict == "ambiguous"
+    assert judgement.equivalent == {"added_mass": ("added_mass", "none")}
+    assert "cannot be told from the core's modulus" in judgement.why

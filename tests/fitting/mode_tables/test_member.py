@@ -1,0 +1,69 @@
+"""One table as a fit sees it: readings in ln f and ln eta of equal worth, and the modes it asks for."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from beam_tables import BEAM, LAW, read
+from hypothesis import given
+from hypothesis import strategies as st
+
+from fitting.errors import OutsideModel
+from fitting.laws.fractional_zener import FractionalZener
+from fitting.mode_tables.build import member_of
+from fitting.mode_tables.member import Member
+from fitting.mode_tables.stated_off import standing
+from fitting.structures.small_modes import small_modes
+
+TABLE = read(BEAM, 3)
+MEMBER = member_of(TABLE, BEAM)
+STATED = np.zeros(len(MEMBER.stated))
+ZENER = FractionalZener(5e5, 2e7, 1e-4, 0.6)
+"""So that a mode's own frequency moves the law too."""
+STIFFER = next(e for e in standing(BEAM) if e.name == "substrate_stiffness")
+
+
+@given(own=st.floats(0.0, 0.05), of_loss=st.floats(0.0, 0.2))
+def test_both_parts_of_a_reading_are_known_equally_well(own, of_loss):
+    member: Member = replace(MEMBER, own_error=(np.array([own]), np.array([of_loss])))
+    f, eta = member.std
+    np.testing.assert_allclose(f, np.hypot(1e-3, own), rtol=1e-2)
+    np.testing.assert_allclose(member.kappa * eta, f)
+    np.testing.assert_allclose(np.exp(member.measured.real), TABLE.frequency_hz)
+    np.testing.assert_allclose(np.exp(member.measured.imag / member.kappa), TABLE.loss_factor)
+
+
+def test_modes_are_those_of_the_beam_that_the_table_names():
+    some = replace(TABLE, **{k: getattr(TABLE, k)[[0, 2]] for k in TABLES})
+    found = member_of(some, BEAM).modes(LAW, STATED)
+    every = small_modes(BEAM, LAW, 3)
+    assert [m.frequency_hz for m in found] == pytest.approx([every[k].frequency_hz for k in (0, 2)])
+    assert [m.loss_factor for m in found] == pytest.approx([every[k].loss_factor for k in (0, 2)])
+    np.testing.assert_allclose(np.exp(MEMBER.logs(every).real), [m.frequency_hz for m in every])
+
+
+TABLES = ("mode", "frequency_hz", "loss_factor", "frequency_std_hz", "loss_factor_std")
+
+
+def test_a_mode_that_the_model_lacks_is_refused():
+    many = replace(TABLE, mode=np.array([1.0, 2.0, 4000.0]))
+    with pytest.raises(OutsideModel, match="mode 4000, expected one of the"):
+        member_of(many, BEAM).modes(LAW, STATED)
+
+
+def test_a_mode_without_losses_has_a_logarithm_too():
+    (mode, *_) = MEMBER.modes(LAW, STATED)
+    lossless = replace(mode, eigenvalue=complex(mode.eigenvalue.real, 0.0))
+    assert np.isfinite(replace(MEMBER, own_error=(0.0, 0.0)).logs([lossless] * 3)).all()
+
+
+def test_what_an_effect_does_to_modes_is_that_of_central_differences():
+    law, u, h = ZENER, np.array([1.1]), 1e-3
+
+    def logs(u):
+        return MEMBER.logs(MEMBER.modes(law, STATED, [(STIFFER, u)]))
+
+    value, by = MEMBER.with_derivatives(law, STATED, [(STIFFER, u)], [np.array([1e-4])])
+    np.testing.assert_allclose(value, logs(u))
+    np.testing.assert_allclose(by[-1], (logs(u + h) - logs(u - h)) / (2 * h), rtol=1e-3, atol=1e-6)
+    assert (logs(u).real > logs(np.ones(1)).real).all()

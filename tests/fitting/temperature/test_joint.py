@@ -1,0 +1,145 @@
+"""One law shifted, fitted to a shear pair's sweeps of three temperatures at once."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import shear_pair_cases as cases
+
+from fitting.bent_law import BentLaw
+from fitting.diagnosis.begin import begin
+from fitting.diagnosis.small_problem import SmallProblem
+from fitting.noise import Noise, noise_of
+from fitting.temperature.joint import Task, fit_shifted
+from fitting.temperature.shifted_law import ShiftedLaw
+from fitting.temperature.shifts import Shift
+
+T, REFERENCE = np.array([10.0, 20.0, 30.0]), 20.0
+LOG_A = np.array([1.5, 0.0, -1.2])
+POINTS = (30, 25, 20)
+PAIR = cases.pair(0.2533, exact=True)
+
+
+def begun(k, law, *, known=True, pair=PAIR):
+    """The sweep of one temperature by itself."""
+    true = replace(pair, core=replace(pair.core, law=law))
+    s = cases.sweep(true, points=POINTS[k], seed=k)
+    noise = noise_of(s) if known else Noise(noise_of(s).std_m_s, "unknown")
+    return begin(SmallProblem.of_small(s, pair), None, noise, None, cases.LAW)
+
+
+def fitted(laws, kind="free", *, vertical=False, known=True):
+    each = [begun(k, law, known=known) for k, law in enumerate(laws)]
+    task = Task.of(each, Shift(kind, T, REFERENCE), vertical=vertical)
+    return task, fit_shifted(task, [b.none.law for b in each], task.stated([b.none.z for b in each]))
+
+
+def shifted(b=(1.0, 1.0, 1.0)):
+    return [ShiftedLaw(cases.LAW, float(np.exp(s)), v) for s, v in zip(LOG_A, b, strict=True)]
+
+
+@pytest.fixture(scope="module")
+def found():
+    return fitted(shifted())
+
+
+@pytest.fixture(scope="module")
+def apart():
+    """Temperatures with laws that no shift lays over each other."""
+    law = cases.LAW
+    flat = law.with_values(law.values * np.array([1.0, 1.0, 1.0, 0.6]))
+    return fitted([flat, law, law])[1]
+
+
+def test_shifts_and_the_law_at_the_reference_are_found_within_their_errors(found):
+    _, fit = found
+    assert fit.converged
+    assert fit.log_shift[1] == fit.log_shift_errors[1] == 0.0
+    off = (fit.log_shift - LOG_A)[[0, 2]] / fit.log_shift_errors[[0, 2]]
+    assert (np.abs(off) < 3).all()
+    assert (fit.log_shift_errors[[0, 2]] < 0.02).all()
+    np.testing.assert_allclose(fit.parameter_errors, fit.log_shift_errors[[0, 2]], rtol=1e-3)
+    law_off = np.log(fit.law.values / cases.LAW.values) / np.sqrt(np.diag(fit.law_covariance))
+    assert (np.abs(law_off) < 3.5).all()
+
+
+def test_a_simple_material_s_one_law_fits_as_well_as_many(found):
+    _, fit = found
+    assert fit.chi2_own <= fit.chi2
+    # Twelve parameters of three laws against four and two shifts.
+    assert fit.degrees == pytest.approx(6.0, abs=0.1)
+    assert fit.p_value > 0.01
+
+
+def test_each_temperature_s_own_law_is_its_true_one(found):
+    _, fit = found
+    omega = 2 * np.pi * np.array([200.0, 600.0])
+    for k, law in enumerate(shifted()):
+        np.testing.assert_allclose(fit.own_law(k).modulus(omega), law.modulus(omega), rtol=0.02)
+
+
+def test_what_no_shift_explains_has_no_chance(apart):
+    assert apart.p_value < 1e-6
+    assert apart.chi2 > apart.chi2_own + 50
+
+
+def test_vertical_shifts_are_each_temperature_s_own_but_the_reference_s():
+    _, fit = fitted(shifted((1.1, 1.0, 0.95)), vertical=True)
+    assert fit.log_vertical[1] == 0.0
+    off = (fit.log_vertical - np.log([1.1, 1.0, 0.95]))[[0, 2]]
+    assert (np.abs(off) < 3.5 * fit.log_vertical_errors[[0, 2]]).all()
+    assert (fit.log_vertical_errors[[0, 2]] > 0).all()
+
+
+def test_without_vertical_shifts_none_is_said(found):
+    _, fit = found
+    assert not fit.log_vertical.any()
+    assert not fit.log_vertical_errors.any()
+
+
+def test_an_unknown_noise_has_no_chance_at_all():
+    _, fit = fitted(shifted(), known=False)
+    assert not fit.noise_known
+    assert np.isnan(fit.p_value)
+
+
+def test_sweeps_stand_one_after_the_other_with_their_own_errors(found):
+    task, _ = found
+    each = [begun(k, law).evidence for k, law in enumerate(shifted())]
+    assert task.points == POINTS
+    assert len(task.evidence.measured_m_s) == sum(POINTS)
+    total = sum(POINTS)
+    np.testing.assert_array_equal(task.evidence.sigma_m_s[30:55], each[1].sigma_m_s)
+    B, start = task.evidence.B, each[0].B.shape[1]
+    second = np.r_[30:55, total + 30 : total + 55]
+    own = slice(start, start + each[1].B.shape[1])
+    np.testing.assert_array_equal(B[second][:, own], each[1].B)
+    # What errs in one sweep says nothing of another.
+    assert not np.delete(B[:, own], second, axis=0).any()
+
+
+def test_what_sweeps_say_of_one_plate_is_their_mean_and_a_channel_s_own_stays():
+    pair = cases.pair(0.2533)
+    task = Task.of(
+        [begun(k, law, pair=pair) for k, law in enumerate(shifted())],
+        Shift("free", T, REFERENCE),
+        vertical=False,
+    )
+    names = [n.name for n in task.problem.nuisances.each]
+    each = [np.full(len(at), float(k)) for k, at in enumerate(task.problem.places)]
+    said = dict(zip(names, task.stated(each), strict=True))
+    assert said["mass"] == said["core_thickness"] == 1.0
+    assert sorted(v for n, v in said.items() if n.startswith("gain")) == [0.0, 1.0, 2.0]
+
+
+def test_a_law_bends_where_the_specimen_is_not_exact_over_all_reduced_frequencies():
+    pair = cases.pair(0.2533)
+    each = [begun(k, law, pair=pair) for k, law in enumerate(shifted())]
+    task = Task.of(each, Shift("free", T, REFERENCE), vertical=False)
+    start = task.one_law([b.none.law for b in each])
+    assert isinstance(start.law, BentLaw)
+    np.testing.assert_allclose(start.log_shift, LOG_A, atol=0.3)
+    a = np.exp(start.log_shift)
+    reduced = [f * k for band, k in zip(task.bands_hz, a, strict=True) for f in band]
+    assert start.law.knots_hz[0] <= 1.01 * min(reduced)
+    assert start.law.knots_hz[-1] >= 0.99 * max(reduced)

@@ -1,0 +1,37 @@
+"""A shear pair's sweep with its fit: every step of a diagnosis takes milliseconds."""
+
+from shear_pair_cases import pair, sweep
+
+from fitting.diagnosis.begin import begin
+from fitting.diagnosis.candidate_fits import CandidateFits
+from fitting.diagnosis.diagnose import diagnose_task
+from fitting.diagnosis.executor import ALONE
+from fitting.diagnosis.search import Search
+from fitting.diagnosis.small_problem import SmallProblem
+from fitting.effects import CATALOGUE
+from fitting.noise import noise_of
+
+PAIR = pair(0.2533)
+GAIN, MASS, LAW = (CATALOGUE[name].standing_on(PAIR) for name in ("gain_error", "added_mass", "core_law"))
+HIGH = 1.1
+"""What the velocity channel reads of the truth."""
+
+
+class Task:
+    """A sweep, the fit without effects, and what can be done for each of some effects."""
+
+    def __init__(self, factor):
+        self.sweep = sweep(PAIR, points=60, factor=factor)
+        self.noise = noise_of(self.sweep)
+        self.problem = SmallProblem.of_small(self.sweep, PAIR)
+        self.begun = begin(self.problem, None, self.noise, None, PAIR.core.law)
+
+    def fits(self, *effects):
+        return CandidateFits(self.begun.problem, self.begun.evidence, self.begun.none, effects)
+
+    def search(self, *effects):
+        return Search(self.begun.problem, self.begun.evidence, self.begun.none, effects, ALONE)
+
+    def diagnosed(self, *effects, **how):
+        start = PAIR.core.law
+        return diagnose_task(self.problem, None, effects, self.noise, None, start, **how)
