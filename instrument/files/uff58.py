@@ -47,6 +47,8 @@ class Function:
     """Base acceleration it was measured at."""
     place: tuple[int, int] | None = None
     """Sweep and segment, where the file says."""
+    between: tuple[object, ...] = ()
+    """Degrees of freedom: entity, node and direction of the response, then of the reference."""
 
 
 @dataclass(frozen=True)
@@ -107,7 +109,8 @@ def _is_unknown(s: dict[str, Any]) -> bool:
 
 def _coherence(k: int, s: dict[str, Any]) -> Function:
     values = np.asarray(s["data"], float)
-    return Function(_line(s), _name(s, k), COHERENCE, _hz(s), values, Unit("force", 1.0, "force"))
+    unit = Unit("force", 1.0, "force")
+    return Function(_line(s), _name(s, k), COHERENCE, _hz(s), values, unit, between=_between(s))
 
 
 def _ratio(where: str, k: int, s: dict[str, Any], scale: _Scale, over: Quantity | None) -> Function:
@@ -125,6 +128,7 @@ def _ratio(where: str, k: int, s: dict[str, Any], scale: _Scale, over: Quantity 
         unit,
         level_m_s2=level,
         place=(int(place[1]), int(place[2])) if place else None,
+        between=_between(s),
     )
 
 
@@ -178,6 +182,13 @@ def _label(s: dict[str, Any], axis: str) -> str:
 def _hz(s: dict[str, Any]) -> Array:
     x = np.asarray(s["x"], float)
     return x / (2 * np.pi) if _label(s, "abscissa").lower() == "rad/s" else x
+
+
+def _between(s: dict[str, Any]) -> tuple[object, ...]:
+    ends = ("rsp", "ref")
+    names = [str(s.get(f"{end}_ent_name", "")).strip().replace("NONE", "") for end in ends]
+    numbers = [[int(s.get(f"{end}_{what}", 0)) for what in ("node", "dir")] for end in ends]
+    return tuple(part for name, number in zip(names, numbers, strict=True) for part in (name, *number))
 
 
 def _line(s: dict[str, Any]) -> str:

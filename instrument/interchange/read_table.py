@@ -187,10 +187,11 @@ def _stem(name: str) -> tuple[str, ...]:
 def _on_lines(source: str, table: Named, f: Array, signals: list[_Signal], found: Found) -> None:
     """Ratios, or a velocity beside its base acceleration."""
     signals = [s for s in signals if s.values.shape == f.shape]
+    alone = sum(s.unit.per is not None for s in signals) == 1
     for s in signals:
         if s.unit.per is not None:
             ratio = Ratio(f"{source}: {s.name}", f, s.values.astype(complex), s.unit.quantity, s.unit.per)
-            found.add_ratio(ratio, _coherence(table))
+            found.add_ratio(ratio, _coherence(table, s.name, alone=alone))
     motions = [s for s in signals if s.unit.per is None and s.unit.quantity in DERIVATIVE]
     readings, bases = [s for s in motions if not s.is_base], [s for s in motions if s.is_base]
     if not readings:
@@ -234,9 +235,12 @@ def _phasor(stem: str, unit: str, values: NDArray[Any]) -> Columns:
     return {f"{stem}_re_{unit}": x.real, f"{stem}_im_{unit}": x.imag}
 
 
-def _coherence(table: Named) -> Array | None:
-    name = next((n for n in table if n.lower().startswith("coherence")), None)
-    return np.asarray(table[name], float) if name is not None else None
+def _coherence(table: Named, ratio: str, *, alone: bool) -> Array | None:
+    """The only one beside the only ratio; else the one whose further words are all in the ratio's name."""
+    names, words = [n for n in table if n.lower().startswith("coherence")], set(_bracketed(ratio)[1])
+    further = {n: set(_bracketed(n)[1]) - {"coherence"} for n in names}
+    own = names if alone and len(names) == 1 else [n for n in names if further[n] and further[n] <= words]
+    return np.asarray(table[own[0]], float) if len(own) == 1 else None
 
 
 def _records(

@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import numpy as np
+
 from fitting.arrays import Array
 from fitting.modal.frf import Motion
 from instrument.errors import BadInput
@@ -13,17 +15,36 @@ from instrument.interchange.found import Found, Ratio, motion_of
 def read_uff(path: Path) -> Found:
     """FRFs, transmissibilities and time records. Raises `BadInput` naming the data set."""
     universal = read_uff58(path)
-    coherences = [f.values for f in universal.functions if f.kind == COHERENCE]
-    found = Found()
-    for f in universal.functions:
-        if f.kind not in (TIME, COHERENCE):
-            per = f.unit.per or "force"
-            ratio = Ratio(f.name, f.x, f.values, f.unit.quantity, per, f.level_m_s2, f.place)
-            alike = (c for c in coherences if len(c) == len(ratio.H))
-            found.add_ratio(ratio, next(alike, None))
+    coherences = [f for f in universal.functions if f.kind == COHERENCE]
+    ratios = [f for f in universal.functions if f.kind not in (TIME, COHERENCE)]
+    found, theirs = Found(), [_coherence_of(k, ratios, coherences) for k in range(len(ratios))]
+    for f, own in zip(ratios, theirs, strict=True):
+        per = f.unit.per or "force"
+        ratio = Ratio(f.name, f.x, f.values, f.unit.quantity, per, f.level_m_s2, f.place)
+        found.add_ratio(ratio, None if own is None else own.values)
+    left = [c for c in coherences if not any(c is own for own in theirs)]
+    found.said += [f"passed over: {c.name}: a coherence that no one FRF here belongs to" for c in left]
     found.said += [f"passed over: {name}: function type {kind}" for name, kind in universal.others]
     _add_hits(path, found, [f for f in universal.functions if f.kind == TIME])
     return found
+
+
+def _coherence_of(k: int, ratios: list[Function], coherences: list[Function]) -> Function | None:
+    """Of one FRF: between the same degrees of freedom, on the same lines.
+
+    Where a file has several of both alike, the first belongs to the first; where it has more of one, the only
+    coherence is that of all, and of several nobody knows whose they are.
+    """
+    f = ratios[k]
+    own = [c for c in coherences if _alike(c, f)]
+    rank = [n for n, r in enumerate(ratios) if _alike(r, f)]
+    if len(own) == len(rank):
+        return own[rank.index(k)]
+    return own[0] if len(own) == 1 else None
+
+
+def _alike(a: Function, b: Function) -> bool:
+    return a.between == b.between and len(a.x) == len(b.x) and bool(np.allclose(a.x, b.x, rtol=1e-6))
 
 
 def _add_hits(path: Path, found: Found, records: list[Function]) -> None:
