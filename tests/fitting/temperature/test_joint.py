@@ -1,41 +1,13 @@
 """One law shifted, fitted to a shear pair's sweeps of three temperatures at once."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 import shear_pair_cases as cases
+from shear_pair_temperatures import LOG_A, POINTS, REFERENCE, T, begun, fitted, shifted
 
 from fitting.bent_law import BentLaw
-from fitting.diagnosis.begin import begin
-from fitting.diagnosis.small_problem import SmallProblem
-from fitting.noise import Noise, noise_of
-from fitting.temperature.joint import Task, fit_shifted
-from fitting.temperature.shifted_law import ShiftedLaw
+from fitting.temperature.joint import Task
 from fitting.temperature.shifts import Shift
-
-T, REFERENCE = np.array([10.0, 20.0, 30.0]), 20.0
-LOG_A = np.array([1.5, 0.0, -1.2])
-POINTS = (30, 25, 20)
-PAIR = cases.pair(0.2533, exact=True)
-
-
-def begun(k, law, *, known=True, pair=PAIR):
-    """The sweep of one temperature by itself."""
-    true = replace(pair, core=replace(pair.core, law=law))
-    s = cases.sweep(true, points=POINTS[k], seed=k)
-    noise = noise_of(s) if known else Noise(noise_of(s).std_m_s, "unknown")
-    return begin(SmallProblem.of_small(s, pair), None, noise, None, cases.LAW)
-
-
-def fitted(laws, kind="free", *, vertical=False, known=True):
-    each = [begun(k, law, known=known) for k, law in enumerate(laws)]
-    task = Task.of(each, Shift(kind, T, REFERENCE), vertical=vertical)
-    return task, fit_shifted(task, [b.none.law for b in each], task.stated([b.none.z for b in each]))
-
-
-def shifted(b=(1.0, 1.0, 1.0)):
-    return [ShiftedLaw(cases.LAW, float(np.exp(s)), v) for s, v in zip(LOG_A, b, strict=True)]
 
 
 @pytest.fixture(scope="module")
@@ -52,7 +24,7 @@ def apart():
 
 
 def test_shifts_and_the_law_at_the_reference_are_found_within_their_errors(found):
-    _, fit = found
+    _, fit, _ = found
     assert fit.converged
     assert fit.log_shift[1] == fit.log_shift_errors[1] == 0.0
     off = (fit.log_shift - LOG_A)[[0, 2]] / fit.log_shift_errors[[0, 2]]
@@ -64,7 +36,7 @@ def test_shifts_and_the_law_at_the_reference_are_found_within_their_errors(found
 
 
 def test_a_simple_material_s_one_law_fits_as_well_as_many(found):
-    _, fit = found
+    _, fit, _ = found
     assert fit.chi2_own <= fit.chi2
     # Twelve parameters of three laws against four and two shifts.
     assert fit.degrees == pytest.approx(6.0, abs=0.1)
@@ -72,7 +44,7 @@ def test_a_simple_material_s_one_law_fits_as_well_as_many(found):
 
 
 def test_each_temperature_s_own_law_is_its_true_one(found):
-    _, fit = found
+    _, fit, _ = found
     omega = 2 * np.pi * np.array([200.0, 600.0])
     for k, law in enumerate(shifted()):
         np.testing.assert_allclose(fit.own_law(k).modulus(omega), law.modulus(omega), rtol=0.02)
@@ -84,7 +56,7 @@ def test_what_no_shift_explains_has_no_chance(apart):
 
 
 def test_vertical_shifts_are_each_temperature_s_own_but_the_reference_s():
-    _, fit = fitted(shifted((1.1, 1.0, 0.95)), vertical=True)
+    _, fit, _ = fitted(shifted((1.1, 1.0, 0.95)), vertical=True)
     assert fit.log_vertical[1] == 0.0
     off = (fit.log_vertical - np.log([1.1, 1.0, 0.95]))[[0, 2]]
     assert (np.abs(off) < 3.5 * fit.log_vertical_errors[[0, 2]]).all()
@@ -92,20 +64,20 @@ def test_vertical_shifts_are_each_temperature_s_own_but_the_reference_s():
 
 
 def test_without_vertical_shifts_none_is_said(found):
-    _, fit = found
+    _, fit, _ = found
     assert not fit.log_vertical.any()
     assert not fit.log_vertical_errors.any()
 
 
 def test_an_unknown_noise_has_no_chance_at_all():
-    _, fit = fitted(shifted(), known=False)
+    _, fit, _ = fitted(shifted(), known=False)
     assert not fit.noise_known
     assert np.isnan(fit.p_value)
 
 
 def test_sweeps_stand_one_after_the_other_with_their_own_errors(found):
-    task, _ = found
-    each = [begun(k, law).evidence for k, law in enumerate(shifted())]
+    task, _, begun_each = found
+    each = [b.evidence for b in begun_each]
     assert task.points == POINTS
     assert len(task.evidence.measured_m_s) == sum(POINTS)
     total = sum(POINTS)

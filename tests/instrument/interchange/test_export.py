@@ -2,6 +2,7 @@
 
 import json
 import tomllib
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,7 +15,9 @@ from instrument.files.impact_csv import read_impact_csv
 from instrument.files.specimen_file import SpecimenDocument
 from instrument.files.sweep_file import read_sweep
 from instrument.interchange.exporting import export_session
+from instrument.interchange.mat_export import export_mat
 from instrument.interchange.specimen_toml import specimen_toml
+from instrument.interchange.uff_export import export_uff
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 
@@ -159,6 +162,55 @@ def test_uff_says_what_it_leaves_out(contents, tmp_path):
     assert any("4 sentinel points" in note for note in export_session(contents, "uff", tmp_path).notes)
 
 
+@pytest.mark.filterwarnings("ignore::ResourceWarning")
+def test_every_set_says_its_points_its_level_and_whose_it_is(contents, exported):
+    _, _, *frfs = sets_of(exported / f"{NAME}-sweep.uff")
+    levels = {p.segment: p.level_m_s2 for p in contents.measured}
+    for k, s in enumerate(frfs, start=1):
+        assert (s["rsp_ent_name"], s["rsp_node"], s["ref_ent_name"], s["ref_node"]) == (
+            "VELOCITY",
+            1,
+            "BASE",
+            2,
+        )
+        assert s["z_axis_value"] == pytest.approx(levels[k], rel=1e-5)
+        assert s["id2"] == f"sweep 1 segment {k}"
+        assert (s["id4"], s["id5"]) == (NAME, "ZN_1 <second> & last")
+    _, _, frf, coherence = sets_of(exported / f"{NAME}-hammer-frf.uff")
+    ends = ("rsp_ent_name", "rsp_node", "rsp_dir", "ref_ent_name", "ref_node", "ref_dir")
+    assert [frf[end] for end in ends] == [coherence[end] for end in ends]
+
+
+@pytest.mark.filterwarnings("ignore::ResourceWarning")
+def test_hits_that_do_not_count_have_a_universal_file_of_their_own(contents, exported):
+    _, _, force, response = sets_of(exported / f"{NAME}-hits-rejected.uff")
+    rejected = contents.hits[1].record
+    np.testing.assert_array_equal(force["data"], rejected.force_n)
+    np.testing.assert_array_equal(response["data"], rejected.responses[0].samples)
+    assert force["id2"].startswith("hit 2 rejected: ")
+    assert len(sets_of(exported / f"{NAME}-hits.uff")) == 2 + 2 * 2
+
+
+def test_one_hit_has_no_coherence_and_none_no_frf(contents, tmp_path):
+    first = contents.hits[0]
+    export_uff(replace(contents, hits=[first]), tmp_path)
+    assert [s.get("func_type") for s in sets_of(tmp_path / f"{NAME}-hammer-frf.uff")] == [None, None, 4]
+    written, _ = export_uff(replace(contents, hits=[]), tmp_path / "..")
+    assert [p.name for p in written] == [f"{NAME}-sweep.uff"]
+    written[0].unlink()
+
+
+def test_a_title_beyond_ascii_is_a_line_of_eighty_characters(contents, tmp_path):
+    experiment = contents.configuration.experiment
+    kept, experiment.title = experiment.title, f"Größe\n{'x' * 100}"
+    try:
+        export_uff(replace(contents, hits=[]), tmp_path)
+    finally:
+        experiment.title = kept
+    (_, _, first, *_) = sets_of(tmp_path / f"{NAME}-sweep.uff")
+    assert first["id5"] == ("Gr??e " + "x" * 100)[:80]
+
+
 # MATLAB
 
 
@@ -173,6 +225,39 @@ def test_mat_has_arrays_and_a_unit_for_each(contents, exported):
     assert mat["units"]["sweep"]["velocity_m_s"] == "m/s"
     assert mat["units"]["hammer_frf"]["accelerance"] == "(m/s^2)/N"
     assert any(NAME in line for line in mat["about"])
+
+
+def test_mat_keeps_which_hits_count_and_what_each_method_said(contents, exported):
+    mat = loadmat(str(exported / f"{NAME}.mat"), simplify_cells=True)
+    hits, damping = mat["hits"], mat["damping"]
+    assert hits["accepted"].tolist() == [h.accepted for h in contents.hits]
+    assert "double hit" in hits["why"][1]
+    np.testing.assert_array_equal(hits["force_n"][:, 1], contents.hits[1].record.force_n)
+    modes = contents.damping.result.modes
+    assert damping["frequency_hz"].tolist() == [m.frequency_hz for m in modes]
+    said = [m.by("half_power") for m in modes]
+    expected = [np.nan if e is None else e.ratio for e in said]
+    np.testing.assert_array_equal(damping["half_power_ratio"], expected)
+    assert mat["hammer_frf"]["coherence"].shape == mat["hammer_frf"]["accelerance"].shape
+    gains = [c.gain for c in contents.calibrations.values()]
+    np.testing.assert_array_equal(np.atleast_1d(mat["calibration"]["gain"]), gains)
+
+
+def test_mat_has_only_the_parts_that_there_are(contents, tmp_path):
+    less = replace(contents, hits=contents.hits[:1], damping=None, calibrations={})
+    (path,) = export_mat(less, tmp_path)
+    mat = loadmat(str(path), simplify_cells=True)
+    assert {name for name in mat if not name.startswith("_")} == {
+        "sweep",
+        "hits",
+        "hammer_frf",
+        "units",
+        "about",
+    }
+    assert set(mat["units"]) == {"sweep", "hits", "hammer_frf"}
+    assert "coherence" not in mat["hammer_frf"]
+    (path,) = export_mat(replace(less, hits=[], points=[]), tmp_path)
+    assert not any(line.startswith("result: ") for line in loadmat(str(path), simplify_cells=True)["about"])
 
 
 # The command

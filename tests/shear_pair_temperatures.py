@@ -1,0 +1,38 @@
+"""One law shifted, fitted to a shear pair's sweeps of three temperatures: milliseconds a fit."""
+
+from dataclasses import replace
+
+import numpy as np
+import shear_pair_cases as cases
+
+from fitting.diagnosis.begin import begin
+from fitting.diagnosis.small_problem import SmallProblem
+from fitting.noise import Noise, noise_of
+from fitting.temperature.joint import Task, fit_shifted
+from fitting.temperature.shifted_law import ShiftedLaw
+from fitting.temperature.shifts import Shift
+
+T, REFERENCE = np.array([10.0, 20.0, 30.0]), 20.0
+LOG_A = np.array([1.5, 0.0, -1.2])
+POINTS = (30, 25, 20)
+PAIR = cases.pair(0.2533, exact=True)
+
+
+def begun(k, law, *, known=True, pair=PAIR):
+    """The sweep of one temperature by itself."""
+    true = replace(pair, core=replace(pair.core, law=law))
+    s = cases.sweep(true, points=POINTS[k], seed=k)
+    noise = noise_of(s) if known else Noise(noise_of(s).std_m_s, "unknown")
+    return begin(SmallProblem.of_small(s, pair), None, noise, None, cases.LAW)
+
+
+def fitted(laws, kind="free", *, vertical=False, known=True):
+    """The task, the fit, and each temperature by itself."""
+    each = [begun(k, law, known=known) for k, law in enumerate(laws)]
+    task = Task.of(each, Shift(kind, T, REFERENCE), vertical=vertical)
+    z = task.stated([b.none.z for b in each])
+    return task, fit_shifted(task, [b.none.law for b in each], z), each
+
+
+def shifted(b=(1.0, 1.0, 1.0)):
+    return [ShiftedLaw(cases.LAW, float(np.exp(s)), v) for s, v in zip(LOG_A, b, strict=True)]
