@@ -1,0 +1,89 @@
+"""A run that is ended from outside: by another thread, by a signal; and the process that it runs in."""
+
+import os
+import signal
+import threading
+from types import SimpleNamespace
+
+import pytest
+
+from instrument.engine import __main__ as process
+from instrument.engine.interruption import Interruption
+from instrument.errors import RigStopped
+
+
+@pytest.fixture
+def signals():
+    """As they were, afterwards."""
+    kept = {s: signal.getsignal(s) for s in (signal.SIGINT, signal.SIGTERM)}
+    yield
+    for s, handler in kept.items():
+        signal.signal(s, handler)
+
+
+class Wanted(Exception):
+    pass
+
+
+def waits(waiting):
+    """Until it is broken off; says that it has begun."""
+    waiting.set()
+    threading.Event().wait(5.0)
+
+
+def test_another_thread_ends_what_the_main_thread_waits_for_once(signals):
+    interruption = Interruption()
+    waiting = threading.Event()
+
+    def ask():
+        waiting.wait()
+        interruption.ask(Wanted("first"))
+        interruption.ask(Wanted("second"))
+
+    asking = threading.Thread(target=ask)
+    asking.start()
+    with pytest.raises(Wanted, match="first"), interruption:
+        waits(waiting)
+    asking.join()
+    assert interruption.asked
+    # What cleans up afterwards is not broken off.
+    os.kill(os.getpid(), signal.SIGINT)
+    os.kill(os.getpid(), signal.SIGTERM)
+
+
+def test_what_was_asked_before_is_raised_on_entering(signals):
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    interruption = Interruption()
+    assert not interruption.asked
+    interruption.ask(Wanted("before"))
+    with pytest.raises(Wanted, match="before"), interruption:
+        pytest.fail("entered")
+
+
+def test_a_process_that_is_terminated_stops_safely_and_ctrl_c_is_the_user(signals):
+    with pytest.raises(RigStopped, match="terminated"), Interruption():
+        os.kill(os.getpid(), signal.SIGTERM)
+    with pytest.raises(KeyboardInterrupt), Interruption():
+        os.kill(os.getpid(), signal.SIGINT)
+
+
+# The process
+
+
+def test_the_pipes_are_the_engines_alone_and_no_thread_keeps_its_process(monkeypatch):
+    done = []
+    fake = SimpleNamespace(
+        dup=lambda fd: 10 + fd,
+        dup2=lambda fd, to: done.append((fd, to)),
+        open=lambda path, how: 20,
+        fdopen=lambda fd, mode: (fd, mode),
+        devnull=os.devnull,
+        O_RDONLY=os.O_RDONLY,
+        _exit=lambda code: done.append(("exit", code)),
+    )
+    monkeypatch.setattr(process, "os", fake)
+    monkeypatch.setattr(process, "serve", lambda commands, replies: done.append((commands, replies)))
+    monkeypatch.setattr(process.faulthandler, "enable", lambda: done.append("faults"))
+    process.main()
+    # Standard input is empty and standard output goes to standard error before anything runs.
+    assert done == ["faults", (20, 0), (2, 1), ((10, "rb"), (11, "wb")), ("exit", 0)]
