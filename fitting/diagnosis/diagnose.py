@@ -95,10 +95,10 @@ def diagnose_task(
         judgement = settle(search, judgement)
     known = evidence.scale_known
     report(0.8)
-    none = search.none.fitted
+    none, accepted = search.none.fitted, judgement.accepted
+    search.validate([search.none, *([accepted] if accepted is not None else [])])
     before = stage_of(problem, evidence, none, search.validation(search.none), 1.0)
     report(0.9)
-    accepted = judgement.accepted
     after, found = before, tuple[FoundEffect, ...]()
     if accepted is not None:
         scale = search.temper(accepted)

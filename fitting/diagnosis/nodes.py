@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from fitting.arrays import Array, Complex
 from fitting.sweep import segments_by_gap
 
-_HZ_A_NODE = 4.0
+HZ_A_NODE = 4.0
 """Of wide clusters: 10 nodes leave 2e-4 over a segment of 30 to 50 Hz (decision 16); wider ones keep pace."""
 MOST_POLES = 4
 """Taken out of a cluster: those in it and one on either side; more make the weights lose digits."""
@@ -57,7 +57,14 @@ class Nodes:
     """The node nearest to each pole."""
 
     @classmethod
-    def of(cls, omega: Array, least: int, passes: NDArray[np.intp] | None = None) -> "Nodes":
+    def of(
+        cls,
+        omega: Array,
+        least: int,
+        passes: NDArray[np.intp] | None = None,
+        *,
+        hz_a_node: float = HZ_A_NODE,
+    ) -> "Nodes":
         """At least `least` nodes a cluster, more where it is wide; no more than it has frequencies.
 
         `passes` numbers the points (shape (points,)): each has clusters of its own.
@@ -70,7 +77,7 @@ class Nodes:
         for number in np.unique(numbers):
             inside = numbers == number
             known = np.unique(omega[inside])
-            wanted = max(least, least // 2 + int(np.ptp(known) / (2 * np.pi * _HZ_A_NODE)))
+            wanted = max(least, least // 2 + int(np.ptp(known) / (2 * np.pi * hz_a_node)))
             at = known if len(known) <= wanted else _chebyshev(known[0], known[-1], wanted)
             block = np.zeros((len(omega), len(at)))
             block[inside] = _interpolation(at, omega[inside])

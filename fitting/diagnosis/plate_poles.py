@@ -1,10 +1,9 @@
 """Poles of the unchanged plate near a range of frequencies."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from fitting.arrays import Complex
-from fitting.diagnosis.nodes import MOST_POLES
+from fitting.diagnosis.nodes import MOST_POLES, Nodes
 from fitting.diagnosis.pole_following import KnownPoles, ModulusNear
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
@@ -25,6 +24,7 @@ class PlatePoles:
         self.matrices = plate.K_0[square], plate.K_1[square], plate.M[square], C_1
         self._known: dict[complex, Complex] = {}
         self._found: dict[tuple[float, float], Complex] = {}
+        self._latest: tuple[bytes, KnownPoles, Complex] | None = None
 
     def near(self, low: float, high: float) -> Complex:
         """In and beside a range (rad/s), the law continued off the real axis to first order. Shape (any,)."""
@@ -50,7 +50,19 @@ class PlatePoles:
         self._known |= {complex(pole): shape for pole, shape in zip(found, y, strict=True)}
         return found
 
-    def known(self, poles: Complex, cluster: NDArray[np.intp], modulus: ModulusNear) -> KnownPoles:
-        """Poles that were found, to be followed. Shape (poles,) of `poles` and `cluster`."""
-        modes = np.array([self._known[complex(p)] for p in poles], complex).reshape(-1, len(self.own))
-        return KnownPoles(poles, modes, cluster, modulus)
+    def under(self, nodes: Nodes, G: Complex) -> tuple[KnownPoles | None, Complex]:
+        """The poles that nodes were made for, to be followed, and where they are under a modulus.
+
+        Shape (nodes,) of `G`, (poles,) of the places. One law is asked for with many effects: the latest
+        answer is kept.
+        """
+        if not len(nodes.poles):
+            return None, nodes.poles
+        key = nodes.omega.tobytes() + G.tobytes()
+        if self._latest is None or self._latest[0] != key:
+            at = nodes.pole_node
+            modes = np.array([self._known[complex(p)] for p in nodes.poles], complex)
+            near = ModulusNear(nodes.omega[at], G[at], nodes.slope(G))
+            known = KnownPoles(nodes.poles, modes, nodes.cluster[at], near)
+            self._latest = key, known, known.followed(self.matrices)[0]
+        return self._latest[1:]

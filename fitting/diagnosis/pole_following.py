@@ -49,9 +49,9 @@ class KnownPoles:
     """Near each, after the move."""
 
     def on(self, own: NDArray[np.bool_]) -> "KnownPoles":
-        """On more columns, its own among them. Shape (columns,)."""
+        """On other columns, the first of its own among them. Shape (columns,)."""
         modes = np.zeros((len(self.at), len(own)), complex)
-        modes[:, own] = self.modes
+        modes[:, own] = self.modes[:, : np.count_nonzero(own)]
         return replace(self, modes=modes)
 
     def alike(self, other: "KnownPoles") -> bool:
@@ -72,18 +72,18 @@ class KnownPoles:
 
     def _apart(self, moved: Matrices) -> tuple[Complex, Complex]:
         """What the modes of each cluster make of it, by Ritz: (A + p B - p^2 C) s = 0."""
-        K_0, K_1, M, C_1 = moved
+        K_0, K_1, M, C_1 = (self.modes @ N @ self.modes.T for N in moved)
         p, y = np.empty_like(self.at), np.empty_like(self.modes)
         for number in np.unique(self.cluster):
             mine = np.flatnonzero(self.cluster == number)
             omega, G, slope = (
                 w[mine[len(mine) // 2]] for w in (self.modulus.omega, self.modulus.G, self.modulus.slope)
             )
-            Y = self.modes[mine]
-            A, B, C = (Y @ N @ Y.T for N in (K_0 + (G - slope * omega) * K_1, slope * K_1 + 1j * C_1, M))
-            found, s = _quadratic(A, B, C)
+            here = np.ix_(mine, mine)
+            A = K_0[here] + (G - slope * omega) * K_1[here]
+            found, s = _quadratic(A, slope * K_1[here] + 1j * C_1[here], M[here])
             was, now = linear_sum_assignment(np.abs(self.at[mine][:, None] - found))
-            p[mine[was]], y[mine[was]] = found[now], s[now] @ Y
+            p[mine[was]], y[mine[was]] = found[now], s[now] @ self.modes[mine]
         return p, y
 
 
@@ -93,6 +93,9 @@ def _quadratic(A: Complex, B: Complex, C: Complex) -> tuple[Complex, Complex]:
     Shapes (m, m) to (m,) and (m, m).
     """
     m = len(A)
+    if m == 1:
+        half, root = B[0] / (2 * C[0]), np.sqrt(B[0] ** 2 + 4 * A[0] * C[0]) / (2 * C[0])
+        return half + np.where(root.real < 0, -root, root), np.ones((1, 1), complex)
     companion = np.vstack([np.eye(m, 2 * m, k=m), np.linalg.solve(C, np.hstack([A, B]))])
     values, vectors = np.linalg.eig(companion)
     forward = np.argsort(values.real)[m:]
@@ -105,20 +108,24 @@ def _rayleigh_iterated(
     """Better p and y by Rayleigh's quotient iteration from guesses. Shapes (poles,) and (poles, k)."""
     M = moved[2]
     for _ in range(_STEPS):
-        K = _stiffness(moved, p, modulus)
-        My = y @ M
-        square = _rayleigh(K, y, My)
-        turned = np.linalg.solve(K - (square * (1 + _OFF))[:, None, None] * M, My[:, :, None])[:, :, 0]
+        square = _rayleigh(moved, p, y, modulus) * (1 + _OFF)
+        A = dynamic(moved, p, modulus.at(p), square)
+        turned = np.linalg.solve(A, (y @ M)[:, :, None])[:, :, 0]
         y = np.asarray(turned / np.linalg.norm(turned, axis=1)[:, None], dtype=complex)
-        p = np.asarray(np.sqrt(_rayleigh(K, y, y @ M)), dtype=np.complex128)
-    return np.asarray(np.sqrt(_rayleigh(_stiffness(moved, p, modulus), y, y @ M))), y
+        p = np.sqrt(_rayleigh(moved, p, y, modulus))
+    return np.sqrt(_rayleigh(moved, p, y, modulus)), y
 
 
-def _stiffness(moved: Matrices, p: Complex, modulus: ModulusNear) -> Complex:
-    K_0, K_1, _, C_1 = moved
-    G = modulus.at(p)
-    return np.asarray(K_0 + G[:, None, None] * K_1 + (1j * p)[:, None, None] * C_1)
+def _rayleigh(moved: Matrices, p: Complex, y: Complex, modulus: ModulusNear) -> Complex:
+    """p^2 as the modes have it, what depends on p being as there."""
+    K_0, K_1, M, C_1 = (((y @ N) * y).sum(axis=1) for N in moved)
+    return np.asarray((K_0 + modulus.at(p) * K_1 + 1j * p * C_1) / M)
 
 
-def _rayleigh(K: Complex, y: Complex, My: Complex) -> Complex:
-    return np.asarray(((K @ y[:, :, None])[:, :, 0] * y).sum(axis=1) / (y * My).sum(axis=1))
+def dynamic(plate: Matrices, omega: Complex | Array, G: Complex, square: Complex | Array) -> Complex:
+    """K_0 + G K_1 + i w C_1 - w^2 M at every w, its square by itself. Shapes (omegas,) to (omegas, k, k)."""
+    K_0, K_1, M, C_1 = plate
+    factors = np.stack([np.ones_like(G), G, -square, 1j * omega], axis=1)
+    # One product: several times faster than sums of stacks of matrices.
+    parts = np.stack([K_0, K_1, M, C_1]).astype(complex).reshape(4, -1)
+    return np.asarray((factors @ parts).reshape(len(omega), *M.shape))

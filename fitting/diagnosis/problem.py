@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.diagnosis.nodes import Nodes
+from fitting.diagnosis.nodes import HZ_A_NODE, Nodes
 from fitting.diagnosis.plate_poles import PlatePoles
-from fitting.diagnosis.pole_following import KnownPoles, ModulusNear
+from fitting.diagnosis.pole_following import KnownPoles
 from fitting.effects.base import Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.identification.adjusted import Adjusted, adjusted
@@ -45,18 +45,11 @@ class NodeGrid:
 
     def known_poles(self, G: Complex) -> KnownPoles | None:
         """Those of the unchanged plate, the modulus given at the nodes. Shape (nodes,)."""
-        if self.poles is None or not len(self.nodes.poles):
-            return None
-        nodes, at = self.nodes, self.nodes.pole_node
-        modulus = ModulusNear(nodes.omega[at], G[at], nodes.slope(G))
-        return self.poles.known(nodes.poles, nodes.cluster[at], modulus)
+        return None if self.poles is None else self.poles.under(self.nodes, G)[0]
 
     def unchanged_poles(self, G: Complex) -> Complex:
         """Of the unchanged plate under a modulus, given at the nodes. Shape (poles,), of `G` (nodes,)."""
-        known = self.known_poles(G)
-        if self.poles is None or known is None:
-            return self.nodes.poles
-        return known.followed(self.poles.matrices)[0]
+        return self.nodes.poles if self.poles is None else self.poles.under(self.nodes, G)[1]
 
 
 @dataclass(frozen=True)
@@ -92,7 +85,8 @@ class DiagnosisProblem:
         `plate` and `rational` are of `reference`, a specimen like this one, where that is given.
         """
         grids = [
-            *(Nodes.of(sweep.omega, n) for n in (FINE, COARSE)),
+            Nodes.of(sweep.omega, FINE),
+            Nodes.of(sweep.omega, COARSE, hz_a_node=2 * HZ_A_NODE),
             Nodes.of(sweep.omega, DENSE, sweep.sweep),
         ]
         omega = np.unique(np.concatenate([sweep.omega, *(g.omega for g in grids)]))

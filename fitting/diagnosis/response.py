@@ -52,6 +52,8 @@ class SweepResponse:
         self._channels = Channels(problem, self._unknowns)
         spans = spans_of(problem, effects)
         self.plate: EnrichedReducedPlate = plate or problem.plate.take(spans)
+        if grid is problem.coarse and grid is not problem.fine:
+            self.plate = self.plate.roughly
         self._changing = [k for k, e in enumerate(self.effects) if type(e).change is not Effect.change]
         self._pitching = [k for k, e in enumerate(self.effects) if type(e).pitch is not Effect.pitch]
         self._shifting = [k for k, e in enumerate(self.effects) if type(e).modulus is not Effect.modulus]

@@ -108,6 +108,12 @@ class Search:
         dof = max(1, scored.fitted.data - scored.fitted.parameter_count)
         return 1 + form_error(self._none, scored.fitted, self._alone) / dof
 
+    def validate(self, scored_fits: Sequence[ScoredFit]) -> None:
+        """Validations to come, side by side."""
+        new = [t for t in scored_fits if id(t) not in self._validations]
+        said = self.executor.each(self.work.held_out, [t.fitted for t in new])
+        self._validations |= {id(t): (t, v) for t, v in zip(new, said, strict=True)}
+
     def validation(self, scored: ScoredFit) -> Validation:
         """What a trial says of data it has not seen."""
         key = id(scored)

@@ -5,7 +5,7 @@ that its effects need beside them. A fit takes the columns of its effects alone.
 """
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -31,8 +31,12 @@ Place = tuple[float, float]
 
 CONDENSED = 1e-4
 """Of the largest singular value, what a condensed plate may leave out; its reading is then off by 1e-5."""
+ROUGHLY = 1e-3
+"""The same of a plate to choose between starts: off by 3e-4 with stated numbers two tolerances off."""
 _MOST_TAKEN = 12
 """Plates with some spans' columns that are kept. A bound on memory: one takes up to 6 MB."""
+_MADE_ANEW = ("_taken", "_stacks", "roughly")
+"""By another process."""
 
 
 @dataclass(frozen=True)
@@ -70,6 +74,8 @@ class EnrichedReducedPlate:
     """Shape (k,); of a small structure, and of a plate not treated all over, (parts, k)."""
     layers: Array
     """What is stated of them (`fitting.parts.layers_of`), zero for a plate that carries no effects."""
+    shares: Array = field(default_factory=lambda: np.empty(0))
+    """Singular values of its own columns, which are the first then. Shape (own,); empty if not condensed."""
 
     def take(self, spans: Iterable[Span]) -> "EnrichedReducedPlate":
         """The plate on its own columns and those of `spans`, matrices of other spans left out.
@@ -90,18 +96,38 @@ class EnrichedReducedPlate:
 
     def __getstate__(self) -> dict[str, object]:
         # Another process takes what it needs itself.
-        return {name: value for name, value in vars(self).items() if name not in ("_taken", "_stacks")}
+        return {name: value for name, value in vars(self).items() if name not in _MADE_ANEW}
 
     def _take(self, spans: Sequence[Span]) -> "EnrichedReducedPlate":
         groups = {"plate", *(s.name for s in spans)}
         if any(s.odd for s in spans):
             groups |= {"plate/odd", *(f"{s.name}/odd" for s in spans)}
-        columns = np.flatnonzero(np.isin(self.group, list(groups)))
         prefixes = tuple(f"{s.name}." for s in spans)
         kept = _starting(self.names, prefixes)
         kept_vectors = _starting(self.vector_names, prefixes)
+        on_fewer = replace(
+            self,
+            names=self.names[kept],
+            matrices=self.matrices[kept],
+            vector_names=self.vector_names[kept_vectors],
+            vectors=self.vectors[kept_vectors],
+        )
+        taken = on_fewer._keeping(np.flatnonzero(np.isin(self.group, list(groups))))
+        return taken._independent() if len(spans) > 1 else taken
+
+    @cached_property
+    def roughly(self) -> "EnrichedReducedPlate":
+        """The same without those of its own columns that matter least; itself where it was not condensed."""
+        if not len(self.shares):
+            return self
+        kept = np.ones(len(self.load), dtype=bool)
+        kept[: len(self.shares)] = self.shares > ROUGHLY * self.shares[0]
+        return replace(self._keeping(np.flatnonzero(kept)), shares=np.empty(0))
+
+    def _keeping(self, columns: NDArray[np.intp]) -> "EnrichedReducedPlate":
+        """On some of its columns."""
         square = np.ix_(columns, columns)
-        taken = replace(
+        return replace(
             self,
             group=self.group[columns],
             **{name: getattr(self, name)[square] for name in ("M", "K_0", "K_1", "gram")},
@@ -109,13 +135,10 @@ class EnrichedReducedPlate:
             load_part=self.load_part[..., columns],
             # Taken at once: column by column they would lie across, and every sum set them right again.
             parts=self.parts[np.ix_(np.arange(len(self.parts)), columns, columns)],
-            names=self.names[kept],
-            matrices=self.matrices[np.ix_(kept, columns, columns)],
-            vector_names=self.vector_names[kept_vectors],
-            vectors=self.vectors[kept_vectors][:, columns],
+            matrices=self.matrices[np.ix_(np.arange(len(self.matrices)), columns, columns)],
+            vectors=self.vectors[:, columns],
             deflection=self.deflection[:, :, columns],
         )
-        return taken._independent() if len(spans) > 1 else taken
 
     @classmethod
     def plain(
@@ -169,10 +192,12 @@ class EnrichedReducedPlate:
         X = np.concatenate(found, axis=1)
         V, size, _ = np.linalg.svd(np.hstack([X.real, X.imag]), full_matrices=False)
         # Motions that effects stir are of several sides more of its own and less beside them.
-        V = V[:, size > CONDENSED / max(1.0, len(sides) / 2) * size[0]]
+        kept = size > CONDENSED / max(1.0, len(sides) / 2) * size[0]
+        V = V[:, kept]
         rest = np.flatnonzero(self.group != "plate")
         on = OwnCombined(V, _as_slice(own), _as_slice(rest))
-        return self._with(on, np.concatenate([np.full(V.shape[1], "plate"), self.group[rest]]))
+        group = np.concatenate([np.full(V.shape[1], "plate"), self.group[rest]])
+        return replace(self._with(on, group), shares=size[kept])
 
     def _answers(
         self, own: NDArray[np.intp], omega: Array, G: Complex, change: Change, further: Sequence[Array]

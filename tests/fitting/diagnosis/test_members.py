@@ -7,6 +7,7 @@ from shear_pair_cases import pair
 
 from fitting.diagnosis.every_point import EveryPoint
 from fitting.diagnosis.member_laws import by_all, law_at
+from fitting.diagnosis.nodes import Nodes
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.laws.constant import ConstantModulus
 from fitting.structures.small import system_of
@@ -35,6 +36,23 @@ def test_derivatives_of_one_sweep_are_none_to_the_other_s_parameters():
     both, dv = OwnLaws((SOFT, HARD), (2, 1)), np.array([[1.0 + 1j], [2.0]])
     assert by_all(both, 1, dv)[:, 0] == pytest.approx([0, 0, 1 + 1j, 2])
     assert by_all(SOFT, 1, dv) is dv
+
+
+def test_poles_under_a_law_are_followed_once_for_all_who_ask():
+    specimen = pair(0.2)
+    poles = PlatePoles(system_of(specimen, specimen.parts()), SOFT)
+    (at,) = poles.near(200.0, 4000.0)
+    # A step of Rayleigh's quotient from where they were: a modulus not far off, as a fit's.
+    omega = np.linspace(0.8, 1.2, 60) * at.real
+    nodes = Nodes.of(omega, 5).around(poles.near)
+    softer = ConstantModulus(0.8e6, 0.5)
+    found = poles.under(nodes, softer.modulus(nodes.omega))
+    (expected,) = small_modes(specimen, softer, 1)
+    assert found[1] == pytest.approx([np.sqrt(expected.eigenvalue)], rel=1e-6)
+    again = poles.under(nodes, softer.modulus(nodes.omega))
+    assert again[1] is found[1]
+    stiffer = poles.under(nodes, SOFT.modulus(nodes.omega))
+    assert stiffer[1] == pytest.approx([at], rel=1e-6)
 
 
 def test_poles_of_a_pad_are_its_modes():

@@ -59,3 +59,10 @@ def test_the_way_back_from_points_to_nodes_magnifies_nothing(low, high, points):
     t = (nodes.omega - omega.mean()) / np.ptp(omega), (omega - omega.mean()) / np.ptp(omega)
     smooth = [1 - 0.1 * x + 0.05 * x**2 - 0.02 * x**6 for x in t]
     assert nodes.fit @ smooth[1] == pytest.approx(smooth[0], rel=1e-9)
+
+
+def test_a_wide_cluster_has_nodes_as_close_as_is_asked():
+    wide = 2 * np.pi * np.linspace(79.9, 120.1, 200)
+    assert len(Nodes.of(wide, 6).omega) == 3 + 10
+    assert len(Nodes.of(wide, 6, hz_a_node=8.0).omega) == 3 + 5
+    assert len(Nodes.of(wide, 6, hz_a_node=40.0).omega) == 6

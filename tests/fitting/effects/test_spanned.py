@@ -186,6 +186,25 @@ def test_condensing_keeps_the_answers_it_was_condensed_on(full):
     assert error(found, expected) < 1e-6
 
 
+def test_a_rough_plate_has_fewer_motions_of_its_own_and_all_of_an_effects(full):
+    factors = [size * np.exp(1j * angle) for size in (0.25, 0.5, 1, 2, 4) for angle in (0.2, 0.6, 1.0)]
+    plate = full.spanned.condensed(
+        np.tile(OMEGA, len(factors)), np.concatenate([abs(G) * f for f in factors])
+    )
+    fine = plate.take(CATALOGUE["clamp_compliance"].spans)
+    rough = fine.roughly
+    assert np.sum(rough.group == "plate") < 0.8 * np.sum(fine.group == "plate")
+    assert np.sum(rough.group == "root") == np.sum(fine.group == "root")
+    soft = CATALOGUE["clamp_compliance"].starts(fine, None)[0]
+    found, expected = (
+        answer(p, OMEGA, G, CATALOGUE["clamp_compliance"].change(p, soft), [], with_pitch=False).heave
+        for p in (rough, fine)
+    )
+    assert 0 < error(found, expected) < 1e-3
+    assert rough.roughly is rough
+    assert full.spanned.roughly is full.spanned
+
+
 def test_the_plate_of_the_latest_effects_is_taken_once_and_stays_in_its_process(full):
     plate = replace(full.spanned)
     spans = CATALOGUE["tether"].spans
