@@ -15,6 +15,8 @@ from fitting.laws import CoreLaw
 Reading = Literal["relative", "absolute"]
 Drive = Literal["base", "force"]
 
+OF_DRIVE_AND_READING = ("pickup", "force", "gain", "delay")
+"""Tolerances that are not of the plate itself."""
 DEFAULT_ELEMENTS = 1040
 """Elements of the default mesh: 40 x 26 on a plate of aspect 1.5."""
 _ALIGNED = 1e-9
@@ -310,6 +312,13 @@ class Specimen:
         n_x = max(8, round(along_x))
         n_y = max(8, round(DEFAULT_ELEMENTS / along_x))
         return n_x, n_y
+
+    @property
+    def as_it_stands(self) -> "Specimen":
+        """The plate on its edges, masses and all, whatever drives it and wherever it is read."""
+        stated = {name: size for name, size in self.tolerances.items() if name not in OF_DRIVE_AND_READING}
+        at_rest = replace(self, force_m=None, pickup_m=None, further_pickups_m=(), tolerances=stated)
+        return replace(at_rest, reads="relative", base_acceleration_m_s2=PUBLISHED_G_M_S2)
 
     @property
     def bare(self) -> "Specimen":

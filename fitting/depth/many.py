@@ -100,9 +100,7 @@ class ManyResiduals:
         points, none = self.task.begun.problem.points, self.task.begun.none
         n = len(none.law.names)
         v = 1j * points.omega * points.acceleration_m_s2 * x
-        if points.reads == "absolute":
-            v = v + points.acceleration_m_s2 / (1j * points.omega)
-        return np.asarray(v * self._channel(whole[:, n : n + none.stated]))
+        return np.asarray((v + points.base_m_s) * self._channel(whole[:, n : n + none.stated]))
 
     def jacobians(self, X: Array) -> Array:
         """Derivatives of the rows. Shapes (any, kept) to (any, rows, kept)."""

@@ -54,7 +54,8 @@ def begin(
     """The fit without any effect, and the evidence all candidates are judged by."""
     sweep = problem.sweep
     start = start.to_fit(sweep.frequency_hz)
-    model = SweepModel(problem.rational, np.arange(len(sweep)), sweep.commanded_m_s2, problem.points.reads)
+    points, every = problem.points, np.arange(len(sweep))
+    model = SweepModel(problem.rational, every, sweep.commanded_m_s2, points.reads, points.at_rest)
     first = fit_direct(Residuals.of(sweep, noise, model), start)
     laws: list[CoreLaw] = [first.law]
     inside = within_search(first.law, sweep.omega)

@@ -37,15 +37,20 @@ def joined(sweeps: Sequence[Sweep]) -> Sweep:
 def joined_points(each: Sequence[Points]) -> Points:
     """What is known of all points. Shape (points of all,) each."""
     forces = [p.force_n for p in each if p.force_n is not None]
+    shaken = [p for p in each if p.drive == "base"]
+    # Where both drive, what is read is asked of those that a base moves.
+    first = (shaken or each)[0]
+    at_rest = np.concatenate([np.full(len(p.omega), p.drive == "force") for p in each])
     return Points(
         omega=np.concatenate([p.omega for p in each]),
         acceleration_m_s2=np.concatenate([p.acceleration_m_s2 for p in each]),
         time_s=np.concatenate([p.time_s for p in each]),
         timed=all(p.timed for p in each),
         has_phase=each[0].has_phase,
-        reads=each[0].reads,
-        drive=each[0].drive,
+        reads=first.reads,
+        drive=first.drive,
         force_n=np.concatenate(forces) if len(forces) == len(each) else None,
+        at_rest=at_rest if 0 < len(shaken) < len(each) else None,
     )
 
 

@@ -37,17 +37,25 @@ class Place(NamedTuple):
     """From 0; None where the file has one spot."""
 
 
-def among(effect: Effect, files: int, spots: Sequence[int], *, one_plate: bool = False) -> Effect:
+def among(
+    effect: Effect,
+    files: int,
+    spots: Sequence[int],
+    *,
+    one_plate: bool = False,
+    mounted: Sequence[int] = (),
+) -> Effect:
     """An effect among so many files, of which some have several spots.
 
     Of `one_plate`, measured again in every file, what is of the plate itself is of all of them, and what is
-    on it, or of the rig, seldom of one alone.
+    on it, or of the rig, seldom of one alone. `mounted` as `OfFiles` has it.
     """
     if files == 1 and not (spots and effect.enters in _OF_A_SPOT):
         return effect
     by_spot = tuple(spots) if effect.enters in _OF_A_SPOT else ()
     apart = not (one_plate and effect.enters in _OF_THE_PLATE)
-    return OfFiles(effect, files, spots=by_spot, apart=apart, stays=one_plate and effect.enters in _STAYS)
+    stays = one_plate and effect.enters in _STAYS
+    return OfFiles(effect, files, spots=by_spot, apart=apart, stays=stays, mounted=tuple(mounted))
 
 
 class OfFiles(Effect):
@@ -69,17 +77,22 @@ class OfFiles(Effect):
         *,
         apart: bool = True,
         stays: bool = False,
+        mounted: tuple[int, ...] = (),
     ) -> None:
-        """`apart`: whether it may be of one file alone; `stays`: whether it is seldom of one alone."""
+        """`apart`: whether it may be of one file alone; `stays`: whether it is seldom of one alone.
+
+        `mounted`: of each file the first one of its mounting, 0 where the effect has no meaning; each by
+        itself where nothing is said.
+        """
         self.apart, self.stays = apart, stays
+        self.mounted = mounted or tuple(range(1, files + 1))
         self.inner, self.files, self.file, self.spots, self.spot = inner, files, file, spots, spot
+        own = self._own
         where = [EffectParameter(FILE, "1", float(EACH), float(files), float(file), neutral=None, fixed=True)]
-        self.copies = files if file == EACH else 1
+        self.copies = len(own) if file == EACH else 1
         """How many times it has the unknowns of `inner`."""
-        further = [
-            replace(q, key=f"{q.key}_{k + 1}") for k in range(1, self.copies) for q in inner.parameters
-        ]
-        alone = (inner.enters == "channel" and spot != _ALL) or (stays and file > ALIKE)
+        further = [replace(q, key=f"{q.key}_{k}") for k in own[1 : self.copies] for q in inner.parameters]
+        alone = (inner.enters == "channel" and spot != _ALL) or (stays and file > ALIKE and len(own) > 1)
         if spots:
             last = float(max(spots))
             where.append(EffectParameter(PICKUP, "1", _ALL, last, float(spot), neutral=None, fixed=True))
@@ -97,12 +110,24 @@ class OfFiles(Effect):
 
     def holds(self, place: Place) -> bool:
         """Whether some data have it."""
-        return self.file in (EACH, ALIKE, place.file) and self.spot in (_ALL, place.pickup)
+        here = self._of(place.file)
+        return here > 0 and self.file in (EACH, ALIKE, here) and self.spot in (_ALL, place.pickup)
+
+    def _of(self, file: int) -> int:
+        """By which number it goes in a file: that of its mounting where it comes of one; 0 for none."""
+        mounted = self.mounted[file - 1]
+        return mounted if self.needs_mounting or not mounted else file
+
+    @property
+    def _own(self) -> list[int]:
+        """The numbers it goes by."""
+        return sorted({of for k in range(1, self.files + 1) if (of := self._of(k)) > 0})
 
     def places(self, place: Place) -> NDArray[np.intp]:
         """Which of its unknowns are those of `inner` for some data. Shape (parameters of inner,)."""
         count = len(self.inner.parameters)
-        return (place.file - 1 if self.file == EACH else 0) * count + np.arange(count)
+        copy = self._own.index(self._of(place.file)) if self.file == EACH else 0
+        return copy * count + np.arange(count)
 
     def bare_shift(self, bare: BarePlateModes, u: Array) -> Array:
         # The bare plate is that of the first file.
@@ -130,9 +155,7 @@ class OfFiles(Effect):
         each = [self.inner.within(one) for one in np.split(u[: -len(self._where)], self.copies)]
         found = []
         for parts in zip(*each, strict=True):
-            form = OfFiles(
-                parts[0][0], self.files, self.file, self.spots, self.spot, apart=self.apart, stays=self.stays
-            )
+            form = self._with(parts[0][0], self.file, self.spots, self.spot)
             found.append((form, np.concatenate([*(part for _, part in parts), self._where])))
         return tuple(found)
 
@@ -152,22 +175,39 @@ class OfFiles(Effect):
         return self.inner.needs >= CLAMP
 
     def variants(self) -> tuple[Effect, ...]:
-        forms = self.inner.variants()
-        files = range(self.files + 1) if self.files > 1 and self.apart else range(1)
-        numbers = [*files, EACH] if self.files > 1 and self.needs_mounting else files
-        found = [
-            OfFiles(form, self.files, k, self.spots, stays=self.stays) for k in numbers for form in forms
-        ]
-        found += [OfFiles(form, self.files, 0, self.spots, k) for k in self.spots for form in forms]
-        if self.files > 1 and self.spots and self.inner.enters == "observation":
+        forms, own = self.inner.variants(), self._own
+        several = len(own) > 1
+        numbers = [ALIKE, *own] if several and self.apart else [ALIKE]
+        if several and self.needs_mounting:
+            numbers.append(EACH)
+        elif not several and 0 in self.mounted:
+            # It has a meaning there alone: that is its only form.
+            numbers = own
+        found: list[Effect] = [self._with(form, k, self.spots, _ALL) for k in numbers for form in forms]
+        found += [self._with(form, ALIKE, self.spots, k) for k in self.spots for form in forms]
+        if several and self.spots and self.inner.enters == "observation":
             # A laser that was aimed once more is off once.
-            found += [OfFiles(form, self.files, 1, self.spots, self.spots[0]) for form in forms]
+            found += [self._with(form, own[0], self.spots, self.spots[0]) for form in forms]
         return tuple(found)
 
+    def _with(self, inner: Effect, file: int, spots: tuple[int, ...], spot: int) -> "OfFiles":
+        """Another form of it."""
+        return OfFiles(
+            inner,
+            self.files,
+            file,
+            spots,
+            spot,
+            apart=self.apart,
+            stays=self.stays,
+            mounted=self.mounted,
+        )
+
     def story(self, u: Mapping[str, float]) -> str:
-        where = "in every file" if u[FILE] <= ALIKE else f"in file {u[FILE]:.0f}"
+        every = "in every file" if 0 not in self.mounted else "in every file where it can be"
+        where = every if u[FILE] <= ALIKE else f"in file {u[FILE]:.0f}"
         if u[FILE] == EACH:
-            where = "in every file, in each of another size (that of the first is said),"
+            where = f"{every}, in each of another size (that of the first is said),"
         if u.get(PICKUP, _ALL) != _ALL:
             at = f"at pickup {u[PICKUP]:.0f}"
             where = at if u[FILE] <= ALIKE else f"{where} {at}"

@@ -17,6 +17,7 @@ from fitting.diagnosis.every_point import EveryPoint
 from fitting.diagnosis.joining import joined, joined_points, side_by_side
 from fitting.diagnosis.member_laws import by_all, law_at
 from fitting.diagnosis.model_error import model_error
+from fitting.diagnosis.mountings import mountings
 from fitting.diagnosis.of_files import OfFiles, Place
 from fitting.diagnosis.one_plate import Taken
 from fitting.diagnosis.plate_answer import motions
@@ -70,17 +71,15 @@ class SeveralProblem(DiagnosisProblem):
         another matter each time. Raises `OutsideModel` where they cannot be fitted together.
         """
         of = tuple(of) or tuple(Place(k + 1) for k in range(len(members)))
-        if len({m.points.reads for m in members}) > 1:
+        if len({m.points.reads for m in members if m.points.drive == "base"}) > 1:
             raise OutsideModel("some files read absolute, others relative to the base, expected one of them")
-        if len({m.points.drive for m in members}) > 1:
-            raise OutsideModel("some files are driven by a base, others by a force, expected one of them")
         if len({m.sweep.has_phase for m in members}) > 1:
             raise OutsideModel("some files hold phasors, others amplitudes, expected one of them")
         if len({m.specimen.exact for m in members}) > 1:
             raise OutsideModel("some specimens are exact, others not, expected one of them")
         plates = one_plate.plates_of(members)
         apart = CHANNELS if one_mounting else (*OF_EACH_SPOT, *OF_EACH_FILE, *OF_EACH_PLATE)
-        each, places, owners = shared(members, of, apart, plates)
+        each, places, owners = shared(members, of, apart, mountings(members, plates))
         sweep = joined([m.sweep for m in members])
         rational = side_by_side([m.rational for m in members])
         nodes = EveryPoint.at(sweep.omega)

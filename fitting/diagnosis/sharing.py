@@ -6,7 +6,6 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.diagnosis import one_plate
 from fitting.diagnosis.of_files import Place
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.identification.adjusted import stated_number
@@ -19,7 +18,7 @@ CHANNELS = ("gain", "delay")
 OF_EACH_FILE = ("force",)
 """And in every file, its spots sharing them."""
 OF_EACH_PLATE = ("mass", "place", "damping", "length", "width")
-"""And in every file, but of one plate that is struck elsewhere: it was not mounted anew."""
+"""And in every file, but of one plate that is struck, there or elsewhere: it was not mounted anew."""
 Places = tuple[NDArray[np.intp], ...]
 
 
@@ -27,11 +26,12 @@ def shared(
     members: Sequence[DiagnosisProblem],
     of: Sequence[Place],
     apart: Sequence[str],
-    plates: one_plate.Plates,
+    mounted: Sequence[int],
 ) -> tuple[tuple[Nuisance, ...], Places, tuple[tuple[int, ...], ...]]:
     """All stated numbers, those of the same thing once: where each member's are, and whose each is.
 
-    Kinds `apart` are another thing in every file or at every spot.
+    Kinds `apart` are another thing in every file or at every spot. `mounted`: of every member the first one
+    of its mounting.
     """
     keys: dict[tuple[object, ...], int] = {}
     each: list[Nuisance] = []
@@ -46,7 +46,7 @@ def shared(
             elif n.kind in OF_EACH_SPOT:
                 key = (n.name, of[k])
             elif n.kind in OF_EACH_PLATE:
-                key = (n.name, of[plates[k] if m.points.drive == "force" else k].file)
+                key = (n.name, of[mounted[k]].file)
             elif n.kind in OF_EACH_FILE:
                 key = (n.name, of[k].file)
             if key not in keys:

@@ -106,11 +106,21 @@ class Points:
     drive: Drive = "base"
     force_n: Array | None = None
     """Amplitude of the force that was measured, where one drives and its size is told."""
+    at_rest: NDArray[np.bool_] | None = None
+    """Which points have a base at rest, a force driving them; None where `drive` says it of all."""
 
     @property
     def levels(self) -> int:
         """How many levels there are."""
         return len(np.unique(np.round(self.acceleration_m_s2, 9)))
+
+    @property
+    def base_m_s(self) -> Complex | float:
+        """The base's own velocity, as far as it is read. Shape (points,), or zero."""
+        if self.reads == "relative":
+            return 0.0
+        moving = self.acceleration_m_s2 / (1j * self.omega)
+        return moving if self.at_rest is None else np.where(self.at_rest, 0.0, moving)
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Array, Complex, Mask
 from fitting.laws import CoreLaw
 from fitting.rational import RationalSweep
 from fitting.specimen import Reading
@@ -31,6 +31,8 @@ class SweepModel:
     acceleration_m_s2: Array
     """Commanded base acceleration. Shape (points,)."""
     reads: Reading
+    at_rest: Mask | None = None
+    """Points whose base does not move; None: that of all does. Shape (points,)."""
 
     @classmethod
     def of(cls, sweep: Sweep, rational: RationalSweep, reads: Reading) -> "SweepModel":
@@ -44,8 +46,11 @@ class SweepModel:
 
     def velocities(self, displacement: Complex) -> Complex:
         """Phasors in m/s from displacements on the grid. Shapes (..., grid) to (..., points)."""
-        v = velocity(self.rational.omega, displacement, self.reads)
-        return np.asarray(v[..., self.index] * self.acceleration_m_s2)
+        omega = self.rational.omega
+        v = velocity(omega, displacement, self.reads)[..., self.index]
+        if self.at_rest is not None:
+            v = np.where(self.at_rest, velocity(omega, displacement, "relative")[..., self.index], v)
+        return np.asarray(v * self.acceleration_m_s2)
 
     def with_derivatives(self, law: CoreLaw) -> tuple[Complex, Complex]:
         """Phasors and their derivatives to the log parameters. Shapes (points,), (parameters, points)."""
@@ -59,4 +64,5 @@ class SweepModel:
     def take(self, points: NDArray[np.intp] | NDArray[np.bool_]) -> "SweepModel":
         """The model at some of the points. Numbers or shape (points,), true or false."""
         used, index = np.unique(self.index[points], return_inverse=True)
-        return SweepModel(self.rational.at(used), index, self.acceleration_m_s2[points], self.reads)
+        at_rest = None if self.at_rest is None else self.at_rest[points]
+        return SweepModel(self.rational.at(used), index, self.acceleration_m_s2[points], self.reads, at_rest)

@@ -9,6 +9,7 @@ from threadpoolctl import threadpool_limits
 from fitting.diagnosis.diagnose import diagnose_task, seen_in_channels
 from fitting.diagnosis.result import Diagnosis
 from fitting.effects import CATALOGUE, Effect
+from fitting.effects.base import BASE, CLAMP
 from fitting.errors import OutsideModel
 from fitting.specimen import Specimen, StatedSpecimen
 from fitting.sweep import Sweep
@@ -37,17 +38,39 @@ def effects_on(
     specimen: StatedSpecimen, without: Collection[str] = (), accept: Sequence[str] | None = None
 ) -> list[Effect]:
     """The forms that effects have on a specimen. Raises `BadInput` for a name that is none of them."""
+    return [effect for effect, _ in effects_among([specimen], without, accept)]
+
+
+def effects_among(
+    specimens: Sequence[StatedSpecimen], without: Collection[str] = (), accept: Sequence[str] | None = None
+) -> list[tuple[Effect, tuple[bool, ...]]]:
+    """Effects on some specimens of one kind, and on which of these each has a meaning.
+
+    A base that moves, or a clamp, is of those that have one; all must offer what else an effect needs. What
+    goes with the level of a base is of those that one drives, where others are struck. Raises `BadInput` for
+    a name that is none of them.
+    """
     unknown = sorted({*without, *(accept or ())} - set(CATALOGUE))
     if unknown:
         raise BadInput(f"effect {unknown[0]!r}, expected one of {', '.join(sorted(CATALOGUE))}")
-    standing = {n: form for n, e in CATALOGUE.items() if (form := e.standing_on(specimen)) is not None}
+    first = specimens[0]
+    standing = {}
+    for name, effect in CATALOGUE.items():
+        form = effect.on(first.kind)
+        if form is None or not all(form.needs - (BASE | CLAMP) <= s.offers for s in specimens):
+            continue
+        of_level = form.enters == "level" and any(s.drive == "base" for s in specimens)
+        stands = tuple(form.needs <= s.offers and not (of_level and s.drive == "force") for s in specimens)
+        if any(stands):
+            standing[name] = form, stands
     for name in accept or ():
         if name not in standing:
+            drives = " or ".join(sorted({s.drive for s in specimens}))
             raise BadInput(
-                f"effect {name!r} has no meaning on this {specimen.kind} driven by a {specimen.drive}, "
+                f"effect {name!r} has no meaning on this {first.kind} driven by a {drives}, "
                 f"expected one of {', '.join(sorted(standing))}"
             )
-    return [form for name, form in standing.items() if name not in without]
+    return [found for name, found in standing.items() if name not in without]
 
 
 def diagnose(

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.diagnosis.evidence import BareModes
+from fitting.diagnosis.mountings import of_mounting
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
@@ -54,7 +55,22 @@ def one_plate(files: Sequence[File]) -> bool:
     """Whether the specimens differ in what drives them, in the spot and in masses put on them alone."""
     plates = [f.specimen for f in files if isinstance(f.specimen, Specimen)]
     whole = [replace(s, force_m=None, pickup_m=None, further_pickups_m=(), masses=()) for s in plates]
+    if len({s.drive for s in plates}) > 1:
+        whole = [replace(s.as_it_stands, masses=()) for s in plates]
+        if len({s.boundary for s in plates}) > 1:
+            # Hung free it is as long as it is, not as far as it stands out of a clamp.
+            whole = [replace(s, boundary="free", length_m=plates[0].length_m, modal_ratios=()) for s in whole]
     return len(whole) == len(files) and all(s == whole[0] for s in whole)
+
+
+def mounted(files: Sequence[File], stands: Sequence[bool]) -> tuple[int, ...]:
+    """Of each number of a file the first one of its mounting; 0 of those on which nothing `stands`."""
+    numbers, stated = numbers_of(files), [f.specimen for f in files]
+    found = [0] * max(numbers)
+    for k, number in enumerate(numbers):
+        if stands[k]:
+            found[number - 1] = numbers[of_mounting(stated, k, k)]
+    return tuple(found)
 
 
 def plates_of(
@@ -81,11 +97,15 @@ def plates_of(
                 its.append(k)
     found: dict[int, tuple[DiagnosisProblem, ReducedPlate]] = {}
     bare: BareModes | None = None
+    first = files[0].specimen
     for _, group in alike:
         specimens = [s for k in group if isinstance(s := files[k].specimen, Specimen)]
+        # The bare plate was struck as the first file's plate is held.
+        held_alike = isinstance(first, Specimen) and specimens[0].edges == first.edges
+        test = hammer if held_alike else None
         like = files[group[0]].like
         if len(group) > 1 and like is None:
-            tested = [with_hammer(s, hammer) for s in specimens]
+            tested = [with_hammer(s, test) for s in specimens]
             bare = bare or tested[0][1]
             each = set_up_spots(
                 [sweeps[k] for k in group], [s for s, _ in tested], progress, with_effects=with_effects
@@ -93,7 +113,7 @@ def plates_of(
             found |= dict(zip(group, each, strict=True))
             continue
         for k, s in zip(group, specimens, strict=True):
-            ready = set_up(sweeps[k], s, hammer, progress, with_effects=with_effects, like=like)
+            ready = set_up(sweeps[k], s, test, progress, with_effects=with_effects, like=like)
             bare = bare or ready.bare
             found[k] = ready.problem, ready.reduced
     return found, bare

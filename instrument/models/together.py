@@ -35,9 +35,9 @@ from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
 from fitting.structures.shear_pair import ShearPair
 from fitting.sweep import Sweep
-from instrument.models.diagnosis import Diagnosed, effects_on
+from instrument.models.diagnosis import Diagnosed, effects_among
 from instrument.models.file_remarks import remarks_on_files
-from instrument.models.files import File, name_of, numbers_of, one_plate, plates_of
+from instrument.models.files import File, mounted, name_of, numbers_of, one_plate, plates_of
 from instrument.models.identification import Identified, Joint
 from instrument.models.second_process import executor
 from instrument.models.set_up import Hammer
@@ -270,8 +270,8 @@ def diagnose_together(
         raise OutsideModel(
             f"{' and '.join(sorted(kinds))} together, expected specimens of one kind to diagnose"
         )
-    standing = [{e.name for e in effects_on(f.specimen, without, accept)} for f in files]
-    effects = [e for e in effects_on(files[0].specimen, without) if e.name in set.intersection(*standing)]
+    among_files = effects_among([f.specimen for f in files], without, accept)
+    effects = [e for e, _ in among_files]
     work = _Work(files, progress, with_effects=True, hammer=hammer)
     with threadpool_limits(1, "blas"), executor() as workers:
         channels: list[FoundEffect] = []
@@ -280,7 +280,7 @@ def diagnose_together(
         spots = sorted({f.pickup for f in files if f.pickup is not None})
         same = one_plate(files)
         for k, file in enumerate(files):
-            used, seen, _ = seen_in_channels(file.sweep, effects)
+            used, seen, _ = seen_in_channels(file.sweep, [e for e, on in among_files if on[k]])
             work.used[k] &= used
             channels += [_with_file(one, numbers[k], count) for one in seen]
         work.problem()
@@ -290,8 +290,10 @@ def diagnose_together(
             channels += [_fixture(one, count) for one in work.aside]
             problem, noise = work.problem()
             tried = [
-                e if e.replaces_law or len(files) == 1 else among(e, count, spots, one_plate=same)
-                for e in effects
+                e
+                if e.replaces_law or len(files) == 1
+                else among(e, count, spots, one_plate=same, mounted=mounted(files, on))
+                for e, on in among_files
             ]
             result = diagnose_task(
                 problem,

@@ -26,6 +26,7 @@ from fitting.effects.change import Change
 from fitting.effects.enriching import enriched
 from fitting.effects.full_plate import FullPlate
 from fitting.errors import OutsideModel
+from fitting.identification.model import SweepModel
 from fitting.plate import Plate
 from fitting.rational import rational_sweep, rational_sweeps
 from fitting.reduced import reduce_plate
@@ -326,3 +327,26 @@ def test_effects_stand_where_there_is_what_they_need(coarse):
 def test_a_force_on_a_held_edge_moves_nothing(coarse):
     with pytest.raises(OutsideModel, match="held edge"):
         _ = Plate(replace(coarse, force_m=(0.0, 0.1))).load
+
+
+@pytest.fixture(scope="module")
+def shaken(coarse):
+    return Driven(replace(coarse, exact=False, reads="absolute"))
+
+
+def test_a_base_and_a_force_drive_one_plate_in_one_task(shaken, free):
+    responses = [shaken.response([]), free.response([])]
+    problem = SeveralProblem.of_members([r.problem for r in responses], [shaken.reduced, free.reduced])
+    z = 0.5 * np.random.default_rng(4).standard_normal(len(problem.nuisances))
+    found = SeveralResponse(problem, []).velocity(shaken.law, z)
+    for r, at, part in zip(responses, problem.places, problem.starts_at, strict=True):
+        np.testing.assert_allclose(found[part], r.velocity(shaken.law, z[at]), rtol=1e-8)
+    # As stated the first fit, of the law alone, reads the same.
+    points = problem.points
+    model = SweepModel(problem.rational, np.arange(10), np.ones(10), points.reads, points.at_rest)
+    expected = SeveralResponse(problem, []).velocity(shaken.law, 0 * z)
+    np.testing.assert_allclose(model.velocity(shaken.law), expected, rtol=1e-8)
+    few = np.array([1, 7])
+    np.testing.assert_allclose(model.take(few).velocity(shaken.law), expected[few], rtol=1e-8)
+    names = {n.name for n in problem.nuisances.each}
+    assert {"core_thickness", "length [1]", "length [2]", "gain [1]", "gain [2]", "force_x [2]"} < names

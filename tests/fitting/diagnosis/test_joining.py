@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fitting.diagnosis.joining import joined, side_by_side
+from fitting.diagnosis.joining import joined, joined_points, side_by_side
+from fitting.effects.base import Points
 from fitting.rational import RationalSweep
 from fitting.sweep import Sweep
 
@@ -40,3 +41,18 @@ def test_a_sum_beside_another_says_what_each_says_alone(seed, terms, others):
     G = 1e6 * rng.uniform(0.5, 2, 5) * np.exp(1j * rng.uniform(0, 0.8, 5))
     alone = np.concatenate([each[0].displacement(G[:3]), each[1].displacement(G[3:])])
     assert side_by_side(each).displacement(G) == pytest.approx(alone, rel=1e-9)
+
+
+def test_points_of_a_base_and_of_a_force_say_which_are_at_rest():
+    def points(drive, reads):
+        one = np.ones(2)
+        return Points(2 * one, 3 * one, one, False, True, reads, drive)
+
+    struck, shaken = points("force", "relative"), points("base", "absolute")
+    both = joined_points([struck, shaken])
+    assert (both.drive, both.reads) == ("base", "absolute")
+    assert both.at_rest.tolist() == [True, True, False, False]
+    assert both.base_m_s == pytest.approx([0, 0, -1.5j, -1.5j])
+    assert shaken.base_m_s == pytest.approx([-1.5j, -1.5j])
+    assert joined_points([shaken, shaken]).at_rest is None
+    assert struck.base_m_s == joined_points([struck, struck]).base_m_s == 0.0

@@ -95,3 +95,26 @@ def test_what_an_effect_contains_it_contains_in_each_file():
         ("added_mass", 2, [2e-3, 0.2, 0.0, 2.0]),
     ]
     assert OfFiles(GAIN, 2).within(np.array([1.01, 0.0])) == ()
+
+
+def test_what_has_a_meaning_in_one_file_alone_is_of_that_file():
+    # Shaken, and hung free: there is a clamp and a base in the first alone.
+    for name in ("clamp_compliance", "base_rocking"):
+        (form,) = among(CATALOGUE[name], 2, (), one_plate=True, mounted=(1, 0)).variants()
+        assert (form.file, form.chance) == (1, CATALOGUE[name].chance)
+        assert [form.holds(Place(k)) for k in (1, 2)] == [True, False]
+
+
+def test_a_clamp_is_one_in_all_files_of_one_mounting():
+    # Shaken, struck in the same clamp, hung free, clamped anew.
+    forms = among(CLAMP, 4, (), mounted=(1, 1, 0, 4)).variants()
+    assert [f.file for f in forms] == [0, 1, 4, EACH]
+    held = {f.file: [f.holds(Place(k)) for k in (1, 2, 3, 4)] for f in forms}
+    assert held[0] == held[EACH] == [True, True, False, True]
+    assert held[1] == [True, True, False, False]
+    each = forms[-1]
+    assert [q.key for q in each.parameters] == ["k", "k_4", "file"]
+    assert [each.places(Place(k)).tolist() for k in (1, 2, 4)] == [[0], [0], [1]]
+    assert each.story({"k": 5e13, "k_4": 5e13, "file": EACH}).startswith("in every file where it can be")
+    # A channel is another matter in each.
+    assert [f.file for f in among(GAIN, 4, (), mounted=(1, 1, 3, 4)).variants()] == [0, 1, 2, 3, 4]
