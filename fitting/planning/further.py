@@ -29,6 +29,7 @@ from fitting.planning.forms import forms_of
 from fitting.planning.known_mass import KnownMass
 from fitting.planning.rivalry import Forecast
 from fitting.planning.sensitivity import ReadingNoise
+from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
 
 Places = NDArray[np.intp]
@@ -54,6 +55,12 @@ class Further:
     remounted: bool = False
     """Whether the specimen is clamped anew: numbers that a mounting changes are others by so much."""
     mass: KnownMass | None = None
+    noise: ReadingNoise | None = None
+    """Of channels of its own; None: as the sweep's."""
+    reduced: ReducedPlate | None = None
+    """Where the model errs anew in a way of its own: the plate that says how. None: as in the first sweep."""
+    other_reference: bool = False
+    """Whether another channel is the reference: what was wrong in one may have been in the first one's."""
     like: Places | None = None
     """Of frequencies that were not measured: the first sweep's points that the model errs like."""
 
@@ -106,16 +113,25 @@ class Expecting:
         self.known = [self._learnt(fitted) for _, fitted, _ in forms]
 
     @cached_property
+    def members(self) -> tuple[DiagnosisProblem, ...]:
+        """All that was read."""
+        return self.problem.members if isinstance(self.problem, SeveralProblem) else (self.problem,)
+
+    @property
     def member(self) -> DiagnosisProblem:
         """The first sweep of the first file."""
-        return self.problem.members[0] if isinstance(self.problem, SeveralProblem) else self.problem
+        return self.members[0]
 
     @cached_property
     def read_m(self) -> tuple[tuple[float, float], ...]:
         """Spots that were read, as stated."""
-        every = self.problem.members if isinstance(self.problem, SeveralProblem) else (self.problem,)
-        stated = [m.nuisances.specimen for m in every]
+        stated = [m.nuisances.specimen for m in self.members if m.points.drive == "base"]
         return tuple(s.pickup_m for s in stated if isinstance(s, Specimen) and s.pickup_m is not None)
+
+    @property
+    def struck_already(self) -> bool:
+        """Whether a force has driven the plate in some file."""
+        return any(m.points.drive == "force" for m in self.members)
 
     @property
     def in_time(self) -> bool:
@@ -132,8 +148,8 @@ class Expecting:
     def forecasts(self, further: Further, noise: ReadingNoise) -> list[Forecast]:
         """Of each form of each rival."""
         raw = [self._raw(known, further) for known in self.known]
-        v = raw[0].v
-        sigma = np.hypot(noise.std_m_s(v, further.dwell_s), SHARE * np.abs(v))
+        v, channels = raw[0].v, further.noise or noise
+        sigma = np.hypot(channels.std_m_s(v, further.dwell_s), SHARE * np.abs(v))
         return [self._over(one, sigma) for one in raw]
 
     def rows(self, part: Places, count: int) -> Places:
@@ -180,21 +196,24 @@ class Expecting:
         n, count = len(fitted.law.names), len(member.nuisances)
         stated = self._stated
         effects, places = self._effects(fitted, further.without)
-        u = np.concatenate([fitted.u[stated], *(fitted.u[p] for p in places)])
+        # Where each of its stated numbers is among those fitted; nowhere if the first sweep did not have it.
+        names = {q.name: int(g) for q, g in zip(self.member.nuisances.each, stated, strict=True)}
+        each = [names.get(q.name) for q in member.nuisances.each]
+        new = [k for k, q in enumerate(member.nuisances.each) if q.kind in further.new or each[k] is None]
+        z = [0.0 if k in new or g is None else fitted.u[g] for k, g in enumerate(each)]
+        u = np.concatenate([z, *(fitted.u[p] for p in places)])
         if further.mass is not None:
             longer = sum(e.longer_m(fitted.u[p]) for e, p in zip(effects, places, strict=True))
             effects = [*effects, further.mass]
             u = np.concatenate([u, further.mass.unknowns_on(member.plate.length_m, longer)])
-        new = [k for k, q in enumerate(member.nuisances.each) if q.kind in further.new]
-        u[new] = 0.0
         every, by_every = SweepResponse(member, effects).with_derivatives(fitted.law, u)
         v, dv = every[further.at], by_every[:, further.at]
         column = np.cumsum(fitted.free) - 1 + n
         by = np.zeros((n + int(fitted.free.sum()), len(v)), complex)
         by[:n] = dv[:n]
         scale, fresh = _scales(fitted), []
-        for k, g in enumerate(stated):
-            if k in new:
+        for k, g in enumerate(each):
+            if k in new or g is None:
                 fresh.append(dv[n + k])
             else:
                 by[column[g]] += dv[n + k]
@@ -210,17 +229,40 @@ class Expecting:
         if further.mass is not None:
             fresh.append(further.mass.sigma_kg * dv[at])
             fresh += [further.mass.off_m * dv[at + 1], further.mass.off_m * dv[at + 2]]
-        near = further.at if further.like is None else further.like
-        e = self._errors[:, self.part][:, near]
-        first = fitted.velocity_m_s[self.part][near]
-        e = e * (v / first)
-        again = e * further.same_errors
-        anew = e - again
+        if further.other_reference:
+            v, doubt = self._either_channel(known, further, effects, places, u, v)
+            fresh += doubt
+        if further.reduced is not None:
+            anew = model_error(member, further.reduced, self.known[0].fitted.law, every)[:, further.at]
+            again = np.zeros((len(known.errors), len(v)), complex)
+        else:
+            near = further.at if further.like is None else further.like
+            e = self._errors[:, self.part][:, near] * (v / fitted.velocity_m_s[self.part][near])
+            again = e * further.same_errors
+            anew = e - again
         mean = v + known.errors @ again
         by_known = known.root.T @ np.concatenate([by, again])
         fresh += list(anew[np.any(anew != 0, axis=1)])
         by_new = np.array(fresh) if fresh else np.zeros((0, len(v)), complex)
         return _Raw(mean, by_known, by_new)
+
+    def _either_channel(
+        self,
+        known: Known,
+        further: Further,
+        effects: list[Effect],
+        places: list[Places],
+        u: Array,
+        v: Complex,
+    ) -> tuple[Complex, list[Complex]]:
+        """Phasors, and what nobody knows: what is wrong in a channel is in the new ones too, or not."""
+        kept = [k for k, e in enumerate(effects) if e.enters != "channel"]
+        if len(kept) == len(effects):
+            return v, []
+        right = [u[: len(further.member.nuisances)], *(known.fitted.u[places[k]] for k in kept)]
+        response = SweepResponse(further.member, [effects[k] for k in kept])
+        without = response.velocity(known.fitted.law, np.concatenate(right))[further.at]
+        return (v + without) / 2, [(v - without) / 2]
 
     @property
     def _stated(self) -> Places:

@@ -25,6 +25,10 @@ class FollowUp(Result):
     """Foreseen at each step by the likeliest explanation, where the laser reads another spot than before."""
     spot_mm: tuple[Number, Number] | None = None
     """Where the laser is to point, x from the clamp and y from a long edge."""
+    struck_mm: tuple[Number, Number] | None = None
+    """Where the treated plate is to be struck, x from the clamp and y from a long edge."""
+    held: Literal["clamped", "free"] | None = None
+    """How the plate is held while it is struck."""
     mass_kg: MaybeNumber = None
     """To be put on the plate."""
     mass_at_mm: tuple[Number, Number] | None = None

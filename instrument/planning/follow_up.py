@@ -14,8 +14,9 @@ from fitting.specimen import Specimen
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.follow_up import FollowUp
 from instrument.models.diagnosis import Diagnosed
+from instrument.planning.damped_struck import damped_struck
 from instrument.planning.measurable import Template
-from instrument.planning.measurement import Measurable
+from instrument.planning.measurement import HANDS_S, Measurable
 from instrument.planning.order import Asked, best_courses
 from instrument.planning.struck import bare_modes_expected
 from instrument.results.next_words import advice
@@ -116,6 +117,10 @@ def _forecast(expecting: Expecting, possible: Possible) -> Iterator[tuple[Measur
                 one = replace(one, velocities_m_s=tuple(v[one.part].tolist()))
             rows = expecting.rows(one.part, len(v))
             yield one, [forecast.of(rows) for forecast in whole]
+    if possible.hands and HANDS_S["damped_struck"] <= possible.most_s:
+        lines = template.plain.steps.of(next(template.plain.lengths()).at)
+        for one in damped_struck(expecting, lines, possible.settings):
+            yield one, expecting.forecasts(one.further, template.noise)
     struck = template.struck()
     if possible.hands and struck.seconds <= possible.most_s and expecting.evidence.bare is None:
         bare = bare_modes_expected(expecting.member)

@@ -1,6 +1,7 @@
 """One measurement that could be made: what it would read, what it costs, and how it is offered."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,7 +11,13 @@ from fitting.planning.known_mass import KnownMass
 from instrument.facts.follow_up import FollowUp, FollowUpKind
 from instrument.planning.reasons import why
 
-HANDS_S = {"spot": 120.0, "added_mass": 180.0, "clamping": 300.0, "bare_hammer": 600.0}
+HANDS_S = {
+    "spot": 120.0,
+    "added_mass": 180.0,
+    "clamping": 300.0,
+    "bare_hammer": 600.0,
+    "damped_struck": 600.0,
+}
 """Of a person's time, and of the laser's; a choice."""
 
 
@@ -34,6 +41,10 @@ class Measurable:
     """Foreseen at each step, where that matters."""
     reason: str = ""
     """Why, where that does not depend on the explanations."""
+    struck_m: tuple[float, float] | None = None
+    """Where a hammer hits the treated plate."""
+    held: Literal["clamped", "free"] | None = None
+    """While it does."""
 
     def follow_up(
         self, names: tuple[str, ...], separation: float, resolved: float, between: tuple[str, ...]
@@ -56,6 +67,8 @@ class Measurable:
             given["velocities_m_s"] = self.velocities_m_s
         if self.spot_m is not None:
             given["spot_mm"] = tuple(1e3 * s for s in self.spot_m)
+        if self.struck_m is not None:
+            given |= {"struck_mm": tuple(1e3 * s for s in self.struck_m), "held": self.held}
         if self.mass is not None:
             given["mass_kg"] = float(self.mass.values[0])
             given["mass_at_mm"] = tuple((1e3 * self.mass.values[1:]).tolist())

@@ -55,7 +55,16 @@ _SHOWN: dict[FollowUpKind, dict[str, str]] = {
         "stiffness": "the bare plate has neither core nor constraining layer",
         "core law": "the bare plate has no core",
     },
-    "damped_struck": {},
+    "damped_struck": {
+        "spot_offset": "the spot is aimed at once more",
+        _CLAMP: "hung free the plate has no clamp",
+        "channel": "another channel is the reference",
+        "mass": "how far a force moves the plate tells what moves along with it",
+        "load": "a hammer needs no base that moves",
+        "stiffness": "its free resonances tell its stiffness, whatever held it before",
+        "core law": "its free resonances show the core at other frequencies",
+        "damping": "hung by threads hardly anything but the core takes energy",
+    },
 }
 """By effect, or by where it enters."""
 _ALWAYS: dict[FollowUpKind, str] = {

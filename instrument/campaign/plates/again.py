@@ -1,11 +1,14 @@
-"""A solid plate that can be measured again: at another level or spot, heavier, clamped anew, or bare."""
+"""A solid plate measured again: at another level or spot, heavier, clamped anew, bare, or struck."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, reduce
 
 import numpy as np
 
+from fitting.arrays import Array
 from fitting.specimen import PlacedMass, Specimen
+from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
 from fitting.tolerances import STATED
 from instrument.campaign.plates.cases import PlateTruth, measured
@@ -15,15 +18,19 @@ from instrument.campaign.plates.hidden.base import Hidden
 from instrument.campaign.plates.hidden.clamp import HiddenClampCompliance, HiddenClampLine
 from instrument.campaign.plates.judged import models_of
 from instrument.campaign.plates.reduced import ReducedSolid
+from instrument.campaign.plates.response import remaining_damping
 from instrument.campaign.plates.simulate import built, moduli_of, struck
 from instrument.campaign.plates.stated import CAREFUL
+from instrument.campaign.plates.struck import LEFT_BEHIND, lines_about, mobility, struck_plate
 from instrument.campaign.schedule import Schedule
 from instrument.facts.follow_up import FollowUp
 from instrument.models.diagnosis import Diagnosed, diagnose
 from instrument.models.files import File
 from instrument.models.set_up import Hammer
 from instrument.models.together import diagnose_together
+from instrument.planning.damped_struck import GAIN as STRUCK_GAIN
 
+Place = tuple[float, float]
 _PAUSE_S = 60.0
 _SIDE_M = 8e-3
 """Of a mass that is put on."""
@@ -36,6 +43,14 @@ _AS_BEFORE = 0.15
 _LINE_M = 9e-5
 """How well a plate comes back to its mark; the stated length is as good."""
 _WRONG_EDGE_AGAIN = 0.5
+_FORCE_M = 1e-3
+"""How far from its mark a hammer hits, each coordinate."""
+_LINES, _MODES = 20, 6
+"""Of the spectrum of a blow, about each of so many resonances."""
+_BLOWS, _BLOWS_FLOOR = (0.005, 0.015), 0.003
+"""Scatter of what some blows averaged read: of a reading, and of the largest."""
+_IN_THE_LASER = 0.5
+"""Of faults of a channel, those of the velocity's; others are the accelerometer's: a blow leaves them."""
 
 
 @lru_cache
@@ -79,6 +94,8 @@ class SimulatedRig:
             return self._clamped_anew(follow_up, rng)
         if follow_up.kind == "added_mass":
             return self._heavier(follow_up, rng)
+        if follow_up.kind == "damped_struck" and follow_up.struck_mm is not None:
+            return self._struck(follow_up, rng)
         raise ValueError(f"{follow_up.kind} cannot be measured here")
 
     @property
@@ -151,20 +168,85 @@ class SimulatedRig:
         like = _near(self.truth.plate, stated, stated.pickup_m) if follow_up.spot_mm is not None else None
         return self._and_file(sweep, stated, like)
 
-    def _and_file(self, sweep: Sweep, specimen: Specimen, like: Specimen | None = None) -> "SimulatedRig":
+    def _struck(self, follow_up: FollowUp, rng: np.random.Generator) -> "SimulatedRig":
+        """By a hammer whose force is known to a percent, hung free or in the clamp of the first sweep."""
+        assert follow_up.struck_mm is not None
+        free, (x, y) = follow_up.held == "free", follow_up.struck_mm
+        force = 1e-3 * x, 1e-3 * y
+        stated = _stated_struck(self._stated, force, _spot_of(follow_up), free=free)
+        assert stated.pickup_m is not None
+        there = self.truth
+        if free:
+            there = _aimed(there, stated.pickup_m, rng, keep=rng.random() < _WRONG_EDGE_AGAIN)
+        off = _FORCE_M * rng.standard_normal(2)
+        hit = force[0] + float(off[0]), force[1] + float(off[1])
+        if rng.random() > _IN_THE_LASER:
+            there = replace(there, effects=tuple(h for h in there.effects if h.place != "velocity channel"))
+        f = self.schedule.frequency_hz
+        plate = struck_plate(there.plate, there.effects, moduli_of(there.law, f), hit, free=free)
+        segment = self.schedule.segment
+        C_1: Array | float = 0.0 if free else remaining_damping(plate, np.array(there.plate.ratios))
+        if free:
+            f, segment = lines_about(plate, there.law, float(f.min()), float(f.max()), _MODES, _LINES)
+        spot = reduce(
+            lambda s, h: h.spot(s, there.plate), _staying(there.effects, free=free), there.plate.spot_m
+        )
+        v = mobility(plate, there.law, f, hit, spot, C_1)
+        omega = 2 * np.pi * f
+        v = reduce(lambda s, h: h.channel(s, omega, 0 * s), there.effects, v)
+        gain, delay = STRUCK_GAIN * rng.standard_normal(), CAREFUL.delay_s * rng.standard_normal()
+        v = v * np.exp(gain - 1j * omega * delay)
+        scatter = np.hypot(rng.uniform(*_BLOWS) * np.abs(v), _BLOWS_FLOOR * np.abs(v).max())
+        v = v + scatter * (rng.standard_normal((len(f), 2)) @ np.array([1, 1j]))
+        sweep = Sweep(f, v, np.ones(len(f)), segment, np.ones(len(f), np.intp))
+        like = _struck_models(
+            there.plate.name,
+            _on_the_true(there.plate, self._stated, force),
+            _on_the_true(there.plate, self._stated, stated.pickup_m),
+            free=free,
+        )
+        return self._and_file(sweep, stated, like, struck=True)
+
+    def _and_file(
+        self, sweep: Sweep, specimen: Specimen, like: Specimen | None = None, *, struck: bool = False
+    ) -> "SimulatedRig":
         files = [replace(f, number=f.number or 1) for f in self.files]
         number = max(f.number for f in files) + 1
-        more = File(sweep, specimen, "", number, None, like or files[0].like)
-        return replace(self, files=_by_spot((*files, more)))
+        more = File(sweep, specimen, "", number, None, like if struck else like or files[0].like)
+        # It is struck in the first clamp, whatever was clamped since.
+        every = (files[0], more, *files[1:]) if struck else (*files, more)
+        return replace(self, files=_by_spot(every))
 
 
 def _by_spot(files: tuple[File, ...]) -> tuple[File, ...]:
     """Spots numbered where there are several, as a run numbers them."""
-    spots = list(dict.fromkeys(f.specimen.pickup_m for f in files if isinstance(f.specimen, Specimen)))
+    read = [_shaken_at(f.specimen) for f in files]
+    spots = [at for at in dict.fromkeys(read) if at is not None]
     if len(spots) < 2:
         return files
-    numbers = (spots.index(f.specimen.pickup_m) for f in files if isinstance(f.specimen, Specimen))
+    numbers = (None if at is None else spots.index(at) for at in read)
     return tuple(replace(f, pickup=k) for f, k in zip(files, numbers, strict=True))
+
+
+def _shaken_at(specimen: AnySpecimen) -> Place | None:
+    return specimen.pickup_m if isinstance(specimen, Specimen) and specimen.drive == "base" else None
+
+
+def _staying(hidden: Sequence[Hidden], *, free: bool) -> list[Hidden]:
+    return [h for h in hidden if not (free and h.place in LEFT_BEHIND)]
+
+
+def _stated_struck(stated: Specimen, force_m: Place, spot_m: Place | None, *, free: bool) -> Specimen:
+    tolerances = {**stated.tolerances, "gain": STRUCK_GAIN}
+    struck = replace(stated, force_m=force_m, pickup_m=spot_m or stated.pickup_m, tolerances=tolerances)
+    return replace(struck, boundary="free", modal_ratios=()) if free else struck
+
+
+@lru_cache
+def _struck_models(plate: str, force_mm: Place, spot_mm: Place, *, free: bool) -> Specimen:
+    force, spot = ((1e-3 * x, 1e-3 * y) for x, y in (force_mm, spot_mm))
+    like = replace(models_of(plate), force_m=force, pickup_m=spot)
+    return replace(like, boundary="free") if free else like
 
 
 def _spot_of(follow_up: FollowUp) -> tuple[float, float] | None:
@@ -189,9 +271,13 @@ def _aimed(
 
 def _near(true: TruePlate, specimen: Specimen, spot: tuple[float, float]) -> Specimen:
     """Models of that spot that serve every statement of the plate: the same share of its length and width."""
+    return _models(true.name, _on_the_true(true, specimen, spot))
+
+
+def _on_the_true(true: TruePlate, specimen: Specimen, spot: Place) -> Place:
+    """In mm, to a tenth."""
     shares = spot[0] / specimen.length_m, spot[1] / specimen.width_m
-    x_mm, y_mm = round(1e3 * shares[0] * true.length_m, 1), round(1e3 * shares[1] * true.width_m, 1)
-    return _models(true.name, (x_mm, y_mm))
+    return round(1e3 * shares[0] * true.length_m, 1), round(1e3 * shares[1] * true.width_m, 1)
 
 
 def _columns(s: Schedule) -> tuple[np.ndarray[tuple[int], np.dtype[np.generic]], ...]:

@@ -5,8 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fitting.damping import viscous_damping
+from fitting.direct import displacement_direct
 from fitting.effects import CATALOGUE
-from fitting.planning.elsewhere import read_elsewhere
+from fitting.planning.elsewhere import read_elsewhere, struck
+from fitting.plate import Plate
 from instrument.models.set_up import set_up
 
 OMEGA, G = 2 * np.pi * np.array([30.0, 90.0]), np.array([1e6 + 3e5j, 2e6 + 5e5j])
@@ -45,3 +48,20 @@ def test_the_plate_without_effects_is_read_there(ready, elsewhere):
     load = np.broadcast_to(reduced.load.astype(complex)[:, None], (2, len(reduced.load), 1))
     assert there == pytest.approx(np.linalg.solve(A, load)[:, :, 0] @ reduced.observe)
     assert np.abs(there / first - 1).min() > 0.3
+
+
+def test_what_is_struck_on_its_axis_reads_there_what_a_full_solve_has(ready):
+    stated = ready.problem.nuisances.specimen
+    point = (0.95 * stated.length_m, 0.5 * stated.width_m)
+    plate, reduced, moved = struck(ready.problem.plate, ready.reduced, ready.problem.nuisances, point, 0.01)
+    like = moved.reference
+    full = Plate(replace(like, force_m=like.force_m, elements=stated.elements))
+    x = displacement_direct(full, viscous_damping(full), OMEGA, G)
+    # Free edges carry less twist where a force drives (decision 13).
+    assert reduced.displacement(OMEGA, G) == pytest.approx(x, rel=1e-2)
+    assert moved.specimen.drive == "force"
+    names = {n.name: n.sigma for n in moved.each}
+    assert names["gain"] == 0.01
+    assert {"force_x", "force_y"} < set(names)
+    assert not plate.load_part.any()
+    assert not plate.pitch.any()

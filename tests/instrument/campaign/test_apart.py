@@ -1,6 +1,7 @@
 """Groups told apart by what is proposed: rigs that are measured again, and what is said of them."""
 
 import json
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -13,6 +14,7 @@ from instrument.campaign.plates.again import SimulatedRig
 from instrument.campaign.plates.cases import PlateTruth, measured
 from instrument.campaign.plates.geometry import plate_named
 from instrument.campaign.plates.grid import Fineness
+from instrument.campaign.plates.hidden import HIDDEN
 from instrument.campaign.plates.hidden.clamp import (
     HiddenClampCompliance,
     HiddenClampFriction,
@@ -22,6 +24,7 @@ from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.noise import draw_noise
 from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, reading
 from instrument.campaign.plates.stated import specimen_from, toml
+from instrument.campaign.plates.struck import struck_plate
 from instrument.campaign.run import Job
 from instrument.campaign.schedule import Schedule
 from instrument.cli.bench import bench
@@ -44,6 +47,10 @@ def _coarse(tmp_path_factory):
         patch.setattr(kept, "MODULI_PA", MODULI)
         patch.setattr(again, "built", lambda *given: built(*given, COARSE))
         patch.setattr(again, "_models", lambda plate, spot_mm: None)
+        patch.setattr(again, "_struck_models", lambda *given, **more: None)
+        patch.setattr(
+            again, "struck_plate", lambda *given, **more: struck_plate(*given, **more, fineness=COARSE)
+        )
         kept.clean_plate.cache_clear()
         yield
         kept.clean_plate.cache_clear()
@@ -130,6 +137,45 @@ def test_more_steps_join_the_first_file_and_a_mass_has_one_of_its_own():
     assert heavy != pytest.approx(light, rel=0.01)
     with pytest.raises(ValueError, match="damped_struck"):
         more.after(proposed("damped_struck"), rng())
+
+
+HELD = {"struck_mm": (300.0, 160.0), "frequencies_hz": (), "segments": ()}
+
+
+def test_struck_in_its_clamp_it_is_a_file_beside_the_first_whatever_was_clamped_since():
+    clamped = rig(CLAMP).after(proposed("clamping"), rng())
+    three = clamped.after(proposed("damped_struck", held="clamped", **HELD), rng())
+    assert [(f.number, f.specimen.drive, f.specimen.boundary) for f in three.files] == [
+        (1, "base", "cantilever"),
+        (3, "force", "cantilever"),
+        (2, "base", "cantilever"),
+    ]
+    first, hit, _ = three.files
+    assert hit.specimen.pickup_m == first.specimen.pickup_m
+    assert hit.specimen.force_m == pytest.approx((0.3, 0.16))
+    assert hit.specimen.tolerances["gain"] == 0.01
+    assert hit.sweep.frequency_hz.tolist() == first.sweep.frequency_hz.tolist()
+    # The same plate in the same clamp: it rings where it rang.
+    v = [np.abs(f.sweep.response_m_s) for f in (first, hit)]
+    assert abs(int(np.argmax(v[0] * first.sweep.frequency_hz)) - int(np.argmax(v[1]))) <= 1
+
+
+def test_hung_free_it_has_left_its_clamp_and_is_read_about_its_own_resonances():
+    f = np.linspace(20.0, 200.0, 8)
+    one = rig(CLAMP, HIDDEN["added_mass"](0.01, 0.3, 0.15, 8e-3))
+    one = replace(one, schedule=replace(one.schedule, frequency_hz=f))
+    offer = proposed("damped_struck", held="free", spot_mm=(16.0, 18.0), **HELD)
+    _, hit = one.after(offer, rng()).files
+    assert (hit.number, hit.pickup) == (2, None)
+    assert (hit.specimen.boundary, hit.specimen.modal_ratios) == ("free", ())
+    assert hit.specimen.pickup_m == pytest.approx((0.016, 0.018))
+    assert set(np.bincount(hit.sweep.segment).tolist()) == {20}
+    assert hit.sweep.frequency_hz.min() > 60
+    # A clamp that it has left changes nothing of it, a mass does.
+    other = replace(one, truth=replace(one.truth, effects=one.truth.effects[1:])).after(offer, rng()).files[1]
+    assert other.sweep.velocity_m_s == pytest.approx(hit.sweep.velocity_m_s)
+    bare = replace(one, truth=replace(one.truth, effects=())).after(offer, rng()).files[1]
+    assert np.abs(bare.sweep.frequency_hz / hit.sweep.frequency_hz - 1).max() > 0.002
 
 
 def test_a_clamp_that_rubs_takes_energy():

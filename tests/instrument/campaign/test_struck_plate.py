@@ -1,6 +1,7 @@
 """A free solid plate struck at points: the solid itself, and what is found of a mass hidden on it."""
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,9 +12,12 @@ from fitting.direct import displacement_direct
 from fitting.plate import Plate
 from instrument.campaign.plates.geometry import plate_named
 from instrument.campaign.plates.grid import Fineness
+from instrument.campaign.plates.hidden import HIDDEN
+from instrument.campaign.plates.hidden.clamp import HiddenClampCompliance
 from instrument.campaign.plates.materials import PlateMaterialLaw
+from instrument.campaign.plates.simulate import moduli_of
 from instrument.campaign.plates.solid import Build, Patch, Solid
-from instrument.campaign.plates.struck import mobilities
+from instrument.campaign.plates.struck import lines_about, mobilities, mobility, struck_plate
 from instrument.cli.main import run
 from instrument.files.specimen_file import read_specimen
 
@@ -48,6 +52,35 @@ def test_points_may_change_places_and_slow_pushes_move_it_as_one():
     for side, a, b in zip((P2.length_m, P2.width_m), FORCES_M[0], SPOTS_M[0], strict=True):
         lever += 12 * (a - side / 2) * (b - side / 2) / side**2
     assert there[0] * 2j * np.pi * f[0] == pytest.approx(lever / mass, rel=3e-3)
+
+
+def test_a_plate_is_struck_with_its_effects_free_or_clamped():
+    f = np.array([40.0, 150.0, 310.0])
+    force, spot = FORCES_M[0], SPOTS_M[1]
+    heavier = HIDDEN["added_mass"](8e-3, 0.241, 0.052, 0.01)
+    soft = HiddenClampCompliance(3e13, 3e13, 4, 0.02, 0.4)
+    given = LAW, f, force, spot
+    free = struck_plate(P2, (heavier, soft), moduli_of(LAW, f), force, free=True, fineness=COARSE)
+    expected = mobilities(P2, LAW, f, [force], [spot], (MASS,), COARSE)[0, 0]
+    assert mobility(free, *given) == pytest.approx(expected, rel=1e-3)
+    clamped = struck_plate(P2, (soft,), moduli_of(LAW, f), force, free=False, fineness=COARSE)
+    there, back = mobility(clamped, *given), mobility(clamped, LAW, f, spot, force)
+    assert there == pytest.approx(back, rel=1e-6)
+    assert np.abs(there / mobility(free, *given) - 1).min() > 0.1
+    with pytest.raises(ValueError, match="hangs on"):
+        struck_plate(P2, (SimpleNamespace(points=lambda: [spot], place="cable"),), (1e6,), force, free=False)
+
+
+def test_lines_lie_about_the_resonances_of_a_band():
+    plate = struck_plate(
+        P2, (), moduli_of(LAW, np.array([40.0, 500.0])), FORCES_M[0], free=True, fineness=COARSE
+    )
+    f, whose = lines_about(plate, LAW, 40.0, 500.0, 3, 9)
+    assert np.bincount(whose).tolist() == [9, 9, 9]
+    v = np.abs(mobility(plate, LAW, f, (0.01, 0.01), (0.01, 0.01))).reshape(3, 9)
+    assert all(2 <= k <= 6 for k in v.argmax(axis=1))
+    with pytest.raises(ValueError, match="no resonance from 10 to 20 Hz"):
+        lines_about(plate, LAW, 10.0, 20.0, 3, 9)
 
 
 def specimen(force_m):

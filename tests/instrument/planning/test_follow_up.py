@@ -6,20 +6,15 @@ from itertools import groupby
 import numpy as np
 import pytest
 
-from fitting.diagnosis.begin import begin
 from fitting.diagnosis.candidates import polished
 from fitting.diagnosis.response import SweepResponse
-from fitting.diagnosis.result import Rivals
 from fitting.diagnosis.whitening import SHARE
 from fitting.effects import CATALOGUE
-from fitting.noise import noise_of
 from fitting.planning.forms import forms_of
 from fitting.planning.further import Expecting, Further
 from fitting.planning.rivalry import outcome
 from fitting.planning.unseen import unseen
-from instrument.files.sweep_file import read_sweep
 from instrument.models.diagnosis import Diagnosed
-from instrument.models.set_up import set_up
 from instrument.planning import follow_up
 from instrument.planning.costs import dwell_seconds
 from instrument.planning.follow_up import Possible, rank_follow_ups, with_follow_ups
@@ -30,31 +25,9 @@ from instrument.planning.struck import bare_modes_expected
 from instrument.planning.unseen import with_unseen
 from instrument.results.next_words import advice
 from instrument.stepped_sine.settings import Limits, SweepSettings
-from tests.conftest import DATA
 from tests.diagnosis_cases import diagnosed, diagnosis, sweep
-from tests.rig_plate import plate_of_the_rig
 
 EVEN = np.array([0.5, 0.5])
-
-
-@pytest.fixture(scope="module")
-def rivals():
-    """Of a plate known within tolerances whose channel reads 3 % too much: a gain, or a shifted spot."""
-    steps = read_sweep(DATA / "practice-005.csv").sweep(9.81)
-    specimen = replace(plate_of_the_rig(), exact=False)
-    ready = set_up(steps, specimen)
-    law, problem = specimen.core.law.lifted(), ready.problem
-    v = 1.03 * SweepResponse(problem, ()).velocity(law, problem.as_stated)
-    std = 3e-3 * np.abs(v)
-    dice = np.random.default_rng(3).standard_normal((2, len(v)))
-    measured = replace(steps, velocity_m_s=v + std * (dice[0] + 1j * dice[1]), base_m_s2=None, std_m_s=std)
-    problem = replace(problem, sweep=measured)
-    begun = begin(problem, ready.reduced, noise_of(measured), None, law)
-    fits = []
-    for name, u in (("gain_error", [1.0]), ("spot_offset", [0.0, 0.0])):
-        start = np.concatenate([problem.as_stated, u])
-        fits.append(polished(begun.problem, [CATALOGUE[name]], begun.evidence, begun.none.law, start))
-    return Rivals(begun.problem, begun.evidence, tuple((f, 0.5) for f in fits), ready.reduced)
 
 
 @pytest.fixture(scope="module")
@@ -145,19 +118,6 @@ def test_a_short_segment_between_the_others_comes_before_a_spot_that_tells_more(
     assert 3 < first.separation < spot.separation
 
 
-@pytest.fixture(scope="module")
-def clamps(rivals):
-    """The same readings, for which a clamp is at fault: its line, or its stiffness."""
-    problem, evidence = rivals.problem, rivals.evidence
-    law = rivals.each[0][0].law
-    fits = []
-    for name, u in (("clamp_line", [1e-3, 1.0]), ("clamp_compliance", [5e13])):
-        start = np.concatenate([problem.as_stated, u])
-        fits.append(polished(problem, [CATALOGUE[name]], evidence, law, start))
-    # Weighed lightly: neither explains a gain.
-    return replace(rivals, each=tuple((f, 0.5) for f in fits), temper=1e4)
-
-
 def test_a_clamp_line_is_asked_with_the_spot_measured_from_it_and_not(clamps, rivals):
     (line, _), (clamp, _) = clamps.each
     forms = forms_of(clamps, line)
@@ -234,6 +194,13 @@ def test_what_the_group_just_leaves_out_is_asked_too(clamps):
 
 def of_kind(ranked, kind):
     return next(f for f in ranked if f.kind == kind)
+
+
+def test_the_treated_plate_struck_is_ranked_with_what_it_takes(ranked):
+    struck = of_kind(ranked, "damped_struck")
+    assert (struck.needs_hands, struck.seconds) == (True, HANDS_S["damped_struck"])
+    assert struck.why.startswith("Another channel is the reference")
+    assert struck.then is not None
 
 
 def test_the_rigs_own_measurements_are_all_that_is_offered_where_nobody_is_there(rivals):
