@@ -1,6 +1,9 @@
 """The diagnosis the run ended with: verdict, tables and figures from the recorded result."""
 
+from dataclasses import replace
+
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
+from fitting.structures import AnySpecimen
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.report.blocks import Block, Picture, ReportSection, Sentence, TableBlock
 from instrument.results.diagnosis_figures import evidence_figure, law_figure, residual_figure
@@ -16,6 +19,8 @@ from instrument.results.diagnosis_words import (
 from instrument.results.followed import followed_of, measured_words
 from instrument.results.next_words import NEXT_COLUMNS, NEXT_TITLE, next_row, separated_words
 from instrument.results.numbers import format_number, with_error
+from instrument.results.offer_sketch import offer_view
+from instrument.results.sketch_figure import sketch_figure
 from instrument.results.typeset import capitalised, heading, note
 from instrument.results.unseen_words import UNSEEN_COLUMNS, UNSEEN_TITLE, unseen_row
 from instrument.session.contents import Contents
@@ -40,7 +45,7 @@ def diagnosis_sections(contents: Contents) -> list[ReportSection]:
         blocks.append(Sentence(set_aside_words(found), "note"))
     if found.next_measurement:
         blocks.append(Sentence(f"Next measurement: {found.next_measurement}", "note"))
-    blocks += _next(found)
+    blocks += _next(found, contents.specimen)
     blocks += _unseen(found)
     blocks += [Sentence(note(text), "note") for text in found.warnings]
     resampled = resampling_words(found)
@@ -66,12 +71,18 @@ def _followed(contents: Contents) -> list[Block]:
     return [TableBlock("Measured to tell explanations apart", columns, rows, words=columns)]
 
 
-def _next(found: DiagnosisResult) -> list[Block]:
-    """What would tell the explanations left apart."""
+def _next(found: DiagnosisResult, specimen: AnySpecimen) -> list[Block]:
+    """What would tell the explanations left apart, and where on the plate the first is that says it."""
     rows = tuple((*next_row(f), separated_words(f.between), f.why) for f in found.next_measurements)
     title = f"{NEXT_TITLE[0].upper()}{NEXT_TITLE[1:]}"
     words = (NEXT_COLUMNS[0], "separates", "why")
-    return [TableBlock(title, (*NEXT_COLUMNS, *words[1:]), rows, words=words)] if rows else []
+    if not rows:
+        return []
+    table = TableBlock(title, (*NEXT_COLUMNS, *words[1:]), rows, words=words)
+    view = offer_view(specimen, found.next_measurements)
+    if view is None:
+        return [table]
+    return [table, Picture(sketch_figure([replace(view, title="")]), view.title)]
 
 
 def _unseen(found: DiagnosisResult) -> list[Block]:

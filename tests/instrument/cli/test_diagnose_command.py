@@ -253,6 +253,10 @@ def test_the_report_ranks_what_would_tell_the_explanations_apart(contents):
     (table,) = (b for b in section.blocks if b.kind == "table" and "tell the explanations apart" in b.title)
     assert [row[0] for row in table.rows] == [SPOT["todo"], BACKWARDS["todo"]]
     assert table.rows[0][1:] == ("30", "80 %", "4.0", "spot_offset and gain_error", SPOT["why"])
+    # Where the first is made is drawn below the table.
+    drawn = section.blocks[section.blocks.index(table) + 1]
+    assert drawn.kind == "picture"
+    assert drawn.title.endswith(SPOT["todo"])
 
 
 def test_the_report_says_why_there_is_none(contents):
