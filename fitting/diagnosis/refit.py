@@ -161,9 +161,9 @@ def refit(
     lower, upper = problem.limits
     steps = Steps(goal)
     found = least_squares(
-        problem.residuals,
+        lambda x: problem.condensed(x)[:, -1],
         np.clip(problem.start, lower, upper),
-        jac=problem.jacobian,
+        jac=lambda x: problem.condensed(x)[:, :-1],
         bounds=(lower, upper),
         x_scale="jac",
         xtol=tolerance,
@@ -213,6 +213,7 @@ class JointProblem:
         self.free = np.array([not x.fixed for x in q], dtype=bool)
         self.logarithmic = np.array([x.logarithmic for x in q], dtype=bool)
         self._last: tuple[bytes, Array, Array, Complex] | None = None
+        self._condensed: tuple[bytes, Array] | None = None
 
     @property
     def _n(self) -> int:
@@ -245,6 +246,18 @@ class JointProblem:
         t = self._to_inner(self.u)
         t[self.free] = x[self._n :]
         return self.law.with_logs(x[: self._n]), self._to_outer(t)
+
+    def condensed(self, x: Array) -> Array:
+        """Jacobian and residuals as fewer rows of the same products, which are all that a step depends on.
+
+        R of QR = [J r]: each step decomposes it, which of a sweep's rows would take most of a long fit. Shape
+        (unknowns + 1 or fewer, unknowns + 1).
+        """
+        key = x.tobytes()
+        if self._condensed is None or self._condensed[0] != key:
+            r, J, _ = self._both(x)
+            self._condensed = key, np.linalg.qr(np.column_stack([J, r]), mode="r")
+        return self._condensed[1]
 
     def residuals(self, x: Array) -> Array:
         """Whitened, as `Refitted.residuals`. Shape (rows,)."""

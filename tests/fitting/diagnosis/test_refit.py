@@ -5,7 +5,7 @@ import pytest
 
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.of_files import EACH, OfFiles
-from fitting.diagnosis.refit import refit
+from fitting.diagnosis.refit import JointProblem, refit
 from fitting.effects import CATALOGUE
 from fitting.laws.constant import ConstantModulus
 
@@ -55,3 +55,18 @@ def test_a_mounting_that_was_read_is_what_it_is_and_pays_for_its_distance():
     # Two standard deviations of a mounting from the first.
     assert found.chi2 == pytest.approx(4.0, rel=1e-2)
     assert found.residuals[found.data :] == pytest.approx([-2.0], rel=1e-2)
+
+
+def test_what_a_step_is_given_has_the_products_of_all_rows():
+    effect = OfFiles(CATALOGUE["clamp_compliance"], 2, EACH)
+    measured = np.concatenate([np.log(LAW.values), [2.0, 0.5]]).astype(complex)
+    sigma = np.array([1e-3, 1e-3, 0.01, 0.1])
+    evidence = Evidence(measured, sigma, sigma, np.zeros((8, 1)), True)
+    problem = JointProblem(Reads(effect, 2), evidence, LAW, np.array([SOFTNESS, SOFTNESS, EACH]), None)
+    x = problem.start + 0.1
+    fewer, r, J = problem.condensed(x), problem.residuals(x), problem.jacobian(x)
+    assert fewer.shape == (J.shape[1] + 1, J.shape[1] + 1)
+    assert len(fewer) < len(r)
+    np.testing.assert_allclose(fewer.T @ fewer, np.c_[J, r].T @ np.c_[J, r], rtol=1e-12, atol=1e-9)
+    assert problem.condensed(x) is fewer
+    assert problem.condensed(x + 0.1) is not fewer
