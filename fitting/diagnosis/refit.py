@@ -256,7 +256,8 @@ class JointProblem:
         key = x.tobytes()
         if self._condensed is None or self._condensed[0] != key:
             r, J, _ = self._both(x)
-            self._condensed = key, np.linalg.qr(np.column_stack([J, r]), mode="r")
+            found = np.asarray(np.linalg.qr(np.column_stack([J, r]), mode="r"), dtype=float)
+            self._condensed = key, found
         return self._condensed[1]
 
     def residuals(self, x: Array) -> Array:
