@@ -27,7 +27,7 @@ def _view(specimen: Specimen, offer: FollowUp, marks: list[Mark]) -> View:
     if offer.spot_mm is not None:
         plate = replace(plate, pickup_m=None, further_pickups_m=())
     (view,) = sketch_of(plate, marks)
-    held = "hung free" if free else "in its clamp"
+    held = "hung free, the edge that was clamped on the left" if free else "in its clamp"
     return replace(view, title=f"Seen from above, {held}: {offer.todo}")
 
 

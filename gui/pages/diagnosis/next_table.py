@@ -2,11 +2,14 @@
 
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
+from fitting.structures import AnySpecimen
+from gui.pages.run.structure_view import StructureView
 from gui.tables import Cell, ReadTable
 from gui.widgets import hint
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.follow_up import FollowUp
 from instrument.results.next_words import NEXT_COLUMNS, next_row, separated_words
+from instrument.results.offer_sketch import offer_view
 
 _TIPS = (
     "Best first: by the time until one explanation is left, with what would follow",
@@ -20,8 +23,11 @@ _SAID = (
 )
 
 
+_DRAWN_PX = 200
+
+
 class NextTable(QWidget):
-    """Best first; the first is the one that is advised."""
+    """Best first; the first is the one that is advised. Below, where the first is made that says a place."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -32,12 +38,20 @@ class NextTable(QWidget):
         column = QVBoxLayout(self)
         column.setContentsMargins(4, 4, 4, 0)
         column.addWidget(self.table, 1)
+        self.specimen: AnySpecimen | None = None
+        """What it is of, where that is known."""
+        self.drawn = StructureView()
+        self.drawn.setFixedHeight(_DRAWN_PX)
+        column.addWidget(self.drawn)
         column.addWidget(hint(_SAID))
 
     def show_diagnosis(self, found: DiagnosisResult) -> None:
         """Its ranking."""
         self.table.show_rows([_cells(f) for f in found.next_measurements])
         self.table.resizeRowsToContents()
+        view = offer_view(self.specimen, found.next_measurements) if self.specimen is not None else None
+        self.drawn.show_views([view] if view is not None else [])
+        self.drawn.setVisible(view is not None)
 
 
 def _cells(offer: FollowUp) -> list[Cell]:

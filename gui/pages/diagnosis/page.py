@@ -105,6 +105,7 @@ class DiagnosisPage(Page):
             self.finding.show_diagnosis(shown)
             self.candidates.show_candidates(rediagnosis.ranking(self.controller.state) or shown.found)
             self.story.setPlainText("\n".join(_story(shown)))
+            self.next.specimen = state.contents.specimen if state is not None else None
             self.views.setTabVisible(self.views.indexOf(self.next), bool(shown.found.next_measurements))
             self.views.setTabVisible(self.views.indexOf(self.unseen), bool(shown.found.unseen))
             self._show_view()

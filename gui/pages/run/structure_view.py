@@ -46,7 +46,11 @@ class StructureView(QWidget):
 
     def show_specimen(self, specimen: AnySpecimen | None) -> None:
         """Draw it; None for none."""
-        self.views = sketch_of(specimen) if specimen is not None else ()
+        self.show_views(sketch_of(specimen) if specimen is not None else ())
+
+    def show_views(self, views: Sequence[View]) -> None:
+        """Draw these."""
+        self.views = tuple(views)
         self.setToolTip("\n".join(view.title for view in self.views))
         self.update()
 

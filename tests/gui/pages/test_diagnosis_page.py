@@ -81,6 +81,10 @@ def test_what_could_be_measured_next_is_ranked_and_the_first_is_what_is_advised(
     assert page.next.table.texts(0) == [o["todo"] for o in (SPOT, BACKWARDS)]
     assert page.next.table.texts(4) == ["spot_offset and gain_error"] * 2
     assert "aim it elsewhere" in page.finding.next.text
+    # Where the first of them is made is drawn below.
+    (view,) = page.next.drawn.views
+    assert [(m.name, m.x, m.y) for m in view.marks] == [("laser", *SPOT["spot_mm"])]
+    assert page.next.drawn.isVisibleTo(page.next)
     assert page.next.table.cell(0, 0).tip == SPOT["why"]
 
 

@@ -21,7 +21,7 @@ def test_a_plate_that_hangs_free_has_no_clamp_and_says_where_it_is_hit_and_read(
     view = offer_view(PLATE, [NOWHERE, FREE])
     assert [(m.name, m.x, m.y) for m in view.marks] == [("laser", 15.0, 20.0), ("hit", 285.0, 180.0)]
     assert [b.kind for b in view.boxes] == ["bare"]
-    assert view.title == "Seen from above, hung free: Hang it."
+    assert view.title == "Seen from above, hung free, the edge that was clamped on the left: Hang it."
 
 
 def test_struck_in_its_clamp_the_laser_stays_where_it_is():
