@@ -1,0 +1,233 @@
+"""What identify and diagnose make of tables of modes and of several temperatures: asked, refused, printed."""
+
+import json
+import runpy
+from pathlib import Path
+from types import SimpleNamespace
+
+import click
+import numpy as np
+import pytest
+from beam_tables import BEAM, LAW, read
+from shear_pair_temperatures import T, fitted, shifted
+
+from fitting.errors import OutsideModel
+from fitting.identification.result import LawBand
+from fitting.mode_tables.build import member_of
+from fitting.mode_tables.diagnose import diagnose_modes as diagnose_members
+from fitting.mode_tables.problem import ModalProblem
+from fitting.mode_tables.stated_off import standing
+from fitting.temperature.simple import Verdict
+from instrument.cli import diagnose_modes as diagnosing
+from instrument.cli import identify_modes as identifying
+from instrument.cli import identify_shifted as shifting
+from instrument.cli.output import Output
+from instrument.errors import BadInput
+from instrument.models.modal import TablesDiagnosed
+from instrument.models.temperatures import Shifted
+from instrument.results import shifted_figures
+
+TABLE = read(BEAM, 4)
+FILE = Path("a.csv")
+
+
+@pytest.fixture
+def questions(monkeypatch):
+    """Tables that need no file; which commands asked whether they are of this beam."""
+    asked = []
+    for command in (diagnosing, identifying):
+        monkeypatch.setattr(command, "read_tables", lambda data, specimens, insist: ([TABLE], [BEAM]))
+        monkeypatch.setattr(command, "question_modes", lambda tables, fit, data: asked.append(data))
+    return asked
+
+
+# Tables of modes
+
+
+@pytest.fixture(scope="module")
+def diagnosed():
+    effects = tuple(e for e in standing(BEAM) if e.name == "substrate_stiffness")
+    found = diagnose_members(ModalProblem.of([member_of(TABLE, BEAM)]), effects, LAW)
+    return TablesDiagnosed(found, effects, 0.5, 1.5, ())
+
+
+def test_a_diagnosis_of_modes_is_told_and_written(capsys, monkeypatch, questions, diagnosed, tmp_path):
+    looked_for = []
+
+    def diagnose(tables, specimens, without, progress):
+        looked_for.append(set(without))
+        return diagnosed
+
+    monkeypatch.setattr(diagnosing, "diagnose_tables", diagnose)
+    out = Output(str(tmp_path / "a.json"))
+    diagnosing.diagnose_modes(out, [FILE], [Path("beam.toml")], frozenset({"core_law"}), insist=False)
+    said = capsys.readouterr().out
+    assert "no effect is called for" in " ".join(said.split())
+    written = json.loads((tmp_path / "a.json").read_text())
+    assert (written["verdict"], written["files"]) == ("none", ["a.csv"])
+    assert [m["mode"] for m in written["modes"]] == [1, 2, 3, 4]
+    assert looked_for == [{"core_law"}]
+    assert questions == [[FILE]]
+
+
+def test_whoever_insists_is_not_asked_whether_the_modes_are_of_this_beam(
+    capsys, monkeypatch, questions, diagnosed
+):
+    monkeypatch.setattr(diagnosing, "diagnose_tables", lambda *_: diagnosed)
+    diagnosing.diagnose_modes(Output(None), [FILE], [], frozenset(), insist=True)
+    assert questions == []
+
+
+@pytest.fixture
+def identified(monkeypatch, questions):
+    """What was asked of the fit; its result is made by hand, its tables are not printed."""
+    asked = []
+    fit = SimpleNamespace(uncertainty=SimpleNamespace(chi2_per_dof=1.25))
+
+    def identify(tables, specimens, progress, bare):
+        asked.append(bare)
+        return SimpleNamespace(fit=fit)
+
+    result = SimpleNamespace(
+        law_kind="constant",
+        parameters={"g_pa": 4e5},
+        standard_errors={"g_pa": 1e3},
+        modes=("modes",),
+        law=("law",),
+        formulas=("formulas",),
+        warnings=("look at mode 1",),
+        as_json=lambda: {"law_kind": "constant"},
+    )
+    monkeypatch.setattr(identifying, "identify_tables", identify)
+    monkeypatch.setattr(identifying, "modal_from", lambda found, tables, names: result)
+    monkeypatch.setattr(identifying, "read_modal_table", lambda path: f"bare beam of {path}")
+    for name in ("print_modes", "print_modal_law", "print_formulas"):
+        monkeypatch.setattr(identifying, name, lambda out, rows, name=name: out.say(f"<{name} {rows[0]}>"))
+    return asked
+
+
+def test_a_law_of_modes_is_told_with_its_errors_modes_and_warnings(capsys, identified, questions):
+    identifying.identify_modes(Output(None), [FILE], [Path("beam.toml")])
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    assert lines[0] == ["constant", "by", "modes"]
+    assert ["g_pa", "4e+05", "1e+03"] in lines
+    said = [" ".join(line) for line in lines]
+    order = [
+        "<print_modes modes>",
+        "<print_modal_law law>",
+        "<print_formulas formulas>",
+        "note: look at mode 1",
+    ]
+    assert [said.index(one) for one in order] == sorted(said.index(one) for one in order)
+    assert "chi-square per degree of freedom 1.25" in said
+    assert identified == [None]
+    assert questions == [[FILE]]
+
+
+def test_the_bare_beam_s_modes_go_along_and_of_a_plate_are_refused(monkeypatch, identified, questions):
+    identifying.identify_modes(Output(None), [FILE], [], Path("bare.csv"), insist=True)
+    assert identified == ["bare beam of bare.csv"]
+    assert questions == []
+    plate = SimpleNamespace(kind="plate")
+    monkeypatch.setattr(identifying, "read_tables", lambda *_, **__: ([TABLE], [plate]))
+    with pytest.raises(click.UsageError, match="--bare with a plate: expected a beam"):
+        identifying.identify_modes(Output(None), [FILE], [], Path("bare.csv"))
+
+
+# Several temperatures
+
+
+FILES = [Path(f"{t:g}.csv") for t in T]
+
+
+def given(zn1, k, *, modes=None, session=False):
+    return SimpleNamespace(
+        specimen=zn1, sweep=f"sweep {k}", temperature_c=float(T[k]), modes=modes, session=session
+    )
+
+
+@pytest.fixture
+def found(monkeypatch):
+    """One law over three temperatures, as simple as it is told to be; what was asked of the fit."""
+    _, fit, each = fitted(shifted())
+    f = np.geomspace(50, 4000, 18)
+    G, eta = fit.law.storage_and_loss(2 * np.pi * f)
+    band = LawBand(f, G, eta, 0.01 * G, 0.01 * eta)
+    asked = []
+
+    def make(simple=True):
+        verdict = Verdict(simple, 0.4, 1.2, 30.0, "one law serves" if simple else "no one law serves")
+
+        def identify(sweeps, plate, kind, reference_c, progress, *, vertical, hammer):
+            asked.append(([s.name for s in sweeps], kind, reference_c, vertical, hammer))
+            return Shifted(fit, verdict, band, tuple(each), None, 2.0)
+
+        monkeypatch.setattr(shifting, "identify_at_temperatures", identify)
+        return asked
+
+    return make
+
+
+def shift(given_, figures=None, out=None, files=FILES):
+    shifting.identify_shifted(out or Output(None), files, given_, "wlf", 20.0, figures, vertical=True)
+
+
+def test_shifts_and_law_are_told_and_written(capsys, zn1, found, tmp_path):
+    asked = found()
+    shift([given(zn1, k) for k in range(3)], out=Output(str(tmp_path / "a.json")))
+    assert asked == [(["10.csv", "20.csv", "30.csv"], "wlf", 20.0, True, None)]
+    said = capsys.readouterr().out
+    rows = {line.split()[0]: line.split()[1:] for line in said.splitlines() if line.strip()}
+    assert rows["20.csv"] == ["20", "+0.0000", "0.0000", "+0.0000"]
+    assert float(rows["10.csv"][1]) == pytest.approx(1.5, abs=0.02)
+    assert "one law serves" in said
+    written = json.loads((tmp_path / "a.json").read_text())
+    assert [one["name"] for one in written["temperatures"]] == ["10.csv", "20.csv", "30.csv"]
+    assert written["simple"] is True
+
+
+def test_a_law_that_is_not_simple_is_refused_after_its_figures_are_saved(
+    capsys, monkeypatch, zn1, found, tmp_path
+):
+    found(simple=False)
+    saved = [tmp_path / "nomogram.png"]
+    monkeypatch.setattr(shifted_figures, "save_shifted_figures", lambda found, folder: saved)
+    out = Output(str(tmp_path / "a.json"))
+    with pytest.raises(OutsideModel, match="no one law serves"):
+        shift([given(zn1, k) for k in range(3)], tmp_path, out)
+    assert f"saved {saved[0]}" in "".join(capsys.readouterr().out.splitlines())
+    assert not (tmp_path / "a.json").exists()
+
+
+def test_the_first_file_s_hammer_test_is_that_of_all_and_of_sessions_that_is_said(capsys, zn1, found):
+    asked = found()
+    shift([given(zn1, 0), given(zn1, 1, modes="modes", session=True), given(zn1, 2, modes="others")])
+    assert asked[-1][-1] == "modes"
+    assert "the hammer test is that of 20.csv" in capsys.readouterr().out
+    shift([given(zn1, 0, modes="modes"), given(zn1, 1), given(zn1, 2)])
+    assert "the hammer test is that of" not in capsys.readouterr().out
+
+
+def test_sweeps_that_make_no_shift_are_refused(zn1, found):
+    found()
+    with pytest.raises(click.UsageError, match="--shift: 1 file, expected sweeps at two temperatures"):
+        shift([given(zn1, 0)], files=FILES[:1])
+    others = [given(zn1, 0), given(zn1.with_law(LAW), 1), given(zn1, 2)]
+    with pytest.raises(BadInput, match="expected sweeps of one plate"):
+        shift(others)
+    with pytest.raises(BadInput, match="expected sweeps of one plate"):
+        shift([given(BEAM, k) for k in range(3)])
+    cold = given(zn1, 1)
+    cold.temperature_c = None
+    with pytest.raises(BadInput, match=r"20\.csv: no temperature, expected a column temperature_c"):
+        shift([given(zn1, 0), cold, given(zn1, 2)])
+
+
+# Without its script
+
+
+def test_the_module_is_the_command(monkeypatch):
+    called = []
+    monkeypatch.setattr("instrument.cli.main.main", lambda: called.append("main"))
+    runpy.run_module("instrument.cli.__main__", run_name="__main__")
+    assert called == ["main"]
