@@ -50,6 +50,7 @@ class Cell:
 
 
 Row = Sequence[Cell]
+_EMPTY = Cell("")
 
 
 class ReadTable(QTableView):
@@ -95,7 +96,10 @@ class ReadTable(QTableView):
         self._size_rows()
 
     def show_rows(self, rows: Sequence[Row], columns: dict[str, str] | None = None) -> None:
-        """Instead of those there were, under other headings where they are given. Nothing is selected."""
+        """Instead of those there were, under other headings where they are given. Nothing is selected.
+
+        What a row does not say of a column stays empty.
+        """
         self._rows.show(rows, columns)
         self._fit_last()
 
@@ -168,8 +172,10 @@ class _Rows(QAbstractTableModel):
 
     def show(self, rows: Sequence[Row], columns: dict[str, str] | None) -> None:
         self.beginResetModel()
-        self.rows = rows
         self.columns = columns if columns is not None else self.columns
+        # Qt asks for every cell, and an error raised into it takes the program down.
+        count = len(self.columns)
+        self.rows = [row if len(row) >= count else [*row, *[_EMPTY] * (count - len(row))] for row in rows]
         self.endResetModel()
 
     def rowCount(self, parent: _Index = _ROOT) -> int:

@@ -19,6 +19,7 @@ from gui.state.log import Log
 from gui.stop_button import StopButton
 from gui.stop_guard import StopGuard
 from gui.style_sheet import PRIMARY, style_sheet
+from gui.tables import Cell, ReadTable
 from gui.theme import DARK, LIGHT
 from gui.top_bar import duration
 from gui.widgets import button, hint, tool
@@ -96,6 +97,18 @@ def test_no_dialog_holds_back_the_window_below_it(keep):
 )
 def test_a_time_is_said_as_people_say_it(seconds, said):
     assert duration(seconds) == said
+
+
+def test_what_a_row_does_not_say_of_a_column_stays_empty(keep):
+    table = keep(ReadTable({"name": "", "value": "", "remark": ""}, selects=True, fills=False))
+    table.show_rows([[Cell("a"), Cell("1", edge="good")], [], [Cell(text) for text in "xyz"]])
+    assert table.texts(2) == ["", "", "z"]
+    assert table.text.splitlines() == ["name\tvalue\tremark", "a\t1\t", "\t\t", "x\ty\tz"]
+    # Measured and painted as any other.
+    table.resizeColumnsToContents()
+    table.grab()
+    table.show_rows([[Cell("b")]], {"name": "", "value": "", "remark": "", "more": ""})
+    assert table.cell(0, 3).text == ""
 
 
 def test_a_stopped_run_has_the_colour_of_what_is_bad(appearance):
