@@ -18,6 +18,9 @@ _FOLLOWING: dict[FollowUpKind, str] = {
     "damped_struck": "the damped plate struck",
 }
 
+_MOST_NAMED = 3
+"""Of a group, in a sentence: its table names all."""
+
 
 def advice(offer: FollowUp) -> str:
     """Which explanations, by which measurement, where, why, what it costs and what may be hoped for."""
@@ -37,9 +40,11 @@ def apart_words(between: Sequence[str]) -> str:
     return f"to tell {separated_words(between)} apart"
 
 
-def separated_words(between: Sequence[str]) -> str:
-    """Explanations, `none` in words."""
+def separated_words(between: Sequence[str], most: int = _MOST_NAMED) -> str:
+    """Explanations, `none` in words; of many more than `most` the first ones, and how many more there are."""
     said = ["no effect" if n == "none" else n for n in between]
+    if len(said) > most + 1:
+        said = [*said[:most], f"{len(said) - most} more"]
     return " and ".join([", ".join(said[:-1]), said[-1]]) if len(said) > 1 else "".join(said)
 
 

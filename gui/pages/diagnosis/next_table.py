@@ -34,6 +34,8 @@ class NextTable(QWidget):
         columns = dict(zip(NEXT_COLUMNS, _TIPS, strict=True)) | {"separates": "Explanations it tells apart"}
         self.table = ReadTable(columns, wide=(0, len(columns) - 1))
         self.table.setWordWrap(True)
+        # Rows of several lines run into one another otherwise.
+        self.table.setShowGrid(True)
         self.table.horizontalHeader().sectionResized.connect(lambda *_: self.table.resizeRowsToContents())
         column = QVBoxLayout(self)
         column.setContentsMargins(4, 4, 4, 0)
@@ -61,5 +63,5 @@ def _cells(offer: FollowUp) -> list[Cell]:
         Cell(seconds),
         Cell(settles, fill="data", share=float(offer.probability_resolved)),
         Cell(nats),
-        Cell(separated_words(offer.between), left=True),
+        Cell(separated_words(offer.between), separated_words(offer.between, len(offer.between)), left=True),
     ]

@@ -33,7 +33,17 @@ def test_a_row_has_a_cell_under_every_heading():
 
 
 @pytest.mark.parametrize(
-    ("names", "said"), [(("a", "b", "none"), "a, b and no effect"), (("a", "none"), "a and no effect")]
+    ("names", "said"),
+    [
+        (("a", "b", "none"), "a, b and no effect"),
+        (("a", "none"), "a and no effect"),
+        (("a", "b", "c", "d"), "a, b, c and d"),
+        (("a", "b", "c", "d", "none"), "a, b, c and 2 more"),
+    ],
 )
 def test_explanations_are_listed_as_one_would_say_them(names, said):
     assert separated_words(names) == said
+
+
+def test_all_are_listed_where_there_is_room():
+    assert separated_words("abcdef", most=6) == "a, b, c, d, e and f"
