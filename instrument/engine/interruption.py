@@ -7,6 +7,9 @@ from types import FrameType
 
 from instrument.errors import RigStopped
 
+_AGAIN_S = 0.05
+"""A signal that comes just before the main thread begins to wait does not end the wait: it comes again."""
+
 
 class Interruption:
     """Raises in the main thread, once, while it is inside this context; what was asked before, on entering.
@@ -17,6 +20,8 @@ class Interruption:
     def __init__(self) -> None:
         self._guard = threading.Lock()
         self._error: BaseException | None = None
+        self._heard = threading.Event()
+        """Raised, or nothing is left to be broken off."""
 
     @property
     def asked(self) -> bool:
@@ -29,6 +34,15 @@ class Interruption:
             if self._error is not None:
                 return
             self._error = error
+        self._signal()
+        threading.Thread(target=self._insist, name="interruption", daemon=True).start()
+
+    def _insist(self) -> None:
+        while not self._heard.wait(_AGAIN_S):
+            self._signal()
+
+    @staticmethod
+    def _signal() -> None:
         if hasattr(signal, "pthread_kill"):
             signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
         else:
@@ -43,6 +57,7 @@ class Interruption:
 
     def __exit__(self, *_: object) -> None:
         self._ignore()
+        self._heard.set()
 
     def _terminated(self, *_: object) -> None:
         self._error = self._error or RigStopped("terminated")
@@ -50,6 +65,7 @@ class Interruption:
 
     def _raise(self, _: int = 0, __: FrameType | None = None) -> None:
         self._ignore()
+        self._heard.set()
         raise self._error or KeyboardInterrupt
 
     def _ignore(self) -> None:

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 import pytest
 
 from instrument.engine import __main__ as process
-from instrument.engine.interruption import Interruption
+from instrument.engine.interruption import _AGAIN_S, Interruption
 from instrument.errors import RigStopped
 
 
@@ -49,6 +49,39 @@ def test_another_thread_ends_what_the_main_thread_waits_for_once(signals):
     # What cleans up afterwards is not broken off.
     os.kill(os.getpid(), signal.SIGINT)
     os.kill(os.getpid(), signal.SIGTERM)
+
+
+def test_a_signal_that_the_wait_did_not_hear_comes_again(signals, monkeypatch):
+    """As one does that comes between the last look for signals and the wait."""
+    real, sent = signal.pthread_kill, []
+
+    def kill(*to):
+        sent.append(to)
+        if len(sent) > 1:
+            real(*to)
+
+    monkeypatch.setattr(signal, "pthread_kill", kill)
+    interruption, waiting = Interruption(), threading.Event()
+    asking = threading.Thread(target=lambda: (waiting.wait(), interruption.ask(Wanted("again"))))
+    asking.start()
+    with pytest.raises(Wanted, match="again"), interruption:
+        waits(waiting)
+    asking.join()
+    # Once it is heard, no more.
+    count = len(sent)
+    threading.Event().wait(3 * _AGAIN_S)
+    assert len(sent) == count
+
+
+def test_a_run_that_has_ended_meanwhile_is_not_signalled_again_and_again(signals, monkeypatch):
+    sent = []
+    monkeypatch.setattr(signal, "pthread_kill", lambda *to: sent.append(to))
+    interruption = Interruption()
+    with interruption:
+        pass
+    interruption.ask(Wanted("too late"))
+    threading.Event().wait(3 * _AGAIN_S)
+    assert len(sent) == 1
 
 
 def test_what_was_asked_before_is_raised_on_entering(signals):
