@@ -55,6 +55,7 @@ def test_a_single_number_stands_for_all_points():
         ([1.0, np.nan], {}, r"x\[1\] = nan, expected finite numbers"),
         ([1.0, np.inf], {}, r"x\[1\] = inf, expected finite numbers"),
         ([1.0, 0.0, -1.0], {"above_zero": True}, r"x\[1\] = 0, expected more than 0"),
+        ([1.0, -1.0], {"above_zero": True}, r"x\[1\] = -1, expected more than 0"),
         ([1j, 0j], {"above_zero": True}, r"x\[1\] = 0\+0j, expected a phasor that is not zero"),
     ],
 )

@@ -3,6 +3,7 @@
 import threading
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from sessions import configuration, point
 
@@ -13,8 +14,9 @@ from instrument.run import live_choice
 from instrument.run.live_choice import Chooser, LiveChoice
 from instrument.run.sweep_part import SweepPart
 from instrument.session.setup import setup_of
+from instrument.stepped_sine.plan import PlannedSegment
 from instrument.stream.derived import FitUpdated, StepsChosen
-from instrument.stream.raw import ChoiceStarted, OperatorDid, SegmentEnded, StepDeclined
+from instrument.stream.raw import ChoiceStarted, OperatorDid, SegmentEnded, StepBegan, StepDeclined
 
 ADAPTIVE = {
     "specimen": "a.toml",
@@ -134,10 +136,13 @@ class Runner:
     """Walks no plan: notes what it is given, and measures the points it is told to."""
 
     def __init__(self, part, analysis):
-        self.walked, self.soaked, self._part, self._analysis = [], [], part, analysis
+        self.walked, self.begun, self.soaked = [], [], []
+        self._part, self._analysis = part, analysis
 
     def sweep(self, purpose, plan):
         self.walked.append(purpose)
+        # The first step, behind the range that it wants.
+        self.begun.append(next((one for one in plan if isinstance(one, StepBegan)), None))
         if purpose == "sweep":
             self._analysis.points.append(point(len(self._analysis.points) + 1))
             self._part.happened(SegmentEnded(1, 1))
@@ -166,7 +171,7 @@ def sweep(zn1, monkeypatch):
         experiment = SimpleNamespace(document=document.model_copy(update=changes))
         analysis = SimpleNamespace(points=[], damping=None, calibrations={})
         recorded, said = [], []
-        forecast = Forecast(zn1, zn1.modal_ratios, zn1.modal_ratios)
+        forecast = Forecast(zn1, np.array([20.0]), np.array([3.0]))
         setup = setup_of(made)
         part = SweepPart(experiment, zn1, setup, forecast, analysis, list(earlier), recorded.append, Fits())
         return SimpleNamespace(
@@ -222,6 +227,14 @@ def test_the_last_fit_is_of_all_points_and_fits_are_numbered_on(sweep):
     s.part.fit_again()
     assert first < second < s.part.fit.number
     assert [e.number for e in s.recorded if isinstance(e, FitUpdated)][-1] == s.part.fit.number
+
+
+def test_steps_that_follow_are_numbered_on_from_those_before(sweep):
+    s = sweep(earlier=[point(6, purpose="calibration")])
+    segment = PlannedSegment(1, 1, (20.0,), (9.81,), "20mm/s/V")
+    for _ in range(3):
+        s.part.follow(s.runner, [segment])
+    assert [begun.step for begun in s.runner.begun] == [7, 8, 9]
 
 
 def test_a_run_that_is_carried_on_numbers_its_steps_on_and_knows_what_was_declined(sweep):
