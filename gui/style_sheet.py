@@ -40,6 +40,7 @@ QHeaderView { background: $window; border: none; }
 QHeaderView::section { background: $window; color: $faint; border: none; padding: 3px 4px; }
 QHeaderView::section { border-bottom: 1px solid $grid; }
 QTableView, QTreeView, QListWidget, QTextEdit { border: 1px solid $grid; border-radius: 4px; }
+QTableView { gridline-color: $grid; }
 QPlainTextEdit { border: 1px solid $grid; border-radius: 4px; }
 QLineEdit { background: $base; border: 1px solid $grid; border-radius: 4px; padding: 1px 4px; }
 QAbstractSpinBox { min-height: 22px; }

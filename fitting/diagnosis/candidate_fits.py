@@ -6,6 +6,7 @@ from itertools import permutations
 
 import numpy as np
 
+from fitting.arrays import Array
 from fitting.diagnosis.candidates import CandidateFit, Known, Start, has_place, look, polished
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.marginal import cost
@@ -18,6 +19,7 @@ from fitting.diagnosis.thresholds import SEARCH
 from fitting.diagnosis.usual_law import followed
 from fitting.effects.base import Effect
 from fitting.identification.validation import Validation
+from fitting.laws import CoreLaw
 
 Form = tuple[str, int]
 """An effect by its name, and the number of its variant."""
@@ -210,7 +212,12 @@ class CandidateFits:
 
     def ended(self, rough: Refitted) -> Refitted:
         """A rough fit followed to the end."""
-        return polished(self.problem, rough.effects, self.evidence, rough.law, rough.u)
+        return self.fitted((rough.effects, rough.law, rough.u))
+
+    def fitted(self, one: tuple[Sequence[Effect], CoreLaw, Array]) -> Refitted:
+        """Some effects fitted to the end, from a law and unknowns. Shape (unknowns,)."""
+        effects, law, u = one
+        return polished(self.problem, effects, self.evidence, law, u)
 
     def at_rest(self, fitted: Refitted) -> Refitted:
         """A fit followed to its very end."""

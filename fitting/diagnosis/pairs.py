@@ -109,7 +109,7 @@ class Pairs:
             new = self._exchanged(pair, one)
             if frozenset(pair.names) not in simplified:
                 simplified.add(frozenset(pair.names))
-                new += self._search.simpler(pair)
+                new += self._search.simpler([pair])
             # One that a winding valley leads to would be dismissed on its way.
             found += self._search.at_rest(new, min([pair, *new], key=_cost))
         return found

@@ -5,8 +5,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from fitting.arrays import Array
 from fitting.diagnosis.candidate_fits import CandidateFits
-from fitting.diagnosis.candidates import CandidateFit, has_place, polished
+from fitting.diagnosis.candidates import CandidateFit, has_place
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.marginal import cost
@@ -19,6 +20,7 @@ from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
 from fitting.errors import OutsideModel
 from fitting.identification.validation import Validation
+from fitting.laws import CoreLaw
 
 _SPARE = 2
 """Data a candidate must leave over."""
@@ -126,12 +128,8 @@ class Search:
         pair = scored.fitted
         if any(e.replaces_law for e in pair.effects):
             return []
-        return [
-            self.judged(
-                polished(self.problem, [e], self.evidence, pair.law, np.concatenate([pair.z, pair.of(e)]))
-            )
-            for e in pair.effects
-        ]
+        begun = [([e], pair.law, np.concatenate([pair.z, pair.of(e)])) for e in pair.effects]
+        return [self.judged(f) for f in self.executor.each(self.work.fitted, begun)]
 
     def at_rest(self, scored_fits: Sequence[ScoredFit], best: ScoredFit) -> list[ScoredFit]:
         """What may be in one group with `best` followed to its very end, the others as they are."""
@@ -144,20 +142,22 @@ class Search:
         ]
         return [*found, *(t for t in scored_fits if t.cost >= within)]
 
-    def simpler(self, scored: ScoredFit) -> list[ScoredFit]:
-        """What an effect contains in its place, fitted from where the effect was found."""
-        fitted, known = scored.fitted, {e.name for e in self.effects}
+    def simpler(self, scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
+        """What effects contain in their places, fitted from where each was found."""
+        begun = [one for scored in scored_fits for one in self._contained(scored.fitted)]
+        return [self.judged(f) for f in self.executor.each(self.work.fitted, begun)]
+
+    def _contained(self, fitted: Refitted) -> list[tuple[list[Effect], CoreLaw, Array]]:
+        """Effects, law and unknowns to begin from, for each that one of a fit contains."""
         if any(e.replaces_law for e in fitted.effects):
             return []
-        found = []
+        known, found = {e.name for e in self.effects}, []
         for k, effect in enumerate(fitted.effects):
             for part, u in effect.within(fitted.of(effect)):
                 effects = [*fitted.effects[:k], part, *fitted.effects[k + 1 :]]
-                if part.name not in known or len({e.name for e in effects}) < len(effects):
-                    continue
-                parts = [u if e is part else fitted.of(e) for e in effects]
-                start = np.concatenate([fitted.z, *parts])
-                found.append(self.judged(polished(self.problem, effects, self.evidence, fitted.law, start)))
+                if part.name in known and len({e.name for e in effects}) == len(effects):
+                    parts = [u if e is part else fitted.of(e) for e in effects]
+                    found.append((effects, fitted.law, np.concatenate([fitted.z, *parts])))
         return found
 
     def determined(self, fitted: Refitted) -> bool:

@@ -1,5 +1,6 @@
 """Which two effects are tried: a wrong one may stand where the right one would begin."""
 
+from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
@@ -105,19 +106,24 @@ class Narrow(Effect):
     name, parameters = "narrow", (EffectParameter("k", "1", 0.0, 9.0, 1.0),)
 
 
-def test_what_an_effect_of_two_contains_is_fitted_in_its_place(monkeypatch):
+def test_what_an_effect_of_two_contains_is_fitted_in_its_place():
     begun = []
-    monkeypatch.setattr(
-        "fitting.diagnosis.search.polished",
-        lambda problem, effects, evidence, law, u: begun.append(([e.name for e in effects], u.tolist())),
-    )
     other, wide = effect("other"), Wide()
+
+    def fitted(one):
+        effects, _, u = one
+        begun.append(([e.name for e in effects], u.tolist()))
+
     search = SimpleNamespace(
-        effects=[other, wide, Narrow()], problem=None, evidence=None, judged=lambda fitted: fitted
+        effects=[other, wide, Narrow()],
+        executor=ALONE,
+        work=SimpleNamespace(fitted=fitted),
+        judged=lambda found: found,
     )
+    search._contained = partial(Search._contained, search)
     values = {other: np.zeros(0), wide: np.array([3.0, 0.1])}
     both = SimpleNamespace(effects=(other, wide), law=None, z=np.array([0.5]), of=values.get)
-    Search.simpler(search, ScoredFit(both, 0.0))
+    Search.simpler(search, [ScoredFit(both, 0.0)])
     assert begun == [(["other", "narrow"], [0.5, 3.0])]
 
 
