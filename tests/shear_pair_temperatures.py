@@ -8,7 +8,7 @@ import shear_pair_cases as cases
 from fitting.diagnosis.begin import begin
 from fitting.diagnosis.small_problem import SmallProblem
 from fitting.noise import Noise, noise_of
-from fitting.temperature.joint import Task, fit_shifted
+from fitting.temperature.joint import TemperatureProblem, fit_shifted
 from fitting.temperature.shifted_law import ShiftedLaw
 from fitting.temperature.shifts import Shift
 
@@ -29,7 +29,7 @@ def begun(k, law, *, known=True, pair=PAIR):
 def fitted(laws, kind="free", *, vertical=False, known=True):
     """The task, the fit, and each temperature by itself."""
     each = [begun(k, law, known=known) for k, law in enumerate(laws)]
-    task = Task.of(each, Shift(kind, T, REFERENCE), vertical=vertical)
+    task = TemperatureProblem.of(each, Shift(kind, T, REFERENCE), vertical=vertical)
     z = task.stated([b.none.z for b in each])
     return task, fit_shifted(task, [b.none.law for b in each], z), each
 

@@ -27,7 +27,7 @@ from fitting.diagnosis.thresholds import SEARCH, VERDICT
 from fitting.effects.base import Effect
 from fitting.noise import Noise
 from fitting.reduced import ReducedPlate
-from fitting.temperature.joint import ShiftedFit, Task, fit_shifted
+from fitting.temperature.joint import ShiftedFit, TemperatureProblem, fit_shifted
 
 REFUSED = 1e-3
 """Tail probability below which one law is refused."""
@@ -82,7 +82,7 @@ def common(effects: Sequence[Effect]) -> list[Effect]:
 
 def causes_of(
     alone: Sequence[Alone],
-    task: Task,
+    task: TemperatureProblem,
     fit: ShiftedFit,
     effects: Sequence[Effect],
     executor: Executor = ALONE,
@@ -104,7 +104,9 @@ def causes_of(
     return sorted(found, key=lambda c: (not c.serves, c.cost))
 
 
-def _promising(task: Task, fit: ShiftedFit, effects: Sequence[Effect]) -> list[tuple[Effect, Array]]:
+def _promising(
+    task: TemperatureProblem, fit: ShiftedFit, effects: Sequence[Effect]
+) -> list[tuple[Effect, Array]]:
     """With where to start: each temperature is explained by itself, so one law is near enough for a step."""
     lacking = fit.chi2 - fit.chi2_own
     looks = [
@@ -116,13 +118,13 @@ def _promising(task: Task, fit: ShiftedFit, effects: Sequence[Effect]) -> list[t
     return [(form, start[1]) for form, start in able[:_FOLLOWED]]
 
 
-def _beside(task: Task, fit: ShiftedFit, effect: Effect, u: Array) -> Cause:
+def _beside(task: TemperatureProblem, fit: ShiftedFit, effect: Effect, u: Array) -> Cause:
     one = task.fitted(fit.one.law, np.append(fit.one.u, u), [effect])
     own = task.fitted(fit.own.law, np.append(fit.own.u, one.of(effect)), [effect])
     return _cause(task, ShiftedFit(one, own, task.bands_hz))
 
 
-def _cause(task: Task, fit: ShiftedFit) -> Cause:
+def _cause(task: TemperatureProblem, fit: ShiftedFit) -> Cause:
     plate = task.problem.plate
     (effect,) = fit.one.effects
     (found,) = found_effects(fit.one, plate)
@@ -138,7 +140,7 @@ def _of_the_worst(alone: Sequence[Alone], effects: Sequence[Effect], executor: E
     return [s.fitted.effects[0] for s in near[:_LEADING]]
 
 
-def _from_each(alone: Sequence[Alone], task: Task, effect: Effect) -> list[Cause]:
+def _from_each(alone: Sequence[Alone], task: TemperatureProblem, effect: Effect) -> list[Cause]:
     """Fitted to each sweep by itself first: without it no law so far is a place to begin."""
     each = [_alone_with(a, effect) for a in alone]
     u = np.median([b.none.of(effect) for b in each], axis=0)

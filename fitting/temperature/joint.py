@@ -33,7 +33,7 @@ _ROUNDS = 4
 
 
 @dataclass(frozen=True)
-class Task:
+class TemperatureProblem:
     """All temperatures side by side."""
 
     problem: SeveralProblem
@@ -42,7 +42,7 @@ class Task:
     vertical: bool
 
     @classmethod
-    def of(cls, begun: Sequence[Begun], shift: Shift, *, vertical: bool) -> "Task":
+    def of(cls, begun: Sequence[Begun], shift: Shift, *, vertical: bool) -> "TemperatureProblem":
         """From the fits of each temperature by itself."""
         # Each has its model's error already; a common evidence only joins them.
         problem = SeveralProblem.of_members(
@@ -50,9 +50,9 @@ class Task:
         )
         return cls(problem, _side_by_side(begun), shift, vertical)
 
-    def with_members(self, begun: Sequence[Begun]) -> "Task":
+    def with_members(self, begun: Sequence[Begun]) -> "TemperatureProblem":
         """The same readings, their members' models others."""
-        return Task.of(begun, self.shift, vertical=self.vertical)
+        return TemperatureProblem.of(begun, self.shift, vertical=self.vertical)
 
     @property
     def points(self) -> tuple[int, ...]:
@@ -256,7 +256,11 @@ def _effective(fit: Refitted) -> float:
 
 
 def fit_shifted(
-    task: Task, laws: Sequence[CoreLaw], z: Array, effects: Sequence[Effect] = (), u: Array | None = None
+    task: TemperatureProblem,
+    laws: Sequence[CoreLaw],
+    z: Array,
+    effects: Sequence[Effect] = (),
+    u: Array | None = None,
 ) -> ShiftedFit:
     """One law and a law for each, from the laws and numbers that each temperature has by itself.
 

@@ -8,7 +8,7 @@ person and computing by the wall's.
 from collections import deque
 from dataclasses import dataclass, field
 
-from instrument.check.piece import Kind, Work
+from instrument.check.piece import Kind, TimedPiece
 from instrument.facts.follow_up import FollowUp
 from instrument.planning.measurement import HANDS_S
 from instrument.stream.derived import DiagnosisFound, FitUpdated, HitJudged, PointMeasured
@@ -49,7 +49,7 @@ class _Pace:
     took_s: float = 0.0
     pieces: int = 0
 
-    def learn(self, work: Work, took_s: float) -> None:
+    def learn(self, work: TimedPiece, took_s: float) -> None:
         self.forecast_s += _seconds(work)
         self.took_s += took_s
         self.pieces += 1
@@ -67,7 +67,7 @@ class _Pace:
 class TimeToGo:
     """Follows one run; `plan` it first."""
 
-    _left: dict[Kind, deque[Work]] = field(default_factory=dict)
+    _left: dict[Kind, deque[TimedPiece]] = field(default_factory=dict)
     _paces: dict[Kind, _Pace] = field(default_factory=dict)
     _done_s: float = 0.0
     """Of all pieces that are done, as long as they took."""
@@ -84,7 +84,7 @@ class TimeToGo:
     _computed: dict[Kind, float] = field(default_factory=dict)
     """How long each computation took the last time."""
 
-    def plan(self, work: tuple[Work, ...], wall_s: float) -> None:
+    def plan(self, work: tuple[TimedPiece, ...], wall_s: float) -> None:
         """All there is to do."""
         for one in work:
             self._left.setdefault(one.kind, deque()).append(one)
@@ -135,9 +135,9 @@ class TimeToGo:
     def _add(self, offer: FollowUp) -> None:
         """What is measured after a diagnosis, and what is computed again then."""
         hands_s, steps = HANDS_S.get(offer.kind, 0.0), len(offer.frequencies_hz)
-        work = [Work("change", hands_s)] * offer.needs_hands
-        work += [Work("step", (offer.seconds - hands_s) / steps)] * steps if steps else []
-        work += [Work(kind, took_s) for kind, took_s in self._computed.items()]
+        work = [TimedPiece("change", hands_s)] * offer.needs_hands
+        work += [TimedPiece("step", (offer.seconds - hands_s) / steps)] * steps if steps else []
+        work += [TimedPiece(kind, took_s) for kind, took_s in self._computed.items()]
         for one in work:
             self._left.setdefault(one.kind, deque()).append(one)
             self._paces.setdefault(one.kind, _Pace())
@@ -205,10 +205,10 @@ class TimeToGo:
         """Fits during the sweep tell how long the last one will take."""
         self._fit_began_s, self._computed["fit"] = None, took_s
         if "fit" in self._left:
-            self._left["fit"] = deque([Work("fit", took_s)])
+            self._left["fit"] = deque([TimedPiece("fit", took_s)])
             if not self._measuring:
                 self._finish("fit", took_s, session_s, wall_s)
 
 
-def _seconds(work: Work) -> float:
+def _seconds(work: TimedPiece) -> float:
     return work.fixed_s + _SETTLES * work.settling_s

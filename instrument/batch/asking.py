@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from instrument.batch.task import Task
+from instrument.batch.task import BatchTask
 from instrument.errors import BadInput
 from instrument.files.table import number, read_rows
 from instrument.interchange.given import is_session
@@ -21,7 +21,7 @@ def tasks_of(
     *,
     diagnose: bool = False,
     insist: bool = False,
-) -> list[Task]:
+) -> list[BatchTask]:
     """A row each, in order. Raises `BadInput` for what is wrong with the question, not with a file."""
     tables = [path for path in files if _is_table(path)]
     if tables and len(files) > 1:
@@ -39,8 +39,8 @@ def tasks_of(
     return [replace(task, diagnose=diagnose, insist=insist) for task in found]
 
 
-def _task(data: Path, specimen: Path | None, hammer: Path | None) -> Task:
-    return Task(str(data), str(specimen) if specimen else None, str(hammer) if hammer else None)
+def _task(data: Path, specimen: Path | None, hammer: Path | None) -> BatchTask:
+    return BatchTask(str(data), str(specimen) if specimen else None, str(hammer) if hammer else None)
 
 
 def _is_table(path: Path) -> bool:
@@ -55,7 +55,7 @@ def _is_table(path: Path) -> bool:
     return "data" in [name.strip().strip('"') for name in head.split(",")]
 
 
-def _of_table(table: Path, specimen: Path | None, hammer: Path | None) -> list[Task]:
+def _of_table(table: Path, specimen: Path | None, hammer: Path | None) -> list[BatchTask]:
     """Paths in a table are from the table's own folder."""
 
     def check(header: list[str]) -> None:
@@ -69,7 +69,7 @@ def _of_table(table: Path, specimen: Path | None, hammer: Path | None) -> list[T
             raise BadInput(f"{table}: line {line}: data is empty, expected a session or a sweep")
         t = cell.get("temperature_c") or ""
         found.append(
-            Task(
+            BatchTask(
                 _beside(table, cell["data"]) or "",
                 _beside(table, cell.get("specimen")) or (str(specimen) if specimen else None),
                 _beside(table, cell.get("hammer")) or (str(hammer) if hammer else None),

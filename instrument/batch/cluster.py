@@ -8,7 +8,7 @@ from time import perf_counter
 from typing import Any
 
 from instrument.batch.keys import program
-from instrument.batch.task import Task
+from instrument.batch.task import BatchTask
 from instrument.batch.work import Outcome, failure, outcome_of
 from instrument.errors import BadInput
 
@@ -21,7 +21,7 @@ _BUNDLE_S, _MOST_IN_A_BUNDLE = 1.0, 8
 _TIMEOUT_S = 20
 
 
-def on_cluster(address: str, tasks: Sequence[Task], keep: Callable[[Task, Outcome], None]) -> None:
+def on_cluster(address: str, tasks: Sequence[BatchTask], keep: Callable[[BatchTask, Outcome], None]) -> None:
     """`keep` every task with its outcome, in the order in which they end. Raises `BadInput`."""
     try:
         from distributed import Client
@@ -36,7 +36,7 @@ def on_cluster(address: str, tasks: Sequence[Task], keep: Callable[[Task, Outcom
         _hand_out(client, tasks, keep)
 
 
-def outcomes_of(tasks: Sequence[Task]) -> tuple[list[Outcome], float]:
+def outcomes_of(tasks: Sequence[BatchTask]) -> tuple[list[Outcome], float]:
     """What a worker does with a bundle, and the seconds that it took."""
     began = perf_counter()
     return [outcome_of(task) for task in tasks], perf_counter() - began
@@ -45,15 +45,15 @@ def outcomes_of(tasks: Sequence[Task]) -> tuple[list[Outcome], float]:
 class Bundles:
     """The rows still to be handed out: short ones together, one that may have ended its worker alone."""
 
-    def __init__(self, tasks: Sequence[Task]) -> None:
+    def __init__(self, tasks: Sequence[BatchTask]) -> None:
         self._left = list(reversed(tasks))
-        self._alone: list[Task] = []
+        self._alone: list[BatchTask] = []
         self._row_s: float | None = None
 
     def __bool__(self) -> bool:
         return bool(self._left or self._alone)
 
-    def next(self, threads: int) -> list[Task]:
+    def next(self, threads: int) -> list[BatchTask]:
         """About a second's work; one row until it is known how long they take, and where few are left."""
         if self._alone:
             return [self._alone.pop()]
@@ -66,16 +66,16 @@ class Bundles:
         row_s = max(seconds / rows, 1e-3)
         self._row_s = row_s if self._row_s is None else max(row_s, (self._row_s + row_s) / 2)
 
-    def again(self, tasks: Sequence[Task]) -> None:
+    def again(self, tasks: Sequence[BatchTask]) -> None:
         """Hand these out once more, each alone."""
         self._alone.extend(tasks)
 
 
-def _hand_out(client: Any, tasks: Sequence[Task], keep: Callable[[Task, Outcome], None]) -> None:
+def _hand_out(client: Any, tasks: Sequence[BatchTask], keep: Callable[[BatchTask, Outcome], None]) -> None:
     """Few enough at a time that neither the scheduler nor this program holds many."""
     from distributed import as_completed
 
-    bundles, under_way = Bundles(tasks), dict[str, list[Task]]()
+    bundles, under_way = Bundles(tasks), dict[str, list[BatchTask]]()
     ended = as_completed([], loop=client.loop)
 
     def fill() -> None:

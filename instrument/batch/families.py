@@ -7,13 +7,13 @@ from pathlib import Path
 
 from fitting.errors import FittingError
 from fitting.specimen import Specimen
-from instrument.batch.task import Task
+from instrument.batch.task import BatchTask
 from instrument.errors import BadInput
 from instrument.files.specimen_file import read_specimen
 from instrument.models.sharing import may_be_like
 
 
-def with_families(tasks: Sequence[Task]) -> list[Task]:
+def with_families(tasks: Sequence[BatchTask]) -> list[BatchTask]:
     """Each task with the specimen file whose models may serve it, by the order of the rows alone.
 
     Whether they do is judged where the row is worked on.

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import scipy
 
-from instrument.batch.task import Task
+from instrument.batch.task import BatchTask
 
 _ROOMS = ("fitting", "instrument")
 _DIGITS = 32
@@ -21,7 +21,7 @@ class Keys:
     def __init__(self) -> None:
         self._digest = cache(digest_of)
 
-    def key(self, task: Task) -> str | None:
+    def key(self, task: BatchTask) -> str | None:
         """None where a file cannot be read: such a row is tried again.
 
         A file's name counts, its folder does not: messages name files.

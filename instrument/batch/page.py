@@ -12,7 +12,7 @@ from instrument.batch.figure import MOST, laws_figure
 from instrument.batch.run import Rows
 from instrument.batch.table import beside
 from instrument.facts.comparison import SpreadSize
-from instrument.report.blocks import Block, FactsBlock, Picture, ReportSection, Sentence, TableBlock
+from instrument.report.blocks import Block, FactsBlock, FigureBlock, ReportSection, Sentence, TableBlock
 from instrument.report.html import html_page
 from instrument.results.numbers import with_error
 
@@ -68,7 +68,7 @@ def _laws(rows: Rows, counted: Counted) -> tuple[Block, ...]:
     every = 1 + (counted.done - 1) // MOST
     some = "" if every == 1 else f" One in {every} of them is drawn."
     said = f"G' and η of {counted.done} rows over the bands measured, with 95 % bands.{some}"
-    return (Picture(laws_figure(rows, counted.done), said),)
+    return (FigureBlock(laws_figure(rows, counted.done), said),)
 
 
 def _between(between: Sequence[Between]) -> tuple[Block, ...]:

@@ -9,14 +9,14 @@ from instrument.batch.cluster import on_cluster
 from instrument.batch.families import with_families
 from instrument.batch.journal import OutcomeJournal
 from instrument.batch.keys import Keys
-from instrument.batch.task import Task
+from instrument.batch.task import BatchTask
 from instrument.batch.work import Outcome, failure, lost, outcome_of
 from instrument.errors import StoppedByUser
 from instrument.models.processes import in_processes
 from instrument.progress import Progress, quiet
 
-Keep = Callable[[Task, Outcome], None]
-Runner = Callable[[Sequence[Task], Keep], None]
+Keep = Callable[[BatchTask, Outcome], None]
+Runner = Callable[[Sequence[BatchTask], Keep], None]
 
 
 def here(workers: int) -> Runner:
@@ -33,14 +33,16 @@ def there(address: str) -> Runner:
 class BatchRow:
     """A task and what came of it."""
 
-    task: Task
+    task: BatchTask
     outcome: Outcome
 
 
 class Rows:
     """All rows in the order of the question, one at a time from the disk; a context."""
 
-    def __init__(self, tasks: Sequence[Task], keys: Sequence[str | None], journal: OutcomeJournal) -> None:
+    def __init__(
+        self, tasks: Sequence[BatchTask], keys: Sequence[str | None], journal: OutcomeJournal
+    ) -> None:
         self._tasks, self._keys, self._journal = tasks, keys, journal
         self.repeated = 0
         """How many the journal had already."""
@@ -63,7 +65,7 @@ class Rows:
 
 
 def run_batch(
-    tasks: Sequence[Task], folder: Path, runner: Runner | None = None, progress: Progress = quiet
+    tasks: Sequence[BatchTask], folder: Path, runner: Runner | None = None, progress: Progress = quiet
 ) -> Rows:
     """Do what is not done yet. Raises `BadInput`, `StoppedByUser`."""
     tasks = with_families(tasks)
@@ -83,7 +85,7 @@ def run_batch(
 
 
 def _do_what_is_left(
-    tasks: Sequence[Task],
+    tasks: Sequence[BatchTask],
     keys: Sequence[str | None],
     journal: OutcomeJournal,
     runner: Runner,
@@ -96,7 +98,7 @@ def _do_what_is_left(
     with progress(f"{count} rows") as report:
         report(done / count if count else 1.0)
 
-        def keep(task: Task, outcome: Outcome) -> None:
+        def keep(task: BatchTask, outcome: Outcome) -> None:
             nonlocal done
             journal.keep(by_task[task], outcome)
             done += 1
@@ -109,7 +111,7 @@ def _do_what_is_left(
             raise StoppedByUser(said) from None
 
 
-def _unread(task: Task) -> Outcome:
+def _unread(task: BatchTask) -> Outcome:
     """Of a row that names a file which cannot be read."""
     for path in (task.data, task.specimen, task.hammer):
         if path is not None:

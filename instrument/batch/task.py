@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Task:
+class BatchTask:
     """Paths as text: a task goes to other processes and other machines."""
 
     data: str

@@ -10,7 +10,7 @@ from fitting.errors import FittingError
 from fitting.specimen import Specimen
 from instrument.batch.keys import program
 from instrument.batch.of_modes import diagnosed_modes, identified_modes, rms_percent
-from instrument.batch.task import Task
+from instrument.batch.task import BatchTask
 from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult, StageFitted
 from instrument.facts.identification import IdentificationResult
@@ -46,7 +46,7 @@ _KEPT = (
 )
 
 
-def outcome_of(task: Task) -> Outcome:
+def outcome_of(task: BatchTask) -> Outcome:
     """Work on a row and never fail. `program` says whose answer it is."""
     # Rows share the processors among them; a row is alone on its own.
     os.environ[PROCESSES] = "1"
@@ -65,12 +65,12 @@ def failure(why: str, *, again: bool = False) -> Outcome:
     return {"failed": " ".join(why.split()) or "no reason given", "again": again}
 
 
-def lost(task: Task) -> Outcome:
+def lost(task: BatchTask) -> Outcome:
     """A row whose process died with it, twice."""
     return {**failure("its process was ended from outside, or crashed", again=True), "program": program()}
 
 
-def _without_folders(task: Task, message: str) -> str:
+def _without_folders(task: BatchTask, message: str) -> str:
     """Outcomes are kept by names and contents of files, wherever these are; the row itself names its data."""
     message = message.removeprefix(f"{task.data}: ")
     for path in (task.data, task.specimen, task.hammer):
@@ -79,7 +79,7 @@ def _without_folders(task: Task, message: str) -> str:
     return message
 
 
-def _worked(task: Task) -> Outcome:
+def _worked(task: BatchTask) -> Outcome:
     data, specimen, hammer = (Path(p) if p else None for p in (task.data, task.specimen, task.hammer))
     assert data is not None
     if specimen is None and not data.suffix:
@@ -111,7 +111,7 @@ def _worked(task: Task) -> Outcome:
     return _done(measured, facts)
 
 
-def _of_modes(task: Task, data: Path, specimen: Path) -> Outcome:
+def _of_modes(task: BatchTask, data: Path, specimen: Path) -> Outcome:
     if task.hammer is not None:
         raise BadInput(f"{task.hammer}: a hammer test with a table of modes, expected a sweep")
     if task.diagnose:
@@ -132,7 +132,7 @@ def _columns(rows: list[dict[str, float]]) -> dict[str, list[float]]:
     return {key: [row[key] for row in rows] for key in rows[0]} if rows else {}
 
 
-def _lender(task: Task, given: Given) -> Specimen | None:
+def _lender(task: BatchTask, given: Given) -> Specimen | None:
     if task.like is None or not isinstance(given.specimen, Specimen):
         return None
     lender = read_specimen(Path(task.like))

@@ -7,7 +7,7 @@ Kind = Literal["mount", "aim", "hit", "calibration", "soak", "step", "sentinel",
 
 
 @dataclass(frozen=True)
-class Work:
+class TimedPiece:
     """One piece: two parts of its time, since only the second is a guess of the plate."""
 
     kind: Kind

@@ -9,7 +9,7 @@ from instrument.check.forecast import (
     planned_segments,
     with_next_coarser,
 )
-from instrument.check.piece import Kind, Region, Work
+from instrument.check.piece import Kind, Region, TimedPiece
 from instrument.files.devices import ranges_of
 from instrument.session.configuration import Experiment
 from instrument.session.setup import hammer_settings, setup_of
@@ -23,21 +23,23 @@ _ADAPTIVE_TURNS = 3
 """Steps of an adaptive sweep for every resonance and end of its band: a guess, nobody knows before."""
 
 
-def planned_work(experiment: Experiment, forecast: Forecast, parts: tuple[str, ...]) -> tuple[Work, ...]:
+def planned_work(
+    experiment: Experiment, forecast: Forecast, parts: tuple[str, ...]
+) -> tuple[TimedPiece, ...]:
     """In order. Raises `BadInput`."""
-    found: list[Work] = []
+    found: list[TimedPiece] = []
     person = experiment.rig.operator.kind == "person"
     configuration = experiment.configuration("", "")
     hammer = hammer_settings(configuration)
     if hammer is not None and "hammer" in parts:
-        found += [Work("mount", _MOUNT_S)] * person
-        found += [Work("hit", hammer.record_s + person * _STRIKE_S)] * hammer.hits
+        found += [TimedPiece("mount", _MOUNT_S)] * person
+        found += [TimedPiece("hit", hammer.record_s + person * _STRIKE_S)] * hammer.hits
     if experiment.document.sweep is not None and "sweep" in parts:
         found += _sweep(experiment, forecast, person)
     return tuple(found)
 
 
-def _sweep(experiment: Experiment, forecast: Forecast, person: bool) -> list[Work]:
+def _sweep(experiment: Experiment, forecast: Forecast, person: bool) -> list[TimedPiece]:
     table, settings = experiment.document.sweep, setup_of(experiment.configuration("", "")).sweep
     assert table is not None
     ranges = distinct(ranges_of(experiment.rig.vibrometer))
@@ -45,27 +47,27 @@ def _sweep(experiment: Experiment, forecast: Forecast, person: bool) -> list[Wor
     used = [s.range_name for s in segments] + ([sentinel[1]] if sentinel else [])
     wait = float(np.log(1 / settings.settle.tolerance))
 
-    def step(kind: Kind, frequency_hz: float) -> Work:
+    def step(kind: Kind, frequency_hz: float) -> TimedPiece:
         settling = min(wait / forecast.decay_1_s(frequency_hz), settings.settle.most_s)
         # A drive comes up, and two blocks are compared, before anything can be called settled.
         least = settings.control.ramp_s + 2 * settings.block_s(frequency_hz)
-        return Work(kind, least + settings.dwell_s(frequency_hz), settling)
+        return TimedPiece(kind, least + settings.dwell_s(frequency_hz), settling)
 
     watch = [step("sentinel", sentinel[0])] if sentinel else []
     calibration = calibration_segments(table, with_next_coarser(used, ranges), ranges)
-    found = [Work("mount", _MOUNT_S)] * person
+    found = [TimedPiece("mount", _MOUNT_S)] * person
     if calibration:
-        found += [Work("aim", _AIM_S)] * person
+        found += [TimedPiece("aim", _AIM_S)] * person
         found += [step("calibration", f) for s in calibration for f in s.frequencies_hz]
-    found += [Work("aim", _AIM_S)] * person
+    found += [TimedPiece("aim", _AIM_S)] * person
     temperature = experiment.document.temperature
     if temperature is not None:
         # How long the chamber takes to its set point nobody knows before.
-        found.append(Work("soak", temperature.soak_s))
+        found.append(TimedPiece("soak", temperature.soak_s))
     found += watch
     for segment in segments * (_ADAPTIVE_TURNS if table.plan == "adaptive" else 1):
         found += [step("step", f) for f in segment.frequencies_hz] + watch
-    return [*found, Work("fit", _FIT_S), Work("diagnosis", _DIAGNOSIS_S)]
+    return [*found, TimedPiece("fit", _FIT_S), TimedPiece("diagnosis", _DIAGNOSIS_S)]
 
 
 def planned_regions(experiment: Experiment, forecast: Forecast) -> tuple[Region, ...]:

@@ -16,7 +16,7 @@ from time import monotonic, sleep
 from typing import BinaryIO
 
 from drivers.errors import DriverError
-from instrument.check.piece import Region, Work
+from instrument.check.piece import Region, TimedPiece
 from instrument.engine.asking import HelpedOperator, RemoteOperator
 from instrument.engine.interruption import Interruption
 from instrument.engine.mailbox import Mailbox
@@ -76,7 +76,7 @@ class Host(Companion):
         self.recorded = RecordingBegan(folder, session)
         self.mailbox.put(self.recorded)
 
-    def planned(self, work: tuple[Work, ...], regions: tuple[Region, ...]) -> None:
+    def planned(self, work: tuple[TimedPiece, ...], regions: tuple[Region, ...]) -> None:
         """Told to the client."""
         self.mailbox.put(Planned(work, regions))
 

@@ -5,7 +5,7 @@ from pathlib import Path
 from time import monotonic
 from typing import ClassVar, Literal
 
-from instrument.check.piece import Region, Work
+from instrument.check.piece import Region, TimedPiece
 from instrument.files.rig_file import Shaker
 from instrument.run.part import Part
 from instrument.stream.event import Event
@@ -111,7 +111,7 @@ class Happened(Message):
 class Planned(Message):
     """All the work of the run, before it begins."""
 
-    work: tuple[Work, ...]
+    work: tuple[TimedPiece, ...]
     regions: tuple[Region, ...] = ()
     """Swept, each once."""
 

@@ -17,7 +17,7 @@ from fitting.noise import noise_of
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from fitting.temperature.causes import Alone, Cause, causes_of, common
-from fitting.temperature.joint import ShiftedFit, Task, fit_shifted
+from fitting.temperature.joint import ShiftedFit, TemperatureProblem, fit_shifted
 from fitting.temperature.shifts import Kind, Shift
 from fitting.temperature.simple import Verdict, in_doubt, judge, serving
 from instrument.errors import BadInput
@@ -115,7 +115,7 @@ class _Asked:
     vertical: bool
     progress: Progress
 
-    def fitted(self, *, with_effects: bool) -> tuple[list[Alone], Task, ShiftedFit]:
+    def fitted(self, *, with_effects: bool) -> tuple[list[Alone], TemperatureProblem, ShiftedFit]:
         """Each temperature by itself, then all of them; with models that effects can change, or without."""
         assert self.specimen.core is not None
         alone = []
@@ -128,11 +128,11 @@ class _Asked:
                 report((k + 1) / len(self.sweeps))
         with self.progress("one law for all"):
             begun = [a.begun for a in alone]
-            task = Task.of(begun, self.shift, vertical=self.vertical)
+            task = TemperatureProblem.of(begun, self.shift, vertical=self.vertical)
             fit = fit_shifted(task, [b.none.law for b in begun], task.stated([b.none.z for b in begun]))
         return alone, task, fit
 
-    def common_causes(self, alone: Sequence[Alone], task: Task, fit: ShiftedFit) -> list[Cause]:
+    def common_causes(self, alone: Sequence[Alone], task: TemperatureProblem, fit: ShiftedFit) -> list[Cause]:
         """What all sweeps may have in common: channels first, which ask for no other model of the plate."""
         effects = common(effects_on(self.specimen))
         with executor() as workers:

@@ -23,7 +23,7 @@ from fitting.noise import Noise
 from fitting.structures.shear_pair import ShearPair
 
 
-class Work(Protocol):
+class ProblemSource(Protocol):
     """What makes the task of the points in use."""
 
     used: list[Mask]
@@ -37,7 +37,7 @@ class Work(Protocol):
         """Of the points in use."""
 
 
-def with_transfer(result: Diagnosis, work: Work) -> Diagnosis:
+def with_transfer(result: Diagnosis, work: ProblemSource) -> Diagnosis:
     """The same, or with `fixture_transfer` beside what the channels show and its law as the one after.
 
     All points take part again: what spoils a stretch of every file alike is what is looked for.
@@ -76,7 +76,7 @@ def with_transfer(result: Diagnosis, work: Work) -> Diagnosis:
     )
 
 
-def _begun(work: Work, found: RigTransfer | None = None) -> tuple[Begun, Noise]:
+def _begun(work: ProblemSource, found: RigTransfer | None = None) -> tuple[Begun, Noise]:
     problem, noise = work.problem()
     if found is not None:
         problem = replace(problem, wandering=found.wandering)

@@ -41,7 +41,7 @@ class Asked:
 
 
 @dataclass(frozen=True)
-class Course:
+class MeasurementSequence:
     """A measurement with what would follow it."""
 
     first: Asked
@@ -50,7 +50,9 @@ class Course:
     """E(a)."""
 
 
-def best_courses(asked: Sequence[Asked], expecting: Expecting, measurements: int = 2) -> list[Course]:
+def best_courses(
+    asked: Sequence[Asked], expecting: Expecting, measurements: int = 2
+) -> list[MeasurementSequence]:
     """The best of each kind, the one that is expected to end soonest first.
 
     `measurements`: how many may still be made; nothing follows the last one.
@@ -73,9 +75,9 @@ def _alone_s(one: Asked) -> float:
     return one.seconds + one.told.left * OPEN_S
 
 
-def _courses(first: Asked, each: Sequence[Asked], expecting: Expecting) -> list[Course]:
+def _courses(first: Asked, each: Sequence[Asked], expecting: Expecting) -> list[MeasurementSequence]:
     alone = first.told.left
-    found = [Course(first, None, _alone_s(first))]
+    found = [MeasurementSequence(first, None, _alone_s(first))]
     for other in each:
         if other is first:
             continue
@@ -84,5 +86,5 @@ def _courses(first: Asked, each: Sequence[Asked], expecting: Expecting) -> list[
         # More data never leave more: what exceeds one alone is the draws' own scatter.
         left = min(left, alone)
         expected = first.seconds + (1 - first.told.resolved) * other.seconds + left * OPEN_S
-        found.append(Course(first, other.measurable.kind, expected))
+        found.append(MeasurementSequence(first, other.measurable.kind, expected))
     return found

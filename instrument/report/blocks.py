@@ -39,7 +39,7 @@ class TableBlock:
 
 
 @dataclass(frozen=True)
-class Picture:
+class FigureBlock:
     """A figure, drawn by whoever writes the page."""
 
     kind: ClassVar[str] = "picture"
@@ -48,7 +48,7 @@ class Picture:
     """Below it, and read aloud in its place."""
 
 
-Block = Sentence | FactsBlock | TableBlock | Picture
+Block = Sentence | FactsBlock | TableBlock | FigureBlock
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.figure import Figure
 
-from instrument.report.blocks import Block, Picture, ReportSection, Sentence, TableBlock
+from instrument.report.blocks import Block, FigureBlock, ReportSection, Sentence, TableBlock
 from instrument.results.drawing import DATA, MODEL, SECOND, label, legend, panels
 from instrument.results.numbers import with_error
 from instrument.session.contents import Contents
@@ -28,7 +28,7 @@ def calibration_section(contents: Contents) -> ReportSection:
         TableBlock("± one standard error; both are taken off every point", columns, rows),
     ]
     if contents.calibration_points:
-        blocks.append(Picture(_figure(contents), "What gain and delay leave of the calibration points"))
+        blocks.append(FigureBlock(_figure(contents), "What gain and delay leave of the calibration points"))
     return ReportSection(title, tuple(blocks))
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from fitting.structures import AnySpecimen
 from instrument.facts.diagnosis import DiagnosisResult
-from instrument.report.blocks import Block, Picture, ReportSection, Sentence, TableBlock
+from instrument.report.blocks import Block, FigureBlock, ReportSection, Sentence, TableBlock
 from instrument.results.diagnosis_figures import evidence_figure, law_figure, residual_figure
 from instrument.results.diagnosis_words import (
     law_at,
@@ -52,11 +52,13 @@ def diagnosis_sections(contents: Contents) -> list[ReportSection]:
     blocks += [Sentence(f"By resampling: {resampled}.")] if resampled else []
     blocks += [
         _before_after(found),
-        Picture(residual_figure(found), "Residual before and after: predicted over measured, less one"),
+        FigureBlock(residual_figure(found), "Residual before and after: predicted over measured, less one"),
         _candidates(found),
-        Picture(evidence_figure(found), "Evidence for each candidate"),
+        FigureBlock(evidence_figure(found), "Evidence for each candidate"),
         _law(found),
-        Picture(law_figure(found), with_verdict("The core's law before and after, with 95 % bands", found)),
+        FigureBlock(
+            law_figure(found), with_verdict("The core's law before and after, with 95 % bands", found)
+        ),
     ]
     return [ReportSection(_TITLE, tuple(blocks))]
 
@@ -82,7 +84,7 @@ def _next(found: DiagnosisResult, specimen: AnySpecimen) -> list[Block]:
     view = offer_view(specimen, found.next_measurements)
     if view is None:
         return [table]
-    return [table, Picture(sketch_figure([replace(view, title="")]), view.title)]
+    return [table, FigureBlock(sketch_figure([replace(view, title="")]), view.title)]
 
 
 def _unseen(found: DiagnosisResult) -> list[Block]:

@@ -10,7 +10,7 @@ from instrument.facts.damping import METHODS, DampingResult, RatioFound
 from instrument.impact.damping import Damping, damping_of_hits
 from instrument.impact.figures import highest_hz
 from instrument.impact.result import damping_from
-from instrument.report.blocks import Block, Picture, ReportSection, Sentence, TableBlock
+from instrument.report.blocks import Block, FigureBlock, ReportSection, Sentence, TableBlock
 from instrument.results.drawing import DATA, MARK, label, panels
 from instrument.results.error_words import ratio_words
 from instrument.results.numbers import format_number
@@ -96,7 +96,7 @@ def _agreement(contents: Contents, result: DampingResult) -> Sentence:
 def _frf(contents: Contents, found: Damping) -> Block:
     good = len(contents.good_hits)
     coherence = f", with the coherence of {good} hits" if good > 1 else "; one hit has no coherence"
-    return Picture(
+    return FigureBlock(
         _figure(found, _band_hz(contents)), f"Accelerance of the bare plate, its modes marked{coherence}"
     )
 

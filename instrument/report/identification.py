@@ -6,7 +6,7 @@ from fitting.identification.result import Identification
 from fitting.specimen import Specimen
 from instrument.facts.session_result import SessionResult
 from instrument.interchange.identified import SessionFit
-from instrument.report.blocks import Block, FactsBlock, Picture, ReportSection, Sentence, TableBlock
+from instrument.report.blocks import Block, FactsBlock, FigureBlock, ReportSection, Sentence, TableBlock
 from instrument.report.fitted import ReportedFit
 from instrument.report.law_figures import law_figure, residual_figures
 from instrument.report.measured import segments_of
@@ -46,7 +46,7 @@ def identification_section(contents: Contents, fitted: ReportedFit) -> ReportSec
         ),
         *_doubt(contents),
         *(Sentence(note(warning), "note") for warning in r.warnings),
-        Picture(law_figure(fit), f"Shear modulus and loss factor in the measured band, {_banded(r)}"),
+        FigureBlock(law_figure(fit), f"Shear modulus and loss factor in the measured band, {_banded(r)}"),
         _band(r),
         _parameters(r),
         _correlations(r),
@@ -54,7 +54,7 @@ def identification_section(contents: Contents, fitted: ReportedFit) -> ReportSec
         _live(contents, r),
     ]
     blocks += [
-        Picture(f, "Residual: model less measurement, by segment")
+        FigureBlock(f, "Residual: model less measurement, by segment")
         for f in residual_figures(segments_of(contents), fitted)
     ]
     return ReportSection(title, tuple(blocks))

@@ -6,7 +6,7 @@ from pathlib import Path
 import matplotlib as mpl
 from matplotlib.backends.backend_pdf import PdfPages
 
-from instrument.report.blocks import FactsBlock, Picture, ReportSection, Sentence, TableBlock
+from instrument.report.blocks import FactsBlock, FigureBlock, ReportSection, Sentence, TableBlock
 from instrument.report.paper import INSIDE_MM, MARGIN_MM, Sheets, broken, line_mm, width_mm
 from instrument.results.typeset import typeset
 
@@ -66,7 +66,7 @@ def sheets_of(title: str, header: Sequence[tuple[str, str]], sections: Sequence[
                     _facts(sheets, block)
                 case TableBlock():
                     _table(sheets, block)
-                case Picture():
+                case FigureBlock():
                     _picture(sheets, block)
     _signed(sheets)
     sheets.foot(title)
@@ -202,7 +202,7 @@ def _row(
     sheets.gap(0.4)
 
 
-def _picture(sheets: Sheets, picture: Picture) -> None:
+def _picture(sheets: Sheets, picture: FigureBlock) -> None:
     sheets.figure(picture.figure)
     for line in broken(picture.title, INSIDE_MM, _TABLE_PT):
         sheets.text(MARGIN_MM, line, _TABLE_PT, soft=True)

@@ -7,7 +7,7 @@ from instrument.files.rig_file import ResponseSection, SensorSection
 from instrument.files.specimen_file import SpecimenDocument
 from instrument.files.structure_file import AnyDocument
 from instrument.models.tolerance_words import tolerance_rows
-from instrument.report.blocks import Block, FactsBlock, Picture, ReportSection, Sentence, TableBlock
+from instrument.report.blocks import Block, FactsBlock, FigureBlock, ReportSection, Sentence, TableBlock
 from instrument.results.numbers import format_number
 from instrument.results.sketch import Mark, sketch_of
 from instrument.results.sketch_figure import sketch_figure
@@ -32,7 +32,7 @@ def specimen_section(contents: Contents) -> ReportSection:
     """Geometry, layers, the law identification starts from."""
     s = contents.configuration.specimen
     geometry = FactsBlock(_TITLES[contents.specimen.kind], tuple(_geometry(contents, s)))
-    drawn = Picture(
+    drawn = FigureBlock(
         sketch_figure(sketch_of(contents.specimen, _of_hammer(contents))), "The specimen to scale"
     )
     blocks: list[Block] = [drawn, _layers(s), geometry]

@@ -5,7 +5,7 @@ import numpy as np
 from instrument.files.acceleration import acceleration_unit
 from instrument.files.column import ColumnPoint
 from instrument.files.point_columns import in_report
-from instrument.report.blocks import Block, Picture, ReportSection, Sentence, TableBlock
+from instrument.report.blocks import Block, FigureBlock, ReportSection, Sentence, TableBlock
 from instrument.report.fitted import ReportedFit
 from instrument.report.measured import noise_of, segments_of
 from instrument.report.sweep_figures import quality_figure, response_figures
@@ -25,9 +25,9 @@ def sweep_section(contents: Contents, fitted: ReportedFit) -> ReportSection:
     drawn = f"{reads.capitalize()} velocity v at the pickup over base acceleration a, by segment"
     drawn += "" if fitted.fit is not None else "; no model is drawn, as there is no fit"
     found = contents.diagnosis.result if contents.diagnosis is not None else None
-    blocks += [Picture(f, drawn) for f in response_figures(segments, fitted, found)]
+    blocks += [FigureBlock(f, drawn) for f in response_figures(segments, fitted, found)]
     blocks.append(
-        Picture(quality_figure(contents), "How well each point was measured, in the order of measuring")
+        FigureBlock(quality_figure(contents), "How well each point was measured, in the order of measuring")
     )
     blocks += [*_sentinels(contents), *_remarks(contents.measured), _points(contents)]
     return ReportSection(title, tuple(blocks))

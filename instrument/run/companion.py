@@ -3,7 +3,7 @@
 from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 
-from instrument.check.piece import Region, Work
+from instrument.check.piece import Region, TimedPiece
 from instrument.run.rig import Rig
 from instrument.stream.event import Event
 
@@ -14,7 +14,7 @@ class Companion:
     def recording(self, folder: Path, session: Path) -> None:
         """The run is recorded in this folder, which becomes that session file at the end."""
 
-    def planned(self, work: tuple[Work, ...], regions: tuple[Region, ...]) -> None:
+    def planned(self, work: tuple[TimedPiece, ...], regions: tuple[Region, ...]) -> None:
         """All there is to do and how long each piece is going to take; the regions that are swept."""
 
     def happened(self, event: Event) -> None:

@@ -6,7 +6,7 @@ import shear_pair_cases as cases
 from shear_pair_temperatures import LOG_A, POINTS, REFERENCE, T, begun, fitted, shifted
 
 from fitting.bent_law import BentLaw
-from fitting.temperature.joint import Task
+from fitting.temperature.joint import TemperatureProblem
 from fitting.temperature.shifts import Shift
 
 
@@ -92,7 +92,7 @@ def test_sweeps_stand_one_after_the_other_with_their_own_errors(found):
 
 def test_what_sweeps_say_of_one_plate_is_their_mean_and_a_channel_s_own_stays():
     pair = cases.pair(0.2533)
-    task = Task.of(
+    task = TemperatureProblem.of(
         [begun(k, law, pair=pair) for k, law in enumerate(shifted())],
         Shift("free", T, REFERENCE),
         vertical=False,
@@ -107,7 +107,7 @@ def test_what_sweeps_say_of_one_plate_is_their_mean_and_a_channel_s_own_stays():
 def test_a_law_bends_where_the_specimen_is_not_exact_over_all_reduced_frequencies():
     pair = cases.pair(0.2533)
     each = [begun(k, law, pair=pair) for k, law in enumerate(shifted())]
-    task = Task.of(each, Shift("free", T, REFERENCE), vertical=False)
+    task = TemperatureProblem.of(each, Shift("free", T, REFERENCE), vertical=False)
     start = task.one_law([b.none.law for b in each])
     assert isinstance(start.law, BentLaw)
     np.testing.assert_allclose(start.log_shift, LOG_A, atol=0.3)

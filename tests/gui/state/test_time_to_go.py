@@ -8,7 +8,7 @@ from foretold import told_of
 from sessions import point
 
 from gui.state.time_to_go import TimeToGo
-from instrument.check.piece import Work
+from instrument.check.piece import TimedPiece
 from instrument.facts.follow_up import FollowUp
 from instrument.stream.derived import DiagnosisFound, FitUpdated
 from instrument.stream.raw import (
@@ -54,8 +54,8 @@ def test_of_other_sweeps_too(tmp_path, name, change):
 # Made up
 
 
-def steps(count: int) -> tuple[Work, ...]:
-    return (Work("step", 1.0, 2.0),) * count
+def steps(count: int) -> tuple[TimedPiece, ...]:
+    return (TimedPiece("step", 1.0, 2.0),) * count
 
 
 def measured(watched: TimeToGo, durations, begin_s=0.0) -> float:
@@ -82,7 +82,9 @@ def test_a_pace_other_than_forecast_is_learned(pace):
 def test_something_is_known_before_the_first_sample_and_the_bar_never_goes_back():
     to_go, last = TimeToGo(), 0.0
     assert to_go.measuring_s(0.0) is None
-    to_go.plan((Work("hit", 15.0), *steps(20), Work("fit", 8.0), Work("diagnosis", 60.0)), 0.0)
+    to_go.plan(
+        (TimedPiece("hit", 15.0), *steps(20), TimedPiece("fit", 8.0), TimedPiece("diagnosis", 60.0)), 0.0
+    )
     assert to_go.measuring_s(0.0) > 50
     assert to_go.beside_s(0.0) == 68
     for number in range(1, 21):
@@ -93,7 +95,7 @@ def test_something_is_known_before_the_first_sample_and_the_bar_never_goes_back(
 
 def test_what_is_measured_after_a_diagnosis_counts_once_it_is_agreed_to():
     watched = TimeToGo()
-    watched.plan((Work("diagnosis", 60.0),), 0.0)
+    watched.plan((TimedPiece("diagnosis", 60.0),), 0.0)
     watched.take(DiagnosisStarted(1, 10), 5.0, 100.0)
     watched.take(DiagnosisFound(1, 10, None, ""), 5.0, 120.0)
     spot = FollowUp.model_validate({**SPOT, "seconds": 150.0})
@@ -122,7 +124,9 @@ def test_a_pause_is_nobodys_pace():
 
 def test_a_person_who_is_waited_for_and_the_diagnosis_count():
     to_go = TimeToGo()
-    to_go.plan((Work("mount", 180.0), *steps(2), Work("fit", 8.0), Work("diagnosis", 60.0)), 100.0)
+    to_go.plan(
+        (TimedPiece("mount", 180.0), *steps(2), TimedPiece("fit", 8.0), TimedPiece("diagnosis", 60.0)), 100.0
+    )
     to_go.take(SessionBegan("2026-04-01T08:00:00+00:00", "1", {}, ()), 0.0, 100.0)
     to_go.take(OperatorDid("mounted", "damped"), 0.0, 130.0)
     assert to_go.beside_s(130.0) == 68.0

@@ -14,7 +14,7 @@ from pyarrow import parquet
 from instrument.batch.asking import tasks_of
 from instrument.batch.page import short_names
 from instrument.batch.run import here, run_batch
-from instrument.batch.task import Task
+from instrument.batch.task import BatchTask
 from instrument.batch.work import outcome_of
 from instrument.cli.main import run
 from instrument.errors import BadInput
@@ -84,7 +84,7 @@ def test_a_sweep_in_another_unit_is_a_row_that_fails_unless_someone_insists(tmp_
     head, *rows = (line.split(",") for line in sweeps[0].read_text().splitlines())
     lines = [head] + [[row[0], *(repr(1e3 * float(x)) for x in row[1:])] for row in rows]
     (tmp_path / "mm.csv").write_text("\n".join(map(",".join, lines)) + "\n")
-    task = Task(str(tmp_path / "mm.csv"), str(plate))
+    task = BatchTask(str(tmp_path / "mm.csv"), str(plate))
     said = "it looks as if the velocity is in mm/s, expected m/s; --force to go on all the same"
     assert outcome_of(task)["failed"] == said
     assert batch(task.data, "--specimen", plate, "--out", tmp_path, "--force") == 0

@@ -5,7 +5,7 @@ import pytest
 
 from instrument.batch.between import between_rows
 from instrument.batch.run import BatchRow
-from instrument.batch.task import Task
+from instrument.batch.task import BatchTask
 
 FREQUENCIES_HZ = np.geomspace(15.0, 290.0, 12)
 KNOWN = 0.01
@@ -28,7 +28,7 @@ def row(number, factor, temperature_c=None, **outcome):
     facts |= dict.fromkeys(("rms_percent", "chi2_per_dof", "borrowed_model"))
     facts |= {"leave_one_out_rms_percent": 1.0, "held_out_rms_percent": None, "effects": [], "warnings": []}
     facts |= {"parameters": {}, "standard_errors": {}, "lowest_hz": f[0], "highest_hz": f[-1]}
-    return BatchRow(Task(f"{number}.csv", temperature_c=temperature_c), {**facts, **outcome})
+    return BatchRow(BatchTask(f"{number}.csv", temperature_c=temperature_c), {**facts, **outcome})
 
 
 def rows(count, spread, seed=1, **how):

@@ -4,9 +4,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from instrument.batch.cluster import Bundles, outcomes_of
-from instrument.batch.task import Task
+from instrument.batch.task import BatchTask
 
-TASKS = [Task(f"{k}.csv") for k in range(400)]
+TASKS = [BatchTask(f"{k}.csv") for k in range(400)]
 
 
 def taken(bundles, seconds, threads=2):
@@ -55,6 +55,6 @@ def test_rows_of_a_lost_worker_go_out_again_each_alone():
 
 
 def test_a_bundle_has_an_outcome_for_each_row_whatever_these_are():
-    outcomes, seconds = outcomes_of([Task("/nowhere/a.csv"), Task("/nowhere/b.csv")])
+    outcomes, seconds = outcomes_of([BatchTask("/nowhere/a.csv"), BatchTask("/nowhere/b.csv")])
     assert [outcome["failed"] is not None for outcome in outcomes] == [True, True]
     assert seconds > 0

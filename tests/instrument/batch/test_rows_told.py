@@ -9,7 +9,7 @@ from instrument.batch.families import with_families
 from instrument.batch.figure import laws_figure
 from instrument.batch.journal import NAME, OutcomeJournal
 from instrument.batch.run import BatchRow
-from instrument.batch.task import Task
+from instrument.batch.task import BatchTask
 from instrument.errors import BadInput
 
 LAW = {
@@ -42,7 +42,7 @@ DONE = {
 
 
 def row(data="a/b.csv", **outcome):
-    return BatchRow(Task(data), {**DONE, **outcome})
+    return BatchRow(BatchTask(data), {**DONE, **outcome})
 
 
 FAILED = row("c.csv", failed="no such file")
@@ -108,7 +108,9 @@ def test_failed_rows_are_counted_apart_with_their_reasons_in_order():
 
 
 def test_a_few_laws_are_named_by_their_files_and_failed_rows_are_not_drawn():
-    figure = laws_figure([row("a/first.csv"), BatchRow(Task("c.csv"), {"failed": "why"}), row("a/2.csv")], 2)
+    figure = laws_figure(
+        [row("a/first.csv"), BatchRow(BatchTask("c.csv"), {"failed": "why"}), row("a/2.csv")], 2
+    )
     left, right = figure.axes
     assert [line.get_label() for line in left.lines] == ["first.csv", "2.csv"]
     assert left.lines[0].get_ydata() == pytest.approx([1, 2, 3])
@@ -142,5 +144,5 @@ def test_the_first_specimen_of_its_kind_lends_its_model_to_the_others(tmp_path):
     )
     exact = write_specimen(tmp_path, "exact.toml")
     asked = [first, thicker, exact, tmp_path / "none.toml", first]
-    tasks = [Task("a.csv"), *(Task("a.csv", str(path)) for path in asked)]
+    tasks = [BatchTask("a.csv"), *(BatchTask("a.csv", str(path)) for path in asked)]
     assert [task.like for task in with_families(tasks)] == [None, None, str(first), None, None, None]

@@ -8,7 +8,7 @@ import pytest
 
 from instrument.batch.keys import Keys
 from instrument.batch.of_modes import rms_percent
-from instrument.batch.task import Task
+from instrument.batch.task import BatchTask
 from instrument.batch.work import outcome_of
 from instrument.cli.main import run
 from instrument.facts.modal import ModalResult, ModeFitted
@@ -42,7 +42,7 @@ def folder(tmp_path_factory):
 @pytest.mark.parametrize(("data", "specimen", "points"), [("pair", "shear-pair", 12), ("modes", "beam", 4)])
 def test_a_row_of_any_structure_says_what_identify_says(folder, capsys, data, specimen, points):
     files = [str(folder / f"{data}.csv"), str(folder / f"{specimen}.toml")]
-    found = outcome_of(Task(*files))
+    found = outcome_of(BatchTask(*files))
     assert (found["failed"], found["points"]) == (None, points)
     capsys.readouterr()
     assert run(["identify", files[0], "--specimen", files[1], "--json", "-"]) == 0
@@ -56,7 +56,7 @@ def in_kilohertz(folder):
     head, *rows = [line.split(",") for line in MODES.splitlines()]
     rows = [[mode, repr(float(f) / 1e3), eta] for mode, f, eta in rows]
     path.write_text("\n".join(map(",".join, [head, *rows])) + "\n")
-    return Task(str(path), str(folder / "beam.toml"))
+    return BatchTask(str(path), str(folder / "beam.toml"))
 
 
 @pytest.mark.parametrize("diagnose", [False, True])
@@ -70,21 +70,21 @@ def test_a_table_in_kilohertz_is_a_law_where_someone_insists(in_kilohertz):
 
 
 def test_whether_someone_insists_is_part_of_what_a_row_is_known_by(folder):
-    task = Task(str(folder / "modes.csv"), str(folder / "beam.toml"))
+    task = BatchTask(str(folder / "modes.csv"), str(folder / "beam.toml"))
     assert Keys().key(task) != Keys().key(replace(task, insist=True))
 
 
 def test_a_specimen_in_another_unit_is_a_row_that_fails(folder):
     path = folder / "grams.toml"
     path.write_text((folder / "beam.toml").read_text().replace("= 2700.0", "= 2.7", 1))
-    said = outcome_of(Task(str(folder / "modes.csv"), str(path)))["failed"]
+    said = outcome_of(BatchTask(str(folder / "modes.csv"), str(path)))["failed"]
     assert said.startswith("grams.toml: substrate.density_kg_m3 = 2.7 ")
 
 
 def test_a_hammer_test_is_refused_where_there_is_no_plate(folder):
     files = [str(folder / name) for name in ("modes.csv", "beam.toml", "hammer.json")]
     said = "hammer.json: a hammer test with a table of modes, expected a sweep"
-    assert outcome_of(Task(*files))["failed"] == said
+    assert outcome_of(BatchTask(*files))["failed"] == said
 
 
 def test_what_a_table_leaves_is_of_its_frequencies():

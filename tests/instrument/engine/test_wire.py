@@ -8,7 +8,7 @@ import pytest
 from result_cases import identification
 
 from drivers.shaker.modbus_driver import ModbusTcpOptions
-from instrument.check.piece import Work
+from instrument.check.piece import TimedPiece
 from instrument.engine.messages import (
     Answered,
     BlocksDropped,
@@ -43,7 +43,7 @@ MESSAGES = (
     Happened(StepBegan(1, "step", 1, 1, 100.0, None, 0.5, 8.0)),
     BlocksDropped(7),
     Progressed("forecasting", 0.5),
-    Planned((Work("hit", 15.0), Work("step", 1.0, 2.5)), ((1, 15.2, 25.4),)),
+    Planned((TimedPiece("hit", 15.0), TimedPiece("step", 1.0, 2.5)), ((1, 15.2, 25.4),)),
     ShakerSeen(0.5, 12.25),
     OperatorAsked("mount", "bare"),
     Logged("2026-04-01T08:00:05+00:00", "WARNING", "line\nand another"),

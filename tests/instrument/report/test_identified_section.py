@@ -15,7 +15,7 @@ from fitting.identification.uncertainty import Uncertainty
 from fitting.identification.validation import HeldOutSegment, Validation
 from fitting.noise import Noise
 from instrument.interchange.identified import SessionFit
-from instrument.report.blocks import FactsBlock, Picture, Sentence, TableBlock
+from instrument.report.blocks import FactsBlock, FigureBlock, Sentence, TableBlock
 from instrument.report.fitted import ReportedFit
 from instrument.report.identification import (
     identification_section,
@@ -221,5 +221,5 @@ def test_a_residual_is_the_model_less_what_was_measured_beside_the_noise():
 def test_a_section_has_the_law_s_picture_with_what_its_bands_are():
     for std, said in ((0.01, "with 95 % bands"), (np.nan, "without bands")):
         made, *_ = section(found(std=std))
-        (picture,) = (b for b in made.blocks if isinstance(b, Picture))
+        (picture,) = (b for b in made.blocks if isinstance(b, FigureBlock))
         assert said in picture.title

@@ -5,7 +5,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 from matplotlib.text import Text
 
-from instrument.report.blocks import FactsBlock, Picture, ReportSection, Sentence, TableBlock
+from instrument.report.blocks import FactsBlock, FigureBlock, ReportSection, Sentence, TableBlock
 from instrument.report.paper import HEIGHT_MM, INSIDE_MM, MARGIN_MM, WIDTH_MM, broken, width_mm
 from instrument.report.pdf import save_pdf, save_pictures, sheets_of
 
@@ -30,7 +30,7 @@ def laid():
         ReportSection("Facts", (FactsBlock("Of names", (("name", LONG), (LONG, "short"))),)),
         ReportSection("Said", (Sentence("well " * 60, "warning"), Sentence(f"{LONG} \x1b[2J", "note"))),
         ReportSection("Table", (TableBlock("All points", COLUMNS, ROWS),)),
-        ReportSection("Drawn", (Picture(drawing(), "a drawing"), Picture(drawing(), "again"))),
+        ReportSection("Drawn", (FigureBlock(drawing(), "a drawing"), FigureBlock(drawing(), "again"))),
     )
     return sheets_of("A title", (("operator", "A. Tester"),), sections)
 

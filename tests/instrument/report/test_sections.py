@@ -10,7 +10,7 @@ from session_cases import GAIN
 
 from instrument.interchange.point_table import columns
 from instrument.interchange.read_session import read_session
-from instrument.report.blocks import Picture, Sentence, TableBlock
+from instrument.report.blocks import FigureBlock, Sentence, TableBlock
 from instrument.report.calibration import calibration_section
 from instrument.report.ending import ending_section, missing_parts
 from instrument.report.fitted import ReportedFit
@@ -75,7 +75,7 @@ def test_what_was_not_measured_is_said_part_by_part(contents):
 
 def test_a_calibration_is_a_row_a_range_and_nothing_is_left_of_its_points(contents):
     section = calibration_section(contents)
-    (table,), (picture,) = blocks(section, TableBlock), blocks(section, Picture)
+    (table,), (picture,) = blocks(section, TableBlock), blocks(section, FigureBlock)
     assert [row[0] for row in table.rows] == list(contents.calibrations)
     assert float(table.rows[0][1].split()[0]) == pytest.approx(GAIN, rel=0.01)
     gain, _ = picture.figure.axes
@@ -98,7 +98,7 @@ def test_a_hit_left_out_says_why_and_the_run_had_found_the_same(contents):
 
 def test_a_page_without_a_fit_says_so_and_draws_what_was_measured(contents):
     section = sweep_section(contents, ReportedFit(None, "no law"))
-    pictures = blocks(section, Picture)
+    pictures = blocks(section, FigureBlock)
     assert "no model is drawn, as there is no fit" in pictures[0].title
     assert ReportedFit(None).over_base(np.array([20.0])) is None
     assert len(blocks(section, TableBlock)[-1].rows) == len(contents.measured)
