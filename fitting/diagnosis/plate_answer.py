@@ -10,7 +10,8 @@ from functools import cached_property
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.diagnosis.pole_following import KnownPoles, Matrices, dynamic
+from fitting.diagnosis.pole_following import KnownPoles
+from fitting.dynamic_stiffness import Matrices, dynamic_stiffness
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisances import Nuisances
@@ -98,7 +99,7 @@ def motions(asked: Sequence[Asked]) -> list[Motions]:
 
 def _together(asked: Sequence[Asked]) -> list[Motions]:
     one = asked[0]
-    A = dynamic(one.matrices, one.omega, one.G, one.omega**2)
+    A = dynamic_stiffness(one.matrices, one.omega, one.G)
     each: list[Array] = []
     places = []
     travel = -1 / one.omega**2
@@ -234,6 +235,6 @@ def answer_motion(plate: EnrichedReducedPlate, omega: Array, G: Complex, change:
     """Motion q of A q = load. Shape (nodes, k)."""
     C_1 = (plate.U * (plate.d * change.damping)) @ plate.U.T
     moved = plate.K_0 + change.K, plate.K_1 + change.K_1, plate.M + change.M, C_1
-    A = dynamic(moved, omega, G, omega**2)
+    A = dynamic_stiffness(moved, omega, G)
     load = plate.load + change.load - change.travel_load / (omega**2)[:, None]
     return np.asarray(np.linalg.solve(A, load[:, :, None].astype(complex))[:, :, 0])

@@ -11,14 +11,12 @@ from numpy.typing import NDArray
 from scipy.optimize import linear_sum_assignment
 
 from fitting.arrays import Array, Complex
+from fitting.dynamic_stiffness import Matrices, dynamic_stiffness
 
 _STEPS = 1
 """Of Rayleigh's quotient, from what the known modes make of it."""
 _OFF = 1e-9
 """Beside a pole, so that there is something to solve."""
-
-Matrices = tuple[Complex, Array, Array, Array]
-"""K_0, K_1, M and C_1. Shape (k, k) each."""
 
 
 @dataclass(frozen=True)
@@ -109,7 +107,7 @@ def _rayleigh_iterated(
     M = moved[2]
     for _ in range(_STEPS):
         square = _rayleigh(moved, p, y, modulus) * (1 + _OFF)
-        A = dynamic(moved, p, modulus.at(p), square)
+        A = dynamic_stiffness(moved, p, modulus.at(p), square)
         turned = np.linalg.solve(A, (y @ M)[:, :, None])[:, :, 0]
         y = np.asarray(turned / np.linalg.norm(turned, axis=1)[:, None], dtype=complex)
         p = np.sqrt(_rayleigh(moved, p, y, modulus))
@@ -120,12 +118,3 @@ def _rayleigh(moved: Matrices, p: Complex, y: Complex, modulus: ModulusNear) -> 
     """p^2 as the modes have it, what depends on p being as there."""
     K_0, K_1, M, C_1 = (((y @ N) * y).sum(axis=1) for N in moved)
     return np.asarray((K_0 + modulus.at(p) * K_1 + 1j * p * C_1) / M)
-
-
-def dynamic(plate: Matrices, omega: Complex | Array, G: Complex, square: Complex | Array) -> Complex:
-    """K_0 + G K_1 + i w C_1 - w^2 M at every w, its square by itself. Shapes (omegas,) to (omegas, k, k)."""
-    K_0, K_1, M, C_1 = plate
-    factors = np.stack([np.ones_like(G), G, -square, 1j * omega], axis=1)
-    # One product: several times faster than sums of stacks of matrices.
-    parts = np.stack([K_0, K_1, M, C_1]).astype(complex).reshape(4, -1)
-    return np.asarray((factors @ parts).reshape(len(omega), *M.shape))

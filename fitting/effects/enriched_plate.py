@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
+from fitting.dynamic_stiffness import dynamic_stiffness
 from fitting.effects.change import Change
 from fitting.effects.combined_columns import AllCombined, OwnCombined, own_and_beside
 from fitting.effects.span import Span
@@ -209,10 +210,7 @@ class EnrichedReducedPlate:
             for a, b in (("K_0", "K"), ("K_1", "K_1"), ("M", "M"))
         )
         C_1 = (self.U[own] * (self.d * change.damping)) @ self.U[own].T
-        factors = np.stack([np.ones_like(G), G, -(omega**2), 1j * omega], axis=1)
-        # One product: several times faster than sums of stacks of matrices.
-        parts = np.stack([K_0, K_1, M, C_1]).astype(complex).reshape(4, -1)
-        A = (factors @ parts).reshape(len(omega), *M.shape)
+        A = dynamic_stiffness((K_0, K_1, M, C_1), omega, G)
         given = [self.load + change.load, self.observe + change.observe, self.pitch, *further]
         sides = np.stack([side[own] for side in given if np.any(side)], axis=1).astype(complex)
         X = np.linalg.solve(A, np.broadcast_to(sides, (len(omega), *sides.shape)))
