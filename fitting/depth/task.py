@@ -11,7 +11,7 @@ import numpy as np
 
 from fitting.arrays import Array, Mask
 from fitting.diagnosis.begin import Begun
-from fitting.diagnosis.refit import JointProblem
+from fitting.diagnosis.joint_problem import JointProblem
 from fitting.diagnosis.responses import response_of
 from fitting.identification.uncertainty import limits_reached
 from fitting.laws import CoreLaw

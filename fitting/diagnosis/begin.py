@@ -12,7 +12,8 @@ from fitting.diagnosis.candidates import polished
 from fitting.diagnosis.evidence import BareModes, Evidence
 from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import ROUGH, Refitted, refit
+from fitting.diagnosis.refit import ROUGH, refit
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.usual_law import followed, within_search
 from fitting.effects.enriched_plate import EnrichedReducedPlate

@@ -13,7 +13,8 @@ from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.prediction import held_out
 from fitting.diagnosis.predictive import temper
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import ROUGH, Refitted, kept, refit
+from fitting.diagnosis.refit import ROUGH, kept, refit
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.diagnosis.usual_law import followed

@@ -11,7 +11,8 @@ from fitting.bent_law import BentLaw
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.of_files import OfFiles
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import AT_REST, ROUGH, Refitted, refit
+from fitting.diagnosis.refit import AT_REST, ROUGH, refit
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH

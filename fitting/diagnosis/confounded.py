@@ -10,7 +10,8 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.diagnosis.marginal import expected_size
-from fitting.diagnosis.refit import Refitted, kept
+from fitting.diagnosis.refit import kept
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.verdict import NONE, Judgement

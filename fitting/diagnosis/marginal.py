@@ -18,7 +18,7 @@ import numpy as np
 from scipy.special import log_ndtr
 
 from fitting.arrays import Array
-from fitting.diagnosis.refit import Refitted
+from fitting.diagnosis.refitted import Refitted
 from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 

@@ -4,7 +4,8 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.refit import JointProblem, Refitted
+from fitting.diagnosis.joint_problem import JointProblem
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.response import SweepResponse
 
 _WIDEST = 3.0

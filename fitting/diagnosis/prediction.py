@@ -5,7 +5,8 @@ import numpy as np
 from fitting.arrays import Array, Mask
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import Refitted, refit
+from fitting.diagnosis.refit import refit
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.identification.result import differences_percent
 from fitting.identification.validation import Validation, validate

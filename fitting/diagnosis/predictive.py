@@ -10,7 +10,7 @@ import numpy as np
 
 from fitting.chances import chi2_above, normal_above
 from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.refit import Refitted
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.structure import along_frequency
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.sweep import Sweep

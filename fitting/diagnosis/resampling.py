@@ -13,7 +13,7 @@ from fitting.diagnosis.begin import begin
 from fitting.diagnosis.evidence import BareModes
 from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import Refitted
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.singles import Singles

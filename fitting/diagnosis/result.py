@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from fitting.arrays import Array
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import Refitted
+from fitting.diagnosis.refitted import Refitted
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.result import LawBand
 from fitting.identification.validation import Validation, rms

@@ -19,7 +19,7 @@ from scipy.optimize import minimize
 from fitting.arrays import Array, Complex, Mask
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import Refitted
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.wandering import Wandering
 from fitting.identification.validation import HeldOutSegment, Validation, rms

@@ -13,7 +13,8 @@ from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.predictive import checks, form_error, passes, temper
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import Refitted, refit
+from fitting.diagnosis.refit import refit
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.stand_in import stands_in
 from fitting.diagnosis.thresholds import SEARCH

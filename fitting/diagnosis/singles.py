@@ -7,7 +7,7 @@ import numpy as np
 from fitting.chances import chi2_above
 from fitting.diagnosis.candidate_fits import FirstLook, Form
 from fitting.diagnosis.candidates import has_place
-from fitting.diagnosis.refit import Refitted
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.thresholds import SEARCH, VERDICT
 

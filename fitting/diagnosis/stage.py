@@ -8,7 +8,7 @@ from fitting.arrays import Array
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.posterior import posterior
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import Refitted
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.result import FoundEffect, ParameterEstimate, Stage
 from fitting.diagnosis.search import ScoredFit, Search

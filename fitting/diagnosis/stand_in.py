@@ -4,7 +4,7 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import Refitted
+from fitting.diagnosis.refitted import Refitted
 from fitting.effects.base import Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import Refitted
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.result import FoundEffect, Stage
 from fitting.diagnosis.thresholds import VERDICT

@@ -11,7 +11,7 @@ from fitting.arrays import Array
 from fitting.diagnosis.candidates import at_rest, polished
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import Refitted
+from fitting.diagnosis.refitted import Refitted
 from fitting.laws import CoreLaw
 
 _OPEN = 1e-9

@@ -12,7 +12,8 @@ from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.of_files import OfFiles
 from fitting.diagnosis.predictive import form_error
-from fitting.diagnosis.refit import ROUGH, Refitted, refit
+from fitting.diagnosis.refit import ROUGH, refit
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.search import ScoredFit
 from fitting.diagnosis.thresholds import SEARCH, VERDICT
 from fitting.effects.base import Effect

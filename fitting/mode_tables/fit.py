@@ -13,7 +13,8 @@ from fitting.arrays import Array
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.posterior import posterior
-from fitting.diagnosis.refit import ROUGH, Refitted, refit
+from fitting.diagnosis.refit import ROUGH, refit
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.usual_law import within_search
 from fitting.errors import OutsideModel, TooFewPoints
 from fitting.identification.adjusted import Adjusted

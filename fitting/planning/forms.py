@@ -13,7 +13,7 @@ from fitting.arrays import Array
 from fitting.diagnosis.candidates import polished
 from fitting.diagnosis.marginal import cost, probabilities
 from fitting.diagnosis.of_files import OfFiles
-from fitting.diagnosis.refit import Refitted
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.result import Rivals
 from fitting.effects.base import Effect
 

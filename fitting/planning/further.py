@@ -18,7 +18,7 @@ from fitting.diagnosis.marginal import prior_precision
 from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.of_files import OfFiles, Place
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import Refitted
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.result import Rivals, name_of

@@ -8,7 +8,8 @@ from scipy.optimize import nnls
 from fitting.arrays import Array, Complex, Mask
 from fitting.diagnosis.evidence import BareModes, Evidence
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import ROUGH, Refitted, refit
+from fitting.diagnosis.refit import ROUGH, refit
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.laws import CoreLaw
 from fitting.noise import Noise

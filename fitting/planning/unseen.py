@@ -16,7 +16,7 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.refit import Refitted
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.result import Rivals
 from fitting.effects.base import Effect
 from fitting.planning.aims import Aims

@@ -18,7 +18,8 @@ from fitting.bent_law import BentLaw
 from fitting.chances import chi2_above
 from fitting.diagnosis.begin import Begun
 from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.refit import Refitted, refit
+from fitting.diagnosis.refit import refit
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.several import SeveralProblem
 from fitting.diagnosis.thresholds import SEARCH

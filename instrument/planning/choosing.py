@@ -15,7 +15,7 @@ from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array
 from fitting.diagnosis.begin import begin
-from fitting.diagnosis.refit import Refitted
+from fitting.diagnosis.refitted import Refitted
 from fitting.errors import FittingError
 from fitting.laws import CoreLaw
 from fitting.noise import Noise

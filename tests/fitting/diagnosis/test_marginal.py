@@ -7,7 +7,7 @@ import pytest
 
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.marginal import cost, probabilities
-from fitting.diagnosis.refit import Refitted
+from fitting.diagnosis.refitted import Refitted
 from fitting.effects.base import Effect, EffectParameter, Tie
 from fitting.laws.constant import ConstantModulus
 

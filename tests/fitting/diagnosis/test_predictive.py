@@ -11,7 +11,7 @@ from fitting.diagnosis.predictive import (
     temper,
     weakest,
 )
-from fitting.diagnosis.refit import Refitted
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.effects.base import Effect
 from fitting.laws.constant import ConstantModulus

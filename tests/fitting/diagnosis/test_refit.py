@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.joint_problem import JointProblem
 from fitting.diagnosis.of_files import EACH, OfFiles
-from fitting.diagnosis.refit import JointProblem, refit
+from fitting.diagnosis.refit import refit
 from fitting.effects import CATALOGUE
 from fitting.laws.constant import ConstantModulus
 
