@@ -27,17 +27,8 @@ from gui.widgets import button, hint, tool
 NO_KEY = Qt.KeyboardModifier.NoModifier
 
 
-@pytest.fixture
-def keep(qtbot, appearance):
-    def kept(widget):
-        qtbot.addWidget(widget)
-        return widget
-
-    return kept
-
-
-def test_a_line_in_a_colour_shows_signs_as_they_are(keep):
-    mark = keep(Mark())
+def test_a_line_in_a_colour_shows_signs_as_they_are(made):
+    mark = made(Mark())
     mark.say("a < b", "bad")
     assert mark.said == "a < b"
     assert "a &lt; b" in mark.text()
@@ -46,19 +37,19 @@ def test_a_line_in_a_colour_shows_signs_as_they_are(keep):
     assert mark.text() == ""
 
 
-def test_a_sign_without_words_has_them_for_whoever_cannot_see_it(keep):
-    assert keep(tool("left", "The point before")).accessibleName() == "The point before"
+def test_a_sign_without_words_has_them_for_whoever_cannot_see_it(made):
+    assert made(tool("left", "The point before")).accessibleName() == "The point before"
 
 
-def test_only_the_button_that_goes_on_is_dressed_as_such(keep):
-    assert keep(button("Start", primary=True)).objectName() == PRIMARY
-    assert keep(button("Check", "Looks first")).objectName() == ""
+def test_only_the_button_that_goes_on_is_dressed_as_such(made):
+    assert made(button("Start", primary=True)).objectName() == PRIMARY
+    assert made(button("Check", "Looks first")).objectName() == ""
 
 
-def test_what_stands_where_nothing_is_yet_is_pale_and_not_cut(keep):
-    made = keep(hint("Nothing yet"))
-    assert made.wordWrap()
-    assert not made.isEnabled()
+def test_what_stands_where_nothing_is_yet_is_pale_and_not_cut(made):
+    quiet = made(hint("Nothing yet"))
+    assert quiet.wordWrap()
+    assert not quiet.isEnabled()
 
 
 @pytest.mark.parametrize("theme", [LIGHT, DARK])
@@ -68,25 +59,25 @@ def test_every_colour_of_the_style_sheet_is_the_themes(theme):
     assert f"QPushButton#stop {{ background: {theme.stop}" in sheet
 
 
-def test_the_stop_button_is_larger_than_the_windows_type(keep):
-    stop = keep(StopButton())
-    assert stop.font().pointSizeF() == pytest.approx(1.3 * keep(QPushButton()).font().pointSizeF(), abs=0.5)
+def test_the_stop_button_is_larger_than_the_windows_type(made):
+    stop = made(StopButton())
+    assert stop.font().pointSizeF() == pytest.approx(1.3 * made(QPushButton()).font().pointSizeF(), abs=0.5)
     assert stop.minimumWidth() >= 2 * stop.fontMetrics().horizontalAdvance("STOP")
 
 
-def test_the_stop_key_is_taken_before_anybody_else_has_it(keep):
+def test_the_stop_key_is_taken_before_anybody_else_has_it(made):
     stopped = []
-    guard = StopGuard(keep(QPushButton()), lambda: stopped.append(1), lambda: None)
-    other = keep(QPushButton())
+    guard = StopGuard(made(QPushButton()), lambda: stopped.append(1), lambda: None)
+    other = made(QPushButton())
     for kind in (QEvent.Type.ShortcutOverride, QEvent.Type.KeyPress):
         assert guard.eventFilter(other, QKeyEvent(kind, Qt.Key.Key_F12, NO_KEY))
     assert stopped == [1]
     assert not guard.eventFilter(other, QKeyEvent(QEvent.Type.KeyPress, Qt.Key.Key_F11, NO_KEY))
 
 
-def test_no_dialog_holds_back_the_window_below_it(keep):
-    guard = StopGuard(keep(QPushButton()), lambda: None, lambda: None)
-    dialog = keep(QDialog())
+def test_no_dialog_holds_back_the_window_below_it(made):
+    guard = StopGuard(made(QPushButton()), lambda: None, lambda: None)
+    dialog = made(QDialog())
     dialog.setModal(True)
     assert not guard.eventFilter(dialog, QShowEvent())
     assert not dialog.isModal()
@@ -99,8 +90,8 @@ def test_a_time_is_said_as_people_say_it(seconds, said):
     assert duration(seconds) == said
 
 
-def test_what_a_row_does_not_say_of_a_column_stays_empty(keep):
-    table = keep(ReadTable({"name": "", "value": "", "remark": ""}, selects=True, fills=False))
+def test_what_a_row_does_not_say_of_a_column_stays_empty(made):
+    table = made(ReadTable({"name": "", "value": "", "remark": ""}, selects=True, fills=False))
     table.show_rows([[Cell("a"), Cell("1", edge="good")], [], [Cell(text) for text in "xyz"]])
     assert table.texts(2) == ["", "", "z"]
     assert table.text.splitlines() == ["name\tvalue\tremark", "a\t1\t", "\t\t", "x\ty\tz"]
@@ -117,8 +108,8 @@ def test_a_stopped_run_has_the_colour_of_what_is_bad(appearance):
     assert state_color("sweep") == LIGHT.color("data").name()
 
 
-def test_a_click_beside_the_handle_goes_there(keep):
-    slider = keep(Scrubber(Qt.Orientation.Horizontal))
+def test_a_click_beside_the_handle_goes_there(made):
+    slider = made(Scrubber(Qt.Orientation.Horizontal))
     slider.setMaximum(1000)
     slider.resize(400, 20)
     slider.show()
@@ -128,9 +119,9 @@ def test_a_click_beside_the_handle_goes_there(keep):
     assert slider.value() == pytest.approx(750, abs=30)
 
 
-def test_the_log_is_written_on_and_its_oldest_lines_go_first(keep, monkeypatch):
+def test_the_log_is_written_on_and_its_oldest_lines_go_first(made, monkeypatch):
     monkeypatch.setattr("gui.state.log._MOST_LINES", 2)
-    log, pane = Log(began=datetime(2026, 1, 1)), keep(LogPane())
+    log, pane = Log(began=datetime(2026, 1, 1)), made(LogPane())
     state = SimpleNamespace(log=log)
     log.add(61.0, "first", "warning")
     pane.show_state(state)
@@ -153,7 +144,7 @@ def test_a_feeds_turn_ends_before_the_window_is_felt_to_wait(monkeypatch):
     assert feed.Feed().ages_s == (0.0, 0.0)
 
 
-def test_a_page_draws_only_what_is_new_and_only_while_it_is_seen(keep):
+def test_a_page_draws_only_what_is_new_and_only_while_it_is_seen(made):
     drawn = []
 
     class Counting(Page):
@@ -163,7 +154,7 @@ def test_a_page_draws_only_what_is_new_and_only_while_it_is_seen(keep):
         def clear(self):
             drawn.append("cleared")
 
-    page, state = keep(Counting(None)), SimpleNamespace(version=1, changed={"run": 1, "points": 1})
+    page, state = made(Counting(None)), SimpleNamespace(version=1, changed={"run": 1, "points": 1})
     page.show_state(state)
     assert drawn == []
     page.show()

@@ -1,12 +1,10 @@
 """An impact test's result and figures: what is read off its modes, and what is drawn where."""
 
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 from impact_cases import AMPLITUDES, BARE_HZ, TABLE_3, clean_hit, noisy_hits
-from matplotlib.figure import Figure
 
 from fitting.bare_modes import CarriedSensor
 from fitting.modal.frf import Frf, Refusal
@@ -27,14 +25,6 @@ def found():
     hits = [judge(h) for h in noisy_hits(clean, np.random.default_rng(1))]
     hits[1] = replace(hits[1], accepted=False, why="double hit")
     return damping_of_hits(hits, at_hz=tuple(BARE_HZ[TWO]))
-
-
-@pytest.fixture
-def saved(monkeypatch):
-    """Figures by the name of their files, none of them rendered."""
-    figures = {}
-    monkeypatch.setattr(Figure, "savefig", lambda f, path, dpi: figures.setdefault(Path(path).name, f))
-    return figures
 
 
 def test_every_mode_has_what_each_method_says_and_what_is_adopted(found):

@@ -1,11 +1,9 @@
 """Figures of plans, of a core band by band and of several temperatures: what is drawn where."""
 
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from matplotlib.figure import Figure
 from shear_pair_temperatures import LOG_A, REFERENCE, T, fitted, shifted
 
 from fitting.identification.result import LawBand
@@ -20,14 +18,6 @@ from instrument.results.pointwise_figures import pointwise_figure, save_pointwis
 from instrument.results.shifted_figures import save_shifted_figures
 
 F = np.array([10.0, 30.0, 100.0])
-
-
-@pytest.fixture
-def saved(monkeypatch):
-    """Figures by the name of their files, none of them rendered."""
-    figures = {}
-    monkeypatch.setattr(Figure, "savefig", lambda f, path, dpi: figures.setdefault(Path(path).name, f))
-    return figures
 
 
 def lines(ax):
