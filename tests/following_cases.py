@@ -40,6 +40,17 @@ SPOT_OF_THE_CASE = {**SPOT, "segments": [2, 2, 2]}
 
 CLAMPING = {**BACKWARDS, "kind": "clamping", "needs_hands": True, "todo": "Clamp it anew."}
 
+STRUCK = {
+    **OFFER,
+    "kind": "damped_struck",
+    "needs_hands": True,
+    "seconds": 600.0,
+    "struck_mm": (285.0, 180.0),
+    "spot_mm": (15.0, 20.0),
+    "held": "free",
+}
+STRUCK_IN_ITS_CLAMP = {**STRUCK, "spot_mm": None, "held": "clamped"}
+
 MASS_KG, MASS_MM = 0.005, (280.0, 100.0)
 MASS = {**BACKWARDS, "kind": "added_mass", "needs_hands": True, "mass_kg": MASS_KG, "mass_at_mm": MASS_MM}
 
@@ -51,9 +62,9 @@ def a_law(number, last_step, points, damping, specimen):
 def grouped(*offers):
     """A diagnosis that ends in a group as long as there are offers, one after another."""
 
-    def diagnose(number, last_step, points, times_s, damping, specimen, possible):
+    def diagnose(number, last_step, points, times_s, damping, struck, specimen, possible):
         measured = {p.sweep for p in points if p.step <= last_step}
-        left = offers[len(measured) - 1 :][:1]
+        left = offers[len(measured) + len(struck) - 1 :][:1]
         result = diagnosis().but(next_measurements=left)
         return DiagnosisFound(number, last_step, result)
 

@@ -15,8 +15,11 @@ from instrument.session.configuration import Experiment, read_whole_experiment
 from instrument.simulated_case import case_file
 
 MODES = ((19.4, 0.1), (55.5, 0.1), (100.8, 0.14))
+FREE = ((88.0, 0.05), (150.0, 0.05))
+"""Of the damped plate hung free; it heaves too, and sways."""
 BARE = ((17.72, 0.0029), (59.8, 0.0013), (110.1, 0.0018), (201.6, 0.0021))
 PULSE_S = 1e-3
+IMPULSE_N_S = 50 * PULSE_S
 SWEEP = """
 [[sweep.segments]]
 low_hz = 95.0
@@ -50,16 +53,27 @@ CHAMBER_REGISTERS = TemperatureRegisters(100, 300, "int16", 0.1)
 
 
 class FormulaPlate:
-    """Always at its steady state: no transients."""
+    """Always at its steady state: no transients. Struck, it rings."""
 
     def __init__(self):
         self._pieces = [DrivePiece(0.0, 10.0, 0.0, 0.0, 0.0)]
+        self._hits: list[float] | None = None
 
     def drive(self, piece: DrivePiece) -> None:
         self._pieces = [*self._pieces[-3:], piece]
+        if piece.amplitude_v:
+            self._hits = None
+
+    def strike(self, hit_m, read_m, *, free: bool) -> None:
+        self._hits, self._read_m = [], read_m
+
+    def hit(self, now_s: float) -> None:
+        self._hits.append(now_s + 0.1)
 
     def at(self, output: str, first_s: float, step_s: float, count: int) -> NDArray[np.float64]:
         t = first_s + step_s * np.arange(count)
+        if self._hits is not None:
+            return self._struck(output, t)
         y = np.zeros(count)
         ends = [p.begin_s for p in self._pieces[1:]] + [np.inf]
         for piece, end in zip(self._pieces, ends, strict=True):
@@ -68,6 +82,28 @@ class FormulaPlate:
             angle = 2 * np.pi * piece.frequency_hz * (t[inside] - piece.begin_s) + piece.phase_rad
             y[inside] = (gain(output, piece.frequency_hz) * amplitude * np.exp(1j * angle)).imag
         return y
+
+    def _struck(self, output: str, t: NDArray[np.float64]) -> NDArray[np.float64]:
+        y = np.zeros(len(t))
+        for number, hit in enumerate(self._hits):
+            since = t - hit - PULSE_S / 2
+            if output == "force":
+                y += pulse(t - hit)
+            elif output == "velocity":
+                moved = sum(
+                    np.exp(-ratio * 2 * np.pi * f * since) * np.cos(2 * np.pi * f * since)
+                    for f, ratio in FREE
+                )
+                off = 1 + 1e-3 * (-1) ** number
+                # At the other corner it goes the other way as a whole.
+                y += np.where(since > 0, IMPULSE_N_S * off * (moved - np.cos(2 * np.pi * since)), 0)
+        return y
+
+
+def pulse(since: NDArray[np.float64]) -> NDArray[np.float64]:
+    """A blow's force."""
+    inside = (since >= 0) & (since < PULSE_S)
+    return np.where(inside, 50 * (1 - np.cos(2 * np.pi * since / PULSE_S)), 0)
 
 
 def gain(output: str, frequency_hz: float) -> complex:
@@ -101,8 +137,7 @@ class FormulaBare:
         y = np.zeros(count)
         for hit in self._hits:
             if output == "force":
-                inside = (t >= hit) & (t < hit + PULSE_S)
-                y += np.where(inside, 50 * (1 - np.cos(2 * np.pi * (t - hit) / PULSE_S)), 0)
+                y += pulse(t - hit)
                 continue
             since = np.maximum(t - hit - PULSE_S / 2, 0)
             for f, ratio in BARE:

@@ -124,8 +124,8 @@ def _given(data: Sweep | Session, specimen: Specimen | None, hammer: HammerTest 
             raise BadInput(f"{data.path}: no point of a sweep in this session, expected a measured sweep")
         if data.has_mountings:
             raise BadInput(
-                f"{data.path}: the plate carried a known mass at some points, or was clamped anew, expected "
-                "'viscorig identify' or 'diagnose', which fit them together"
+                f"{data.path}: the plate carried a known mass at some points, was clamped anew or struck, "
+                "expected 'viscorig identify' or 'diagnose', which fit them together"
             )
         tested = hammer if hammer is not None else data.good_hammer
         return Given(points_of(data.sweep), specimen or data.specimen, hammer_modes_of(tested), data)

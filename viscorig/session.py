@@ -98,7 +98,7 @@ def _session(contents: Contents) -> Session:
         hammer=Damping(contents.damping.result) if contents.damping is not None else None,
         identification=Identification(fit.result, specimen) if fit and fit.result else None,
         diagnosis=Diagnosis(diagnosis.result) if diagnosis and diagnosis.result else None,
-        has_mountings=not is_one_mounting(contents.measured),
+        has_mountings=not is_one_mounting(contents.measured) or bool(contents.struck),
         result=recorded_result(contents),
         remarks=(*_why("no law identified", fit), *_why("no diagnosis", diagnosis)),
     )

@@ -162,7 +162,11 @@ class World:
             plate.drive(piece)
 
     def at_side_door(self, name: str, body: Any) -> None:
-        """What only a person can do: mount, clamp, aim, load, hit. Raises `Refused`, `KeyError`."""
+        """What only a person can do: mount, clamp, aim, load, strike, hit. Raises `Refused`, `KeyError`."""
+        if name == "strike":
+            # Not under the lock: a plate that nobody has hung yet is built first, which takes seconds.
+            self._strike(body)
+            return
         with self.lock:
             if name == "mount":
                 self._mount(body["plate"])
@@ -177,7 +181,8 @@ class World:
             elif name == "hit":
                 self._hit()
             else:
-                raise Refused(f"no {name!r} at the side door, expected mount, clamp, aim, load or hit")
+                known = "mount, clamp, aim, load, strike or hit"
+                raise Refused(f"no {name!r} at the side door, expected {known}")
 
     def _aim(self, point: str) -> str:
         if point not in ("base", "pickup"):
@@ -209,6 +214,15 @@ class World:
         load = getattr(self.plates[self.mounted], "load", None)
         if load is not None:
             load(mass_kg, at_m)
+
+    def _strike(self, body: dict[str, Any]) -> None:
+        """The mounted plate ready for blows, hung free or in its clamp; the laser on the plate."""
+        strike = getattr(self.plates[self.mounted], "strike", None)
+        if strike is None:
+            raise Refused(f"the {self.mounted} plate is not for striking")
+        hit, read = ((float(at[0]), float(at[1])) if at else None for at in (body["hit_m"], body["read_m"]))
+        self.laser.aimed_at = "pickup"
+        strike(hit, read, free=bool(body["free"]))
 
     def _place(self, body: dict[str, Any]) -> None:
         place = getattr(self.plates[self.mounted], "place", None)

@@ -28,12 +28,16 @@ _GRID = 9
 """Frequencies at which the law is asked how far it reaches."""
 
 
-def free_specimen(stated: Specimen) -> Specimen:
-    """The plate without its clamp, as long as it stands out of it; what damps it but the core is left out."""
-    size = np.array([stated.length_m, stated.width_m])
-    along = np.sqrt(_ELEMENTS * stated.length_m / stated.width_m)
+def free_specimen(stated: Specimen, length_m: float | None = None) -> Specimen:
+    """The plate without its clamp, struck and read near two corners; what damps it but the core is left out.
+
+    `length_m` is of all that hangs; None: as long as it stands out of its clamp.
+    """
+    size = np.array([length_m or stated.length_m, stated.width_m])
+    along = np.sqrt(_ELEMENTS * size[0] / size[1])
     return replace(
         stated,
+        length_m=float(size[0]),
         boundary="free",
         force_m=tuple((size * _HIT).tolist()),
         pickup_m=tuple((size * _READ).tolist()),

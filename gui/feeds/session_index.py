@@ -141,10 +141,13 @@ class _Timeline:
         return self._time_s
 
 
+_PARTS = {"hammer": "hammer test", "calibration": "calibration", "struck": "damped plate struck"}
+
+
 def _worth_a_mark(event: Event) -> str | None:
     match event:
         case AcquisitionBegan() if event.part != "sweep":
-            return {"hammer": "hammer test", "calibration": "calibration"}[event.part]
+            return _PARTS[event.part]
         case SegmentBegan() if event.sweep > 0:
             return f"segment {event.segment}" + (f", sweep {event.sweep}" if event.sweep > 1 else "")
     return None

@@ -32,6 +32,7 @@ State = Literal[
     "idle",
     "preparing",
     "hammer",
+    "struck",
     "calibration",
     "soaking",
     "sweep",
@@ -45,6 +46,7 @@ WORDS: dict[State, str] = {
     "idle": "idle",
     "preparing": "preparing",
     "hammer": "hammer test",
+    "struck": "damped plate struck",
     "calibration": "calibration",
     "soaking": "soaking",
     "sweep": "sweep",
@@ -57,7 +59,7 @@ WORDS: dict[State, str] = {
 _WAITING = "waiting for you"
 OVER: tuple[State, ...] = ("idle", "done", "stopped")
 """States in which nothing is going on."""
-_MEASURING: tuple[State, ...] = ("hammer", "calibration", "soaking", "sweep", "held")
+_MEASURING: tuple[State, ...] = ("hammer", "struck", "calibration", "soaking", "sweep", "held")
 
 
 @dataclass

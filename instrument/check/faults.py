@@ -30,7 +30,7 @@ def experiment_objections(experiment: Experiment, forecast: Forecast, parts: tup
     except BadInput as error:
         found.append(str(error))
     found += _simulated_plate(experiment)
-    if "hammer" in parts:
+    if "hammer" in parts or experiment.document.diagnosis.follow_up != "none":
         found += _hammer(experiment)
     if "sweep" in parts:
         found += [*_temperature(experiment), *_sweep(experiment, forecast)]
@@ -123,6 +123,12 @@ def _hammer(experiment: Experiment) -> Iterator[str]:
     ):
         if at > side:
             yield f"{experiment.path}: hammer.{key} = {at:g} is off the {kind}, expected 0 to {side:g}"
+    whole = hammer.whole_length_mm
+    if whole is not None and whole < plate.length_mm:
+        yield (
+            f"{experiment.path}: hammer.whole_length_mm = {whole:g} is less than stands out of the clamp, "
+            f"expected {plate.length_mm:g} or more"
+        )
 
 
 def _sweep(experiment: Experiment, forecast: Forecast) -> Iterator[str]:

@@ -130,7 +130,7 @@ def read_tables(
 def together(given: Sequence[Given], data: Sequence[Path]) -> list[File] | None:
     """As files under one law, each of their spots apart; None for a single plate read at one spot.
 
-    Raises `BadInput` for a session with known masses or clampings beside other files.
+    Raises `BadInput` for a session with known masses, clampings or blows beside other files.
     """
     only = given[0]
     if len(given) == 1 and not only.with_masses and isinstance(only.specimen, Specimen):
@@ -140,7 +140,7 @@ def together(given: Sequence[Given], data: Sequence[Path]) -> list[File] | None:
         return list(only.with_masses)
     if any(one.with_masses for one in given):
         raise BadInput(
-            "a session with a known mass put on, or clamped anew, beside other files: expected it alone"
+            "a session with a known mass put on, clamped anew or struck beside other files, expected it alone"
         )
     each = zip(given, data, strict=True)
     return [

@@ -43,6 +43,9 @@ class Hammer(TomlTable):
     pre_trigger_s: Annotated[float, Field(gt=0, le=0.1)] = 0.05
     wait_s: Annotated[float, Field(ge=1, le=3600)] = 60.0
     """For a hit, before the test gives up."""
+    whole_length_mm: Positive | None = None
+    """Of the treated plate, what its clamp grips included: with it a run may have the plate hung free and
+    struck, to tell explanations apart."""
 
     @model_validator(mode="after")
     def _ordered(self) -> "Hammer":

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fitting.arrays import Array
 from fitting.bare_modes import CarriedSensor
 from instrument.errors import BadInput
 from instrument.hammer_test.trigger import Trigger
@@ -42,6 +43,9 @@ class _Caught:
 
 class HammerAnalysis:
     """Follows a hammer test."""
+
+    response = "response"
+    """Channel of what answers."""
 
     def __init__(self, settings: HammerSettings, scaling: Scaling, sample_rate_hz: float) -> None:
         self._settings, self._scaling, self._rate = settings, scaling, sample_rate_hz
@@ -86,8 +90,8 @@ class HammerAnalysis:
     def block(self, block: BlockAcquired) -> list[Derived]:
         """Samples in; the hits that are whole now."""
         row = self._scaling.rows
-        rows = self._scaling.blow(block.volts)
-        overload = np.array([block.overload[row["force"]], block.overload[row["response"]]])
+        rows = self._rows(block)
+        overload = np.array([block.overload[row["force"]], block.overload[row[self.response]]])
         return [
             self._judged(first, record, flags)
             for first, record, flags in self._trigger.feed(block.first_sample, rows, overload)
@@ -116,15 +120,21 @@ class HammerAnalysis:
             result = result.but(sensor=sensor_from(self._settings.sensor))
         return [DampingFound(result)]
 
-    def _judged(self, first: int, record: np.ndarray, overload: np.ndarray) -> HitJudged:
+    def _rows(self, block: BlockAcquired) -> Array:
+        """Force and what answers, in their units. Shape (2, samples)."""
+        return self._scaling.blow(block.volts)
+
+    def _channel(self, samples: Array) -> ResponseChannel:
+        """What answers a blow."""
+        return ResponseChannel("response", "acceleration", samples)
+
+    def _judged(self, first: int, record: Array, overload: np.ndarray) -> HitJudged:
         number = len(self._hits) + 1
-        hit = Hit(
-            f"hit {number}", self._rate, record[0], (ResponseChannel("response", "acceleration", record[1]),)
-        )
+        hit = Hit(f"hit {number}", self._rate, record[0], (self._channel(record[1]),))
         judged = judge(hit)
         faults = [judged.why] if judged.why else []
         faults += [
-            f"overload of the {n}" for n, over in zip(("force", "response"), overload, strict=True) if over
+            f"overload of the {n}" for n, over in zip(("force", self.response), overload, strict=True) if over
         ]
         peak = self._trigger.peaks[-1]
         # What was refused says nothing of how one should strike: it may have been too hard.

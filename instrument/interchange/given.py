@@ -52,7 +52,8 @@ class Given:
     temperature_c: float | None = None
     """Mean over the points of a session or a column, where it was measured."""
     with_masses: tuple[File, ...] = ()
-    """The data of each clamping and known mass that a run put on the plate; empty where there is none."""
+    """The data of each clamping, known mass that a run put on the plate and place where it was struck; empty
+    where there is none."""
 
     @property
     def plate(self) -> Specimen:
@@ -141,7 +142,7 @@ def _of_session(data: Path, specimen: Path | None, *, own_hammer: bool) -> Given
         raise BadInput(f"{specimen}: a {read.kind}, expected a {contents.specimen.kind} as the session's own")
     modes = session_modes(contents) if own_hammer else None
     sweep = session_sweep(contents, read)
-    files = files_of(sweep, contents.measured, read)
+    files = files_of(sweep, contents.measured, read, contents.struck)
     read = with_spots(read, contents.measured) if isinstance(read, Specimen) else read
     name = contents.configuration.name
     hammer = f", its hammer test with {len(modes.frequency_hz)} modes" if modes is not None else ""
@@ -158,7 +159,7 @@ def _of_session(data: Path, specimen: Path | None, *, own_hammer: bool) -> Given
         recorded_result(contents) if diagnosis is not None and specimen is None else None,
         diagnosis if own else None,
         _temperature_c(contents),
-        () if is_one_mounting(contents.measured) else tuple(files),
+        () if is_one_mounting(contents.measured) and not contents.struck else tuple(files),
     )
 
 

@@ -26,13 +26,11 @@ from fitting.planning.further import Expecting, Further
 from fitting.planning.sensitivity import ReadingNoise
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
+from instrument.impact.mobility import GAIN
 from instrument.planning.measurement import HANDS_S, Measurable
 from instrument.planning.steps import Steps, about, where
 from instrument.stepped_sine.settings import SweepSettings
 
-GAIN = 0.01
-"""How well a hammer's force is known beside the laser's velocity, relative: its sensitivity, and how squarely
-a hand hits. The file of the struck plate has to state it; a choice."""
 _AT = [(0.95, 0.5), (0.6, 0.5)]
 """Of length and width, where it is hit in its clamp. On the axis: the basis of a plate that its base drives
 has motions even across the width alone."""
@@ -59,14 +57,20 @@ _NO_BASE = (
 )
 
 
-def damped_struck(expecting: Expecting, lines: Steps, settings: SweepSettings) -> Iterator[Measurable]:
-    """What of it is worth asking; `lines` are those of the spectrum about the resonances of the sweep."""
+def damped_struck(
+    expecting: Expecting, lines: Steps, settings: SweepSettings, whole_length_m: float | None = None
+) -> Iterator[Measurable]:
+    """What of it is worth asking; `lines` are those of the spectrum about the resonances of the sweep.
+
+    `whole_length_m` is of all that hangs; None: as long as it stands out of its clamp.
+    """
     stated = expecting.member.nuisances.specimen
     if not isinstance(stated, Specimen) or stated.boundary != "cantilever" or expecting.struck_already:
         return
     effects = [[_inner(e) for e in known.fitted.effects] for known in expecting.known]
     if len({frozenset(e.name for e in each if not _of_the_mounting(e)) for each in effects}) > 1:
-        yield from _hung_free(expecting, stated, [e for each in effects for e in each], settings)
+        hangs = free_specimen(stated, whole_length_m)
+        yield from _hung_free(expecting, hangs, [e for each in effects for e in each], settings)
     if any(e.needs >= BASE for each in effects for e in each):
         yield from _in_clamp(expecting, stated, lines)
 
@@ -86,13 +90,9 @@ def _of_the_mounting(effect: Effect) -> bool:
 
 
 def _hung_free(
-    expecting: Expecting, stated: Specimen, effects: list[Effect], settings: SweepSettings
+    expecting: Expecting, free: Specimen, effects: list[Effect], settings: SweepSettings
 ) -> Iterator[Measurable]:
-    free, band, law = (
-        free_specimen(stated),
-        expecting.member.sweep.frequency_hz,
-        expecting.known[0].fitted.law,
-    )
+    band, law = expecting.member.sweep.frequency_hz, expecting.known[0].fitted.law
     spans = {s.name: s for e in effects if not _of_the_mounting(e) for s in e.spans}
     plate, reduced = free_plate(free, law, band, list(spans.values()))
     poles = resonances_hz(PlatePoles(plate, law), float(band.min()), float(band.max()))[:_MODES]

@@ -47,6 +47,8 @@ class Possible:
     """How many may still be made: with one left nothing can follow it."""
     most_s: float = np.inf
     """What one of them may take, hands included."""
+    whole_length_m: float | None = None
+    """Of the treated plate, what its clamp grips included; None: as it stands out of it."""
 
 
 def rank_follow_ups(diagnosed: Diagnosed, possible: Possible | None = None) -> tuple[FollowUp, ...]:
@@ -119,7 +121,7 @@ def _forecast(expecting: Expecting, possible: Possible) -> Iterator[tuple[Measur
             yield one, [forecast.of(rows) for forecast in whole]
     if possible.hands and HANDS_S["damped_struck"] <= possible.most_s:
         lines = template.plain.steps.of(next(template.plain.lengths()).at)
-        for one in damped_struck(expecting, lines, possible.settings):
+        for one in damped_struck(expecting, lines, possible.settings, possible.whole_length_m):
             yield one, expecting.forecasts(one.further, template.noise)
     struck = template.struck()
     if possible.hands and struck.seconds <= possible.most_s and expecting.evidence.bare is None:

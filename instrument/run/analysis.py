@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from fitting.errors import TooFewPoints
 from instrument.hammer_test.analysis import HammerAnalysis
+from instrument.hammer_test.struck import StruckAnalysis
 from instrument.session.setup import Setup
 from instrument.stepped_sine.calibration import Calibration, calibrate
 from instrument.stepped_sine.step import StepAnalysis
@@ -16,6 +17,7 @@ from instrument.stream.derived import (
     LimitExceeded,
     PointMeasured,
     SentinelCompared,
+    StruckFound,
 )
 from instrument.stream.event import Derived, Event
 from instrument.stream.raw import (
@@ -34,6 +36,7 @@ from instrument.stream.raw import (
     SpotMoved,
     StepBegan,
     StepDeclined,
+    StrikingBegan,
     TemperatureRead,
 )
 from instrument.stream.scaling import Scaling
@@ -57,6 +60,7 @@ class Analysis:
         self._spot: SpotMoved | None = None
         self._mass: MassPut | None = None
         self._mounting = 0
+        self._striking: StrikingBegan | None = None
         self._calibration_points: list[PointMeasured] = []
         self.step: StepAnalysis | None = None
         self.hammer: HammerAnalysis | None = None
@@ -67,6 +71,8 @@ class Analysis:
         self._clock = SessionClock()
         self.calibrations: dict[str, CalibrationFound] = {}
         self.damping: DampingFound | None = None
+        self.struck: list[StruckFound] = []
+        """What blows on the treated plate gave; of one place and mounting the last time."""
 
     def feed(self, event: Event) -> list[Derived]:
         """Take a raw event; what follows from it."""
@@ -87,9 +93,13 @@ class Analysis:
     @property
     def wanted(self) -> int:
         """Samples worth waiting for before the next look."""
-        if self._acquisition is not None and self._acquisition.part == "hammer" and self.hammer is not None:
+        if self._strikes and self.hammer is not None:
             return self.hammer.wanted()
         return self.step.wanted() if self.step is not None else 1
+
+    @property
+    def _strikes(self) -> bool:
+        return self._acquisition is not None and self._acquisition.part in ("hammer", "struck")
 
     def _follow(self, event: Event) -> list[Derived]:
         match event:
@@ -105,6 +115,8 @@ class Analysis:
                 self._acquire(event)
             case RangeSet():
                 self._range = event
+                if isinstance(self.hammer, StruckAnalysis) and self._strikes:
+                    return self.hammer.range_set(event)
                 return self.step.range_set(event, self._wider()) if self.step is not None else []
             case SpotMoved():
                 self._spot = event
@@ -112,6 +124,8 @@ class Analysis:
                 self._mass = event
             case ClampedAnew():
                 self._mounting = event.mounting
+            case StrikingBegan():
+                self._striking = event
             case OperatorDid() if event.what in ("mounted", "aimed"):
                 self._spot = None
                 # A plate is mounted as it is; what was put on it is taken off.
@@ -149,13 +163,15 @@ class Analysis:
                 return _refused(event)
             case DampingFound():
                 self.damping = event
+            case StruckFound():
+                self.struck = event.added_to(self.struck)
         return []
 
     def _block(self, block: BlockAcquired) -> list[Derived]:
         if self._acquisition is None:
             return []
         self._latest = block.first_sample + block.samples
-        if self._acquisition.part == "hammer":
+        if self._strikes:
             return self.hammer.block(block) if self.hammer is not None else []
         if self.step is None:
             return []
@@ -175,6 +191,24 @@ class Analysis:
         self._acquisition, self.step, self._latest = event, None, 0
         if event.part == "hammer" and self._setup.hammer is not None:
             self.hammer = HammerAnalysis(self._setup.hammer, self._scaling(), event.sample_rate_hz)
+        elif event.part == "struck":
+            self.hammer = self._struck(event)
+
+    def _struck(self, event: AcquisitionBegan) -> StruckAnalysis:
+        hammer = self._setup.hammer
+        if hammer is None or self._striking is None or self._range is None:
+            raise ValueError("blows on the treated plate begin before it is known how it is held and read")
+        f = [p.frequency_hz for p in self.points]
+        band_hz = min(f, default=0.0), max(f, default=event.sample_rate_hz / 2)
+        return StruckAnalysis(
+            self._striking,
+            hammer,
+            self._scaling(),
+            event.sample_rate_hz,
+            band_hz,
+            self._range,
+            self._calibration,
+        )
 
     def _begin(self, began: StepBegan) -> StepAnalysis:
         if self._acquisition is None or self._range is None:

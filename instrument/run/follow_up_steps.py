@@ -1,7 +1,8 @@
 """What of a diagnosis's offers a run can do, and the steps that one is: pure."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from itertools import groupby
+from typing import Literal
 
 import numpy as np
 
@@ -13,10 +14,20 @@ from instrument.stepped_sine.plan import PlannedSegment
 from instrument.stepped_sine.settings import Limits
 from instrument.stream.derived import PointMeasured
 
+Held = Literal["clamped", "free"]
+
 MOST_OFFERS = 3
 """Of one diagnosis: asked for one after the other."""
 _ROOM = 0.8
 """Of a limit, that a planned step may use: resonances are a little higher than they were read."""
+_HANG = (
+    "Take the plate out of its clamp, hang it by two threads, point the laser at {read}, and strike it at "
+    "{hit} with the instrumented hammer when asked for a blow."
+)
+_STRIKE = (
+    "Leave the plate in its clamp and the laser where it is, and strike it at {hit} with the instrumented "
+    "hammer when asked for a blow."
+)
 _BY_STEPS = ("frequencies", "level", "reversed", "spot", "added_mass", "clamping")
 
 
@@ -27,19 +38,40 @@ def possible(
     *,
     most_s: float,
     can_strike: bool,
+    held: Collection[Held] = (),
 ) -> tuple[FollowUp, ...]:
-    """Those that fit into this run, in the order they are given.
+    """Those that fit into this run, in the order they are given, in words for who does them there.
 
-    `most_s` is the time left; `can_strike` whether there is a hammer test to make.
+    `most_s` is the time left; `can_strike` whether there is a hammer test to make, `held` how the treated
+    plate can be struck.
     """
-    found = [
-        one
-        for one in offers
-        if one.seconds <= most_s
-        and (one.kind in _BY_STEPS or (one.kind == "bare_hammer" and can_strike))
-        and _within(one, points, limits)
-    ]
-    return tuple(found[:MOST_OFFERS])
+
+    def fits(one: FollowUp) -> bool:
+        struck = one.kind == "damped_struck" and one.held in held
+        return one.kind in _BY_STEPS or (one.kind == "bare_hammer" and can_strike) or struck
+
+    found = [one for one in offers if one.seconds <= most_s and fits(one) and _within(one, points, limits)]
+    return tuple(_asked_in_a_run(one) for one in found[:MOST_OFFERS])
+
+
+def clamped_again(offer: FollowUp) -> FollowUp:
+    """What is to be done to a plate that was hung free, before it is driven."""
+    todo = "Clamp the plate again at its mark, with the torque it had, nothing else on it."
+    return offer.but(kind="clamping", todo=todo, spot_mm=None, struck_mm=None, held=None)
+
+
+def _asked_in_a_run(offer: FollowUp) -> FollowUp:
+    """Where the run records the blows nobody has to make a file of them."""
+    if offer.kind != "damped_struck" or offer.struck_mm is None:
+        return offer
+    hit = _words(offer.struck_mm)
+    if offer.held == "free" and offer.spot_mm is not None:
+        return offer.but(todo=_HANG.format(hit=hit, read=_words(offer.spot_mm)))
+    return offer.but(todo=_STRIKE.format(hit=hit))
+
+
+def _words(place_mm: tuple[float, float]) -> str:
+    return f"({place_mm[0]:.0f}, {place_mm[1]:.0f}) mm"
 
 
 def follow_up_segments(

@@ -9,7 +9,7 @@ from instrument.check.forecast import distinct
 from instrument.facts.follow_up import FollowUp
 from instrument.files.experiment_file import DiagnosisTable
 from instrument.run.analysis import Analysis
-from instrument.run.follow_up_steps import follow_up_segments, possible
+from instrument.run.follow_up_steps import Held, clamped_again, follow_up_segments, possible
 from instrument.run.rig import Rig
 from instrument.run.runner import Runner
 from instrument.run.sweep_part import SweepPart
@@ -23,6 +23,7 @@ from instrument.stream.raw import (
     FollowUpProposed,
     MassPut,
     SpotMoved,
+    StrikingBegan,
 )
 
 
@@ -67,6 +68,10 @@ class Following:
     diagnose: Callable[[], DiagnosisFound | None]
     strike: Callable[[], None] | None
     """The bare plate's hammer test; None where there is none to make."""
+    blows: Callable[[], None] | None = None
+    """On the treated plate; None where there is no hammer."""
+    whole_length_m: float | None = None
+    """Of the treated plate, what its clamp grips included; None: it is not known, and not hung free."""
 
     def __post_init__(self) -> None:
         plate = self.specimen
@@ -94,7 +99,7 @@ class Following:
                 return
             self._left_s -= offer.seconds
             if number in self.earlier.ended:
-                self._clamping = offer if offer.kind == "clamping" else self._clamping
+                self._clamping = _to_clamp(offer) or self._clamping
             else:
                 ready()
                 self._measure(number, offer, rig, runner)
@@ -132,12 +137,20 @@ class Following:
                 self.limits,
                 most_s=self._left_s,
                 can_strike=self.strike is not None and self.analysis.damping is None,
+                held=self._held,
             )
             if not offers:
                 return ()
             proposed = FollowUpProposed(number, self.found.number, offers)
             self.emit(proposed)
         return proposed.offers
+
+    @property
+    def _held(self) -> tuple[Held, ...]:
+        """How the treated plate can be struck."""
+        if self.blows is None:
+            return ()
+        return ("clamped",) if self.whole_length_m is None else ("clamped", "free")
 
     @property
     def _steps(self) -> list[PointMeasured]:
@@ -155,6 +168,10 @@ class Following:
             # First of all: a plate mounted anew is taken for one that is seen where it was at first.
             self.emit(rig.operator.mount("damped"))
             self._loaded = False
+        if offer.kind == "damped_struck" and offer.held == "free":
+            self._blows(offer, rig)
+            self._clamping = clamped_again(offer)
+            return
         clamping = offer if offer.kind == "clamping" else self._clamping
         if clamping is not None:
             self._clamp(clamping, rig, aim=offer.spot_mm is None)
@@ -166,6 +183,9 @@ class Following:
         elif self._at:
             self.emit(rig.operator.aim("pickup"))
             self._at = 0
+        if offer.kind == "damped_struck":
+            self._blows(offer, rig)
+            return
         if offer.mass_kg is not None and offer.mass_at_mm is not None:
             self.emit(rig.operator.change(offer))
             self.emit(MassPut(offer.mass_kg, offer.mass_at_mm))
@@ -175,6 +195,19 @@ class Following:
         calibrated = tuple(r for r in every if r.name in self.analysis.calibrations)
         segments = follow_up_segments(offer, own, self.sweep.passes + number, calibrated or every)
         self.sweep.follow(runner, segments, self._mounting)
+
+    def _blows(self, offer: FollowUp, rig: Rig) -> None:
+        plate = self.specimen
+        assert self.blows is not None
+        assert isinstance(plate, Specimen)
+        assert offer.struck_mm is not None
+        assert offer.held is not None
+        length_m = self.whole_length_m if offer.held == "free" else plate.length_m
+        assert length_m is not None
+        self.emit(rig.operator.change(offer))
+        size_mm = 1e3 * length_m, 1e3 * plate.width_m
+        self.emit(StrikingBegan(offer.held, offer.struck_mm, offer.spot_mm, size_mm, self._mounting))
+        self.blows()
 
     def _clamp(self, clamping: FollowUp, rig: Rig, *, aim: bool) -> None:
         self.emit(rig.operator.change(clamping.but(spot_mm=None)))
@@ -193,6 +226,13 @@ class Following:
         number = known[0] if known else len(self._spots)
         self._spots[number] = at
         return number
+
+
+def _to_clamp(done: FollowUp) -> FollowUp | None:
+    """What has to be done to the clamp once more, after a measurement of a run that was broken off."""
+    if done.kind == "clamping":
+        return done
+    return clamped_again(done) if done.held == "free" else None
 
 
 def _aimed(spot_mm: tuple[float, float]) -> str:

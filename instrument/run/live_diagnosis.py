@@ -11,7 +11,7 @@ from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
 from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult
-from instrument.files.experiment_file import DiagnosisTable
+from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.hammer_file import accepted_modes
 from instrument.interchange.files_of import files_of
 from instrument.models.diagnosis import diagnose
@@ -23,24 +23,41 @@ from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.together_from import diagnosed_together_from
 from instrument.session.points import sweep_of, uncalibrated
 from instrument.stepped_sine.settings import SweepSettings
-from instrument.stream.derived import DampingFound, DiagnosisFound, PointMeasured
+from instrument.stream.derived import DampingFound, DiagnosisFound, PointMeasured, StruckFound
 
 Diagnoser = Callable[
-    [int, int, list[PointMeasured], list[float], DampingFound | None, AnySpecimen, Possible],
+    [
+        int,
+        int,
+        list[PointMeasured],
+        list[float],
+        DampingFound | None,
+        tuple[StruckFound, ...],
+        AnySpecimen,
+        Possible,
+    ],
     DiagnosisFound,
 ]
-"""Number, last step, points, when each was read, hammer test, specimen, what may be measured next."""
+"""Number, last step, points, when each was read, hammer test, blows on the treated plate, specimen, what may
+be measured next."""
 
 
-def able(table: DiagnosisTable, settings: SweepSettings, number: int) -> Possible:
+def whole_length_m(document: ExperimentDocument) -> float | None:
+    """Of the treated plate, what its clamp grips included; None where it is not stated."""
+    stated = document.hammer.whole_length_mm if document.hammer is not None else None
+    return None if stated is None else 1e-3 * stated
+
+
+def able(document: ExperimentDocument, settings: SweepSettings, number: int) -> Possible:
     """What may follow the diagnosis of a number, of a run that steps so: as much as it still allows.
 
     Once it allows nothing more a person may measure as after any diagnosis.
     """
+    table, whole = document.diagnosis, whole_length_m(document)
     left = table.follow_up_at_most + 1 - number
     if table.follow_up == "none" or left < 1:
-        return Possible(settings)
-    return Possible(settings, measurements=left, most_s=table.follow_up_most_s)
+        return Possible(settings, whole_length_m=whole)
+    return Possible(settings, measurements=left, most_s=table.follow_up_most_s, whole_length_m=whole)
 
 
 def diagnose_points(
@@ -49,11 +66,12 @@ def diagnose_points(
     points: list[PointMeasured],
     times_s: list[float],
     damping: DampingFound | None,
+    struck: tuple[StruckFound, ...],
     specimen: AnySpecimen,
     possible: Possible,
     progress: Progress = quiet,
 ) -> DiagnosisFound:
-    """Diagnose all points up to a step, jointly with the hammer test. Pure: the same in a replay.
+    """Diagnose all points up to a step, jointly with all that was struck. Pure: the same in a replay.
 
     What is proposed next is `possible`: within the run's limits, at what its steps take.
     """
@@ -62,7 +80,7 @@ def diagnose_points(
         # One thread: sums in another order would differ in the last bit.
         with threadpool_limits(1):
             points, times_s = [p for p, _ in used], [t for _, t in used]
-            result = _result(points, times_s, damping, specimen, possible, progress)
+            result = _result(points, times_s, damping, struck, specimen, possible, progress)
             return DiagnosisFound(number, last_step, result)
     except (FittingError, BadInput, ValidationError, ValueError, ArithmeticError) as error:
         # Data may be such that nothing can be said of them: that is said, and the session is kept.
@@ -73,20 +91,22 @@ def _result(
     points: list[PointMeasured],
     times_s: list[float],
     damping: DampingFound | None,
+    struck: tuple[StruckFound, ...],
     specimen: AnySpecimen,
     possible: Possible,
     progress: Progress,
 ) -> DiagnosisResult:
     hammer = accepted_modes(damping.result) if damping is not None else None
     sweep = sweep_of(points, times_s)
-    files = files_of(sweep, points, specimen)
+    files = files_of(sweep, points, specimen, struck)
     if len(files) > 1 or not isinstance(specimen, Specimen):
         several = diagnose_together(files, progress=progress, hammer=hammer)
         result = with_open_questions(diagnosed_together_from(several, files), several.found, possible).untimed
     else:
         found = diagnose(sweep, specimen, hammer, progress=progress)
         result = with_open_questions(diagnosis_from(found, sweep), found, possible).untimed
-    return result.but(warnings=(*result.warnings, *uncalibrated(points)))
+    said = [f"damped plate struck: {remark}" for one in struck for remark in one.remarks]
+    return result.but(warnings=(*result.warnings, *uncalibrated(points), *said))
 
 
 def apart(work: Callable[[], DiagnosisFound]) -> DiagnosisFound:

@@ -14,6 +14,8 @@ from instrument.run.control import RunControl
 from instrument.stream.raw import OperatorDid
 
 _PATIENCE_S = 10.0
+_BUILDING_S = 120.0
+"""For a plate that the simulated rig has not hung before: its solid is built then."""
 _MOST_HZ = 1e5
 
 
@@ -214,7 +216,7 @@ class SimulatedOperator:
 
     def change(self, offer: FollowUp) -> OperatorDid:
         """The rig does it at once. Raises `RigStopped` for what it cannot play."""
-        if offer.spot_mm is not None:
+        if offer.spot_mm is not None and offer.kind != "damped_struck":
             x, y = offer.spot_mm
             self._put("aim", {"point": "pickup", "at_m": (1e-3 * x, 1e-3 * y)})
         elif offer.mass_kg is not None and offer.mass_at_mm is not None:
@@ -222,6 +224,8 @@ class SimulatedOperator:
             self._put("load", {"mass_kg": offer.mass_kg, "at_m": (1e-3 * x, 1e-3 * y)})
         elif offer.kind == "clamping":
             self._put("clamp", {})
+        elif offer.kind == "damped_struck" and offer.struck_mm is not None:
+            self._strike(offer.struck_mm, offer.spot_mm, free=offer.held == "free")
         else:
             raise RigStopped(f"simulated rig: {offer.kind} cannot be played")
         return OperatorDid("changed", offer.todo)
@@ -229,13 +233,19 @@ class SimulatedOperator:
     def overrule(self, control: RunControl) -> None:
         """Never: what is chosen is measured."""
 
-    def _put(self, what: str, body: dict[str, object]) -> None:
+    def _strike(
+        self, struck_mm: tuple[float, float], spot_mm: tuple[float, float] | None, *, free: bool
+    ) -> None:
+        hit, read = (None if at is None else (1e-3 * at[0], 1e-3 * at[1]) for at in (struck_mm, spot_mm))
+        self._put("strike", {"free": free, "hit_m": hit, "read_m": read}, _BUILDING_S)
+
+    def _put(self, what: str, body: dict[str, object], patience_s: float = _PATIENCE_S) -> None:
         try:
             # On this machine: past any proxy of the environment, and without certificates to read.
             httpx.put(
                 f"{self._url}/simulated/{what}",
                 json=body,
-                timeout=_PATIENCE_S,
+                timeout=patience_s,
                 trust_env=False,
                 verify=False,
             ).raise_for_status()

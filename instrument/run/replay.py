@@ -109,10 +109,9 @@ def _replay(
             derived = [*derived, chosen]
         elif isinstance(event, DiagnosisStarted):
             a = analysis
-            possible = able(configuration.experiment.diagnosis, setup.sweep, event.number)
-            again.diagnosis = diagnose(
-                event.number, event.last_step, a.points, a.times_s, a.damping, specimen, possible
-            )
+            possible = able(configuration.experiment, setup.sweep, event.number)
+            given = (a.points, a.times_s, a.damping, tuple(a.struck), specimen, possible)
+            again.diagnosis = diagnose(event.number, event.last_step, *given)
             apart[DiagnosisFound, event.number] = again.diagnosis
             derived = [*derived, again.diagnosis]
         for one in derived:

@@ -5,7 +5,7 @@ else that measures looks at a clock. Whatever ends a part, the shaker is silence
 the heartbeat: a hung acquisition lets it go stale, and the device goes silent by itself.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from time import monotonic, sleep
 
@@ -15,6 +15,7 @@ from drivers.shaker import Alarm
 from drivers.vibrometer import Range
 from instrument.errors import RigStopped
 from instrument.files.experiment_file import TemperatureTable
+from instrument.hammer_test.struck import OVERLOADED
 from instrument.run.analysis import Analysis
 from instrument.run.control import RunControl
 from instrument.run.rig import Rig
@@ -48,6 +49,8 @@ _BEAT_S = 0.2
 """A tenth of the heartbeat's usual limit: a few may come late."""
 _LONGEST_READ_S = 0.5
 """A call of the front-end: in between the heartbeat, limits and a person's word have their turn."""
+OVERLOADS = 3
+"""Of the laser, one blow after the other, before its next range is taken: that may not be calibrated."""
 HITS_IN_VAIN = 20
 """Blows refused one after the other before a hammer test is given up: more of them would be no better."""
 _REST_S, _LOOK_S = 5.0, 0.01
@@ -96,7 +99,25 @@ class Runner:
 
         Raises `RigStopped`, `DriverError`.
         """
-        with self._acquisition("hammer", ("force", "response")):
+        self._strike("hammer", ("force", "response"), wanted, patience_s)
+
+    def strike(self, wanted: int, patience_s: float, ranges: Sequence[str]) -> None:
+        """The same on the treated plate, which the laser reads in the first of some ranges that has room.
+
+        Raises `RigStopped`, `DriverError`.
+        """
+        self._set_range(ranges[0])
+        self._strike("struck", ("force", "velocity"), wanted, patience_s, tuple(ranges[1:]))
+
+    def _strike(
+        self,
+        part: Part,
+        channels: tuple[str, ...],
+        wanted: int,
+        patience_s: float,
+        coarser: tuple[str, ...] = (),
+    ) -> None:
+        with self._acquisition(part, channels):
             analysis = self._analysis.hammer
             assert analysis is not None
             asked, waited = (-1, -1), 0.0
@@ -108,7 +129,10 @@ class Runner:
                 for did in operator.decided():
                     self._emit(did)
                 before = self._samples
-                caught = any(isinstance(e, HitJudged) for e in self._read(analysis.wanted()))
+                caught = [e for e in self._read(analysis.wanted()) if isinstance(e, HitJudged)]
+                if coarser and _too_narrow(analysis.rejected_in_a_row):
+                    self._set_range(coarser[0])
+                    coarser = coarser[1:]
                 waited += 0.0 if caught else (self._samples - before) / self._rig.front_end.sample_rate_hz
                 if waited > patience_s + analysis.record_s or len(analysis.rejected_in_a_row) >= HITS_IN_VAIN:
                     break
@@ -260,11 +284,16 @@ class Runner:
         finally:
             # Silence first: what follows may take as long as a time-out. Where nobody answers, the heartbeat,
             # no longer beaten, does it, and the first error is the one to tell.
-            if part != "hammer":
+            if part not in ("hammer", "struck"):
                 with suppress(DriverError):
                     self.silence()
             with suppress(DriverError):
                 front_end.stop()
+
+
+def _too_narrow(refused: list[str]) -> bool:
+    """Whether the laser's range had no room for blow after blow: a softer one is to be had at once."""
+    return len(refused) >= OVERLOADS and all(OVERLOADED in why for why in refused[-OVERLOADS:])
 
 
 def _stop_at_a_limit(derived: list[Derived]) -> None:

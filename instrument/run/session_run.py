@@ -12,12 +12,13 @@ from fitting.specimen import Specimen
 from instrument.check.forecast import Forecast, distinct
 from instrument.errors import RigStopped
 from instrument.files.hammer_file import accepted_modes
+from instrument.hammer_test.struck import FEWEST_HITS
 from instrument.progress import Progress
 from instrument.run.analysis import Analysis
 from instrument.run.companion import Companion
 from instrument.run.control import RunControl
 from instrument.run.following import Earlier, Following
-from instrument.run.live_diagnosis import Diagnoser, able, apart
+from instrument.run.live_diagnosis import Diagnoser, able, apart, whole_length_m
 from instrument.run.live_fit import Fitter
 from instrument.run.part import Part
 from instrument.run.rig import Rig, open_rig
@@ -156,6 +157,17 @@ class SessionRun:
         if self.analysis.damping is None:
             raise RigStopped(_without_a_hit(self.analysis, hammer.wait_s))
 
+    def _blows(self, rig: Rig, runner: Runner) -> None:
+        """On the treated plate, as it is held now."""
+        settings, hammer, before = self._setup.hammer, self._experiment.document.hammer, self.analysis.struck
+        assert settings is not None
+        assert hammer is not None
+        names = [r.name for r in distinct(rig.vibrometer.ranges)]
+        calibrated = [k for k, name in enumerate(names) if name in self.analysis.calibrations]
+        runner.strike(max(FEWEST_HITS, settings.hits), hammer.wait_s, names[max(calibrated, default=-1) :])
+        if self.analysis.struck is before:
+            raise RigStopped(_without_a_hit(self.analysis, hammer.wait_s))
+
     def _question_plate(self, found: DampingFound) -> None:
         """Stop before a sweep of what is not the stated plate; a run carried on is not asked again."""
         modes = accepted_modes(found.result)
@@ -193,6 +205,8 @@ class SessionRun:
             self._emit,
             self._diagnose,
             (lambda: self._hammer(rig, runner)) if strikes else None,
+            (lambda: self._blows(rig, runner)) if strikes else None,
+            whole_length_m(self._experiment.document),
         )
         following.run(rig, runner, ready)
         self.diagnosis = following.found
@@ -205,8 +219,8 @@ class SessionRun:
         a, number, last = self.analysis, self._diagnoses, self.fit.last_step
         self._record(DiagnosisStarted(number, last))
         specimen = self._configuration.the_specimen()
-        possible = able(self._experiment.document.diagnosis, self._setup.sweep, number)
-        given = (a.points, a.times_s, a.damping, specimen, possible)
+        possible = able(self._experiment.document, self._setup.sweep, number)
+        given = (a.points, a.times_s, a.damping, tuple(a.struck), specimen, possible)
         found = apart(lambda: self._diagnoser(number, last, *given))
         self._record(found)
         return found

@@ -24,6 +24,7 @@ from instrument.stream.derived import (
     LimitWarned,
     PointMeasured,
     SentinelCompared,
+    StruckFound,
 )
 from instrument.stream.event import Event
 from instrument.stream.raw import (
@@ -109,6 +110,8 @@ class Contents:
     """Of the last hammer test; empty where contents were gathered without samples."""
     hammer_rate_hz: float | None = None
     damping: DampingFound | None = None
+    struck: list[StruckFound] = field(default_factory=list)
+    """What blows on the treated plate gave."""
     fit: FitUpdated | None = None
     """The last one of the run itself."""
     diagnosis: DiagnosisFound | None = None
@@ -152,6 +155,7 @@ class Gather:
         self.contents = contents
         self._clock = SessionClock()
         self._tape = _Tape(contents.configuration.rig.channels) if with_hits else None
+        self._of_the_bare_plate = True
 
     def take(self, event: Event) -> None:
         """One event into its place. Raises `BadInput` for a hit whose samples are missing."""
@@ -174,7 +178,8 @@ class Gather:
             case PointMeasured():
                 c.points.append(TimedPoint(event, self._clock.at(event.sample)))
             case HitJudged() | HitRevised():
-                self._hit(event)
+                if self._of_the_bare_plate:
+                    self._hit(event)
             case _:
                 self._keep(event)
 
@@ -187,6 +192,8 @@ class Gather:
                 c.sentinels.append(event)
             case DampingFound():
                 c.damping = event
+            case StruckFound():
+                c.struck = event.added_to(c.struck)
             case FitUpdated():
                 c.fit = event
             case DiagnosisFound():
@@ -204,6 +211,7 @@ class Gather:
                 c.soaks.append(event)
 
     def _acquire(self, event: AcquisitionBegan) -> None:
+        self._of_the_bare_plate = event.part != "struck"
         if event.part == "hammer":
             # A test that was broken off begins again: its hits are numbered from 1.
             self.contents.hits = []

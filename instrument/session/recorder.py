@@ -23,6 +23,7 @@ from instrument.stream.derived import (
     HitRevised,
     LoopChecked,
     PointMeasured,
+    StruckFound,
 )
 from instrument.stream.event import Event
 from instrument.stream.raw import (
@@ -46,6 +47,7 @@ _SEALING = (
     DampingFound,
     HitJudged,
     HitRevised,
+    StruckFound,
     FitStarted,
     FitUpdated,
     DiagnosisStarted,

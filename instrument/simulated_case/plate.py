@@ -1,5 +1,6 @@
 """A cantilever plate of any size on the simulated rig: from the file that names it to its plant."""
 
+from drivers.simulated.plant import specimen as published
 from drivers.simulated.plant.built import refuse_effects
 from drivers.simulated.plant.built_plate import (
     ReducedPlate,
@@ -9,8 +10,12 @@ from drivers.simulated.plant.built_plate import (
     struck_plate,
 )
 from drivers.simulated.plant.effects import Effects
+from drivers.simulated.plant.hung_plate import hung_plate, reduced_free_plate
+from drivers.simulated.plant.law import ZN1, MaxwellLaw
+from drivers.simulated.plant.layered_solid import Sheet
 from drivers.simulated.plant.solid_plate import PlateStated
-from drivers.simulated.plates import Mount, Struck
+from drivers.simulated.plant.structure import Structure
+from drivers.simulated.plates import Hang, Mount, Struck
 from fitting.specimen import Specimen
 from instrument.models.cache import cached
 from instrument.progress import Progress, quiet
@@ -64,6 +69,34 @@ def plate_struck(plate: Specimen, effects: Effects, progress: Progress = quiet) 
     return lambda hit_m, response_m, sensor_kg: struck_plate(
         bare, reduced, plate.modal_ratios, effects, hit_m, response_m, sensor_kg
     )
+
+
+def plate_hung(plate: Specimen | None, effects: Effects, progress: Progress = quiet) -> Hang:
+    """The treated plate without its clamp, or the published one; built when it is hung first, then kept.
+
+    It is as long as it stands out of its clamp: this clamp holds it by its end alone.
+    """
+    if plate is None:
+        layers = published.LAYERS
+        sheets = tuple(Sheet(s.thickness_m, s.young_pa, s.poisson, s.density_kg_m3) for s in layers)
+        whole, law = PlateStated(published.LENGTH_M, published.WIDTH_M, sheets), ZN1
+    else:
+        assert plate.core is not None
+        whole, law = plate_of(plate), series_of(plate.core.law)
+    law = effects.core_law.law if effects.core_law else law
+    stated = really(whole, effects)
+
+    def build() -> ReducedPlate:
+        with progress("building the simulated plate as it hangs free") as report:
+            return reduced_free_plate(stated, law, report)
+
+    def hang(
+        effects: Effects, law_now: MaxwellLaw, hit_m: tuple[float, float], read_m: tuple[float, float]
+    ) -> Structure:
+        reduced = cached("free-plate", [stated, law], ReducedPlate, build)
+        return hung_plate(stated, reduced, law_now, effects, hit_m, read_m)
+
+    return hang
 
 
 def plate_of(plate: Specimen) -> PlateStated:

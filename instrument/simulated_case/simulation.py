@@ -13,7 +13,7 @@ from drivers.shaker.register_map import DEFAULT
 from drivers.simulated.climate import Climate
 from drivers.simulated.plant.effects import Effects
 from drivers.simulated.plant.shaken import ShakenPlate
-from drivers.simulated.plates import DampedPlate, OnShaker, SimulatedBarePlate, Struck
+from drivers.simulated.plates import DampedPlate, HammerInHand, OnShaker, SimulatedBarePlate, Struck
 from drivers.simulated.rig import OWN_MODEL, Ports, SimulatedChamber, SimulatedRig, VibrometerPeer
 from drivers.simulated.sensors import SimulatedSensor
 from drivers.simulated.world import Laser, MountedPlate, Wiring, World
@@ -25,7 +25,7 @@ from instrument.errors import BadInput
 from instrument.files.devices import VIBROMETERS, ranges_of
 from instrument.files.rig_file import Channels, RigDocument, Simulation
 from instrument.progress import Progress, quiet
-from instrument.simulated_case.plate import plate_mount, plate_struck
+from instrument.simulated_case.plate import plate_hung, plate_mount, plate_struck
 from instrument.simulated_case.stated import effects_of, refuse_without_peer
 from instrument.simulated_case.structure import beam_struck, mounted_structure, stands_on
 
@@ -142,7 +142,7 @@ def _plates(
 ) -> dict[str, MountedPlate]:
     """What can stand there, by name: the published plate, or what `[simulation]` names."""
     effects, _ = effects_of(simulation)
-    alike, mount, struck = _of_the_bare_plate(effects), None, None
+    alike, mount, struck, stated = _of_the_bare_plate(effects), None, None, None
     if simulation.specimen is not None:
         stands = stands_on(simulation, path)
         if not isinstance(stands, Specimen):
@@ -153,9 +153,14 @@ def _plates(
                 struck = beam_struck(stands, alike)
                 on_shaker["bare"] = _struck(document, simulation, alike, struck, _as_heavy(stands))
             return on_shaker
+        stated = stands
         mount, struck = plate_mount(stands, effects, progress), plate_struck(stands, alike, progress)
     bare = _struck(document, simulation, alike, struck)
-    return {"damped": DampedPlate(effects, climate, mount), "bare": bare}
+    hang, hand = (
+        plate_hung(stated, effects, progress),
+        HammerInHand(simulation.double_hit_every, simulation.seed),
+    )
+    return {"damped": DampedPlate(effects, climate, mount, hang, hand), "bare": bare}
 
 
 def _struck(

@@ -1,7 +1,8 @@
 """Derived events: what follows from the raw ones. Computed live, recorded, and computed again on replay."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, GetCoreSchemaHandler
 from pydantic_core import CoreSchema, core_schema
@@ -214,6 +215,39 @@ class DampingFound(Derived):
     def facts(self) -> dict[str, Any]:
         """The result under the key it has in every line."""
         return {_KEY: self.result.as_json()}
+
+
+@dataclass(frozen=True)
+class StruckFound(Derived):
+    """What the blows on the treated plate give: its mobility, velocity at a spot over force at a point."""
+
+    held: Literal["clamped", "free"]
+    struck_mm: tuple[float, float]
+    spot_mm: tuple[float, float] | None
+    """None: the specimen file's own."""
+    size_mm: tuple[float, float]
+    """Length and width: as it stands out of its clamp, or of all that hangs."""
+    mounting: int
+    """How often the plate had been clamped anew."""
+    hits: int
+    """Good ones, averaged."""
+    frequency_hz: tuple[float, ...]
+    """Lines of the spectrum about the plate's resonances."""
+    segment: tuple[int, ...]
+    """Which resonance each is about."""
+    mobility_re_m_s_n: tuple[float, ...]
+    mobility_im_m_s_n: tuple[float, ...]
+    mobility_std_m_s_n: tuple[float, ...]
+    """Of each part of the mean, as the blows scatter."""
+    remarks: tuple[str, ...] = ()
+
+    def added_to(self, known: Sequence["StruckFound"]) -> list["StruckFound"]:
+        """After what is known; of the same place and mounting in its stead: that was broken off."""
+
+        def place(one: StruckFound) -> tuple[object, ...]:
+            return one.held, one.struck_mm, one.spot_mm, one.mounting
+
+        return [*(one for one in known if place(one) != place(self)), self]
 
 
 @dataclass(frozen=True)

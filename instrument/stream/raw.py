@@ -11,7 +11,8 @@ from instrument.facts.follow_up import FollowUp
 from instrument.stream.event import Event, Positive
 from instrument.stream.scaling import volts_of
 
-Part = Literal["hammer", "calibration", "sweep"]
+Part = Literal["hammer", "calibration", "sweep", "struck"]
+"""hammer: blows on the bare plate; struck: on the treated one."""
 Purpose = Literal["loop-check", "calibration", "step", "sentinel"]
 
 
@@ -291,6 +292,21 @@ class ClampedAnew(Event):
 
     mounting: int
     """Its number; 0 is the run's first."""
+
+
+@dataclass(frozen=True)
+class StrikingBegan(Event):
+    """The treated plate is ready for blows: how it is held, where it is hit and where the laser reads."""
+
+    held: Literal["clamped", "free"]
+    struck_mm: tuple[float, float]
+    """x from the clamp, of a plate hung free from the end that was clamped; y from a long edge."""
+    spot_mm: tuple[float, float] | None
+    """None: where the laser was."""
+    size_mm: tuple[float, float]
+    """Length and width: as it stands out of its clamp, or of all that hangs."""
+    mounting: int = 0
+    """How often the plate had been clamped anew."""
 
 
 @dataclass(frozen=True)

@@ -14,8 +14,8 @@ from drivers.simulated.plant.one_thread import one_thread
 from drivers.simulated.plant.sandwich import clamp
 from drivers.simulated.plant.structure import Structure, first_order, modal_damping
 
-OUTPUTS = ("force", "acceleration")
-"""N on the plate along +w; m/s^2 of the plate under the sensor."""
+OUTPUTS = ("force", "acceleration", "velocity")
+"""N on the plate along +w; m/s^2 and m/s of the plate where it is read."""
 OTHER_RATIO = 0.001
 """Damping of the modes above the eighth, as a fraction of critical."""
 
@@ -90,9 +90,10 @@ class StruckPlate:
         plate = self.structure
         A, B, scale = first_order(plate)
         n = len(plate.M)
-        C = np.zeros((2, len(A)))
+        C = np.zeros((3, len(A)))
         C[1] = plate.readings[0] @ A[n : 2 * n]
-        d = np.array([1.0, plate.readings[0] @ plate.loads[:, 0]])
+        C[2, n : 2 * n] = plate.readings[0]
+        d = np.array([1.0, plate.readings[0] @ plate.loads[:, 0], 0.0])
         return diagonalised(A, B[:, 0], C, d, scale, OUTPUTS)
 
     def modes(self, count: int = 8) -> tuple[Array, Array]:
@@ -116,10 +117,16 @@ class StruckPlate:
             self._motion.excite(edge_s, tuple(tones))
 
     @one_thread
-    def at(self, first_time_s: float, step_s: float, count: int, outputs: tuple[str, ...] = OUTPUTS) -> Array:
+    def at(
+        self, first_time_s: float, step_s: float, count: int, outputs: tuple[str, ...] = OUTPUTS[:2]
+    ) -> Array:
         """Outputs by name at `count` uniform times. Shape (outputs, count)."""
         return self._motion.at(first_time_s, step_s, count, outputs)
 
     def accelerance(self, frequency_hz: float) -> complex:
         """Acceleration per force."""
         return complex(self._motion.system.transfer(2j * np.pi * frequency_hz)[1])
+
+    def mobility(self, frequency_hz: float) -> complex:
+        """Velocity per force."""
+        return complex(self._motion.system.transfer(2j * np.pi * frequency_hz)[2])

@@ -24,11 +24,11 @@ from instrument.campaign.plates.stated import CAREFUL
 from instrument.campaign.plates.struck import LEFT_BEHIND, lines_about, mobility, struck_plate
 from instrument.campaign.schedule import Schedule
 from instrument.facts.follow_up import FollowUp
+from instrument.impact.mobility import GAIN as STRUCK_GAIN
 from instrument.models.diagnosis import Diagnosed, diagnose
 from instrument.models.files import File
 from instrument.models.set_up import Hammer
 from instrument.models.together import diagnose_together
-from instrument.planning.damped_struck import GAIN as STRUCK_GAIN
 
 Place = tuple[float, float]
 _PAUSE_S = 60.0

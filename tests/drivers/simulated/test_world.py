@@ -118,7 +118,8 @@ def test_the_side_door_mounts_aims_and_hits():
         ("mount", {"plate": "wooden"}, "no plate 'wooden'"),
         ("aim", {"point": "moon"}, "no point 'moon'"),
         ("hit", {}, "not for hitting"),
-        ("shout", {}, "expected mount, clamp, aim, load or hit"),
+        ("strike", {}, "not for striking"),
+        ("shout", {}, "expected mount, clamp, aim, load, strike or hit"),
     ],
 )
 def test_the_side_door_refuses_what_there_is_not(name, body, said):

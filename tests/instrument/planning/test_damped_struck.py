@@ -13,7 +13,8 @@ from fitting.planning.further import Expecting
 from fitting.planning.rivalry import outcome
 from fitting.planning.sensitivity import ReadingNoise
 from fitting.plate import Plate
-from instrument.planning.damped_struck import GAIN, damped_struck
+from instrument.impact.mobility import GAIN
+from instrument.planning.damped_struck import damped_struck
 from instrument.planning.measurable import Template
 from instrument.planning.measurement import HANDS_S
 from instrument.stepped_sine.settings import SweepSettings

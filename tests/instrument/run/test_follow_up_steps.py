@@ -1,12 +1,12 @@
 """Which offers fit into a run, and the steps that one is."""
 
 import pytest
-from following_cases import BACKWARDS, HALF, OFFER, SPOT
+from following_cases import BACKWARDS, HALF, OFFER, SPOT, STRUCK, STRUCK_IN_ITS_CLAMP
 from sessions import point
 
 from drivers.vibrometer import Range
 from instrument.facts.follow_up import FollowUp
-from instrument.run.follow_up_steps import MOST_OFFERS, follow_up_segments, possible
+from instrument.run.follow_up_steps import MOST_OFFERS, clamped_again, follow_up_segments, possible
 from instrument.stepped_sine.settings import Limits
 
 POINTS = [point(k, f, segment=s, range_name=r) for k, f, s, r in ((1, 96.0, 1, "a"), (2, 185.0, 2, "b"))]
@@ -24,6 +24,24 @@ def kinds(offers, **changes):
 def test_what_takes_too_long_or_no_run_can_do_is_left_out():
     offers = [offer(SPOT, seconds=101.0), offer(OFFER, kind="damped_struck"), offer(BACKWARDS)]
     assert kinds(offers) == ["reversed"]
+
+
+@pytest.mark.parametrize(
+    ("held", "left"), [((), []), (("clamped",), ["clamped"]), (("clamped", "free"), ["free", "clamped"])]
+)
+def test_the_damped_plate_is_struck_as_it_can_be_held_here(held, left):
+    offers = [offer(STRUCK), offer(STRUCK_IN_ITS_CLAMP)]
+    found = possible(offers, POINTS, Limits(), most_s=1000.0, can_strike=False, held=held)
+    assert [o.held for o in found] == left
+    for one in found:
+        assert "strike it at (285, 180) mm" in one.todo
+        assert ("hang it" in one.todo) == (one.held == "free")
+
+
+def test_what_hung_is_clamped_at_its_mark():
+    again = clamped_again(offer(STRUCK))
+    assert (again.kind, again.held, again.spot_mm, again.struck_mm) == ("clamping", None, None, None)
+    assert "at its mark" in again.todo
 
 
 @pytest.mark.parametrize("can", [True, False])

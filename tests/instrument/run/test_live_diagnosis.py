@@ -18,7 +18,7 @@ from instrument.cli.print_run import print_finished, run_result
 from instrument.cli.watching import said_of
 from instrument.errors import BadInput, RigStopped, StoppedByUser
 from instrument.facts.damping import DampingResult, ModeFound
-from instrument.files.experiment_file import DiagnosisTable
+from instrument.files.experiment_file import DiagnosisTable, ExperimentDocument
 from instrument.planning.follow_up import Possible
 from instrument.run.control import RunControl
 from instrument.run.experiment import run_experiment
@@ -40,7 +40,7 @@ def a_law(number, last_step, points, damping, specimen):
     return FitUpdated(number, last_step, identification())
 
 
-def times(number, last_step, points, times_s, damping, specimen, possible):
+def times(number, last_step, points, times_s, damping, struck, specimen, possible):
     """Says what it was given."""
     given = {"times_s": list(times_s), "points": sum(p.step <= last_step for p in points)}
     return DiagnosisFound(number, last_step, None, json.dumps(given))
@@ -51,7 +51,7 @@ def told(found):
     return json.loads(found.message)
 
 
-def whole(number, last_step, points, times_s, damping, specimen, possible):
+def whole(number, last_step, points, times_s, damping, struck, specimen, possible):
     return DiagnosisFound(number, last_step, diagnosis())
 
 
@@ -144,7 +144,8 @@ def test_why_none_was_possible_is_the_result(finished):
         specimen = file.configuration.the_specimen()
     damping = DampingFound(DampingResult(modes=[ModeFound(frequency_hz=17.7, damping_ratio=0.33)]))
     points = list(finished.points)
-    found = diagnose_points(1, points[-1].step, points, [0.0] * len(points), damping, specimen, Possible())
+    times_s = [0.0] * len(points)
+    found = diagnose_points(1, points[-1].step, points, times_s, damping, (), specimen, Possible())
     assert found.result is None
     assert "damping_ratio" in found.message
     assert "\n" not in found.message
@@ -153,10 +154,12 @@ def test_why_none_was_possible_is_the_result(finished):
 def test_a_run_is_offered_what_it_still_allows_and_a_person_what_anybody_may():
     settings = SweepSettings()
     table = DiagnosisTable(follow_up="do", follow_up_at_most=2, follow_up_most_s=500.0)
-    possible = [able(table, settings, number) for number in (1, 2, 3)]
+    plain = ExperimentDocument(specimen="s.toml", rig="r.toml")
+    experiment = plain.model_copy(update={"diagnosis": table})
+    possible = [able(experiment, settings, number) for number in (1, 2, 3)]
     assert [p.measurements for p in possible] == [2, 1, 2]
     assert [p.most_s for p in possible] == [500.0, 500.0, np.inf]
-    assert able(DiagnosisTable(), settings, 2) == Possible(settings)
+    assert able(plain, settings, 2) == Possible(settings)
 
 
 def test_a_failure_of_the_thread_is_raised_where_it_is_waited_for():
