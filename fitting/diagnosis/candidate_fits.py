@@ -7,7 +7,15 @@ from itertools import permutations
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.diagnosis.candidates import CandidateFit, Known, Start, has_place, look, polished
+from fitting.diagnosis.candidates import (
+    CandidateFit,
+    Known,
+    Start,
+    has_place,
+    is_over_decades,
+    look,
+    polished,
+)
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.prediction import held_out
@@ -122,7 +130,7 @@ class CandidateFits:
         for candidate, from_there in zip(self.candidates[name], there, strict=True):
             able = from_there.is_open or from_there.promise > SEARCH.able * (bare.chi2 - best.chi2)
             near = [*candidate.briefly(), *(from_there.near if able else [])]
-            if astray and _is_over_decades(candidate.effect):
+            if astray and is_over_decades(candidate.effect):
                 near += candidate.quick
             candidate.learn(Known(near=sorted(near, key=lambda f: f.chi2)))
         return FirstLook(name, [f for c in self.candidates[name] for f in c.near], self.state(name))
@@ -243,7 +251,3 @@ class CandidateFits:
 
 def _best_first(fits: list[tuple[CandidateFit, Refitted]]) -> list[tuple[CandidateFit, Refitted]]:
     return sorted(fits, key=lambda one: one[1].chi2)
-
-
-def _is_over_decades(effect: Effect) -> bool:
-    return not has_place(effect) and any(q.logarithmic and not q.fixed for q in effect.parameters)

@@ -24,6 +24,8 @@ Start = tuple[float, Array]
 
 _ROUNDS = 3
 """As many grids at most: a bound on time."""
+_NEAR_BY = 3.0
+"""Times: starts of an unknown over decades that are no further apart lead to the same place. A choice."""
 _FAR = 0.02
 """Relative change of the modulus from which the grid is made anew for the new poles. A choice."""
 
@@ -176,10 +178,22 @@ class CandidateFit:
                 s for k, s in starts if not k or self._is_told_nothing(s) or s[0] > self._least_promise
             ]
             heard = {self._form(u) for _, u in promising}
-            self._known.near = self._from(
-                [*promising, *(s for s in self._one_a_form() if self._form(s[1]) not in heard)]
-            )
+            promising += [s for s in self._one_a_form() if self._form(s[1]) not in heard]
+            self._known.near = self._from([*promising, *self._decades_off(promising)])
         return self._known.near
+
+    def _decades_off(self, followed: Sequence[Start]) -> list[Start]:
+        """An effect's own first start, where none that is followed is near it.
+
+        Springs that a linear step makes hundreds of times stiffer are nothing any more, and all that a softer
+        root would do goes unheard.
+        """
+        if not is_over_decades(self.effect):
+            return []
+        own = self.effect.starts(self.problem.plate, self.problem.points)[0]
+        decades = [q.logarithmic and not q.fixed for q in self.effect.parameters]
+        near = [np.abs(np.log(u[decades] / own[decades])).max() < np.log(_NEAR_BY) for _, u in followed]
+        return [] if any(near) else [(0.0, own)]
 
     def _one_a_form(self) -> list[Start]:
         """The best start of each form; of an effect with a place, the best of all.
@@ -300,6 +314,11 @@ def _chi2(fitted: Refitted) -> float:
 def has_place(effect: Effect) -> bool:
     """Whether an unknown has no neutral value: where it sits, or at which frequency, is to be found."""
     return any(q.neutral is None and not q.fixed for q in effect.parameters)
+
+
+def is_over_decades(effect: Effect) -> bool:
+    """Whether an unknown without a place may be of any size within decades."""
+    return not has_place(effect) and any(q.logarithmic and not q.fixed for q in effect.parameters)
 
 
 def polished(

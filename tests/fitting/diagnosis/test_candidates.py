@@ -55,6 +55,30 @@ def test_what_is_looked_at_briefly_is_looked_at_in_every_form(monkeypatch):
     assert begun == [[0.3, 0.0], [0.1, 1.0]]
 
 
+class Springs(Effect):
+    name = "springs"
+    parameters = (
+        EffectParameter("k", "N/m", 1e2, 1e8, 1e4, logarithmic=True, neutral=float("inf")),
+        EffectParameter("slope", "1", -1.0, 1.0, 0.3),
+    )
+
+    def starts(self, plate, points):
+        return [np.array([1e4, slope]) for slope in (0.5, -0.5)]
+
+
+@pytest.mark.parametrize(
+    ("stiff", "expected"), [(9e7, [[9e7, -0.5], [1e4, 0.5]]), (2e4, [[2e4, -0.5]]), (4e3, [[4e3, -0.5]])]
+)
+def test_of_springs_that_a_linear_step_makes_decades_stiffer_the_soft_ones_are_heard_too(
+    monkeypatch, stiff, expected
+):
+    problem = SimpleNamespace(plate=None, points=None)
+    starts = [(9.0, np.array([stiff, -0.5])), (0.1, np.array([3 * stiff, 0.5]))]
+    monkeypatch.setattr(CandidateFit, "_followed", lambda _, promise, u: SimpleNamespace(chi2=-promise, u=u))
+    found = CandidateFit(problem, None, None, Springs(), starts).near
+    assert [f.u.tolist() for f in found] == expected
+
+
 class Bent(Effect):
     """Its first order is what the law does too, but for a little; its second order nobody else does."""
 
