@@ -12,14 +12,14 @@ _SMALL = 1e-6
 
 
 class Channels:
-    """The channels of a task. `u` has shape (unknowns,), velocities (points,)."""
+    """The channels of a task. `u` has shape (unknowns,), velocities (points,) where nothing else is said."""
 
     def __init__(self, problem: DiagnosisProblem, unknowns: Unknowns) -> None:
         self._problem, self._unknowns = problem, unknowns
         self._touching = [k for k, e in enumerate(unknowns.effects) if type(e).reading is not Effect.reading]
 
     def read(self, v: Complex, u: Array) -> Complex:
-        """What the file keeps of a velocity in m/s. Shape (points,)."""
+        """What the file keeps of velocities in m/s. Shape (..., points)."""
         for k in self._touching:
             read = self._unknowns.effects[k].reading(v, self._problem.points, self._unknowns.of(k, u))
             v = v if read is None else read
@@ -35,12 +35,11 @@ class Channels:
         if not self._touching:
             return self._as_stated(by, u)
         found = np.zeros_like(by)
-        largest = np.abs(raw).max()
-        for k, size in enumerate(np.abs(by).max(axis=1)):
-            if size > 0:
-                # A channel may bend, and a derivative to 10^14 N/m^3 drowns beside the velocity.
-                h = _SMALL * largest / size
-                found[k] = (self.read(raw + h * by[k], u) - read) / h
+        size = np.abs(by).max(axis=1, keepdims=True)
+        some = size[:, 0] > 0
+        # A channel may bend, and a derivative to 10^14 N/m^3 drowns beside the velocity.
+        h = _SMALL * np.abs(raw).max() / size[some]
+        found[some] = (self.read(raw + h * by[some], u) - read) / h
         return found
 
     def by(self, n: int, raw: Complex, u: Array) -> Complex:

@@ -247,7 +247,7 @@ class Effect:
         return None
 
     def reading(self, v: Complex, points: Points, u: Array) -> Complex | None:
-        """What the channels make of the velocity `v` in m/s; None: nothing. Shape (points,), as `v`."""
+        """What the channels make of velocities `v` in m/s; None: nothing. Shape (..., points), as `v`."""
         return None
 
     def longer_m(self, u: Array) -> float:

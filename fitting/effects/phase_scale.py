@@ -52,12 +52,16 @@ class PhaseScaleEffect(Effect):
 
 
 def continuous_phase(v: Complex, omega: Array) -> Array:
-    """Argument of `v` (m/s over a real reference), rad, without jumps in a segment. Shape of `omega`."""
+    """Argument of `v` (m/s over a real reference), rad, without jumps in a segment.
+
+    Shapes (points,) of `omega`, (..., points) of `v`.
+    """
     order = np.argsort(omega, kind="stable")
     gaps = np.flatnonzero(np.diff(np.log(omega[order])) > _GAP) + 1
-    phase = np.empty(len(omega))
+    phase = np.empty(v.shape)
     for here in np.split(order, gaps):
-        found = np.unwrap(np.angle(v[here]))
-        peak = found[np.argmax(np.abs(v[here]))]
-        phase[here] = found - 2 * np.pi * np.ceil((peak - _HIGHEST) / (2 * np.pi))
+        found = np.unwrap(np.angle(v[..., here]))
+        largest = np.argmax(np.abs(v[..., here]), axis=-1, keepdims=True)
+        peak = np.take_along_axis(found, largest, axis=-1)
+        phase[..., here] = found - 2 * np.pi * np.ceil((peak - _HIGHEST) / (2 * np.pi))
     return phase

@@ -8,6 +8,7 @@ import pytest
 from fitting.diagnosis.channels import Channels
 from fitting.diagnosis.unknowns import STATED_NUMBER, Unknowns, stepped
 from fitting.effects.gain_error import GainErrorEffect
+from fitting.effects.phase_scale import PhaseScaleEffect
 from fitting.effects.sensor_lowpass import SensorLowpassEffect
 from fitting.effects.substrate_stiffness import SubstrateStiffnessEffect
 from fitting.nuisance import Nuisance
@@ -57,6 +58,18 @@ def test_derivatives_are_read_through_the_same_channels(effects):
     along = read.along(V, read.read(V, u), by, u)
     # Both channels are linear: a derivative is read as a velocity is.
     assert along == pytest.approx(np.array([read.read(d, u) for d in by]), rel=1e-8)
+
+
+@pytest.mark.parametrize("counted", [0.0, 1.0, 2.0])
+def test_a_channel_that_bends_reads_each_derivative_as_if_it_were_alone(counted):
+    _, read = channels(PhaseScaleEffect(), SensorLowpassEffect(), stated=())
+    u = np.array([1.1, counted, 3e3])
+    by = np.array([V[::-1] * 1e12, np.zeros(3), 1e-9j * V])
+    alone = [read.along(V, read.read(V, u), one[None], u)[0] for one in by]
+    assert np.array_equal(read.along(V, read.read(V, u), by, u), alone)
+    each = [1e-6 * np.abs(V).max() / np.abs(by[k]).max() for k in (0, 2)]
+    moved = [(read.read(V + h * by[k], u) - read.read(V, u)) / h for h, k in zip(each, (0, 2), strict=True)]
+    assert np.array_equal(np.array(alone)[[0, 2]], moved)
 
 
 def test_a_reading_goes_with_the_unknown_of_its_channel():
