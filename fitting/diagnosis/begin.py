@@ -8,14 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.bent_law import BentLaw
-from fitting.diagnosis.candidates import polished
 from fitting.diagnosis.evidence import BareModes, Evidence
 from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import ROUGH, refit
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
-from fitting.diagnosis.usual_law import followed, within_search
+from fitting.diagnosis.usual_law import followed, polished, within_search
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.identification.direct import fit_direct
 from fitting.identification.fit import Fit

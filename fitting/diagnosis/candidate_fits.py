@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import permutations
+from typing import TypeVar
 
 import numpy as np
 
@@ -14,7 +14,6 @@ from fitting.diagnosis.candidates import (
     has_place,
     is_over_decades,
     look,
-    polished,
 )
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.marginal import cost
@@ -25,11 +24,12 @@ from fitting.diagnosis.refit import ROUGH, kept, refit
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
-from fitting.diagnosis.usual_law import followed
+from fitting.diagnosis.usual_law import followed, polished
 from fitting.effects.base import Effect
 from fitting.identification.validation import Validation
 from fitting.laws import CoreLaw
 
+A = TypeVar("A")
 Form = tuple[str, int]
 """An effect by its name, and the number of its variant."""
 State = list[Known]
@@ -163,19 +163,35 @@ class CandidateFits:
         (name, number), rough, goal = one
         return self.candidates[name][number].finished(rough, goal)
 
-    def thorough(self, one: tuple[str, State, bool]) -> list[Refitted]:
-        """Further starts, the best of them followed to the end, but for the one that has been.
+    def unfollowed(self, name: str) -> list[tuple[Form, Start]]:
+        """Further starts of an effect whose place is to be found, where nobody has followed them."""
+        each = enumerate(self.candidates[name])
+        return [((name, k), s) for k, c in each if c.known.elsewhere is None for s in c.further_starts]
+
+    def followed(self, one: tuple[Form, Start]) -> Refitted:
+        """A rough fit from one start."""
+        (name, number), start = one
+        return self.candidates[name][number].followed(start)
+
+    def far(self, one: tuple[Form, Known]) -> Known:
+        """What is known of a form, rough fits in wide valleys among it."""
+        (name, number), known = one
+        candidate = self.candidates[name][number]
+        candidate.learn(known)
+        _ = candidate.far
+        return candidate.known
+
+    def thorough(self, name: str, *, astray: bool) -> list[tuple[Form, Refitted]]:
+        """The best of an effect's rough fits, but for the one that has been followed to its end.
 
         With far ones, where the law so far is no place to begin.
         """
-        name, state, astray = one
-        self.learn(name, state)
-        candidates = self.candidates[name]
-        followed = _best_first([(c, f) for c in candidates for f in c.near])[:1]
-        near = _best_first([(c, f) for c in candidates for f in [*c.near, *c.elsewhere]])[: SEARCH.finished]
-        near = [one for one in near if one not in followed]
-        far = _best_first([(c, f) for c in candidates for f in c.far])[: SEARCH.finished] if astray else []
-        return [c.finished(f) for c, f in [*near, *far]]
+        forms = [((name, k), c) for k, c in enumerate(self.candidates[name])]
+        gone = _best_first([(form, f) for form, c in forms for f in c.near])[:1]
+        near = _best_first([(form, f) for form, c in forms for f in [*c.near, *c.elsewhere]])
+        near = [one for one in near[: SEARCH.finished] if one not in gone]
+        far = _best_first([(form, f) for form, c in forms for f in c.far]) if astray else []
+        return [*near, *far[: SEARCH.finished]]
 
     def from_stated(self, one: tuple[str, State]) -> list[Refitted]:
         """In wide valleys from what is stated; the best to the end."""
@@ -232,22 +248,15 @@ class CandidateFits:
         """A fit followed to its very end."""
         return followed(self.problem, self.evidence, fitted)
 
-    def together(self, one: tuple[Refitted, dict[str, State]]) -> list[Refitted]:
-        """A pair again, each of its effects beside the other fitted alone, in wide valleys."""
-        pair, states = one
-        for name, state in states.items():
-            self.learn(name, state)
-        found = []
-        for first, second in permutations(pair.effects):
-            if first.replaces_law or second.replaces_law:
-                continue
-            for rough in self.candidates[first.name][0].plain:
-                found += [c.finished(f) for c in [self._beside(rough, second)] for f in c.far[:1]]
-        return found
+    def beside(self, one: tuple[Refitted, Effect]) -> Refitted:
+        """An effect beside a rough fit: the best one in wide valleys, followed to the end."""
+        before, effect = one
+        candidate = self._beside(before, effect)
+        return candidate.finished(candidate.far[0])
 
     def _beside(self, before: Refitted, effect: Effect) -> CandidateFit:
         return CandidateFit(self.problem, self.evidence, before, effect)
 
 
-def _best_first(fits: list[tuple[CandidateFit, Refitted]]) -> list[tuple[CandidateFit, Refitted]]:
+def _best_first(fits: list[tuple[A, Refitted]]) -> list[tuple[A, Refitted]]:
     return sorted(fits, key=lambda one: one[1].chi2)

@@ -11,23 +11,20 @@ from fitting.bent_law import BentLaw
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.of_files import OfFiles
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.refit import AT_REST, ROUGH, refit
+from fitting.diagnosis.refit import ROUGH, refit
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
+from fitting.diagnosis.usual_law import polished
 from fitting.effects.base import Effect, Points
 from fitting.laws import CoreLaw
 
 Start = tuple[float, Array]
 """The chi-square that a start may gain, and its unknowns; zero where a linear step cannot tell."""
 
-_ROUNDS = 3
-"""As many grids at most: a bound on time."""
 _NEAR_BY = 3.0
 """Times: starts of an unknown over decades that are no further apart lead to the same place. A choice."""
-_FAR = 0.02
-"""Relative change of the modulus from which the grid is made anew for the new poles. A choice."""
 
 
 def look(
@@ -190,7 +187,7 @@ class CandidateFit:
         """
         if not is_over_decades(self.effect):
             return []
-        own = self.effect.starts(self.problem.plate, self.problem.points)[0]
+        own = self._first_start
         decades = [q.logarithmic and not q.fixed for q in self.effect.parameters]
         near = [np.abs(np.log(u[decades] / own[decades])).max() < np.log(_NEAR_BY) for _, u in followed]
         return [] if any(near) else [(0.0, own)]
@@ -228,8 +225,13 @@ class CandidateFit:
     def elsewhere(self) -> list[Refitted]:
         """The same from some more starts of an effect whose place is to be found: valleys are many."""
         if self._known.elsewhere is None:
-            self._known.elsewhere = self._from(self.starts[self._first : self._first + self._more])
+            self._known.elsewhere = self._from(self.further_starts)
         return self._known.elsewhere
+
+    @property
+    def further_starts(self) -> Sequence[Start]:
+        """What `elsewhere` begins from."""
+        return self.starts[self._first : self._first + self._more]
 
     @cached_property
     def everywhere(self) -> list[Refitted]:
@@ -254,10 +256,11 @@ class CandidateFit:
         return SEARCH.more_places if has_place(self.effect) else 0
 
     def _from(self, starts: Sequence[Start]) -> list[Refitted]:
-        fits = [self._followed(promise, u) for promise, u in starts]
-        return sorted(fits, key=_chi2)
+        return sorted((self.followed(start) for start in starts), key=_chi2)
 
-    def _followed(self, promise: float, u: Array) -> Refitted:
+    def followed(self, start: Start) -> Refitted:
+        """A rough fit from one start, a few steps of it where little is promised and no more gained."""
+        promise, u = start
         if 0 < promise < SEARCH.least_promise:
             brief = self._rough(self.before.law, u, self.evidence, brief=True)
             if brief.converged or abs(self.before.chi2 - brief.chi2) < SEARCH.least_gain:
@@ -268,14 +271,13 @@ class CandidateFit:
     def plain(self) -> list[Refitted]:
         """Rough fits in wide valleys from the first start, from the law so far and the stated one."""
         if self._known.plain is None:
-            self._known.plain = self._wide(self.effect.starts(self.problem.plate, self.problem.points)[0])
+            self._known.plain = self._wide(self._first_start)
         return self._known.plain
 
     @cached_property
     def quick(self) -> list[Refitted]:
         """One rough fit, begun in a wide valley from the better of the first and the most promising start."""
-        first = self.effect.starts(self.problem.plate, self.problem.points)[:1]
-        blunt, starts = self.evidence.blunt(), [*first, *(u for _, u in self.starts[:1])]
+        blunt, starts = self.evidence.blunt(), [self._first_start, *self._promising_elsewhere]
         rough = (self._rough(self.before.law, u, blunt, as_stated=True) for u in starts)
         wide = min(rough, key=_chi2)
         return [refit(self._response, self.evidence, wide.law, wide.u, tolerance=ROUGH)]
@@ -287,9 +289,18 @@ class CandidateFit:
         A linear step from a wrong law may lead astray.
         """
         if self._known.far is None:
-            begun = [f for _, u in self.starts[:1] for f in self._wide(u)]
+            begun = [f for u in self._promising_elsewhere for f in self._wide(u)]
             self._known.far = sorted([*self.plain, *begun], key=_chi2)
         return self._known.far
+
+    @property
+    def _first_start(self) -> Array:
+        return self.effect.starts(self.problem.plate, self.problem.points)[0]
+
+    @property
+    def _promising_elsewhere(self) -> list[Array]:
+        """The start that promises most, where it is not the first one: of that, a step may change nothing."""
+        return [u for _, u in self.starts[:1] if not np.array_equal(u, self._first_start)]
 
     def _wide(self, u: Array) -> list[Refitted]:
         blunt = self.evidence.blunt()
@@ -319,42 +330,3 @@ def has_place(effect: Effect) -> bool:
 def is_over_decades(effect: Effect) -> bool:
     """Whether an unknown without a place may be of any size within decades."""
     return not has_place(effect) and any(q.logarithmic and not q.fixed for q in effect.parameters)
-
-
-def polished(
-    problem: DiagnosisProblem,
-    effects: Sequence[Effect],
-    evidence: Evidence,
-    law: CoreLaw,
-    u: Array,
-    goal: float = np.inf,
-) -> Refitted:
-    """A fit to the end, its grid made for the law it starts from, and again where the law has moved far.
-
-    `u` of shape (unknowns,). `goal` as `refit` takes it.
-    """
-    for _ in range(_ROUNDS):
-        fitted = refit(response_of(problem.around(law), effects), evidence, law, u, goal=goal)
-        if fitted.chi2_per_dof > SEARCH.hopeless or not fitted.may_reach(goal):
-            break
-        omega = problem.fine.nodes.omega
-        moved = np.max(np.abs(fitted.law.modulus(omega) / law.modulus(omega) - 1))
-        law, u = fitted.law, fitted.u
-        if moved < _FAR:
-            break
-    return fitted
-
-
-def at_rest(problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted) -> Refitted:
-    """A fit followed until nothing is left to be gained; itself where it is there.
-
-    What was followed far enough to compare may be on its way still, along a valley that winds: there
-    chi-square hardly falls from step to step, and the law has far to go.
-    """
-    if fitted.converged and fitted.owed < SEARCH.least_owed:
-        return fitted
-    response = response_of(problem.around(fitted.law), fitted.effects)
-    found = refit(response, evidence, fitted.law, fitted.u, tolerance=AT_REST)
-    if fitted.chi2 - found.chi2 < SEARCH.least_owed:
-        return fitted
-    return polished(problem, found.effects, evidence, found.law, found.u)

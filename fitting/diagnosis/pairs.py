@@ -1,6 +1,7 @@
 """Two effects together, where one does not suffice."""
 
 from collections.abc import Callable, Sequence
+from itertools import permutations
 
 import numpy as np
 
@@ -49,14 +50,26 @@ class Pairs:
         found = sorted((search.judged(f) for f in fits if f is not None), key=lambda t: t.cost)
         if wide and found and not self._will_do([*leaders[:1], *found]):
             # The best may only have begun from the wrong place, or not have looked promising.
-            again = [(t.fitted, {n: work.state(n) for n in _plainly(t)}) for t in found[: SEARCH.retried]]
-            found += [search.judged(f) for fits in each(work.together, again) for f in fits]
+            found += self._begun_again(found[: SEARCH.retried])
             if not self._will_do(found):
                 found += self._every_second([t for t in singles if _plainly(t)], found)
         report(0.9)
         if found and min(t.cost for t in found) < singles[0].cost:
             found += self._improved(found)
         return _best_of_each(found)
+
+    def _begun_again(self, pairs: Sequence[ScoredFit]) -> list[ScoredFit]:
+        """Each effect of some pairs beside the other one fitted alone, in wide valleys."""
+        search, work, each = self._search, self._search.work, self._search.executor.each
+        plain = [t.fitted.effects for t in pairs if len(_plainly(t)) == 2]
+        search.fit_plainly(sorted({e.name for effects in plain for e in effects}))
+        asked = [
+            (rough, second)
+            for effects in plain
+            for first, second in permutations(effects)
+            for rough in work.candidates[first.name][0].plain
+        ]
+        return [search.judged(f) for f in each(work.beside, asked)]
 
     def _will_do(self, scored_fits: Sequence[ScoredFit]) -> bool:
         """Whether any, the law being of the stated kind, leaves little and fails no check."""

@@ -165,17 +165,18 @@ class Search:
         """Whether the data leave over what a fit needs."""
         return fitted.parameter_count <= self.evidence.count - _SPARE
 
+    def fit_plainly(self, names: Sequence[str]) -> None:
+        """These effects from plain starts, in wide valleys."""
+        work = self.work
+        tasks = [(n, work.state(n)) for n in names]
+        for name, state in zip(names, self.executor.each(work.plain, tasks), strict=True):
+            work.learn(name, state)
+
     def order_of_plain(self) -> list[str]:
         """Effects by how well they do from plain starts, in wide valleys."""
-        work = self.work
         names = [e.name for e in self.beside_the_law if e.parameters]
-        chi2 = []
-        for name, state in zip(
-            names, self.executor.each(work.plain, [(n, work.state(n)) for n in names]), strict=True
-        ):
-            work.learn(name, state)
-            chi2.append(min(f.chi2 for f in work.candidates[name][0].plain))
-        return [names[k] for k in np.argsort(chi2)]
+        self.fit_plainly(names)
+        return sorted(names, key=lambda name: min(f.chi2 for f in self.work.candidates[name][0].plain))
 
     def told(self, effects: Sequence[Effect]) -> ScoredFit:
         """These effects together, none of them weighed.

@@ -6,7 +6,7 @@ import numpy as np
 
 from fitting.chances import chi2_above
 from fitting.diagnosis.candidate_fits import FirstLook, Form
-from fitting.diagnosis.candidates import has_place
+from fitting.diagnosis.candidates import Known, has_place
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.thresholds import SEARCH, VERDICT
@@ -57,11 +57,25 @@ class Singles:
         work, left, astray = self._work, self._worth_more(), self._astray
         while left:
             some, left = (left[: SEARCH.at_a_time], left[SEARCH.at_a_time :]) if astray else (left, [])
-            tasks = [(name, work.state(name), astray) for name in some]
-            for fits in self._each(work.thorough, tasks, self._part(0.7, 0.1)):
-                self._keep(fits)
+            self._look_around(some, astray=astray)
+            best = [one for name in some for one in work.thorough(name, astray=astray)]
+            tasks = [(form, rough, np.inf) for form, rough in best]
+            self._keep(self._each(work.finished, tasks, self._part(0.7, 0.1)))
             if astray and self._settle(self._part(0.8, 0.1)):
                 break
+
+    def _look_around(self, names: Sequence[str], *, astray: bool) -> None:
+        """Rough fits from further starts of some effects, and far ones where the law is no place to begin."""
+        work, found = self._work, dict[Form, list[Refitted]]()
+        asked = [one for name in names for one in work.unfollowed(name)]
+        for (form, _), fitted in zip(asked, self._each(work.followed, asked), strict=True):
+            found.setdefault(form, []).append(fitted)
+        for (name, number), fits in found.items():
+            work.candidates[name][number].learn(Known(elsewhere=sorted(fits, key=lambda f: f.chi2)))
+        forms = [((name, k), known) for name in names for k, known in enumerate(work.state(name))]
+        wide = forms if astray else []
+        for ((name, number), _), known in zip(wide, self._each(work.far, wide), strict=True):
+            work.candidates[name][number].learn(known)
 
     def _settle(self, report: Report) -> bool:
         """Whether an effect explains all there is: then all others begin again from its law."""

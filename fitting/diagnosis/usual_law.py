@@ -1,19 +1,28 @@
-"""The law of usual size nearest to another.
+"""A fit followed to where it ends; the law of usual size nearest to another.
 
 A fit may end far outside of what cores are, in a valley of its own: what the law does in the band it does as
 well from there.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 from scipy.optimize import least_squares
 
 from fitting.arrays import Array
-from fitting.diagnosis.candidates import at_rest, polished
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.problem import DiagnosisProblem
+from fitting.diagnosis.refit import AT_REST, refit
 from fitting.diagnosis.refitted import Refitted
+from fitting.diagnosis.responses import response_of
+from fitting.diagnosis.thresholds import SEARCH
+from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
 
+_ROUNDS = 3
+"""As many grids at most: a bound on time."""
+_FAR = 0.02
+"""Relative change of the modulus from which the grid is made anew for the new poles. A choice."""
 _OPEN = 1e-9
 """A range of one value is none for a bounded fit."""
 
@@ -28,6 +37,45 @@ def followed(problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted) ->
     if not again.may_reach(found.chi2):
         return found
     return min(found, at_rest(problem, evidence, again), key=lambda f: f.chi2)
+
+
+def polished(
+    problem: DiagnosisProblem,
+    effects: Sequence[Effect],
+    evidence: Evidence,
+    law: CoreLaw,
+    u: Array,
+    goal: float = np.inf,
+) -> Refitted:
+    """A fit to the end, its grid made for the law it starts from, and again where the law has moved far.
+
+    `u` of shape (unknowns,). `goal` as `refit` takes it.
+    """
+    for _ in range(_ROUNDS):
+        fitted = refit(response_of(problem.around(law), effects), evidence, law, u, goal=goal)
+        if fitted.chi2_per_dof > SEARCH.hopeless or not fitted.may_reach(goal):
+            break
+        omega = problem.fine.nodes.omega
+        moved = np.max(np.abs(fitted.law.modulus(omega) / law.modulus(omega) - 1))
+        law, u = fitted.law, fitted.u
+        if moved < _FAR:
+            break
+    return fitted
+
+
+def at_rest(problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted) -> Refitted:
+    """A fit followed until nothing is left to be gained; itself where it is there.
+
+    What was followed far enough to compare may be on its way still, along a valley that winds: there
+    chi-square hardly falls from step to step, and the law has far to go.
+    """
+    if fitted.converged and fitted.owed < SEARCH.least_owed:
+        return fitted
+    response = response_of(problem.around(fitted.law), fitted.effects)
+    found = refit(response, evidence, fitted.law, fitted.u, tolerance=AT_REST)
+    if fitted.chi2 - found.chi2 < SEARCH.least_owed:
+        return fitted
+    return polished(problem, found.effects, evidence, found.law, found.u)
 
 
 def within_search(law: CoreLaw, omega: Array) -> CoreLaw:

@@ -6,11 +6,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fitting.diagnosis import candidates, usual_law
-from fitting.diagnosis.candidates import at_rest
+from fitting.diagnosis import usual_law
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.refit import AT_REST, refit
 from fitting.diagnosis.thresholds import SEARCH
+from fitting.diagnosis.usual_law import at_rest
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.fractional_zener import FractionalZener
 
@@ -31,7 +31,7 @@ class Winding:
 @pytest.fixture
 def valley(monkeypatch):
     """A problem whose response is the valley, and its readings."""
-    monkeypatch.setattr(candidates, "response_of", lambda *_: Winding())
+    monkeypatch.setattr(usual_law, "response_of", lambda *_: Winding())
     nodes = SimpleNamespace(nodes=SimpleNamespace(omega=np.ones(1)))
     problem = SimpleNamespace(fine=nodes)
     problem.around = lambda law: problem
@@ -62,7 +62,7 @@ def test_what_ran_out_of_steps_is_followed_though_one_step_promises_nothing(vall
         followed.append(how["tolerance"])
         return there
 
-    monkeypatch.setattr(candidates, "refit", follow)
+    monkeypatch.setattr(usual_law, "refit", follow)
     at_rest(problem, evidence, replace(there, converged=False))
     assert followed == [AT_REST]
 

@@ -25,7 +25,7 @@ class Placed(Effect):
 
 def followed(monkeypatch, effect, *starts):
     """The unknowns that rough fits begin at."""
-    monkeypatch.setattr(CandidateFit, "_followed", lambda _, promise, u: SimpleNamespace(chi2=promise, u=u))
+    monkeypatch.setattr(CandidateFit, "followed", lambda _, start: SimpleNamespace(chi2=start[0], u=start[1]))
     known = [(promise, np.array(u)) for promise, u in starts]
     return [f.u.tolist() for f in CandidateFit(None, None, None, effect, known).near]
 
@@ -74,9 +74,22 @@ def test_of_springs_that_a_linear_step_makes_decades_stiffer_the_soft_ones_are_h
 ):
     problem = SimpleNamespace(plate=None, points=None)
     starts = [(9.0, np.array([stiff, -0.5])), (0.1, np.array([3 * stiff, 0.5]))]
-    monkeypatch.setattr(CandidateFit, "_followed", lambda _, promise, u: SimpleNamespace(chi2=-promise, u=u))
+    monkeypatch.setattr(
+        CandidateFit, "followed", lambda _, start: SimpleNamespace(chi2=-start[0], u=start[1])
+    )
     found = CandidateFit(problem, None, None, Springs(), starts).near
     assert [f.u.tolist() for f in found] == expected
+
+
+@pytest.mark.parametrize(("promising", "begun"), [(0.1, [0.1]), (0.3, [0.1, 0.3])])
+def test_the_first_start_is_not_followed_again_where_it_is_the_most_promising_one(
+    monkeypatch, promising, begun
+):
+    one = CandidateFit(None, None, None, Placed(), [(9.0, np.array([promising, 0.5, 0.0]))])
+    one.problem = SimpleNamespace(plate=None, points=None)
+    monkeypatch.setattr(Placed, "starts", lambda *_: [np.array([0.1, 0.5, 0.0])])
+    monkeypatch.setattr(CandidateFit, "_wide", lambda _, u: [SimpleNamespace(chi2=u[0])])
+    assert [f.chi2 for f in one.far] == begun
 
 
 class Bent(Effect):

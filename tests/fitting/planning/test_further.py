@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from shear_pair_task import GAIN, HIGH, MASS, Task
 
-from fitting.diagnosis.candidates import polished
 from fitting.diagnosis.result import Rivals
+from fitting.diagnosis.usual_law import polished
 from fitting.diagnosis.whitening import SHARE
 from fitting.planning.further import Expecting, Further
 from fitting.planning.sensitivity import ReadingNoise

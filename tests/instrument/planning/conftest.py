@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from fitting.diagnosis.begin import begin
-from fitting.diagnosis.candidates import polished
 from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.result import Rivals
+from fitting.diagnosis.usual_law import polished
 from fitting.effects import CATALOGUE
 from fitting.noise import noise_of
 from instrument.files.sweep_file import read_sweep

@@ -6,8 +6,8 @@ from itertools import groupby
 import numpy as np
 import pytest
 
-from fitting.diagnosis.candidates import polished
 from fitting.diagnosis.response import SweepResponse
+from fitting.diagnosis.usual_law import polished
 from fitting.diagnosis.whitening import SHARE
 from fitting.effects import CATALOGUE
 from fitting.planning.forms import forms_of
