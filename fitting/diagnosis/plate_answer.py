@@ -4,7 +4,7 @@ A q = load,   A z = observe,   x = observe . q,   dx = z . (dload - dA q) + dobs
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -222,19 +222,47 @@ class _Step:
         return found
 
 
-def core_strain(
-    plate: EnrichedReducedPlate, omega: Array, G: Complex, mean_square: Array, change: Change
-) -> Array:
-    """Rms over the core of its shear strain for a base acceleration of 1 m/s^2. Shape (nodes,)."""
-    found = answer_motion(plate, omega, G, change)
-    square = np.real(np.einsum("pi,pi->p", found.conj(), found @ mean_square))
-    return np.sqrt(np.maximum(square, 1e-300))
+@dataclass(frozen=True)
+class StrainedCore:
+    """How far the core of a plate shears, as something changes it, at some frequencies and moduli."""
 
+    plate: EnrichedReducedPlate
+    omega: Array
+    """Shape (nodes,)."""
+    G: Complex
+    change: Change
 
-def answer_motion(plate: EnrichedReducedPlate, omega: Array, G: Complex, change: Change) -> Complex:
-    """Motion q of A q = load. Shape (nodes, k)."""
-    C_1 = (plate.U * (plate.d * change.damping)) @ plate.U.T
-    moved = plate.K_0 + change.K, plate.K_1 + change.K_1, plate.M + change.M, C_1
-    A = dynamic_stiffness(moved, omega, G)
-    load = plate.load + change.load - change.travel_load / (omega**2)[:, None]
-    return np.asarray(np.linalg.solve(A, load[:, :, None].astype(complex))[:, :, 0])
+    @cached_property
+    def strain(self) -> Array:
+        """Rms over the core of its shear strain for a base acceleration of 1 m/s^2. Shape (nodes,)."""
+        q = self._motion
+        square = np.real(np.einsum("pi,pi->p", q.conj(), q @ self._mean_square))
+        return np.sqrt(np.maximum(square, 1e-300))
+
+    def by(self, nearby: tuple[Change, Change, float]) -> Array:
+        """Derivative of ln strain to an unknown; `nearby` as `read_off` takes it of each. Shape (nodes,)."""
+        up, down, h = nearby
+        # What the pickup reads strains nothing.
+        d = replace(_between(up, down, 1 / h), observe=0.0, travel=0.0)
+        step = _Step(self.plate, self.omega, self.G, self._adjoint)
+        return np.asarray((step.by(d, self._motion) + step.by_base(d)).real / self.strain**2)
+
+    @cached_property
+    def _motion(self) -> Complex:
+        """Q of A q = load. Shape (nodes, k)."""
+        travel = -1 / self.omega**2
+        return self._solved(self.plate.load + self.change.load + travel[:, None] * self.change.travel_load)
+
+    @cached_property
+    def _adjoint(self) -> Complex:
+        """Z of A z = S conj(q), with S the mean square. Shape (nodes, k)."""
+        return self._solved(self._motion.conj() @ self._mean_square)
+
+    @property
+    def _mean_square(self) -> Array:
+        return self.plate.matrix("strain.mean_square")
+
+    def _solved(self, sides: Complex | Array) -> Complex:
+        matrices = Asked(self.plate, self.omega, self.G, self.change, None, with_pitch=False).matrices
+        A = dynamic_stiffness(matrices, self.omega, self.G)
+        return np.asarray(np.linalg.solve(A, sides[:, :, None].astype(complex))[:, :, 0])

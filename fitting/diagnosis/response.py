@@ -236,7 +236,7 @@ class SweepResponse:
         return change if self.problem.points.drive == "base" else change.at_rest
 
     def _modulus(self, law: CoreLaw, u: Array, G_law: Complex, strain: Strain | None = None) -> Complex:
-        """G* at every point; `strain` where the law is a step away from the one that strains are of."""
+        """G* at every point; `strain` where something is a step away from what strains are known of."""
         G = G_law
         for k in self._shifting:
             at = ModulusAt(law, self.problem.points, strain or self._strain(law, u))
@@ -260,11 +260,11 @@ class SweepResponse:
 
     def _strain(self, law: CoreLaw, u: Array) -> Strain:
         """Of the core at every point, softened by a share, over the reference."""
-        key = (
-            b"".join(self._unknowns.of(k, u).tobytes() for k in self._changing)
-            + u[self._unknowns.stated].tobytes()
-        )
-        return self._strains.under(law, key, lambda: self._changes(u))
+        return self._strains.under(law, self._strain_key(u), lambda: self._changes(u))
+
+    def _strain_key(self, u: Array) -> bytes:
+        changing = b"".join(self._unknowns.of(k, u).tobytes() for k in self._changing)
+        return changing + u[self._unknowns.stated].tobytes()
 
     # Derivatives to unknown n.
 
@@ -287,7 +287,9 @@ class SweepResponse:
                 found = found + (above - below) / (2 * h) * (at.per_x * at.turned + at.lever)
         if k in self._changing and self._strained:
             # A changed plate strains its core otherwise.
-            dG = (self._modulus(law, up, law.modulus(omega)) - at.G) / h
+            nearby = self._change(k, up, self.plate), self._change(k, down, self.plate), 2 * h
+            strain = self._strains.along(law, self._strain_key(u), lambda: self._changes(u), nearby, h)
+            dG = (self._modulus(law, u, law.modulus(omega), strain) - at.G) / h
             found = found + at.per_x * at.slope * dG
         if k in self._shifting:
             G_law = law.modulus(omega)

@@ -12,7 +12,7 @@ from fitting.damping import viscous_damping
 from fitting.diagnosis.candidates import CandidateFit
 from fitting.diagnosis.of_files import Place
 from fitting.diagnosis.one_plate import plates_of
-from fitting.diagnosis.plate_answer import core_strain
+from fitting.diagnosis.plate_answer import StrainedCore
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.several import SeveralProblem, SeveralResponse
@@ -271,10 +271,9 @@ def test_a_core_softens_with_what_a_force_strains_it(free):
     assert softening.objection(response.problem.points, response.plate) is None
     u = np.append(np.zeros(len(response.nuisances)), k)
     v = response.velocity(free.law, u)
-    square = free.widened.matrix("strain.mean_square")
 
     def strain(G):
-        return core_strain(free.widened, OMEGA, G, square, Change())
+        return StrainedCore(free.widened, OMEGA, G, Change()).strain
 
     reference = strain(free.G).max()
     softened = np.zeros(len(forces))
@@ -291,9 +290,39 @@ def test_strain_is_told_over_the_largest_at_a_newton_and_goes_with_the_force(fre
     strains = Strains(response.problem, response.plate, reference)
     at = strains.under(free.law, b"", Change)(np.zeros(len(forces)))
     assert (at / forces).max() == pytest.approx(1.0, rel=1e-6)
-    square = free.widened.matrix("strain.mean_square")
-    largest = core_strain(free.widened, OMEGA, free.G, square, Change()).max()
+    largest = StrainedCore(free.widened, OMEGA, free.G, Change()).strain.max()
     assert reference.strain == pytest.approx(largest, rel=1e-6)
+
+
+@pytest.mark.parametrize("of", range(3), ids=["mass", "x", "y"])
+def test_a_derivative_of_the_strain_is_what_a_small_change_makes_of_it(free, of):
+    step = np.zeros(3)
+    step[of] = 1e-4 * MASS[of]
+
+    def change(times):
+        return CATALOGUE["added_mass"].change(free.widened, MASS + times * step)
+
+    def strain(times):
+        return StrainedCore(free.widened, OMEGA, free.G, change(times)).strain
+
+    by = StrainedCore(free.widened, OMEGA, free.G, change(0)).by((change(1), change(-1), 2 * step[of]))
+    expected = np.log(strain(1) / strain(-1)) / (2 * step[of])
+    np.testing.assert_allclose(by, expected, rtol=1e-4)
+
+
+def test_strain_a_step_further_is_what_the_changed_plate_has(free):
+    response = free.response([CATALOGUE["amplitude_softening"]], np.array([1.0, 2.0, 3.0, 1.0, 2.0]) + 0j)
+    strains = Strains(response.problem, response.plate, Reference())
+    softened, h = np.array([0.0, 0.1, 0.2, 0.3, 0.4]), 1e-3 * MASS[0]
+
+    def change(mass_kg):
+        return lambda: CATALOGUE["added_mass"].change(response.plate, np.array([mass_kg, *MASS[1:]]))
+
+    nearby = change(MASS[0] + h)(), change(MASS[0] - h)(), 2 * h
+    here = strains.under(free.law, b"here", change(MASS[0]))(softened)
+    there = strains.under(free.law, b"there", change(MASS[0] + h))(softened)
+    found = strains.along(free.law, b"here", change(MASS[0]), nearby, h)(softened)
+    np.testing.assert_allclose(found / here - 1, there / here - 1, rtol=2e-2)
 
 
 @pytest.mark.parametrize(("force_n", "why"), [(None, "how large"), (np.full(5, 2.0 + 0j), "one size")])
