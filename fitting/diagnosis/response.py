@@ -57,13 +57,15 @@ class SweepResponse:
         self._changing = [k for k, e in enumerate(self.effects) if type(e).change is not Effect.change]
         self._pitching = [k for k, e in enumerate(self.effects) if type(e).pitch is not Effect.pitch]
         self._shifting = [k for k, e in enumerate(self.effects) if type(e).modulus is not Effect.modulus]
+        each = self._unknowns.slices
+        self._moving_it = [n for k in self._changing for n in range(each[k].start, each[k].stop)]
         grid = grid or problem.fine
         if self._shifting and (self._changing or self._pitching or not self.nuisances.change_nothing):
             # The modulus is another one in every pass.
             grid = problem.passes
         self.grid = grid
-        self._last: tuple[bytes, _ByChange, Complex] | None = None
-        self._ready: tuple[bytes, Asked, Motions] | None = None
+        self._last: tuple[bytes, bool, _OfPlate] | None = None
+        self._ready: tuple[Array, Asked, Motions] | None = None
         self._strains = Strains(problem, self.plate, reference or Reference())
         self._strained = bool(self._shifting) and any(s.name == "strain" for s in spans)
 
@@ -74,7 +76,7 @@ class SweepResponse:
     def with_derivatives(self, law: CoreLaw, u: Array) -> tuple[Complex, Complex]:
         """Phasors, and their derivatives to log parameters and then to `u`. Shape (parameters, points)."""
         at = self._at(law, u)
-        by_law = self._modulus_by_law(law, u, at) * (at.slope * at.per_x)
+        by_law = self._modulus_by_law(law, u, at) * (at.plate.slope * at.per_x)
         count = len(self.nuisances)
         by_z = self._by_stated(at) if count else []
         by_u = [self._by(k, law, u, at) for k in range(count, len(self.parameters))]
@@ -99,7 +101,7 @@ class SweepResponse:
         found = [others._change(k, known, self.plate) for k in others._changing]
         if not self.nuisances.change_nothing:
             found.append(self.nuisances.change(self.plate, known[self._unknowns.stated]))
-        G, _ = others._bearing(law, law.modulus(self.problem.points.omega), at.G)
+        G, _ = others._bearing(law, law.modulus(self.problem.points.omega), at.plate.G)
         asked = self._asked(G, reduce(Change.and_then, found, Change()))
         by_start = [(self._moving(last.change(self.plate, u)), Change(), 1.0) for u in starts]
         solved = read_off(asked, motions([asked])[0], by_start)
@@ -116,29 +118,38 @@ class SweepResponse:
     def _at(self, law: CoreLaw, u: Array, *, derivatives: bool = True) -> "_At":
         points = self.problem.points
         omega, a = points.omega, points.acceleration_m_s2
-        G_law = law.modulus(omega)
-        G = self._modulus(law, u, G_law)
-        x, slope = self.problem.rational.with_derivative(G)
+        plate = self._of_plate(law, u, derivatives=derivatives)
         pitch = np.zeros(len(omega), complex)
-        turned = np.zeros(len(omega), complex)
-        found = None
-        if self._moves:
-            G_nodes, smooth = self._bearing(law, G_law, G)
-            found, (moved, turned, changed_slope) = self._answer(u, G_nodes, derivatives)
-            x = x + moved
-            if self._shifting:
-                _, plain_slope = self.problem.rational.with_derivative(smooth)
-                x = x + (changed_slope - plain_slope) * (G - smooth)
-            slope = changed_slope
-            for k in self._pitching:
-                h = self.effects[k].pitch(omega, self._unknowns.of(k, u))
-                pitch = pitch + (h if h is not None else 0.0)
+        for k in self._pitching:
+            h = self.effects[k].pitch(omega, self._unknowns.of(k, u))
+            pitch = pitch + (h if h is not None else 0.0)
         per_x: Complex = np.asarray(1j * omega * a, dtype=complex)
         lever = self.problem.pickup_x_m * a / (1j * omega)
-        raw = per_x * (x + pitch * turned) + lever * pitch
+        raw = per_x * (plate.x + pitch * plate.turned) + lever * pitch
         if points.reads == "absolute":
             raw = raw + a / (1j * omega)
-        return _At(self._channels.read(raw, u), raw, G, slope, per_x, pitch, turned, lever, found)
+        return _At(self._channels.read(raw, u), raw, per_x, pitch, lever, plate)
+
+    def _of_plate(self, law: CoreLaw, u: Array, *, derivatives: bool) -> "_OfPlate":
+        """What goes with the plate and its core: one for all that only turns its base or reads it."""
+        G_law = law.modulus(self.problem.points.omega)
+        key = self._key(G_law, u)
+        if self._last is None or not self._is_known(key, derivatives=derivatives):
+            self._last = key, derivatives, self._of_plate_anew(law, u, G_law, derivatives)
+        return self._last[2]
+
+    def _of_plate_anew(self, law: CoreLaw, u: Array, G_law: Complex, derivatives: bool) -> "_OfPlate":
+        G = self._modulus(law, u, G_law)
+        x, slope = self.problem.rational.with_derivative(G)
+        if not self._moves:
+            return _OfPlate(G, x, slope, np.zeros(len(G), complex), None)
+        G_nodes, smooth = self._bearing(law, G_law, G)
+        found, (moved, turned, changed_slope) = self._answer(u, G_nodes, derivatives)
+        x = x + moved
+        if self._shifting:
+            _, plain_slope = self.problem.rational.with_derivative(smooth)
+            x = x + (changed_slope - plain_slope) * (G - smooth)
+        return _OfPlate(G, x, changed_slope, turned, found)
 
     def _bearing(self, law: CoreLaw, G_law: Complex, G: Complex) -> tuple[Complex, Complex]:
         """The modulus at the nodes, and the smooth one at every point that goes through it."""
@@ -151,50 +162,43 @@ class SweepResponse:
 
     def _answer(self, u: Array, G: Complex, derivatives: bool) -> tuple["_ByChange", Complex]:
         """At every point its derivatives; and the change of x, the answer to pitch, and dx/dG."""
-        key = self._key(u, G)
-        if not self._is_known(key, derivatives=derivatives):
-            if self._ready is not None and self._ready[0] == key:
-                _, asked, moved = self._ready
-            else:
-                asked = self._asked(G, self._changes(u))
-                (moved,) = motions([asked])
-            self._ready = None
-            nearby = []
-            for k in self._changing if derivatives else ():
-                part = self._unknowns.slices[k]
-                for n in range(part.start, part.stop):
-                    h = self._unknowns.step(n, u)
-                    up, down = (self._change(k, stepped(u, n, s * h), self.plate) for s in (1, -1))
-                    nearby.append((up, down, 2 * h))
-            nodes = self.grid.nodes
-            stated = (self.nuisances, u[self._unknowns.stated]) if self.nuisances and derivatives else None
-            solved = read_off(asked, moved, nearby, stated)
-            changed = np.array([solved.heave - self.grid.rational.displacement(G), solved.pitch])
-            simple = nodes.spread(changed, self.grid.unchanged_poles(G), solved.poles)
-            # A derivative has every pole twice, and only those of the changed plate.
-            twice = [solved.heave_by_G[None], solved.heave_by_z, solved.heave_by_u]
-            if self._pitching:
-                twice += [solved.pitch_by_z, solved.pitch_by_u]
-            spread = nodes.spread(np.concatenate(twice), solved.poles, solved.poles)
-            heaves = len(solved.heave_by_z) + len(solved.heave_by_u)
-            heave, turned = spread[1 : 1 + heaves], spread[1 + heaves :]
-            by = _ByChange(heave, turned if self._pitching else np.zeros_like(heave))
-            self._last = key + b"d" * derivatives, by, np.array([*simple, spread[0]])
-        assert self._last is not None
-        return self._last[1], self._last[2]
+        ready, self._ready = self._ready, None
+        if ready is not None and np.array_equal(ready[0], u) and np.array_equal(ready[1].G, G):
+            _, asked, moved = ready
+        else:
+            asked = self._asked(G, self._changes(u))
+            (moved,) = motions([asked])
+        nearby = []
+        for n in self._moving_it if derivatives else ():
+            k, h = self._unknowns.owner(n), self._unknowns.step(n, u)
+            up, down = (self._change(k, stepped(u, n, s * h), self.plate) for s in (1, -1))
+            nearby.append((up, down, 2 * h))
+        nodes = self.grid.nodes
+        stated = (self.nuisances, u[self._unknowns.stated]) if self.nuisances and derivatives else None
+        solved = read_off(asked, moved, nearby, stated)
+        changed = np.array([solved.heave - self.grid.rational.displacement(G), solved.pitch])
+        simple = nodes.spread(changed, self.grid.unchanged_poles(G), solved.poles)
+        # A derivative has every pole twice, and only those of the changed plate.
+        twice = [solved.heave_by_G[None], solved.heave_by_z, solved.heave_by_u]
+        if self._pitching:
+            twice += [solved.pitch_by_z, solved.pitch_by_u]
+        spread = nodes.spread(np.concatenate(twice), solved.poles, solved.poles)
+        heaves = len(solved.heave_by_z) + len(solved.heave_by_u)
+        heave, turned = spread[1 : 1 + heaves], spread[1 + heaves :]
+        by = _ByChange(heave, turned if self._pitching else np.zeros_like(heave))
+        return by, np.array([*simple, spread[0]])
 
     @property
     def _moves(self) -> bool:
         """Whether anything changes the plate or the base's motion."""
         return bool(self._changing or self._pitching or not self.nuisances.change_nothing)
 
-    def _key(self, u: Array, G: Complex) -> bytes:
-        changing = [u[self._unknowns.stated], *(self._unknowns.of(k, u) for k in self._changing)]
-        return G.tobytes() + b"".join(c.tobytes() for c in changing)
+    def _key(self, G_law: Complex, u: Array) -> bytes:
+        own = [u[self._unknowns.stated], *(self._unknowns.of(k, u) for k in self._changing + self._shifting)]
+        return b"".join(part.tobytes() for part in (G_law, *own))
 
     def _is_known(self, key: bytes, *, derivatives: bool) -> bool:
-        known = self._last[0] if self._last is not None else b""
-        return known == key + b"d" or (known == key and not derivatives)
+        return self._last is not None and self._last[0] == key and (self._last[1] or not derivatives)
 
     def _asked(self, G: Complex, change: Change) -> Asked:
         known, own = self.grid.known_poles(G), self.plate.group == PLAIN
@@ -207,14 +211,14 @@ class SweepResponse:
         if not self._moves:
             return None
         G_law = law.modulus(self.problem.points.omega)
-        G, _ = self._bearing(law, G_law, self._modulus(law, u, G_law))
-        if self._is_known(self._key(u, G), derivatives=derivatives):
+        if self._is_known(self._key(G_law, u), derivatives=derivatives):
             return None
+        G, _ = self._bearing(law, G_law, self._modulus(law, u, G_law))
         return self._asked(G, self._changes(u))
 
     def know(self, asked: Asked, moved: Motions, u: Array) -> None:
         """The motions asked for there. `u` of shape (unknowns,)."""
-        self._ready = self._key(u, asked.G), asked, moved
+        self._ready = u, asked, moved
 
     def _changes(self, u: Array) -> Change:
         found = [self._change(k, u, self.plate) for k in self._changing]
@@ -255,7 +259,7 @@ class SweepResponse:
         for k in range(len(logs)):
             h = _H if logs[k] + _H < upper[k] else -_H
             other = law.with_logs(stepped(logs, k, h))
-            found.append((self._modulus(other, u, other.modulus(omega), strain) - at.G) / h)
+            found.append((self._modulus(other, u, other.modulus(omega), strain) - at.plate.G) / h)
         return np.array(found)
 
     def _strain(self, law: CoreLaw, u: Array) -> Strain:
@@ -274,9 +278,9 @@ class SweepResponse:
         found = np.zeros(len(omega), complex)
         h = self._unknowns.step(n, u)
         up, down = stepped(u, n, h), stepped(u, n, -h)
-        if k in self._changing and at.by is not None:
-            place = len(self.nuisances) + self._place_of(n)
-            found = found + at.per_x * (at.by.heave[place] + at.pitch * at.by.turned[place])
+        if k in self._changing and at.plate.by is not None:
+            place = len(self.nuisances) + self._moving_it.index(n)
+            found = found + at.per_x * (at.plate.by.heave[place] + at.pitch * at.plate.by.turned[place])
         if k in self._pitching:
             effect = self.effects[k]
             above, below = (
@@ -284,32 +288,24 @@ class SweepResponse:
                 effect.pitch(omega, self._unknowns.of(k, down)),
             )
             if above is not None and below is not None:
-                found = found + (above - below) / (2 * h) * (at.per_x * at.turned + at.lever)
+                found = found + (above - below) / (2 * h) * (at.per_x * at.plate.turned + at.lever)
         if k in self._changing and self._strained:
             # A changed plate strains its core otherwise.
             nearby = self._change(k, up, self.plate), self._change(k, down, self.plate), 2 * h
             strain = self._strains.along(law, self._strain_key(u), lambda: self._changes(u), nearby, h)
-            dG = (self._modulus(law, u, law.modulus(omega), strain) - at.G) / h
-            found = found + at.per_x * at.slope * dG
+            dG = (self._modulus(law, u, law.modulus(omega), strain) - at.plate.G) / h
+            found = found + at.per_x * at.plate.slope * dG
         if k in self._shifting:
             G_law = law.modulus(omega)
             dG = (self._modulus(law, up, G_law) - self._modulus(law, down, G_law)) / (2 * h)
-            found = found + at.per_x * at.slope * dG
+            found = found + at.per_x * at.plate.slope * dG
         return found
 
     def _by_stated(self, at: "_At") -> list[Complex]:
         """Of the velocity before the channels to each stated number."""
-        assert at.by is not None
+        assert at.plate.by is not None
         stated = slice(0, len(self.nuisances))
-        return list(at.per_x * (at.by.heave[stated] + at.pitch * at.by.turned[stated]))
-
-    def _place_of(self, n: int) -> int:
-        order = [
-            m
-            for k in self._changing
-            for m in range(self._unknowns.slices[k].start, self._unknowns.slices[k].stop)
-        ]
-        return order.index(n)
+        return list(at.per_x * (at.plate.by.heave[stated] + at.pitch * at.plate.by.turned[stated]))
 
 
 def spans_of(problem: DiagnosisProblem, effects: Sequence[Effect]) -> list[Span]:
@@ -325,14 +321,23 @@ class _At:
     v: Complex
     raw: Complex
     """Before the channels."""
-    G: Complex
-    slope: Complex
-    """dx/dG."""
     per_x: Complex
     pitch: Complex
+    lever: Complex
+    plate: "_OfPlate"
+
+
+@dataclass(frozen=True)
+class _OfPlate:
+    """Shape (points,) each."""
+
+    G: Complex
+    x: Complex
+    """Displacement per acceleration of the base, or per force."""
+    slope: Complex
+    """dx/dG."""
     turned: Complex
     """Displacement per pitch acceleration."""
-    lever: Complex
     by: "_ByChange | None"
 
 
