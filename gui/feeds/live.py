@@ -186,8 +186,8 @@ class LiveFeed(Feed):
         if isinstance(event, BlockAcquired):
             self._pace.take(self.state.time_s)
         elif isinstance(event, HitRevised) and self.question is not None and self.question.what == "content":
-            hammer = self.state.configuration.experiment.hammer
-            if hammer is not None and self.state.run.good_hits < hammer.hits:
+            run = self.state.run
+            if run.good_hits < run.wanted_hits:
                 self._ask(None)
 
     def _ask(self, question: OperatorAsked | None) -> None:

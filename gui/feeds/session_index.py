@@ -69,7 +69,7 @@ class SessionIndex:
             for event in file.part(number, with_samples=False):
                 times.append(timeline.take(event))
                 if isinstance(event, AcquisitionBegan):
-                    hammer = event.part == "hammer"
+                    hammer = event.part in ("hammer", "struck")
                     blows[-1] |= hammer
                 if isinstance(event, StepBegan | AcquisitionBegan):
                     steps.append(len(times) - 1)

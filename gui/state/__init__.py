@@ -42,6 +42,7 @@ from instrument.stream.derived import (
     SettlingTimedOut,
     StepsChosen,
     StepSettled,
+    StruckFound,
 )
 from instrument.stream.event import Event
 from instrument.stream.raw import (
@@ -102,6 +103,7 @@ _TOPICS: dict[type[Event], tuple[Topic, ...]] = {
     DampingFound: ("damping",),
     CalibrationFound: ("calibration",),
     SentinelCompared: ("sentinels",),
+    StruckFound: ("damping",),
     FitStarted: ("run", "fits"),
     FitUpdated: ("fits",),
     DiagnosisStarted: ("run", "diagnosis"),
@@ -229,7 +231,7 @@ class SessionState:
         except BadInput as missing:
             assert isinstance(event, HitJudged)
             rate = self.acquisition.sample_rate_hz if self.acquisition is not None else 1.0
-            self.contents.hits.append(_without_samples(event, rate))
+            self._gather.hits.append(_without_samples(event, rate))
             self.say(str(missing), "warning")
 
     def _follow(self, event: Event) -> None:

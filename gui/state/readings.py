@@ -69,7 +69,7 @@ class Readings:
             case AcquisitionBegan():
                 self._names, self._block, self._frequency_hz = event.channels, None, None
                 self.clipped = {}
-                self._drive(None if event.part == "hammer" else 0.0, at)
+                self._drive(None if event.part in ("hammer", "struck") else 0.0, at)
             case RangeSet():
                 self._scale_m_s_v = event.scale_m_s_v
             case BlockAcquired():

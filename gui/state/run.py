@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 
 from instrument.files.experiment_file import ExperimentDocument
+from instrument.hammer_test.struck import FEWEST_HITS
 from instrument.results.next_words import apart_words
 from instrument.stepped_sine.soak import Soak
 from instrument.stream.derived import HitJudged, HitRevised, StepsChosen
@@ -164,8 +165,8 @@ class Run:
             # A fit beside the sweep is not what the run does.
             return self.work[0]
         match self.state:
-            case "hammer":
-                wanted = self.experiment.hammer.hits if self.experiment.hammer is not None else 0
+            case "hammer" | "struck":
+                wanted = self.wanted_hits
                 if self.good_hits < wanted:
                     return f"strike once and let it ring: {self.good_hits} of {wanted} good hits"
                 return f"{self.good_hits} good hits: use them, or strike again"
@@ -185,6 +186,17 @@ class Run:
             case "diagnosing":
                 return "tracing what the fit cannot explain"
         return ""
+
+    @property
+    def strikes(self) -> bool:
+        """Whether blows are waited for, on whichever plate."""
+        return self.state in ("hammer", "struck")
+
+    @property
+    def wanted_hits(self) -> int:
+        """Good ones, of the test that goes on."""
+        wanted = self.experiment.hammer.hits if self.experiment.hammer is not None else 0
+        return max(wanted, FEWEST_HITS) if self.state == "struck" else wanted
 
     def _step_words(self) -> str:
         if self.step is None:

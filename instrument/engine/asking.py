@@ -158,6 +158,9 @@ def _about(what: Literal["follow-up", "change"], said: str, offer: FollowUp) -> 
     """With where it is to be done, and what goes there."""
     if offer.mass_kg is not None:
         return OperatorAsked(what, said, at_mm=offer.mass_at_mm, mark=f"{1e3 * offer.mass_kg:g} g")
+    if offer.kind == "damped_struck":
+        free = offer.held == "free"
+        return OperatorAsked(what, said, at_mm=offer.struck_mm, mark="hit", read_mm=offer.spot_mm, free=free)
     if offer.kind == "clamping":
         return OperatorAsked(what, said, mark="clamp")
     return OperatorAsked(what, said, at_mm=offer.spot_mm, mark="laser")

@@ -148,6 +148,10 @@ class OperatorAsked(Message):
     """Where on the plate: x from the clamp, y from a long edge."""
     mark: str = ""
     """What goes there; `clamp` without a place: the plate's clamped edge."""
+    read_mm: tuple[float, float] | None = None
+    """Where the laser is to point meanwhile, where that is asked for too."""
+    free: bool = False
+    """Whether the plate hangs free: x from the end that was clamped."""
     good: int = 0
     """Good hits so far."""
     wanted: int = 0

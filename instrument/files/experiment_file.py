@@ -247,6 +247,12 @@ class ExperimentDocument(TomlTable):
     sweep: SweepTable | None = None
     diagnosis: DiagnosisTable = DiagnosisTable()
 
+    @property
+    def whole_length_m(self) -> float | None:
+        """Of the treated plate, what its clamp grips included; None where it is not stated."""
+        stated = self.hammer.whole_length_mm if self.hammer is not None else None
+        return None if stated is None else 1e-3 * stated
+
 
 def read_experiment(path: Path) -> ExperimentDocument:
     """Read and check an experiment. Raises `BadInput`."""

@@ -1,4 +1,4 @@
-"""A session as CSV: the sweep, each hit, and what `viscorig identify` needs beside them."""
+"""A session as CSV: sweep, hits, the treated plate struck, and what `viscorig identify` needs beside them."""
 
 import csv
 import io
@@ -10,9 +10,10 @@ import numpy as np
 from instrument.interchange.identified import session_modes
 from instrument.interchange.point_table import PointColumn, columns
 from instrument.interchange.provenance import one_line, provenance, reading
-from instrument.interchange.specimen_toml import specimen_toml
+from instrument.interchange.specimen_toml import specimen_toml, struck_specimen_toml
 from instrument.results.session_result import recorded_result
 from instrument.session.contents import Contents, RecordedHit
+from instrument.stream.derived import StruckFound
 
 
 def export_csv(contents: Contents, folder: Path) -> list[Path]:
@@ -28,6 +29,9 @@ def export_csv(contents: Contents, folder: Path) -> list[Path]:
     result = recorded_result(contents)
     if result.law:
         texts[f"{name}-result.json"] = json.dumps(result.as_json(), indent=1) + "\n"
+    for k, struck in enumerate(contents.struck, start=1):
+        texts[f"{name}-struck-{k}.csv"] = struck_text(contents, struck, f"{name}-struck-{k}-specimen.toml")
+        texts[f"{name}-struck-{k}-specimen.toml"] = struck_specimen_toml(contents, struck)
     texts[f"{name}-specimen.toml"] = specimen_toml(contents)
     for file, text in texts.items():
         (folder / file).write_text(text, encoding="utf-8")
@@ -61,6 +65,30 @@ def hit_text(contents: Contents, hit: RecordedHit) -> str:
         PointColumn("acceleration_m_s2", "m/s^2", record.responses[0].samples),
     ]
     return "".join(f"# {line}\n" for line in said) + _rows(table)
+
+
+def struck_text(contents: Contents, struck: StruckFound, specimen: str) -> str:
+    """The mobility of the treated plate as a sweep of its own: every line the velocity for 1 N."""
+    lines = len(struck.frequency_hz)
+    held = "hung free" if struck.held == "free" else "in its clamp"
+    said = [
+        *provenance(contents),
+        f"the damped plate struck, {held}: {struck.hits} hits averaged",
+        *struck.remarks,
+        "velocity_std_m_s is of each part of the mean",
+        f"its specimen: {specimen}",
+    ]
+    columns = {
+        "frequency_hz": ("Hz", struck.frequency_hz),
+        "velocity_re_m_s": ("m/s", struck.mobility_re_m_s_n),
+        "velocity_im_m_s": ("m/s", struck.mobility_im_m_s_n),
+        "velocity_std_m_s": ("m/s", struck.mobility_std_m_s_n),
+        "force_re_n": ("N", (1.0,) * lines),
+        "force_im_n": ("N", (0.0,) * lines),
+        "segment": ("1", struck.segment),
+    }
+    table = [PointColumn(key, unit, np.array(values)) for key, (unit, values) in columns.items()]
+    return "".join(f"# {one_line(line)}\n" for line in said) + _rows(table)
 
 
 def _read_back(contents: Contents) -> str:

@@ -1,5 +1,6 @@
 """The hammer test: hits, modes by three methods, FRF."""
 
+from collections.abc import Sequence
 from math import isnan
 
 import numpy as np
@@ -14,7 +15,7 @@ from instrument.report.blocks import Block, FigureBlock, ReportSection, Sentence
 from instrument.results.drawing import DATA, MARK, label, panels
 from instrument.results.error_words import ratio_words
 from instrument.results.numbers import format_number
-from instrument.session.contents import Contents
+from instrument.session.contents import Contents, RecordedHit
 
 _WITHOUT_MODES_HZ = 1250.0
 """Up to here an FRF without modes is drawn."""
@@ -25,7 +26,7 @@ def hammer_section(contents: Contents) -> ReportSection:
     title = f"Hammer test of the bare {contents.specimen.kind}"
     if not contents.hits:
         return ReportSection(title, (Sentence("There is no hammer test in this session.", "note"),))
-    blocks: list[Block] = [_hits(contents)]
+    blocks: list[Block] = [hits_table(contents.hits)]
     try:
         found = damping_of_hits([h.judged() for h in contents.hits], band_hz=_band_hz(contents))
     except BadInput as error:
@@ -41,7 +42,8 @@ def _band_hz(contents: Contents) -> tuple[float, float] | None:
     return (hammer.band_hz[0], hammer.band_hz[1]) if hammer is not None else None
 
 
-def _hits(contents: Contents) -> TableBlock:
+def hits_table(hits: Sequence[RecordedHit]) -> TableBlock:
+    """A row each, with why those were left out that were."""
     rows = tuple(
         (
             str(h.number),
@@ -50,7 +52,7 @@ def _hits(contents: Contents) -> TableBlock:
             "accepted" if h.accepted else "left out",
             h.why or ("" if h.accepted else "by the operator"),
         )
-        for h in contents.hits
+        for h in hits
     )
     return TableBlock("Hits", ("hit", "peak / N", "record / s", "verdict", "why"), rows)
 

@@ -19,6 +19,7 @@ from instrument.report.identification import (
 )
 from instrument.report.pdf import save_pdf, save_pictures
 from instrument.report.setting import rig_section, specimen_section, versions_section
+from instrument.report.struck import struck_sections
 from instrument.report.sweep import sweep_section
 from instrument.session.contents import Contents
 
@@ -71,6 +72,7 @@ def sections_of(contents: Contents, fitted: ReportedFit) -> list[ReportSection]:
         hammer_section(contents),
         calibration_section(contents),
         sweep_section(contents, fitted),
+        *struck_sections(contents),
         identification_section(contents, fitted),
         unexplained_section(fitted),
         *diagnosis_sections(contents),

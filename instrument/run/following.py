@@ -205,7 +205,7 @@ class Following:
         length_m = self.whole_length_m if offer.held == "free" else plate.length_m
         assert length_m is not None
         self.emit(rig.operator.change(offer))
-        size_mm = 1e3 * length_m, 1e3 * plate.width_m
+        size_mm = round(1e3 * length_m, 6), round(1e3 * plate.width_m, 6)
         self.emit(StrikingBegan(offer.held, offer.struck_mm, offer.spot_mm, size_mm, self._mounting))
         self.blows()
 

@@ -42,18 +42,12 @@ Diagnoser = Callable[
 be measured next."""
 
 
-def whole_length_m(document: ExperimentDocument) -> float | None:
-    """Of the treated plate, what its clamp grips included; None where it is not stated."""
-    stated = document.hammer.whole_length_mm if document.hammer is not None else None
-    return None if stated is None else 1e-3 * stated
-
-
 def able(document: ExperimentDocument, settings: SweepSettings, number: int) -> Possible:
     """What may follow the diagnosis of a number, of a run that steps so: as much as it still allows.
 
     Once it allows nothing more a person may measure as after any diagnosis.
     """
-    table, whole = document.diagnosis, whole_length_m(document)
+    table, whole = document.diagnosis, document.whole_length_m
     left = table.follow_up_at_most + 1 - number
     if table.follow_up == "none" or left < 1:
         return Possible(settings, whole_length_m=whole)

@@ -18,7 +18,7 @@ from instrument.run.analysis import Analysis
 from instrument.run.companion import Companion
 from instrument.run.control import RunControl
 from instrument.run.following import Earlier, Following
-from instrument.run.live_diagnosis import Diagnoser, able, apart, whole_length_m
+from instrument.run.live_diagnosis import Diagnoser, able, apart
 from instrument.run.live_fit import Fitter
 from instrument.run.part import Part
 from instrument.run.rig import Rig, open_rig
@@ -206,7 +206,7 @@ class SessionRun:
             self._diagnose,
             (lambda: self._hammer(rig, runner)) if strikes else None,
             (lambda: self._blows(rig, runner)) if strikes else None,
-            whole_length_m(self._experiment.document),
+            self._experiment.document.whole_length_m,
         )
         following.run(rig, runner, ready)
         self.diagnosis = following.found

@@ -33,6 +33,7 @@ from instrument.stream.raw import (
     FollowUpDecided,
     FollowUpProposed,
     OperatorDid,
+    RangeSet,
     SegmentBegan,
     SegmentEnded,
     SessionBegan,
@@ -112,6 +113,8 @@ class Contents:
     damping: DampingFound | None = None
     struck: list[StruckFound] = field(default_factory=list)
     """What blows on the treated plate gave."""
+    struck_hits: list[RecordedHit] = field(default_factory=list)
+    """The last time it was struck; empty where contents were gathered without samples."""
     fit: FitUpdated | None = None
     """The last one of the run itself."""
     diagnosis: DiagnosisFound | None = None
@@ -155,7 +158,8 @@ class Gather:
         self.contents = contents
         self._clock = SessionClock()
         self._tape = _Tape(contents.configuration.rig.channels) if with_hits else None
-        self._of_the_bare_plate = True
+        self.hits = contents.hits
+        """Where the next one goes: of the test that goes on."""
 
     def take(self, event: Event) -> None:
         """One event into its place. Raises `BadInput` for a hit whose samples are missing."""
@@ -178,8 +182,7 @@ class Gather:
             case PointMeasured():
                 c.points.append(TimedPoint(event, self._clock.at(event.sample)))
             case HitJudged() | HitRevised():
-                if self._of_the_bare_plate:
-                    self._hit(event)
+                self._hit(event)
             case _:
                 self._keep(event)
 
@@ -211,10 +214,11 @@ class Gather:
                 c.soaks.append(event)
 
     def _acquire(self, event: AcquisitionBegan) -> None:
-        self._of_the_bare_plate = event.part != "struck"
-        if event.part == "hammer":
-            # A test that was broken off begins again: its hits are numbered from 1.
-            self.contents.hits = []
+        # A test that was broken off begins again: its hits are numbered from 1.
+        if event.part == "struck":
+            self.hits = self.contents.struck_hits = []
+        elif event.part == "hammer":
+            self.hits = self.contents.hits = []
             self.contents.hammer_rate_hz = event.sample_rate_hz
         elif event.part == "sweep":
             self.contents.sample_rate_hz = event.sample_rate_hz
@@ -231,7 +235,7 @@ class Gather:
             runs[key] = SegmentRun(**{**vars(runs[key]), "ended": True})
 
     def _hit(self, event: HitJudged | HitRevised) -> None:
-        hits = self.contents.hits
+        hits = self.hits
         if isinstance(event, HitRevised):
             hits[:] = [
                 RecordedHit(**{**vars(h), "accepted": event.accepted}) if h.number == event.hit else h
@@ -243,16 +247,20 @@ class Gather:
 
 
 class _Tape:
-    """Samples of the hammer test from the last hit on."""
+    """Samples of a test with the hammer from the last hit on."""
 
     def __init__(self, sensors: Channels) -> None:
         self._sensors = sensors
+        self._range: RangeSet | None = None
         self._acquisition: AcquisitionBegan | None = None
         self._blocks: list[BlockAcquired] = []
 
     def take(self, event: Event) -> None:
-        if isinstance(event, AcquisitionBegan):
-            self._acquisition, self._blocks = (event if event.part == "hammer" else None), []
+        if isinstance(event, RangeSet):
+            self._range = event
+        elif isinstance(event, AcquisitionBegan):
+            strikes = event.part in ("hammer", "struck")
+            self._acquisition, self._blocks = (event if strikes else None), []
         elif isinstance(event, BlockAcquired) and self._acquisition is not None:
             if self._blocks and _end(self._blocks[-1]) != event.first_sample:
                 # Blocks were lost on the way here: no record may reach across them.
@@ -273,13 +281,15 @@ class _Tape:
         record = volts[:, start : start + hit.samples]
         # Records do not overlap: what lies before the end of this one is done with.
         self._blocks = [b for b in self._blocks if _end(b) > end]
-        force, response = Scaling.of(self._acquisition.channels, self._sensors.named()).blow(record)
-        return Hit(
-            f"hit {hit.hit}",
-            self._acquisition.sample_rate_hz,
-            force,
-            (ResponseChannel("response", "acceleration", response),),
-        )
+        scaling = Scaling.of(self._acquisition.channels, self._sensors.named())
+        if self._acquisition.part == "struck" and self._range is not None:
+            force = scaling.units("force", record)
+            velocity = scaling.velocity(record, self._range.scale_m_s_v)
+            response = ResponseChannel("velocity", "velocity", velocity)
+        else:
+            force, acceleration = scaling.blow(record)
+            response = ResponseChannel("response", "acceleration", acceleration)
+        return Hit(f"hit {hit.hit}", self._acquisition.sample_rate_hz, force, (response,))
 
 
 def _inside(first: int, end: int, blocks: list[BlockAcquired]) -> bool:

@@ -98,7 +98,7 @@ class Bench(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._sight = Sight()
-        self._band_hz = (0.0, 0.0)
+        self._band_hz: tuple[float, float] | None = None
         self._averaging, self._finding, self._expecting = Latest(self), Latest(self), Latest(self)
         self._averaging.done.connect(self._is_averaged)
         self._finding.done.connect(self.modes_found)
@@ -111,8 +111,8 @@ class Bench(QObject):
         """Whether an average or its modes are still to come."""
         return self._averaging.busy or self._finding.busy
 
-    def look_at(self, hits: Hits, band_hz: tuple[float, float]) -> None:
-        """Returns at once; what was asked for before is no longer wanted."""
+    def look_at(self, hits: Hits, band_hz: tuple[float, float] | None) -> None:
+        """Returns at once; what was asked for before is no longer wanted. Without a band no modes follow."""
         self._finding.forget()
         self._band_hz = band_hz
         sight = self._sight
@@ -130,7 +130,8 @@ class Bench(QObject):
     def _is_averaged(self, averaged: object) -> None:
         assert isinstance(averaged, Averaged)
         band = self._band_hz
-        self._finding.want(lambda progress: modes_of(averaged, band, lambda: progress(0.5)))
+        if band is not None:
+            self._finding.want(lambda progress: modes_of(averaged, band, lambda: progress(0.5)))
         self.averaged.emit(averaged)
 
 

@@ -1,7 +1,7 @@
 """The list of hits and what can be said of the selected one."""
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout, QWidget
 
 from gui.pages.hammer.table import ChoiceTable
 from gui.pages.hammer.words import HIT_COLUMNS, HitRow
@@ -48,6 +48,10 @@ class HitList(QWidget):
         self.accept.clicked.connect(self._accept)
         self.reject.clicked.connect(self._reject)
         self.undo.clicked.connect(self._undo)
+        self.plates = QComboBox()
+        self.plates.addItems(["bare plate", "damped plate"])
+        self.plates.setToolTip("Whose hits are shown")
+        self.plates.hide()
         self.use = button("Use these hits", "End the hammer test with the hits marked used")
         self.use.clicked.connect(self.content)
         font = self.use.font()
@@ -89,6 +93,7 @@ class HitList(QWidget):
         for one in (self.accept, self.reject, self.undo):
             row.addWidget(one)
         row.addStretch(1)
+        row.addWidget(self.plates)
         row.addWidget(self.use)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)

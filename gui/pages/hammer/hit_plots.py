@@ -31,7 +31,7 @@ class HitPlots(QWidget):
         self.spectrum.setToolTip(
             "Spectrum of the force: the blow excites little beyond the mark, where it has fallen by 20 dB"
         )
-        self.response.setToolTip("The acceleration over the whole record: has it rung down at the end?")
+        self.response.setToolTip("The response over the whole record: has it rung down at the end?")
         self.response.setXLink(self.force)
         self.spectrum.getPlotItem().legend.setOffset((-4, 2))
         self._shown: tuple[int, Averaged | None, AccelerationUnit | None] = (0, None, None)
@@ -51,8 +51,9 @@ class HitPlots(QWidget):
         if self._shown[0] == number and self._shown[1] is averaged and self._shown[2] is unit:
             return
         self._shown = number, averaged, unit
-        self.response.show_axes(self.response.x, Axis("Response", unit.symbol))
         seen = averaged.seen.get(number) if averaged is not None else None
+        by_laser = seen is not None and seen.judged.hit.responses[0].motion == "velocity"
+        self.response.show_axes(self.response.x, Axis("Response", "m/s" if by_laser else unit.symbol))
         if averaged is None or seen is None:
             for plot in (self.blow, self.force, self.response, self.spectrum):
                 plot.empty()
@@ -62,7 +63,7 @@ class HitPlots(QWidget):
         self.blow.points("samples", *traces.blow, "third", size=4.0)
         self.force.trace("force", *traces.force, "third")
         time_s, response = traces.response
-        self.response.trace("response", time_s, unit.of(response), "third")
+        self.response.trace("response", time_s, response if by_laser else unit.of(response), "third")
         for plot in (self.blow, self.force, self.response):
             plot.enableAutoRange()
         self._show_spectrum(averaged, seen)

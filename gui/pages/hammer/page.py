@@ -15,7 +15,7 @@ from gui.pages.hammer.hit_list import HitList
 from gui.pages.hammer.hit_plots import HitPlots
 from gui.pages.hammer.mode_table import ModeTable
 from gui.pages.hammer.mode_words import advice_of, agree, mode_rows, number_of
-from gui.pages.hammer.words import hit_rows, prompt_of, source_of
+from gui.pages.hammer.words import hit_rows, prompt_of, source_of, treated_words
 from gui.state import SessionState
 from gui.widgets import hint
 from instrument.engine import Engine
@@ -31,7 +31,7 @@ _BEYOND = 1.1
 
 
 class HammerPage(Page):
-    """Hits, accelerance and damping of the bare plate.
+    """Hits, accelerance and damping of the bare plate; or, once it was struck, hits of the treated one.
 
     While the test goes on, a word about a hit goes to the run. Otherwise it is a what-if: the damping is
     computed from the hits as they were recorded with the changed choice, and nothing is written.
@@ -54,6 +54,8 @@ class HammerPage(Page):
         self._hits: Hits = ()
         """As they count on this page; what the bench was given last."""
         self._failure = ""
+        self._treated = False
+        """Whether the hits are those of the treated plate."""
         self._frf_later = QTimer(self)
         self._frf_later.setSingleShot(True)
         self._frf_later.timeout.connect(self._show_frf)
@@ -74,6 +76,8 @@ class HammerPage(Page):
             self._expected_hz = np.zeros(0)
             self.frf.show_band(self._band_hz)
             self.bench.expect(state.configuration, _BEYOND * hammer.band_hz[1])
+        if hits or run:
+            self._choose_plate(state)
         if hits:
             self._take_hits()
         if hits or run:
@@ -98,7 +102,10 @@ class HammerPage(Page):
     @property
     def _recorded(self) -> list[RecordedHit]:
         """As the stream has them."""
-        return self._state.contents.hits if self._state is not None else []
+        if self._state is None:
+            return []
+        contents = self._state.contents
+        return contents.struck_hits if self._treated else contents.hits
 
     @property
     def _engine(self) -> Engine | None:
@@ -106,7 +113,7 @@ class HammerPage(Page):
         live = self.controller.live
         if live is None or not live.engine.running or live.state is None:
             return None
-        return live.engine if live.state.run.state == "hammer" else None
+        return live.engine if live.state.run.strikes else None
 
     @property
     def _is_what_if(self) -> bool:
@@ -119,6 +126,23 @@ class HammerPage(Page):
 
     # What follows
 
+    def _choose_plate(self, state: SessionState) -> None:
+        """The one that is being struck; a person chooses where both were."""
+        contents = state.contents
+        self.hits.plates.setVisible(bool(contents.hits and contents.struck_hits))
+        if state.run.strikes:
+            self.hits.plates.setCurrentIndex(int(state.run.state == "struck"))
+        elif not contents.hits or not contents.struck_hits:
+            self.hits.plates.setCurrentIndex(int(bool(contents.struck_hits)))
+
+    def _plate_chosen(self, index: int) -> None:
+        self._treated = bool(index)
+        self.what_if.clear()
+        self._forget_hits()
+        self.modes.deselect()
+        self.frf.show_expected(None if self._treated else self._expected_hz)
+        self._choice_changed()
+
     def _take_hits(self) -> None:
         """Have computed what the hits give, where they are not the same as before."""
         hits = self.what_if.applied(self._recorded)
@@ -128,7 +152,7 @@ class HammerPage(Page):
             return
         self._failure, self._modes = "", None
         if hits:
-            self.bench.look_at(hits, self._band_hz)
+            self.bench.look_at(hits, None if self._treated else self._band_hz)
         else:
             self._forget_hits()
 
@@ -154,6 +178,10 @@ class HammerPage(Page):
     def _show_modes(self) -> None:
         """From the record where the hits count as recorded; else as computed here."""
         assert self._state is not None
+        if self._treated:
+            self.modes.say(treated_words(self._state.contents.struck), what_if=self._is_what_if)
+            self.modes.show_rows([], "")
+            return
         recorded = None if self._is_what_if else self._state.contents.damping
         computed = self._modes.result if self._modes is not None else None
         result = recorded.result if recorded is not None else computed
@@ -182,7 +210,7 @@ class HammerPage(Page):
             return
         self.frf.show_average(self._averaged)
         self.frf.show_hit(self._averaged, self.hits.number)
-        self.frf.show_expected(self._expected_hz)
+        self.frf.show_expected(None if self._treated else self._expected_hz)
         self._show_beside()
         self.frf.show_modes(self._modes)
         self._zoom()
@@ -218,7 +246,7 @@ class HammerPage(Page):
 
     def _is_expected(self, frequency_hz: Array) -> None:
         self._expected_hz = frequency_hz
-        self.frf.show_expected(frequency_hz)
+        self.frf.show_expected(None if self._treated else frequency_hz)
         self._show_modes()
 
     def _has_failed(self, said: str) -> None:
@@ -278,6 +306,7 @@ class HammerPage(Page):
         self.hits.rejected.connect(self._reject)
         self.hits.undone.connect(self._undo)
         self.hits.content.connect(self._content)
+        self.hits.plates.currentIndexChanged.connect(self._plate_chosen)
         self.modes.selected.connect(self._zoom)
         self.modes.as_recorded.connect(self._as_recorded)
         self.frf.mode_picked.connect(self.modes.select)

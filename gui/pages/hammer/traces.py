@@ -31,7 +31,7 @@ class Traces:
     force: XY
     """s and N, the whole record."""
     response: XY
-    """s and m/s^2, the whole record."""
+    """s and m/s^2, the whole record; m/s where a laser reads it."""
 
     @classmethod
     def of(cls, judged: Judged) -> "Traces":

@@ -1,5 +1,6 @@
 """Rows of the hit list, what is to be done, and where the damping is from: in words."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from gui.pages.hammer.choice import WhatIf
@@ -8,6 +9,7 @@ from gui.state.run import Run
 from gui.tables import Cell, Row
 from gui.theme import Role
 from instrument.session.contents import RecordedHit
+from instrument.stream.derived import StruckFound
 
 HIT_COLUMNS = {
     "Hit": "Number of the hit in this test",
@@ -95,6 +97,17 @@ def source_of(
     else:
         said = f"Computed here: {which}. The run has recorded no result so far."
     return said + (f" {failure}." if failure else "") + (" Computing ..." if busy else "")
+
+
+def treated_words(struck: Sequence[StruckFound]) -> str:
+    """What blows on the treated plate gave, in place of a damping table."""
+    if not struck:
+        return "Blows on the damped plate: their mobility goes into the diagnosis, once there are enough."
+    one = struck[-1]
+    held = "hung free" if one.held == "free" else "in its clamp"
+    said = f"The damped plate struck {held}: {one.hits} hits, {len(one.frequency_hz)} lines of its mobility "
+    said += f"from {min(one.frequency_hz):.4g} to {max(one.frequency_hz):.4g} Hz went into the diagnosis."
+    return " ".join([said, *(f"{remark[:1].upper()}{remark[1:]}." for remark in one.remarks)])
 
 
 def _usable(number: int, averaged: Averaged | None) -> str:

@@ -61,9 +61,17 @@ class Banner(QFrame):
         self.other.setVisible(what == "follow-up")
         self.sketch.hide()
 
-    def show_place(self, specimen: Specimen, at_mm: tuple[float, float], mark: str) -> None:
-        """Where on the plate something is to be done."""
-        self.sketch.show_place(specimen, at_mm, mark)
+    def show_place(
+        self,
+        specimen: Specimen,
+        at_mm: tuple[float, float],
+        mark: str,
+        read_mm: tuple[float, float] | None = None,
+    ) -> None:
+        """Where on the plate something is to be done, and where it is to be read where that is elsewhere."""
+        self.sketch.show_place(specimen, at_mm, mark, read_mm)
+        held = "clamped on the left" if specimen.boundary == "cantilever" else "hung free"
+        self.sketch.setToolTip(f"The plate to scale, {held}")
         self.sketch.show()
 
     def paintEvent(self, event: QPaintEvent) -> None:

@@ -1,5 +1,6 @@
 """The page of the experiment and its run: files on the left, what is run and how it stands on the right."""
 
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Literal
@@ -181,7 +182,7 @@ class RunPage(Page):
         if live.question is not None:
             self._ask(state, live.question)
         else:
-            self.banner.ask(state.run.next_words if state.run.state == "hammer" else "")
+            self.banner.ask(state.run.next_words if state.run.strikes else "")
 
     def _ask(self, state: SessionState, question: OperatorAsked) -> None:
         if question is self._asked and self.banner.isVisible():
@@ -193,8 +194,11 @@ class RunPage(Page):
         plate = state.configuration.the_specimen()
         # Nothing is asked of a place on anything else.
         assert isinstance(plate, Specimen)
+        if question.free:
+            whole_m = state.configuration.experiment.whole_length_m or plate.length_m
+            plate = replace(plate, boundary="free", length_m=whole_m, pickup_m=None, further_pickups_m=())
         at_mm = question.at_mm or (0.0, 500 * plate.width_m)
-        self.banner.show_place(plate, at_mm, question.mark)
+        self.banner.show_place(plate, at_mm, question.mark, question.read_mm)
 
     # Inside
 

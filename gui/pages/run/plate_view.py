@@ -66,12 +66,19 @@ class PlateView(QWidget):
             self.marks = (*_spots(specimen), *(_of_hammer(experiment) if experiment is not None else ()))
         self.update()
 
-    def show_place(self, specimen: Specimen, at_mm: tuple[float, float], mark: str) -> None:
-        """One point of a plate, beside its own spot; nothing can be dragged."""
+    def show_place(
+        self,
+        specimen: Specimen,
+        at_mm: tuple[float, float],
+        mark: str,
+        read_mm: tuple[float, float] | None = None,
+    ) -> None:
+        """One point of a plate, beside its own spot or another that is read; nothing can be dragged."""
         self.size_mm = (1e3 * specimen.length_m, 1e3 * specimen.width_m)
         self._clamped = specimen.boundary == "cantilever"
         own = [PlateMark("spot", "", (), (), (1e3 * x, 1e3 * y), "faint") for x, y in specimen.pickups_m]
-        self.marks = (*own, PlateMark(mark, "", (), (), at_mm, "fair"))
+        read = [] if read_mm is None else [PlateMark("laser", "", (), (), read_mm, "data")]
+        self.marks = (*own, *read, PlateMark(mark, "", (), (), at_mm, "fair"))
         self._held, self._sketched = None, True
         self.setEnabled(False)
         self.update()

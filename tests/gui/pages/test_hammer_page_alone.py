@@ -8,6 +8,7 @@ import pytest
 from impact_cases import hit_of
 from PySide6.QtCore import QObject, Signal
 from sessions import configuration
+from struck_cases import struck
 
 from gui.controller import AppController
 from gui.pages.hammer import HammerPage
@@ -68,13 +69,22 @@ def hit(number, *, accepted=True, why=""):
 HITS = [hit(1), hit(2, accepted=False, why="double hit"), hit(3)]
 
 
-def state(hits=HITS, *, hammer=HAMMER, damping=None, doing="hammer"):
+class Doing(SimpleNamespace):
+    """What a run does."""
+
+    next_words = "strike the plate"
+    strikes = property(lambda self: self.state in ("hammer", "struck"))
+
+
+def state(hits=HITS, *, hammer=HAMMER, damping=None, doing="hammer", struck_hits=(), struck=()):
     made = configuration()
     experiment = made.experiment.model_copy(update={"hammer": hammer})
     return SimpleNamespace(
         configuration=made.model_copy(update={"experiment": experiment}),
-        contents=SimpleNamespace(hits=list(hits), damping=damping),
-        run=SimpleNamespace(state=doing, next_words="strike the plate"),
+        contents=SimpleNamespace(
+            hits=list(hits), damping=damping, struck_hits=list(struck_hits), struck=list(struck)
+        ),
+        run=Doing(state=doing),
         changed=defaultdict(int),
         version=0,
     )
@@ -189,6 +199,37 @@ def test_another_session_begins_without_what_was_tried_and_without_hits(page):
     show(page, state([]))
     assert page.bench.forgot >= 2
     assert "No blow was caught so far." in page.hits.prompt.text()
+
+
+def test_the_plate_that_is_being_struck_is_the_one_that_is_shown(page, engine):
+    engine.live.state.run.state = "struck"
+    show(page, state(doing="struck", struck_hits=[hit(1), hit(2)]))
+    # Neither modes nor their damping are read off the treated plate here.
+    assert page.bench.given == [([(1, True), (2, True)], None)]
+    assert "mobility goes into the diagnosis" in page.modes.source.text()
+    page.hits.rejected.emit(2)
+    assert engine.words == [("reject", 2)]
+    assert page.hits.plates.isHidden() is False
+
+
+def test_of_two_plates_that_were_struck_one_is_chosen(page):
+    show(page, state(doing="done", struck_hits=[hit(1)], struck=[struck()]))
+    assert not page.hits.plates.isHidden()
+    assert page.bench.given[-1] == ([(1, True), (2, False), (3, True)], BAND_HZ)
+    page.hits.plates.setCurrentIndex(1)
+    assert page.bench.given[-1] == ([(1, True)], None)
+    assert page.modes.source.text().startswith("The damped plate struck hung free: 3 hits, 2 lines")
+    page.hits.plates.setCurrentIndex(0)
+    assert page.bench.given[-1][1] == BAND_HZ
+
+
+def test_where_one_plate_alone_was_struck_there_is_nothing_to_choose(page):
+    show(page, state(doing="done"))
+    assert page.hits.plates.isHidden()
+    show(page, state([], doing="done", struck_hits=[hit(1)], struck=[struck(remarks=("turned",))]))
+    assert page.hits.plates.isHidden()
+    assert verdicts(page) == ["used"]
+    assert page.modes.source.text().endswith("Turned.")
 
 
 def test_what_the_bench_could_not_compute_is_said_beside_where_the_damping_is_from(page):

@@ -131,7 +131,8 @@ def live(page, monkeypatch):
 
 
 def state(doing="hammer", question=""):
-    run = SimpleNamespace(state=doing, question=question, next_words="strike the plate")
+    strikes = doing in ("hammer", "struck")
+    run = SimpleNamespace(state=doing, question=question, next_words="strike the plate", strikes=strikes)
     return SimpleNamespace(run=run, configuration=configuration(), changed=defaultdict(int), version=0)
 
 
@@ -143,7 +144,9 @@ def test_while_a_run_goes_on_its_files_stay_as_they_are(page, live):
 
 def test_a_question_is_asked_once_with_its_place_and_answered_to_the_run(page, live, monkeypatch):
     places, answered = [], []
-    monkeypatch.setattr(page.banner, "show_place", lambda plate, at_mm, mark: places.append((at_mm, mark)))
+    monkeypatch.setattr(
+        page.banner, "show_place", lambda plate, at_mm, mark, read_mm: places.append((at_mm, mark))
+    )
     monkeypatch.setattr(page.banner, "isVisible", lambda: not page.banner.isHidden())
     live.question = OperatorAsked("change", "move the spot", (60.0, 60.0), "laser")
     for _ in range(2):
@@ -161,6 +164,17 @@ def test_a_question_is_asked_once_with_its_place_and_answered_to_the_run(page, l
     page.banner.answered.emit()
     page.banner.declined.emit()
     assert answered == [True, False]
+
+
+def test_a_plate_that_hangs_is_drawn_as_it_hangs_with_both_places(page, live):
+    live.question = OperatorAsked("change", "hang it", (285.0, 180.0), "hit", (15.0, 20.0), free=True)
+    shown = state(question="Hang it")
+    page._show_question(shown)
+    sketch, plate = page.banner.sketch, shown.configuration.the_specimen()
+    assert [(m.name, m.at_mm) for m in sketch.marks] == [("laser", (15.0, 20.0)), ("hit", (285.0, 180.0))]
+    # Nobody said how much of it is in the clamp.
+    assert sketch.size_mm == pytest.approx((1e3 * plate.length_m, 1e3 * plate.width_m))
+    assert "hung free" in sketch.toolTip()
 
 
 def test_without_a_question_the_hammer_test_says_what_comes_next(page, live):

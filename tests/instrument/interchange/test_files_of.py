@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 from conftest import TABLE_4
 from sessions import point
+from struck_cases import struck
 
 from fitting.specimen import PlacedMass
 from instrument.files.specimen_file import SpecimenDocument, specimen_of
@@ -14,7 +15,6 @@ from instrument.interchange.files_of import files_of
 from instrument.models.files import mounted, numbers_of, one_plate
 from instrument.paper_case import case_file
 from instrument.session.points import sweep_of
-from instrument.stream.derived import StruckFound
 
 SPOT = {"pickup": 1, "spot_mm": (250.0, 100.0)}
 MASS = {"mass_kg": 5e-3, "mass_at_mm": (280.0, 100.0)}
@@ -58,17 +58,6 @@ def test_a_known_mass_makes_another_file_of_the_same_plate(plate):
     assert first.specimen.masses == ()
     assert second.specimen.masses == (PlacedMass(5e-3, 0.28, 0.1),)
     assert len(second.sweep) == 2
-
-
-def struck(held="free", mounting=0, **changes):
-    given = {"struck_mm": (285.0, 180.0), "spot_mm": (15.0, 20.0), "size_mm": (330.2, 199.9)}
-    if held == "clamped":
-        given |= {"spot_mm": None, "size_mm": (300.2, 199.9)}
-    lines = {"frequency_hz": (80.0, 81.0), "segment": (1, 1), "hits": 3}
-    read = {
-        "mobility_re_m_s_n": (0.1, 0.2), "mobility_im_m_s_n": (0.0, 0.1), "mobility_std_m_s_n": (1e-3, 2e-3)
-    }  # fmt: skip
-    return StruckFound(held, mounting=mounting, **{**given, **lines, **read, **changes})
 
 
 def with_struck(plate, changes, *found):
