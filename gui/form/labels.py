@@ -12,6 +12,7 @@ LABELS = {
     "record_s": "length of a record",
     "pre_trigger_s": "kept before the blow",
     "wait_s": "longest wait for a blow",
+    "whole_length_mm": "length with what the clamp grips",
     "set_point_c": "set point of the chamber",
     "within_c": "near enough",
     "soak_s": "soaks there for",

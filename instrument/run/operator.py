@@ -94,7 +94,8 @@ def _frequency(said: str) -> float | None:
 def follow_up_words(offer: FollowUp) -> str:
     """What it costs and what may be hoped for, in a line."""
     chance = f"{100 * offer.probability_resolved:.0f} % that one explanation is left"
-    return f"{len(offer.frequencies_hz)} steps, {offer.seconds:.0f} s, {chance}"
+    steps = f"{len(offer.frequencies_hz)} steps, " if offer.frequencies_hz else ""
+    return f"{steps}{offer.seconds:.0f} s, {chance}"
 
 
 def _at_a_terminal() -> bool:

@@ -1,7 +1,9 @@
 """What hits give: each alone, their average, and the modes of it. No Qt; not for the main thread."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from gui.pages.hammer.choice import Blow, blow_of
 from gui.pages.hammer.traces import Surroundings
@@ -9,6 +11,7 @@ from instrument.errors import BadInput
 from instrument.facts.damping import DampingResult
 from instrument.impact.damping import Damping, damping_of_hits
 from instrument.impact.judge import Judged
+from instrument.impact.record import ResponseChannel
 from instrument.impact.result import damping_from
 from instrument.impact.scatter import Scatter, scatter_over_hits
 from instrument.impact.spectra import Spectra, rolloff_hz, spectra
@@ -79,7 +82,7 @@ class Sight:
             if len(hit.record.force_n):
                 seen[hit.number] = self._see(hit)
         self._known = {blow_of(h): seen[h.number] for h in hits if h.number in seen}
-        used = [s.judged for s in seen.values() if s.judged.accepted]
+        used = [accelerated(s.judged) for s in seen.values() if s.judged.accepted]
         return Averaged(hits, seen, spectra(used) if used else None)
 
     def _see(self, hit: RecordedHit) -> HitSeen:
@@ -87,8 +90,18 @@ class Sight:
         if known is not None and known.judged.accepted == hit.accepted:
             return known
         judged = hit.judged()
-        alone = known.alone if known is not None else spectra([judged])
+        alone = known.alone if known is not None else spectra([accelerated(judged)])
         return HitSeen(judged, alone, known.usable_hz if known is not None else rolloff_hz(alone))
+
+
+def accelerated(judged: Judged) -> Judged:
+    """A hit as an accelerometer would have read it: of what a laser read little is left of slow swaying."""
+    (read, *_) = judged.hit.responses
+    if read.motion != "velocity":
+        return judged
+    samples = np.gradient(read.samples) * judged.hit.sample_rate_hz
+    channel = ResponseChannel(read.name, "acceleration", samples)
+    return replace(judged, hit=replace(judged.hit, responses=(channel,)))
 
 
 def modes_of(averaged: Averaged, band_hz: tuple[float, float], look: Look) -> ModesFound:

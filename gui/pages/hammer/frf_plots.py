@@ -78,7 +78,7 @@ class FrfPlots(QWidget):
             # Before the average, so that it lies below.
             self._show_lines(_HIT, None, "third")
         average = averaged.average
-        self._show_lines(_AVERAGE, _accelerance(average) if average is not None else None, "data")
+        self._show_lines(_AVERAGE, _first(average.frfs) if average is not None else None, "data")
         self._show_coherence(averaged)
         at = [averaged.usable_hz] if averaged.usable_hz is not None else []
         self.magnitude.mark(at, "good", name="usable", labels=[f"usable to {f:.0f} Hz" for f in at])
@@ -86,7 +86,7 @@ class FrfPlots(QWidget):
     def show_hit(self, averaged: Averaged, number: int) -> None:
         """The selected hit by itself."""
         seen = averaged.seen.get(number)
-        self._show_lines(_HIT, _accelerance(seen.alone) if seen is not None else None, "third")
+        self._show_lines(_HIT, _first(seen.alone.frfs) if seen is not None else None, "third")
 
     def show_beside(self, frfs: Mapping[str, Frf]) -> None:
         """Those of other files, by the names they are listed under."""
@@ -151,7 +151,7 @@ class FrfPlots(QWidget):
         if name in self.magnitude.names and self._singles.get(name) is alone:
             return
         self._singles[name] = alone
-        lines = Lines.of(_accelerance(alone), self._reach_hz)
+        lines = Lines.of(_first(alone.frfs), self._reach_hz)
         self.magnitude.trace(name, lines.frequency_hz, lines.magnitude, "faint", listed=False)
 
     def _show_lines(self, name: str, frf: Frf | None, role: Role) -> None:
@@ -220,11 +220,6 @@ class FrfPlots(QWidget):
     def _picked(self, name: str, number: int) -> None:
         if name == _MODES:
             self.mode_picked.emit(number)
-
-
-def _accelerance(spectra: Spectra) -> Frf:
-    """Of the one channel, whatever it reads."""
-    return accelerance(_first(spectra.frfs))
 
 
 def _first(by_channel: dict[str, Any]) -> Any:

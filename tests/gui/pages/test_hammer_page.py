@@ -11,7 +11,7 @@ from session_cases import SyntheticSession, configuration
 from fitting.modal.frf import Frf
 from gui.feeds.live import LiveFeed
 from gui.pages.hammer.choice import WhatIf, standing_of
-from gui.pages.hammer.findings import Sight, modes_of
+from gui.pages.hammer.findings import Sight, accelerated, modes_of
 from gui.pages.hammer.frf_plots import FrfPlots
 from gui.pages.hammer.mode_words import mode_rows
 from gui.pages.hammer.traces import accelerance
@@ -19,7 +19,9 @@ from gui.pages.hammer.words import hit_rows
 from instrument.engine import Engine, Order
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.impact.damping import damping_of_hits
+from instrument.impact.record import ResponseChannel
 from instrument.impact.result import damping_from
+from instrument.impact.spectra import spectra
 from instrument.interchange.found import Found
 from instrument.session.configuration import read_whole_experiment
 from instrument.session.contents import contents_of
@@ -344,3 +346,21 @@ def test_only_the_lowest_plot_of_the_column_names_its_axis_in_every_mode(qtbot, 
         qtbot.wait(1)
         named = [p.getAxis("bottom").labelText for p in (plots.magnitude, plots.phase, plots.coherence)]
         assert named == ["", "", "Frequency / Hz"]
+
+
+def test_what_a_laser_read_is_drawn_as_an_accelerometer_would_have_it(hits):
+    first = hits[0].judged()
+    assert accelerated(first) is first
+    (read,) = first.hit.responses
+    rate = first.hit.sample_rate_hz
+    means = (read.samples[1:] + read.samples[:-1]) / 2
+    velocity = np.concatenate([[0.0], np.cumsum(means)]) / rate
+    swaying = velocity + 0.3 * np.sin(2 * np.pi * 0.7 * np.arange(len(velocity)) / rate)
+    laser = ResponseChannel("velocity", "velocity", swaying)
+    seen = accelerated(replace(first, hit=replace(first.hit, responses=(laser,))))
+    (again,) = seen.hit.responses
+    assert again.motion == "acceleration"
+    alike = [spectra([one]).frfs[name] for one, name in ((first, read.name), (seen, "velocity"))]
+    low = (alike[0].frequency_hz > 30) & (alike[0].frequency_hz < 100)
+    largest = np.abs(alike[0].H[low]).max()
+    assert np.abs(alike[1].H[low] - alike[0].H[low]).max() < 0.05 * largest
