@@ -207,10 +207,12 @@ class CandidateFits:
         fits = [(c, f) for c in self.candidates[name] for f in [*c.elsewhere, *c.everywhere]]
         return [c.finished(f) for c, f in _best_first(fits)[: SEARCH.finished]]
 
-    def look(self, one: tuple[Refitted, Form]) -> list[Start]:
-        """Starts of a second effect beside a fit."""
-        before, form = one
-        return look(self.problem, self.evidence, before, self.form(form), again=True)
+    def look(self, one: tuple[Refitted, Sequence[Form]]) -> list[list[Start]]:
+        """Starts of second effects beside a fit, of each."""
+        before, forms = one
+        plain = response_of(self.problem, before.effects, self.problem.coarse)
+        effects = [self.form(form) for form in forms]
+        return [look(self.problem, self.evidence, before, e, again=True, plain=plain) for e in effects]
 
     def second(self, one: tuple[Refitted, Form, list[Start], float]) -> Refitted | None:
         """A second effect beside a fit, from the starts that a look has found; `goal` as `refit` takes it."""

@@ -28,15 +28,22 @@ _NEAR_BY = 3.0
 
 
 def look(
-    problem: DiagnosisProblem, evidence: Evidence, before: Refitted, effect: Effect, *, again: bool = False
+    problem: DiagnosisProblem,
+    evidence: Evidence,
+    before: Refitted,
+    effect: Effect,
+    *,
+    again: bool = False,
+    plain: SweepResponse | None = None,
 ) -> list[Start]:
     """Starts of an effect, scaled by a linear step, with the chi-square each may gain; best first.
 
-    `again`: a step of the size that the first one ends with tells once more, where there is no place to be
-    found. A large one bends, and what is all but another effect's work is then lost in the bend.
+    `plain` is the coarse response without it, where several effects are looked at beside one fit. `again`: a
+    step of the size that the first one ends with tells once more, where there is no place to be found. A
+    large one bends, and what is all but another effect's work is then lost in the bend.
     """
     response = response_of(problem, [*before.effects, effect], problem.coarse)
-    plain = response_of(problem, before.effects, problem.coarse)
+    plain = plain or response_of(problem, before.effects, problem.coarse)
     found = promising(response, plain, problem.points, evidence, before)
     if not again or has_place(effect) or not effect.parameters:
         return found

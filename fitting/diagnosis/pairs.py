@@ -6,11 +6,16 @@ from itertools import permutations
 import numpy as np
 
 from fitting.diagnosis.candidate_fits import Form
+from fitting.diagnosis.candidates import Start
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
 
 Report = Callable[[float], None]
+
+_LOOKED_AT = 6
+"""Forms that are looked at in one go: few enough that both processes end at about the same time. A choice."""
 
 
 class Pairs:
@@ -30,8 +35,7 @@ class Pairs:
         near = singles[0].cost + SEARCH.near * scale
         leaders = [t for t in singles[: SEARCH.leaders] if wide or t.cost < near]
         tasks = [(t, form) for t in leaders for form in self._others(t.names)]
-        asked = [(t.fitted, form) for t, form in tasks]
-        looks = list(each(work.look, asked, lambda x: report(0.4 * x)))
+        looks = self._looks([(t.fitted, self._others(t.names)) for t in leaders], lambda x: report(0.4 * x))
         promised = [starts[0][0] if starts else 0.0 for starts in looks]
         expected = [t.fitted.chi2 - gain for (t, _), gain in zip(tasks, promised, strict=True)]
         chosen: dict[frozenset[str], int] = {}
@@ -57,6 +61,18 @@ class Pairs:
         if found and min(t.cost for t in found) < singles[0].cost:
             found += self._improved(found)
         return _best_of_each(found)
+
+    def _looks(
+        self, asked: Sequence[tuple[Refitted, Sequence[Form]]], report: Report = lambda fraction: None
+    ) -> list[list[Start]]:
+        """Starts of every form beside its fit, in order; some at a time, as that fit is one."""
+        some = [
+            (before, forms[k : k + _LOOKED_AT])
+            for before, forms in asked
+            for k in range(0, len(forms), _LOOKED_AT)
+        ]
+        found = self._search.executor.each(self._search.work.look, some, report)
+        return [starts for looks in found for starts in looks]
 
     def _begun_again(self, pairs: Sequence[ScoredFit]) -> list[ScoredFit]:
         """Each effect of some pairs beside the other one fitted alone, in wide valleys."""
@@ -142,15 +158,11 @@ class Pairs:
         work, each = self._search.work, self._search.executor.each
         before = work.alone((pair.fitted, kept))
         gone = {*pair.names} - {kept.name}
-        asked = [
-            (before, form)
-            for form in self._others([kept.name])
-            if form[0] not in gone or work.has_places(form[0])
-        ]
-        looks = [one for one in zip(asked, each(work.look, asked), strict=True) if one[1]]
+        forms = [f for f in self._others([kept.name]) if f[0] not in gone or work.has_places(f[0])]
+        looks = [one for one in zip(forms, self._looks([(before, forms)]), strict=True) if one[1]]
         promising = sorted(looks, key=lambda one: -one[1][0][0])[: SEARCH.exchanged]
         goal = work.goal(pair.fitted)
-        fits = each(work.second, [(before, form, starts, goal) for (_, form), starts in promising])
+        fits = each(work.second, [(before, form, starts, goal) for form, starts in promising])
         return [self._search.judged(f) for f in fits if f is not None]
 
 

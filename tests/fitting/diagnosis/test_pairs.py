@@ -45,8 +45,9 @@ class World:
         return self.fit(*before.effects, *(e for e in self.effects if e.name == name))
 
     def look(self, one):
-        after = self.second((*one, None, None))
-        return [(one[0].chi2 - after.chi2, np.zeros(0))]
+        before, forms = one
+        after = [self.second((before, form, None, None)) for form in forms]
+        return [[(before.chi2 - f.chi2, np.zeros(0))] for f in after]
 
     def at_rest(self, scored_fits, best):
         return list(scored_fits)

@@ -80,7 +80,7 @@ def test_a_second_effect_is_fitted_beside_the_first_and_taken_away_again(high):
     work = high.fits(GAIN, MASS)
     (first,) = work.begun(("gain_error", work.state("gain_error"))).fits
     form = ("added_mass", 0)
-    both = work.second((first, form, work.look((first, form)), np.inf))
+    both = work.second((first, form, work.look((first, [form]))[0], np.inf))
     assert [e.name for e in both.effects] == ["gain_error", "added_mass"]
     assert both.chi2 <= first.chi2 + 1e-6
     alone = work.alone((both, GAIN))
