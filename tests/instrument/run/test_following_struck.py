@@ -5,17 +5,19 @@ import threading
 
 import numpy as np
 import pytest
-from following_cases import BACKWARDS, STRUCK, STRUCK_IN_ITS_CLAMP, a_law, grouped, run
-from formula_rig import FREE, SWEEP, formula_rig
+from following_cases import BACKWARDS, STRUCK, STRUCK_IN_ITS_CLAMP, a_law, grouped, really, run
+from formula_rig import FREE, HAMMER, SWEEP, formula_rig
 
 from instrument.run.companion import Companion
+from instrument.run.experiment import run_experiment
 from instrument.run.operator import SimulatedOperator
 from instrument.run.replay import replay
 from instrument.session.configuration import read_whole_experiment
 from instrument.session.contents import contents_of
 from instrument.session.journal import JOURNAL
 from instrument.session.storage import SessionFile
-from instrument.stream.derived import HitJudged, StruckFound
+from instrument.simulated_case import write_case
+from instrument.stream.derived import DiagnosisFound, HitJudged, StruckFound
 from instrument.stream.raw import ClampedAnew, FollowUpEnded, FollowUpProposed, OperatorDid, StrikingBegan
 
 FOLLOWS = '[diagnosis]\nfollow_up = "do"\n'
@@ -167,3 +169,39 @@ def test_it_is_not_hung_where_nobody_says_how_long_it_is(tmp_path, monkeypatch):
     with formula_rig(tmp_path, sweep=SWEEP, hammer=True) as (_, experiment):
         run(that_strikes(experiment, ""), tmp_path, (STRUCK,))
     assert asked == []
+
+
+SEGMENTS = """
+[[sweep.segments]]
+mode = 1
+span_percent = 50.0
+points = 9
+[[sweep.segments]]
+mode = 3
+span_percent = 25.0
+points = 9
+"""
+
+
+@pytest.mark.long
+def test_the_solid_plate_is_struck_diagnosed_with_its_sweep_and_resumed(tmp_path):
+    offer, experiment = STRUCK, write_case(tmp_path)
+    head = 'specimen = "specimen.toml"\nrig = "rig.toml"\n'
+    swept = "[sweep]\nsentinel = false\ncalibration = false\n" + SEGMENTS
+    experiment.write_text(head + HAMMER.replace("6.0\n", "6.0\nwhole_length_mm = 300.2\n") + swept + FOLLOWS)
+    # Few elements: what is asked is whether it is the same twice.
+    specimen = tmp_path / "specimen.toml"
+    specimen.write_text(specimen.read_text() + "\n[mesh]\nelements_x = 10\nelements_y = 8\n")
+    killed = KilledAtHit(tmp_path, 3)
+    how = {"diagnose": really(offer), "watch": killed.watch, "companion": killed}
+    whole = run_experiment(read_whole_experiment(experiment), tmp_path, ("sweep",), **how)
+    (running,) = (tmp_path / "killed").glob("*.running")
+    how = {"diagnose": really(offer), "resume": running}
+    resumed = run_experiment(read_whole_experiment(experiment), running.parent, ("sweep",), **how)
+    for finished in (whole, resumed):
+        before, after = (e.result for e in events_of(finished, DiagnosisFound))
+        (found,) = events_of(finished, StruckFound)
+        assert len(before.points) == 18
+        assert len(after.points) == 18 + len(found.frequency_hz)
+    with SessionFile(resumed.session) as file:
+        assert replay(file, diagnose=really(offer)).differences == []
