@@ -4,6 +4,7 @@ A shear pair's readings depend on modulus over mass alone, the rubber's own iner
 stated wrongly leaves nothing, and moves the law by as much. Then `none` would say more than the data do.
 """
 
+from collections.abc import Callable, Collection
 from dataclasses import replace
 
 import numpy as np
@@ -21,6 +22,15 @@ HIDDEN = 1.0
 """Standard deviations that a cause of the usual size may leave and still be hidden."""
 MOVES = 1.0
 """Standard errors of the law's modulus from which a hidden cause matters."""
+
+
+def last_word(kinds: Collection[str]) -> Callable[[Search, Judgement], Judgement] | None:
+    """What has the last word on a verdict about specimens of these kinds; None for plates.
+
+    Of a plate's stated numbers its resonances say which they are, and what still hides in the law is in the
+    band, of one file or of several. Of a mass on rubber all that is read is one number over another.
+    """
+    return None if set(kinds) == {"plate"} else in_light_of_the_law
 
 
 def in_light_of_the_law(search: Search, judgement: Judgement) -> Judgement:

@@ -13,7 +13,7 @@ from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Mask
 from fitting.diagnosis.begin import Begun, begin
-from fitting.diagnosis.confounded import in_light_of_the_law
+from fitting.diagnosis.confounded import last_word
 from fitting.diagnosis.diagnose import diagnose_task, seen_in_channels
 from fitting.diagnosis.evidence import BareModes
 from fitting.diagnosis.glitch import Glitch, glitches
@@ -307,7 +307,7 @@ def diagnose_together(
                 report,
                 accept,
                 workers,
-                settle=in_light_of_the_law,
+                settle=last_word(kinds),
             )
             if "fixture_transfer" in {e.name for e in effects} and result.verdict == "unknown":
                 result = with_transfer(result, work)

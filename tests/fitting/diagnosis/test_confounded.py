@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from shear_pair_task import GAIN, MASS, Task
 
-from fitting.diagnosis.confounded import hides, in_light_of_the_law
+from fitting.diagnosis.confounded import hides, in_light_of_the_law, last_word
 from fitting.diagnosis.verdict import Judgement
 from fitting.effects.base import Effect, EffectParameter
 from fitting.laws.constant import ConstantModulus
@@ -59,3 +59,8 @@ def test_only_an_effect_of_one_size_can_be_asked_whether_it_hides():
     assert not hidden((replace(LIKE, neutral=None),), [100.0, 0.0, 0.0])
     assert not hidden((replace(LIKE, logarithmic=True),), [100.0, 0.0, 0.0])
     assert not hidden((LIKE, place), [100.0, 0.0, 0.0])
+
+
+def test_of_a_mass_on_rubber_the_law_has_the_last_word_and_of_plates_it_has_not():
+    assert last_word({"shear-pair"}) is in_light_of_the_law
+    assert last_word({"plate"}) is None
