@@ -21,6 +21,17 @@ from instrument.session.configuration import read_whole_experiment
 from instrument.stream.derived import DiagnosisFound, FitUpdated
 
 SPOT_MM = (250.0, 100.0)
+SEGMENTS = """
+[[sweep.segments]]
+mode = 1
+span_percent = 50.0
+points = 9
+[[sweep.segments]]
+mode = 3
+span_percent = 25.0
+points = 9
+"""
+"""Two resonances of the solid plate, few steps each."""
 STEPS = {"frequencies_hz": [105.5, 104.0, 96.5], "segments": [1, 1, 1]}
 OFFER = {
     "needs_hands": False,

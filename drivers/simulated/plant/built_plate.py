@@ -46,6 +46,18 @@ class ReducedPlate:
         x, y = (Line(tuple(ends.tolist()), int(self.order)) for ends in (self.x_ends, self.y_ends))
         return np.asarray(np.kron(x.at(x_m), y.at(y_m)) @ self.w)
 
+    def faces(self, stated: PlateStated, effects: Effects) -> tuple[Array, list[Branch]]:
+        """Stiffness of the elastic faces, shape (n, n); and those that lose. A substrate may be stiffer."""
+        scale = effects.substrate_stiffness.scale if effects.substrate_stiffness else 1.0
+        K, lossy = np.zeros_like(self.M), []
+        faces = (stated.sheets[0], stated.sheets[-1])
+        for face, part, factor in zip(faces, self.K_faces, (scale, 1.0), strict=True):
+            if face.loss_factor:
+                lossy.append(Branch(factor * part, even_loss(face.loss_factor)))
+            else:
+                K = K + factor * part
+        return K, lossy
+
 
 def really(stated: PlateStated, effects: Effects) -> PlateStated:
     """The plate as it is: its core's thickness."""
@@ -98,15 +110,8 @@ def mounted_plate(
 
     Raises `ValueError` for a place off the plate.
     """
-    scale = effects.substrate_stiffness.scale if effects.substrate_stiffness else 1.0
-    M, load, K = reduced.M, reduced.load, np.zeros_like(reduced.M)
-    lossy = []
-    faces = (stated.sheets[0], stated.sheets[-1])
-    for face, part, factor in zip(faces, reduced.K_faces, (scale, 1.0), strict=True):
-        if face.loss_factor:
-            lossy.append(Branch(factor * part, even_loss(face.loss_factor)))
-        else:
-            K = K + factor * part
+    M, load = reduced.M, reduced.load
+    K, lossy = reduced.faces(stated, effects)
     for added in (effects.added_mass, by_hand.mass):
         if added is not None:
             stated.refuse_off(added.x_m, added.y_m)

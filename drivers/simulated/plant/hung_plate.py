@@ -9,7 +9,7 @@ from drivers.simulated.plant import air
 from drivers.simulated.plant.built import basis_of, moduli, motions
 from drivers.simulated.plant.built_plate import ReducedPlate, Report
 from drivers.simulated.plant.effects import Effects
-from drivers.simulated.plant.law import MaxwellLaw, even_loss
+from drivers.simulated.plant.law import MaxwellLaw
 from drivers.simulated.plant.one_thread import one_thread
 from drivers.simulated.plant.solid_plate import PIECES, PlateStated, SolidPlate
 from drivers.simulated.plant.structure import Branch, Structure, condensed
@@ -67,14 +67,8 @@ def hung_plate(
         raise ValueError("effects.partial_debond: not on a plate that hangs free, expected it in its clamp")
     for place in (hit_m, read_m):
         stated.refuse_off(*place)
-    scale = effects.substrate_stiffness.scale if effects.substrate_stiffness else 1.0
-    K, M, lossy = np.zeros_like(reduced.M), reduced.M, []
-    faces = (stated.sheets[0], stated.sheets[-1])
-    for face, part, factor in zip(faces, reduced.K_faces, (scale, 1.0), strict=True):
-        if face.loss_factor:
-            lossy.append(Branch(factor * part, even_loss(face.loss_factor)))
-        else:
-            K = K + factor * part
+    M = reduced.M
+    K, lossy = reduced.faces(stated, effects)
     if effects.air_added_mass is not None:
         size = stated.length_m, stated.width_m
         x, y = air.centres(*size, _PANELS)

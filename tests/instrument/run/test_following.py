@@ -11,6 +11,7 @@ from following_cases import (
     BACKWARDS,
     CLAMPING,
     HALF,
+    SEGMENTS,
     SPOT,
     SPOT_MM,
     SPOT_OF_THE_CASE,
@@ -198,18 +199,6 @@ def is_as_if_never_stopped(again, finished):
 
 def decisions_of(run):
     return [e for e in events_of(run) if isinstance(e, FollowUpProposed | FollowUpDecided)]
-
-
-SEGMENTS = """
-[[sweep.segments]]
-mode = 1
-span_percent = 50.0
-points = 9
-[[sweep.segments]]
-mode = 3
-span_percent = 25.0
-points = 9
-"""
 
 
 @pytest.mark.long

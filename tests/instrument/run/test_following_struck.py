@@ -5,7 +5,16 @@ import threading
 
 import numpy as np
 import pytest
-from following_cases import BACKWARDS, STRUCK, STRUCK_IN_ITS_CLAMP, a_law, grouped, really, run
+from following_cases import (
+    BACKWARDS,
+    SEGMENTS,
+    STRUCK,
+    STRUCK_IN_ITS_CLAMP,
+    a_law,
+    grouped,
+    really,
+    run,
+)
 from formula_rig import FREE, HAMMER, SWEEP, formula_rig
 
 from instrument.run.companion import Companion
@@ -169,18 +178,6 @@ def test_it_is_not_hung_where_nobody_says_how_long_it_is(tmp_path, monkeypatch):
     with formula_rig(tmp_path, sweep=SWEEP, hammer=True) as (_, experiment):
         run(that_strikes(experiment, ""), tmp_path, (STRUCK,))
     assert asked == []
-
-
-SEGMENTS = """
-[[sweep.segments]]
-mode = 1
-span_percent = 50.0
-points = 9
-[[sweep.segments]]
-mode = 3
-span_percent = 25.0
-points = 9
-"""
 
 
 @pytest.mark.long
