@@ -9,6 +9,9 @@ FollowUpKind = Literal[
     "frequencies", "level", "reversed", "spot", "added_mass", "bare_hammer", "damped_struck", "clamping"
 ]
 
+Support = Literal["clamped", "free"]
+"""How a treated plate is held that is struck."""
+
 
 class FollowUp(Result):
     """One measurement that has not been made, what it costs and what it would tell."""
@@ -27,7 +30,7 @@ class FollowUp(Result):
     """Where the laser is to point, x from the clamp and y from a long edge."""
     struck_mm: tuple[Number, Number] | None = None
     """Where the treated plate is to be struck, x from the clamp and y from a long edge."""
-    held: Literal["clamped", "free"] | None = None
+    held: Support | None = None
     """How the plate is held while it is struck."""
     mass_kg: MaybeNumber = None
     """To be put on the plate."""

@@ -1,14 +1,13 @@
 """One measurement that could be made: what it would read, what it costs, and how it is offered."""
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from fitting.planning.further import Further
 from fitting.planning.known_mass import KnownMass
-from instrument.facts.follow_up import FollowUp, FollowUpKind
+from instrument.facts.follow_up import FollowUp, FollowUpKind, Support
 from instrument.planning.reasons import why
 
 HANDS_S = {
@@ -43,7 +42,7 @@ class Measurable:
     """Why, where that does not depend on the explanations."""
     struck_m: tuple[float, float] | None = None
     """Where a hammer hits the treated plate."""
-    held: Literal["clamped", "free"] | None = None
+    held: Support | None = None
     """While it does."""
 
     def follow_up(

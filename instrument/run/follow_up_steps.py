@@ -2,19 +2,16 @@
 
 from collections.abc import Collection, Sequence
 from itertools import groupby
-from typing import Literal
 
 import numpy as np
 
 from drivers.vibrometer.interface import Range
 from fitting.gravity import PUBLISHED_G_M_S2
 from instrument.check.forecast import range_for
-from instrument.facts.follow_up import FollowUp
+from instrument.facts.follow_up import FollowUp, Support
 from instrument.stepped_sine.plan import PlannedSegment
 from instrument.stepped_sine.settings import Limits
 from instrument.stream.derived import PointMeasured
-
-Held = Literal["clamped", "free"]
 
 MOST_OFFERS = 3
 """Of one diagnosis: asked for one after the other."""
@@ -38,7 +35,7 @@ def possible(
     *,
     most_s: float,
     can_strike: bool,
-    held: Collection[Held] = (),
+    held: Collection[Support] = (),
 ) -> tuple[FollowUp, ...]:
     """Those that fit into this run, in the order they are given, in words for who does them there.
 

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
 from instrument.check.forecast import distinct
-from instrument.facts.follow_up import FollowUp
+from instrument.facts.follow_up import FollowUp, Support
 from instrument.files.experiment_file import DiagnosisTable
 from instrument.run.analysis import Analysis
-from instrument.run.follow_up_steps import Held, clamped_again, follow_up_segments, possible
+from instrument.run.follow_up_steps import clamped_again, follow_up_segments, possible
 from instrument.run.rig import Rig
 from instrument.run.runner import Runner
 from instrument.run.sweep_part import SweepPart
@@ -146,7 +146,7 @@ class Following:
         return proposed.offers
 
     @property
-    def _held(self) -> tuple[Held, ...]:
+    def _held(self) -> tuple[Support, ...]:
         """How the treated plate can be struck."""
         if self.blows is None:
             return ()

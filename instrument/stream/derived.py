@@ -2,13 +2,14 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any
 
 from pydantic import Field, GetCoreSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
 from instrument.facts.damping import DampingResult
 from instrument.facts.diagnosis import DiagnosisResult
+from instrument.facts.follow_up import Support
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.result import Result
 from instrument.stream.event import Derived, Positive
@@ -221,7 +222,7 @@ class DampingFound(Derived):
 class StruckFound(Derived):
     """What the blows on the treated plate give: its mobility, velocity at a spot over force at a point."""
 
-    held: Literal["clamped", "free"]
+    held: Support
     struck_mm: tuple[float, float]
     spot_mm: tuple[float, float] | None
     """None: the specimen file's own."""

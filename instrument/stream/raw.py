@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ConfigDict
 
-from instrument.facts.follow_up import FollowUp
+from instrument.facts.follow_up import FollowUp, Support
 from instrument.stream.event import Event, Positive
 from instrument.stream.scaling import volts_of
 
@@ -298,7 +298,7 @@ class ClampedAnew(Event):
 class StrikingBegan(Event):
     """The treated plate is ready for blows: how it is held, where it is hit and where the laser reads."""
 
-    held: Literal["clamped", "free"]
+    held: Support
     struck_mm: tuple[float, float]
     """x from the clamp, of a plate hung free from the end that was clamped; y from a long edge."""
     spot_mm: tuple[float, float] | None
