@@ -85,15 +85,16 @@ def plate_hung(plate: Specimen | None, effects: Effects, progress: Progress = qu
         whole, law = plate_of(plate), series_of(plate.core.law)
     law = effects.core_law.law if effects.core_law else law
     stated = really(whole, effects)
+    key = [stated, law, effects.partial_debond]
 
     def build() -> ReducedPlate:
         with progress("building the simulated plate as it hangs free") as report:
-            return reduced_free_plate(stated, law, report)
+            return reduced_free_plate(stated, law, report, loose=effects.partial_debond)
 
     def hang(
         effects: Effects, law_now: MaxwellLaw, hit_m: tuple[float, float], read_m: tuple[float, float]
     ) -> Structure:
-        reduced = cached("free-plate", [stated, law], ReducedPlate, build)
+        reduced = cached("free-plate", key, ReducedPlate, build)
         return hung_plate(stated, reduced, law_now, effects, hit_m, read_m)
 
     return hang

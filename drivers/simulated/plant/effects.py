@@ -7,6 +7,9 @@ from dataclasses import dataclass
 
 from drivers.simulated.plant.law import MaxwellLaw
 
+LOOSE = 0.01
+"""What is left of the stiffness of a core that came loose."""
+
 
 @dataclass(frozen=True)
 class ClampCompliance:
@@ -73,7 +76,7 @@ class TemperatureDrift:
 
 @dataclass(frozen=True)
 class PartialDebond:
-    """The core's stiffness is a hundredth on a strip."""
+    """The core's stiffness is `LOOSE` of what it was on a strip."""
 
     along: str
     """"x": a strip of all the width between two x; "y": of all the length between two y."""

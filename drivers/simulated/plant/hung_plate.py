@@ -8,7 +8,7 @@ from drivers.arrays import Array
 from drivers.simulated.plant import air
 from drivers.simulated.plant.built import basis_of, moduli, motions
 from drivers.simulated.plant.built_plate import ReducedPlate, Report
-from drivers.simulated.plant.effects import Effects
+from drivers.simulated.plant.effects import LOOSE, Effects, PartialDebond
 from drivers.simulated.plant.law import MaxwellLaw
 from drivers.simulated.plant.one_thread import one_thread
 from drivers.simulated.plant.solid_plate import PIECES, PlateStated, SolidPlate
@@ -30,11 +30,17 @@ def reduced_free_plate(
     law: MaxwellLaw,
     report: Report = lambda done: None,
     pieces: tuple[int, int] = PIECES,
+    loose: PartialDebond | None = None,
 ) -> ReducedPlate:
     """The solid plate without a clamp on its basis, for a law; its loads are M times six rigid motions."""
-    solid = SolidPlate(stated, pieces)
+    solid = SolidPlate(stated, pieces, loose)
     layers = [solid.stiffness(k) for k in range(len(stated.sheets))]
     faces, core = layers[::2], layers[1]
+    if loose is not None:
+        strip = (loose.from_m, loose.to_m)
+        along_x = loose.along == "x"
+        lost = solid.stiffness(1, only_x=strip) if along_x else solid.stiffness(1, only_y=strip)
+        core = core - (1 - LOOSE) * lost
     K_0, rigid = sum(faces[1:], faces[0]), _rigid(solid)
     parts = [rigid]
     each = moduli(law)
@@ -59,12 +65,10 @@ def hung_plate(
 ) -> Structure:
     """Hit and read at places, its clamp and its base left behind, on few coordinates.
 
-    Effects heeded: substrate stiffness, air, added mass; a core of another thickness where `stated` has it.
-    The laser is aimed anew, and its spot is where it is meant to be. Raises `ValueError` for a place off the
-    plate, and for a treatment that came loose.
+    Effects heeded: substrate stiffness, air, added mass; a core of another thickness where `stated` has it,
+    one that is loose where `reduced` has it. The laser is aimed anew, and its spot is where it is meant to
+    be. Raises `ValueError` for a place off the plate.
     """
-    if effects.partial_debond is not None:
-        raise ValueError("effects.partial_debond: not on a plate that hangs free, expected it in its clamp")
     for place in (hit_m, read_m):
         stated.refuse_off(*place)
     M = reduced.M

@@ -46,8 +46,13 @@ class LayeredSolid:
     def _within(self, sheet: int) -> tuple[float, float]:
         return self.z.ends[sheet], self.z.ends[sheet + 1]
 
-    def stiffness(self, sheet: int) -> sp.csr_array:
-        """Of one layer. Shape (size, size)."""
+    def stiffness(
+        self,
+        sheet: int,
+        only_x: tuple[float, float] | None = None,
+        only_y: tuple[float, float] | None = None,
+    ) -> sp.csr_array:
+        """Of one layer, or of a part of it that pieces of the grid make up, in m. Shape (size, size)."""
         s, only = self.sheets[sheet], self._within(sheet)
         shear = s.young_pa / (2 * (1 + s.poisson))
         lame = 2 * shear * s.poisson / (1 - 2 * s.poisson)
@@ -55,7 +60,7 @@ class LayeredSolid:
         def product(i: int, j: int) -> sp.csr_array:
             """Integral of the derivative along i of one and along j of another."""
             a, b, c = ((int(i == axis), int(j == axis)) for axis in range(3))
-            plane = sp.kron(self.x.integral(*a), self.y.integral(*b))
+            plane = sp.kron(self.x.integral(*a, only_x), self.y.integral(*b, only_y))
             return sp.kron(plane, self.z.integral(*c, only)).tocsr()
 
         laplace = shear * (product(0, 0) + product(1, 1) + product(2, 2))

@@ -4,7 +4,7 @@ import numpy as np
 
 from drivers.arrays import Array
 from drivers.simulated.plant import grid, specimen
-from drivers.simulated.plant.effects import AddedMass, ByHand, ClampCompliance, Effects
+from drivers.simulated.plant.effects import LOOSE, AddedMass, ByHand, ClampCompliance, Effects
 from drivers.simulated.plant.law import ZN1, MaxwellLaw, even_loss
 from drivers.simulated.plant.model import ReducedModel, shipped
 from drivers.simulated.plant.mounted import Mounted
@@ -61,7 +61,7 @@ def core_stiffness(effects: Effects, model: ReducedModel, thickness: float) -> A
         return np.asarray(K)
     loose = debonded(debond, len(model["K_core_strips_x"]))
     strips = model[f"K_core_strips_{debond.along}"]
-    return np.asarray(K - 0.99 / thickness * np.tensordot(loose, strips, axes=1))
+    return np.asarray(K - (1 - LOOSE) / thickness * np.tensordot(loose, strips, axes=1))
 
 
 def inertia(

@@ -9,6 +9,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from drivers.arrays import Array
+from drivers.simulated.plant.effects import PartialDebond
 from drivers.simulated.plant.layered_solid import LayeredSolid, Sheet
 from drivers.simulated.plant.lines import Line
 
@@ -17,6 +19,8 @@ PIECES = (6, 4)
 _ORDER = 4
 _NEAR_ROOT = 2.0
 """Of the stack's height: where the fine piece ends."""
+_SLIVER = 0.1
+"""Of a strip's width: a piece's end so near to its own gives way to it."""
 
 
 @dataclass(frozen=True)
@@ -40,12 +44,20 @@ class PlateStated:
 class SolidPlate(LayeredSolid):
     """The unreduced model."""
 
-    def __init__(self, stated: PlateStated, pieces: tuple[int, int] = PIECES) -> None:
+    def __init__(
+        self, stated: PlateStated, pieces: tuple[int, int] = PIECES, loose: PartialDebond | None = None
+    ) -> None:
+        """`loose`: pieces end where it does."""
         near = _NEAR_ROOT * sum(s.thickness_m for s in stated.sheets)
         ends = np.linspace(0, stated.length_m, pieces[0] + 1)
         if near < ends[1]:
             ends = np.insert(ends, 1, near)
         across = np.linspace(0, stated.width_m, pieces[1] + 1)
+        if loose is not None:
+            strip = [loose.from_m, loose.to_m]
+            ends, across = (
+                _with_ends(e, strip) if axis == loose.along else e for axis, e in (("x", ends), ("y", across))
+            )
         x, y = (Line(tuple(e.tolist()), _ORDER) for e in (ends, across))
         super().__init__(stated.sheets, x, y)
 
@@ -62,3 +74,12 @@ class SolidPlate(LayeredSolid):
         nx, ny, nz = self.shape
         node = np.arange(nx * ny * nz).reshape(nx, ny, nz)[:, :, -1]
         return np.asarray(3 * node.ravel() + 2)
+
+
+def _with_ends(ends: Array, strip: list[float]) -> Array:
+    """Pieces that end where a strip does, and none so thin that it upsets the solid. Shape (pieces + 1,)."""
+    low, high = np.clip(strip, ends[0], ends[-1])
+    sliver = _SLIVER * (high - low)
+    inner = ends[1:-1]
+    kept = inner[np.abs(inner[:, None] - [low, high]).min(axis=1) > sliver]
+    return np.unique([ends[0], *kept, low, high, ends[-1]])

@@ -34,8 +34,11 @@ def reduced():
     return reduced_free_plate(PLATE, ZN1, pieces=(2, 2))
 
 
-def hung(reduced, effects=e.Effects(), hit=HIT, read=READ):  # noqa: B008
-    return StruckPlate(hit, read, structure=hung_plate(PLATE, reduced, ZN1, effects, hit, read))
+NOTHING = e.Effects()
+
+
+def hung(reduced, effects=NOTHING, hit=HIT, read=READ, law=ZN1):
+    return StruckPlate(hit, read, structure=hung_plate(PLATE, reduced, law, effects, hit, read))
 
 
 def stated(**changes):
@@ -83,9 +86,20 @@ def test_a_stiffer_substrate_rings_higher(reduced):
     assert 1.01 < elastic[1] / elastic[0] < np.sqrt(1.2)
 
 
-def test_a_loose_treatment_is_not_hung(reduced):
-    with pytest.raises(ValueError, match="partial_debond"):
-        hung(reduced, e.Effects(partial_debond=e.PartialDebond("x", 0.2, 0.3)))
+def test_loose_all_over_it_has_the_core_of_a_law_as_much_softer():
+    everywhere, softer = e.PartialDebond("y", 0.0, PLATE.width_m), ZN1.scaled(e.LOOSE)
+    loose = reduced_free_plate(PLATE, ZN1, pieces=(1, 1), loose=everywhere)
+    theirs = hung(reduced_free_plate(PLATE, softer, pieces=(1, 1)), law=softer)
+    for f in F_HZ:
+        assert hung(loose).mobility(f) == pytest.approx(theirs.mobility(f), rel=1e-4)
+
+
+def test_a_strip_that_came_loose_lets_it_ring_lower(reduced):
+    strip = e.PartialDebond("x", 0.2, PLATE.length_m)
+    plates = hung(reduced), hung(reduced_free_plate(PLATE, ZN1, pieces=(1, 1), loose=strip))
+    f = np.arange(50.0, 120.0, 1.0)
+    whole, loose = (f[np.argmax([abs(plate.mobility(one)) for one in f])] for plate in plates)
+    assert 0.7 * whole < loose < 0.97 * whole
 
 
 def test_in_its_clamp_it_answers_as_the_plate_that_is_fitted():
