@@ -1,5 +1,6 @@
 """Whose a device's table in RIG.toml is, and what is said of one that is nobody's."""
 
+from datetime import date
 from typing import Annotated
 
 import pytest
@@ -63,6 +64,29 @@ def test_a_session_s_json_gives_back_the_table_of_its_kind():
     keys = {"address": "a:1", "temperature_register": 100, "type": "int16", "scale_c": 0.1}
     room = Room(chamber=keys)
     assert Room.model_validate_json(room.model_dump_json()) == room
+
+
+OF_STEAM = """
+from datetime import date
+from typing import Literal
+from drivers.shaker.driver import ShakerDriver, ShakerOptions
+
+class Steam(ShakerOptions):
+    kind: Literal["steam"] = "steam"
+    descaled: date
+    valves: tuple[int, ...]
+
+class driver(ShakerDriver):
+    options = Steam
+    def open(self, *_): ...
+"""
+
+
+def test_a_session_s_json_gives_back_dates_and_tuples_of_another_package_s_table(package, monkeypatch):
+    package("own-shaker", OF_STEAM, shakers={"steam": "driver"})
+    monkeypatch.setitem(DEVICES, "shaker", Registry(SHAKERS.group, SHAKERS._own, SHAKERS._judge))
+    rig = Rig(shaker={"kind": "steam", **SHAKER, "descaled": date(2026, 1, 15), "valves": (1, 3)})
+    assert Rig.model_validate_json(rig.model_dump_json()) == rig
 
 
 def test_every_device_has_a_usual_kind_whose_driver_is_there():
