@@ -15,9 +15,6 @@ from instrument.campaign.schedule import Schedule
 _RELAXED = 0.8
 _SETTLED = 1e-6
 _MOST_STEPS = 200
-_LOOKED_AT = 6
-"""Every so many points are solved on the whole basis, to span the motions of all."""
-_LOOKS = 3
 _SMALLEST = 1e-6
 """Of the singular values kept, to the largest."""
 
@@ -33,13 +30,8 @@ def softened(shaken: Shaken, G: Complex, soft: HiddenAmplitudeSoftening, schedul
     G = np.broadcast_to(G[:, None] if G.ndim == 1 else G, (len(level), len(plate.K_1)))
     q = shaken.displacements(G)
     reference = _reference(plate, q, schedule)
-    some = np.arange(0, len(level), _LOOKED_AT)
-    seen = [q]
-    for _ in range(_LOOKS):
-        last = seen[-1][some] if len(seen) == 1 else seen[-1]
-        factor = soft.factor(strains(plate, last) * level[some, None], reference)
-        seen.append(shaken.displacements(factor * G[some], some))
-    V = _spanned(plate, np.vstack(seen))
+    # What the points of a sweep move by before they soften spans what they move by softer, to 1e-5.
+    V = _spanned(plate, q)
     small = _on(shaken, V)
     return _settled(small, G, soft, level, reference) @ V.T
 
