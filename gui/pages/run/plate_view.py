@@ -15,6 +15,7 @@ _ROOM_PX, _SKETCH_ROOM_PX = 44, 22
 _MARK_PX = 7
 _NEAR_PX = 14
 """A press so near a mark takes it."""
+_ABOVE_PX = 4
 _HATCH_PX = 8
 _NOTHING = "The plate of the experiment appears here, drawn to scale: clamp, laser spot, hit, sensor."
 
@@ -175,12 +176,17 @@ class PlateView(QWidget):
         painter.drawEllipse(at, _MARK_PX, _MARK_PX)
         painter.setPen(theme.color("text"))
         words = f"{mark.name} {mark.at_mm[0]:g}, {mark.at_mm[1]:g}"
-        edge = self._plate().right() if self._sketched else float(self.width())
-        beyond = at.x() + _NEAR_PX + self.fontMetrics().horizontalAdvance(words) > edge
-        left = (
-            at.x() - _NEAR_PX - self.fontMetrics().horizontalAdvance(words) if beyond else at.x() + _NEAR_PX
-        )
-        painter.drawText(QPointF(left, at.y() - 4), words)
+        painter.drawText(self.words_begin(at, words), words)
+
+    def words_begin(self, at: QPointF, words: str) -> QPointF:
+        """Where the words beside a mark begin, on their line: right of it and above, or where there is room."""
+        metrics, plate = self.fontMetrics(), self._plate()
+        edge = plate.right() if self._sketched else float(self.width())
+        wide = metrics.horizontalAdvance(words)
+        left = at.x() + _NEAR_PX if at.x() + _NEAR_PX + wide <= edge else at.x() - _NEAR_PX - wide
+        above = at.y() - _ABOVE_PX
+        fits = above - metrics.ascent() > plate.top()
+        return QPointF(left, above if fits else at.y() + _ABOVE_PX + metrics.ascent())
 
 
 def _spots(specimen: Draft) -> tuple[PlateMark, ...]:
