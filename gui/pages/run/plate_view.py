@@ -179,7 +179,7 @@ class PlateView(QWidget):
         painter.drawText(self.words_begin(at, words), words)
 
     def words_begin(self, at: QPointF, words: str) -> QPointF:
-        """Where the words beside a mark begin, on their line: right of it and above, or where there is room."""
+        """Where the words beside a mark begin: right of it and above, or where there is room."""
         metrics, plate = self.fontMetrics(), self._plate()
         edge = plate.right() if self._sketched else float(self.width())
         wide = metrics.horizontalAdvance(words)
