@@ -209,10 +209,13 @@ class CandidateFits:
 
     def look(self, one: tuple[Refitted, Sequence[Form]]) -> list[list[Start]]:
         """Starts of second effects beside a fit, of each."""
+        return self._looks(one, self.evidence)
+
+    def _looks(self, one: tuple[Refitted, Sequence[Form]], evidence: Evidence) -> list[list[Start]]:
         before, forms = one
         plain = response_of(self.problem, before.effects, self.problem.coarse)
         effects = [self.form(form) for form in forms]
-        return [look(self.problem, self.evidence, before, e, again=True, plain=plain) for e in effects]
+        return [look(self.problem, evidence, before, e, again=True, plain=plain) for e in effects]
 
     def second(self, one: tuple[Refitted, Form, list[Start], float]) -> Refitted | None:
         """A second effect beside a fit, from the starts that a look has found; `goal` as `refit` takes it."""
@@ -230,16 +233,56 @@ class CandidateFits:
         u = np.concatenate([pair.z, pair.of(effect)])
         return kept(response, self.evidence, pair.law, u)
 
-    def roughly(self, one: tuple[str, State, Form]) -> list[Refitted]:
-        """A second effect beside another in wide valleys, then roughly."""
-        name, state, form = one
-        self.learn(name, state)
-        before = self.candidates[name][0].plain[0]
-        return self._beside(before, self.form(form)).quick
+    def look_wide(self, one: tuple[Refitted, Sequence[Form]]) -> list[list[Array]]:
+        """Where second effects are to begin beside a fit in a wide valley, of each.
 
-    def ended(self, rough: Refitted) -> Refitted:
-        """A rough fit followed to the end."""
-        return self.fitted((rough.effects, rough.law, rough.u))
+        By a linear step weighed as the readings are; where a place is to be found, as it is there too. Shape
+        (parameters,) each.
+        """
+        before, forms = one
+        found = [[u for _, u in starts[:1]] for starts in self._looks(one, self.evidence)]
+        placed = [k for k, form in enumerate(forms) if has_place(self.form(form))]
+        there = self._looks((before, [forms[k] for k in placed]), self.evidence.blunt()) if placed else []
+        for k, starts in zip(placed, there, strict=True):
+            found[k] += [u for _, u in starts[:1] if not any(np.array_equal(u, one) for one in found[k])]
+        return found
+
+    def begun_wide(self, one: tuple[Refitted, Form, list[Array]]) -> list[Refitted]:
+        """A second effect beside a fit in a wide valley: a few steps there from each start, best first.
+
+        Shape (parameters,) of each start; none: its own first one.
+        """
+        before, form, starts = one
+        effect = self.form(form)
+        response = response_of(self.problem, [*before.effects, effect], self.problem.coarse)
+        each = starts or effect.starts(self.problem.plate, self.problem.points)[:1]
+        blunt, known = self.evidence.blunt(), before.u
+        fits = [
+            refit(response, blunt, before.law, np.concatenate([known, u]), tolerance=ROUGH, brief=True)
+            for u in each
+        ]
+        return sorted(fits, key=lambda f: f.chi2)
+
+    def wide(self, begun: Refitted) -> Refitted:
+        """What has begun in a wide valley, followed roughly there."""
+        return self._from(begun, self.evidence.blunt())
+
+    def briefly(self, wide: Refitted) -> Refitted:
+        """What a wide valley has led to, a few steps on as the readings are."""
+        return self._from(wide, self.evidence, brief=True)
+
+    def roughly(self, brief: Refitted) -> Refitted:
+        """The same followed roughly."""
+        return self._from(brief, self.evidence)
+
+    def _from(self, fitted: Refitted, evidence: Evidence, *, brief: bool = False) -> Refitted:
+        response = response_of(self.problem, fitted.effects, self.problem.coarse)
+        return refit(response, evidence, fitted.law, fitted.u, tolerance=ROUGH, brief=brief)
+
+    def ended(self, one: tuple[Refitted, float]) -> Refitted:
+        """A rough fit followed to the end, or to where a chi-square is out of reach."""
+        rough, goal = one
+        return polished(self.problem, rough.effects, self.evidence, rough.law, rough.u, goal)
 
     def fitted(self, one: tuple[Sequence[Effect], CoreLaw, Array]) -> Refitted:
         """Some effects fitted to the end, from a law and unknowns. Shape (unknowns,)."""

@@ -2,17 +2,18 @@
 
 from collections.abc import Callable, Sequence
 from itertools import permutations
+from typing import TypeVar
 
 import numpy as np
 
 from fitting.diagnosis.candidate_fits import Form
-from fitting.diagnosis.candidates import Start
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
 
 Report = Callable[[float], None]
+A = TypeVar("A")
 
 _LOOKED_AT = 6
 """Forms that are looked at in one go: few enough that both processes end at about the same time. A choice."""
@@ -35,7 +36,8 @@ class Pairs:
         near = singles[0].cost + SEARCH.near * scale
         leaders = [t for t in singles[: SEARCH.leaders] if wide or t.cost < near]
         tasks = [(t, form) for t in leaders for form in self._others(t.names)]
-        looks = self._looks([(t.fitted, self._others(t.names)) for t in leaders], lambda x: report(0.4 * x))
+        beside_each = [(t.fitted, self._others(t.names)) for t in leaders]
+        looks = self._looks(work.look, beside_each, lambda x: report(0.4 * x))
         promised = [starts[0][0] if starts else 0.0 for starts in looks]
         expected = [t.fitted.chi2 - gain for (t, _), gain in zip(tasks, promised, strict=True)]
         chosen: dict[frozenset[str], int] = {}
@@ -63,16 +65,18 @@ class Pairs:
         return _best_of_each(found)
 
     def _looks(
-        self, asked: Sequence[tuple[Refitted, Sequence[Form]]], report: Report = lambda fraction: None
-    ) -> list[list[Start]]:
-        """Starts of every form beside its fit, in order; some at a time, as that fit is one."""
+        self,
+        do: Callable[[tuple[Refitted, Sequence[Form]]], list[A]],
+        asked: Sequence[tuple[Refitted, Sequence[Form]]],
+        report: Report = lambda fraction: None,
+    ) -> list[A]:
+        """What is seen of every form beside its fit, in order; some at a time, as that fit is one."""
         some = [
             (before, forms[k : k + _LOOKED_AT])
             for before, forms in asked
             for k in range(0, len(forms), _LOOKED_AT)
         ]
-        found = self._search.executor.each(self._search.work.look, some, report)
-        return [starts for looks in found for starts in looks]
+        return [one for looks in self._search.executor.each(do, some, report) for one in looks]
 
     def _begun_again(self, pairs: Sequence[ScoredFit]) -> list[ScoredFit]:
         """Each effect of some pairs beside the other one fitted alone, in wide valleys."""
@@ -104,23 +108,30 @@ class Pairs:
         ]
 
     def _every_second(self, leaders: Sequence[ScoredFit], pairs: Sequence[ScoredFit]) -> list[ScoredFit]:
-        """Every effect beside the leading ones roughly; the best pairs that are new to the end."""
+        """Every effect beside the leading ones; the best pairs that are new to the end.
+
+        All begin where a leading one alone has come to in its wide valley. Those that do well go on there,
+        then as the readings are, then to the end.
+        """
         search, work, each = self._search, self._search.work, self._search.executor.each
         known = {frozenset(t.names) for t in pairs}
         order = [
             *(t.names[0] for t in leaders[: SEARCH.every_second]),
             *search.order_of_plain()[: SEARCH.every_second],
         ]
-        first = set(order) & {e.name for e in search.effects}
-        wanted = [
-            (name, work.state(name), form)
-            for name in sorted(first)
-            for form in self._others([name])
-            if {name, form[0]} not in known
-        ]
-        rough = [f for fits in each(work.roughly, wanted) for f in fits]
-        best = sorted(rough, key=lambda f: f.chi2)[: SEARCH.pairs_a_leader]
-        return [search.judged(f) for f in each(work.ended, best)]
+        first = sorted(set(order) & {e.name for e in search.effects})
+        others = [[f for f in self._others([name]) if {name, f[0]} not in known] for name in first]
+        before = [work.candidates[name][0].plain[0] for name in first]
+        starts = self._looks(work.look_wide, list(zip(before, others, strict=True)))
+        beside = [(fitted, form) for fitted, forms in zip(before, others, strict=True) for form in forms]
+        tasks = [(fitted, form, us) for (fitted, form), us in zip(beside, starts, strict=True)]
+        begun = sorted(each(work.begun_wide, tasks), key=lambda fits: fits[0].chi2)
+        wide = each(work.wide, [f for fits in _with_a_say(begun) for f in fits])
+        brief = sorted(each(work.briefly, list(wide)), key=_chi2)
+        rough = sorted(each(work.roughly, brief[: SEARCH.rough]), key=_chi2)
+        goal = work.goal(min([*leaders, *pairs], key=_cost).fitted)
+        ended = each(work.ended, [(f, goal) for f in rough[: SEARCH.pairs_a_leader]])
+        return [search.judged(f) for f in ended]
 
     def _improved(self, pairs: Sequence[ScoredFit]) -> list[ScoredFit]:
         """What is found by keeping one effect of the best pairs, each once, and exchanging the other one.
@@ -159,15 +170,30 @@ class Pairs:
         before = work.alone((pair.fitted, kept))
         gone = {*pair.names} - {kept.name}
         forms = [f for f in self._others([kept.name]) if f[0] not in gone or work.has_places(f[0])]
-        looks = [one for one in zip(forms, self._looks([(before, forms)]), strict=True) if one[1]]
+        looks = [one for one in zip(forms, self._looks(work.look, [(before, forms)]), strict=True) if one[1]]
         promising = sorted(looks, key=lambda one: -one[1][0][0])[: SEARCH.exchanged]
         goal = work.goal(pair.fitted)
         fits = each(work.second, [(before, form, starts, goal) for form, starts in promising])
         return [self._search.judged(f) for f in fits if f is not None]
 
 
+def _with_a_say(begun: Sequence[list[Refitted]]) -> list[list[Refitted]]:
+    """Of fits of pairs, the best pair first: the best few of each leader, and the best of the others."""
+    beside: dict[str, int] = {}
+    chosen, left = list[list[Refitted]](), list[list[Refitted]]()
+    for fits in begun:
+        name = fits[0].effects[0].name
+        beside[name] = beside.get(name, 0) + 1
+        (chosen if beside[name] <= SEARCH.pairs_a_leader else left).append(fits)
+    return chosen + left[: max(0, SEARCH.wide - len(chosen))]
+
+
 def _cost(scored: ScoredFit) -> float:
     return scored.cost
+
+
+def _chi2(fitted: Refitted) -> float:
+    return fitted.chi2
 
 
 def _plainly(scored: ScoredFit) -> list[str]:

@@ -115,7 +115,11 @@ class SearchThresholds:
     exchanged: int = 4
     """... and others that are fitted beside each that is kept."""
     every_second: int = 3
-    """Leaders beside which every other effect is then fitted roughly."""
+    """Leaders beside which every other effect is then begun ..."""
+    wide: int = 32
+    """... pairs of those that are followed in wide valleys, `pairs_a_leader` of each among them ..."""
+    rough: int = 16
+    """... and fits of those that are then followed as the readings are."""
     followed: int = 2
     """Of an effect's starts, how many are fitted roughly ..."""
     followed_places: int = 4

@@ -1,5 +1,6 @@
 """Which two effects are tried: a wrong one may stand where the right one would begin."""
 
+from dataclasses import replace
 from functools import partial
 from types import SimpleNamespace
 
@@ -9,6 +10,7 @@ import pytest
 from fitting.diagnosis.executor import ALONE
 from fitting.diagnosis.pairs import Pairs
 from fitting.diagnosis.search import ScoredFit, Search
+from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect, EffectParameter
 
 NOTHING = 1000.0
@@ -153,3 +155,71 @@ def test_beside_a_best_pair_that_fails_those_as_bad_are_not_exchanged(monkeypatc
     monkeypatch.setattr(World, "judged", lambda _, fitted: ScoredFit(fitted, fitted.chi2, {"size": 0.0}))
     assert {"a", "b"} not in world.found("w")
     assert sorted(world.kept) == ["c", "w"]
+
+
+class Wanting(World):
+    """None will do, and beside a fit alone a look shows nothing; in a wide valley it shows what there is."""
+
+    evidence = None
+
+    def __init__(self, names, **chi2):
+        super().__init__(names, **chi2)
+        self.candidates = {
+            n: [SimpleNamespace(plain=[self.fit(e)])] for n, e in zip(names, self.effects, strict=True)
+        }
+        self.followed = []
+
+    def judged(self, fitted):
+        return ScoredFit(fitted, fitted.chi2, {"size": 1e-9})
+
+    def look(self, one):
+        return [[(0.0, np.zeros(0))] for _ in one[1]]
+
+    def look_wide(self, one):
+        return [[np.zeros(0)] for _ in one[1]]
+
+    def begun_wide(self, one):
+        before, form, starts = one
+        return [self.second((before, form, None, None)) for _ in starts]
+
+    def wide(self, begun):
+        self.followed.append(tuple(e.name for e in begun.effects))
+        return begun
+
+    def briefly(self, wide):
+        return wide
+
+    def roughly(self, brief):
+        return brief
+
+    def ended(self, one):
+        return one[0]
+
+    def fit_plainly(self, names):
+        pass
+
+    def order_of_plain(self):
+        return [e.name for e in self.effects]
+
+    def beside(self, one):
+        return self.fit(*one[0].effects, one[1])
+
+
+def wanting(monkeypatch, wide, names, **chi2):
+    few = replace(SEARCH, leaders=1, pairs=1, pairs_a_leader=1, wide=wide)
+    monkeypatch.setattr("fitting.diagnosis.pairs.SEARCH", few)
+    return Wanting(names, **chi2)
+
+
+def test_where_none_will_do_a_pair_is_found_from_where_the_wide_valley_led(monkeypatch):
+    world = wanting(monkeypatch, 4, "wabc", w=200.0, w_c=150.0)
+    assert world.found("w", wide=True)[0] == {"w", "c"}
+
+
+def test_of_what_begins_in_wide_valleys_the_best_go_on_and_the_best_of_every_leader(monkeypatch):
+    world = wanting(monkeypatch, 4, "wabc", w=200.0, w_c=150.0, w_b=160.0, b_c=300.0)
+    world.found("w", wide=True)
+    # Three lead; what is left goes to the best of all.
+    assert [two[0] for two in world.followed] == ["w", "b", "a", "w"]
+    assert world.followed[:2] == [("w", "c"), ("b", "w")]
+    assert world.followed[3] == ("w", "b")
