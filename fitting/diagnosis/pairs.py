@@ -7,6 +7,7 @@ from typing import TypeVar
 import numpy as np
 
 from fitting.diagnosis.candidate_fits import Form
+from fitting.diagnosis.executor import Call
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.thresholds import SEARCH
@@ -36,8 +37,10 @@ class Pairs:
         near = singles[0].cost + SEARCH.near * scale
         leaders = [t for t in singles[: SEARCH.leaders] if wide or t.cost < near]
         tasks = [(t, form) for t in leaders for form in self._others(t.names)]
-        beside_each = [(t.fitted, self._others(t.names)) for t in leaders]
-        looks = self._looks(work.look, beside_each, lambda x: report(0.4 * x))
+        # One suffices where it is not wide: those near the best are then what is reported.
+        moving = [] if wide else search.moving(singles, singles[0])
+        asked = [(t.fitted, self._others(t.names)) for t in leaders]
+        looks = self._looks(work.look, asked, lambda x: report(0.4 * x), moving)
         promised = [starts[0][0] if starts else 0.0 for starts in looks]
         expected = [t.fitted.chi2 - gain for (t, _), gain in zip(tasks, promised, strict=True)]
         chosen: dict[frozenset[str], int] = {}
@@ -69,14 +72,22 @@ class Pairs:
         do: Callable[[tuple[Refitted, Sequence[Form]]], list[A]],
         asked: Sequence[tuple[Refitted, Sequence[Form]]],
         report: Report = lambda fraction: None,
+        moving: Sequence[Refitted] = (),
     ) -> list[A]:
-        """What is seen of every form beside its fit, in order; some at a time, as that fit is one."""
+        """What is seen of every form beside its fit, in order; some at a time, as that fit is one.
+
+        What is still `moving` is followed to its very end meanwhile.
+        """
         some = [
             (before, forms[k : k + _LOOKED_AT])
             for before, forms in asked
             for k in range(0, len(forms), _LOOKED_AT)
         ]
-        return [one for looks in self._search.executor.each(do, some, report) for one in looks]
+        calls: list[Call] = [(self._search.work.at_rest, fitted) for fitted in moving]
+        calls += [(do, one) for one in some]
+        found = list(self._search.executor.together(calls, report))
+        self._search.rested(moving, found[: len(moving)])
+        return [one for looks in found[len(moving) :] for one in looks]
 
     def _begun_again(self, pairs: Sequence[ScoredFit]) -> list[ScoredFit]:
         """Each effect of some pairs beside the other one fitted alone, in wide valleys."""

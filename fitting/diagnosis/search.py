@@ -1,6 +1,6 @@
 """The catalogue tried on a residual, effect by effect."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -76,6 +76,8 @@ class Search:
         self.beside_the_law = sorted(fitted, key=has_place, reverse=True)
         self.work = CandidateFits(problem, evidence, none, [*self.effects, *self.unnamed])
         self._none = none
+        self._ends: dict[Refitted, Refitted] = {}
+        """Fits followed to their very end."""
         self._alone: dict[str, float] = {}
         """Least chi-square of each effect by itself."""
         self.none = self.judged(none)
@@ -134,14 +136,23 @@ class Search:
 
     def at_rest(self, scored_fits: Sequence[ScoredFit], best: ScoredFit) -> list[ScoredFit]:
         """What may be in one group with `best` followed to its very end, the others as they are."""
+        asked = [(self.work.at_rest, fitted) for fitted in self.moving(scored_fits, best)]
+        self.rested([f for _, f in asked], self.executor.together(asked))
+        return [self._at_its_end(t) for t in scored_fits]
+
+    def moving(self, scored_fits: Sequence[ScoredFit], best: ScoredFit) -> list[Refitted]:
+        """What may be in one group with `best`, and nobody has followed to its very end."""
         within = best.cost + SEARCH.reported * self.temper(best)
-        near = [t for t in scored_fits if t.cost < within]
-        ends = self.executor.each(self.work.at_rest, [t.fitted for t in near])
+        return [t.fitted for t in scored_fits if t.cost < within and t.fitted not in self._ends]
+
+    def rested(self, fits: Sequence[Refitted], ends: Iterable[Refitted]) -> None:
+        """Where some fits end."""
+        self._ends |= dict(zip(fits, ends, strict=True))
+
+    def _at_its_end(self, scored: ScoredFit) -> ScoredFit:
+        end = self._ends.get(scored.fitted, scored.fitted)
         # A cost is one at a least chi-square only: what is reached counts, though it were dearer.
-        found = [
-            self.judged(end) if end.chi2 < t.fitted.chi2 else t for t, end in zip(near, ends, strict=True)
-        ]
-        return [*found, *(t for t in scored_fits if t.cost >= within)]
+        return self.judged(end) if end.chi2 < scored.fitted.chi2 else scored
 
     def simpler(self, scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
         """What effects contain in their places, fitted from where each was found."""

@@ -24,12 +24,15 @@ class Singles:
         self._effects = {e.name: e for e in search.beside_the_law}
         self._laws = [e.name for e in search.effects if e.name not in self._effects]
         self._settled = False
+        self._finished = set[Refitted]()
+        """Rough fits that have been followed to their end."""
 
     def best(self) -> list[ScoredFit]:
         """One trial of each effect, best first."""
         self._first_pass()
         ahead = [best for name in self._ahead() for best in self._work.best_near(name)]
-        self._finish(ahead, self._part(0.4, 0.2))
+        # All in one go as far as it is known what is to be followed: hands then end at the same time.
+        self._finish([*ahead, *self._dismissed_on_the_way()], self._part(0.4, 0.2))
         self._finish(self._dismissed_on_the_way(), self._part(0.6, 0.1))
         self._second_pass()
         places = [(name, self._work.state(name)) for name in self._misplaced()]
@@ -113,9 +116,11 @@ class Singles:
                 self._found[name] = scored
 
     def _finish(self, rough: Iterable[tuple[Form, Refitted]], report: Report = lambda fraction: None) -> None:
-        """What may come near to what explains everything, if anything does, followed to its end."""
+        """What may come near to what explains everything, if anything does, followed to its end, once."""
         goal = self._work.goal(self._order()[0].fitted) if self._settled else np.inf
-        tasks = [(form, f, goal) for form, f in rough if f.may_reach(goal)]
+        new = {f: form for form, f in rough if f not in self._finished and f.may_reach(goal)}
+        self._finished |= new.keys()
+        tasks = [(form, f, goal) for f, form in new.items()]
         self._keep(self._each(self._work.finished, tasks, report))
 
     def _begin(self, tasks: Iterable[FirstLook]) -> None:

@@ -12,15 +12,12 @@ from contextlib import AbstractContextManager, nullcontext
 from threading import Thread
 from time import sleep
 from types import TracebackType
-from typing import Any, TypeVar
+from typing import Any
 
 from loky import ProcessPoolExecutor
 
-from fitting.diagnosis.executor import ALONE, Executor, Report
+from fitting.diagnosis.executor import ALONE, Call, Executor, Report
 from instrument.models.background import step_back
-
-A = TypeVar("A")
-B = TypeVar("B")
 
 VARIABLE = "VISCORIG_PROCESSES"
 _LOOKS_ROUND_S = 1.0
@@ -59,24 +56,22 @@ class TwoProcesses(Executor):
     ) -> None:
         self._other.shutdown(wait=True, kill_workers=True)
 
-    def each(
-        self, do: Callable[[A], B], wanted: Sequence[A], report: Report = lambda fraction: None
-    ) -> Iterator[B]:
-        """The same, the method's own object sent over once."""
-        left = deque(enumerate(wanted))
-        found: dict[int, B] = {}
+    def together(self, calls: Sequence[Call], report: Report = lambda fraction: None) -> Iterator[Any]:
+        """The same, the methods' own object sent over once."""
+        left = deque(enumerate(calls))
+        found: dict[int, Any] = {}
         failed: list[Exception] = []
 
         def beside() -> None:
             while left and not failed:
                 try:
-                    k, one = left.popleft()
+                    k, call = left.popleft()
                 except IndexError:
                     return
                 try:
-                    found[k] = self._elsewhere(do, one)
+                    found[k] = self._elsewhere(*call)
                 except BrokenProcessPool:
-                    left.append((k, one))
+                    left.append((k, call))
                     return
                 except Exception as error:  # raised where it is waited for
                     failed.append(error)
@@ -85,18 +80,18 @@ class TwoProcesses(Executor):
         thread.start()
         while left or thread.is_alive():
             try:
-                k, one = left.popleft()
+                k, (do, one) = left.popleft()
             except IndexError:
                 thread.join()
                 continue
             found[k] = do(one)
-            report(len(found) / len(wanted))
+            report(len(found) / len(calls))
         if failed:
             raise failed[0]
         report(1.0)
-        yield from (found[k] for k in range(len(wanted)))
+        yield from (found[k] for k in range(len(calls)))
 
-    def _elsewhere(self, do: Callable[[A], B], one: A) -> Any:
+    def _elsewhere(self, do: Callable[[Any], Any], one: Any) -> Any:
         owner: object = do.__self__  # type: ignore[attr-defined]
         if owner is not self._known:
             self._known, self._number = owner, self._number + 1

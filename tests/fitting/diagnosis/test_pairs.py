@@ -51,8 +51,16 @@ class World:
         after = [self.second((before, form, None, None)) for form in forms]
         return [[(before.chi2 - f.chi2, np.zeros(0))] for f in after]
 
-    def at_rest(self, scored_fits, best):
-        return list(scored_fits)
+    def at_rest(self, asked, best=None):
+        return "its end" if best is None else list(asked)
+
+    moves = False
+
+    def moving(self, scored_fits, best):
+        return [t.fitted for t in scored_fits] if self.moves else []
+
+    def rested(self, fits, ends):
+        self.ends = dict(zip([f.effects for f in fits], ends, strict=True))
 
     def simpler(self, scored):
         return []
@@ -223,3 +231,11 @@ def test_of_what_begins_in_wide_valleys_the_best_go_on_and_the_best_of_every_lea
     assert [two[0] for two in world.followed] == ["w", "b", "a", "w"]
     assert world.followed[:2] == [("w", "c"), ("b", "w")]
     assert world.followed[3] == ("w", "b")
+
+
+@pytest.mark.parametrize("wide", [False, True])
+def test_where_one_may_suffice_it_is_followed_to_its_very_end_while_others_are_looked_at(wide):
+    world = World("wab", w=200.0, a_b=500.0)
+    world.moves = True
+    world.found("w", wide=wide)
+    assert list(world.ends.values()) == ([] if wide else ["its end"])

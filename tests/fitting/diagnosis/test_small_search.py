@@ -110,6 +110,26 @@ def test_of_single_effects_the_true_cause_comes_first(high):
     assert all(t.fitted.converged for t in singles)
 
 
+def test_a_rough_fit_that_leads_and_was_on_its_way_is_followed_to_its_end_once(high, monkeypatch):
+    followed, plain = [], CandidateFits.finished
+
+    def finished(self, one):
+        followed.append(one[1])
+        return plain(self, one)
+
+    def begun(self, one):
+        found = first(self, one)
+        short = [replace(f, converged=False) for f in found.fits]
+        return replace(found, fits=short, state=[Known(near=short)])
+
+    first = CandidateFits.begun
+    monkeypatch.setattr(CandidateFits, "finished", finished)
+    monkeypatch.setattr(CandidateFits, "begun", begun)
+    Singles(high.search(MASS, GAIN), lambda fraction: None).best()
+    assert len({id(f) for f in followed}) == len(followed)
+    assert (GAIN,) in {f.effects for f in followed}
+
+
 def test_of_a_clean_sweep_no_single_effect_is_worth_more_than_none(clean):
     search = clean.search(MASS, GAIN)
     assert all(t.cost > search.none.cost for t in Singles(search, lambda fraction: None).best())

@@ -23,6 +23,15 @@ def test_answers_come_in_order_whoever_gives_them(two):
     assert {pid for _, pid in alone} == {os.getpid()}
 
 
+def test_several_methods_of_one_object_are_asked_in_one_go(two):
+    squares = Squares()
+    calls = [(squares.square, 3), (squares.niceness, 0), (squares.square, 4)]
+    for executor in (ALONE, two):
+        (nine, _), nice, (sixteen, _) = executor.together(calls)
+        assert (nine, sixteen) == (9, 16)
+        assert nice in (os.nice(0), min(19, os.nice(0) + 10))
+
+
 def test_the_second_process_takes_its_share(two):
     def until_shared():
         for _ in range(100):
