@@ -39,6 +39,11 @@ class BentLaw(CoreLaw):
     freedom: float = 1.0
     """Times the usual standard deviations."""
 
+    def __post_init__(self) -> None:
+        # The law that is bent has looked at its own parameters.
+        if not all(_BEND.holds(b) for b in self.bend):
+            super().__post_init__()
+
     @classmethod
     def over(cls, law: CoreLaw, frequency_hz: Array, freedom: float = 1.0) -> "BentLaw":
         """`law` unbent, free to bend over a range of frequencies, given in any shape."""

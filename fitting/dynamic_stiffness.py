@@ -4,8 +4,13 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 
-Matrices = tuple[Complex, Array, Array, Array]
-"""K_0, K_1, M and C_1. Shape (k, k) each."""
+Matrices = Complex
+"""K_0, K_1, M and C_1, one after the other. Shape (4, k, k)."""
+
+
+def stacked(K_0: Complex, K_1: Array, M: Array, C_1: Array) -> Matrices:
+    """They as one: a stack is multiplied at once. Shape (k, k) each."""
+    return np.array([K_0, K_1, M, C_1], dtype=complex)
 
 
 def dynamic_stiffness(
@@ -15,9 +20,8 @@ def dynamic_stiffness(
 
     Shape (omegas,) of `omega`, `G` and `square` to (omegas, k, k).
     """
-    K_0, K_1, M, C_1 = structure
-    squares = omega**2 if square is None else square
-    factors = np.stack([np.ones_like(G), G, -squares, 1j * omega], axis=1)
+    factors = np.empty((len(omega), 4), complex)
+    factors[:, 0], factors[:, 1], factors[:, 3] = 1.0, G, 1j * omega
+    factors[:, 2] = -(omega**2 if square is None else square)
     # One product: several times faster than sums of stacks of matrices.
-    parts = np.stack([K_0, K_1, M, C_1]).astype(complex).reshape(4, -1)
-    return np.asarray((factors @ parts).reshape(len(omega), *M.shape))
+    return np.asarray((factors @ structure.reshape(4, -1)).reshape(len(omega), *structure.shape[1:]))

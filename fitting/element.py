@@ -84,11 +84,15 @@ class Shape:
 
     def deflection(self, x: float, y: float, dx: int = 0, dy: int = 0) -> Array:
         """N_5: w, or its derivative. Shape (28,)."""
+        row = np.zeros((4, self.dofs))
+        row[:, W:DOFS] = self.deflection_by_corners(x, y, dx, dy)
+        return row.ravel()
+
+    def deflection_by_corners(self, x: float, y: float, dx: int = 0, dy: int = 0) -> Array:
+        """The same over w, dw/dy and -dw/dx of every corner alone. Shape (4, 3)."""
         a, b = self.a_m, self.b_m
         values = (_monomials(x / a, y / b, dx, dy) / (a**dx * b**dy)) @ _UNIT
-        row = np.zeros((4, self.dofs))
-        row[:, W:DOFS] = values.reshape(4, 3) * (1.0, b, a)
-        return row.ravel()
+        return np.asarray(values.reshape(4, 3) * (1.0, b, a))
 
     def membrane(self, u: int, v: int, x: float, y: float) -> Array:
         """B_b or B_c: strains (xx, yy, xy) of a face's neutral plane. Shape (3, 28)."""

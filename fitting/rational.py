@@ -11,7 +11,7 @@ the responses at a few of them, so that the sum has about half as many terms as 
 
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,6 +37,10 @@ class RationalSweep:
     """m per m/s^2. Shape (points, terms)."""
     mu: Complex
     """1/Pa. Shape (points, terms)."""
+    _latest: dict[bytes, tuple[Complex, Complex]] = field(
+        default_factory=dict, init=False, compare=False, repr=False
+    )
+    """By the modulus, of one law: many effects are looked at beside it."""
 
     def displacement(self, G: Complex) -> Complex:
         """x(G). `G` of shape (points,), or (laws, points) for many laws at once; so the result."""
@@ -45,6 +49,15 @@ class RationalSweep:
 
     def with_derivative(self, G: Complex) -> tuple[Complex, Complex]:
         """x(G) and dx/dG, of the shape of `G` each: (points,), or (laws, points)."""
+        if G.ndim > 1:
+            return self._with_derivative(G)
+        key = G.tobytes()
+        if key not in self._latest:
+            self._latest.clear()
+            self._latest[key] = self._with_derivative(G)
+        return self._latest[key]
+
+    def _with_derivative(self, G: Complex) -> tuple[Complex, Complex]:
         q = 1 / (1 + (np.asarray(G) - self.G_ref)[..., None] * self.mu)
         cq = self.c * q
         return cq.sum(axis=-1), -np.einsum("...pk,...pk,pk->...p", cq, q, self.mu)

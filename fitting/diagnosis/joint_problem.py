@@ -24,15 +24,11 @@ class JointProblem:
         self.points = points
         self.evidence = evidence if points is None else evidence.take(points)
         q = response.parameters
-        self._z = len(response.nuisances)
+        self._z, self._n = len(response.nuisances), len(law.names)
         self.free = np.array([not x.fixed for x in q], dtype=bool)
         self.logarithmic = np.array([x.logarithmic for x in q], dtype=bool)
         self._last: tuple[bytes, Array, Array, Complex] | None = None
         self._condensed: tuple[bytes, Array] | None = None
-
-    @property
-    def _n(self) -> int:
-        return len(self.law.names)
 
     def _to_inner(self, u: Array) -> Array:
         return np.where(self.logarithmic, np.log(np.where(self.logarithmic, u, 1.0)), u)

@@ -11,7 +11,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.pole_following import KnownPoles
-from fitting.dynamic_stiffness import Matrices, dynamic_stiffness
+from fitting.dynamic_stiffness import Matrices, dynamic_stiffness, stacked
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisances import Nuisances
@@ -55,15 +55,14 @@ class Asked:
 
     @cached_property
     def matrices(self) -> Matrices:
-        """K_0, K_1, M and C_1 as changed. Shape (k, k) each."""
+        """As changed."""
         plate, change = self.plate, self.change
         C_1 = (plate.U * (plate.d * change.damping)) @ plate.U.T
-        return plate.K_0 + change.K, plate.K_1 + change.K_1, plate.M + change.M, C_1
+        return stacked(plate.K_0 + change.K, plate.K_1 + change.K_1, plate.M + change.M, C_1)
 
     def alike(self, other: "Asked") -> bool:
         """Whether another asks for the same matrix at the same nodes, but for what drives and reads it."""
-        pairs = [(self.omega, other.omega), (self.G, other.G)]
-        pairs += list(zip(self.matrices, other.matrices, strict=True))
+        pairs = [(self.omega, other.omega), (self.G, other.G), (self.matrices, other.matrices)]
         if self.poles is None or other.poles is None:
             followed = self.poles is other.poles
         else:

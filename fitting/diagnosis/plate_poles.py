@@ -5,6 +5,7 @@ import numpy as np
 from fitting.arrays import Complex
 from fitting.diagnosis.nodes import MOST_POLES, Nodes
 from fitting.diagnosis.pole_following import KnownPoles, ModulusNear
+from fitting.dynamic_stiffness import stacked
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 
@@ -21,7 +22,7 @@ class PlatePoles:
         square = np.ix_(self.own, self.own)
         U = plate.U[self.own]
         C_1 = (U * plate.d) @ U.T
-        self.matrices = plate.K_0[square], plate.K_1[square], plate.M[square], C_1
+        self.matrices = stacked(plate.K_0[square], plate.K_1[square], plate.M[square], C_1)
         self._known: dict[complex, Complex] = {}
         self._found: dict[tuple[float, float], Complex] = {}
         self._latest: tuple[bytes, KnownPoles, Complex] | None = None

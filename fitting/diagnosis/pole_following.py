@@ -70,19 +70,29 @@ class KnownPoles:
 
     def _apart(self, moved: Matrices) -> tuple[Complex, Complex]:
         """What the modes of each cluster make of it, by Ritz: (A + p B - p^2 C) s = 0."""
-        K_0, K_1, M, C_1 = (self.modes @ N @ self.modes.T for N in moved)
-        p, y = np.empty_like(self.at), np.empty_like(self.modes)
-        for number in np.unique(self.cluster):
+        K_0, K_1, M, C_1 = self.modes @ moved @ self.modes.T
+        p, y = np.empty_like(self.at), self.modes.copy()
+        for number in set(self.cluster.tolist()):
             mine = np.flatnonzero(self.cluster == number)
             omega, G, slope = (
                 w[mine[len(mine) // 2]] for w in (self.modulus.omega, self.modulus.G, self.modulus.slope)
             )
             here = np.ix_(mine, mine)
             A = K_0[here] + (G - slope * omega) * K_1[here]
-            found, s = _quadratic(A, slope * K_1[here] + 1j * C_1[here], M[here])
+            B, C = slope * K_1[here] + 1j * C_1[here], M[here]
+            if len(mine) == 1:
+                p[mine] = _forward(A[0], B[0], C[0])
+                continue
+            found, s = _quadratic(A, B, C)
             was, now = linear_sum_assignment(np.abs(self.at[mine][:, None] - found))
             p[mine[was]], y[mine[was]] = found[now], s[now] @ self.modes[mine]
         return p, y
+
+
+def _forward(a: Complex, b: Complex, c: Complex) -> Complex:
+    """The p of a + p b - p^2 c = 0 that goes forward. Shape (any,)."""
+    half, root = b / (2 * c), np.sqrt(b**2 + 4 * a * c) / (2 * c)
+    return np.asarray(half + np.where(root.real < 0, -root, root))
 
 
 def _quadratic(A: Complex, B: Complex, C: Complex) -> tuple[Complex, Complex]:
@@ -91,9 +101,6 @@ def _quadratic(A: Complex, B: Complex, C: Complex) -> tuple[Complex, Complex]:
     Shapes (m, m) to (m,) and (m, m).
     """
     m = len(A)
-    if m == 1:
-        half, root = B[0] / (2 * C[0]), np.sqrt(B[0] ** 2 + 4 * A[0] * C[0]) / (2 * C[0])
-        return half + np.where(root.real < 0, -root, root), np.ones((1, 1), complex)
     companion = np.vstack([np.eye(m, 2 * m, k=m), np.linalg.solve(C, np.hstack([A, B]))])
     values, vectors = np.linalg.eig(companion)
     forward = np.argsort(values.real)[m:]
@@ -105,16 +112,23 @@ def _rayleigh_iterated(
 ) -> tuple[Complex, Complex]:
     """Better p and y by Rayleigh's quotient iteration from guesses. Shapes (poles,) and (poles, k)."""
     M = moved[2]
+    energies = _energies(moved, y)
     for _ in range(_STEPS):
-        square = _rayleigh(moved, p, y, modulus) * (1 + _OFF)
+        square = _rayleigh(energies, p, modulus) * (1 + _OFF)
         A = dynamic_stiffness(moved, p, modulus.at(p), square)
         turned = np.linalg.solve(A, (y @ M)[:, :, None])[:, :, 0]
         y = np.asarray(turned / np.linalg.norm(turned, axis=1)[:, None], dtype=complex)
-        p = np.sqrt(_rayleigh(moved, p, y, modulus))
-    return np.sqrt(_rayleigh(moved, p, y, modulus)), y
+        energies = _energies(moved, y)
+        p = np.sqrt(_rayleigh(energies, p, modulus))
+    return np.sqrt(_rayleigh(energies, p, modulus)), y
 
 
-def _rayleigh(moved: Matrices, p: Complex, y: Complex, modulus: ModulusNear) -> Complex:
+def _energies(moved: Matrices, y: Complex) -> Complex:
+    """Y^T N y of each of the matrices. Shapes (4, k, k) and (poles, k) to (4, poles)."""
+    return np.asarray(((y @ moved) * y).sum(axis=2))
+
+
+def _rayleigh(energies: Complex, p: Complex, modulus: ModulusNear) -> Complex:
     """p^2 as the modes have it, what depends on p being as there."""
-    K_0, K_1, M, C_1 = (((y @ N) * y).sum(axis=1) for N in moved)
+    K_0, K_1, M, C_1 = energies
     return np.asarray((K_0 + modulus.at(p) * K_1 + 1j * p * C_1) / M)

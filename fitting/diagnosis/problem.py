@@ -9,8 +9,10 @@ from fitting.arrays import Array, Complex
 from fitting.diagnosis.nodes import HZ_A_NODE, Nodes
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.pole_following import KnownPoles
-from fitting.effects.base import Points
+from fitting.effects.added_mass import AddedMassEffect
+from fitting.effects.base import Effect, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.span import Span
 from fitting.identification.adjusted import Adjusted, adjusted
 from fitting.laws import CoreLaw
 from fitting.nuisances import Nuisances, nuisances_of
@@ -195,3 +197,11 @@ def points_of(sweep: Sweep, specimen: StatedSpecimen) -> Points:
         if specimen.drive == "force" and sweep.base_m_s2 is not None
         else None,
     )
+
+
+def spans_of(problem: DiagnosisProblem, effects: Sequence[Effect]) -> list[Span]:
+    """What a task's plate must span for some effects and for what is stated to sit on it."""
+    spans = {s.name: s for e in effects for s in e.spans}
+    if problem.nuisances.masses:
+        spans |= {s.name: s for s in AddedMassEffect.spans}
+    return list(spans.values())

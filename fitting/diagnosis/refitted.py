@@ -1,6 +1,7 @@
 """Where a fit of a law and some effects ended, and what it knows."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -65,6 +66,18 @@ class Refitted:
     def z(self) -> Array:
         """The stated numbers, in standard deviations of their tolerances. Shape (numbers,)."""
         return self.u[: self.stated]
+
+    @cached_property
+    def feels(self) -> Array:
+        """An orthonormal basis of what its law and unknowns can do to the residuals. Shape (rows, columns).
+
+        Kept: every effect that is looked at beside a fit is told from it.
+        """
+        return np.asarray(np.linalg.qr(self.jacobian)[0])
+
+    def __getstate__(self) -> dict[str, object]:
+        # Another process makes its own.
+        return {name: value for name, value in vars(self).items() if name != "feels"}
 
     @property
     def owed(self) -> float:

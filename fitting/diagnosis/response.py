@@ -17,14 +17,12 @@ from fitting.arrays import Array, Complex
 from fitting.diagnosis.channels import Channels
 from fitting.diagnosis.plate_answer import Asked, Motions, motions, read_off
 from fitting.diagnosis.plate_poles import PLAIN
-from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid
+from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid, spans_of
 from fitting.diagnosis.strains import Reference, Strains
 from fitting.diagnosis.unknowns import Unknowns, stepped
-from fitting.effects.added_mass import AddedMassEffect
 from fitting.effects.base import Effect, ModulusAt, Strain
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.effects.span import Span
 from fitting.laws import CoreLaw
 
 _H = 1e-4
@@ -66,6 +64,7 @@ class SweepResponse:
         self.grid = grid
         self._last: tuple[bytes, bool, _OfPlate] | None = None
         self._ready: tuple[Array, Asked, Motions] | None = None
+        self._latest_change: tuple[bytes, Change] | None = None
         self._strains = Strains(problem, self.plate, reference or Reference())
         self._strained = bool(self._shifting) and any(s.name == "strain" for s in spans)
 
@@ -76,7 +75,7 @@ class SweepResponse:
     def with_derivatives(self, law: CoreLaw, u: Array) -> tuple[Complex, Complex]:
         """Phasors, and their derivatives to log parameters and then to `u`. Shape (parameters, points)."""
         at = self._at(law, u)
-        by_law = self._modulus_by_law(law, u, at) * (at.plate.slope * at.per_x)
+        by_law = self._modulus_by_law(law, u) * (at.plate.slope * at.per_x)
         count = len(self.nuisances)
         by_z = self._by_stated(at) if count else []
         by_u = [self._by(k, law, u, at) for k in range(count, len(self.parameters))]
@@ -100,7 +99,7 @@ class SweepResponse:
         nodes, last = self.grid.nodes, self.effects[-1]
         found = [others._change(k, known, self.plate) for k in others._changing]
         if not self.nuisances.change_nothing:
-            found.append(self.nuisances.change(self.plate, known[self._unknowns.stated]))
+            found.append(self._stated_change(known[self._unknowns.stated]))
         G, _ = others._bearing(law, law.modulus(self.problem.points.omega), at.plate.G)
         asked = self._asked(G, reduce(Change.and_then, found, Change()))
         by_start = [(self._moving(last.change(self.plate, u)), Change(), 1.0) for u in starts]
@@ -108,10 +107,6 @@ class SweepResponse:
         by_u = nodes.spread(np.stack([solved.heave_by_u, solved.pitch_by_u]), solved.poles, solved.poles)
         raw = at.per_x * (by_u[0] + at.pitch * by_u[1])
         return others._channels.along(at.raw, at.v, raw, known)
-
-    def beside(self, effect: Effect) -> "SweepResponse":
-        """The same with one more effect."""
-        return SweepResponse(self.problem, [*self.effects, effect], self.grid)
 
     # The parts of the response.
 
@@ -160,7 +155,7 @@ class SweepResponse:
         share = nodes.fit @ (G / G_law)
         return at_nodes * share, G_law * (nodes.plain @ share)
 
-    def _answer(self, u: Array, G: Complex, derivatives: bool) -> tuple["_ByChange", Complex]:
+    def _answer(self, u: Array, G: Complex, derivatives: bool) -> tuple["_ByChange | None", Complex]:
         """At every point its derivatives; and the change of x, the answer to pitch, and dx/dG."""
         ready, self._ready = self._ready, None
         if ready is not None and np.array_equal(ready[0], u) and np.array_equal(ready[1].G, G):
@@ -178,6 +173,8 @@ class SweepResponse:
         solved = read_off(asked, moved, nearby, stated)
         changed = np.array([solved.heave - self.grid.rational.displacement(G), solved.pitch])
         simple = nodes.spread(changed, self.grid.unchanged_poles(G), solved.poles)
+        if not derivatives and not self._shifting:
+            return None, np.array([*simple, np.zeros_like(simple[0])])
         # A derivative has every pole twice, and only those of the changed plate.
         twice = [solved.heave_by_G[None], solved.heave_by_z, solved.heave_by_u]
         if self._pitching:
@@ -223,8 +220,15 @@ class SweepResponse:
     def _changes(self, u: Array) -> Change:
         found = [self._change(k, u, self.plate) for k in self._changing]
         if not self.nuisances.change_nothing:
-            found.append(self.nuisances.change(self.plate, u[self._unknowns.stated]))
+            found.append(self._stated_change(u[self._unknowns.stated]))
         return reduce(Change.and_then, found, Change())
+
+    def _stated_change(self, z: Array) -> Change:
+        """Of the stated numbers; the latest is kept, for the starts of an effect beside them."""
+        key = z.tobytes()
+        if self._latest_change is None or self._latest_change[0] != key:
+            self._latest_change = key, self.nuisances.change(self.plate, z)
+        return self._latest_change[1]
 
     def _change(self, k: int, u: Array, plate: EnrichedReducedPlate) -> Change:
         own = self._unknowns.of(k, u)
@@ -239,28 +243,30 @@ class SweepResponse:
         change = change or Change()
         return change if self.problem.points.drive == "base" else change.at_rest
 
-    def _modulus(self, law: CoreLaw, u: Array, G_law: Complex, strain: Strain | None = None) -> Complex:
-        """G* at every point; `strain` where something is a step away from what strains are known of."""
+    def _modulus(
+        self, law: CoreLaw, u: Array, G_law: Complex, strain: Strain | None = None, logs: Array | None = None
+    ) -> Complex:
+        """G* at every point; `strain` where something is a step away from what strains are known of.
+
+        Of many laws where their `logs` are given: shape (laws, points), as `G_law` then.
+        """
         G = G_law
         for k in self._shifting:
-            at = ModulusAt(law, self.problem.points, strain or self._strain(law, u))
+            at = ModulusAt(law, self.problem.points, strain or self._strain(law, u), logs)
             shifted = self.effects[k].modulus(at, self.problem.points, self._unknowns.of(k, u))
             if shifted is not None:
                 G = G * (shifted / G_law)
         return G
 
-    def _modulus_by_law(self, law: CoreLaw, u: Array, at: "_At") -> Complex:
+    def _modulus_by_law(self, law: CoreLaw, u: Array) -> Complex:
         omega = self.problem.points.omega
         if not self._shifting:
             return np.asarray(law.jacobian(omega) * law.values[:, None])
-        found = []
-        upper = law.log_limits[1]
-        logs, strain = np.log(law.values), self._strain(law, u)
-        for k in range(len(logs)):
-            h = _H if logs[k] + _H < upper[k] else -_H
-            other = law.with_logs(stepped(logs, k, h))
-            found.append((self._modulus(other, u, other.modulus(omega), strain) - at.plate.G) / h)
-        return np.array(found)
+        logs = np.log(law.values)
+        h = np.where(logs + _H < law.log_limits[1], _H, -_H)
+        others = np.vstack([logs, logs + np.diag(h)])
+        G = self._modulus(law, u, law.moduli(others, omega), self._strain(law, u), others)
+        return (G[1:] - G[0]) / h[:, None]
 
     def _strain(self, law: CoreLaw, u: Array) -> Strain:
         """Of the core at every point, softened by a share, over the reference."""
@@ -306,14 +312,6 @@ class SweepResponse:
         assert at.plate.by is not None
         stated = slice(0, len(self.nuisances))
         return list(at.per_x * (at.plate.by.heave[stated] + at.pitch * at.plate.by.turned[stated]))
-
-
-def spans_of(problem: DiagnosisProblem, effects: Sequence[Effect]) -> list[Span]:
-    """What a task's plate must span for some effects and for what is stated to sit on it."""
-    spans = {s.name: s for e in effects for s in e.spans}
-    if problem.nuisances.masses:
-        spans |= {s.name: s for s in AddedMassEffect.spans}
-    return list(spans.values())
 
 
 @dataclass(frozen=True)

@@ -22,8 +22,8 @@ from fitting.diagnosis.of_files import OfFiles, Place
 from fitting.diagnosis.one_plate import Taken
 from fitting.diagnosis.plate_answer import motions
 from fitting.diagnosis.plate_poles import PlatePoles
-from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid
-from fitting.diagnosis.response import SweepResponse, spans_of
+from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid, spans_of
+from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.sharing import CHANNELS, OF_EACH_FILE, OF_EACH_PLATE, OF_EACH_SPOT, Places, shared
 from fitting.diagnosis.small_problem import BENT_MORE, SmallProblem
 from fitting.diagnosis.strains import Reference
@@ -207,9 +207,7 @@ class SeveralResponse(SweepResponse):
         self.effects, self.nuisances, self.plate = tuple(effects), problem.nuisances, problem.plate
         count = len(self.nuisances)
         self.parameters = (*(STATED_NUMBER,) * count, *(q for e in effects for q in e.parameters))
-        self._stated = slice(0, count)
         self._of_member: list[tuple[SweepResponse, NDArray[np.intp]]] = []
-        self._coarse = coarse
         references: dict[int, Reference] = {}
         for k, m in enumerate(problem.members):
             places, inner, start = [problem.places[k]], [], count
@@ -272,7 +270,3 @@ class SeveralResponse(SweepResponse):
                 its = [u[at[len(own) :] - count] for u in starts]
                 found[:, part] = response.signatures(law_at(law, k), known[own], its)
         return found
-
-    def beside(self, effect: Effect) -> "SeveralResponse":
-        """The same with one more effect."""
-        return SeveralResponse(self.problem, [*self.effects, effect], coarse=self._coarse)

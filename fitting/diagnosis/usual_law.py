@@ -93,4 +93,10 @@ def within_search(law: CoreLaw, omega: Array) -> CoreLaw:
         d = np.log(law.with_logs(p).modulus(omega)) - wanted
         return np.concatenate([d.real, d.imag])
 
-    return law.with_logs(least_squares(off, np.clip(logs, low, high), bounds=(low - _OPEN, high + _OPEN)).x)
+    def slope(p: Array) -> Array:
+        one = law.with_logs(p)
+        d = one.jacobian(omega) * one.values[:, None] / one.modulus(omega)
+        return np.concatenate([d.real, d.imag], axis=1).T
+
+    bounds = (low - _OPEN, high + _OPEN)
+    return law.with_logs(least_squares(off, np.clip(logs, low, high), jac=slope, bounds=bounds).x)

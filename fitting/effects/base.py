@@ -238,7 +238,7 @@ class Effect:
     def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex | None:
         """The core's modulus in Pa at every point; None: the law's at the point's frequency.
 
-        Shape (points,).
+        Shape (..., points), as `G` gives it: its derivatives are of many laws at once.
         """
         return None
 
@@ -277,7 +277,10 @@ class ModulusAt:
     law: CoreLaw
     points: Points
     strain: Strain
+    logs: Array | None = None
+    """Of many laws of its kind instead: the logarithms of their parameters. Shape (laws, parameters)."""
 
     def __call__(self, frequency_scale: Array | float = 1.0) -> Complex:
-        """G* at omega times `frequency_scale`."""
-        return np.asarray(self.law.modulus(self.points.omega * frequency_scale))
+        """G* at omega times `frequency_scale`. Shape (points,), of many laws (laws, points)."""
+        omega = self.points.omega * frequency_scale
+        return np.asarray(self.law.modulus(omega) if self.logs is None else self.law.moduli(self.logs, omega))

@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
-from fitting.dynamic_stiffness import dynamic_stiffness
+from fitting.dynamic_stiffness import dynamic_stiffness, stacked
 from fitting.effects.change import Change
 from fitting.effects.combined_columns import AllCombined, OwnCombined, own_and_beside
 from fitting.effects.span import Span
-from fitting.element import DOFS, THETA_X, THETA_Y, Shape, W
+from fitting.element import Shape
 from fitting.mesh import Mesh
 from fitting.parts import (
     Coefficients,
@@ -134,9 +134,8 @@ class EnrichedReducedPlate:
             **{name: getattr(self, name)[square] for name in ("M", "K_0", "K_1", "gram")},
             **{name: getattr(self, name)[columns] for name in ("U", "load", "pitch", "observe")},
             load_part=self.load_part[..., columns],
-            # Taken at once: column by column they would lie across, and every sum set them right again.
-            parts=self.parts[np.ix_(np.arange(len(self.parts)), columns, columns)],
-            matrices=self.matrices[np.ix_(np.arange(len(self.matrices)), columns, columns)],
+            parts=_squares(self.parts, columns),
+            matrices=_squares(self.matrices, columns),
             vectors=self.vectors[:, columns],
             deflection=self.deflection[:, :, columns],
         )
@@ -210,7 +209,7 @@ class EnrichedReducedPlate:
             for a, b in (("K_0", "K"), ("K_1", "K_1"), ("M", "M"))
         )
         C_1 = (self.U[own] * (self.d * change.damping)) @ self.U[own].T
-        A = dynamic_stiffness((K_0, K_1, M, C_1), omega, G)
+        A = dynamic_stiffness(stacked(K_0, K_1, M, C_1), omega, G)
         given = [self.load + change.load, self.observe + change.observe, self.pitch, *further]
         sides = np.stack([side[own] for side in given if np.any(side)], axis=1).astype(complex)
         X = np.linalg.solve(A, np.broadcast_to(sides, (len(omega), *sides.shape)))
@@ -304,16 +303,28 @@ class EnrichedReducedPlate:
 
     def row(self, x_m: float, y_m: float, dx: int = 0, dy: int = 0) -> Array:
         """Reads w, or its derivative, at a point of the plate; beyond an edge the nearest one. Shape (k,)."""
-        mesh = Mesh(self.length_m, self.width_m, int(self.size[2]), int(self.size[3]))
+        mesh = self._mesh
         a, b = mesh.sides_m
-        x, y = np.clip(x_m, 0, mesh.length_m), np.clip(y_m, 0, mesh.width_m)
+        x, y = min(max(x_m, 0.0), mesh.length_m), min(max(y_m, 0.0), mesh.width_m)
         i, j = min(int(x / a), mesh.n_x - 1), min(int(y / b), mesh.n_y - 1)
         first = i * (mesh.n_y + 1) + j
         corners = [first, first + mesh.n_y + 1, first + mesh.n_y + 2, first + 1]
-        shape = (
-            Shape(a, b).deflection(x - i * a, y - j * b, dx, dy).reshape(4, DOFS)[:, [W, THETA_X, THETA_Y]]
-        )
-        return np.einsum("cd,cdk->k", shape, self.deflection[corners])
+        shape = Shape(a, b).deflection_by_corners(x - i * a, y - j * b, dx, dy)
+        return np.asarray(shape.ravel() @ self.deflection[corners].reshape(shape.size, -1))
+
+    @cached_property
+    def _mesh(self) -> Mesh:
+        return Mesh(self.length_m, self.width_m, int(self.size[2]), int(self.size[3]))
+
+
+def _squares(stack: Array, columns: NDArray[np.intp]) -> Array:
+    """Some rows and columns of every matrix of a stack.
+
+    Taken at once: one by one they would lie across, and every sum set them right again. Shape (count, k, k).
+    """
+    k, n = stack.shape[-1], len(columns)
+    places = (k * columns[:, None] + columns).ravel()
+    return np.asarray(np.take(stack.reshape(-1, k * k), places, axis=1).reshape(-1, n, n))
 
 
 def _as_slice(places: NDArray[np.intp]) -> slice | NDArray[np.intp]:

@@ -6,7 +6,7 @@ names in results, bounds of a fit) follows from those fields.
 """
 
 from dataclasses import dataclass, field, fields, replace
-from functools import cache
+from functools import cache, cached_property
 from typing import Any, ClassVar, Self, cast
 
 import numpy as np
@@ -69,11 +69,11 @@ class CoreLaw:
     source: ClassVar[str]
 
     def __post_init__(self) -> None:
-        for name, value, limits in zip(self.names, self.values, self.limits, strict=True):
+        for k, (value, limits) in enumerate(zip(self.values, self.limits, strict=True)):
             if not limits.holds(value):
                 low, high = limits.lower / limits.to_si, limits.upper / limits.to_si
                 raise OutsideModel(
-                    f"core law {self.kind}: {limits.file_key} = {value / limits.to_si:g} ({name}), "
+                    f"core law {self.kind}: {limits.file_key} = {value / limits.to_si:g} ({self.names[k]}), "
                     f"expected {low:g} to {high:g}"
                 )
 
@@ -173,8 +173,8 @@ class CoreLaw:
     @property
     def log_limits(self) -> tuple[Array, Array]:
         """Logarithms of the physical limits. Shape (parameters,) each."""
-        lower, upper = np.log([(q.lower, q.upper) for q in self.limits]).T
-        return lower, upper
+        lower, upper = self._ends
+        return np.log(lower), np.log(upper)
 
     @property
     def search_widths(self) -> Array:
@@ -191,10 +191,13 @@ class CoreLaw:
 
         Shape (names,).
         """
-        limits = self.limits
-        return self.with_values(
-            np.array([min(max(np.exp(p), q.lower), q.upper) for p, q in zip(logs, limits, strict=True)])
-        )
+        return self.with_values(np.clip(np.exp(logs), *self._ends))
+
+    @cached_property
+    def _ends(self) -> tuple[Array, Array]:
+        """The physical limits. Kept: a fit asks one law for all that it tries. Shape (parameters,) each."""
+        lower, upper = np.array([(q.lower, q.upper) for q in self.limits]).T
+        return lower, upper
 
     def moduli(self, logs: Array, omega: Array) -> Complex:
         """G* in Pa of many laws of this kind, one a row of logarithms. Shapes (any, names) to (any, points).

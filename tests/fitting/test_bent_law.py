@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from conftest import TABLE_4
@@ -5,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from fitting.bent_law import LOSS, REACH, STORAGE, BentLaw
+from fitting.errors import OutsideModel
 from fitting.laws.constant import ConstantModulus
 from fitting.laws.generalised_maxwell import GeneralisedMaxwell
 
@@ -37,6 +40,13 @@ def test_its_parameters_are_the_laws_then_the_bends():
     other = bent(TABLE_4, 1)
     np.testing.assert_allclose(other.with_logs(np.log(other.values)).values, other.values, rtol=1e-12)
     assert other.plain == TABLE_4
+
+
+def test_a_bend_beyond_its_limits_is_refused_and_fitted_values_stay_within():
+    with pytest.raises(OutsideModel, match="bend_2"):
+        replace(STRAIGHT, bend=(1.0, 1e9, *STRAIGHT.bend[2:]))
+    far = STRAIGHT.with_logs(np.log(STRAIGHT.values) + 30.0)
+    assert all(q.holds(v) for q, v in zip(far.limits, far.values, strict=True))
 
 
 def test_knots_reach_from_end_to_end_closer_than_a_bend_goes_on():

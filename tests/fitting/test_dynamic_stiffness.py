@@ -1,12 +1,12 @@
 import numpy as np
 
-from fitting.dynamic_stiffness import dynamic_stiffness
+from fitting.dynamic_stiffness import dynamic_stiffness, stacked
 
 
 def matrices(seed, k=3):
     rng = np.random.default_rng(seed)
     K_0, K_1, M, C_1 = (rng.normal(size=(k, k)) for _ in range(4))
-    return K_0 + 0.1j * K_1, K_1, M, C_1
+    return stacked(K_0 + 0.1j * K_1, K_1, M, C_1)
 
 
 def test_it_is_the_sum_of_the_equation_of_motion_at_every_frequency():

@@ -118,7 +118,7 @@ def bent(monkeypatch):
         law=None,
         u=np.empty(0),
         residuals=np.array([0, -10.0, 0, 0, 0, 0]),
-        jacobian=np.eye(6)[:, :1],
+        feels=np.eye(6)[:, :1],
     )
     problem = SimpleNamespace(coarse=None, points=None)
     return lambda **how: look(problem, evidence, before, Bent(), **how)

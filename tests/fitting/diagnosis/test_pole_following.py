@@ -4,6 +4,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from fitting.diagnosis.pole_following import KnownPoles, ModulusNear
+from fitting.dynamic_stiffness import stacked
 
 
 def matrices(detuning, coupling, loss):
@@ -12,7 +13,7 @@ def matrices(detuning, coupling, loss):
     K_0[1, 1] += 1j * loss
     K_0[0, 1] = K_0[1, 0] = coupling
     K_0[0, 2] = K_0[2, 0] = K_0[1, 2] = K_0[2, 1] = 0.05
-    return K_0, np.diag([0.1, 0.2, 0.0]), np.eye(3), np.zeros((3, 3))
+    return stacked(K_0, np.diag([0.1, 0.2, 0.0]), np.eye(3), np.zeros((3, 3)))
 
 
 def exactly(moved, G):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from fitting.effects.absolute_velocity import AbsoluteVelocityEffect
+from fitting.effects.amplitude_softening import AmplitudeSofteningEffect
 from fitting.effects.base import ModulusAt, Points
 from fitting.effects.level_error import LevelErrorEffect
 from fitting.effects.mains_hum import MainsHumEffect
@@ -55,6 +56,20 @@ def test_a_core_warms_from_what_the_law_says_to_shorter_times():
     shorter = 10 ** (-C_1 * 10 / (C_2_K + 10))
     assert ended == pytest.approx(replace(LAW, tau_s=shorter * LAW.tau_s).modulus(OMEGA))
     assert (np.abs(ended) < np.abs(begun)).all()
+
+
+@pytest.mark.parametrize(
+    ("effect", "u"), [(TemperatureDriftEffect(), [10.0, 600.0]), (AmplitudeSofteningEffect(), [0.2])]
+)
+def test_of_many_laws_at_once_the_core_has_the_modulus_that_it_has_of_each(effect, u):
+    p, logs = points([0.0, 300.0, 2000.0]), np.log(LAW.values) + np.array([[0.0], [0.01], [-0.02]])
+
+    def strain(softened):
+        return 0.5 + softened
+
+    found = effect.modulus(ModulusAt(LAW, p, strain, logs), p, np.array(u))
+    each = [effect.modulus(ModulusAt(LAW.with_logs(row), p, strain), p, np.array(u)) for row in logs]
+    np.testing.assert_allclose(found, each, rtol=1e-12)
 
 
 def test_a_drift_is_not_judged_by_many_points_without_time():
