@@ -9,6 +9,7 @@ import numpy as np
 
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.evidence import BareModes, Evidence
+from fitting.diagnosis.executor import ALONE, Executor
 from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import ROUGH, refit
@@ -50,6 +51,7 @@ def begin(
     noise: Noise,
     bare: BareModes | None,
     start: CoreLaw,
+    executor: Executor = ALONE,
 ) -> Begun:
     """The fit without any effect, and the evidence all candidates are judged by."""
     sweep = problem.sweep
@@ -84,4 +86,4 @@ def begin(
         law, u = none.law, none.u
         if moved < _FAR:
             break
-    return Begun(here, problem.plate, evidence, followed(here, evidence, none), first)
+    return Begun(here, problem.plate, evidence, followed(here, evidence, none, executor), first)

@@ -74,7 +74,7 @@ def diagnose_task(
     points held out. `settle` has the last word on the judgement.
     """
     given = problem
-    begun = begin(problem, reduced, noise, bare, start)
+    begun = begin(problem, reduced, noise, bare, start, executor)
     problem, evidence, none = begun.problem, begun.evidence, begun.none
     known_names = {e.name for e in effects}
     bases = [CATALOGUE[e.extends] for e in effects if e.extends and e.extends not in known_names]

@@ -5,12 +5,14 @@ well from there.
 """
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import least_squares
 
 from fitting.arrays import Array
 from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.executor import ALONE, Executor
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import AT_REST, refit
 from fitting.diagnosis.refitted import Refitted
@@ -27,16 +29,40 @@ _OPEN = 1e-9
 """A range of one value is none for a bounded fit."""
 
 
-def followed(problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted) -> Refitted:
+def followed(
+    problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted, executor: Executor = ALONE
+) -> Refitted:
     """A fit followed to its very end, from where its law is of usual size too if it is not."""
-    found = at_rest(problem, evidence, fitted)
-    usual = within_search(found.law, problem.points.omega)
-    if usual is found.law:
+    ways = _Ways(problem, evidence)
+    if ways.usual(fitted) is not fitted.law:
+        # Neither way needs to know of the other: two processes go one each.
+        both = executor.together([(ways.on, fitted), (ways.from_usual, fitted)])
+        return min(both, key=lambda f: f.chi2)
+    found = ways.on(fitted)
+    if ways.usual(found) is found.law:
         return found
-    again = polished(problem, found.effects, evidence, usual, found.u)
-    if not again.may_reach(found.chi2):
-        return found
-    return min(found, at_rest(problem, evidence, again), key=lambda f: f.chi2)
+    return min(found, ways.from_usual(found), key=lambda f: f.chi2)
+
+
+@dataclass(frozen=True)
+class _Ways:
+    """How a fit may be followed."""
+
+    problem: DiagnosisProblem
+    evidence: Evidence
+
+    def usual(self, fitted: Refitted) -> CoreLaw:
+        """The law of usual size nearest to its own."""
+        return within_search(fitted.law, self.problem.points.omega)
+
+    def on(self, fitted: Refitted) -> Refitted:
+        """From where it is."""
+        return at_rest(self.problem, self.evidence, fitted)
+
+    def from_usual(self, fitted: Refitted) -> Refitted:
+        """From the law of usual size; itself where that cannot come as far."""
+        again = polished(self.problem, fitted.effects, self.evidence, self.usual(fitted), fitted.u)
+        return at_rest(self.problem, self.evidence, again) if again.may_reach(fitted.chi2) else fitted
 
 
 def polished(

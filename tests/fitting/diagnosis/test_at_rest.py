@@ -8,6 +8,7 @@ import pytest
 
 from fitting.diagnosis import usual_law
 from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.refit import AT_REST, refit
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.diagnosis.usual_law import at_rest
@@ -96,3 +97,19 @@ def test_a_law_of_usual_size_is_begun_from_nowhere_else(monkeypatch):
     monkeypatch.setattr(usual_law, "at_rest", lambda problem, evidence, fitted: fitted)
     problem = SimpleNamespace(points=SimpleNamespace(omega=OMEGA))
     assert usual_law.followed(problem, None, fitted) is fitted
+
+
+def test_of_a_law_far_from_what_cores_are_both_ways_are_followed_in_one_go(monkeypatch):
+    class Counting(Executor):
+        def together(self, calls, report=lambda fraction: None):
+            asked.append(len(calls))
+            return super().together(calls, report)
+
+    asked, ends = [], iter([510.0, 509.0])
+    monkeypatch.setattr(usual_law, "polished", lambda *_: SimpleNamespace(may_reach=lambda goal: True))
+    monkeypatch.setattr(usual_law, "at_rest", lambda *_: SimpleNamespace(chi2=next(ends)))
+    problem = SimpleNamespace(points=SimpleNamespace(omega=OMEGA))
+    far = FractionalZener(3.2e5, 9.4e10, 3.3e-10, 0.76)
+    fitted = SimpleNamespace(law=far, chi2=516.2, effects=(), u=np.empty(0))
+    assert usual_law.followed(problem, None, fitted, Counting()).chi2 == 509.0
+    assert asked == [2]
