@@ -219,12 +219,14 @@ class CandidateFits:
 
     def second(self, one: tuple[Refitted, Form, list[Start], float]) -> Refitted | None:
         """A second effect beside a fit, from the starts that a look has found; `goal` as `refit` takes it."""
+        rough = self.near(one)
+        return rough and self.ended((rough, one[3]))
+
+    def near(self, one: tuple[Refitted, Form, list[Start], float]) -> Refitted | None:
+        """The same roughly."""
         before, form, starts, goal = one
         candidate = CandidateFit(self.problem, self.evidence, before, self.form(form), starts, goal)
-        if not candidate.near:
-            return None
-        rough = candidate.near[0]
-        return candidate.finished(rough, goal) if rough.may_reach(goal) else rough
+        return candidate.near[0] if candidate.near else None
 
     def alone(self, one: tuple[Refitted, Effect]) -> Refitted:
         """One effect of a pair as the pair has it, law and all, the other one taken away."""
@@ -282,6 +284,8 @@ class CandidateFits:
     def ended(self, one: tuple[Refitted, float]) -> Refitted:
         """A rough fit followed to the end, or to where a chi-square is out of reach."""
         rough, goal = one
+        if not rough.may_reach(goal):
+            return rough
         return polished(self.problem, rough.effects, self.evidence, rough.law, rough.u, goal)
 
     def fitted(self, one: tuple[Sequence[Effect], CoreLaw, Array]) -> Refitted:
@@ -293,14 +297,11 @@ class CandidateFits:
         """A fit followed to its very end."""
         return followed(self.problem, self.evidence, fitted)
 
-    def beside(self, one: tuple[Refitted, Effect]) -> Refitted:
-        """An effect beside a rough fit: the best one in wide valleys, followed to the end."""
-        before, effect = one
-        candidate = self._beside(before, effect)
-        return candidate.finished(candidate.far[0])
-
-    def _beside(self, before: Refitted, effect: Effect) -> CandidateFit:
-        return CandidateFit(self.problem, self.evidence, before, effect)
+    def beside(self, one: tuple[Refitted, Effect, float]) -> Refitted:
+        """An effect beside a rough fit: the best one in wide valleys, followed as `ended` does."""
+        before, effect, goal = one
+        candidate = CandidateFit(self.problem, self.evidence, before, effect)
+        return candidate.finished(candidate.far[0], goal)
 
 
 def _best_first(fits: list[tuple[A, Refitted]]) -> list[tuple[A, Refitted]]:

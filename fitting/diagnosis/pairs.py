@@ -55,8 +55,10 @@ class Pairs:
                 beside[scored] = beside.get(scored, 0) + 1
                 chosen.setdefault(frozenset((*scored.names, name)), int(k))
         full = [(tasks[k][0].fitted, tasks[k][1], looks[k], np.inf) for k in chosen.values()]
-        fits = each(work.second, full, lambda x: report(0.4 + 0.4 * x))
-        found = sorted((search.judged(f) for f in fits if f is not None), key=lambda t: t.cost)
+        rough = [f for f in each(work.near, full, lambda x: report(0.4 + 0.2 * x)) if f is not None]
+        goal = self._goal(search.judged(min(rough, key=_chi2))) if rough and wide else np.inf
+        fits = each(work.ended, [(f, goal) for f in rough], lambda x: report(0.6 + 0.2 * x))
+        found = sorted((search.judged(f) for f in fits), key=_cost)
         if wide and found and not self._will_do([*leaders[:1], *found]):
             # The best may only have begun from the wrong place, or not have looked promising.
             found += self._begun_again(found[: SEARCH.retried])
@@ -94,8 +96,9 @@ class Pairs:
         search, work, each = self._search, self._search.work, self._search.executor.each
         plain = [t.fitted.effects for t in pairs if len(_plainly(t)) == 2]
         search.fit_plainly(sorted({e.name for effects in plain for e in effects}))
+        goal = self._goal(pairs[0])
         asked = [
-            (rough, second)
+            (rough, second, goal)
             for effects in plain
             for first, second in permutations(effects)
             for rough in work.candidates[first.name][0].plain
@@ -108,6 +111,11 @@ class Pairs:
         return any(
             t.fitted.chi2_per_dof < SEARCH.will_do * self._search.allowed(t) and not t.fails for t in plain
         )
+
+    def _goal(self, best: ScoredFit) -> float:
+        """Chi-square that a pair must come down to: near to the best, or to where nothing may refuse it."""
+        unrefused = SEARCH.refused * self._search.allowed(best) * best.fitted.data
+        return max(self._search.work.goal(best.fitted), unrefused)
 
     def _others(self, names: Sequence[str]) -> list[Form]:
         """Every form of the effects that may stand beside some."""
@@ -140,7 +148,7 @@ class Pairs:
         wide = each(work.wide, [f for fits in _with_a_say(begun) for f in fits])
         brief = sorted(each(work.briefly, list(wide)), key=_chi2)
         rough = sorted(each(work.roughly, brief[: SEARCH.rough]), key=_chi2)
-        goal = work.goal(min([*leaders, *pairs], key=_cost).fitted)
+        goal = self._goal(min([*leaders, *pairs], key=_cost))
         ended = each(work.ended, [(f, goal) for f in rough[: SEARCH.pairs_a_leader]])
         return [search.judged(f) for f in ended]
 

@@ -24,16 +24,16 @@ def effect(name):
 class World:
     """A search in which chi-square is known of every two effects and a look sees it; costs are the same."""
 
-    executor = ALONE
+    executor, data = ALONE, 100
 
     def __init__(self, names, **chi2):
         self.effects = [effect(n) for n in names]
         self.chi2 = {frozenset(two.split("_")): value for two, value in chi2.items()}
-        self.work, self.kept = self, []
+        self.work, self.kept, self.goals = self, [], []
 
     def fit(self, *effects):
         chi2 = self.chi2.get(frozenset(e.name for e in effects), NOTHING)
-        return SimpleNamespace(effects=effects, chi2=chi2, chi2_per_dof=1.0)
+        return SimpleNamespace(effects=effects, chi2=chi2, chi2_per_dof=1.0, data=self.data)
 
     def judged(self, fitted):
         return ScoredFit(fitted, fitted.chi2)
@@ -45,6 +45,13 @@ class World:
     def second(self, one):
         before, (name, _), _, _ = one
         return self.fit(*before.effects, *(e for e in self.effects if e.name == name))
+
+    near = second
+
+    def ended(self, one):
+        rough, goal = one
+        self.goals.append(goal)
+        return rough
 
     def look(self, one):
         before, forms = one
@@ -200,9 +207,6 @@ class Wanting(World):
     def roughly(self, brief):
         return brief
 
-    def ended(self, one):
-        return one[0]
-
     def fit_plainly(self, names):
         pass
 
@@ -239,3 +243,13 @@ def test_where_one_may_suffice_it_is_followed_to_its_very_end_while_others_are_l
     world.moves = True
     world.found("w", wide=wide)
     assert list(world.ends.values()) == ([] if wide else ["its end"])
+
+
+@pytest.mark.parametrize(
+    ("wide", "data", "goal"), [(False, 100, np.inf), (True, 70, 150.0), (True, 100, 200.0)]
+)
+def test_where_one_leaves_much_pairs_are_followed_that_may_be_the_best_or_not_be_refused(wide, data, goal):
+    world = World("wab", w=200.0, w_a=180.0, w_b=150.0)
+    world.data = data
+    world.found("w", wide=wide)
+    assert world.goals[:2] == [goal, goal]
