@@ -77,6 +77,8 @@ class SofteningBySizeEffect(AmplitudeSofteningEffect):
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         if "strain.mean_square" not in plate.names:
             return "a free layer does not shear"
+        if points.drive == "force":
+            return super().objection(points, plate)
         # Over one level strain is a function of frequency, as the law is.
         return None if points.levels > 1 else "one level does not tell softening from the law"
 
