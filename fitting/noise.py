@@ -21,6 +21,9 @@ FEWEST = 15
 """Points a segment needs before its scatter says anything."""
 _SPLITS = 24
 """Of a floor's part in the variance at the peak, that are tried: a choice, fine beside what scatter tells."""
+_WIDE = 1e-4
+"""Of the peak's square: what is smaller is read in a sweep over many resonances, where a floor far below the
+first split is seen too."""
 
 
 @dataclass(frozen=True)
@@ -117,12 +120,22 @@ def _variance_model(size_squared: Array, square: Array, parts: int) -> tuple[flo
     """
     largest = float(np.max(size_squared))
     tiny = 1e-12 * largest + 1e-300
-    floor = (np.arange(_SPLITS) + 0.5) / _SPLITS
+    edges = _splits(float(np.min(size_squared)) / (largest or 1.0))
+    floor = (edges[1:] + edges[:-1]) / 2
     # var = s (floor + (1 - floor) |v|^2 / largest); for each floor s has an inverse gamma distribution.
     form = floor[:, None] + (1 - floor[:, None]) * size_squared / largest
     freedom = parts * len(square) / 2
     sums = parts / 2 * np.sum((square + tiny) / form, axis=1)
     log_weight = -parts / 2 * np.sum(np.log(form), axis=1) - freedom * np.log(sums)
-    weight = np.exp(log_weight - log_weight.max())
+    weight = np.exp(log_weight - log_weight.max()) * np.diff(edges)
     scale = weight / weight.sum() * sums / (freedom - 1)
     return float(scale @ floor) + tiny, float(scale @ (1 - floor)) / largest
+
+
+def _splits(smallest: float) -> Array:
+    """Edges of the floor's parts that are tried; `smallest` reading's square over the largest. Shape (n,)."""
+    edges = np.arange(_SPLITS + 1) / _SPLITS
+    if not 0 < smallest < _WIDE:
+        return edges
+    finer = np.geomspace(smallest / 10, edges[1], 2 * _SPLITS)
+    return np.concatenate([[0.0], finer, edges[2:]])

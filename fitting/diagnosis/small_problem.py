@@ -10,13 +10,23 @@ from fitting.diagnosis.channel_error import channel_rows
 from fitting.diagnosis.every_point import EveryPoint
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid, points_of
+from fitting.diagnosis.small_error import octaves, theory_rows
 from fitting.laws import CoreLaw
 from fitting.noise import Noise
-from fitting.structures.small import SmallSpecimen, check_driven, nuisances_of, rational_of, system_of
+from fitting.structures.small import (
+    SmallSpecimen,
+    SmallSystem,
+    check_driven,
+    nuisances_of,
+    rational_of,
+    widened_system_of,
+)
 from fitting.sweep import Sweep
 
-OCTAVE, WANDERING = 0.7, 0.3
-"""In ln f; share of a misfit that gain and phase wander by from one octave to the next."""
+FEW = 10
+"""Unknowns that are not worth condensing."""
+WANDERING = 0.3
+"""Share of a misfit that gain and phase wander by from one octave to the next."""
 LEVEL = 0.05
 """Of the modulus from one file to the next, where files disagree: less than a kelvin of a damping polymer."""
 REACH = 0.12
@@ -39,10 +49,10 @@ class SmallProblem(DiagnosisProblem):
         """Everything made, which takes milliseconds."""
         parts = specimen.parts()
         check_driven(parts, specimen.kind)
-        system = system_of(specimen, parts)
+        system = widened_system_of(specimen, parts)
         assert specimen.core is not None
         size = float(np.exp(np.mean(np.log(np.abs(specimen.core.law.modulus(sweep.omega))))))
-        rational = rational_of(system, sweep.omega, size)
+        rational = rational_of(system.take([]), sweep.omega, size)
         nodes = EveryPoint.at(sweep.omega)
         grid = NodeGrid(nodes, rational)
         points = points_of(sweep, specimen)
@@ -50,8 +60,12 @@ class SmallProblem(DiagnosisProblem):
         return cls(sweep, specimen, system, points, rational, grid, grid, grid, nodes, stated)
 
     def condensed(self, law: CoreLaw, sides: Sequence[Array] = ()) -> "SmallProblem":
-        """It is small as it is."""
-        return self
+        """A beam condensed to moduli about a law's; a pair is small as it is."""
+        if len(self.plate.load) <= FEW:
+            return self
+        found = super().condensed(law, sides)
+        assert isinstance(found, SmallProblem)
+        return found
 
     def around(self, law: CoreLaw, poles: PlatePoles | None = None) -> "SmallProblem":
         """The same under any law."""
@@ -86,17 +100,19 @@ class SmallProblem(DiagnosisProblem):
         return Noise(np.hypot(noise.std_m_s, more) if noise.is_known else more, "misfit")
 
     def model_error(self, law: CoreLaw, v: Complex) -> Complex:
-        """Gain and phase of the instruments, and how they drift.
+        """Gain and phase of the instruments, how they drift, and what the structure's theory gets wrong.
 
-        What the structure itself gets wrong is in its tolerances and in the law's bend. Shape (any, points).
+        Shape (any, points).
         """
         has_phase = self.points.has_phase
         segments = [self.sweep.segment == number for number in np.unique(self.sweep.segment)]
         rows = [row for s in segments for row in channel_rows(self.sweep, s, v, has_phase=has_phase)]
+        specimen, system = self.specimen, self.plate
+        if isinstance(system, SmallSystem):
+            drive = self.points.acceleration_m_s2
+            rows += theory_rows(specimen, system, self.sweep.omega, law, drive)  # type: ignore[arg-type]
         if self.misfit:
-            t = np.log(self.sweep.frequency_hz)
-            at = np.linspace(t.min(), t.max(), 2 + int(np.ptp(t) / OCTAVE))
-            hats = np.maximum(0, 1 - np.abs(t - at[:, None]) / (at[1] - at[0]))
+            hats = octaves(self.sweep.omega)
             size = WANDERING * self.misfit
             rows += [*(size * hats * v), *(1j * size * hats * v)]
             rows.append(LEVEL * self.feels(law, v) * v)

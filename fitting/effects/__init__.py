@@ -17,7 +17,10 @@ for _module in iter_modules(__path__):
     import_module(f"{__name__}.{_module.name}")
 
 _OWN: dict[str, Effect] = {
-    cls.name: cls() for cls in Effect.__subclasses__() if cls.__module__.startswith(f"{__name__}.")
+    cls.name: cls()
+    for cls in Effect.__subclasses__()
+    # One without a name is a form that others take.
+    if cls.__module__.startswith(f"{__name__}.") and "name" in vars(cls)
 }
 _span_classes: dict[str, type[Span]] = {}
 """Whose a span's name is."""

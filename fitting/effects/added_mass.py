@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.base import ONE_PIECE, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
@@ -15,6 +15,9 @@ _TYPICAL_KG = 5e-3
 """Of a small accelerometer with its wax: the response to it is what is spanned."""
 _GRID = [(x, y) for x in (0.25, 0.5, 0.75, 0.97) for y in (0.03, 0.3, 0.7, 0.97)]
 """Shares of length and width: the free end and both edges, where masses matter and are put."""
+
+_ALONG_A_BEAM = 16
+"""Places of it that are looked at: three to half a wave of its fifth mode."""
 
 
 class PointMass(Span):
@@ -48,7 +51,8 @@ class AddedMassEffect(Effect):
     discriminating_test = "a look at the plate and a balance; a second spot off the axis"
 
     def on(self, kind: str) -> Effect | None:
-        return MassOfPairEffect() if kind == "shear-pair" else super().on(kind)
+        others = {"shear-pair": MassOfPairEffect, "beam": MassOnBeamEffect}
+        return others[kind]() if kind in others else super().on(kind)
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         along, across = (np.arange(8) + 1) / 8.2, (np.arange(5) + 0.5) / 5
@@ -64,6 +68,28 @@ class AddedMassEffect(Effect):
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"a mass of {1e3 * u['mass']:.2g} g sits near ({1e3 * u['x']:.0f}, {1e3 * u['y']:.0f}) mm"
+
+
+class MassOnBeamEffect(AddedMassEffect):
+    """On a beam, that knows no place across it."""
+
+    parameters = AddedMassEffect.parameters[:2]
+    spans = ()
+    needs = ONE_PIECE
+    discriminating_test = "a look at the beam and a balance; a second spot"
+
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
+        return [np.array([3e-3, x * plate.length_m]) for x in (np.arange(_ALONG_A_BEAM) + 1) / _ALONG_A_BEAM]
+
+    def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
+        lower, upper = Effect.limits(self, plate)
+        return lower, np.minimum(upper, [np.inf, plate.length_m])
+
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
+        return super().change(plate, np.array([*u, 0.0]))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return f"a mass of {1e3 * u['mass']:.2g} g sits at {1e3 * u['x']:.0f} mm"
 
 
 class MassOfPairEffect(AddedMassEffect):

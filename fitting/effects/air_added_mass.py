@@ -7,7 +7,7 @@ import scipy.sparse as sp
 
 from fitting.air import StillAir, still_air
 from fitting.arrays import Array, Complex
-from fitting.effects.base import BarePlateModes, Effect, EffectParameter, Points
+from fitting.effects.base import PLATE_AND_BEAM, BarePlateModes, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
@@ -40,6 +40,7 @@ class AirAddedMassEffect(Effect):
 
     name = "air_added_mass"
     enters = "mass"
+    structures = PLATE_AND_BEAM
     source = "potential flow about an unbaffled plate, `fitting.air`"
     parameters = (
         EffectParameter("density", "kg/m^3", 0.0, 3.0, 1.2, spread=1.2),

@@ -48,6 +48,8 @@ Entry = Literal["stiffness", "mass", "load", "observation", "channel", "time", "
 PLATE_ONLY = frozenset({"plate"})
 BASE, CLAMP = frozenset({"base"}), frozenset({"clamp"})
 WHOLE = frozenset({"whole"})
+CONSTRAINED, ONE_PIECE = frozenset({"constraining"}), frozenset({"one piece"})
+PLATE_AND_BEAM = frozenset({"plate", "beam"})
 EVERY_STRUCTURE = frozenset({"plate", "beam", "shear-pair"})
 
 
@@ -151,7 +153,8 @@ class Effect:
     """Kinds of specimens on which it has a meaning as it is."""
 
     needs: ClassVar[frozenset[str]] = frozenset()
-    """What a specimen must offer: a `base` that moves, a `clamp`, one side treated as a `whole`."""
+    """What a specimen must offer: a `base` that moves, a `clamp`, one side treated as a `whole`; of a beam a
+    `constraining` layer, and to be `one piece`, not two halves about a driven centre."""
 
     chance: ClassVar[float] = 0.02
     """Prior probability that a laboratory's set-up has it, to be seen or not."""

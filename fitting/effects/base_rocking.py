@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import BASE, Effect, EffectParameter
+from fitting.effects.base import BASE, PLATE_AND_BEAM, Effect, EffectParameter
 from fitting.effects.full_plate import FullPlate, Snapshot
 from fitting.effects.span import Span
 
@@ -27,6 +27,7 @@ class BaseRockingEffect(Effect):
 
     name = "base_rocking"
     enters = "load"
+    structures = PLATE_AND_BEAM
     source = "rigid turn of the base about the root, inertia load -M r_p"
     needs = BASE
     parameters = (EffectParameter("pitch", "rad/m", -2.0, 2.0, 0.05, spread=0.1),)

@@ -10,7 +10,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array
-from fitting.effects.base import CLAMP, Effect, EffectParameter, Points
+from fitting.effects.base import CLAMP, PLATE_AND_BEAM, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
@@ -71,6 +71,7 @@ class ClampComplianceEffect(Effect):
 
     name = "clamp_compliance"
     enters = "stiffness"
+    structures = PLATE_AND_BEAM
     source = "elastic foundation of the root face, e.g. MacBain and Genin, J. Sound Vib. 27 (1973)"
     needs = CLAMP
     parameters = (

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.effects.base import CLAMP, Effect, EffectParameter, Points
+from fitting.effects.base import CLAMP, PLATE_AND_BEAM, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.clamp_compliance import ClampComplianceEffect, springs
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -16,6 +16,7 @@ class ClampFrictionEffect(Effect):
 
     name = "clamp_friction"
     enters = "stiffness"
+    structures = PLATE_AND_BEAM
     source = "hysteretic joint damping, Beards, Structural Vibration (1996), ch. 4"
     needs = CLAMP
     parameters = (

@@ -6,10 +6,11 @@ from dataclasses import replace
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import CLAMP, Effect, EffectParameter, Points
+from fitting.effects.base import CLAMP, ONE_PIECE, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.number_off import moved
 from fitting.effects.other_plates import changed_to, forces
 from fitting.effects.span import Span
 from fitting.specimen import Specimen
@@ -66,15 +67,18 @@ class ClampLineEffect(Effect):
     enters = "stiffness"
     source = "the paper's Eq. (15) to (18) on a mesh stretched along x; the viscous damping kept"
     needs = CLAMP
-    parameters = (
+    parameters: tuple[EffectParameter, ...] = (
         EffectParameter("dlength", "m", -8e-3, 8e-3, 1e-3, spread=2e-3, mounting=_MOUNTING_M),
         EffectParameter("pickup_too", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),
     )
-    spans = (Length(),)
+    spans: tuple[Span, ...] = (Length(),)
     chance = 0.03
     discriminating_test = (
         "a feeler gauge or blueing paper in the clamp; the plate clamped anew, further in by a known step"
     )
+
+    def on(self, kind: str) -> Effect | None:
+        return ClampLineOfBeamEffect() if kind == "beam" else super().on(kind)
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return None if "length" in plate.group else "the plate has no clamp"
@@ -95,3 +99,23 @@ class ClampLineEffect(Effect):
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"the plate is free over {1e3 * u['dlength']:+.1f} mm more than its stated length"
+
+
+class ClampLineOfBeamEffect(ClampLineEffect):
+    """Of a beam, whose matrices know its free length."""
+
+    spans = ()
+    needs = CLAMP | ONE_PIECE
+
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
+        return None
+
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
+        length = plate.length_m + float(u[0])
+        x, y = plate.pickup
+        place = (x + float(u[0] * u[1])) * plate.length_m / length
+        observe = plate.row(place, y) - plate.pickup_row
+        return replace(moved(plate, {"length": float(u[0])}), observe=observe)
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return f"the beam is free over {1e3 * u['dlength']:+.1f} mm more than its stated length"

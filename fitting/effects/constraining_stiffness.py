@@ -4,10 +4,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import Effect, EffectParameter
+from fitting.effects.base import CONSTRAINED, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.number_off import NumberOffEffect
 from fitting.effects.other_plates import changed_to
 from fitting.effects.span import Span
 from fitting.linear import times
@@ -38,6 +39,11 @@ class ConstrainingStiffnessEffect(Effect):
     discriminating_test = (
         "a strip of the constraining layer in a tensile test, or its own bending frequencies"
     )
+
+    def on(self, kind: str) -> Effect | None:
+        return (
+            NumberOffEffect(self, "constraining_young", CONSTRAINED) if kind == "beam" else super().on(kind)
+        )
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         s = plate.specimen

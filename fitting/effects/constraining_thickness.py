@@ -4,10 +4,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import Effect, EffectParameter
+from fitting.effects.base import CONSTRAINED, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.number_off import NumberOffEffect
 from fitting.effects.other_plates import changed_to, forces
 from fitting.effects.span import Span
 from fitting.specimen import Specimen
@@ -43,6 +44,13 @@ class ConstrainingThicknessEffect(Effect):
     spans = (ConstrainingLayer(),)
     chance = 0.015
     discriminating_test = "a micrometer at the layer's edge; the plate weighed before and after treatment"
+
+    def on(self, kind: str) -> Effect | None:
+        return (
+            NumberOffEffect(self, "constraining_thickness", CONSTRAINED)
+            if kind == "beam"
+            else super().on(kind)
+        )
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         return changed_to(plate, with_layer(plate.specimen, float(u[0])))

@@ -8,6 +8,7 @@ from fitting.effects.base import Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.number_off import NumberOffEffect
 from fitting.effects.other_plates import changed_to, forces
 from fitting.effects.span import Span
 from fitting.specimen import Specimen
@@ -41,6 +42,9 @@ class CoreThicknessEffect(Effect):
     spans = (Thickness(),)
     chance = 0.04
     discriminating_test = "a gauge; a second specimen of another thickness"
+
+    def on(self, kind: str) -> Effect | None:
+        return NumberOffEffect(self, "core_thickness") if kind == "beam" else super().on(kind)
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
         return changed_to(plate, with_core(plate.specimen, float(u[0])))

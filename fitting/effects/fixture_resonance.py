@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import BASE, Effect, EffectParameter, Points
+from fitting.effects.base import BASE, PLATE_AND_BEAM, Effect, EffectParameter, Points
 from fitting.effects.base_rocking import BaseRockingEffect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.span import Span
@@ -27,6 +27,7 @@ class FixtureResonanceEffect(Effect):
 
     name = "fixture_resonance"
     enters = "load"
+    structures = PLATE_AND_BEAM
     source = "one mode of the fixture between shaker and clamp"
     needs = BASE
     parameters: tuple[EffectParameter, ...] = (

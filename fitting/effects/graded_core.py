@@ -91,6 +91,9 @@ class GradedCoreEffect(Effect):
         self.spans = (Grading(along),)
         self.parameters = (EffectParameter(f"grade_{along}", "1", -1.5, 1.5, 0.2, spread=0.3),)
 
+    def on(self, kind: str) -> Effect | None:
+        return GradedCoreOfBeamEffect() if kind == "beam" else super().on(kind)
+
     def variants(self) -> tuple[Effect, ...]:
         return (self, GradedCoreEffect("y"))
 
@@ -101,3 +104,10 @@ class GradedCoreEffect(Effect):
         along = "length, tip over root" if self.along == "x" else "width, far edge over near edge"
         grade = u[f"grade_{self.along}"]
         return f"the core's modulus changes by {100 * grade:+.0f} % along the plate's {along}"
+
+
+class GradedCoreOfBeamEffect(GradedCoreEffect):
+    """Along a beam alone."""
+
+    def variants(self) -> tuple[Effect, ...]:
+        return (self,)

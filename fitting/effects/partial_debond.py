@@ -83,6 +83,9 @@ class PartialDebondEffect(Effect):
         )
         self.parameters = (place, EffectParameter("width", "m", 0.0, 0.15, _WIDTH_M, spread=0.03))
 
+    def on(self, kind: str) -> Effect | None:
+        return DebondOfBeamEffect() if kind == "beam" else super().on(kind)
+
     def variants(self) -> tuple[Effect, ...]:
         # Glue misses an edge first, and a place that is known need not be paid for.
         return tuple(PartialDebondEffect(a, at_edge=e) for e in (False, True) for a in ("x", "y"))
@@ -122,3 +125,14 @@ class PartialDebondEffect(Effect):
         where = "across the plate, x" if self.along == "x" else "along the plate, y"
         low, high = self._ends(u[f"{self.along}_{'edge' if self.at_edge else 'from'}"], u["width"])
         return f"the core is loose in a strip {where} = {1e3 * low:.0f} to {1e3 * high:.0f} mm"
+
+
+class DebondOfBeamEffect(PartialDebondEffect):
+    """A strip across a beam: there is none along it."""
+
+    def variants(self) -> tuple[Effect, ...]:
+        return tuple(DebondOfBeamEffect(at_edge=e) for e in (False, True))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        low, high = self._ends(u[f"x_{'edge' if self.at_edge else 'from'}"], u["width"])
+        return f"the core is loose from {1e3 * low:.0f} to {1e3 * high:.0f} mm"

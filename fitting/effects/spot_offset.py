@@ -42,13 +42,16 @@ class SpotOffsetEffect(Effect):
     name = "spot_offset"
     enters = "observation"
     source = "shape functions at the shifted point"
-    parameters = (
+    parameters: tuple[EffectParameter, ...] = (
         EffectParameter("dx", "m", -0.02, 0.02, 3e-3, spread=5e-3),
         EffectParameter("dy", "m", -0.02, 0.02, 3e-3, spread=5e-3),
     )
-    spans = (Spot(),)
+    spans: tuple[Span, ...] = (Spot(),)
     chance = 0.04
     discriminating_test = "a second spot, its distance to the first measured; an accelerometer under the spot"
+
+    def on(self, kind: str) -> Effect | None:
+        return SpotOnBeamEffect() if kind == "beam" else super().on(kind)
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [3e-3 * np.array([np.cos(a), np.sin(a)]) for a in np.arange(0, np.pi, np.pi / 6)]
@@ -59,3 +62,19 @@ class SpotOffsetEffect(Effect):
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"the laser's spot is off by ({1e3 * u['dx']:+.1f}, {1e3 * u['dy']:+.1f}) mm along x and y"
+
+
+class SpotOnBeamEffect(SpotOffsetEffect):
+    """Reading at x + dx of a beam."""
+
+    parameters = SpotOffsetEffect.parameters[:1]
+    spans = ()
+
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
+        return [np.array([3e-3])]
+
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
+        return super().change(plate, np.array([*u, 0.0]))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return f"the laser's spot is off by {1e3 * u['dx']:+.1f} mm along the beam"

@@ -10,6 +10,7 @@ from fitting.effects.base import BarePlateModes, Effect, EffectParameter
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
+from fitting.effects.number_off import NumberOffEffect
 from fitting.effects.other_plates import changed_to
 from fitting.effects.span import Span
 from fitting.linear import times
@@ -37,6 +38,9 @@ class SubstrateStiffnessEffect(Effect):
     spans = (Substrate(),)
     chance = 0.03
     discriminating_test = "the bare plate's natural frequencies (hammer test)"
+
+    def on(self, kind: str) -> Effect | None:
+        return NumberOffEffect(self, "substrate_young") if kind == "beam" else super().on(kind)
 
     def bare_shift(self, bare: BarePlateModes, u: Array) -> Array:
         return np.full(len(bare.lowering_per_density), 0.5 * np.log(u[0]))

@@ -11,12 +11,15 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.effects.added_mass import PointMass
-from fitting.effects.base import Effect, EffectParameter, Points
+from fitting.effects.base import ONE_PIECE, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.span import Span
 
 _LOSS = 0.2
 """To begin with: a cable's sheath loses much."""
+_ALONG = (0.3, 0.5, 0.7, 0.85, 0.98)
+"""Shares of the length, to begin with."""
 _START_N_M = 50.0
 """To begin with: half the spread of the prior."""
 
@@ -27,22 +30,25 @@ class TetherEffect(Effect):
     name = "tether"
     enters = "stiffness"
     source = "cable stiffness and damping, Ewins, Modal Testing (2000), section 3.5"
-    parameters = (
+    parameters: tuple[EffectParameter, ...] = (
         EffectParameter("k", "N/m", 0.0, 2e3, _START_N_M, spread=100.0),
         EffectParameter("loss_factor", "1", 0.0, 2.0, _LOSS, neutral=None),
         EffectParameter("x", "m", 0.0, np.inf, 0.05, neutral=None),
         EffectParameter("y", "m", 0.0, np.inf, 0.05, neutral=None),
     )
-    spans = (PointMass(),)
+    spans: tuple[Span, ...] = (PointMass(),)
     unexplained_share = 0.003
     chance = 0.015
     discriminating_test = "a look at the plate; the cable taped down elsewhere, or taken off"
 
+    def on(self, kind: str) -> Effect | None:
+        return TetherOfBeamEffect() if kind == "beam" else super().on(kind)
+
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
-        along, across = (0.3, 0.5, 0.7, 0.85, 0.98), (0.1, 0.5, 0.9)
+        across = (0.1, 0.5, 0.9)
         return [
             np.array([_START_N_M, _LOSS, x * plate.length_m, y * plate.width_m])
-            for x in along
+            for x in _ALONG
             for y in across
         ]
 
@@ -57,5 +63,30 @@ class TetherEffect(Effect):
     def story(self, u: Mapping[str, float]) -> str:
         return (
             f"a cable pulls at the plate near ({1e3 * u['x']:.0f}, {1e3 * u['y']:.0f}) mm "
+            f"({u['k']:.2g} N/m, loss factor {u['loss_factor']:.2g})"
+        )
+
+
+class TetherOfBeamEffect(TetherEffect):
+    """Of a beam, that knows no place across it."""
+
+    parameters = TetherEffect.parameters[:3]
+    spans = ()
+    needs = ONE_PIECE
+    discriminating_test = "a look at the beam; the cable taped down elsewhere, or taken off"
+
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
+        return [np.array([_START_N_M, _LOSS, x * plate.length_m]) for x in _ALONG]
+
+    def limits(self, plate: EnrichedReducedPlate) -> tuple[Array, Array]:
+        lower, upper = Effect.limits(self, plate)
+        return lower, np.minimum(upper, [np.inf, np.inf, plate.length_m])
+
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
+        return super().change(plate, np.array([*u, 0.0]))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return (
+            f"a cable pulls at the beam at {1e3 * u['x']:.0f} mm "
             f"({u['k']:.2g} N/m, loss factor {u['loss_factor']:.2g})"
         )

@@ -10,7 +10,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array
-from fitting.effects.base import CLAMP, WHOLE, Effect, EffectParameter, Points
+from fitting.effects.base import CLAMP, PLATE_AND_BEAM, WHOLE, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
@@ -48,6 +48,7 @@ class TreatmentNotGrippedEffect(Effect):
 
     name = "treatment_not_gripped"
     enters = "stiffness"
+    structures = PLATE_AND_BEAM
     source = "free end of a constrained layer, e.g. Plunkett and Lee, J. Acoust. Soc. Am. 48 (1970)"
     needs = CLAMP | WHOLE
     parameters = (

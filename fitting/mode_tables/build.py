@@ -22,7 +22,7 @@ from fitting.real_modes import real_modes
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
 from fitting.structures.small import nuisances_of as small_nuisances_of
-from fitting.structures.small import system_of
+from fitting.structures.small import widened_system_of
 from fitting.tolerances import PLATE
 
 MODULI_PA = (1e5, 6e5, 3e6, 2e7)
@@ -44,7 +44,7 @@ def member_of(table: ModalTable, specimen: AnySpecimen, widen: Widen | None = No
     parts = specimen.parts()
     stated = small_nuisances_of(specimen, parts, has_phase=False)
     own = replace(stated, each=tuple(n for n in stated.each if n.kind in specimen.numbers))
-    return Member(table, specimen, system_of(specimen, parts), own)
+    return Member(table, specimen, widened_system_of(specimen, parts), own)
 
 
 def with_own_error(member: Member, law: CoreLaw) -> Member:

@@ -5,39 +5,33 @@ Vib. 10 (1969)); a free layer stretches and bends with the beam, E = 2 (1 + mu) 
 
     gamma = (u_c - u_b + d w')/H,   d = H + (h_c + h_b)/2
 
-w and the layers' u are polynomials over the length that meet the ends' conditions, projected once on the
-modes at a few moduli of the core.
+What is stated, and what it makes of the matrices' coefficients; the matrices themselves are in
+`beam_parts.py`.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
 from typing import Literal
 
 import numpy as np
-import scipy.linalg as la
-from numpy.polynomial import Legendre, Polynomial
 
 from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
-from fitting.specimen import BaseDriven, Core, Face, Reading
+from fitting.model_error import ModelError
+from fitting.specimen import Core, Drive, Face, Reading
+from fitting.structures.beam_error import HELD_WIDTH_WITHIN, free_layer_error, sandwich_error, shortened_m
+from fitting.structures.beam_parts import BeamSection, parts_of
 from fitting.structures.small import Parts
 from fitting.tolerances import STATED
 
 Ends = Literal["clamped-free", "free-free", "clamped-clamped", "centre-driven"]
 
-ORDER = 18
-"""Polynomials of w, and of each u: ten modes to 1e-6."""
-_MODES = 10
-"""Of each modulus, that the basis holds."""
-_MODULI_PA = (1e5, 3e6, 1e8, 3e9)
-"""From a core that only stores to a free layer as stiff as a plastic: the modes of each are in the basis."""
-_NEGLIGIBLE = 1e-9
-"""Of the basis' vectors, relative: what is in the others."""
+_HELD_ENDS = {"clamped-free": 1, "free-free": 0, "clamped-clamped": 2, "centre-driven": 1}
+"""Of one piece."""
 
 
 @dataclass(frozen=True)
-class Beam(BaseDriven):
+class Beam:
     """What is stated of it, in SI units; x from a clamped end, or from the centre where that is driven."""
 
     length_m: float
@@ -50,7 +44,13 @@ class Beam(BaseDriven):
     """Without a constraining layer it is a free layer."""
     both_sides: bool = False
     """The same on either side: a free layer, or core and constraining layer."""
+    held_width: bool = False
+    """Whether it is counted that clamps hold the width (`beam_error`): its held ends are then stiffer."""
     pickup_m: float | None = None
+    further_pickups_m: tuple[float, ...] = ()
+    """Spots beside the first: rows of data say which one they are of (`at_pickup`)."""
+    force_m: float | None = None
+    """Where a force drives it, its ends at rest; None: the base does."""
     reads: Reading = "relative"
     base_acceleration_m_s2: float = PUBLISHED_G_M_S2
     tolerances: Mapping[str, float] = field(default_factory=dict, hash=False)
@@ -58,6 +58,50 @@ class Beam(BaseDriven):
 
     kind = "beam"
     modal_ratios: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        if self.force_m is not None:
+            # Its ends are at rest: one reading is the other.
+            object.__setattr__(self, "reads", "relative")
+
+    @property
+    def drive(self) -> Drive:
+        """What moves it."""
+        return "base" if self.force_m is None else "force"
+
+    @property
+    def drive_amplitude(self) -> float:
+        """Of the base in m/s^2, or one newton."""
+        return self.base_acceleration_m_s2 if self.force_m is None else 1.0
+
+    @property
+    def offers(self) -> frozenset[str]:
+        """As `StatedSpecimen` has it; `one piece`: not two halves about a driven centre."""
+        found = {"base"} if self.force_m is None else set()
+        if self.boundary != "free-free":
+            found.add("clamp")
+        if self.boundary != "centre-driven":
+            found.add("one piece")
+        if self.constraining is not None:
+            found |= {"constraining"} if self.both_sides else {"constraining", "whole"}
+        return frozenset(found)
+
+    @property
+    def places(self) -> Mapping[str, float]:
+        """Where it is read, and where a force drives it, in m: stated numbers too."""
+        stated = {"pickup": self.pickup_m, "force": self.force_m}
+        return {name: x for name, x in stated.items() if x is not None}
+
+    @property
+    def pickups_m(self) -> tuple[float, ...]:
+        """All spots, in the order of their numbers from 0."""
+        return () if self.pickup_m is None else (self.pickup_m, *self.further_pickups_m)
+
+    def at_pickup(self, number: int) -> "Beam":
+        """The same beam read at one of its spots."""
+        if not self.further_pickups_m:
+            return self
+        return replace(self, pickup_m=self.pickups_m[number], further_pickups_m=())
 
     @property
     def span_m(self) -> float:
@@ -82,7 +126,32 @@ class Beam(BaseDriven):
 
     def parts(self) -> Parts:
         """For unit coefficients, on the basis of modes."""
-        return _parts_of(replace(self, core=_without_law(self.core), tolerances={}))
+        pickup, force = (self.places.get(name) for name in ("pickup", "force"))
+        span = self.span_m
+        return parts_of(
+            self.section,
+            pickup / span if pickup is not None else None,
+            force / span if force is not None else None,
+        )
+
+    @property
+    def section(self) -> BeamSection:
+        """What its matrices are made of."""
+        layers = (self.substrate, self.core, self.constraining)
+        return BeamSection(
+            ends="clamped-free" if self.boundary == "centre-driven" else self.boundary,
+            length_m=self.span_m,
+            width_m=self.width_m,
+            copies=self.copies,
+            thickness_m=tuple(0.0 if x is None else x.thickness_m for x in layers),  # type: ignore[arg-type]
+            both_sides=self.both_sides,
+            coefficients=tuple(self.coefficients({}).real[:15].tolist()),
+        )
+
+    @property
+    def copies(self) -> int:
+        """How many pieces move alike."""
+        return 2 if self.boundary == "centre-driven" else 1
 
     def coefficients(self, by: Mapping[str, float]) -> Complex:
         """Three of the faces' stiffness, three of slip, three of a free layer, six of inertia, the load.
@@ -90,9 +159,11 @@ class Beam(BaseDriven):
         Shape (16,).
         """
         b, c, v = (self._moved(name, by) for name in ("substrate", "constraining", "core"))
-        length = self.span_m
-        L = length + by.get("length", 0.0) * (length / self.length_m)
-        width = self.width_m * (2 if self.boundary == "centre-driven" else 1)
+        span = self.span_m
+        L = span + by.get("length", 0.0) * (span / self.length_m)
+        if self.held_width:
+            L -= self.held_width_m
+        width = self.width_m * self.copies
         E_b, h_b, m_b = _of_face(b)
         E_c, h_c, m_c = _of_face(c)
         H = v["thickness"] if v else 0.0
@@ -119,7 +190,45 @@ class Beam(BaseDriven):
             inertia = [0.0, 0.0, 0.0]
             mass = m_b + sides * m_v
         M = np.array([mass * L, m_b * L, m_c * L, *inertia])
-        return np.asarray(width * np.concatenate([K_0, slip, free, M, [mass * L]]), complex)
+        load = width * mass * L if self.force_m is None else 1.0
+        return np.append(width * np.concatenate([K_0, slip, free, M]), load).astype(complex)
+
+    @property
+    def held_width_m(self) -> float:
+        """What makes it stiffer at all held ends, as a shorter span; faces' ratios weighed by stiffness."""
+        faces = [f for f in (self.substrate, self.constraining) if f is not None]
+        stiff = np.array([f.young_pa * f.thickness_m for f in faces])
+        poisson = float(stiff @ [f.poisson for f in faces] / stiff.sum())
+        return _HELD_ENDS[self.boundary] * shortened_m(self.width_m, poisson)
+
+    @property
+    def length_error_m(self) -> float:
+        """Standard deviation of its length for what the theory leaves out at its held ends."""
+        of_length = self.held_width_m * self.length_m / self.span_m
+        return of_length * (HELD_WIDTH_WITHIN if self.held_width else 1.0)
+
+    def theory_error(self, frequency_hz: Array, G: Complex) -> ModelError:
+        """What its theory gets wrong around some frequencies, the core's modulus there given.
+
+        Shape (points,) each.
+        """
+        core = self.core
+        assert core is not None
+        if self.constraining is not None:
+            return sandwich_error(
+                self.substrate,
+                core,
+                self.constraining,
+                self.width_m,
+                frequency_hz,
+                G,
+                both_sides=self.both_sides,
+            )
+        c = self.coefficients({})
+        L, mass = self.span_m, float(c[9].real / self.span_m)
+        axial = c[0] * L + G * c[6] * L
+        bending = c[2] * L**3 + G * c[8] * L**3 - (G * c[7] * L**2) ** 2 / axial
+        return free_layer_error(bending, mass, self.copies * self.width_m, frequency_hz)
 
     def _moved(self, name: str, by: Mapping[str, float]) -> dict[str, float]:
         layer = getattr(self, name)
@@ -139,9 +248,10 @@ class Beam(BaseDriven):
 
     def stated_number(self, kind: str) -> tuple[float, float, str]:
         """In SI, with the factor to the unit of results."""
-        channels = {"gain": (1.0, 1.0, "1"), "delay": (0.0, 1e6, "us"), "length": (self.length_m, 1e3, "mm")}
-        if kind in channels:
-            return channels[kind]
+        others = {"gain": (1.0, 1.0, "1"), "delay": (0.0, 1e6, "us"), "length": (self.length_m, 1e3, "mm")}
+        others |= {name: (x, 1e3, "mm") for name, x in self.places.items()}
+        if kind in others:
+            return others[kind]
         layer, _, quantity = kind.partition("_")
         name, factor, unit = {
             "young": ("young_pa", 1e-9, "GPa"),
@@ -157,132 +267,3 @@ def _of_face(face: dict[str, float]) -> tuple[complex, float, float]:
         return 0.0, 0.0, 0.0
     young = face["young"] * (1 + 1j * face["loss"]) if face["loss"] else face["young"]
     return young, face["thickness"], face["density"] * face["thickness"]
-
-
-def _without_law(core: Core | None) -> Core | None:
-    # The basis holds for every law: one for all of them is kept.
-    return replace(core, law=None) if core is not None else None  # type: ignore[arg-type]
-
-
-def _shapes(ends: Ends) -> tuple[list[Polynomial], list[Polynomial]]:
-    """Polynomials of w and of u over 0 < x < 1 that meet the conditions at the ends."""
-    x = Polynomial([0.0, 1.0])
-    held = {
-        "free-free": (Polynomial([1.0]), Polynomial([1.0])),
-        "clamped-clamped": (x**2 * (1 - x) ** 2, x * (1 - x)),
-    }.get(ends, (x**2, x))
-    found = []
-    for factor in held:
-        legendre = [Legendre.basis(k, domain=[0.0, 1.0]).convert(kind=Polynomial) for k in range(ORDER)]
-        found.append([factor * p for p in legendre])
-    return found[0], found[1]
-
-
-@lru_cache(maxsize=16)
-def _full(ends: Ends) -> tuple[Array, Array, Array, Array]:
-    """Matrices of K_0, K_1 and M over all polynomials of u_b, u_c and w, and the load.
-
-    Shapes (parts, n, n), (n,).
-    """
-    w, u = _shapes(ends)
-    x, weight = np.polynomial.legendre.leggauss(2 * ORDER)
-    x, weight = (x + 1) / 2, weight / 2
-    n = ORDER
-    place = {"b": slice(0, n), "c": slice(n, 2 * n), "w": slice(2 * n, 3 * n)}
-
-    def rows(which: str, derivative: int = 0) -> Array:
-        found = np.zeros((3 * n, len(x)))
-        shapes = w if which == "w" else u
-        found[place[which]] = [(p.deriv(derivative) if derivative else p)(x) for p in shapes]
-        return found
-
-    def both(a: Array, b: Array) -> Array:
-        return np.asarray((a * weight) @ b.T)
-
-    def mixed(a: Array, b: Array) -> Array:
-        return both(a, b) + both(b, a)
-
-    def square(a: Array) -> Array:
-        return both(a, a)
-
-    slope, bend = rows("w", 1), rows("w", 2)
-    across, sum_of = rows("c") - rows("b"), rows("c") + rows("b")
-    K_0 = np.array([square(rows("b", 1)), square(rows("c", 1)), square(bend)])
-    stretch = rows("b", 1)
-    K_1 = np.array(
-        [
-            *(square(across), mixed(across, slope), square(slope)),
-            *(square(stretch), -mixed(stretch, bend), square(bend)),
-        ]
-    )
-    M = np.array(
-        [
-            *(square(rows("w")), square(rows("b")), square(rows("c"))),
-            *(square(sum_of), mixed(sum_of, slope), square(slope)),
-        ]
-    )
-    return K_0, K_1, M, -(rows("w") @ weight)
-
-
-@lru_cache(maxsize=64)
-def _basis(beam: Beam) -> Array:
-    """Modes at a few moduli, and what rests. Shape (n, k)."""
-    K_0, K_1, M, _ = _full(beam.boundary if beam.boundary != "centre-driven" else "clamped-free")
-    c = beam.coefficients({}).real
-    moving = np.ones(3 * ORDER, bool)
-    if beam.constraining is None:
-        moving[ORDER : 2 * ORDER] = False
-    if beam.is_doubled:
-        moving[:ORDER] = False
-    kept = np.flatnonzero(moving)
-    square = np.ix_(kept, kept)
-    stiff, core, mass = (
-        np.tensordot(part, P, axes=1)[square] for part, P in ((c[:3], K_0), (c[3:9], K_1), (c[9:15], M))
-    )
-    # Equal sizes of all polynomials: their squares differ by many orders.
-    size = 1 / np.sqrt(np.diag(mass))
-    found = []
-    for G in _MODULI_PA if beam.core is not None else (0.0,):
-        K = (stiff + G * core) * np.outer(size, size)
-        _, V = la.eigh(K, mass * np.outer(size, size), subset_by_index=[0, min(_MODES, len(kept)) - 1])
-        found.append(V)
-    whole = np.hstack(found)
-    Q, s, _ = np.linalg.svd(whole / np.linalg.norm(whole, axis=0), full_matrices=False)
-    Q = Q[:, s > _NEGLIGIBLE * s[0]]
-    V = np.zeros((3 * ORDER, Q.shape[1]))
-    V[kept] = size[:, None] * Q
-    return V
-
-
-@lru_cache(maxsize=64)
-def _parts_of(beam: Beam) -> Parts:
-    ends: Ends = beam.boundary if beam.boundary != "centre-driven" else "clamped-free"
-    V = _basis(beam)
-    K_0, K_1, M, load = _full(ends)
-    w, _ = _shapes(ends)
-    at = (beam.pickup_m or 0.0) / beam.span_m
-    observe = V[2 * ORDER :].T @ np.array([p(min(at, 1.0)) for p in w])
-    if beam.pickup_m is None:
-        observe = 0 * observe
-    if ends == "free-free":
-        load = 0 * load
-    project = [np.array([V.T @ P @ V for P in stack]) for stack in (K_0, K_1, M)]
-    k = V.shape[1]
-    strain = {}
-    if beam.core is not None and beam.constraining is not None:
-        c = beam.coefficients({})[3:6].real
-        shear = np.tensordot(c, project[1][:3], axes=1)
-        width = beam.width_m * (2 if beam.boundary == "centre-driven" else 1)
-        volume = width * beam.span_m * beam.core.thickness_m * (2 if beam.is_doubled else 1)
-        strain = {"strain.mean_square": shear / volume}
-    return Parts(
-        K_0=project[0],
-        K_1=project[1],
-        M=project[2],
-        load=(V.T @ load)[None],
-        observe=observe,
-        matrices=strain,
-        deflection=np.zeros((4, 3, k)),
-        size=(beam.span_m, beam.width_m, 1, 1),
-        pickup_m=(at * beam.span_m, 0.0),
-    )

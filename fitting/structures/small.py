@@ -3,22 +3,25 @@
     (-omega^2 M + i omega C_1 + K_0 + G* K_1) X = load,   K_0 = sum of c_p P_p,   so K_1, M, load
 
 It needs no reduced basis, and answers at every frequency by itself. What fits and effects are given is the
-same kind of object as the widened reduced plate (`fitting.effects.enriched_plate`), its columns the unknowns
-themselves.
+same kind of object as the widened reduced plate (`fitting.effects.enriched_plate`): its columns are the
+unknowns themselves, in groups where some are for an effect alone.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Protocol
 
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate, Names
 from fitting.errors import OutsideModel
+from fitting.model_error import ModelError
 from fitting.nuisance import Nuisance
-from fitting.nuisances import Nuisances
+from fitting.nuisances import Nuisances, Spot
+from fitting.placed import Placed
 from fitting.rational import RationalSweep
 from fitting.specimen import StatedSpecimen
 
@@ -45,6 +48,19 @@ class Parts:
     size: tuple[float, float, int, int]
     """Length and width in m, elements along each."""
     pickup_m: tuple[float, float]
+    group: Names | None = None
+    """Of every unknown, as `EnrichedReducedPlate` has it; None: all are its own. Shape (k,)."""
+    gram: Array | None = None
+    """Inner products of the unknowns; None: one. Shape (k, k)."""
+    pitch: Array | None = None
+    """Load of a turning base; None: none turns it. Shape (k,)."""
+    vectors: Mapping[str, Array] = field(default_factory=dict)
+    """What else effects may ask for. Shape (k,) each."""
+
+    @property
+    def unknowns(self) -> int:
+        """How many there are."""
+        return len(self.observe)
 
 
 class SmallSpecimen(StatedSpecimen, Protocol):
@@ -53,6 +69,10 @@ class SmallSpecimen(StatedSpecimen, Protocol):
     @property
     def numbers(self) -> tuple[str, ...]:
         """Kinds of stated numbers that move its matrices."""
+
+    @property
+    def places(self) -> Mapping[str, float]:
+        """Points along it that are stated in m: `pickup`, `force`. None where it has no length."""
 
     def parts(self) -> Parts:
         """Its matrices for unit coefficients."""
@@ -66,6 +86,16 @@ class SmallSpecimen(StatedSpecimen, Protocol):
     def tolerance(self, name: str) -> float:
         """Standard deviation of a stated number."""
 
+    @property
+    def length_error_m(self) -> float:
+        """Standard deviation of its length for what its theory leaves out at held ends; zero for none."""
+
+    def theory_error(self, frequency_hz: Array, G: Complex) -> ModelError | None:
+        """What its theory gets wrong around some frequencies, the core's modulus given; None: nothing.
+
+        Shape (points,) each.
+        """
+
     def stated_number(self, kind: str) -> tuple[float, float, str]:
         """A number in SI, the factor to the unit of results, and that unit."""
 
@@ -77,6 +107,11 @@ class SmallNuisances(Nuisances):
     specimen: SmallSpecimen  # type: ignore[assignment]
     parts: Parts | None = None
     """What their coefficients multiply."""
+
+    @property
+    def reads_at_a_place(self) -> bool:
+        """Whether the row that reads it moves with stated numbers."""
+        return "pickup" in self.specimen.places
 
     @property
     def counts(self) -> tuple[int, int, int]:
@@ -97,20 +132,34 @@ class SmallNuisances(Nuisances):
         return np.asarray(_real_where_it_is(self.specimen.coefficients(by)))
 
     def _load(self, plate: EnrichedReducedPlate, c: Array) -> Array:
+        # Their sign is in the parts.
         return np.asarray(c[sum(self.counts) :].real @ plate.load_part)
 
     def _by_load(self, plate: EnrichedReducedPlate, adjoint: Complex, z: Array) -> Complex:
-        # Their sign is in the parts.
         return np.asarray(
             -self.by_coefficients(z)[:, sum(self.counts) :].real @ (plate.load_part @ adjoint.T)
         )
 
     def _row_change(self, plate: EnrichedReducedPlate, z: Array) -> Array:
-        return np.zeros(len(plate.observe))
+        return super()._row_change(plate, z) if self.reads_at_a_place else np.zeros(len(plate.observe))
 
     def rows_by(self, plate: EnrichedReducedPlate, z: Array) -> dict[int, Array]:
-        """None: the reading does not move. Of `z`, shape (numbers,)."""
-        return {}
+        """As `Nuisances.rows_by`; none where no place is stated. Of `z`, shape (numbers,)."""
+        return super().rows_by(plate, z) if self.reads_at_a_place else {}
+
+    def _force_change(self, plate: EnrichedReducedPlate, z: Array) -> Array | float:
+        if "force" not in self.specimen.places:
+            return 0.0
+        (x, _), (y, _) = self._spot("force", z)
+        return plate.row(x, y) - plate.row(self.specimen.places["force"], 0.0)
+
+    def placed(self, plate: EnrichedReducedPlate, z: Array) -> EnrichedReducedPlate:
+        """The same, read and driven where these numbers say. `z` of shape (numbers,)."""
+        observe, load = self._row_change(plate, z), self._force_change(plate, z)
+        return replace(plate, observe=plate.observe + observe, load=plate.load + load)
+
+    def _spot(self, spot: Spot, z: Array) -> Placed:
+        return self._points.at((self.specimen.places[spot], 0.0), spot, z)
 
 
 def _real_where_it_is(c: Complex) -> Complex | Array:
@@ -119,39 +168,72 @@ def _real_where_it_is(c: Complex) -> Complex | Array:
 
 def nuisances_of(specimen: SmallSpecimen, parts: Parts, *, has_phase: bool) -> SmallNuisances:
     """All its stated numbers, and those of the channels."""
-    names = [*specimen.numbers, "gain", *(["delay"] if has_phase else [])]
-    each = [Nuisance(n, n, specimen.tolerance(n)) for n in names]
+    kinds = {n: n for n in (*specimen.numbers, "gain", *(["delay"] if has_phase else []))}
+    kinds |= {f"{n}_x": n for n in specimen.places}
+    each = [Nuisance(name, kind, specimen.tolerance(kind)) for name, kind in kinds.items()]
     return SmallNuisances(specimen, tuple(n for n in each if n.sigma > 0), None, parts)
+
+
+@dataclass(frozen=True)
+class SmallSystem(EnrichedReducedPlate):
+    """As fits and effects take it; it knows how its stated numbers change it."""
+
+    stated: SmallSpecimen | None = None
+
+    def moved(self, by: Mapping[str, float]) -> Change:
+        """What it becomes with some numbers moved, as `SmallSpecimen.coefficients` takes them."""
+        s = self.stated
+        assert s is not None
+        c = s.coefficients(by) - s.coefficients({})
+        n_0, n_1, n_M = self.counts
+        K, K_1, M = (
+            np.tensordot(c[a:b], self.parts[a:b], axes=1)
+            for a, b in ((0, n_0), (n_0, n_0 + n_1), (n_0 + n_1, n_0 + n_1 + n_M))
+        )
+        load = c[n_0 + n_1 + n_M :].real @ self.load_part
+        return Change(K=_real_where_it_is(K), K_1=K_1.real, M=M.real, load=load)
+
+    counts: tuple[int, int, int] = (0, 0, 0)
+    """How many parts K_0, K_1 and M have."""
 
 
 def system_of(
     specimen: SmallSpecimen, parts: Parts, by: Mapping[str, float] | None = None
 ) -> EnrichedReducedPlate:
-    """As stated, or its numbers moved (`SmallSpecimen.coefficients`), as fits and effects take it."""
+    """As stated, or its numbers moved (`SmallSpecimen.coefficients`), on its own unknowns alone."""
+    return widened_system_of(specimen, parts, by).take([])
+
+
+def widened_system_of(
+    specimen: SmallSpecimen, parts: Parts, by: Mapping[str, float] | None = None
+) -> SmallSystem:
+    """The same with the unknowns that effects need."""
     n_0, n_1, n_M = len(parts.K_0), len(parts.K_1), len(parts.M)
     c = specimen.coefficients(by or {})
-    k = len(parts.observe)
-    return EnrichedReducedPlate(
-        group=np.full(k, "plate"),
+    k = parts.unknowns
+    return SmallSystem(
+        group=np.full(k, "plate") if parts.group is None else parts.group,
         M=_sum(c[n_0 + n_1 : n_0 + n_1 + n_M], parts.M, k).real,
         K_0=_sum(c[:n_0], parts.K_0, k),
         K_1=_sum(c[n_0 : n_0 + n_1], parts.K_1, k).real,
         U=np.zeros((k, 0)),
         d=np.zeros(0),
         load=c[n_0 + n_1 + n_M :].real @ parts.load,
-        pitch=np.zeros(k),
+        pitch=np.zeros(k) if parts.pitch is None else parts.pitch,
         observe=parts.observe,
-        gram=np.eye(k),
+        gram=np.eye(k) if parts.gram is None else parts.gram,
         names=np.array(list(parts.matrices), dtype=str),
         matrices=np.array(list(parts.matrices.values())).reshape(-1, k, k),
-        vector_names=np.zeros(0, dtype=str),
-        vectors=np.zeros((0, k)),
+        vector_names=np.array(list(parts.vectors), dtype=str),
+        vectors=np.array(list(parts.vectors.values())).reshape(-1, k),
         deflection=parts.deflection,
         size=np.array(parts.size, dtype=float),
         pickup=np.array(parts.pickup_m),
         parts=np.concatenate([parts.K_0, parts.K_1, parts.M]),
         load_part=parts.load,
         layers=np.zeros((3, 5)),
+        stated=specimen,
+        counts=(n_0, n_1, n_M),
     )
 
 

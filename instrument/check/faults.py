@@ -8,9 +8,10 @@ from fitting.specimen import Specimen
 from instrument.check.forecast import Forecast, distinct, planned_segment, sections_of
 from instrument.errors import BadInput
 from instrument.files.acceleration import in_both
+from instrument.files.beam_file import BeamDocument
 from instrument.files.devices import ranges_of
 from instrument.files.specimen_file import SpecimenDocument, read_specimen
-from instrument.files.structure_file import BeamDocument, ShearPairDocument
+from instrument.files.structure_file import ShearPairDocument
 from instrument.models.set_up import check_like
 from instrument.session.configuration import Experiment
 from instrument.session.setup import sweep_settings

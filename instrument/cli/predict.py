@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from fitting.identification.bare_plate import fit_bare_plate, with_bare_plate
 from fitting.specimen import Core, Specimen, StatedSpecimen
+from fitting.structures import Beam, ShearPair
 from fitting.structures.small_modes import small_velocity
 from instrument.cli.options import Frequencies, acceleration_option, file_argument, force_option, json_option
 from instrument.cli.output import Output
@@ -69,8 +70,7 @@ def predict(
         if fit is not None:
             _show(out, read, prediction_from_fit(fitted_response(read, read_fit(fit), frequencies)))
             return
-        v = small_velocity(read, frequencies)
-        _show(out, read, prediction_from(frequencies, v, _outside(read.core, frequencies)))
+        _show(out, read, _of_small(read, frequencies))
         return
     if hammer is not None:
         read = with_bare_plate(read, fit_bare_plate(read, *read_hammer(hammer)))
@@ -90,6 +90,16 @@ def predict(
         ]
         result = of_spots([prediction_from(frequencies, v, *remarks) for v in spots])
     _show(out, read, result)
+
+
+def _of_small(read: Beam | ShearPair, frequencies: NDArray[np.float64]) -> PredictionResult:
+    spots: list[Beam | ShearPair] = [read]
+    if isinstance(read, Beam) and read.further_pickups_m:
+        spots = [read.at_pickup(k) for k in range(len(read.pickups_m))]
+    outside = _outside(read.core, frequencies)
+    return of_spots(
+        [prediction_from(frequencies, small_velocity(one, frequencies), outside) for one in spots]
+    )
 
 
 def _outside(core: Core | None, frequencies: NDArray[np.float64]) -> str:

@@ -11,11 +11,10 @@ from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Core, Reading
 from fitting.structures import AnySpecimen
-from fitting.structures.beam import Beam, Ends
 from fitting.structures.shear_pair import ShearPair, disc
 from instrument.errors import BadInput
+from instrument.files.beam_file import BeamDocument
 from instrument.files.law_table import with_rows
-from instrument.files.layer_tables import Poisson, StatedLayer
 from instrument.files.specimen_file import (
     SpecimenDocument,
     TolerancesSection,
@@ -120,77 +119,6 @@ class ShearPairDocument(TomlTable):
             reads=self.pickup.reads,
             base_acceleration_m_s2=self.base.acceleration_m_s2,
             tolerances=named,
-            exact=self.tolerances is not None and self.tolerances.exact,
-        )
-
-
-class _Length(TomlTable):
-    length_mm: Positive
-    width_mm: Positive
-    boundary: Ends
-    both_sides: bool = False
-
-
-class _Viscoelastic(TomlTable):
-    thickness_mm: Positive
-    poisson: Poisson
-    density_kg_m3: Positive
-    law: dict[str, Any]
-
-
-class _Spot(TomlTable):
-    x_mm: Positive
-    reads: Reading = "relative"
-
-
-class BeamDocument(TomlTable):
-    """SPECIMEN.toml with `[beam]`."""
-
-    beam: _Length
-    substrate: StatedLayer
-    constraining: StatedLayer | None = None
-    core: _Viscoelastic | None = None
-    pickup: _Spot | None = None
-    base: _PairBase = _PairBase()
-    tolerances: TolerancesSection | None = None
-
-    @model_validator(mode="after")
-    def _whole(self) -> "BeamDocument":
-        for name, layer in (("substrate", self.substrate), ("constraining", self.constraining)):
-            if layer is not None and layer.young_gpa is None:
-                raise ValueError(f"{name}.young_x_gpa, expected young_gpa: along the beam")
-        if self.constraining is not None and self.core is None:
-            raise ValueError("[core] is missing, expected one between [substrate] and [constraining]")
-        if self.beam.both_sides and self.core is None:
-            raise ValueError("both_sides = true, expected [core]: a layer on either side")
-        reach = self.beam.length_mm / (2 if self.beam.boundary == "centre-driven" else 1)
-        if self.pickup is not None and self.pickup.x_mm > reach:
-            raise ValueError(f"pickup.x_mm = {self.pickup.x_mm:g} is off the beam, expected 0 to {reach:g}")
-        return self
-
-    @property
-    def geometry(self) -> dict[str, object]:
-        """Its own keys, and where it is read."""
-        spot = {"pickup_x_mm": self.pickup.x_mm} if self.pickup is not None else {}
-        return self.beam.model_dump() | spot
-
-    def specimen(self) -> Beam:
-        """What it describes. Raises `OutsideModel`."""
-        core, c = None, self.core
-        if c is not None:
-            core = Core(c.thickness_mm * 1e-3, c.poisson, c.density_kg_m3, law_of(c.law))
-        return Beam(
-            length_m=self.beam.length_mm * 1e-3,
-            width_m=self.beam.width_mm * 1e-3,
-            boundary=self.beam.boundary,
-            substrate=self.substrate.face(),
-            constraining=self.constraining.face() if self.constraining is not None else None,
-            core=core,
-            both_sides=self.beam.both_sides,
-            pickup_m=self.pickup.x_mm * 1e-3 if self.pickup is not None else None,
-            reads=self.pickup.reads if self.pickup is not None else "relative",
-            base_acceleration_m_s2=self.base.acceleration_m_s2,
-            tolerances=tolerances_of(self.tolerances),
             exact=self.tolerances is not None and self.tolerances.exact,
         )
 

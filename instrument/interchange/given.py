@@ -7,7 +7,7 @@ from typing import TypeVar
 import numpy as np
 
 from fitting.specimen import Specimen
-from fitting.structures import AnySpecimen
+from fitting.structures import AnySpecimen, Beam
 from fitting.sweep import Sweep
 from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult
@@ -118,7 +118,7 @@ def _of_sweep(data: Path, specimen: Path | None) -> Given:
 def at_its_spot(data: Path | str, read: AnySpecimen, sweep: Sweep) -> tuple[AnySpecimen, Sweep]:
     """The specimen read where the data were; several spots stay several. Raises `BadInput`."""
     which = sweep.pickup
-    known = len(read.pickups_m) if isinstance(read, Specimen) else 1
+    known = len(read.pickups_m) if isinstance(read, Specimen | Beam) else 1
     if which is None:
         if known > 1:
             raise BadInput(f"{data}: column pickup missing, expected it: the specimen has {known} pickups")
@@ -129,7 +129,7 @@ def at_its_spot(data: Path | str, read: AnySpecimen, sweep: Sweep) -> tuple[AnyS
         raise BadInput(f"{data}: column pickup: {wrong[0]}, expected {expected} as the specimen has pickups")
     if len(np.unique(which)) > 1:
         return read, sweep
-    spot = read.at_pickup(int(which[0])) if isinstance(read, Specimen) and known else read
+    spot = read.at_pickup(int(which[0])) if isinstance(read, Specimen | Beam) and known else read
     return spot, replace(sweep, pickup=None)
 
 

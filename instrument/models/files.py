@@ -10,7 +10,7 @@ from fitting.diagnosis.mountings import of_mounting
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
-from fitting.structures import AnySpecimen
+from fitting.structures import AnySpecimen, Beam
 from fitting.sweep import Sweep
 from instrument.models.set_up import Hammer, set_up, set_up_spots, with_hammer
 from instrument.progress import Progress
@@ -33,7 +33,7 @@ class File:
 
 def spots_of(sweep: Sweep, specimen: AnySpecimen, name: str = "", number: int = 1) -> list[File]:
     """A file's data, each of its spots for itself."""
-    if sweep.pickup is None or not isinstance(specimen, Specimen):
+    if sweep.pickup is None or not isinstance(specimen, Specimen | Beam):
         return [File(sweep, specimen, name, number)]
     return [
         File(replace(sweep.take(sweep.pickup == k), pickup=None), specimen.at_pickup(k), name, number, k)

@@ -23,7 +23,7 @@ from fitting.mode_tables.diagnose import DiagnosedModes, diagnose_modes
 from fitting.mode_tables.fit import ModalFit, fit_modes, start_of
 from fitting.mode_tables.formulas import ByFormula, by_formula
 from fitting.mode_tables.problem import ModalProblem
-from fitting.mode_tables.stated_off import standing
+from fitting.mode_tables.standing import standing
 from fitting.mode_tables.table import ModalTable
 from fitting.plate import Plate
 from fitting.specimen import Specimen

@@ -65,5 +65,5 @@ class FittedSmall:
             for n, at in zip(self.nuisances.each, z, strict=True)
             if n.kind in numbers
         }
-        x = displacement(system_of(s, parts, by), omega, G)
+        x = displacement(self.nuisances.placed(system_of(s, parts, by), z), omega, G)
         return self.nuisances.reading(velocity(omega, x, s.reads) * s.drive_amplitude, omega, z)

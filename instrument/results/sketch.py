@@ -137,8 +137,14 @@ def _beam(beam: Beam) -> tuple[View, ...]:
     if beam.boundary == "centre-driven":
         held.append(Box(-d / 4, -d, d / 2, d, "held"))
     reach = 1.5 * d
-    arrows = [Arrow(b.x + b.width / 2, b.y - reach, 0.0, reach, "base") for b in held]
-    marks = [] if beam.pickup_m is None else [Mark(1e3 * beam.pickup_m, top, "spot", "spot")]
+    by_base = held if beam.drive == "base" else []
+    arrows = [Arrow(b.x + b.width / 2, b.y - reach, 0.0, reach, "base") for b in by_base]
+    several = len(beam.pickups_m) > 1
+    marks = [
+        Mark(1e3 * x, top, f"spot {k}" if several else "spot", "spot") for k, x in enumerate(beam.pickups_m)
+    ]
+    if beam.force_m is not None:
+        marks.append(Mark(1e3 * beam.force_m, top, "force", "force"))
     section = [Box(0.0, float(z), B, h, kind) for z, (h, kind) in zip(ends, layers, strict=False)]
     said = ", ".join(f"{h:g}" for h, _ in layers)
     return (

@@ -11,7 +11,7 @@ from fitting.effects.base import Effect
 from fitting.mode_tables.build import member_of
 from fitting.mode_tables.diagnose import diagnose_modes, visible
 from fitting.mode_tables.problem import ModalProblem
-from fitting.mode_tables.stated_off import standing
+from fitting.mode_tables.standing import standing
 from fitting.mode_tables.table import ModalTable
 from fitting.structures.small_modes import small_modes
 

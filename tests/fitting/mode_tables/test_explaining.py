@@ -6,7 +6,7 @@ import numpy as np
 from beam_tables import BEAM, FACE, begun, read
 
 from fitting.diagnosis.of_files import OfFiles
-from fitting.mode_tables.stated_off import standing
+from fitting.mode_tables.standing import standing
 
 STIFFER = next(e for e in standing(BEAM) if e.name == "substrate_stiffness")
 

@@ -12,7 +12,7 @@ from fitting.errors import OutsideModel
 from fitting.laws.fractional_zener import FractionalZener
 from fitting.mode_tables.build import member_of
 from fitting.mode_tables.member import Member
-from fitting.mode_tables.stated_off import standing
+from fitting.mode_tables.standing import standing
 from fitting.structures.small_modes import small_modes
 
 TABLE = read(BEAM, 3)

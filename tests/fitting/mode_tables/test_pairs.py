@@ -5,7 +5,7 @@ from dataclasses import replace
 from beam_tables import BEAM, FACE, begun, read
 
 from fitting.mode_tables.pairs import best_pairs, called_for
-from fitting.mode_tables.stated_off import standing
+from fitting.mode_tables.standing import standing
 
 WANTED = ("substrate_stiffness", "constraining_thickness")
 EFFECTS = [e for e in standing(BEAM) if e.name in WANTED]

@@ -16,7 +16,7 @@ from fitting.identification.result import LawBand
 from fitting.mode_tables.build import member_of
 from fitting.mode_tables.diagnose import diagnose_modes as diagnose_members
 from fitting.mode_tables.problem import ModalProblem
-from fitting.mode_tables.stated_off import standing
+from fitting.mode_tables.standing import standing
 from fitting.temperature.simple import Verdict
 from instrument.cli import diagnose_modes as diagnosing
 from instrument.cli import identify_modes as identifying

@@ -14,7 +14,7 @@ from fitting.identification.result import LawBand
 from fitting.mode_tables.build import member_of
 from fitting.mode_tables.diagnose import diagnose_modes
 from fitting.mode_tables.problem import ModalProblem
-from fitting.mode_tables.stated_off import standing
+from fitting.mode_tables.standing import standing
 from fitting.pointwise import PointwiseLaw
 from fitting.temperature.simple import Verdict
 from instrument.models.modal import TablesDiagnosed

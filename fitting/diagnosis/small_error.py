@@ -1,0 +1,62 @@
+"""What the theory of a small structure gets wrong, as changes of its response of known size.
+
+Its resonances lie a little elsewhere and are damped a little otherwise, each by itself: another one about
+every octave. What its held ends do is one number for all of them.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from fitting.arrays import Array, Complex
+from fitting.laws import CoreLaw
+from fitting.structures.small import SmallSpecimen, SmallSystem, displacement
+
+OCTAVE = 0.7
+"""In ln f."""
+_H = 1e-4
+"""Relative step of differences."""
+_H_LENGTH_M = 1e-5
+
+
+def theory_rows(
+    specimen: SmallSpecimen, system: SmallSystem, omega: Array, law: CoreLaw, drive: Array
+) -> list[Complex]:
+    """Changes of the velocity, one standard deviation each; `drive` is what drives it, at every point.
+
+    Shape (points,) each.
+    """
+    error = specimen.theory_error(omega / (2 * np.pi), law.modulus(omega))
+    if error is None:
+        return []
+    own, G = system.take([]), law.modulus(omega)
+    x = displacement(own, omega, G)
+    per_x = 1j * omega * drive
+    stiffer = displacement(replace(own, K_0=(1 + _H) * own.K_0), omega, (1 + _H) * G)
+    # d ln f = 1/2 d ln K, and a loss is the imaginary part of ln K.
+    dv = per_x * (stiffer - x) / (_H / 2)
+    by_loss = 0.5j * error.modal_loss * dv
+    shares = octaves(omega)
+    rows = [error.frequency * share * dv for share in shares]
+    rows += [error.loss * share * by_loss for share in shares]
+    if specimen.length_error_m:
+        change = system.moved({"length": _H_LENGTH_M})
+        longer = replace(
+            system,
+            K_0=system.K_0 + change.K,
+            K_1=system.K_1 + change.K_1,
+            M=system.M + change.M,
+            load=system.load + change.load,
+        ).take([])
+        by_length = (displacement(longer, omega, G) - x) / _H_LENGTH_M
+        rows.append(specimen.length_error_m * per_x * by_length)
+    return rows
+
+
+def octaves(omega: Array) -> Array:
+    """Hats over ln f, that add up to one. Shape (hats, points)."""
+    t = np.log(omega)
+    at = np.linspace(t.min(), t.max(), 2 + int(np.ptp(t) / OCTAVE))
+    if at[-1] == at[0]:
+        return np.ones((1, len(t)))
+    return np.maximum(0, 1 - np.abs(t - at[:, None]) / (at[1] - at[0]))

@@ -1,0 +1,52 @@
+"""A stated number of a small structure far off: what a factor on it changes. No effect by itself.
+
+A plate's effects of this kind are solved for with the matrices of another plate (`other_plates.py`); a small
+structure knows its matrices by what is stated.
+"""
+
+from collections.abc import Mapping
+from typing import Protocol, runtime_checkable
+
+import numpy as np
+
+from fitting.arrays import Array
+from fitting.effects.base import Effect
+from fitting.effects.change import Change
+from fitting.effects.enriched_plate import EnrichedReducedPlate
+
+
+@runtime_checkable
+class KnowsItsNumbers(Protocol):
+    """A structure whose matrices follow from coefficients of what is stated."""
+
+    def moved(self, by: Mapping[str, float]) -> Change:
+        """What it becomes with some numbers moved, relative ones in the logarithm."""
+
+
+def moved(plate: EnrichedReducedPlate, by: Mapping[str, float]) -> Change:
+    """What a structure becomes with some stated numbers moved."""
+    assert isinstance(plate, KnowsItsNumbers)
+    return plate.moved(by)
+
+
+class NumberOffEffect(Effect):
+    """`inner` as a factor on one stated number of a beam."""
+
+    def __init__(self, inner: Effect, number: str, needs: frozenset[str] = frozenset()) -> None:
+        """`needs` as `Effect.needs`."""
+        self.inner, self.number = inner, number
+        vars(self).update(
+            name=inner.name,
+            enters=inner.enters,
+            source=inner.source,
+            chance=inner.chance,
+            discriminating_test=inner.discriminating_test,
+            parameters=inner.parameters,
+            needs=needs,
+        )
+
+    def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:
+        return moved(plate, {self.number: float(np.log(u[0]))})
+
+    def story(self, u: Mapping[str, float]) -> str:
+        return self.inner.story(u)

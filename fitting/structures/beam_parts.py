@@ -1,0 +1,229 @@
+"""A beam's matrices on a basis of its modes, and what effects ask for, on motions beside them.
+
+What the fit of a sound beam needs are modes at a few moduli of the core. Where a held end yields it moves as
+it cannot there: those motions are columns of their own (`root`), and so are those of a treatment that the
+clamp does not hold (`treatment`). Matrices go by the names that a plate's have (`fitting.effects`).
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+
+import numpy as np
+import scipy.linalg as la
+from numpy.typing import NDArray
+
+from fitting.arrays import Array
+from fitting.structures.beam_shapes import ORDER, PIECES, Shapes, gauss, matrices_of, shapes_of
+from fitting.structures.small import Parts
+
+_MODES = 10
+"""Of each modulus, that the basis holds."""
+_MODULI_PA = (1e5, 3e6, 1e8, 3e9)
+"""From a core that only stores to a free layer as stiff as a plastic: the modes of each are in the basis."""
+_NEGLIGIBLE = 1e-9
+"""Of the basis' vectors, relative: what is in the others."""
+_ELEMENTS = 64
+"""Along the beam, w a cubic on each: the tenth mode to 1e-5."""
+_IN_A_PIECE = 6
+"""Places of quadrature: the shear's square is nearly a cubic over a fortieth of the length."""
+
+
+@dataclass(frozen=True)
+class BeamSection:
+    """What of a beam its matrices are made of, one piece of it."""
+
+    ends: str
+    length_m: float
+    width_m: float
+    copies: int
+    """Two where it is driven in its centre, both halves moving alike."""
+    thickness_m: tuple[float, float, float]
+    """Of substrate, core and constraining layer; zero for none."""
+    both_sides: bool
+    coefficients: tuple[float, ...]
+    """Of K_0, K_1 and M, losses left out."""
+
+    @property
+    def is_sandwich(self) -> bool:
+        """Whether a core shears between two layers."""
+        return self.thickness_m[2] > 0
+
+    @property
+    def is_doubled(self) -> bool:
+        """Whether one is on both sides, so that the middle does not stretch."""
+        return self.both_sides and self.is_sandwich
+
+    @property
+    def shapes(self) -> Shapes:
+        """Its polynomials."""
+        return shapes_of(self.ends)
+
+    @property
+    def moves(self) -> NDArray[np.bool_]:
+        """Which unknowns it has. Shape (size,)."""
+        s = self.shapes
+        found = np.ones(s.size, bool)
+        if not self.is_sandwich:
+            found[s.place["c"]] = False
+        if self.is_doubled:
+            found[s.place["b"]] = False
+        return found
+
+    def summed(self, which: str) -> Array:
+        """K_0, K_1 or M over all unknowns, K_1 for a modulus of one. Shape (size, size)."""
+        of = {"K_0": slice(0, 3), "K_1": slice(3, 9), "M": slice(9, 15)}[which]
+        return np.tensordot(self.coefficients[of], getattr(matrices_of(self.ends), which), axes=1)
+
+
+def parts_of(section: BeamSection, pickup: float | None, force: float | None) -> Parts:
+    """For unit coefficients; where it is read, and where a force drives it, in shares of its length.
+
+    None: not read, and driven by its base.
+    """
+    matrices, s = matrices_of(section.ends), section.shapes
+    group, V, size = _columns(section)
+    K_0, K_1, M = (np.array([V.T @ P @ V for P in getattr(matrices, name)]) for name in ("K_0", "K_1", "M"))
+    lifted = V.T @ matrices.load if s.held_ends else np.zeros(V.shape[1])
+    scaled = V / size[:, None]
+    return Parts(
+        K_0=K_0,
+        K_1=K_1,
+        M=M,
+        load=(lifted if force is None else _row(s, V, force))[None],
+        observe=_row(s, V, pickup) if pickup is not None else np.zeros(V.shape[1]),
+        matrices={name: V.T @ A @ V for name, A in _asked_for(section).items()},
+        deflection=_deflection(section, V),
+        size=(section.length_m, section.width_m, _ELEMENTS, 1),
+        pickup_m=((pickup or 0.0) * section.length_m, 0.0),
+        group=group,
+        gram=scaled.T @ scaled,
+        pitch=-V.T @ section.summed("M") @ _turned(section) if s.held_ends else np.zeros(V.shape[1]),
+        vectors={"air.load": _air_kg_m(section) * section.length_m * lifted},
+    )
+
+
+def _row(s: Shapes, V: Array, at: float) -> Array:
+    return np.asarray(V.T @ s.rows("w", np.array([min(at, 1.0)]))[:, 0])
+
+
+def _deflection(section: BeamSection, V: Array) -> Array:
+    """w, dw/dy and -dw/dx at the nodes of a strip one element wide. Shape (nodes, 3, k)."""
+    x = np.linspace(0.0, 1.0, _ELEMENTS + 1)
+    w, slope = (section.shapes.rows("w", x, d).T @ V for d in (0, 1))
+    along = np.stack([w, np.zeros_like(w), -slope / section.length_m], axis=1)
+    return np.repeat(along, 2, axis=0)
+
+
+def _turned(section: BeamSection) -> Array:
+    """The whole beam turned by one about x = 0: w is the distance, and the layer above slides back.
+
+    Shape (size,).
+    """
+    s = section.shapes
+    h_b, h_v, h_c = section.thickness_m
+    found = np.zeros(s.size)
+    found[s.rising] = section.length_m
+    if section.is_sandwich:
+        found[s.level("c")] = -(h_v + (h_b + h_c) / 2)
+    return found
+
+
+def _columns(section: BeamSection) -> tuple[NDArray[np.str_], Array, Array]:
+    """Groups of the columns, the columns, and the size of each unknown. Shapes (k,), (size, k), (size,)."""
+    s, moves = section.shapes, section.moves
+    size = np.zeros(s.size)
+    size[moves] = 1 / np.sqrt(np.diag(section.summed("M"))[moves])
+    own = _own(section, size)
+    let_go = np.flatnonzero(moves & ~s.is_held)
+    of_treatment = np.isin(let_go, np.arange(s.size)[s.place["c"]])
+    above = let_go[of_treatment & (not section.is_doubled)]
+    beside = [(name, np.diag(size)[:, at]) for name, at in (("root", let_go), ("treatment", above))]
+    groups = np.concatenate([np.full(own.shape[1], "plate"), *(np.full(b.shape[1], n) for n, b in beside)])
+    return groups.astype(str), np.hstack([own, *(b for _, b in beside)]), np.where(size > 0, size, 1.0)
+
+
+@lru_cache(maxsize=64)
+def _modes(section: BeamSection) -> Array:
+    """Of a few moduli, and what rests, in units of each unknown's own size. Shape (moving, k)."""
+    kept = np.flatnonzero(section.moves & section.shapes.is_held)
+    square = np.ix_(kept, kept)
+    stiff, core, mass = (section.summed(name)[square] for name in ("K_0", "K_1", "M"))
+    # Equal sizes of all polynomials: their squares differ by many orders.
+    size = 1 / np.sqrt(np.diag(mass))
+    found = []
+    for G in _MODULI_PA if core.any() else (0.0,):
+        K = (stiff + G * core) * np.outer(size, size)
+        _, V = la.eigh(K, mass * np.outer(size, size), subset_by_index=[0, min(_MODES, len(kept)) - 1])
+        found.append(V)
+    whole = np.hstack(found)
+    Q, values, _ = np.linalg.svd(whole / np.linalg.norm(whole, axis=0), full_matrices=False)
+    return np.asarray(Q[:, values > _NEGLIGIBLE * values[0]])
+
+
+def _own(section: BeamSection, size: Array) -> Array:
+    kept = np.flatnonzero(section.moves & section.shapes.is_held)
+    Q = _modes(section)
+    V = np.zeros((section.shapes.size, Q.shape[1]))
+    V[kept] = size[kept, None] * Q
+    return V
+
+
+def _asked_for(section: BeamSection) -> dict[str, Array]:
+    """Matrices over all unknowns by the names that effects know. Shape (size, size) each."""
+    s, L = section.shapes, section.length_m
+    x, weight = gauss(2 * ORDER)
+    w = s.rows("w", x)
+    found = {"air.M": _air_kg_m(section) * L * np.asarray((w * weight) @ w.T)}
+    if s.held_ends:
+        found |= {f"root.{axis}": A for axis, A in _root_springs(section).items()}
+    if not section.is_sandwich:
+        return found
+    volume = section.copies * section.width_m * L * section.thickness_m[1] * (2 if section.is_doubled else 1)
+    found["strain.mean_square"] = _slip(section, 0.0, 1.0) / volume
+    if section.is_doubled:
+        return found
+    pieces = [_slip(section, a, b) for a, b in pairwise(np.linspace(0, 1, PIECES + 1))]
+    found |= {f"strips_x.{k:03d}": A for k, A in enumerate(pieces)}
+    found["grading_x.K_1"] = _slip(section, 0.0, 1.0, tilted=True)
+    if s.held_ends:
+        ends = s.rows("c", np.array(s.held_ends))
+        found["treatment.hold"] = section.copies * section.width_m * ends @ ends.T
+    return found
+
+
+def _slip(section: BeamSection, low: float, high: float, *, tilted: bool = False) -> Array:
+    """The core's shear between two places, for a modulus of one; `tilted`: times x - 1/2."""
+    x, weight = gauss(2 * ORDER if high - low == 1 else _IN_A_PIECE, low, high)
+    by = section.shapes.slip(x, weight * (x - 0.5) if tilted else weight)
+    return np.tensordot(section.coefficients[3:6], by, axes=1)
+
+
+def _root_springs(section: BeamSection) -> dict[str, Array]:
+    """Unit springs per area of the faces of all held ends, along x and across. Shape (size, size) each."""
+    s, ends = section.shapes, np.array(section.shapes.held_ends)
+    h_b, h_v, h_c = section.thickness_m
+    u_b, u_c, w = (s.rows(name, ends) for name in ("b", "c", "w"))
+    turn = s.rows("w", ends, 1) / section.length_m
+    below, above = u_b + h_b / 2 * turn, u_b - h_b / 2 * turn
+    layers = [(h_b, below, above, 1)]
+    sides = 2 if section.both_sides else 1
+    if section.is_sandwich:
+        low, high = u_c + h_c / 2 * turn, u_c - h_c / 2 * turn
+        layers += [(h_v, above, low, sides), (h_c, low, high, sides)]
+    else:
+        layers.append((h_v, above, u_b - (h_b / 2 + h_v) * turn, 1))
+        layers += [(h_v, below, u_b + (h_b / 2 + h_v) * turn, 1)] if section.both_sides else []
+    # u is linear across a layer: its mean, and a twelfth of the square of its difference.
+    along = sum(n * h * ((a + b) @ (a + b).T / 4 + (a - b) @ (a - b).T / 12) for h, a, b, n in layers)
+    height = sum(n * h for h, _, _, n in layers)
+    width = section.copies * section.width_m
+    return {"x": width * np.asarray(along), "z": width * height * (w @ w.T)}
+
+
+def _air_kg_m(section: BeamSection) -> float:
+    """Of still air with a strip that moves across its width, per length and density.
+
+    pi b^2/4, Lamb, Hydrodynamics (1932), section 71: where half a wave is long against the width.
+    """
+    return section.copies * np.pi / 4 * section.width_m**2

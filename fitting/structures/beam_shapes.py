@@ -1,0 +1,147 @@
+"""Matrices of a beam of unit length over polynomials of its deflection and of its layers' stretching.
+
+Unknowns are the coefficients of u_b, u_c and w over 0 < x < 1: first those that meet the conditions at the
+ends, then those that a held end lets go where it yields.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.polynomial import Legendre, Polynomial
+from numpy.typing import NDArray
+
+from fitting.arrays import Array
+
+ORDER = 18
+"""Polynomials of w, and of each u, that meet the conditions: ten modes to 1e-6."""
+PIECES = 40
+"""Along the beam: for a core that is another one from place to place."""
+
+_X = Polynomial([0.0, 1.0])
+_HELD = {
+    "clamped-free": (_X**2, _X),
+    "free-free": (Polynomial([1.0]), Polynomial([1.0])),
+    "clamped-clamped": (_X**2 * (1 - _X) ** 2, _X * (1 - _X)),
+}
+"""Factors of w and of u."""
+_RELEASED: dict[str, tuple[list[Polynomial], list[Polynomial]]] = {
+    "clamped-free": ([_X**0, _X], [_X**0]),
+    "free-free": ([], []),
+    "clamped-clamped": ([_X**0, _X, _X**2, _X**3], [1 - _X, _X]),
+}
+"""Of w and of u where held ends yield."""
+
+
+@dataclass(frozen=True)
+class Shapes:
+    """The polynomials of a beam, by the name of its ends as one piece."""
+
+    ends: str
+
+    @cached_property
+    def _each(self) -> dict[str, list[Polynomial]]:
+        held, loose = _HELD[self.ends], _RELEASED[self.ends]
+        legendre = [Legendre.basis(k, domain=[0.0, 1.0]).convert(kind=Polynomial) for k in range(ORDER)]
+        u, w = ([factor * p for p in legendre] for factor in (held[1], held[0]))
+        return {"b": [*u, *loose[1]], "c": [*u, *loose[1]], "w": [*w, *loose[0]]}
+
+    @cached_property
+    def place(self) -> dict[str, slice]:
+        """Of u_b, u_c and w among the unknowns."""
+        found, start = {}, 0
+        for name, each in self._each.items():
+            found[name] = slice(start, start + len(each))
+            start += len(each)
+        return found
+
+    @property
+    def size(self) -> int:
+        """How many unknowns there are."""
+        return self.place["w"].stop
+
+    @cached_property
+    def is_held(self) -> NDArray[np.bool_]:
+        """Which of them meet the conditions at the ends. Shape (size,)."""
+        return np.concatenate([np.arange(len(each)) < ORDER for each in self._each.values()])
+
+    @property
+    def held_ends(self) -> tuple[float, ...]:
+        """Where it is clamped."""
+        return {"clamped-free": (0.0,), "free-free": (), "clamped-clamped": (0.0, 1.0)}[self.ends]
+
+    @property
+    def rising(self) -> int:
+        """The unknown that is w = x, of a beam with a held end."""
+        return self.place["w"].start + ORDER + 1
+
+    def level(self, which: str) -> slice:
+        """The unknowns that together are 1, of a layer's stretching where an end is held."""
+        return slice(self.place[which].start + ORDER, self.place[which].stop)
+
+    def rows(self, which: str, x: Array, derivative: int = 0) -> Array:
+        """Values at some places, or derivatives, of every unknown. Shape (size, places)."""
+        found = np.zeros((self.size, len(x)))
+        shapes = self._each[which]
+        found[self.place[which]] = [(p.deriv(derivative) if derivative else p)(x) for p in shapes]
+        return found
+
+    def slip(self, x: Array, weight: Array) -> Array:
+        """The core's shear: (u_c - u_b)^2, 2 (u_c - u_b) w' and w'^2, integrated. Shape (3, size, size)."""
+        across, slope = self.rows("c", x) - self.rows("b", x), self.rows("w", x, 1)
+        crossed = _both(across, slope, weight)
+        return np.array([_both(across, across, weight), crossed + crossed.T, _both(slope, slope, weight)])
+
+
+@dataclass(frozen=True)
+class BeamMatrices:
+    """Over all unknowns. Shapes (parts, size, size), (size,)."""
+
+    K_0: Array
+    """Stretching of u_b and u_c, and bending."""
+    K_1: Array
+    """Three of slip, three of a free layer."""
+    M: Array
+    """Of w, u_b and u_c, and three of the core between."""
+    load: Array
+    """Of a base that lifts with unit acceleration."""
+
+
+@lru_cache(maxsize=8)
+def shapes_of(ends: str) -> Shapes:
+    """By the name of its ends as one piece."""
+    return Shapes(ends)
+
+
+@lru_cache(maxsize=8)
+def matrices_of(ends: str) -> BeamMatrices:
+    """For unit coefficients."""
+    s = shapes_of(ends)
+    x, weight = gauss(2 * ORDER)
+    w, b, c = (s.rows(name, x) for name in ("w", "b", "c"))
+    slope, bend, stretch = s.rows("w", x, 1), s.rows("w", x, 2), s.rows("b", x, 1)
+
+    def square(a: Array) -> Array:
+        return _both(a, a, weight)
+
+    def mixed(a: Array, other: Array) -> Array:
+        found = _both(a, other, weight)
+        return found + found.T
+
+    total = c + b
+    return BeamMatrices(
+        K_0=np.array([square(stretch), square(s.rows("c", x, 1)), square(bend)]),
+        K_1=np.array([*s.slip(x, weight), square(stretch), -mixed(stretch, bend), square(bend)]),
+        M=np.array([square(w), square(b), square(c), square(total), mixed(total, slope), square(slope)]),
+        load=-(w @ weight),
+    )
+
+
+def gauss(points: int, low: float = 0.0, high: float = 1.0) -> tuple[Array, Array]:
+    """Places and weights of Gauss' quadrature between two places. Shape (points,) each."""
+    x, weight = np.polynomial.legendre.leggauss(points)
+    return low + (x + 1) / 2 * (high - low), weight / 2 * (high - low)
+
+
+def _both(a: Array, b: Array, weight: Array) -> Array:
+    return np.asarray((a * weight) @ b.T)
