@@ -106,8 +106,8 @@ class BeamCase:
 def draw_case(kind: str, seed: int, exact: bool = False, *, beam: str | None = None) -> BeamCase:
     """A random case of one of `KINDS`, always the same for the same arguments.
 
-    `exact`: the specimen says the truth, and says so. `beam` asks for one of them. Raises `ValueError` for
-    another kind.
+    `exact`: the specimen says the truth, and says so. `beam` asks for one of them. Files of even seeds say
+    `held_width`. Raises `ValueError` for another kind.
     """
     if kind not in KINDS:
         raise ValueError(f"kind {kind!r}, expected one of {', '.join(KINDS)}")
@@ -135,7 +135,8 @@ def draw_case(kind: str, seed: int, exact: bool = False, *, beam: str | None = N
     channel = ChannelError(float(np.exp(CAREFUL.gain * off[0])), CAREFUL.delay_s * off[1])
     stated, tolerances = (true, None) if exact else (draw_stated(chance, true), CAREFUL)
     middle = _middles(schedule)
-    text = toml(stated, tolerances, middle[len(middle) // 2])
+    # Every other lab knows what a clamp does to the width.
+    text = toml(stated, tolerances, middle[len(middle) // 2], held_width=seed % 2 == 0)
     channel = ChannelError() if exact else channel
     truth = BeamTruth(true, hidden, law, _noise(rng("noise figures")), channel, middle)
     clean = level_unit(true) * schedule.level_g * reading(as_built, law, schedule, channel)

@@ -16,7 +16,7 @@ from instrument.campaign.plates.stated import (
     stated_core,
     stated_metal,
 )
-from instrument.files.structure_file import BeamDocument
+from instrument.files.beam_file import BeamDocument
 
 FORCE_M = 1e-3
 """A hammer aimed by hand at a mark."""
@@ -42,14 +42,20 @@ def draw_stated(
     return replace(believed, spot_m=min(true.spot_m + spot, believed.span_m), force_m=force)
 
 
-def toml(beam: TrueBeam, tolerances: CampaignTolerances | None, middle_hz: float) -> str:
-    """The specimen file. No tolerances: all is exact. The law is where a fit starts, not the answer."""
+def toml(
+    beam: TrueBeam, tolerances: CampaignTolerances | None, middle_hz: float, *, held_width: bool = False
+) -> str:
+    """The specimen file. No tolerances: all is exact. The law is where a fit starts, not the answer.
+
+    `held_width`: that clamps hold the width is said, as they do.
+    """
     lines = [
         "[beam]",
         f"length_mm = {digits(1e3 * beam.length_m)}",
         f"width_mm = {digits(1e3 * beam.width_m)}",
     ]
-    lines += [f'boundary = "{beam.ends}"', *(["both_sides = true"] if beam.both_sides else []), ""]
+    lines += [f'boundary = "{beam.ends}"', *(["both_sides = true"] if beam.both_sides else [])]
+    lines += ["held_width = true", ""] if held_width and beam.clamped else [""]
     layers = {"substrate": beam.substrate, "constraining": beam.constraining, "core": beam.core}
     for name, layer in layers.items():
         lines += layer_lines(name, layer) if layer is not None else []
