@@ -10,6 +10,7 @@ from instrument.campaign.beams.cases import KINDS as BEAM_KINDS
 from instrument.campaign.beams.judged import diagnosed as beam_diagnosed
 from instrument.campaign.beams.judged import identified as beam_identified
 from instrument.campaign.beams.run import beam_jobs, run_beams, write_beam_summary
+from instrument.campaign.beams.visible import visible_chi2 as beam_visible
 from instrument.campaign.bench import run_bench
 from instrument.campaign.cases import KINDS
 from instrument.campaign.plates.apart import apart_jobs, run_apart, write_apart_summary
@@ -124,8 +125,9 @@ def bench(
         of_beams = partial(
             run_beams, beam_jobs(count, seed, kinds), beams_folder, exact=exact, workers=workers
         )
-        identify, diagnose = (beam_identified, None) if law_alone else (None, beam_diagnosed)
-        found = of_beams(identify=identify, diagnose=diagnose, progress=bar)
+        alone = partial(of_beams, identify=beam_identified)
+        traced = partial(of_beams, diagnose=beam_diagnosed, visible=beam_visible)
+        found = (alone if law_alone else traced)(progress=bar)
         click.echo(write_beam_summary(found, beams_folder))
         return
     assert folder is not None

@@ -91,6 +91,8 @@ class BeamCase:
     truth: BeamTruth
     clean_m_s: Complex
     """Readings without noise at the level asked for. Shape (points,)."""
+    without_m_s: Complex
+    """The same of the beam without effects."""
 
     @property
     def specimen(self) -> Beam:
@@ -139,9 +141,10 @@ def draw_case(kind: str, seed: int, exact: bool = False, *, beam: str | None = N
     text = toml(stated, tolerances, middle[len(middle) // 2], held_width=seed % 2 == 0)
     channel = ChannelError() if exact else channel
     truth = BeamTruth(true, hidden, law, _noise(rng("noise figures")), channel, middle)
-    clean = level_unit(true) * schedule.level_g * reading(as_built, law, schedule, channel)
+    level = level_unit(true) * schedule.level_g
+    clean, without = (level * reading(b, law, schedule, channel) for b in (as_built, built(true)))
     sweep = _measured(truth, clean, schedule, rng("noise"))
-    return BeamCase(kind, seed, exact, sweep, text, truth, clean)
+    return BeamCase(kind, seed, exact, sweep, text, truth, clean, without)
 
 
 def _law_and_resonances(rng: np.random.Generator, true: TrueBeam) -> tuple[PlateMaterialLaw, list[Resonance]]:

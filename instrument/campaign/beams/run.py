@@ -31,6 +31,7 @@ ROTATION = (*KINDS, *(NONE,) * 5)
 
 Identify = Callable[[BeamCase], Band]
 Diagnose = Callable[[BeamCase], Answer]
+Visible = Callable[[BeamCase], float | None]
 
 
 def beam_jobs(count: int, seed: int, kinds: Sequence[str] = ()) -> list[Job]:
@@ -39,18 +40,21 @@ def beam_jobs(count: int, seed: int, kinds: Sequence[str] = ()) -> list[Job]:
     return [Job(rotation[k % len(rotation)], seed + k) for k in range(count)]
 
 
-def judge_beam(job: Job, exact: bool, identify: Identify | None, diagnose: Diagnose | None) -> dict[str, Any]:
+def judge_beam(
+    job: Job, exact: bool, identify: Identify | None, diagnose: Diagnose | None, visible: Visible | None
+) -> dict[str, Any]:
     """Draw, identify, diagnose, compare. What raises leaves no answer and is tried again."""
     case = draw_case(job.kind, job.seed, exact)
     band: Band | None = None
     said: Answer | None = None
-    error = ""
+    error, shows = "", None
     try:
         band = identify(case) if identify is not None else None
         said = diagnose(case) if diagnose is not None else None
+        shows = visible(case) if visible is not None else shows
     except Exception as raised:
         error = " ".join(f"{type(raised).__name__}: {raised}".split())
-    return line_of(outcome_of(case, band, said, error))
+    return line_of(outcome_of(case, band, said, error, shows))
 
 
 def run_beams(
@@ -60,14 +64,15 @@ def run_beams(
     exact: bool = False,
     identify: Identify | None = None,
     diagnose: Diagnose | None = None,
+    visible: Visible | None = None,
     workers: int = 2,
     progress: Progress = quiet,
 ) -> list[dict[str, Any]]:
     """Lines of all jobs, with those an earlier run left. Raises `BadInput`, `StoppedByUser`.
 
-    Both go to other processes: functions of a module.
+    `visible` says how plainly what is hidden shows. All three go to other processes: functions of a module.
     """
-    judged_by = partial(judge_beam, exact=exact, identify=identify, diagnose=diagnose)
+    judged_by = partial(judge_beam, exact=exact, identify=identify, diagnose=diagnose, visible=visible)
     by = [f.__name__ for f in (identify, diagnose) if f is not None]
     options = {"of": "beams", "exact": exact, "by": by}
     return run_campaign(
@@ -91,8 +96,9 @@ def _each(outcomes: Sequence[PlateOutcome]) -> str:
             continue
         chi2 = "" if o.said.chi2_after is None else f"{o.said.chi2_after:.2f}"
         said = " + ".join(named(o)) or o.said.verdict
-        rows.append([o.kind, str(o.seed), o.plate, said, *_pulls(o), chi2, f"{o.said.seconds:.0f}"])
-    columns = ["hidden", "seed", "beam", "said", "pulls of G'", "of eta", "chi-square after", "s"]
+        shows = "" if o.visible_chi2 is None else f"{o.visible_chi2:.0f}"
+        rows.append([o.kind, str(o.seed), o.plate, shows, said, *_pulls(o), chi2, f"{o.said.seconds:.0f}"])
+    columns = ["hidden", "seed", "beam", "trace", "said", "pulls of G'", "of eta", "chi-square after", "s"]
     return markdown(columns, rows)
 
 

@@ -29,6 +29,7 @@ from instrument.campaign.beams.judged import diagnosed, identified
 from instrument.campaign.beams.run import ROTATION, beam_jobs, run_beams, write_beam_summary
 from instrument.campaign.beams.simulate import BuiltBeam, built, level_unit, reading, resonances
 from instrument.campaign.beams.stated import beam_from, draw_stated, toml
+from instrument.campaign.beams.visible import visible_chi2
 from instrument.campaign.plates.answers import Answer, Band, outcome_of
 from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.campaign.plates.score import named
@@ -239,6 +240,13 @@ def test_the_command_runs_it(tmp_path, monkeypatch):
     said = CliRunner().invoke(bench, ["--beams", str(tmp_path), *options])
     assert said.exit_code == 0, said.output
     assert "| none | identify |" in said.output
+
+
+def test_what_shows_is_what_no_law_takes_up():
+    moved = draw_case("spot_offset", 4, beam="strip")
+    assert visible_chi2(moved) > 5
+    assert visible_chi2(draw_case(NONE, 4, beam="strip")) is None
+    np.testing.assert_array_equal(draw_case(NONE, 4).clean_m_s, draw_case(NONE, 4).without_m_s)
 
 
 def test_every_kind_is_in_rotation():
