@@ -6,9 +6,11 @@ ends, then those that a held end lets go where it yields.
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from itertools import pairwise
+from math import comb
 
 import numpy as np
-from numpy.polynomial import Legendre, Polynomial
+from numpy.polynomial import Polynomial, legendre
 from numpy.typing import NDArray
 
 from fitting.arrays import Array
@@ -17,6 +19,8 @@ ORDER = 18
 """Polynomials of w, and of each u, that meet the conditions: ten modes to 1e-6."""
 PIECES = 40
 """Along the beam: for a core that is another one from place to place."""
+IN_A_PIECE = 8
+"""Places of quadrature: the shear's square is nearly a cubic over a fortieth of the length."""
 
 _X = Polynomial([0.0, 1.0])
 _HELD = {
@@ -40,19 +44,18 @@ class Shapes:
     ends: str
 
     @cached_property
-    def _each(self) -> dict[str, list[Polynomial]]:
-        held, loose = _HELD[self.ends], _RELEASED[self.ends]
-        legendre = [Legendre.basis(k, domain=[0.0, 1.0]).convert(kind=Polynomial) for k in range(ORDER)]
-        u, w = ([factor * p for p in legendre] for factor in (held[1], held[0]))
-        return {"b": [*u, *loose[1]], "c": [*u, *loose[1]], "w": [*w, *loose[0]]}
+    def _each(self) -> dict[str, tuple[Polynomial, list[Polynomial]]]:
+        """Of u_b, u_c and w the factor that meets the conditions, and what a held end lets go."""
+        (w, u), (loose_w, loose_u) = _HELD[self.ends], _RELEASED[self.ends]
+        return {"b": (u, loose_u), "c": (u, loose_u), "w": (w, loose_w)}
 
     @cached_property
     def place(self) -> dict[str, slice]:
         """Of u_b, u_c and w among the unknowns."""
         found, start = {}, 0
-        for name, each in self._each.items():
-            found[name] = slice(start, start + len(each))
-            start += len(each)
+        for name, (_, loose) in self._each.items():
+            found[name] = slice(start, start + ORDER + len(loose))
+            start += ORDER + len(loose)
         return found
 
     @property
@@ -63,7 +66,7 @@ class Shapes:
     @cached_property
     def is_held(self) -> NDArray[np.bool_]:
         """Which of them meet the conditions at the ends. Shape (size,)."""
-        return np.concatenate([np.arange(len(each)) < ORDER for each in self._each.values()])
+        return np.concatenate([np.arange(ORDER + len(loose)) < ORDER for _, loose in self._each.values()])
 
     @property
     def held_ends(self) -> tuple[float, ...]:
@@ -81,9 +84,14 @@ class Shapes:
 
     def rows(self, which: str, x: Array, derivative: int = 0) -> Array:
         """Values at some places, or derivatives, of every unknown. Shape (size, places)."""
+        factor, loose = self._each[which]
+        # By Leibniz: multiplied out, high orders would cancel to a thousandth at the far end.
+        held = sum(
+            comb(derivative, j) * _derived(factor, j)(x) * _legendre(derivative - j, x)
+            for j in range(derivative + 1)
+        )
         found = np.zeros((self.size, len(x)))
-        shapes = self._each[which]
-        found[self.place[which]] = [(p.deriv(derivative) if derivative else p)(x) for p in shapes]
+        found[self.place[which]] = np.vstack([held, *(_derived(p, derivative)(x)[None] for p in loose)])
         return found
 
     def slip(self, x: Array, weight: Array) -> Array:
@@ -137,10 +145,28 @@ def matrices_of(ends: str) -> BeamMatrices:
     )
 
 
+@lru_cache(maxsize=8)
+def slip_by_pieces(ends: str) -> Array:
+    """Of `PIECES` of the beam, as `Shapes.slip` has it. Shape (pieces, 3, size, size)."""
+    s, edges = shapes_of(ends), np.linspace(0, 1, PIECES + 1)
+    return np.array([s.slip(*gauss(IN_A_PIECE, low, high)) for low, high in pairwise(edges)])
+
+
 def gauss(points: int, low: float = 0.0, high: float = 1.0) -> tuple[Array, Array]:
     """Places and weights of Gauss' quadrature between two places. Shape (points,) each."""
     x, weight = np.polynomial.legendre.leggauss(points)
     return low + (x + 1) / 2 * (high - low), weight / 2 * (high - low)
+
+
+def _derived(p: Polynomial, times: int) -> Polynomial:
+    return p.deriv(times) if times else p
+
+
+def _legendre(derivative: int, x: Array) -> Array:
+    """Of Legendre's polynomials over 0 < x < 1. Shape (ORDER, places)."""
+    # d/dx is twice d/dt of t = 2 x - 1.
+    each = legendre.legder(np.eye(ORDER), derivative, scl=2.0) if derivative else np.eye(ORDER)
+    return np.asarray(legendre.legval(2 * x - 1, each))
 
 
 def _both(a: Array, b: Array, weight: Array) -> Array:

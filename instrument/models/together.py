@@ -33,7 +33,7 @@ from fitting.laws import CoreLaw
 from fitting.noise import Noise, noise_of
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
-from fitting.structures.shear_pair import ShearPair
+from fitting.structures import Beam, ShearPair
 from fitting.sweep import Sweep
 from instrument.models.diagnosis import Diagnosed, effects_among
 from instrument.models.file_remarks import remarks_on_files
@@ -103,6 +103,8 @@ class _Work:
     used: list[Mask] = field(default_factory=list)
     misfit: list[float] = field(default_factory=list)
     aside: list[SetAside] = field(default_factory=list)
+    made: dict[int, tuple[bytes, SmallProblem]] = field(default_factory=dict)
+    """Of every file that is of a small structure, for which of its points."""
     start: CoreLaw = field(init=False)
     """What fits begin with."""
 
@@ -127,7 +129,7 @@ class _Work:
                 members.append(member)
                 reduced.append(of_it)
             else:
-                small = replace(SmallProblem.of_small(sweep, file.specimen), misfit=self.misfit[k])
+                small = replace(self._small(k, sweep, file.specimen), misfit=self.misfit[k])
                 noise = small.noise(noise)
                 members.append(small)
                 reduced.append(None)
@@ -141,6 +143,13 @@ class _Work:
             source = "misfit"
         places = [Place(n, f.pickup) for n, f in zip(numbers_of(self.files), self.files, strict=True)]
         return SeveralProblem.of_members(members, reduced, places), Noise(np.concatenate(std), source)
+
+    def _small(self, k: int, sweep: Sweep, specimen: Beam | ShearPair) -> SmallProblem:
+        """Of the points in use; made anew where these are others."""
+        used = self.used[k].tobytes()
+        if k not in self.made or self.made[k][0] != used:
+            self.made[k] = used, SmallProblem.of_small(sweep, specimen)
+        return self.made[k][1]
 
     def without_glitches(self) -> tuple[Begun, Noise]:
         """The fit of what is no local disturbance."""

@@ -1,0 +1,57 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fitting.diagnosis.small_error import octaves, theory_rows
+from fitting.laws.constant import ConstantModulus
+from fitting.specimen import Core, Face
+from fitting.structures import Beam, ShearPair
+from fitting.structures.small import displacement, system_of, widened_system_of
+
+LAW = ConstantModulus(1e6, 0.5)
+ALUMINIUM, FOIL = Face(2e-3, 70e9, 0.3, 2700.0), Face(0.5e-3, 70e9, 0.3, 2700.0)
+BEAM = Beam(
+    0.2,
+    0.02,
+    "clamped-free",
+    ALUMINIUM,
+    constraining=FOIL,
+    core=Core(0.3e-3, 0.49, 1000.0, LAW),
+    pickup_m=0.15,
+)
+OMEGA = 2 * np.pi * np.geomspace(20, 1000, 60)
+
+
+def test_hats_over_the_octaves_add_up_to_one():
+    hats = octaves(OMEGA)
+    assert hats.sum(axis=0) == pytest.approx(np.ones(60))
+    assert np.all(hats >= 0)
+    assert octaves(np.full(3, 5.0)) == pytest.approx(np.ones((1, 3)))
+
+
+def test_resonances_losses_and_the_length_each_have_their_size():
+    drive = np.full(60, 9.81)
+    rows = np.array(theory_rows(BEAM, widened_system_of(BEAM, BEAM.parts()), OMEGA, LAW, drive))
+    hats = len(octaves(OMEGA))
+    assert len(rows) == 2 * hats + 1
+    # All octaves together: every resonance higher by its share is a beam of a stiffness twice that.
+    error = BEAM.theory_error(OMEGA / (2 * np.pi), LAW.modulus(OMEGA))
+    own, G = system_of(BEAM, BEAM.parts()), LAW.modulus(OMEGA)
+    h = 1e-5
+    stiffer = displacement(replace(own, K_0=(1 + 2 * h) * own.K_0), OMEGA, (1 + 2 * h) * G)
+    dv = 1j * OMEGA * drive * (stiffer - displacement(own, OMEGA, G)) / h
+    assert rows[:hats].sum(axis=0) == pytest.approx(error.frequency * dv, rel=1e-2, abs=1e-9)
+    longer = replace(BEAM, length_m=BEAM.length_m + 1e-6)
+    at_share = replace(longer, pickup_m=BEAM.pickup_m * longer.length_m / BEAM.length_m)
+    moved = displacement(system_of(at_share, at_share.parts()), OMEGA, G)
+    by_length = 1j * OMEGA * drive * (moved - displacement(own, OMEGA, G)) / 1e-6
+    assert rows[-1] == pytest.approx(BEAM.length_error_m * by_length, rel=2e-2, abs=1e-9)
+
+
+def test_a_free_beam_has_no_held_end_and_a_pair_no_theory_that_fails():
+    free = replace(BEAM, boundary="free-free", force_m=0.02)
+    rows = theory_rows(free, widened_system_of(free, free.parts()), OMEGA, LAW, np.ones(60))
+    assert len(rows) == 2 * len(octaves(OMEGA))
+    pair = ShearPair(0.5, 2, 7e-4, Core(6e-3, 0.4999, 1100.0, LAW))
+    assert theory_rows(pair, widened_system_of(pair, pair.parts()), OMEGA, LAW, np.ones(60)) == []

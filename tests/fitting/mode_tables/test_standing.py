@@ -1,0 +1,13 @@
+from fitting.effects import CATALOGUE
+from fitting.laws.constant import ConstantModulus
+from fitting.mode_tables.standing import standing
+from fitting.specimen import Core
+from fitting.structures import ShearPair
+
+
+def test_what_stands_on_a_specimen_are_forms_for_it():
+    pair = ShearPair(0.5, 2, 7e-4, Core(6e-3, 0.4999, 1100.0, ConstantModulus(1e6, 0.5)))
+    found = {e.name: e for e in standing(pair)}
+    assert found.keys() <= set(CATALOGUE)
+    assert len(found["added_mass"].parameters) == 1
+    assert "clamp_compliance" not in found

@@ -1,0 +1,59 @@
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from fitting.laws.constant import ConstantModulus
+from fitting.specimen import Core, Face
+from fitting.structures import Beam
+from fitting.structures.beam_error import HELD_WIDTH, HELD_WIDTH_WITHIN, shortened_m
+from fitting.structures.small_modes import small_modes
+
+LAW = ConstantModulus(1e6, 0.5)
+STEEL = Face(1e-3, 210e9, 0.29, 7850.0)
+SANDWICH = Beam(
+    0.2,
+    0.02,
+    "clamped-free",
+    STEEL,
+    constraining=replace(STEEL, thickness_m=0.5e-3),
+    core=Core(0.2e-3, 0.49, 1000.0, LAW),
+)
+OBERST = replace(SANDWICH, constraining=None, core=Core(1e-3, 0.49, 1000.0, ConstantModulus(3e8, 0.8)))
+
+
+def test_a_clamp_holds_the_width_as_if_the_beam_were_shorter():
+    assert shortened_m(0.02, 0.29) == pytest.approx(HELD_WIDTH * 0.29**2 * 0.02)
+    assert SANDWICH.held_width_m == pytest.approx(5.55e-4, rel=0.01)
+    both = replace(SANDWICH, boundary="clamped-clamped")
+    assert both.held_width_m == pytest.approx(2 * SANDWICH.held_width_m)
+    assert replace(SANDWICH, boundary="free-free").held_width_m == 0.0
+
+
+def test_where_it_is_counted_every_mode_is_higher_by_twice_its_share_of_the_length():
+    counted = replace(SANDWICH, held_width=True)
+    for a, b in zip(small_modes(SANDWICH, None, 3), small_modes(counted, None, 3), strict=True):
+        # Without the core's shear only the faces bend: f goes with 1/L^2.
+        assert b.frequency_hz / a.frequency_hz - 1 == pytest.approx(2 * 5.55e-4 / 0.2, rel=0.02)
+    assert counted.length_error_m == pytest.approx(HELD_WIDTH_WITHIN * SANDWICH.length_error_m)
+
+
+def test_of_halves_about_a_driven_centre_it_is_that_of_one_clamp():
+    halves = replace(SANDWICH, boundary="centre-driven", length_m=0.4)
+    assert halves.held_width_m == pytest.approx(SANDWICH.held_width_m)
+    # The stated length is of both halves.
+    assert halves.length_error_m == pytest.approx(2 * SANDWICH.length_error_m)
+
+
+def test_the_theory_is_the_less_certain_the_shorter_the_wave():
+    f, G = np.array([30.0, 300.0, 3000.0]), np.full(3, 1e6 + 5e5j)
+    error = SANDWICH.theory_error(f, G)
+    assert np.all(np.diff(error.frequency) > 0)
+    assert error.frequency[0] < 1e-3
+    assert np.all((error.loss > 0.005) & (error.loss < 0.05))
+
+
+def test_a_free_layer_s_loss_is_that_of_the_composite():
+    (mode,) = small_modes(OBERST, OBERST.core.law, 1)
+    error = OBERST.theory_error(np.array([mode.frequency_hz]), OBERST.core.law.modulus(np.ones(1)))
+    assert error.modal_loss[0] == pytest.approx(mode.loss_factor, rel=1e-3)
