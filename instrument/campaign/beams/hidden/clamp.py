@@ -15,15 +15,15 @@ from instrument.campaign.plates.hidden.base import either_sign, log_uniform
 
 @dataclass(frozen=True)
 class HiddenClampCompliance(HiddenInBeam):
-    """Springs at the root face in three directions; a jaw's edges may leave the outer heights unheld."""
+    """Springs at the root face in three directions; a worn jaw may leave the substrate's edge unheld."""
 
     name: ClassVar[str] = "clamp_compliance"
 
     along_x_n_m3: float
     along_y_n_m3: float
     along_z_n_m3: float
-    held: float
-    """Share of the substrate's height that a worn jaw still holds, from below; the treatment with it at 1."""
+    worn: float
+    """Share of the substrate's height that is not held, from its outer face; the treatment is."""
 
     @classmethod
     def able(cls, beam: TrueBeam) -> bool:
@@ -35,15 +35,16 @@ class HiddenClampCompliance(HiddenInBeam):
 
     @classmethod
     def _springs(cls, rng: np.random.Generator, at: Setting) -> tuple[float, float, float, float]:
-        # Young's modulus over length and stiffness is about what mode 1 falls by, twice.
-        x = at.beam.substrate.young_pa / (log_uniform(rng, 0.006, 0.03) * at.beam.span_m)
+        # A rotation spring k H^3 / 12 against some twice the substrate's rigidity: what mode 1 falls by.
+        beam, height = at.beam, sum(s.thickness_m for s in at.beam.solid.sheets)
+        rigidity = 2 * beam.substrate.young_pa * (beam.substrate.thickness_m / height) ** 3
+        x = rigidity / (log_uniform(rng, 0.004, 0.02) * beam.span_m)
         y, z = (x * log_uniform(rng, 0.5, 2) for _ in range(2))
-        return x, y, z, 1.0 if rng.random() < 0.6 else float(rng.uniform(0.6, 0.9))
+        return x, y, z, 0.0 if beam.both_sides or rng.random() < 0.6 else float(rng.uniform(0.1, 0.3))
 
     def build(self, build: BeamBuild, true: TrueBeam) -> BeamBuild:
-        low, high = true.solid.heights_m(true.solid.substrate)
-        held = {} if self.held == 1.0 else {"from_m": low, "to_m": low + self.held * (high - low)}
-        springs = RootSprings(self.along_x_n_m3, self.along_y_n_m3, self.along_z_n_m3, **held)
+        unheld = self.worn * true.substrate.thickness_m
+        springs = RootSprings(self.along_x_n_m3, self.along_y_n_m3, self.along_z_n_m3, from_m=unheld)
         return replace(build, springs=springs)
 
 
