@@ -4,7 +4,7 @@ Inside, exact elasticity of the layers says how wrong (`fitting.theory_error`); 
 gives way a little more. What is left is the mesh, and what solids and plates of several shapes differ by.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -29,7 +29,9 @@ class ModelError:
     frequency: Array
     loss: Array
     modal_loss: Array
-    """The loss factor of a plate wave there: what `loss` is a share of."""
+    """The loss factor of a wave there: what `loss` is a share of."""
+    together: Array = field(default_factory=lambda: np.zeros((0, 1)))
+    """Of all resonances by one cause each. Shape (causes, frequencies)."""
 
 
 def model_error_at(specimen: Specimen, frequency_hz: Array, G: Complex) -> ModelError:

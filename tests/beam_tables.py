@@ -14,7 +14,9 @@ from fitting.structures.small_modes import small_modes
 
 LAW = ConstantModulus(3e6, 0.5)
 FACE = Face(2e-3, 70e9, 0.3, 2700.0)
-BEAM = Beam(0.2, 0.02, "clamped-free", FACE, FACE, Core(0.5e-3, 0.49, 1000.0, LAW), exact=True)
+BEAM = Beam(
+    *(0.4, 0.01, "clamped-free", FACE, FACE, Core(0.5e-3, 0.49, 1000.0, LAW)), held_width=True, exact=True
+)
 
 
 def read(true, count=6, seed=0):

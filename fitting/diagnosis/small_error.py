@@ -1,7 +1,7 @@
 """What the theory of a small structure gets wrong, as changes of its response of known size.
 
 Its resonances lie a little elsewhere and are damped a little otherwise, each by itself: another one about
-every octave. What its held ends do is one number for all of them.
+every octave. What its width and its held ends do are two numbers for all of them.
 """
 
 from dataclasses import replace
@@ -38,6 +38,7 @@ def theory_rows(
     by_loss = 0.5j * error.modal_loss * dv
     shares = octaves(omega)
     rows = [error.frequency * share * dv for share in shares]
+    rows += [shift * dv for shift in error.together]
     rows += [error.loss * share * by_loss for share in shares]
     if specimen.length_error_m:
         change = system.moved({"length": _H_LENGTH_M})

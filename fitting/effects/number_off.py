@@ -13,6 +13,7 @@ from fitting.arrays import Array
 from fitting.effects.base import Effect
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.span import Span
 
 
 @runtime_checkable
@@ -29,6 +30,12 @@ def moved(plate: EnrichedReducedPlate, by: Mapping[str, float]) -> Change:
     return plate.moved(by)
 
 
+class FacesApart(Span):
+    """Faces of a beam whose stiffness is in another proportion."""
+
+    name = "faces"
+
+
 class NumberOffEffect(Effect):
     """`inner` as a factor on one stated number of a beam."""
 
@@ -43,6 +50,7 @@ class NumberOffEffect(Effect):
             discriminating_test=inner.discriminating_test,
             parameters=inner.parameters,
             needs=needs,
+            spans=() if number.startswith("core") else (FacesApart(),),
         )
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy.linalg as la
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
@@ -84,7 +85,10 @@ class ModalProblem:
         """The readings and what each is worth, ln f + i kappa ln eta."""
         measured = np.concatenate([m.measured for m in self.members])
         sigma = np.concatenate([m.std[0] for m in self.members])
-        return Evidence(measured, sigma, sigma, np.zeros((2 * len(sigma), 1)), scale_known)
+        together = la.block_diag(*(m.together.T / m.std[0][:, None] for m in self.members))
+        B = np.zeros((2 * len(sigma), max(1, together.shape[1])))
+        B[: len(sigma), : together.shape[1]] = together
+        return Evidence(measured, sigma, sigma, B, scale_known)
 
     def response(self, effects: Sequence[Effect] = ()) -> "ModalResponse":
         """What the modes are under some effects."""

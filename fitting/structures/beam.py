@@ -18,7 +18,7 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.model_error import ModelError
-from fitting.specimen import Core, Drive, Face, Reading
+from fitting.specimen import Core, Drive, Face, Reading, Specimen
 from fitting.structures.beam_error import HELD_WIDTH_WITHIN, free_layer_error, sandwich_error, shortened_m
 from fitting.structures.beam_parts import BeamSection, parts_of
 from fitting.structures.small import Parts
@@ -207,23 +207,23 @@ class Beam:
         of_length = self.held_width_m * self.length_m / self.span_m
         return of_length * (HELD_WIDTH_WITHIN if self.held_width else 1.0)
 
+    @property
+    def as_plate(self) -> Specimen | None:
+        """A plate of the same layers: what a wave in them sees. None where no core shears between faces."""
+        if self.core is None or self.constraining is None:
+            return None
+        sides = (self.length_m, self.width_m)
+        both = self.both_sides
+        return Specimen(*sides, "free", self.substrate, self.constraining, self.core, both_sides=both)
+
     def theory_error(self, frequency_hz: Array, G: Complex) -> ModelError:
         """What its theory gets wrong around some frequencies, the core's modulus there given.
 
         Shape (points,) each.
         """
-        core = self.core
-        assert core is not None
-        if self.constraining is not None:
-            return sandwich_error(
-                self.substrate,
-                core,
-                self.constraining,
-                self.width_m,
-                frequency_hz,
-                G,
-                both_sides=self.both_sides,
-            )
+        layers = self.as_plate
+        if layers is not None:
+            return sandwich_error(layers, self.width_m, frequency_hz, G)
         c = self.coefficients({})
         L, mass = self.span_m, float(c[9].real / self.span_m)
         axial = c[0] * L + G * c[6] * L

@@ -11,7 +11,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.model_error import ModelError
-from fitting.specimen import Core, Face, Specimen
+from fitting.specimen import Specimen
 from fitting.theory_error import theory_error
 
 HELD_WIDTH = 0.33
@@ -31,25 +31,17 @@ def shortened_m(width_m: float, poisson: float) -> float:
     return HELD_WIDTH * poisson**2 * width_m
 
 
-def sandwich_error(
-    substrate: Face,
-    core: Core,
-    constraining: Face,
-    width_m: float,
-    frequency_hz: Array,
-    G: Complex,
-    *,
-    both_sides: bool,
-) -> ModelError:
-    """Around some frequencies, the core's modulus there given. Shape (points,) each."""
-    # Waves see the layers alone: of a plate of the same ones.
-    plate = Specimen(1.0, 1.0, "cantilever", substrate, constraining, core, both_sides=both_sides)
-    found = theory_error(plate, frequency_hz, G)
-    across = ACROSS * (found.wavenumber * width_m) ** 2
+def sandwich_error(layers: Specimen, width_m: float, frequency_hz: Array, G: Complex) -> ModelError:
+    """Around some frequencies, the core's modulus there given; `layers` a plate of the same ones.
+
+    Shape (points,) each.
+    """
+    found = theory_error(layers, frequency_hz, G)
     return ModelError(
-        frequency=np.sqrt(FREQUENCY**2 + found.frequency_error**2 + across**2),
-        loss=np.sqrt(LOSS**2 + found.loss_factor_error**2),
+        frequency=np.hypot(FREQUENCY, found.frequency_error),
+        loss=np.hypot(LOSS, found.loss_factor_error),
         modal_loss=found.loss_factor,
+        together=_across(found.wavenumber, width_m),
     )
 
 
@@ -57,9 +49,13 @@ def free_layer_error(rigidity: Complex, mass_kg_m: float, width_m: float, freque
     """The same of a beam that bends as one, its complex rigidity in N m^2 given. Shape (points,) each."""
     omega = 2 * np.pi * frequency_hz
     wavenumber = (omega**2 * mass_kg_m / rigidity.real) ** 0.25
-    across = ACROSS * (wavenumber * width_m) ** 2
     return ModelError(
-        frequency=np.hypot(FREQUENCY, across),
+        frequency=np.full(len(omega), FREQUENCY),
         loss=np.full(len(omega), LOSS_OF_FREE_LAYER),
         modal_loss=rigidity.imag / rigidity.real,
+        together=_across(wavenumber, width_m),
     )
+
+
+def _across(wavenumber: Array, width_m: float) -> Array:
+    return ACROSS * (wavenumber * width_m)[None] ** 2

@@ -2,7 +2,9 @@
 
 What the fit of a sound beam needs are modes at a few moduli of the core. Where a held end yields it moves as
 it cannot there: those motions are columns of their own (`root`), and so are those of a treatment that the
-clamp does not hold (`treatment`). Matrices go by the names that a plate's have (`fitting.effects`).
+clamp does not hold (`treatment`). In all modes the faces stretch against each other in the proportion of
+their stiffness: faces of another one stretch apart (`faces`). Matrices go by the names that a plate's have
+(`fitting.effects`).
 """
 
 from dataclasses import dataclass
@@ -22,6 +24,8 @@ _MODULI_PA = (1e5, 3e6, 1e8, 3e9)
 """From a core that only stores to a free layer as stiff as a plastic: the modes of each are in the basis."""
 _NEGLIGIBLE = 1e-9
 """Of the basis' vectors, relative: what is in the others."""
+_APART = 1e-5
+"""Of the faces' own stretching: what their modes have already."""
 _ELEMENTS = 200
 """Along the beam, w a cubic on each: of any column off by 1e-5, of ten modes by 1e-7."""
 
@@ -136,7 +140,8 @@ def _columns(section: BeamSection) -> tuple[NDArray[np.str_], Array, Array]:
     let_go = np.flatnonzero(moves & ~s.is_held)
     of_treatment = np.isin(let_go, np.arange(s.size)[s.place["c"]])
     above = let_go[of_treatment & (not section.is_doubled)]
-    beside = [(name, np.diag(size)[:, at]) for name, at in (("root", let_go), ("treatment", above))]
+    beside = [("faces", _faces_apart(section, own, size))]
+    beside += [(name, np.diag(size)[:, at]) for name, at in (("root", let_go), ("treatment", above))]
     groups = np.concatenate([np.full(own.shape[1], "plate"), *(np.full(b.shape[1], n) for n, b in beside)])
     return groups.astype(str), np.hstack([own, *(b for _, b in beside)]), np.where(size > 0, size, 1.0)
 
@@ -165,6 +170,18 @@ def _own(section: BeamSection, size: Array) -> Array:
     V = np.zeros((section.shapes.size, Q.shape[1]))
     V[kept] = size[kept, None] * Q
     return V
+
+
+def _faces_apart(section: BeamSection, own: Array, size: Array) -> Array:
+    """What the substrate's stretching by itself adds to its own columns. Shape (size, any)."""
+    if not section.is_sandwich or section.is_doubled:
+        return np.zeros((len(own), 0))
+    Q = own / np.where(size > 0, size, 1.0)[:, None]
+    alone = np.zeros_like(Q)
+    place = section.shapes.place["b"]
+    alone[place] = Q[place]
+    apart, values, _ = np.linalg.svd(alone - Q @ (Q.T @ alone), full_matrices=False)
+    return np.asarray(size[:, None] * apart[:, values > _APART])
 
 
 def _asked_for(section: BeamSection) -> dict[str, Array]:

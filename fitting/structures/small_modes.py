@@ -12,8 +12,8 @@ from fitting.structures.small import SmallSpecimen, check_driven, displacement, 
 
 _STEPS, _SETTLED = 60, 1e-9
 """A bound for the law followed along; the relative change of a frequency at which that has settled."""
-_RIGID = 1e-6
-"""Of the stiffest mode's square: below it a mode is rigid."""
+_RIGID, _AMONG = 1e-6, 10
+"""Of the tenth eigenvalue: below it a mode is rigid. The last ones say only how fine the columns are."""
 
 
 def small_modes(specimen: SmallSpecimen, law: CoreLaw | None, count: int) -> list[ComplexMode]:
@@ -37,7 +37,8 @@ def elastic_modes(
         found, turned = np.linalg.eig(K_0 + G * K_1)
         shapes = back @ turned
         order = np.argsort(found.real)
-        order = order[found.real[order] > _RIGID * np.median(np.abs(found))]
+        tenth = np.abs(found[order[min(_AMONG, len(order)) - 1]])
+        order = order[found.real[order] > _RIGID * tenth]
         return np.asarray(found[order]), np.asarray(shapes[:, order])
 
     modes = []

@@ -2,16 +2,18 @@
 
 from collections.abc import Sequence
 
-from fitting.structures import AnySpecimen, ShearPair
+from fitting.structures import AnySpecimen, Beam, ShearPair
 from instrument.models.files import File
 from instrument.models.remarks import remarks_on_law, remarks_on_noise
 
 _WORTH_SAYING = 0.01
 """Of the modulus: a correction that is left out."""
+_WORTH_SAYING_OF_A_BEAM = 1e-3
+"""Of a resonance."""
 
 
 def remarks_on_files(files: Sequence[File]) -> tuple[str, ...]:
-    """Of their noise, their laws and what a pair's discs leave out; each once."""
+    """Of their noise, their laws, and what a pair's discs and a beam's clamps leave out; each once."""
     said = []
     for file in files:
         of = f"{file.name}: " if file.name and len(files) > 1 else ""
@@ -19,7 +21,7 @@ def remarks_on_files(files: Sequence[File]) -> tuple[str, ...]:
         s = file.specimen
         if s.core is not None:
             said += remarks_on_law(s.core.law, file.sweep.frequency_hz)
-        said += [of + text for text in remarks_on_edges(s)]
+        said += [of + text for text in (*remarks_on_edges(s), *remarks_on_held_width(s))]
     return tuple(dict.fromkeys(said))
 
 
@@ -35,4 +37,18 @@ def remarks_on_edges(specimen: AnySpecimen) -> tuple[str, ...]:
     return (
         f"what the discs' free edges give way is not counted: with it G' is {100 * missing:.2g} % higher "
         "([shear-pair] edges = true)",
+    )
+
+
+def remarks_on_held_width(specimen: AnySpecimen) -> tuple[str, ...]:
+    """Where it matters that clamps hold a beam's width, and it is not counted."""
+    if not isinstance(specimen, Beam) or specimen.held_width:
+        return ()
+    higher = 2 * specimen.held_width_m / specimen.span_m
+    if higher < _WORTH_SAYING_OF_A_BEAM:
+        return ()
+    as_if = f"as a span {1e3 * specimen.held_width_m:.2g} mm shorter would"
+    return (
+        f"a clamp that holds the beam's width makes resonances up to {100 * higher:.2g} % higher, {as_if}: "
+        "allowed for, not counted ([beam] held_width = true)",
     )

@@ -32,7 +32,7 @@ from fitting.structures.beam import Beam
 from instrument.errors import BadInput
 from instrument.models.cache import cached
 from instrument.models.remarks import remarks_on_law, remarks_on_tolerances
-from instrument.models.theory import theory_over
+from instrument.models.theory import check_each_theory
 from instrument.progress import Progress, quiet
 
 Report = Callable[[float], None]
@@ -134,10 +134,8 @@ def _widened(specimen: Specimen, V: Array, report: Report, reach_hz: float) -> E
 
 
 def check_theories(law: CoreLaw, tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> None:
-    """Raise `OutsideModel` where a plate's theory does not hold for the law found."""
-    for table, specimen in zip(tables, specimens, strict=True):
-        if isinstance(specimen, Specimen):
-            theory_over(specimen, law, table.frequency_hz)
+    """Raise `OutsideModel` where the theory of layers does not hold for the law found."""
+    check_each_theory(specimens, law, [t.frequency_hz for t in tables])
 
 
 def remark_on_fit(fit: ModalFit, tables: Sequence[ModalTable]) -> tuple[str, ...]:

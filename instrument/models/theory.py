@@ -1,15 +1,29 @@
 """Whether the layer-wise theory holds for a law over a band: refused or remarked on where it does not."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from fitting.arrays import Array
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen, Beam
 from fitting.theory_error import TheoryError, check_theory
 
 _PLACES = 10
 """Frequencies of a band that are looked at: the error is smooth in frequency."""
+
+
+def check_each_theory(specimens: Sequence[AnySpecimen], law: CoreLaw, bands_hz: Sequence[Array]) -> None:
+    """Raise `OutsideModel` where the theory of layers does not hold for one: of plates and sandwich beams.
+
+    `bands_hz` are the frequencies of each, of any shape.
+    """
+    for specimen, frequency_hz in zip(specimens, bands_hz, strict=True):
+        layers = specimen.as_plate if isinstance(specimen, Beam) else specimen
+        if isinstance(layers, Specimen):
+            theory_over(layers, law, frequency_hz)
 
 
 def theory_over(specimen: Specimen, law: CoreLaw, frequency_hz: Array) -> TheoryError:

@@ -41,7 +41,7 @@ from instrument.models.files import File, mounted, name_of, numbers_of, one_plat
 from instrument.models.identification import Identified, Joint
 from instrument.models.second_process import executor
 from instrument.models.set_up import Hammer
-from instrument.models.theory import theory_over
+from instrument.models.theory import check_each_theory
 from instrument.models.transfer import with_transfer
 from instrument.progress import Progress, quiet
 
@@ -246,9 +246,7 @@ def identify_together(
             )
         fit = fit_of(begun)
     seconds = perf_counter() - ready
-    for file in files:
-        if isinstance(file.specimen, Specimen):
-            theory_over(file.specimen, fit.law, file.sweep.frequency_hz)
+    _check_theories(files, fit.law)
     checked = perf_counter()
     with threadpool_limits(1, "blas"), progress("validating"):
         validation = held_out(begun.problem, begun.evidence, begun.none)
@@ -322,11 +320,13 @@ def diagnose_together(
                 result = with_transfer(result, work)
     further = (*remarks_on_files(files), *(one.words(files) for one in work.aside))
     result = replace(result, warnings=(*result.warnings, *further))
-    for file in files:
-        if isinstance(file.specimen, Specimen):
-            theory_over(file.specimen, result.after.law, file.sweep.frequency_hz)
+    _check_theories(files, result.after.law)
     found = Diagnosed(result, ready - began, perf_counter() - ready)
     return DiagnosedTogether(found, _all(files), tuple(work.aside))
+
+
+def _check_theories(files: Sequence[File], law: CoreLaw) -> None:
+    check_each_theory([f.specimen for f in files], law, [f.sweep.frequency_hz for f in files])
 
 
 def _all(files: Sequence[File]) -> Sweep:

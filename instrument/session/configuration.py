@@ -11,11 +11,17 @@ from pydantic import AfterValidator, BaseModel
 from fitting.plugins import packages
 from fitting.structures import AnySpecimen
 from instrument.errors import BadInput
+from instrument.files.beam_file import BeamDocument
 from instrument.files.experiment_file import ExperimentDocument, read_experiment
 from instrument.files.rig_file import RigDocument
 from instrument.files.sensor_file import read_rig
 from instrument.files.specimen_file import SpecimenDocument
-from instrument.files.structure_file import AnyDocument, described, read_structure_document
+from instrument.files.structure_file import (
+    AnyDocument,
+    ShearPairDocument,
+    described,
+    read_structure_document,
+)
 
 _NOT_IN_NAMES = re.compile(r"[/\\:\x00-\x1f\x7f]")
 _LONGEST_NAME = 200
@@ -81,13 +87,13 @@ def read_whole_experiment(path: Path) -> Experiment:
     specimen_path = path.parent / document.specimen
     rig = read_rig(rig_path)
     specimen = read_structure_document(specimen_path)
-    if isinstance(specimen, SpecimenDocument):
+    if not isinstance(specimen, ShearPairDocument):
         _refuse_another_drive(specimen, specimen_path)
     return Experiment(path, document, rig, specimen, rig_path, specimen_path)
 
 
-def _refuse_another_drive(specimen: SpecimenDocument, specimen_path: Path) -> None:
-    if specimen.force_m is not None:
+def _refuse_another_drive(specimen: SpecimenDocument | BeamDocument, specimen_path: Path) -> None:
+    if specimen.excitation is not None and specimen.excitation.kind == "force":
         raise BadInput(
             f'{specimen_path}: excitation.kind: "force", but a rig shakes the base, expected "base"'
         )
