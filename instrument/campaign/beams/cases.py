@@ -24,7 +24,7 @@ NONE = "none"
 KINDS = (NONE, *HIDDEN)
 _THREE_LEVELS = (0.25, 0.5, 1.0)
 _THREE_LEVELS_SHARE = 2 / 3
-"""Of cases that soften; the others have one level."""
+"""Of shaken beams that soften; the others have one level, which tells nothing where a force drives."""
 _POINTS, _POINTS_OF_THREE = (40, 76), (20, 36)
 """In a segment; where there are three levels."""
 _RESONANCES = (2, 4)
@@ -120,7 +120,7 @@ def draw_case(kind: str, seed: int, exact: bool = False, *, beam: str | None = N
     chance, effect = rng("beam"), HIDDEN.get(kind)
     able = [b for b in BEAMS if effect is None or effect.able(b)]
     true = beam_named(beam) if beam else able[int(chance.integers(len(able)))]
-    softens = kind == "amplitude_softening" and chance.random() < _THREE_LEVELS_SHARE
+    softens = kind == "amplitude_softening" and (true.force_m or chance.random() < _THREE_LEVELS_SHARE)
     levels, points = (_THREE_LEVELS, _POINTS_OF_THREE) if softens else ((1.0,), _POINTS)
     law, chosen = _law_and_resonances(rng("law"), true)
     schedule = draw_schedule(rng("schedule"), chosen, levels, points)

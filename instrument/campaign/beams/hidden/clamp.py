@@ -36,7 +36,9 @@ class HiddenClampCompliance(HiddenInBeam):
     @classmethod
     def _springs(cls, rng: np.random.Generator, at: Setting) -> tuple[float, float, float, float]:
         # A rotation spring k H^3 / 12 against some twice the substrate's rigidity: what mode 1 falls by.
-        beam, height = at.beam, sum(s.thickness_m for s in at.beam.solid.sheets)
+        # A free layer has no hold of its own.
+        beam, layers = at.beam, at.beam.solid.sheets if at.beam.constraining else (at.beam.substrate,)
+        height = sum(s.thickness_m for s in layers)
         rigidity = 2 * beam.substrate.young_pa * (beam.substrate.thickness_m / height) ** 3
         x = rigidity / (log_uniform(rng, 0.004, 0.02) * beam.span_m)
         y, z = (x * log_uniform(rng, 0.5, 2) for _ in range(2))
