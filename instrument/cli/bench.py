@@ -6,6 +6,11 @@ from pathlib import Path
 
 import click
 
+from instrument.campaign.beams.cases import KINDS as BEAM_KINDS
+from instrument.campaign.beams.judged import diagnosed as beam_diagnosed
+from instrument.campaign.beams.judged import identified as beam_identified
+from instrument.campaign.beams.run import beam_jobs, run_beams, write_beam_summary
+from instrument.campaign.beams.visible import visible_chi2 as beam_visible
 from instrument.campaign.bench import run_bench
 from instrument.campaign.cases import KINDS
 from instrument.campaign.plates.apart import apart_jobs, run_apart, write_apart_summary
@@ -39,15 +44,22 @@ from instrument.progress import bar
     help="Instead: the same on ten solid plates, each known only within a careful laboratory's tolerances.",
 )
 @click.option(
+    "--beams",
+    "beams_folder",
+    type=click.Path(path_type=Path, file_okay=False),
+    metavar="FOLDER",
+    help="Instead: the same on ten solid beams, shaken or struck.",
+)
+@click.option(
     "--apart",
     "apart_folder",
     type=click.Path(path_type=Path, file_okay=False),
     metavar="FOLDER",
     help="Instead: weak effects on solid plates; what is proposed after a sweep is measured, twice at most.",
 )
-@click.option("--exact", is_flag=True, help="With --plates: what is stated is exact.")
+@click.option("--exact", is_flag=True, help="With --plates or --beams: what is stated is exact.")
 @click.option("--without-truth", is_flag=True, help="With --plates: what is hidden is not in the catalogue.")
-@click.option("--law-alone", is_flag=True, help="With --plates: identify, and diagnose nothing.")
+@click.option("--law-alone", is_flag=True, help="With --plates or --beams: identify, and diagnose nothing.")
 @click.option(
     "--count", type=click.IntRange(min=1), default=300, show_default=True, help="Sweeps to diagnose."
 )
@@ -57,7 +69,7 @@ from instrument.progress import bar
 @click.option(
     "--kind",
     "kinds",
-    type=click.Choice(list(dict.fromkeys([*PLATE_KINDS, *KINDS, *WEAK]))),
+    type=click.Choice(list(dict.fromkeys([*PLATE_KINDS, *KINDS, *WEAK, *BEAM_KINDS]))),
     multiple=True,
     help="Only these; may be repeated.",
 )
@@ -72,6 +84,7 @@ def bench(
     json_path: str | None,
     folder: Path | None,
     plates_folder: Path | None,
+    beams_folder: Path | None,
     apart_folder: Path | None,
     exact: bool,
     without_truth: bool,
@@ -84,15 +97,16 @@ def bench(
 ) -> None:
     """Time the reduced model against direct solves and the paper's procedure, in this run on this machine."""
     out = Output(json_path)
-    asked = [f for f in (folder, plates_folder, apart_folder) if f is not None]
+    asked = [f for f in (folder, plates_folder, beams_folder, apart_folder) if f is not None]
     if not asked:
         _times(out)
         return
     if len(asked) > 1:
-        raise BadInput("--diagnosis, --plates and --apart are campaigns by themselves, expected one of them")
+        raise BadInput("--diagnosis, --plates, --beams and --apart are campaigns by themselves, expected one")
     if json_path is not None:
         raise BadInput("--json and a campaign: the outcomes are in the folder, a line of JSON each")
-    known = PLATE_KINDS if plates_folder is not None else WEAK if apart_folder is not None else KINDS
+    of_each = ((plates_folder, PLATE_KINDS), (beams_folder, BEAM_KINDS), (apart_folder, WEAK))
+    known = next((kinds for asked_for, kinds in of_each if asked_for is not None), KINDS)
     for kind in kinds:
         if kind not in known:
             raise BadInput(f"kind {kind!r} is not of this campaign, expected one of {', '.join(known)}")
@@ -106,6 +120,15 @@ def bench(
         judged = diagnosed_without_the_truth if without_truth else diagnosed
         found = run(identify=identified) if law_alone else run(diagnose=judged, visible=visible_chi2)
         click.echo(write_plate_summary(found, plates_folder))
+        return
+    if beams_folder is not None:
+        of_beams = partial(
+            run_beams, beam_jobs(count, seed, kinds), beams_folder, exact=exact, workers=workers
+        )
+        alone = partial(of_beams, identify=beam_identified)
+        traced = partial(of_beams, diagnose=beam_diagnosed, visible=beam_visible)
+        found = (alone if law_alone else traced)(progress=bar)
+        click.echo(write_beam_summary(found, beams_folder))
         return
     assert folder is not None
     lines = run_campaign(

@@ -11,6 +11,7 @@ import numpy as np
 from drivers.simulated.plant.built import (
     Reduced,
     beam_stated,
+    mass_x_m,
     mounted_beam,
     mounted_pair,
     reduced_beam,
@@ -69,9 +70,10 @@ def mounted_structure(specimen: Beam | ShearPair, effects: Effects, progress: Pr
 
     def build() -> Reduced:
         with progress("building the simulated beam") as report:
-            return reduced_beam(beam, law, report)
+            return reduced_beam(beam, law, report, effects=effects)
 
-    return mounted_beam(beam, cached("beam", [beam, law], Reduced, build), law, effects)
+    key = [beam, law, effects.clamp_compliance, mass_x_m(beam, effects)]
+    return mounted_beam(beam, cached("beam", key, Reduced, build), law, effects)
 
 
 def beam_of(beam: Beam) -> BeamStated:

@@ -6,30 +6,24 @@ will stir. It is found again for every specimen, in seconds.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from math import isnan
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.linalg import cholesky, solve_triangular
-from scipy.sparse.linalg import LinearOperator, eigsh, splu
 
 from drivers.arrays import Array
+from drivers.simulated.plant.basis import basis_of, moduli, motions
+from drivers.simulated.plant.beam_basis import Place, on_basis
 from drivers.simulated.plant.effects import Effects
 from drivers.simulated.plant.law import MaxwellLaw, even_loss
 from drivers.simulated.plant.mounted import Mounted
 from drivers.simulated.plant.one_thread import one_thread
-from drivers.simulated.plant.solid_beam import PIECES, BeamStated, SolidBeam
+from drivers.simulated.plant.solid_beam import PIECES, BeamBuild, BeamStated, RootSprings, SolidBeam
 from drivers.simulated.plant.solid_pad import PairStated, SolidPad
 from drivers.simulated.plant.structure import Branch, Structure
 
 Report = Callable[[float], None]
 
-_MODES = 10
-_MODULI = 5
-_BAND = 2 * np.pi * np.geomspace(5.0, 2000.0, 40)
-_ROOM = 3.0
-"""The moduli reach so much beyond the law's over the band: softening, drift."""
-_SMALLEST = 1e-8
-"""Of the basis' vectors, relative."""
 _HEEDED = {
     "plate": (
         *("spot_offset", "added_mass", "temperature_drift", "amplitude_softening", "viscous_damping"),
@@ -37,13 +31,15 @@ _HEEDED = {
     ),
     "beam": (
         *("spot_offset", "added_mass", "temperature_drift", "amplitude_softening", "base_rocking"),
-        *("fixture_resonance", "core_thickness", "substrate_stiffness", "core_law"),
+        *("fixture_resonance", "core_thickness", "substrate_stiffness", "core_law", "clamp_compliance"),
     ),
     "shear-pair": (
         *("added_mass", "temperature_drift", "amplitude_softening", "core_thickness", "core_law"),
     ),
 }
 """What each may hide."""
+_RIGID_N_M3 = 1e16
+"""What a clamp that yields along and across still holds sideways by."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +54,9 @@ class Reduced:
     load: Array
     """M times heave and pitch. Shape (n, 2)."""
     readings: Array
-    """Spot and tip. Shape (2, n)."""
+    """Spot, tip, and of a beam where a mass sits. Shape (3, n), or (2, n)."""
+    K_root: Array
+    """Of a clamp that yields, else zero. Shape (n, n)."""
 
 
 def refuse_effects(kind: str, effects: Effects) -> None:
@@ -82,27 +80,42 @@ def beam_stated(stated: BeamStated, effects: Effects) -> BeamStated:
 
 @one_thread
 def reduced_beam(
-    stated: BeamStated, law: MaxwellLaw, report: Report = lambda done: None, pieces: int = PIECES
+    stated: BeamStated,
+    law: MaxwellLaw,
+    report: Report = lambda done: None,
+    pieces: int = PIECES,
+    effects: Effects | None = None,
 ) -> Reduced:
-    """The solid beam on its basis, for a law. Raises `ValueError` for a spot off the beam."""
-    if not 0 <= stated.spot_x_m <= stated.span_m:
-        raise ValueError(f"spot at {1e3 * stated.spot_x_m:.1f} mm is off the beam")
-    solid = SolidBeam(stated, pieces)
-    free = solid.free
-    layers = [solid.stiffness(k)[free][:, free] for k in range(len(stated.sheets))]
-    faces = [K for k, K in enumerate(layers) if k not in stated.cores]
-    K_0 = sum(faces[1:], faces[0])
-    K_1 = sum((layers[k] for k in stated.cores[1:]), layers[stated.cores[0]])
-    M = solid.M[free][:, free]
-    load = (solid.M @ solid.rigid)[free]
-    parts = []
-    for k, G in enumerate(moduli(law)):
-        parts.append(motions(K_0 + G * K_1, M, load))
-        report((k + 1) / _MODULI)
-    V = basis_of(np.hstack(parts), M)
-    tip = 0.0 if stated.ends == "clamped-clamped" else stated.span_m
-    rows = np.array([solid.deflection(x)[free] @ V for x in (stated.spot_x_m, tip)])
-    return Reduced(V.T @ (M @ V), V.T @ (K_1 @ V), np.array([V.T @ (K @ V) for K in faces]), V.T @ load, rows)
+    """The solid beam on its basis, for a law. Raises `ValueError` for a spot or a mass off the beam.
+
+    Of the effects its clamp and where a mass sits have a part in it.
+    """
+    effects = effects or Effects()
+    at = (stated.spot_x_m, _tip_m(stated), mass_x_m(stated, effects))
+    for x, what in zip(at, ("spot", "tip", "added_mass"), strict=True):
+        if not 0 <= x <= stated.span_m:
+            raise ValueError(f"{what} at {1e3 * x:.1f} mm is off the beam")
+    solid = SolidBeam(stated, pieces, BeamBuild(springs=_springs(effects)))
+    found = on_basis(solid, moduli(law), [Place(x) for x in at], report=report)
+    return Reduced(found.M, found.K_core[0], found.K_faces, found.load, found.w, found.K_root)
+
+
+def _tip_m(stated: BeamStated) -> float:
+    return 0.0 if stated.ends == "clamped-clamped" else stated.span_m
+
+
+def mass_x_m(stated: BeamStated, effects: Effects) -> float:
+    """Where a hidden mass sits, or would sit: at the tip unless it says where."""
+    added = effects.added_mass
+    return _tip_m(stated) if added is None or isnan(added.x_m) else added.x_m
+
+
+def _springs(effects: Effects) -> RootSprings | None:
+    """Along y the root stays as good as rigid."""
+    yields = effects.clamp_compliance
+    if yields is None:
+        return None
+    return RootSprings(yields.along_x_n_m3, _RIGID_N_M3, yields.along_z_n_m3)
 
 
 @one_thread
@@ -117,18 +130,18 @@ def reduced_pair(stated: PairStated) -> Reduced:
     M = (M + first).tocsr()
     V = basis_of(motions(K, M, load[:, None]), M)
     loads = np.column_stack([V.T @ load, np.zeros(V.shape[1])])
-    return Reduced(V.T @ (M @ V), V.T @ (K @ V), np.zeros((0, *(V.shape[1],) * 2)), loads, V[[0, 0]])
+    none = np.zeros((V.shape[1],) * 2)
+    return Reduced(V.T @ (M @ V), V.T @ (K @ V), np.zeros((0, *none.shape)), loads, V[[0, 0]], none)
 
 
 def mounted_beam(stated: BeamStated, reduced: Reduced, law: MaxwellLaw, effects: Effects) -> Mounted:
     """With what it hides but its geometry. Raises `ValueError` for an effect that it cannot have."""
     refuse_effects("beam", effects)
     scale = effects.substrate_stiffness.scale if effects.substrate_stiffness else 1.0
-    M, load, K = reduced.M, reduced.load, np.zeros_like(reduced.M)
+    M, load, K = reduced.M, reduced.load, reduced.K_root
     lossy = []
     faces = [s for k, s in enumerate(stated.sheets) if k not in stated.cores]
-    # The substrate is the thickest; of a beam alike on both sides the one in the middle.
-    substrate = len(faces) // 2 if len(stated.cores) > 1 else 0
+    substrate = sum(k not in stated.cores for k in range(stated.substrate))
     for k, (face, part) in enumerate(zip(faces, reduced.K_faces, strict=True)):
         stiff = (scale if k == substrate else 1.0) * part
         if face.loss_factor:
@@ -136,10 +149,9 @@ def mounted_beam(stated: BeamStated, reduced: Reduced, law: MaxwellLaw, effects:
         else:
             K = K + stiff
     if effects.added_mass:
-        # Where the spot is read: the basis knows that row.
-        row = reduced.readings[1]
+        row = reduced.readings[2]
         M = M + effects.added_mass.mass_kg * np.outer(row, row)
-        load = load + effects.added_mass.mass_kg * np.outer(row, [1.0, stated.span_m])
+        load = load + effects.added_mass.mass_kg * np.outer(row, [1.0, mass_x_m(stated, effects)])
     core = sum(stated.sheets[k].thickness_m for k in stated.cores)
     volume = stated.length_m * stated.width_m * core
     return _mounted(reduced, M, K, load, (Branch(reduced.K_1, law), *lossy), stated.spot_x_m, volume)
@@ -166,31 +178,5 @@ def _mounted(
     spot_x_m: float,
     volume_m3: float,
 ) -> Mounted:
-    structure = Structure(M, np.zeros_like(M), K, branches, -load, reduced.readings)
+    structure = Structure(M, np.zeros_like(M), K, branches, -load, reduced.readings[:2])
     return Mounted(structure, spot_x_m, volume_m3)
-
-
-def moduli(law: MaxwellLaw) -> Array:
-    """Real ones that enclose a law's over the band. Shape (moduli,)."""
-    size = np.abs(law.modulus(_BAND))
-    return np.geomspace(size.min() / _ROOM, size.max() * _ROOM, _MODULI)
-
-
-def motions(K: sp.csr_array, M: sp.csr_array, load: Array, modes: int = _MODES) -> Array:
-    """Modes, and what a slow base stirs, each of unit kinetic energy. Shape (n, k)."""
-    options = {"SymmetricMode": True}
-    lu = splu(K.tocsc(), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options=options)
-    solve = LinearOperator(K.shape, matvec=lu.solve, dtype=float)
-    start = np.sin(np.arange(1, K.shape[0] + 1))
-    _, phi = eigsh(K, modes, M, sigma=0.0, OPinv=solve, v0=start)
-    X = np.hstack([phi, lu.solve(np.ascontiguousarray(load))])
-    return np.asarray(X / np.sqrt(np.einsum("ij,ij->j", X, M @ X)))
-
-
-def basis_of(X: Array, M: sp.csr_array) -> Array:
-    """What X spans, orthonormal in M. Shape (n, k)."""
-    lam, u = np.linalg.eigh(X.T @ (M @ X))
-    kept = lam > _SMALLEST * lam[-1]
-    V = X @ (u[:, kept] / np.sqrt(lam[kept]))
-    R = cholesky(V.T @ (M @ V))
-    return np.asarray(solve_triangular(R, V.T, trans="T").T)

@@ -7,7 +7,7 @@ import numpy as np
 
 from drivers.arrays import Array
 from drivers.simulated.plant.bare import OTHER_RATIO
-from drivers.simulated.plant.built import basis_of, moduli, motions
+from drivers.simulated.plant.basis import basis_of, moduli, motions
 from drivers.simulated.plant.effects import ByHand, Effects
 from drivers.simulated.plant.law import MaxwellLaw, even_loss
 from drivers.simulated.plant.lines import Line

@@ -4,6 +4,7 @@ To add one: a class here, a field of `Effects`, a line where `sandwich.py` or `s
 """
 
 from dataclasses import dataclass
+from math import nan
 
 from drivers.simulated.plant.law import MaxwellLaw
 
@@ -48,10 +49,10 @@ class AddedMass:
 
     mass_kg: float
     """0 to 0.02 kg."""
-    x_m: float
-    """From the clamp, 0 to 0.3002 m."""
-    y_m: float
-    """From the long edge y = 0, 0 to 0.1999 m."""
+    x_m: float = nan
+    """From the clamp, 0 to 0.3002 m on the published plate. On a beam it may be left out: at its tip."""
+    y_m: float = nan
+    """From the long edge y = 0, 0 to 0.1999 m there; of no meaning on a beam."""
 
 
 @dataclass(frozen=True)

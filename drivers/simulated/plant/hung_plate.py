@@ -6,7 +6,7 @@ import numpy as np
 
 from drivers.arrays import Array
 from drivers.simulated.plant import air
-from drivers.simulated.plant.built import basis_of, moduli, motions
+from drivers.simulated.plant.basis import basis_of, moduli, motions
 from drivers.simulated.plant.built_plate import ReducedPlate, Report
 from drivers.simulated.plant.effects import LOOSE, Effects, PartialDebond
 from drivers.simulated.plant.law import MaxwellLaw

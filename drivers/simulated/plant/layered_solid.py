@@ -3,7 +3,7 @@
 Displacements u, v, w along x, y, z; degree of freedom 3 node + axis, nodes x slow, z fast.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -51,8 +51,12 @@ class LayeredSolid:
         sheet: int,
         only_x: tuple[float, float] | None = None,
         only_y: tuple[float, float] | None = None,
+        along_x: Callable[[Array], Array] | None = None,
     ) -> sp.csr_array:
-        """Of one layer, or of a part of it that pieces of the grid make up, in m. Shape (size, size)."""
+        """Of one layer, or of a part of it that pieces of the grid make up, in m. Shape (size, size).
+
+        `along_x` is a factor on its moduli that varies with x.
+        """
         s, only = self.sheets[sheet], self._within(sheet)
         shear = s.young_pa / (2 * (1 + s.poisson))
         lame = 2 * shear * s.poisson / (1 - 2 * s.poisson)
@@ -60,7 +64,7 @@ class LayeredSolid:
         def product(i: int, j: int) -> sp.csr_array:
             """Integral of the derivative along i of one and along j of another."""
             a, b, c = ((int(i == axis), int(j == axis)) for axis in range(3))
-            plane = sp.kron(self.x.integral(*a, only_x), self.y.integral(*b, only_y))
+            plane = sp.kron(self.x.integral(*a, only_x, along_x), self.y.integral(*b, only_y))
             return sp.kron(plane, self.z.integral(*c, only)).tocsr()
 
         laplace = shear * (product(0, 0) + product(1, 1) + product(2, 2))
@@ -91,7 +95,8 @@ class LayeredSolid:
         out[2::3, 1], out[0::3, 1] = x.ravel(), -z.ravel()
         return out
 
-    def row(self, x_m: float, y_m: float) -> Array:
-        """Reads w at a place of the upper face. Shape (size,)."""
-        row = np.kron(np.kron(self.x.at(x_m), self.y.at(y_m)), self.z.at(self.z.ends[-1]))
-        return np.asarray(np.kron(row, [0.0, 0.0, 1.0]))
+    def row(self, x_m: float, y_m: float, axis: int = 2, *, below: bool = False) -> Array:
+        """Reads w, or u or v by `axis`, at a place of the upper face, or of the lower. Shape (size,)."""
+        height = self.z.ends[0 if below else -1]
+        row = np.kron(np.kron(self.x.at(x_m), self.y.at(y_m)), self.z.at(height))
+        return np.asarray(np.kron(row, np.eye(3)[axis]))

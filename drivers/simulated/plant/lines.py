@@ -3,6 +3,7 @@
 A solid on a tensor grid is made of them: its integrals are products of integrals along the axes.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -71,13 +72,20 @@ class Line:
         x = (low[:, None] + half[:, None] * (t + 1)).ravel()
         return Sampled(x, (half[:, None] * weight).ravel(), spread(N), spread(D / half[:, None, None]))
 
-    def integral(self, first: int, second: int, only: tuple[float, float] | None = None) -> sp.csr_array:
+    def integral(
+        self,
+        first: int,
+        second: int,
+        only: tuple[float, float] | None = None,
+        factor: Callable[[Array], Array] | None = None,
+    ) -> sp.csr_array:
         """Of products of derivatives (0 or 1) of all polynomials, over all of it or a part.
 
-        Shape (nodes, nodes).
+        `factor` is a function of the place that they are weighted by. Shape (nodes, nodes).
         """
         s = self.sampled
         weight = s.weight if only is None else s.weight * ((s.x > only[0]) & (s.x < only[1]))
+        weight = weight if factor is None else weight * factor(s.x)
         a, b = (s.slopes if d else s.values for d in (first, second))
         return (a.T @ sp.diags_array(weight) @ b).tocsr()
 

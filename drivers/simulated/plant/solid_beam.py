@@ -1,26 +1,30 @@
 """A layered beam as a 3D solid: bricks of third order along it, of second across and through each layer.
 
-Half its width, the plane in its middle a plane of symmetry: a base in heave and pitch stirs nothing else. It
-shares nothing with the beam that is fitted.
+Half its width, the plane in its middle a plane of symmetry: a base in heave and pitch stirs nothing else, nor
+does a force on its middle line. It shares nothing with the beam that is fitted.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
 
 import numpy as np
+import scipy.sparse as sp
 from numpy.typing import NDArray
 
 from drivers.arrays import Array
 from drivers.simulated.plant.layered_solid import LayeredSolid, Sheet
 from drivers.simulated.plant.lines import Line
 
-Ends = Literal["clamped-free", "clamped-clamped", "centre-driven"]
+Ends = Literal["clamped-free", "free-free", "clamped-clamped", "centre-driven"]
 
 PIECES = 20
 """Along the beam, besides the fine ones at a clamp."""
 _NEAR_ROOT = (0.4, 1.5)
 """Of the stack's height: where fine pieces end."""
+_SLIVER = 0.3
+"""Of a piece: its end so near to one that is asked for gives way to it."""
 
 
 @dataclass(frozen=True)
@@ -43,19 +47,61 @@ class BeamStated:
         """What vibrates as one piece."""
         return self.length_m / 2 if self.ends == "centre-driven" else self.length_m
 
+    @property
+    def substrate(self) -> int:
+        """Its sheet: the lowest or, of a beam alike on both sides, the one in the middle."""
+        return len(self.sheets) // 2 if len(self.cores) > 1 else 0
+
+    def heights_m(self, sheet: int) -> tuple[float, float]:
+        """Where a sheet begins and ends."""
+        edges = np.cumsum([0.0, *(s.thickness_m for s in self.sheets)])
+        return float(edges[sheet]), float(edges[sheet + 1])
+
+
+@dataclass(frozen=True)
+class RootSprings:
+    """Springs between the face of a clamped end and the base, per area."""
+
+    along_x_n_m3: float
+    along_y_n_m3: float
+    along_z_n_m3: float
+    from_m: float = 0.0
+    """Height above the lower face from which they hold; as bolts or a jaw's edge would."""
+    to_m: float = np.inf
+
+
+@dataclass(frozen=True)
+class BeamBuild:
+    """What the solid has that a beam in a rigid clamp has not."""
+
+    springs: RootSprings | None = None
+    """None: what is gripped does not move."""
+    gripped_m: tuple[float, float] | None = None
+    """Heights between which a rigid clamp holds; None: all of it."""
+    core_factor: Callable[[Array], Array] | None = None
+    """On the core's moduli, of x."""
+    lines_x_m: tuple[float, ...] = ()
+    """Where pieces shall end."""
+
 
 class SolidBeam(LayeredSolid):
     """The unreduced model."""
 
-    def __init__(self, stated: BeamStated, pieces: int = PIECES) -> None:
-        self.stated = stated
+    def __init__(self, stated: BeamStated, pieces: int = PIECES, build: BeamBuild | None = None) -> None:
+        self.stated, self.build = stated, build or BeamBuild()
         height = sum(s.thickness_m for s in stated.sheets)
         L, near = stated.span_m, np.array(_NEAR_ROOT) * height
-        ends = np.concatenate([np.linspace(0, L, pieces + 1), near[near < L / pieces]])
+        near = near[near < L / pieces]
+        fine = [near] if stated.ends != "free-free" else []
         if stated.ends == "clamped-clamped":
-            ends = np.concatenate([ends, L - near[near < L / pieces]])
+            fine.append(L - near)
+        ends = np.unique(np.concatenate([np.linspace(0, L, pieces + 1), *fine]))
+        asked = np.array([x for x in self.build.lines_x_m if 0 < x < L])
+        if asked.size:
+            apart = np.abs(ends[:, None] - asked).min(axis=1) > _SLIVER * L / pieces
+            ends = np.unique(np.concatenate([ends[apart | (ends == 0) | (ends == L)], asked]))
         half = stated.width_m / 2
-        x, y = Line(tuple(np.unique(ends).tolist()), 3), Line((0.0, half / 2, half), 2)
+        x, y = Line(tuple(ends.tolist()), 3), Line((0.0, half / 2, half), 2)
         # Both halves of the width, and of a beam that is driven in its centre.
         super().__init__(stated.sheets, x, y, times=4.0 if stated.ends == "centre-driven" else 2.0)
 
@@ -64,12 +110,48 @@ class SolidBeam(LayeredSolid):
         return self.row(x_m, 0.0)
 
     @cached_property
+    def core(self) -> sp.csr_array:
+        """Stiffness of all cores for unit modulus, as it varies along the beam. Shape (size, size)."""
+        return self.core_times(lambda x: np.ones_like(x))
+
+    def core_times(self, factor: Callable[[Array], Array]) -> sp.csr_array:
+        """The same times a further factor of x. Shape (size, size)."""
+        own = self.build.core_factor
+        both = factor if own is None else lambda x: own(x) * factor(x)
+        parts = [self.stiffness(k, along_x=both) for k in self.stated.cores]
+        return sum(parts[1:], parts[0])
+
+    @cached_property
+    def root(self) -> sp.csr_array:
+        """Stiffness of the springs at the clamped ends; zero where there are none. Shape (size, size)."""
+        springs = self.build.springs
+        nx = len(self.x.nodes)
+        out = sp.csr_array((3 * nx * len(self.y.nodes) * len(self.z.nodes),) * 2)
+        if springs is None:
+            return out
+        face = sp.kron(self.y.integral(0, 0), self.z.integral(0, 0, (springs.from_m, springs.to_m)))
+        along = np.diag([springs.along_x_n_m3, springs.along_y_n_m3, springs.along_z_n_m3])
+        for node in self._clamped:
+            at = sp.coo_array(([1.0], ([node], [node])), shape=(nx, nx))
+            out = out + self._times * sp.kron(at, sp.kron(face, along))
+        return out.tocsr()
+
+    @property
+    def _clamped(self) -> tuple[int, ...]:
+        """Nodes along x at which it is clamped."""
+        known: dict[str, tuple[int, ...]] = {"free-free": (), "clamped-clamped": (0, -1 + len(self.x.nodes))}
+        return known.get(self.stated.ends, (0,))
+
+    @cached_property
     def free(self) -> NDArray[np.intp]:
         """Degrees of freedom that move. Shape (n,)."""
         nx, ny, nz = self.shape
         held = np.zeros((nx, ny, nz, 3), bool)
-        held[0] = True
-        if self.stated.ends == "clamped-clamped":
-            held[-1] = True
+        if self.build.springs is None:
+            low, high = self.build.gripped_m or (0.0, np.inf)
+            reach = 1e-9 * self.z.ends[-1]
+            gripped = (self.z.nodes > low - reach) & (self.z.nodes < high + reach)
+            for node in self._clamped:
+                held[node, :, gripped] = True
         held[:, 0, :, 1] = True
         return np.flatnonzero(~held.ravel())

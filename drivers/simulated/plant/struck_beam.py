@@ -4,7 +4,7 @@ import numpy as np
 
 from drivers.arrays import Array
 from drivers.simulated.plant.bare import OTHER_RATIO
-from drivers.simulated.plant.built import basis_of, motions
+from drivers.simulated.plant.basis import basis_of, motions
 from drivers.simulated.plant.effects import Effects
 from drivers.simulated.plant.law import even_loss
 from drivers.simulated.plant.one_thread import one_thread

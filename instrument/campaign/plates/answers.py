@@ -1,16 +1,17 @@
 """What an identification or a diagnosis said of a case, as plain data, beside the truth."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from itertools import product
 from math import isnan
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from fitting.arrays import Array
-from instrument.campaign.plates.cases import PlateCase
+from fitting.arrays import Array, Complex
+from fitting.sweep import Sweep
+from instrument.campaign.plates.materials import PlateMaterialLaw
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.facts.rows import LawRow
 from instrument.stream.jsonable import to_jsonable
@@ -75,6 +76,8 @@ class Answer:
     before: Band | None
     after: Band | None
     seconds: float = float("nan")
+    chi2_after: float | None = None
+    """Per degree of freedom, of the fit with what is named."""
 
     def group_of(self, name: str) -> tuple[str, ...]:
         """What is not told from a named effect, itself included."""
@@ -91,7 +94,64 @@ def answer_from(found: DiagnosisResult) -> Answer:
         before=band_from(found.before.law),
         after=band_from(found.after.law),
         seconds=_number(found.seconds),
+        chi2_after=found.after.chi2_per_dof,
     )
+
+
+class CaseTruth(Protocol):
+    """What is asked of a case's truth."""
+
+    @property
+    def specimen_name(self) -> str:
+        """Which of the campaign's it is."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of the effects."""
+
+    @property
+    def effects(self) -> Collection[Any]:
+        """That are there, each with `name`, `near` and `in_catalogue`."""
+
+    @property
+    def law(self) -> PlateMaterialLaw:
+        """Of the core."""
+
+    @property
+    def modulus_pa(self) -> Complex:
+        """Of the core where the law is judged. Shape (frequencies,)."""
+
+    @property
+    def resonances_hz(self) -> tuple[float, ...]:
+        """Where the law is judged."""
+
+
+class JudgedCase(Protocol):
+    """What is asked of a case, whatever specimen it is of."""
+
+    @property
+    def kind(self) -> str:
+        """Of case."""
+
+    @property
+    def seed(self) -> int:
+        """It was drawn with."""
+
+    @property
+    def exact(self) -> bool:
+        """Whether the specimen says the truth."""
+
+    @property
+    def sweep(self) -> Sweep:
+        """What was measured."""
+
+    @property
+    def hammer(self) -> object | None:
+        """The bare specimen's test, if there is one."""
+
+    @property
+    def truth(self) -> CaseTruth:
+        """What was hidden."""
 
 
 @dataclass(frozen=True)
@@ -122,7 +182,7 @@ class PlateOutcome:
 
 
 def outcome_of(
-    case: PlateCase,
+    case: JudgedCase,
     identified: Band | None,
     said: Answer | None,
     error: str = "",
@@ -130,7 +190,7 @@ def outcome_of(
 ) -> PlateOutcome:
     """The case beside what was said of it."""
     truth, f = case.truth, case.truth.resonances_hz
-    G = truth.law.modulus(2 * np.pi * np.array(f))
+    G = truth.modulus_pa
     if said is not None:
         before, after = (b.at(f) if b is not None else None for b in (said.before, said.after))
         said = Answer(**{**vars(said), "before": before, "after": after})
@@ -138,7 +198,7 @@ def outcome_of(
         kind=case.kind,
         seed=case.seed,
         exact=case.exact,
-        plate=truth.plate.name,
+        plate=truth.specimen_name,
         truth=truth.names,
         near={h.name: h.near for h in truth.effects},
         strange=any(not h.in_catalogue for h in truth.effects),

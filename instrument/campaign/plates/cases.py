@@ -55,6 +55,16 @@ class PlateTruth:
     """Least share that the core has in the stiffness, d ln f^2 / d ln G', of the three resonances."""
 
     @property
+    def specimen_name(self) -> str:
+        """Of the plate."""
+        return self.plate.name
+
+    @property
+    def modulus_pa(self) -> Complex:
+        """Of the core at the resonances. Shape (resonances,)."""
+        return self.law.modulus(2 * np.pi * np.array(self.resonances_hz))
+
+    @property
     def names(self) -> tuple[str, ...]:
         """Of the effects."""
         return tuple(h.name for h in self.effects)
@@ -62,7 +72,7 @@ class PlateTruth:
     @property
     def facts(self) -> dict[str, Any]:
         """As JSON has it."""
-        G = self.law.modulus(2 * np.pi * np.array(self.resonances_hz))
+        G = self.modulus_pa
         return {
             "plate": self.plate.name,
             "effects": {h.name: h.facts for h in self.effects},

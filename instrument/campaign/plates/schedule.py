@@ -14,6 +14,7 @@ from instrument.campaign.schedule import Schedule
 Integers = NDArray[np.intp]
 
 _POINTS = (60, 121)
+"""In a segment."""
 _SEEN = 0.008
 """Peak velocity of a resonance at the spot over the largest: a lab would not measure less."""
 _APART = 1.25
@@ -67,22 +68,33 @@ def measured_resonances(
     plate: ReducedSolid, spot_m: tuple[float, float], law: PlateMaterialLaw
 ) -> list[Resonance]:
     """The first three that the spot sees and that stand apart. Raises `ArithmeticError` if fewer."""
-    every = resonances(plate, spot_m, law)
-    largest = max(r.seen for r in every)
-    chosen: list[Resonance] = []
-    for r in every:
-        apart = not chosen or r.frequency_hz > _APART * chosen[-1].frequency_hz
-        if r.seen > _SEEN * largest and apart:
-            chosen.append(r)
+    chosen = seen_apart(resonances(plate, spot_m, law))
     if len(chosen) < 3:
         raise ArithmeticError(f"{len(chosen)} resonances seen at {spot_m}, expected three: move the spot")
     return chosen[:3]
 
 
-def draw_schedule(rng: np.random.Generator, chosen: list[Resonance], levels_g: tuple[float, ...]) -> Schedule:
-    """Three dense segments; levels from low to high, the segments of each in the same order."""
-    segments = [_around(rng, r) for r in chosen]
-    order = {0: [0, 1, 2], 1: [2, 1, 0], 2: list(rng.permutation(3))}[int(rng.integers(3))]
+def seen_apart(every: list[Resonance]) -> list[Resonance]:
+    """Those that show at the spot and stand apart, in ascending order."""
+    largest = max((r.seen for r in every), default=0.0)
+    chosen: list[Resonance] = []
+    for r in every:
+        apart = not chosen or r.frequency_hz > _APART * chosen[-1].frequency_hz
+        if r.seen > _SEEN * largest and apart:
+            chosen.append(r)
+    return chosen
+
+
+def draw_schedule(
+    rng: np.random.Generator,
+    chosen: list[Resonance],
+    levels_g: tuple[float, ...],
+    points: tuple[int, int] = _POINTS,
+) -> Schedule:
+    """A dense segment for each; levels from low to high, the segments of each in the same order."""
+    segments = [_around(rng, r, points) for r in chosen]
+    up = list(range(len(chosen)))
+    order = {0: up, 1: up[::-1], 2: list(rng.permutation(len(up)))}[int(rng.integers(3))]
     along = str(rng.choice(["up", "down", "random"], p=[0.7, 0.15, 0.15]))
     parts: list[tuple[Array, Integers, Integers, Array, Array]] = []
     now = 0.0
@@ -101,8 +113,8 @@ def draw_schedule(rng: np.random.Generator, chosen: list[Resonance], levels_g: t
     return Schedule(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
 
-def _around(rng: np.random.Generator, r: Resonance) -> Array:
-    count = int(rng.integers(*_POINTS))
+def _around(rng: np.random.Generator, r: Resonance, points: tuple[int, int]) -> Array:
+    count = int(rng.integers(*points))
     half = float(np.clip(_HALF_WIDTHS * r.loss_factor, *_SHARE))
     low, high = (half * float(rng.uniform(0.85, 1.15)) for _ in range(2))
     return np.round(np.linspace(r.frequency_hz * (1 - low), r.frequency_hz * (1 + high), count), 3)

@@ -103,7 +103,8 @@ def _speaks(outcome: PlateOutcome) -> bool:
 
 def scores(outcomes: Sequence[PlateOutcome]) -> list[PlateScore]:
     """One for each kind present, then all single ones of the catalogue, those of none, and everything."""
-    found = [score(k, [o for o in outcomes if o.kind == k]) for k in KINDS if _any(outcomes, k)]
+    known = dict.fromkeys((*KINDS, *sorted({o.kind for o in outcomes})))
+    found = [score(k, [o for o in outcomes if o.kind == k]) for k in known if _any(outcomes, k)]
     single = [o for o in outcomes if o.kind not in (NONE, PAIR)]
     parts = (
         ("all single, in the catalogue", [o for o in single if not o.strange]),

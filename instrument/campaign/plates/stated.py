@@ -60,20 +60,6 @@ def draw_stated(
     def off(std: float) -> float:
         return std * float(rng.standard_normal())
 
-    def metal(m: Metal, thickness: float) -> Metal:
-        return Metal(
-            m.thickness_m * exp(off(thickness)),
-            m.young_pa * exp(off(t.young)),
-            m.poisson * exp(off(t.poisson)),
-            m.density_kg_m3 * exp(off(t.density)),
-        )
-
-    def core(c: DampingLayer) -> DampingLayer:
-        poisson = min(c.poisson * exp(off(t.poisson)), _LEAST_APART_POISSON)
-        return DampingLayer(
-            c.thickness_m * exp(off(t.core_thickness)), poisson, c.density_kg_m3 * exp(off(t.core_density))
-        )
-
     assert true.core is not None
     assert true.constraining is not None
     length, width = true.length_m + off(t.length_m), true.width_m + off(t.width_m)
@@ -82,39 +68,68 @@ def draw_stated(
         true,
         length_m=length,
         width_m=width,
-        substrate=metal(true.substrate, t.substrate_thickness),
-        core=core(true.core),
-        constraining=metal(true.constraining, t.constraining_thickness),
+        substrate=stated_metal(rng, true.substrate, t.substrate_thickness, t),
+        core=stated_core(rng, true.core, t),
+        constraining=stated_metal(rng, true.constraining, t.constraining_thickness, t),
         spot_m=(min(x, length), min(y, width)),
         ratios=tuple(r * exp(off(t.damping)) for r in true.ratios),
     )
+
+
+def stated_metal(rng: np.random.Generator, m: Metal, thickness: float, t: CampaignTolerances) -> Metal:
+    """A face as it is believed to be; `thickness` is the tolerance of its own."""
+    stds = (thickness, t.young, t.poisson, t.density)
+    off = [exp(std * float(rng.standard_normal())) for std in stds]
+    return Metal(m.thickness_m * off[0], m.young_pa * off[1], m.poisson * off[2], m.density_kg_m3 * off[3])
+
+
+def stated_core(rng: np.random.Generator, c: DampingLayer, t: CampaignTolerances) -> DampingLayer:
+    """The core but for its law as it is believed to be."""
+    stds = (t.poisson, t.core_thickness, t.core_density)
+    poisson, thickness, density = (exp(std * float(rng.standard_normal())) for std in stds)
+    believed = min(c.poisson * poisson, _LEAST_APART_POISSON)
+    return DampingLayer(c.thickness_m * thickness, believed, c.density_kg_m3 * density)
+
+
+def layer_lines(name: str, layer: Metal | DampingLayer) -> list[str]:
+    """Its table of the specimen file, without a law."""
+    lines = [f"[{name}]", f"thickness_mm = {digits(1e3 * layer.thickness_m)}"]
+    if isinstance(layer, Metal):
+        lines.append(f"young_gpa = {digits(1e-9 * layer.young_pa)}")
+    return [
+        *lines,
+        f"poisson = {digits(layer.poisson)}",
+        f"density_kg_m3 = {digits(layer.density_kg_m3)}",
+        "",
+    ]
+
+
+def law_lines(middle_hz: float, stiffer: float = 1.0) -> list[str]:
+    """Of `[core.law]`: where a fit starts, not the answer."""
+    tau = 1 / (2 * np.pi * 8 * middle_hz)
+    moduli = [f"g0_mpa = {0.4 * stiffer:g}", f"ginf_mpa = {8.0 * stiffer:g}"]
+    return ["[core.law]", 'kind = "fractional-zener"', *moduli, f"tau_s = {tau:.3g}", "alpha = 0.7", ""]
 
 
 def toml(plate: TruePlate, tolerances: CampaignTolerances | None, middle_hz: float) -> str:
     """The specimen file. No tolerances: all is exact. The law is where a fit starts, not the answer."""
     core, faces = plate.core, (("substrate", plate.substrate), ("constraining", plate.constraining))
     assert core is not None
-    lines = ["[plate]", f"length_mm = {_digits(1e3 * plate.length_m)}"]
-    lines += [f"width_mm = {_digits(1e3 * plate.width_m)}", 'boundary = "cantilever"', ""]
+    lines = ["[plate]", f"length_mm = {digits(1e3 * plate.length_m)}"]
+    lines += [f"width_mm = {digits(1e3 * plate.width_m)}", 'boundary = "cantilever"', ""]
     for name, face in faces:
         assert face is not None
-        lines += [f"[{name}]", f"thickness_mm = {_digits(1e3 * face.thickness_m)}"]
-        lines += [f"young_gpa = {_digits(1e-9 * face.young_pa)}", f"poisson = {_digits(face.poisson)}"]
-        lines += [f"density_kg_m3 = {_digits(face.density_kg_m3)}", ""]
-    lines += ["[core]", f"thickness_mm = {_digits(1e3 * core.thickness_m)}"]
-    lines += [f"poisson = {_digits(core.poisson)}", f"density_kg_m3 = {_digits(core.density_kg_m3)}", ""]
-    tau = 1 / (2 * np.pi * 8 * middle_hz)
-    lines += ["[core.law]", 'kind = "fractional-zener"', "g0_mpa = 0.4", "ginf_mpa = 8.0"]
-    lines += [f"tau_s = {tau:.3g}", "alpha = 0.7", "", "[damping]"]
-    ratios = ", ".join(_digits(100 * r) for r in plate.ratios)
+        lines += layer_lines(name, face)
+    lines += [*layer_lines("core", core), *law_lines(middle_hz), "[damping]"]
+    ratios = ", ".join(digits(100 * r) for r in plate.ratios)
     lines += [f"modal_percent = [{ratios}]", "", "[pickup]"]
-    lines += [f"x_mm = {_digits(1e3 * plate.spot_m[0])}", f"y_mm = {_digits(1e3 * plate.spot_m[1])}", ""]
+    lines += [f"x_mm = {digits(1e3 * plate.spot_m[0])}", f"y_mm = {digits(1e3 * plate.spot_m[1])}", ""]
     lines += ["[base]", f"acceleration_m_s2 = {PUBLISHED_G_M_S2}", "", "[tolerances]"]
     lines += ["exact = true"] if tolerances is None else tolerances.lines()
     return "\n".join(lines) + "\n"
 
 
-def _digits(value: float) -> str:
+def digits(value: float) -> str:
     """Enough of them that rounding is no error of its own."""
     return f"{value:.7g}"
 

@@ -19,11 +19,11 @@ from instrument.campaign.plates.score import (
 from instrument.campaign.tables import markdown
 
 
-def summary(outcomes: Sequence[PlateOutcome]) -> str:
-    """The whole score."""
+def summary(outcomes: Sequence[PlateOutcome], of: str = "plates") -> str:
+    """The whole score of specimens that are solid plates, or what `of` calls them."""
     found = scores(outcomes)
     plates = len({o.plate for o in outcomes})
-    parts = [f"# {len(outcomes)} sweeps of {plates} solid plates"]
+    parts = [f"# {len(outcomes)} sweeps of {plates} solid {of}"]
     if any(o.said is not None for o in outcomes):
         parts += [
             "## Naming\n"

@@ -11,6 +11,7 @@ import numpy as np
 from fitting.arrays import Complex
 from fitting.errors import OutsideModel
 from fitting.noise import noise_of
+from fitting.sweep import Sweep
 from instrument.campaign.plates.cases import PlateCase
 from instrument.campaign.plates.judged import models_of
 from instrument.models.identification import identify
@@ -32,14 +33,19 @@ def visible_chi2(case: PlateCase) -> float | None:
         return None
 
 
+def silent(sweep: Sweep, velocity_m_s: Complex) -> Sweep:
+    """A sweep that reads these at the level asked for, weighed by the noise that it has. Shape (points,)."""
+    return replace(
+        sweep,
+        velocity_m_s=velocity_m_s,
+        base_m_s2=sweep.commanded_m_s2.astype(complex),
+        std_m_s=np.asarray(noise_of(sweep).std_m_s),
+    )
+
+
 def _left(case: PlateCase, velocity_m_s: Complex) -> float:
     """Chi-square, what the stated numbers are moved counted in."""
-    sweep = replace(
-        case.sweep,
-        velocity_m_s=velocity_m_s,
-        base_m_s2=case.sweep.commanded_m_s2.astype(complex),
-        std_m_s=np.asarray(noise_of(case.sweep).std_m_s),
-    )
+    sweep = silent(case.sweep, velocity_m_s)
     like = None if case.exact else models_of(case.truth.plate.name)
     found = identify(sweep, case.specimen, hammer=case.hammer, like=like)
     assert found.joint is not None

@@ -76,6 +76,25 @@ def test_a_stiffer_substrate_and_a_thicker_core_change_the_beam(beam):
     assert thick.sheets[0] == FACE
 
 
+def test_a_mass_sits_where_it_is_said_or_at_the_tip_and_a_clamp_may_yield(beam):
+    plain = mounted_beam(BEAM, beam, LAW, e.Effects()).structure
+    for added, at in ((e.AddedMass(1e-3, 0.08), 0.08), (e.AddedMass(1e-3), 0.2)):
+        hidden = e.Effects(added_mass=added)
+        there = reduced_beam(BEAM, LAW, pieces=6, effects=hidden)
+        loads = [mounted_beam(BEAM, there, LAW, has).structure.loads for has in (hidden, e.Effects())]
+        # Mass times what the base moves of it: heave, and pitch by its lever.
+        heave, pitch = (loads[0] - loads[1]).T
+        np.testing.assert_allclose(heave, -1e-3 * there.readings[2], atol=1e-12)
+        np.testing.assert_allclose(pitch, at * heave, atol=1e-12)
+    soft = e.Effects(clamp_compliance=e.ClampCompliance(3e12, 3e12))
+    yields = mounted_beam(BEAM, reduced_beam(BEAM, LAW, pieces=6, effects=soft), LAW, soft).structure
+    assert abs(yields.response(2 * np.pi)[:, 0] @ yields.readings[1]) > 1.02 * abs(
+        plain.response(2 * np.pi)[:, 0] @ plain.readings[1]
+    )
+    with pytest.raises(ValueError, match="added_mass at 210"):
+        reduced_beam(BEAM, LAW, effects=e.Effects(added_mass=e.AddedMass(1e-3, 0.21)))
+
+
 def test_what_a_structure_cannot_have_is_refused():
     with pytest.raises(ValueError, match="partial_debond: not on a beam"):
         refuse_effects("beam", e.Effects(partial_debond=e.PartialDebond("x", 0.1, 0.2)))

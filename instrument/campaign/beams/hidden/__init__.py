@@ -1,0 +1,29 @@
+"""Effects that a beam may hide, a file for each place where they sit."""
+
+from instrument.campaign.beams.hidden import attached, base_motion, clamp, core, layers
+from instrument.campaign.beams.hidden.base import HiddenInBeam, Setting
+
+_CLASSES: tuple[type[HiddenInBeam], ...] = (
+    attached.HiddenAddedMass,
+    attached.HiddenTether,
+    attached.HiddenAirAddedMass,
+    attached.HiddenSpotOffset,
+    clamp.HiddenClampCompliance,
+    clamp.HiddenClampFriction,
+    clamp.HiddenClampLine,
+    clamp.HiddenTreatmentNotGripped,
+    base_motion.HiddenBaseRocking,
+    base_motion.HiddenFixtureResonance,
+    core.HiddenGradedCore,
+    core.HiddenPartialDebond,
+    core.HiddenTemperatureDrift,
+    core.HiddenAmplitudeSoftening,
+    layers.HiddenCoreThickness,
+    layers.HiddenSubstrateStiffness,
+    layers.HiddenConstrainingStiffness,
+    layers.HiddenConstrainingThickness,
+)
+HIDDEN: dict[str, type[HiddenInBeam]] = {h.name: h for h in _CLASSES}
+"""Every effect by its name."""
+
+__all__ = ["HIDDEN", "HiddenInBeam", "Setting"]

@@ -1,0 +1,112 @@
+"""What sits on the beam, hangs on it or surrounds it; and a spot that is elsewhere."""
+
+# ruff: noqa: D102 -- the hooks are described in base.py
+
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+
+from fitting.arrays import Array, Complex
+from instrument.campaign.beams.geometry import TrueBeam
+from instrument.campaign.beams.hidden.base import HiddenInBeam, Hung, Setting
+from instrument.campaign.plates.hidden.base import either_sign, log_uniform
+
+
+def _place(rng: np.random.Generator, beam: TrueBeam, least: float) -> float:
+    """Where a clamped beam moves, or anywhere on a free one."""
+    low, high = (0.3, 0.7) if beam.ends == "clamped-clamped" else (least, 0.98)
+    return beam.span_m * float(rng.uniform(low if beam.clamped else 0.02, high))
+
+
+@dataclass(frozen=True)
+class HiddenAddedMass(HiddenInBeam):
+    """A point mass on the upper face, its own height left out."""
+
+    name: ClassVar[str] = "added_mass"
+
+    mass_kg: float
+    x_m: float
+
+    @classmethod
+    def able(cls, beam: TrueBeam) -> bool:
+        return beam.whole
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAddedMass":
+        return cls(at.beam.mass_kg * log_uniform(rng, 0.006, 0.02), _place(rng, at.beam, 0.5))
+
+    def places_m(self) -> tuple[float, ...]:
+        return (self.x_m,)
+
+    def hung(self, omega: Array, pitch: Complex, force_driven: bool) -> tuple[Hung, ...]:
+        force = -self.mass_kg * (1 + self.x_m * pitch)
+        return (Hung(self.x_m, np.asarray(-self.mass_kg * omega**2, complex), force * (not force_driven)),)
+
+
+@dataclass(frozen=True)
+class HiddenTether(HiddenInBeam):
+    """A cable: spring and dashpot from a point of the beam to the floor, or to what moves with the base."""
+
+    name: ClassVar[str] = "tether"
+
+    stiffness_n_m: float
+    damping_ns_m: float
+    x_m: float
+    to_floor: bool
+
+    @classmethod
+    def able(cls, beam: TrueBeam) -> bool:
+        return beam.whole
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenTether":
+        omega = 2 * np.pi * at.resonances_hz[0]
+        # A cantilever's first mode moves its tip as a quarter of its mass on a spring would.
+        stiffness = at.beam.mass_kg / 4 * omega**2 * log_uniform(rng, 0.01, 0.05)
+        x = _place(rng, at.beam, 0.5)
+        return cls(stiffness, stiffness * log_uniform(rng, 0.05, 0.4) / omega, x, bool(rng.random() < 0.5))
+
+    def places_m(self) -> tuple[float, ...]:
+        return (self.x_m,)
+
+    def hung(self, omega: Array, pitch: Complex, force_driven: bool) -> tuple[Hung, ...]:
+        k = np.asarray(self.stiffness_n_m + 1j * omega * self.damping_ns_m)
+        # The floor sees the base's displacement -a / w^2 of the point too.
+        floor = self.to_floor and not force_driven
+        return (Hung(self.x_m, k, k / omega**2 * (1 + self.x_m * pitch) if floor else 0 * k),)
+
+
+@dataclass(frozen=True)
+class HiddenAirAddedMass(HiddenInBeam):
+    """Still air on both faces, by the simulated rig's own lattice of vortex rings."""
+
+    name: ClassVar[str] = "air_added_mass"
+
+    density_kg_m3: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAirAddedMass":
+        return cls(float(rng.uniform(1.1, 1.25)))
+
+    @property
+    def air_kg_m3(self) -> float:
+        return self.density_kg_m3
+
+
+@dataclass(frozen=True)
+class HiddenSpotOffset(HiddenInBeam):
+    """The spot is elsewhere."""
+
+    name: ClassVar[str] = "spot_offset"
+
+    dx_m: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenSpotOffset":
+        dx = either_sign(rng, 2e-3, 6e-3)
+        inside = 0 < at.beam.spot_m + dx < at.beam.span_m
+        return cls(dx if inside else -dx)
+
+    def beam(self, true: TrueBeam) -> TrueBeam:
+        return replace(true, spot_m=true.spot_m + self.dx_m)

@@ -1,0 +1,109 @@
+"""A clamp that yields, rubs, bites elsewhere, or leaves the treatment free."""
+
+# ruff: noqa: D102 -- the hooks are described in base.py
+
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+
+from drivers.simulated.plant.solid_beam import BeamBuild, RootSprings
+from instrument.campaign.beams.geometry import TrueBeam
+from instrument.campaign.beams.hidden.base import HiddenInBeam, Setting
+from instrument.campaign.plates.hidden.base import either_sign, log_uniform
+
+
+@dataclass(frozen=True)
+class HiddenClampCompliance(HiddenInBeam):
+    """Springs at the root face in three directions; a worn jaw may leave the substrate's edge unheld."""
+
+    name: ClassVar[str] = "clamp_compliance"
+
+    along_x_n_m3: float
+    along_y_n_m3: float
+    along_z_n_m3: float
+    worn: float
+    """Share of the substrate's height that is not held, from its outer face; the treatment is."""
+
+    @classmethod
+    def able(cls, beam: TrueBeam) -> bool:
+        return beam.clamped
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenClampCompliance":
+        return cls(*cls._springs(rng, at))
+
+    @classmethod
+    def _springs(cls, rng: np.random.Generator, at: Setting) -> tuple[float, float, float, float]:
+        # A rotation spring k H^3 / 12 against some twice the substrate's rigidity: what mode 1 falls by.
+        # A free layer has no hold of its own.
+        beam, layers = at.beam, at.beam.solid.sheets if at.beam.constraining else (at.beam.substrate,)
+        height = sum(s.thickness_m for s in layers)
+        rigidity = 2 * beam.substrate.young_pa * (beam.substrate.thickness_m / height) ** 3
+        x = rigidity / (log_uniform(rng, 0.004, 0.02) * beam.span_m)
+        y, z = (x * log_uniform(rng, 0.5, 2) for _ in range(2))
+        return x, y, z, 0.0 if beam.both_sides or rng.random() < 0.6 else float(rng.uniform(0.1, 0.3))
+
+    def build(self, build: BeamBuild, true: TrueBeam) -> BeamBuild:
+        unheld = self.worn * true.substrate.thickness_m
+        springs = RootSprings(self.along_x_n_m3, self.along_y_n_m3, self.along_z_n_m3, from_m=unheld)
+        return replace(build, springs=springs)
+
+
+@dataclass(frozen=True)
+class HiddenClampFriction(HiddenClampCompliance):
+    """The same, and it rubs: every spring has a loss factor."""
+
+    name: ClassVar[str] = "clamp_friction"
+    near: ClassVar[tuple[str, ...]] = ("clamp_compliance",)
+
+    loss: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenClampFriction":
+        return cls(*cls._springs(rng, at), float(rng.uniform(0.2, 0.6)))
+
+    @property
+    def root_loss(self) -> float:
+        return self.loss
+
+
+@dataclass(frozen=True)
+class HiddenClampLine(HiddenInBeam):
+    """The beam bends from another line than the jaw's visible edge: lengths count from there."""
+
+    name: ClassVar[str] = "clamp_line"
+
+    longer_m: float
+
+    @classmethod
+    def able(cls, beam: TrueBeam) -> bool:
+        return beam.ends in ("clamped-free", "centre-driven")
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenClampLine":
+        return cls(either_sign(rng, 1.5e-3, 4e-3))
+
+    def beam(self, true: TrueBeam) -> TrueBeam:
+        halves = 1 if true.whole else 2
+        force = None if true.force_m is None else true.force_m + self.longer_m
+        length, spot = true.length_m + halves * self.longer_m, true.spot_m + self.longer_m
+        return replace(true, length_m=length, spot_m=spot, force_m=force)
+
+
+@dataclass(frozen=True)
+class HiddenTreatmentNotGripped(HiddenInBeam):
+    """The clamp holds the substrate alone; core and constraining layer end at it, free."""
+
+    name: ClassVar[str] = "treatment_not_gripped"
+
+    @classmethod
+    def able(cls, beam: TrueBeam) -> bool:
+        return beam.clamped and beam.constraining is not None
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenTreatmentNotGripped":
+        return cls()
+
+    def build(self, build: BeamBuild, true: TrueBeam) -> BeamBuild:
+        return replace(build, gripped_m=true.solid.heights_m(true.solid.substrate))

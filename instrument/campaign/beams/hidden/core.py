@@ -1,0 +1,133 @@
+"""A core that is not the same everywhere, or not the same all the time."""
+
+# ruff: noqa: D102 -- the hooks are described in base.py
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import ClassVar
+
+import numpy as np
+
+from drivers.simulated.plant.solid_beam import BeamBuild
+from fitting.arrays import Array
+from instrument.campaign.beams.geometry import TrueBeam
+from instrument.campaign.beams.hidden.base import HiddenInBeam, Setting
+from instrument.campaign.plates.hidden.base import either_sign, log_uniform
+from instrument.campaign.plates.hidden.core import GAS_J_MOL_K
+
+_ROOM_K = 296.0
+
+
+def _times(build: BeamBuild, factor: Callable[[Array], Array]) -> BeamBuild:
+    own = build.core_factor
+    return replace(build, core_factor=factor if own is None else lambda x: own(x) * factor(x))
+
+
+@dataclass(frozen=True)
+class HiddenGradedCore(HiddenInBeam):
+    """The modulus grows along the beam."""
+
+    name: ClassVar[str] = "graded_core"
+
+    slope: float
+    """From one end to the other, over the mean."""
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenGradedCore":
+        return cls(either_sign(rng, 0.25, 0.6))
+
+    def build(self, build: BeamBuild, true: TrueBeam) -> BeamBuild:
+        return _times(build, lambda x: 1 + self.slope * (x / true.span_m - 0.5))
+
+
+@dataclass(frozen=True)
+class HiddenPartialDebond(HiddenInBeam):
+    """A strip at an end has come loose; towards its edge the bond is gradually better."""
+
+    name: ClassVar[str] = "partial_debond"
+
+    from_m: float
+    to_m: float
+    edge_m: float
+    """Over which the bond recovers."""
+    left: float
+    """Of the stiffness, within."""
+
+    @classmethod
+    def able(cls, beam: TrueBeam) -> bool:
+        return beam.constraining is not None
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenPartialDebond":
+        span = at.beam.span_m
+        wide = span * float(rng.uniform(0.06, 0.16))
+        # At the free end most of it slips freely as it is: what comes loose there shows little.
+        begin = 0.0 if rng.random() < 0.6 else span - wide
+        return cls(
+            begin, begin + wide, span * float(rng.uniform(0.008, 0.025)), float(rng.uniform(0.01, 0.05))
+        )
+
+    def build(self, build: BeamBuild, true: TrueBeam) -> BeamBuild:
+        low = -1.0 if self.from_m <= 0 else self.from_m
+        high = true.span_m + 1.0 if self.to_m >= true.span_m * (1 - 1e-9) else self.to_m
+
+        def factor(x: Array) -> Array:
+            into = (np.tanh((x - low) / self.edge_m) - np.tanh((x - high) / self.edge_m)) / 2
+            return np.asarray(1 - (1 - self.left) * into)
+
+        ends = tuple(e + d for e in (self.from_m, self.to_m) for d in (-self.edge_m, self.edge_m))
+        return _times(replace(build, lines_x_m=(*build.lines_x_m, *ends)), factor)
+
+
+@dataclass(frozen=True)
+class HiddenTemperatureDrift(HiddenInBeam):
+    """The core warms; its times shift as Arrhenius has it."""
+
+    name: ClassVar[str] = "temperature_drift"
+
+    kelvin: float
+    """In the end."""
+    time_constant_s: float
+    activation_j_mol: float
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenTemperatureDrift":
+        sign = -1.0 if rng.random() < 0.25 else 1.0
+        time = at.duration_s * float(rng.uniform(0.3, 1.0))
+        return cls(sign * float(rng.uniform(3, 7)), time, float(rng.uniform(70e3, 130e3)))
+
+    def frequency_factor(self, time_s: Array) -> Array | None:
+        kelvin = -self.kelvin * np.expm1(-time_s / self.time_constant_s)
+        return np.exp(self.activation_j_mol / GAS_J_MOL_K * (1 / (_ROOM_K + kelvin) - 1 / _ROOM_K))
+
+
+@dataclass(frozen=True)
+class HiddenAmplitudeSoftening(HiddenInBeam):
+    """Each strip of the core softens with its own strain, as filled rubber does (Kraus).
+
+    G (1 - d r / (1 + r)), r the strip's strain over that at which half of what can be lost is lost.
+    """
+
+    name: ClassVar[str] = "amplitude_softening"
+    strips: ClassVar[int] = 8
+
+    k: float
+    """Lost at the core's largest rms strain of the first segment at full level."""
+    most: float
+    """What can be lost at all."""
+
+    @classmethod
+    def able(cls, beam: TrueBeam) -> bool:
+        return beam.constraining is not None
+
+    @classmethod
+    def draw(cls, rng: np.random.Generator, at: Setting) -> "HiddenAmplitudeSoftening":
+        return cls(log_uniform(rng, 0.05, 0.2), 0.5)
+
+    def factor(self, strain: Array, reference: float) -> Array:
+        """On the modulus of strips of given strain; `reference` is that at which `k` is lost.
+
+        Shape of `strain`.
+        """
+        r = strain / reference * self.k / (self.most - self.k)
+        return np.asarray(1 - self.most * r / (1 + r))

@@ -1,0 +1,115 @@
+"""A campaign on beams: cases identified and diagnosed in processes, a line kept of each.
+
+It goes on after a kill: `viscorig bench --beams FOLDER`, or `run_beams` with functions of one's own.
+"""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from instrument.campaign.beams.cases import KINDS, NONE, BeamCase, draw_case
+from instrument.campaign.plates.answers import (
+    Answer,
+    Band,
+    PlateOutcome,
+    line_of,
+    outcome_from,
+    outcome_of,
+)
+from instrument.campaign.plates.score import named
+from instrument.campaign.plates.tables import summary
+from instrument.campaign.run import Job, run_campaign
+from instrument.campaign.tables import markdown
+from instrument.progress import Progress, quiet
+
+SUMMARY = "summary.md"
+ROTATION = (*KINDS, *(NONE,) * 5)
+"""Kinds of successive cases: each effect once, clean ones six times."""
+
+Identify = Callable[[BeamCase], Band]
+Diagnose = Callable[[BeamCase], Answer]
+Visible = Callable[[BeamCase], float | None]
+
+
+def beam_jobs(count: int, seed: int, kinds: Sequence[str] = ()) -> list[Job]:
+    """Kinds in rotation, seeds from `seed` on."""
+    rotation = tuple(kinds) or ROTATION
+    return [Job(rotation[k % len(rotation)], seed + k) for k in range(count)]
+
+
+def judge_beam(
+    job: Job, exact: bool, identify: Identify | None, diagnose: Diagnose | None, visible: Visible | None
+) -> dict[str, Any]:
+    """Draw, identify, diagnose, compare. What raises leaves no answer and is tried again."""
+    case = draw_case(job.kind, job.seed, exact)
+    band: Band | None = None
+    said: Answer | None = None
+    error, shows = "", None
+    try:
+        band = identify(case) if identify is not None else None
+        said = diagnose(case) if diagnose is not None else None
+        shows = visible(case) if visible is not None else shows
+    except Exception as raised:
+        error = " ".join(f"{type(raised).__name__}: {raised}".split())
+    return line_of(outcome_of(case, band, said, error, shows))
+
+
+def run_beams(
+    jobs: Sequence[Job],
+    folder: Path,
+    *,
+    exact: bool = False,
+    identify: Identify | None = None,
+    diagnose: Diagnose | None = None,
+    visible: Visible | None = None,
+    workers: int = 2,
+    progress: Progress = quiet,
+) -> list[dict[str, Any]]:
+    """Lines of all jobs, with those an earlier run left. Raises `BadInput`, `StoppedByUser`.
+
+    `visible` says how plainly what is hidden shows. All three go to other processes: functions of a module.
+    """
+    judged_by = partial(judge_beam, exact=exact, identify=identify, diagnose=diagnose, visible=visible)
+    by = [f.__name__ for f in (identify, diagnose) if f is not None]
+    options = {"of": "beams", "exact": exact, "by": by}
+    return run_campaign(
+        jobs, folder, workers=workers, judged_by=judged_by, options=options, progress=progress
+    )
+
+
+def write_beam_summary(lines: Sequence[dict[str, Any]], folder: Path) -> str:
+    """The score as Markdown, kept in the folder."""
+    outcomes = [outcome_from(line) for line in lines]
+    text = f"{summary(outcomes, 'beams')}\n## Each\n\n{_each(outcomes)}\n"
+    (folder / SUMMARY).write_text(text, encoding="utf-8")
+    return text
+
+
+def _each(outcomes: Sequence[PlateOutcome]) -> str:
+    """Every case with its largest error over standard error, and what is left of chi-square."""
+    rows = []
+    for o in outcomes:
+        if o.said is None:
+            continue
+        chi2 = "" if o.said.chi2_after is None else f"{o.said.chi2_after:.2f}"
+        said = " + ".join(named(o)) or o.said.verdict
+        shows = "" if o.visible_chi2 is None else f"{o.visible_chi2:.0f}"
+        rows.append([o.kind, str(o.seed), o.plate, shows, said, *_pulls(o), chi2, f"{o.said.seconds:.0f}"])
+    columns = ["hidden", "seed", "beam", "trace", "said", "pulls of G'", "of eta", "chi-square after", "s"]
+    return markdown(columns, rows)
+
+
+def _pulls(o: PlateOutcome) -> tuple[str, str]:
+    """Signed, at each resonance: error over standard error."""
+    band = o.said.after if o.said is not None else None
+    if band is None:
+        return "", ""
+    pairs = (
+        (o.storage_pa, band.storage_pa, band.storage_error_pa),
+        (o.loss, band.loss, band.loss_error),
+    )
+    storage, loss = ((np.array(found) - np.array(true)) / np.array(error) for true, found, error in pairs)
+    return " ".join(f"{p:+.1f}" for p in storage), " ".join(f"{p:+.1f}" for p in loss)
