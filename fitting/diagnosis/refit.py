@@ -45,9 +45,9 @@ def refit(
     lower, upper = problem.limits
     steps = Steps(goal)
     found = least_squares(
-        lambda x: problem.condensed(x)[:, -1],
+        problem.shortened,
         np.clip(problem.start, lower, upper),
-        jac=lambda x: problem.condensed(x)[:, :-1],
+        jac=problem.condensed,
         bounds=(lower, upper),
         x_scale="jac",
         xtol=tolerance,
