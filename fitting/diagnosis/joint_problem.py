@@ -65,8 +65,8 @@ class JointProblem:
     def shortened(self, x: Array) -> Array:
         """Residuals turned, all together, so that only the first is not zero.
 
-        Steps depend on products alone, so on any orthogonal turn of the rows. This one needs no Jacobian: none
-        is made where a step is not taken. Shape (unknowns + 1 or fewer,).
+        Steps depend on products alone, so on any orthogonal turn of the rows. This one needs no Jacobian:
+        none is made where a step is not taken. Shape (unknowns + 1 or fewer,).
         """
         r = self.residuals(x)
         found = np.zeros(min(len(r), len(x) + 1))
@@ -96,7 +96,7 @@ class JointProblem:
         return self._with_slopes[1]
 
     def _at(self, x: Array) -> "_Seen":
-        """Kept: the latest, and the latest that had derivatives, where a fit ends if no later step is taken."""
+        """Kept: the latest, and the latest with derivatives, where a fit ends if no later step is taken."""
         key = x.tobytes()
         for known in (self._seen, self._with_slopes[0] if self._with_slopes else None):
             if known is not None and known.key == key:
@@ -120,7 +120,7 @@ class JointProblem:
         dv = dv[np.concatenate([np.ones(self._n, bool), self.free])]
         part = self._part
         rows = [self.evidence.jacobian(v[part], dv[:, part])]
-        # Of the stated numbers, each in standard deviations of its tolerance, and of the law's bend, whitened.
+        # Of the stated numbers, in standard deviations of their tolerances, and of the law's bend, whitened.
         known = np.eye(self._n + int(self.free.sum()))
         stated = known[self._n : self._n + self._z]
         bend = known[self._n - self.law.bend_count : self._n]
