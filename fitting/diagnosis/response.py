@@ -189,7 +189,7 @@ class SweepResponse:
         spread = self.grid.nodes.spread(np.concatenate(twice), solved.poles, solved.poles)
         heaves = len(solved.heave_by_z) + len(solved.heave_by_u)
         heave, turned = spread[1 : 1 + heaves], spread[1 + heaves :]
-        by = _ByChange(heave, turned if self._pitching else np.zeros_like(heave))
+        by = _ByChange(heave, turned)
         return replace(plate, slope=spread[0], by=by)
 
     def _bearing(self, law: CoreLaw, G_law: Complex, G: Complex) -> tuple[Complex, Complex]:
@@ -307,7 +307,8 @@ class SweepResponse:
         up, down = stepped(u, n, h), stepped(u, n, -h)
         if k in self._changing and at.plate.by is not None:
             place = len(self.nuisances) + self._moving_it.index(n)
-            found = found + at.per_x * (at.plate.by.heave[place] + at.pitch * at.plate.by.turned[place])
+            by = at.plate.by.heave[place]
+            found = found + at.per_x * (by + at.pitch * at.plate.by.turned[place] if self._pitching else by)
         if k in self._pitching:
             effect = self.effects[k]
             above, below = (
@@ -332,7 +333,8 @@ class SweepResponse:
         """Of the velocity before the channels to each stated number."""
         assert at.plate.by is not None
         stated = slice(0, len(self.nuisances))
-        return list(at.per_x * (at.plate.by.heave[stated] + at.pitch * at.plate.by.turned[stated]))
+        by = at.plate.by.heave[stated]
+        return list(at.per_x * (by + at.pitch * at.plate.by.turned[stated] if self._pitching else by))
 
 
 @dataclass(frozen=True)
@@ -370,3 +372,4 @@ class _ByChange:
     heave: Complex
     """Shape (numbers, points)."""
     turned: Complex
+    """The same of a turning base; of no number where the base does not turn."""
