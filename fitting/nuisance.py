@@ -6,7 +6,7 @@ import numpy as np
 
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.specimen import Specimen
-from fitting.tolerances import STATED, Unit, plate_numbers, tolerance
+from fitting.tolerances import OF_THEORY, STATED, Unit, plate_numbers, tolerance
 
 _UNHEARD = 1e-6
 """Share of a mode that the plate's motions carry, below which its ratio plays no part."""
@@ -19,14 +19,14 @@ class Nuisance:
     name: str
     """As results list it: `pickup_x`, `damping_1`."""
     kind: str
-    """Of `fitting.tolerances.STATED`."""
+    """Of `fitting.tolerances.STATED`, or `OF_THEORY`."""
     sigma: float
     """Relative, m or s."""
 
     @property
     def unit(self) -> Unit:
         """Of `sigma`."""
-        return STATED[self.kind].unit
+        return (STATED | OF_THEORY)[self.kind].unit
 
 
 def felt(specimen: Specimen, plate: EnrichedReducedPlate, *, has_phase: bool) -> tuple[Nuisance, ...]:

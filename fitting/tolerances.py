@@ -52,7 +52,6 @@ _STATED = (
     StatedNumber("mass", "1", 0.02, "what sits on the plate, on a letter balance"),
     StatedNumber("place", "m", 5e-4, "where a mass sits, by a rule from the free end; each coordinate"),
     StatedNumber("area", "1", 0.01, "a disc's diameters by caliper"),
-    StatedNumber("held_width", "m", 0.0, "what clamps do to a beam's width, as a shorter span: its theory's"),
     StatedNumber("substrate_young_y", "1", 0.03, "a laminate's or a rolled sheet's second axis"),
     StatedNumber("substrate_shear", "1", 0.05, "seldom measured"),
     StatedNumber("substrate_angle", "rad", radians(1.0), "a laminate cut by a square"),
@@ -65,6 +64,10 @@ _STATED = (
 )
 STATED: dict[str, StatedNumber] = {s.name: s for s in _STATED}
 """Every kind of stated number by its name, in the order in which results list them."""
+OF_THEORY = {
+    "held_width": StatedNumber("held_width", "m", 0.0, "what clamps do to a beam's width, as a shorter span")
+}
+"""Numbers that a theory leaves open: nobody states them, and no file names them."""
 
 OF_FEW = tuple(s.name for s in _STATED[-9:])
 """Numbers that only orthotropic faces, glue and patches have."""
@@ -111,8 +114,8 @@ def kind_of(name: str) -> str:
     # Of several files each may have its own: `gain [2]`.
     name = name.split(" [")[0]
     kind, _, number = name.partition("_")
-    known = name if name in STATED else kind
-    if known not in STATED or (kind == "damping" and not number.isdecimal()):
+    known = name if name in (STATED | OF_THEORY) else kind
+    if known not in (STATED | OF_THEORY) or (kind == "damping" and not number.isdecimal()):
         raise ValueError(f"no stated number is called {name!r}")
     return known
 

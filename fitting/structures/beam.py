@@ -195,11 +195,15 @@ class Beam:
 
     @property
     def held_width_m(self) -> float:
-        """What makes it stiffer at all held ends, as a shorter span; faces' ratios weighed by stiffness."""
+        """What makes it stiffer at all held ends, as a shorter span."""
+        return _HELD_ENDS[self.boundary] * shortened_m(self.width_m, self._poisson)
+
+    @property
+    def _poisson(self) -> float:
+        """Of the faces, weighed by their stiffness."""
         faces = [f for f in (self.substrate, self.constraining) if f is not None]
         stiff = np.array([f.young_pa * f.thickness_m for f in faces])
-        poisson = float(stiff @ [f.poisson for f in faces] / stiff.sum())
-        return _HELD_ENDS[self.boundary] * shortened_m(self.width_m, poisson)
+        return float(stiff @ [f.poisson for f in faces] / stiff.sum())
 
     @property
     def as_plate(self) -> Specimen | None:
@@ -217,12 +221,12 @@ class Beam:
         """
         layers = self.as_plate
         if layers is not None:
-            return sandwich_error(layers, self.width_m, frequency_hz, G)
+            return sandwich_error(layers, self._poisson * self.width_m, frequency_hz, G)
         c = self.coefficients({})
         L, mass = self.span_m, float(c[9].real / self.span_m)
         axial = c[0] * L + G * c[6] * L
         bending = c[2] * L**3 + G * c[8] * L**3 - (G * c[7] * L**2) ** 2 / axial
-        return free_layer_error(bending, mass, self.copies * self.width_m, frequency_hz)
+        return free_layer_error(bending, mass, self._poisson * self.width_m, frequency_hz)
 
     def _moved(self, name: str, by: Mapping[str, float]) -> dict[str, float]:
         layer = getattr(self, name)

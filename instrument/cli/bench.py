@@ -102,7 +102,9 @@ def bench(
         _times(out)
         return
     if len(asked) > 1:
-        raise BadInput("--diagnosis, --plates, --beams and --apart are campaigns by themselves, expected one")
+        raise BadInput(
+            "--diagnosis, --plates, --beams and --apart are campaigns by themselves, expected one of them"
+        )
     if json_path is not None:
         raise BadInput("--json and a campaign: the outcomes are in the folder, a line of JSON each")
     of_each = ((plates_folder, PLATE_KINDS), (beams_folder, BEAM_KINDS), (apart_folder, WEAK))

@@ -31,6 +31,7 @@ from fitting.structures import AnySpecimen
 from fitting.structures.beam import Beam
 from instrument.errors import BadInput
 from instrument.models.cache import cached
+from instrument.models.file_remarks import remarks_on_held_width
 from instrument.models.remarks import remarks_on_law, remarks_on_tolerances
 from instrument.models.theory import check_each_theory
 from instrument.progress import Progress, quiet
@@ -66,13 +67,13 @@ def identify_tables(
     began = perf_counter()
     with threadpool_limits(1, "blas"), progress("fitting modes"):
         found = fit_modes(tables, specimens)
-    check_theories(found.law, tables, specimens)
+    theory = check_theories(found.law, tables, specimens)
     formulas = tuple(
         by_formula(t, s, found.law, bare) if isinstance(s, Beam) else ()
         for t, s in zip(tables, specimens, strict=True)
     )
     seconds = perf_counter() - began
-    said = (*remark_on_fit(found, tables), *remarks_on_tables(tables, specimens))
+    said = (*remark_on_fit(found, tables), *theory, *remarks_on_tables(tables, specimens))
     return TablesIdentified(found, seconds, said, formulas)
 
 
@@ -116,8 +117,8 @@ def diagnose_tables(
         with progress("tracing what is left") as report:
             found = diagnose_modes(ModalProblem.of(members), effects, start, report)
     accepted = found.judgement.accepted
-    check_theories(accepted.fitted.law if accepted else found.begun.none.law, tables, specimens)
-    remarks = remarks_on_tables(tables, specimens)
+    law = accepted.fitted.law if accepted else found.begun.none.law
+    remarks = (*check_theories(law, tables, specimens), *remarks_on_tables(tables, specimens))
     return TablesDiagnosed(found, effects, ready - began, perf_counter() - ready, remarks)
 
 
@@ -133,9 +134,11 @@ def _widened(specimen: Specimen, V: Array, report: Report, reach_hz: float) -> E
     return cached("modes", [lawless, V.shape[1], reach_hz], EnrichedReducedPlate, build, modules)
 
 
-def check_theories(law: CoreLaw, tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> None:
-    """Raise `OutsideModel` where the theory of layers does not hold for the law found."""
-    check_each_theory(specimens, law, [t.frequency_hz for t in tables])
+def check_theories(
+    law: CoreLaw, tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]
+) -> tuple[str, ...]:
+    """As `check_each_theory`, for the law found."""
+    return check_each_theory(specimens, law, [t.frequency_hz for t in tables])
 
 
 def remark_on_fit(fit: ModalFit, tables: Sequence[ModalTable]) -> tuple[str, ...]:
@@ -158,6 +161,7 @@ def remarks_on_tables(tables: Sequence[ModalTable], specimens: Sequence[AnySpeci
             said += remarks_on_law(specimen.core.law, table.frequency_hz)
         if isinstance(specimen, Specimen):
             said += remarks_on_tolerances(specimen)
+        said += remarks_on_held_width(specimen)
         if not table.states_its_noise:
             f, eta = table.relative_std
             said.append(

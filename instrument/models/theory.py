@@ -9,21 +9,39 @@ from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen, Beam
-from fitting.theory_error import TheoryError, check_theory
+from fitting.theory_error import TheoryError, check_theory, theory_error
 
 _PLACES = 10
 """Frequencies of a band that are looked at: the error is smooth in frequency."""
 
 
-def check_each_theory(specimens: Sequence[AnySpecimen], law: CoreLaw, bands_hz: Sequence[Array]) -> None:
+def check_each_theory(
+    specimens: Sequence[AnySpecimen], law: CoreLaw, bands_hz: Sequence[Array]
+) -> tuple[str, ...]:
     """Raise `OutsideModel` where the theory of layers does not hold for one: of plates and sandwich beams.
 
-    `bands_hz` are the frequencies of each, of any shape.
+    A beam is measured over decades and each resonance weighed by what the theory gets wrong there: it is
+    refused where it holds at none, and what is said is where it does not. `bands_hz` are the frequencies of
+    each, of any shape.
     """
+    said = []
     for specimen, frequency_hz in zip(specimens, bands_hz, strict=True):
-        layers = specimen.as_plate if isinstance(specimen, Beam) else specimen
-        if isinstance(layers, Specimen):
-            theory_over(layers, law, frequency_hz)
+        if isinstance(specimen, Specimen):
+            theory_over(specimen, law, frequency_hz)
+        elif isinstance(specimen, Beam) and specimen.as_plate is not None:
+            said.append(_of_beam(specimen.as_plate, law, frequency_hz))
+    return tuple(text for text in dict.fromkeys(said) if text)
+
+
+def _of_beam(layers: Specimen, law: CoreLaw, frequency_hz: Array) -> str:
+    refused = theory_remark(layers, law, frequency_hz)
+    if not refused:
+        return ""
+    # Where it fails everywhere it fails at the lowest one, where waves are longest.
+    theory_over(layers, law, np.array([np.min(frequency_hz)]))
+    f = np.geomspace(np.min(frequency_hz), np.max(frequency_hz), 4 * _PLACES)
+    holds = theory_error(layers, f, law.modulus(2 * np.pi * f)).excess <= 1
+    return f"{refused}; resonances above {f[holds][-1]:.3g} Hz count by so much less"
 
 
 def theory_over(specimen: Specimen, law: CoreLaw, frequency_hz: Array) -> TheoryError:

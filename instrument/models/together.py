@@ -246,14 +246,14 @@ def identify_together(
             )
         fit = fit_of(begun)
     seconds = perf_counter() - ready
-    _check_theories(files, fit.law)
+    theory = _check_theories(files, fit.law)
     checked = perf_counter()
     with threadpool_limits(1, "blas"), progress("validating"):
         validation = held_out(begun.problem, begun.evidence, begun.none)
         if noise.source == "misfit":
             validation = validation.without_noise
     sweep = begun.problem.sweep
-    further += (*remarks_on_files(files), *(one.words(files) for one in work.aside))
+    further += (*remarks_on_files(files), *theory, *(one.words(files) for one in work.aside))
     result = summarise("direct", sweep, noise, fit, validation, further)
     validated = perf_counter() - checked
     found = Identified(result, ready - began, seconds, validated, joint=Joint(begun, None), bare=bare)
@@ -318,17 +318,17 @@ def diagnose_together(
             )
             if "fixture_transfer" in {e.name for e in effects} and result.verdict == "unknown":
                 result = with_transfer(result, work)
-    further = (*remarks_on_files(files), *(one.words(files) for one in work.aside))
+    theory = _check_theories(files, result.after.law)
+    further = (*remarks_on_files(files), *theory, *(one.words(files) for one in work.aside))
     result = replace(result, warnings=(*result.warnings, *further))
-    _check_theories(files, result.after.law)
     # Of one beam what may be there unseen is asked, as of a plate: that a pair's mass may be is its verdict.
     asked = tuple(effects) if len(files) == 1 and kinds == {"beam"} and accept is None else ()
     found = Diagnosed(result, ready - began, perf_counter() - ready, asked)
     return DiagnosedTogether(found, _all(files), tuple(work.aside))
 
 
-def _check_theories(files: Sequence[File], law: CoreLaw) -> None:
-    check_each_theory([f.specimen for f in files], law, [f.sweep.frequency_hz for f in files])
+def _check_theories(files: Sequence[File], law: CoreLaw) -> tuple[str, ...]:
+    return check_each_theory([f.specimen for f in files], law, [f.sweep.frequency_hz for f in files])
 
 
 def _all(files: Sequence[File]) -> Sweep:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from fitting.identification.adjusted import Adjusted
 from fitting.specimen import StatedSpecimen
-from fitting.tolerances import kind_of
+from fitting.tolerances import OF_THEORY, kind_of
 
 COLUMNS = ("stated number", "stated", "tolerance", "found", "standard error", "pull", "tolerance is")
 MOST = 8
@@ -21,7 +21,7 @@ def adjusted_rows(found: Sequence[Adjusted], specimen: StatedSpecimen, most: int
             f"{one.found:.5g}",
             f"{one.standard_error:.2g}",
             f"{one.pull:+.2f}",
-            "named" if kind_of(one.name) in specimen.tolerances else "typical",
+            _known_by(kind_of(one.name), specimen),
         ]
         for one in order[:most]
     ]
@@ -31,3 +31,10 @@ def more_adjusted(found: Sequence[Adjusted], most: int = MOST) -> str:
     """How many are not listed, and how little they were moved; empty for none."""
     rest = sorted((abs(one.pull) for one in found), reverse=True)[most:]
     return f"{len(rest)} more moved by {rest[0]:.2f} tolerances or less" if rest else ""
+
+
+def _known_by(kind: str, specimen: StatedSpecimen) -> str:
+    """Who says what its tolerance is."""
+    if kind in OF_THEORY:
+        return "the theory's"
+    return "named" if kind in specimen.tolerances else "typical"

@@ -4,7 +4,7 @@ from dataclasses import MISSING, fields
 from pathlib import Path
 from typing import Any, get_args, get_type_hints
 
-from drivers.simulated.plant.built import refuse_effects
+from drivers.simulated.plant.built import refuse_effects, refuse_placeless
 from drivers.simulated.plant.effects import Effects, OtherLaw
 from drivers.simulated.plant.law import MaxwellLaw
 from instrument.errors import BadInput
@@ -38,8 +38,11 @@ def refuse_simulation(document: RigDocument, path: Path) -> None:
         for name in document.simulation.memory:
             if name == "velocity" or name not in document.channels.named():
                 raise ValueError(f"memory.{name}: no such sensor on this rig")
+        stands = "plate"
         if document.simulation.specimen is not None:
-            refuse_effects(stands_on(document.simulation, path).kind, effects)
+            stands = stands_on(document.simulation, path).kind
+            refuse_effects(stands, effects)
+        refuse_placeless(stands, effects)
         log = document.simulation.log
         if log is not None and not (path.parent / log).parent.is_dir():
             raise ValueError(f"log: {log}: no such folder")

@@ -67,6 +67,13 @@ def refuse_effects(kind: str, effects: Effects) -> None:
             raise ValueError(f"effects.{name}: not on a {kind} from a file, expected one of {known}")
 
 
+def refuse_placeless(kind: str, effects: Effects) -> None:
+    """Raise `ValueError` for a mass that says not where on a plate it sits."""
+    added = effects.added_mass
+    if kind == "plate" and added is not None and (isnan(added.x_m) or isnan(added.y_m)):
+        raise ValueError("effects.added_mass: x_m or y_m missing, expected where on the plate it sits")
+
+
 def beam_stated(stated: BeamStated, effects: Effects) -> BeamStated:
     """The beam as it really is."""
     thick = effects.core_thickness.scale if effects.core_thickness else 1.0
