@@ -52,6 +52,7 @@ _STATED = (
     StatedNumber("mass", "1", 0.02, "what sits on the plate, on a letter balance"),
     StatedNumber("place", "m", 5e-4, "where a mass sits, by a rule from the free end; each coordinate"),
     StatedNumber("area", "1", 0.01, "a disc's diameters by caliper"),
+    StatedNumber("held_width", "m", 0.0, "what clamps do to a beam's width, as a shorter span: its theory's"),
     StatedNumber("substrate_young_y", "1", 0.03, "a laminate's or a rolled sheet's second axis"),
     StatedNumber("substrate_shear", "1", 0.05, "seldom measured"),
     StatedNumber("substrate_angle", "rad", radians(1.0), "a laminate cut by a square"),

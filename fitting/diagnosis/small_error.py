@@ -1,7 +1,7 @@
 """What the theory of a small structure gets wrong, as changes of its response of known size.
 
 Its resonances lie a little elsewhere and are damped a little otherwise, each by itself: another one about
-every octave. What its width and its held ends do are two numbers for all of them.
+every octave. What its width does is one number for all of them.
 """
 
 from dataclasses import replace
@@ -16,7 +16,6 @@ OCTAVE = 0.7
 """In ln f."""
 _H = 1e-4
 """Relative step of differences."""
-_H_LENGTH_M = 1e-5
 
 
 def theory_rows(
@@ -40,17 +39,6 @@ def theory_rows(
     rows = [error.frequency * share * dv for share in shares]
     rows += [shift * dv for shift in error.together]
     rows += [error.loss * share * by_loss for share in shares]
-    if specimen.length_error_m:
-        change = system.moved({"length": _H_LENGTH_M})
-        longer = replace(
-            system,
-            K_0=system.K_0 + change.K,
-            K_1=system.K_1 + change.K_1,
-            M=system.M + change.M,
-            load=system.load + change.load,
-        ).take([])
-        by_length = (displacement(longer, omega, G) - x) / _H_LENGTH_M
-        rows.append(specimen.length_error_m * per_x * by_length)
     return rows
 
 

@@ -14,7 +14,6 @@ from fitting.laws import CoreLaw
 from fitting.mode_tables.member import Member
 from fitting.mode_tables.table import ModalTable
 from fitting.model_error import model_error_at
-from fitting.nuisance import Nuisance
 from fitting.nuisances import Nuisances, nuisances_of
 from fitting.part_matrices import load_part, on_motions, projected_parts
 from fitting.parts import layers_of
@@ -22,8 +21,8 @@ from fitting.plate import Plate
 from fitting.real_modes import real_modes
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
-from fitting.structures.small import SmallSpecimen, widened_system_of
 from fitting.structures.small import nuisances_of as small_nuisances_of
+from fitting.structures.small import widened_system_of
 from fitting.tolerances import PLATE
 
 MODULI_PA = (1e5, 6e5, 3e6, 2e7)
@@ -44,15 +43,8 @@ def member_of(table: ModalTable, specimen: AnySpecimen, widen: Widen | None = No
         return _of_plate(table, specimen, widen)
     parts = specimen.parts()
     stated = small_nuisances_of(specimen, parts, has_phase=False)
-    own = replace(stated, each=_with_held_ends(specimen, stated.each))
+    own = replace(stated, each=tuple(n for n in stated.each if n.kind in specimen.numbers))
     return Member(table, specimen, widened_system_of(specimen, parts), own)
-
-
-def _with_held_ends(specimen: SmallSpecimen, each: tuple[Nuisance, ...]) -> tuple[Nuisance, ...]:
-    """Those that modes feel; what held ends do to a length is one more thing that is not known of it."""
-    felt = [n for n in each if n.kind in specimen.numbers and n.kind != "length"]
-    sigma = np.hypot(specimen.length_error_m, sum(n.sigma for n in each if n.kind == "length"))
-    return (*felt, Nuisance("length", "length", float(sigma))) if sigma else tuple(felt)
 
 
 def with_own_error(member: Member, law: CoreLaw) -> Member:

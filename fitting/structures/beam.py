@@ -122,7 +122,8 @@ class Beam:
         if self.core is not None:
             # How a free layer stretches depends on Poisson's ratio as on the modulus.
             layers.append(("core", ("thickness", "density")))
-        return (*(f"{layer}_{n}" for layer, numbers in layers for n in numbers), "length")
+        held = ("held_width",) if _HELD_ENDS[self.boundary] else ()
+        return (*(f"{layer}_{n}" for layer, numbers in layers for n in numbers), "length", *held)
 
     def parts(self) -> Parts:
         """For unit coefficients, on the basis of modes."""
@@ -161,8 +162,7 @@ class Beam:
         b, c, v = (self._moved(name, by) for name in ("substrate", "constraining", "core"))
         span = self.span_m
         L = span + by.get("length", 0.0) * (span / self.length_m)
-        if self.held_width:
-            L -= self.held_width_m
+        L -= by.get("held_width", 0.0) + (self.held_width_m if self.held_width else 0.0)
         width = self.width_m * self.copies
         E_b, h_b, m_b = _of_face(b)
         E_c, h_c, m_c = _of_face(c)
@@ -202,12 +202,6 @@ class Beam:
         return _HELD_ENDS[self.boundary] * shortened_m(self.width_m, poisson)
 
     @property
-    def length_error_m(self) -> float:
-        """Standard deviation of its length for what the theory leaves out at its held ends."""
-        of_length = self.held_width_m * self.length_m / self.span_m
-        return of_length * (HELD_WIDTH_WITHIN if self.held_width else 1.0)
-
-    @property
     def as_plate(self) -> Specimen | None:
         """A plate of the same layers: what a wave in them sees. None where no core shears between faces."""
         if self.core is None or self.constraining is None:
@@ -243,13 +237,16 @@ class Beam:
         return found | {"poisson": layer.poisson, "loss": getattr(layer, "loss_factor", 0.0)}
 
     def tolerance(self, name: str) -> float:
-        """Named, else typical."""
+        """Named, else typical; of `held_width` what the theory leaves open, however exact the beam is."""
+        if name == "held_width":
+            return self.held_width_m * (HELD_WIDTH_WITHIN if self.held_width else 1.0)
         return 0.0 if self.exact else float(self.tolerances.get(name, STATED[name].typical))
 
     def stated_number(self, kind: str) -> tuple[float, float, str]:
         """In SI, with the factor to the unit of results."""
         others = {"gain": (1.0, 1.0, "1"), "delay": (0.0, 1e6, "us"), "length": (self.length_m, 1e3, "mm")}
         others |= {name: (x, 1e3, "mm") for name, x in self.places.items()}
+        others["held_width"] = (self.held_width_m if self.held_width else 0.0, 1e3, "mm")
         if kind in others:
             return others[kind]
         layer, _, quantity = kind.partition("_")

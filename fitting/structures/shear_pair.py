@@ -57,7 +57,6 @@ class ShearPair(BaseDriven):
 
     kind = "shear-pair"
     numbers = NUMBERS
-    length_error_m = 0.0
     places: ClassVar[Mapping[str, float]] = MappingProxyType({})
     modal_ratios: tuple[float, ...] = ()
 

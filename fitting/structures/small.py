@@ -86,10 +86,6 @@ class SmallSpecimen(StatedSpecimen, Protocol):
     def tolerance(self, name: str) -> float:
         """Standard deviation of a stated number."""
 
-    @property
-    def length_error_m(self) -> float:
-        """Standard deviation of its length for what its theory leaves out at held ends; zero for none."""
-
     def theory_error(self, frequency_hz: Array, G: Complex) -> ModelError | None:
         """What its theory gets wrong around some frequencies, the core's modulus given; None: nothing.
 

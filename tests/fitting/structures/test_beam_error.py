@@ -7,6 +7,7 @@ from fitting.laws.constant import ConstantModulus
 from fitting.specimen import Core, Face
 from fitting.structures import Beam
 from fitting.structures.beam_error import HELD_WIDTH, HELD_WIDTH_WITHIN, shortened_m
+from fitting.structures.small import nuisances_of
 from fitting.structures.small_modes import small_modes
 
 LAW = ConstantModulus(1e6, 0.5)
@@ -35,14 +36,25 @@ def test_where_it_is_counted_every_mode_is_higher_by_twice_its_share_of_the_leng
     for a, b in zip(small_modes(SANDWICH, None, 3), small_modes(counted, None, 3), strict=True):
         # Without the core's shear only the faces bend: f goes with 1/L^2.
         assert b.frequency_hz / a.frequency_hz - 1 == pytest.approx(2 * 5.55e-4 / 0.2, rel=0.02)
-    assert counted.length_error_m == pytest.approx(HELD_WIDTH_WITHIN * SANDWICH.length_error_m)
+    open_yet = SANDWICH.tolerance("held_width")
+    assert open_yet == pytest.approx(SANDWICH.held_width_m)
+    assert counted.tolerance("held_width") == pytest.approx(HELD_WIDTH_WITHIN * open_yet)
+
+
+def test_a_fit_may_move_it_however_exact_the_beam_is():
+    each = nuisances_of(replace(SANDWICH, exact=True, pickup_m=0.15), SANDWICH.parts(), has_phase=True).each
+    assert [n.name for n in each] == ["held_width"]
+    free = replace(SANDWICH, boundary="free-free")
+    assert "held_width" not in free.numbers
+    moved = SANDWICH.coefficients({"held_width": 1e-3})
+    assert moved == pytest.approx(replace(SANDWICH, length_m=0.199).coefficients({}))
 
 
 def test_of_halves_about_a_driven_centre_it_is_that_of_one_clamp():
     halves = replace(SANDWICH, boundary="centre-driven", length_m=0.4)
     assert halves.held_width_m == pytest.approx(SANDWICH.held_width_m)
-    # The stated length is of both halves.
-    assert halves.length_error_m == pytest.approx(2 * SANDWICH.length_error_m)
+    moved = halves.coefficients({"held_width": 1e-3})
+    assert moved == pytest.approx(replace(halves, length_m=0.398).coefficients({}))
 
 
 def test_the_theory_is_the_less_certain_the_shorter_the_wave():
