@@ -6,12 +6,17 @@ The same numbers; but loading `scipy.stats` would be a sixth of the start of eve
 from typing import Any
 
 import numpy as np
-from scipy.special import chdtrc, chdtri, fdtrc, gammaincinv, gammaln, ndtr, xlogy
+from scipy.special import chdtrc, chdtri, fdtrc, gammaincinv, gammaln, ndtr, ndtri, xlogy
 
 
 def normal_above(z: Any) -> Any:
     """P(Z > z) of a standard normal Z. A number or an array of any shape."""
     return ndtr(-z)
+
+
+def normal_exceeded(chance: Any) -> Any:
+    """What Z exceeds with this chance: the inverse of `normal_above`."""
+    return -ndtri(chance)
 
 
 def chi2_above(x: Any, freedom: Any) -> Any:

@@ -15,7 +15,7 @@ from fitting.arrays import Array, Complex
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.nuisance import Nuisance, felt
-from fitting.nuisance_sums import Kept, between
+from fitting.nuisance_sums import Kept, SideBySide, between
 from fitting.parts import coefficients, loaded, names_of
 from fitting.placed import Masses, Placed, Points
 from fitting.specimen import PlacedMass, Specimen
@@ -119,6 +119,10 @@ class Nuisances:
     @cached_property
     def _kept(self) -> "Kept":
         return Kept()
+
+    @cached_property
+    def _kept_parts(self) -> "SideBySide":
+        return SideBySide()
 
     @cached_property
     def _kept_differences(self) -> "Kept":
@@ -273,7 +277,7 @@ class Nuisances:
     def _by_matrices(
         self, plate: EnrichedReducedPlate, omega: Array, G: Complex, q: Complex, adjoint: Complex, z: Array
     ) -> Complex:
-        each = between(plate.parts, q, adjoint)
+        each = between(self._kept_parts.of(plate.parts), q, adjoint)
         n_0, n_1, n_M = self.counts
         each[n_0 : n_0 + n_1] *= G
         each[n_0 + n_1 :] *= -(omega**2)

@@ -70,7 +70,7 @@ def begin(
     for _ in range(_ROUNDS):
         here = problem.condensed(law).around(law)
         v = model.velocity(law)
-        evidence = Evidence.of(sweep, noise, model_error(problem, reduced, law, v), v, bare)
+        evidence = Evidence.of(sweep, noise, model_error(here, reduced, law, v), v, bare)
         if not noise.is_known and len(u):
             # Tolerances weigh against readings: those need a size, and their misfit is all there is.
             dof = max(1, evidence.count - len(law.names))

@@ -163,15 +163,20 @@ class CandidateFits:
         (name, number), rough, goal = one
         return self.candidates[name][number].finished(rough, goal)
 
-    def unfollowed(self, name: str) -> list[tuple[Form, Start]]:
-        """Further starts of an effect whose place is to be found, where nobody has followed them."""
-        each = enumerate(self.candidates[name])
-        return [((name, k), s) for k, c in each if c.known.elsewhere is None for s in c.further_starts]
+    def unfollowed(self, name: str) -> list[tuple[Form, Start, float]]:
+        """Further starts of an effect whose place is to be found, where nobody has followed them.
 
-    def followed(self, one: tuple[Form, Start]) -> Refitted:
-        """A rough fit from one start."""
-        (name, number), start = one
-        return self.candidates[name][number].followed(start)
+        With the chi-square that they must come below to be among the best few of its rough fits.
+        """
+        rough = sorted(f.chi2 for c in self.candidates[name] for f in c.near)[: SEARCH.finished]
+        rival = rough[-1] if len(rough) == SEARCH.finished else np.inf
+        each = enumerate(self.candidates[name])
+        return [((name, k), s, rival) for k, c in each if c.known.elsewhere is None for s in c.further_starts]
+
+    def followed(self, one: tuple[Form, Start, float]) -> Refitted:
+        """A rough fit from one start; `rival` as `refit` takes it."""
+        (name, number), start, rival = one
+        return self.candidates[name][number].followed(start, rival)
 
     def far(self, one: tuple[Form, Known]) -> Known:
         """What is known of a form, rough fits in wide valleys among it."""

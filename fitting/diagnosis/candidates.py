@@ -162,7 +162,14 @@ class CandidateFit:
         return response_of(self.problem, [*self.before.effects, self.effect], self.problem.coarse)
 
     def _rough(
-        self, law: CoreLaw, u: Array, evidence: Evidence, *, as_stated: bool = False, brief: bool = False
+        self,
+        law: CoreLaw,
+        u: Array,
+        evidence: Evidence,
+        *,
+        as_stated: bool = False,
+        brief: bool = False,
+        rival: float = np.inf,
     ) -> Refitted:
         known = self.before.u.copy()
         if as_stated:
@@ -171,7 +178,9 @@ class CandidateFit:
         start = np.concatenate([known, u])
         # In a valley made wider chi-square is another one.
         goal = self._goal if evidence is self.evidence else np.inf
-        return refit(self._response, evidence, law, start, tolerance=ROUGH, brief=brief, goal=goal)
+        return refit(
+            self._response, evidence, law, start, tolerance=ROUGH, brief=brief, goal=goal, rival=rival
+        )
 
     @property
     def near(self) -> list[Refitted]:
@@ -265,14 +274,17 @@ class CandidateFit:
     def _from(self, starts: Sequence[Start]) -> list[Refitted]:
         return sorted((self.followed(start) for start in starts), key=_chi2)
 
-    def followed(self, start: Start) -> Refitted:
-        """A rough fit from one start, a few steps of it where little is promised and no more gained."""
+    def followed(self, start: Start, rival: float = np.inf) -> Refitted:
+        """A rough fit from one start, a few steps of it where little is promised and no more gained.
+
+        `rival` as `refit` takes it.
+        """
         promise, u = start
         if 0 < promise < SEARCH.least_promise:
             brief = self._rough(self.before.law, u, self.evidence, brief=True)
             if brief.converged or abs(self.before.chi2 - brief.chi2) < SEARCH.least_gain:
                 return brief
-        return self._rough(self.before.law, u, self.evidence)
+        return self._rough(self.before.law, u, self.evidence, rival=rival)
 
     @property
     def plain(self) -> list[Refitted]:

@@ -25,12 +25,12 @@ MOVES = 1.0
 
 
 def last_word(kinds: Collection[str]) -> Callable[[Search, Judgement], Judgement] | None:
-    """What has the last word on a verdict about specimens of these kinds; None for plates.
+    """What has the last word on a verdict about specimens of these kinds; None for plates and beams.
 
-    Of a plate's stated numbers its resonances say which they are, and what still hides in the law is in the
-    band, of one file or of several. Of a mass on rubber all that is read is one number over another.
+    Of a plate's or a beam's stated numbers its resonances say which they are, and what still hides in the law
+    is in the band, of one file or of several. Of a mass on rubber all that is read is one number over another.
     """
-    return None if set(kinds) == {"plate"} else in_light_of_the_law
+    return in_light_of_the_law if "shear-pair" in kinds else None
 
 
 def in_light_of_the_law(search: Search, judgement: Judgement) -> Judgement:

@@ -136,7 +136,14 @@ class Evidence:
         """Changes of the prediction in standard deviations, parts side by side. Shape (..., count)."""
         # d|v| = Re(conj(v) dv)/|v|
         change = dv if self.has_phase else np.real(np.conj(v) * dv) / np.abs(v)
-        return self._stack(change / self.sigma_m_s)
+        # Times what is one over it: complex numbers divide slowly, and parts by themselves do not.
+        return self._stack(change) * self._per_sigma
+
+    @cached_property
+    def _per_sigma(self) -> Array:
+        """Of every datum. Shape (count,)."""
+        per_sigma = 1 / self.sigma_m_s
+        return np.tile(per_sigma, 2) if self.has_phase else per_sigma
 
     def bare_moves(self, effect: Effect, u: Array) -> Array:
         """Change of the bare plate's whitened residuals as an effect comes in. Shape (modes,), or none."""

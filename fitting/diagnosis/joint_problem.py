@@ -1,6 +1,10 @@
 """Residuals of readings, stated numbers, the law's bend and ties together, and their Jacobian."""
 
+from dataclasses import dataclass
+from functools import cached_property
+
 import numpy as np
+from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex, Mask
 from fitting.diagnosis.evidence import Evidence
@@ -27,8 +31,8 @@ class JointProblem:
         self._z, self._n = len(response.nuisances), len(law.names)
         self.free = np.array([not x.fixed for x in q], dtype=bool)
         self.logarithmic = np.array([x.logarithmic for x in q], dtype=bool)
-        self._last: tuple[bytes, Array, Array, Complex] | None = None
-        self._condensed: tuple[bytes, Array] | None = None
+        self._seen: _Seen | None = None
+        self._with_slopes: tuple[_Seen, Array] | None = None
 
     def _to_inner(self, u: Array) -> Array:
         return np.where(self.logarithmic, np.log(np.where(self.logarithmic, u, 1.0)), u)
@@ -58,59 +62,87 @@ class JointProblem:
         t[self.free] = x[self._n :]
         return self.law.with_logs(x[: self._n]), self._to_outer(t)
 
-    def condensed(self, x: Array) -> Array:
-        """Jacobian and residuals as fewer rows of the same products, which are all that a step depends on.
+    def shortened(self, x: Array) -> Array:
+        """Residuals turned, all together, so that only the first is not zero.
 
-        R of QR = [J r]: each step decomposes it, which of a sweep's rows would take most of a long fit. Shape
-        (unknowns + 1 or fewer, unknowns + 1).
+        Steps depend on products alone, so on any orthogonal turn of the rows. This one needs no Jacobian:
+        none is made where a step is not taken. Shape (unknowns + 1 or fewer,).
         """
-        key = x.tobytes()
-        if self._condensed is None or self._condensed[0] != key:
-            r, J, _ = self._both(x)
-            found = np.asarray(np.linalg.qr(np.column_stack([J, r]), mode="r"), dtype=float)
-            self._condensed = key, found
-        return self._condensed[1]
+        r = self.residuals(x)
+        found = np.zeros(min(len(r), len(x) + 1))
+        found[0] = np.linalg.norm(r)
+        return found
+
+    def condensed(self, x: Array) -> Array:
+        """Jacobian in fewer rows, turned as `shortened` is: R of QR = [r J] without its first column.
+
+        Each step decomposes it, which of a sweep's rows would take most of a long fit. Shape (unknowns + 1 or
+        fewer, unknowns).
+        """
+        both = np.column_stack([self.residuals(x), self.jacobian(x)])
+        R = np.asarray(np.linalg.qr(both, mode="r"), dtype=float)
+        return -R[:, 1:] if R[0, 0] < 0 else R[:, 1:]
 
     def residuals(self, x: Array) -> Array:
         """Whitened, as `Refitted.residuals`. Shape (rows,)."""
-        return self._both(x)[0]
+        return self._at(x).r
 
     def jacobian(self, x: Array) -> Array:
         """Of `residuals`. Shape (residuals, unknowns)."""
-        return self._both(x)[1]
+        at = self._at(x)
+        if self._with_slopes is None or self._with_slopes[0] is not at:
+            J = self._jacobian(at.u, *self.response.with_derivatives(at.law, at.u))
+            self._with_slopes = at, J
+        return self._with_slopes[1]
 
-    def _both(self, x: Array) -> tuple[Array, Array, Complex]:
+    def _at(self, x: Array) -> "_Seen":
+        """Kept: the latest, and the latest with derivatives, where a fit ends if no later step is taken."""
         key = x.tobytes()
-        if self._last is not None and self._last[0] == key:
-            return self._last[1:]
+        for known in (self._seen, self._with_slopes[0] if self._with_slopes else None):
+            if known is not None and known.key == key:
+                return known
         law, u = self._split(x)
-        v, dv = self.response.with_derivatives(law, u)
+        both = None if self.response.apart else self.response.with_derivatives(law, u)
+        v = both[0] if both else self.response.velocity(law, u)
+        r = [self.evidence.residuals(v[self._part]), self._bare(u), u[: self._z]]
+        r += [np.log(law.values[self._n - law.bend_count :]), self._ties(u)]
+        self._seen = _Seen(key, law, u, v, np.concatenate(r))
+        if both:
+            self._with_slopes = self._seen, self._jacobian(u, *both)
+        return self._seen
+
+    @property
+    def _part(self) -> slice | Mask:
+        return slice(None) if self.points is None else self.points
+
+    def _jacobian(self, u: Array, v: Complex, dv: Complex) -> Array:
         dv[self._n :][self.logarithmic] *= u[self.logarithmic][:, None]
         dv = dv[np.concatenate([np.ones(self._n, bool), self.free])]
-        part = slice(None) if self.points is None else self.points
-        r, J = self.evidence.residuals(v[part]), self.evidence.jacobian(v[part], dv[:, part])
-        rows = [(r, J)]
-        if self.evidence.bare is not None:
-            rows.append(self._bare(u))
-        rows += [self._prior(u), self._bend(law), self._ties(u)]
-        r, J = np.concatenate([a for a, _ in rows]), np.vstack([b for _, b in rows])
-        self._last = key, r, J, v
-        return r, J, v
+        part = self._part
+        rows = [self.evidence.jacobian(v[part], dv[:, part])]
+        # Of the stated numbers, in standard deviations of their tolerances, and of the law's bend, whitened.
+        known = np.eye(self._n + int(self.free.sum()))
+        stated = known[self._n : self._n + self._z]
+        bend = known[self._n - self.law.bend_count : self._n]
+        return np.vstack([*rows, self._bare_by(u), stated, bend, self._ties_by()])
 
-    def _bare(self, u: Array) -> tuple[Array, Array]:
+    def _bare(self, u: Array) -> Array:
+        """Of the bare plate's frequencies, if there are any."""
         bare = self.evidence.bare
-        assert bare is not None
+        if bare is None:
+            return np.empty(0)
+        start, expected = self._z, bare.stated_shift(self.response.nuisances, u[: self._z])
+        for e in self.response.effects:
+            stop = start + len(e.parameters)
+            expected = expected + e.bare_shift(bare, u[start:stop])
+            start = stop
+        return -bare.whitened(expected)
 
-        def rows(u: Array) -> Array:
-            start, expected = self._z, bare.stated_shift(self.response.nuisances, u[: self._z])
-            for e in self.response.effects:
-                stop = start + len(e.parameters)
-                expected = expected + e.bare_shift(bare, u[start:stop])
-                start = stop
-            return -bare.whitened(expected)
-
-        r = rows(u)
+    def _bare_by(self, u: Array) -> Array:
+        bare, r = self.evidence.bare, self._bare(u)
         J = np.zeros((len(r), self._n + int(self.free.sum())))
+        if bare is None:
+            return J
         if self._z:
             by_z = bare.by_stated(self.response.nuisances, u[: self._z])
             J[:, self._n : self._n + self._z] = bare.whitened_change(by_z.T)
@@ -120,25 +152,26 @@ class JointProblem:
             h = 1e-5 * (abs(u[k]) if self.logarithmic[k] else self.response.parameters[k].typical or 1.0)
             moved = u.copy()
             moved[k] += h
-            slope = (rows(moved) - r) / h
+            slope = (self._bare(moved) - r) / h
             J[:, self._n + column] = slope * (u[k] if self.logarithmic[k] else 1.0)
-        return r, J
+        return J
 
-    def _prior(self, u: Array) -> tuple[Array, Array]:
-        """Of the stated numbers: each in standard deviations of its tolerance."""
-        J = np.zeros((self._z, self._n + int(self.free.sum())))
-        J[:, self._n : self._n + self._z] = np.eye(self._z)
-        return u[: self._z], J
-
-    def _bend(self, law: CoreLaw) -> tuple[Array, Array]:
-        """Of the law's bend, whitened."""
-        J = np.zeros((law.bend_count, self._n + int(self.free.sum())))
-        J[:, self._n - law.bend_count : self._n] = np.eye(law.bend_count)
-        return np.log(law.values[self._n - law.bend_count :]), J
-
-    def _ties(self, u: Array) -> tuple[Array, Array]:
+    def _ties(self, u: Array) -> Array:
         """Of unknowns known beside others: their differences in standard deviations."""
-        t, column = self._to_inner(u), self._n - 1 + np.cumsum(self.free)
+        t, (first, other, sigma) = self._to_inner(u), self._tied
+        return np.asarray((t[other] - t[first]) / sigma)
+
+    def _ties_by(self) -> Array:
+        column = self._n - 1 + np.cumsum(self.free)
+        first, other, sigma = self._tied
+        each = np.arange(len(sigma))
+        J = np.zeros((len(sigma), self._n + int(self.free.sum())))
+        J[each, column[first]], J[each, column[other]] = -1 / sigma, 1 / sigma
+        return J
+
+    @cached_property
+    def _tied(self) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
+        """Places of both among `u`, and how near they are known to be. Shape (ties,) each."""
         first, other, sigma = list[int](), list[int](), list[float]()
         start = self._z
         for e in self.response.effects:
@@ -147,24 +180,33 @@ class JointProblem:
                 other.append(start + tie.other)
                 sigma.append(tie.sigma)
             start += len(e.parameters)
-        over, each = 1 / np.array(sigma), np.arange(len(sigma))
-        J = np.zeros((len(sigma), self._n + int(self.free.sum())))
-        J[each, column[first]], J[each, column[other]] = -over, over
-        return (t[other] - t[first]) * over, J
+        return np.array(first, np.intp), np.array(other, np.intp), np.array(sigma)
 
     def fitted(self, x: Array) -> Refitted:
         """As a fit that ended there. `x` of shape (columns,)."""
-        r, J, v = self._both(x)
-        law, u = self._split(x)
+        at = self._at(x)
         return Refitted(
             self.response.effects,
-            law,
-            u,
-            v,
-            r,
-            J,
+            at.law,
+            at.u,
+            at.v,
+            at.r,
+            self.jacobian(x),
             self.evidence.count,
             self.free,
             self._z,
             self.evidence.scale_known,
         )
+
+
+@dataclass(frozen=True, eq=False)
+class _Seen:
+    """A place that was looked at."""
+
+    key: bytes
+    law: CoreLaw
+    u: Array
+    v: Complex
+    """Phasors. Shape (points,)."""
+    r: Array
+    """Residuals. Shape (rows,)."""

@@ -25,16 +25,20 @@ _FARTHEST, _LEAST_DAMPED = 0.4, 0.25
 """A pole followed further than this from the unchanged one, or losing more of its damping (relative), is
 another mode's."""
 
+Places = NDArray[np.intp] | slice
+
 
 @dataclass(frozen=True)
 class _Cluster:
     """Places of what belongs to a cluster of frequencies."""
 
-    nodes: NDArray[np.intp]
-    points: NDArray[np.intp]
+    nodes: Places
+    points: Places
     poles: NDArray[np.intp]
     plain: Complex
     """Shape (points, nodes)."""
+    squares: Array
+    """Of the frequencies of its nodes, then of its points, rad^2/s^2. Shape (nodes + points,)."""
 
 
 @dataclass(frozen=True)
@@ -131,12 +135,16 @@ class Nodes:
         """From nodes to points of what has two sets of poles. Shapes (..., nodes) to (..., points)."""
         poles = self._near(first, self.poles)
         moved = self._near(second, poles)
-        nodes, points = (self._flat(w, poles, moved) for w in (self.omega, self.points))
+        p, q = poles[:, None] ** 2, moved[:, None] ** 2
+        size = np.abs(poles)[:, None] ** 4
         found = np.zeros((*values.shape[:-1], len(self.points)), complex)
         for c in self._clusters:
-            at_nodes, at_points = (f[c.poles].prod(axis=0) for f in (nodes, points))
-            weighted = values[..., c.nodes] * at_nodes[c.nodes]
-            found[..., c.points] = weighted @ c.plain.T / at_points[c.points]
+            # (w^2 - p^2) (w^2 - p'^2) over |p|^4 for its every pole.
+            mine = c.poles
+            at = ((c.squares - p[mine]) * (c.squares - q[mine]) / size[mine]).prod(axis=0)
+            weighted = values[..., c.nodes] * at[: c.plain.shape[1]]
+            # Times what is one over them: complex numbers divide slowly.
+            found[..., c.points] = (weighted @ c.plain.T) * (1 / at[c.plain.shape[1] :])
         return found
 
     @cached_property
@@ -154,7 +162,9 @@ class Nodes:
             here = np.flatnonzero(self.cluster == number)
             inside = np.flatnonzero(np.abs(self.plain[:, here]).sum(axis=1) > 0)
             mine = np.flatnonzero(self.cluster[self.pole_node] == number)
-            found.append(_Cluster(here, inside, mine, self.plain[np.ix_(inside, here)].astype(complex)))
+            plain = self.plain[np.ix_(inside, here)].astype(complex)
+            squares = np.concatenate([self.omega[here], self.points[inside]]) ** 2
+            found.append(_Cluster(_as_slice(here), _as_slice(inside), mine, plain, squares))
         return found
 
     def _near(self, moved: Complex, otherwise: Complex) -> Complex:
@@ -163,11 +173,11 @@ class Nodes:
         lost = far | (moved.imag < _LEAST_DAMPED * self.poles.imag)
         return np.where(lost, otherwise, moved)
 
-    def _flat(self, omega: Array, poles: Complex, moved: Complex) -> Complex:
-        """(w^2 - p^2) (w^2 - p'^2) over |p|^4 for every pole. Shape (poles, len(omega))."""
-        square = omega**2
-        p, q = poles[:, None] ** 2, moved[:, None] ** 2
-        return np.asarray((square - p) * (square - q) / np.abs(p) ** 2)
+
+def _as_slice(places: NDArray[np.intp]) -> Places:
+    """The same places; as a slice, which copies nothing, where they follow one another."""
+    together = len(places) and np.all(np.diff(places) == 1)
+    return slice(int(places[0]), int(places[-1]) + 1) if together else places
 
 
 def _smoothing(nodes: Array, points: Array, plain: Array) -> Array:

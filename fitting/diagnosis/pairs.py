@@ -56,8 +56,9 @@ class Pairs:
                 chosen.setdefault(frozenset((*scored.names, name)), int(k))
         full = [(tasks[k][0].fitted, tasks[k][1], looks[k], np.inf) for k in chosen.values()]
         rough = [f for f in each(work.near, full, lambda x: report(0.4 + 0.2 * x)) if f is not None]
-        goal = self._goal(search.judged(min(rough, key=_chi2))) if rough and wide else np.inf
-        fits = each(work.ended, [(f, goal) for f in rough], lambda x: report(0.6 + 0.2 * x))
+        best = search.judged(min(rough, key=_chi2)) if rough and wide else None
+        goals = [self._goal(best, f.effects) if best else np.inf for f in rough]
+        fits = each(work.ended, list(zip(rough, goals, strict=True)), lambda x: report(0.6 + 0.2 * x))
         found = sorted((search.judged(f) for f in fits), key=_cost)
         if wide and found and not self._will_do([*leaders[:1], *found]):
             # The best may only have begun from the wrong place, or not have looked promising.
@@ -96,9 +97,8 @@ class Pairs:
         search, work, each = self._search, self._search.work, self._search.executor.each
         plain = [t.fitted.effects for t in pairs if len(_plainly(t)) == 2]
         search.fit_plainly(sorted({e.name for effects in plain for e in effects}))
-        goal = self._goal(pairs[0])
         asked = [
-            (rough, second, goal)
+            (rough, second, self._goal(pairs[0], effects))
             for effects in plain
             for first, second in permutations(effects)
             for rough in work.candidates[first.name][0].plain
@@ -112,10 +112,9 @@ class Pairs:
             t.fitted.chi2_per_dof < SEARCH.will_do * self._search.allowed(t) and not t.fails for t in plain
         )
 
-    def _goal(self, best: ScoredFit) -> float:
+    def _goal(self, best: ScoredFit, effects: Sequence[Effect]) -> float:
         """Chi-square that a pair must come down to: near to the best, or to where nothing may refuse it."""
-        unrefused = SEARCH.refused * self._search.allowed(best) * best.fitted.data
-        return max(self._search.work.goal(best.fitted), unrefused)
+        return max(self._search.work.goal(best.fitted), self._search.unrefused(effects))
 
     def _others(self, names: Sequence[str]) -> list[Form]:
         """Every form of the effects that may stand beside some."""
@@ -148,8 +147,8 @@ class Pairs:
         wide = each(work.wide, [f for fits in _with_a_say(begun) for f in fits])
         brief = sorted(each(work.briefly, list(wide)), key=_chi2)
         rough = sorted(each(work.roughly, brief[: SEARCH.rough]), key=_chi2)
-        goal = self._goal(min([*leaders, *pairs], key=_cost))
-        ended = each(work.ended, [(f, goal) for f in rough[: SEARCH.pairs_a_leader]])
+        best = min([*leaders, *pairs], key=_cost)
+        ended = each(work.ended, [(f, self._goal(best, f.effects)) for f in rough[: SEARCH.pairs_a_leader]])
         return [search.judged(f) for f in ended]
 
     def _improved(self, pairs: Sequence[ScoredFit]) -> list[ScoredFit]:

@@ -3,16 +3,17 @@
 Each check is a tail probability; an explanation fails where one of them is below the stated level.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
 import numpy as np
 
-from fitting.chances import chi2_above, normal_above
+from fitting.chances import chi2_above, chi2_exceeded, normal_above, normal_exceeded
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.structure import along_frequency
 from fitting.diagnosis.thresholds import VERDICT
+from fitting.effects.base import Effect
 from fitting.sweep import Sweep
 
 NONE_ALONE: Mapping[str, float] = MappingProxyType({})
@@ -58,8 +59,7 @@ def checks(sweep: Sweep, evidence: Evidence, none: Refitted, fitted: Refitted) -
     may_leave = _allowed(none, fitted)
     allowed = 1 + may_leave / dof
     left = fitted.chi2_per_dof / allowed
-    # Ln of a mean square: its own scatter, and the noise's.
-    spread = np.hypot(2 * VERDICT.noise_known_to, np.sqrt(2 / dof))
+    spread = _scatter(dof)
     whitened = fitted.residuals[: fitted.data]
     found = {"size": float(normal_above(np.log(max(left, 1e-12)) / spread))}
     along = evidence.whitening.along(whitened)
@@ -75,6 +75,25 @@ def checks(sweep: Sweep, evidence: Evidence, none: Refitted, fitted: Refitted) -
         normal_above(memory / (VERDICT.wider_along * (1 + VERDICT.formula_along * excess)))
     )
     return found
+
+
+def _scatter(dof: int) -> float:
+    """Standard deviation of ln of a mean square: its own scatter, and the noise's."""
+    return float(np.hypot(2 * VERDICT.noise_known_to, np.sqrt(2 / dof)))
+
+
+def most_unrefused(none: Refitted, effects: Sequence[Effect]) -> float:
+    """Chi-square above which these effects together fail the check of size, or that of tolerances.
+
+    Priors counted in, the law bent no further than chance has it. Formulas may leave their share of all that
+    there is.
+    """
+    share = min((max(VERDICT.formula_share, e.unexplained_share) for e in effects), default=0.0)
+    may_leave, dof = share * none.chi2, max(1, none.data - none.parameter_count)
+    size = float(np.exp(normal_exceeded(VERDICT.check_level) * _scatter(dof))) * (dof + may_leave)
+    t = 1 + may_leave / VERDICT.formula_shapes
+    known = [n for n in (none.stated, none.law.bend_count) if n]
+    return size + t * sum(float(chi2_exceeded(VERDICT.check_level, n)) for n in known)
 
 
 def passes(found: Mapping[str, float]) -> bool:

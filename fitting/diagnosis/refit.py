@@ -35,25 +35,27 @@ def refit(
     points: Mask | None = None,
     brief: bool = False,
     goal: float = np.inf,
+    rival: float = np.inf,
 ) -> Refitted:
     """The best law and unknowns from `law` and `u` on; `points` limits the sweep's points that count.
 
     Shapes: `u` as in `Refitted`, `points` (points,). `brief` where little is to be gained. Ends early where
-    a chi-square of `goal` is out of reach (`Refitted.may_reach`).
+    a chi-square of `goal` is out of reach (`Refitted.may_reach`), or one of `rival` by its last evaluation.
     """
     problem = JointProblem(response, evidence, law, u, points)
     lower, upper = problem.limits
-    steps = Steps(goal)
+    most = _BRIEF_EVALUATIONS if brief else _most(tolerance)
+    steps = Steps(goal, rival, most)
     found = least_squares(
-        lambda x: problem.condensed(x)[:, -1],
+        problem.shortened,
         np.clip(problem.start, lower, upper),
-        jac=lambda x: problem.condensed(x)[:, :-1],
+        jac=problem.condensed,
         bounds=(lower, upper),
         x_scale="jac",
         xtol=tolerance,
         ftol=tolerance,
         gtol=1e-10,
-        max_nfev=_BRIEF_EVALUATIONS if brief else _most(tolerance),
+        max_nfev=most,
         callback=steps,
     )
     return replace(

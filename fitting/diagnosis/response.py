@@ -8,7 +8,7 @@ Channels, sharp factors and the law itself act at every point.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import reduce
 
 import numpy as np
@@ -35,6 +35,9 @@ class SweepResponse:
     `u` holds the stated numbers in standard deviations, then the effects' unknowns, one after the other.
     """
 
+    apart = False
+    """Whether phasors come for less without derivatives, and these then for the rest."""
+
     def __init__(
         self,
         problem: DiagnosisProblem,
@@ -45,6 +48,7 @@ class SweepResponse:
     ) -> None:
         """Where they are at hand: `plate`, as far as these effects need it, and softening's `reference`."""
         self.problem, self.effects, self.nuisances = problem, tuple(effects), problem.nuisances
+        self.apart = True
         self._unknowns = Unknowns(len(self.nuisances), self.effects)
         self.parameters = self._unknowns.parameters
         self._channels = Channels(problem, self._unknowns)
@@ -62,7 +66,8 @@ class SweepResponse:
             # The modulus is another one in every pass.
             grid = problem.passes
         self.grid = grid
-        self._last: tuple[bytes, bool, _OfPlate] | None = None
+        self._last: tuple[bytes, _OfPlate] | None = None
+        self._latest: tuple[CoreLaw, Array, _At] | None = None
         self._ready: tuple[Array, Asked, Motions] | None = None
         self._latest_change: tuple[bytes, Change] | None = None
         self._strains = Strains(problem, self.plate, reference or Reference())
@@ -70,11 +75,11 @@ class SweepResponse:
 
     def velocity(self, law: CoreLaw, u: Array) -> Complex:
         """Phasors in m/s. Shape (points,)."""
-        return self._at(law, u, derivatives=False).v
+        return self._at(law, u).v
 
     def with_derivatives(self, law: CoreLaw, u: Array) -> tuple[Complex, Complex]:
         """Phasors, and their derivatives to log parameters and then to `u`. Shape (parameters, points)."""
-        at = self._at(law, u)
+        at = self._with_slopes(law, u)
         by_law = self._modulus_by_law(law, u) * (at.plate.slope * at.per_x)
         count = len(self.nuisances)
         by_z = self._by_stated(at) if count else []
@@ -110,10 +115,16 @@ class SweepResponse:
 
     # The parts of the response.
 
-    def _at(self, law: CoreLaw, u: Array, *, derivatives: bool = True) -> "_At":
+    def _at(self, law: CoreLaw, u: Array) -> "_At":
+        """The latest is kept: derivatives are asked for where the phasors were."""
+        if self._latest is None or self._latest[0] is not law or not np.array_equal(self._latest[1], u):
+            self._latest = law, u.copy(), self._at_anew(law, u)
+        return self._latest[2]
+
+    def _at_anew(self, law: CoreLaw, u: Array) -> "_At":
         points = self.problem.points
         omega, a = points.omega, points.acceleration_m_s2
-        plate = self._of_plate(law, u, derivatives=derivatives)
+        plate = self._of_plate(law, u)
         pitch = np.zeros(len(omega), complex)
         for k in self._pitching:
             h = self.effects[k].pitch(omega, self._unknowns.of(k, u))
@@ -125,26 +136,61 @@ class SweepResponse:
             raw = raw + a / (1j * omega)
         return _At(self._channels.read(raw, u), raw, per_x, pitch, lever, plate)
 
-    def _of_plate(self, law: CoreLaw, u: Array, *, derivatives: bool) -> "_OfPlate":
+    def _with_slopes(self, law: CoreLaw, u: Array) -> "_At":
+        """The same, its plate's derivatives worked out."""
+        at = self._at(law, u)
+        if at.plate.solved is not None and at.plate.by is None:
+            assert self._last is not None
+            plate = self._slopes_of(at.plate, u)
+            at = replace(at, plate=plate)
+            self._last, self._latest = (self._last[0], plate), (law, u.copy(), at)
+        return at
+
+    def _of_plate(self, law: CoreLaw, u: Array) -> "_OfPlate":
         """What goes with the plate and its core: one for all that only turns its base or reads it."""
         G_law = law.modulus(self.problem.points.omega)
         key = self._key(G_law, u)
-        if self._last is None or not self._is_known(key, derivatives=derivatives):
-            self._last = key, derivatives, self._of_plate_anew(law, u, G_law, derivatives)
-        return self._last[2]
+        if self._last is None or self._last[0] != key:
+            self._last = key, self._of_plate_anew(law, u, G_law)
+        return self._last[1]
 
-    def _of_plate_anew(self, law: CoreLaw, u: Array, G_law: Complex, derivatives: bool) -> "_OfPlate":
+    def _of_plate_anew(self, law: CoreLaw, u: Array, G_law: Complex) -> "_OfPlate":
         G = self._modulus(law, u, G_law)
         x, slope = self.problem.rational.with_derivative(G)
         if not self._moves:
-            return _OfPlate(G, x, slope, np.zeros(len(G), complex), None)
+            return _OfPlate(G, x, slope, np.zeros(len(G), complex), None, None)
         G_nodes, smooth = self._bearing(law, G_law, G)
-        found, (moved, turned, changed_slope) = self._answer(u, G_nodes, derivatives)
-        x = x + moved
+        asked, moved = self._solved(u, G_nodes)
+        solved, nodes = read_off(asked, moved, []), self.grid.nodes
+        changed = np.array([solved.heave - self.grid.rational.displacement(G_nodes), solved.pitch])
+        more, turned = nodes.spread(changed, self.grid.unchanged_poles(G_nodes), solved.poles)
+        x = x + more
         if self._shifting:
             _, plain_slope = self.problem.rational.with_derivative(smooth)
-            x = x + (changed_slope - plain_slope) * (G - smooth)
-        return _OfPlate(G, x, changed_slope, turned, found)
+            slope = nodes.spread(solved.heave_by_G, solved.poles, solved.poles)
+            x = x + (slope - plain_slope) * (G - smooth)
+        return _OfPlate(G, x, slope, turned, (asked, moved), None)
+
+    def _slopes_of(self, plate: "_OfPlate", u: Array) -> "_OfPlate":
+        """The same with its derivatives."""
+        assert plate.solved is not None
+        asked, moved = plate.solved
+        nearby = []
+        for n in self._moving_it:
+            k, h = self._unknowns.owner(n), self._unknowns.step(n, u)
+            up, down = (self._change(k, stepped(u, n, s * h), self.plate) for s in (1, -1))
+            nearby.append((up, down, 2 * h))
+        stated = (self.nuisances, u[self._unknowns.stated]) if self.nuisances else None
+        solved = read_off(asked, moved, nearby, stated)
+        # A derivative has every pole twice, and only those of the changed plate.
+        twice = [solved.heave_by_G[None], solved.heave_by_z, solved.heave_by_u]
+        if self._pitching:
+            twice += [solved.pitch_by_z, solved.pitch_by_u]
+        spread = self.grid.nodes.spread(np.concatenate(twice), solved.poles, solved.poles)
+        heaves = len(solved.heave_by_z) + len(solved.heave_by_u)
+        heave, turned = spread[1 : 1 + heaves], spread[1 + heaves :]
+        by = _ByChange(heave, turned)
+        return replace(plate, slope=spread[0], by=by)
 
     def _bearing(self, law: CoreLaw, G_law: Complex, G: Complex) -> tuple[Complex, Complex]:
         """The modulus at the nodes, and the smooth one at every point that goes through it."""
@@ -155,35 +201,13 @@ class SweepResponse:
         share = nodes.fit @ (G / G_law)
         return at_nodes * share, G_law * (nodes.plain @ share)
 
-    def _answer(self, u: Array, G: Complex, derivatives: bool) -> tuple["_ByChange | None", Complex]:
-        """At every point its derivatives; and the change of x, the answer to pitch, and dx/dG."""
+    def _solved(self, u: Array, G: Complex) -> tuple[Asked, Motions]:
+        """What was asked at the nodes, and how it moves."""
         ready, self._ready = self._ready, None
         if ready is not None and np.array_equal(ready[0], u) and np.array_equal(ready[1].G, G):
-            _, asked, moved = ready
-        else:
-            asked = self._asked(G, self._changes(u))
-            (moved,) = motions([asked])
-        nearby = []
-        for n in self._moving_it if derivatives else ():
-            k, h = self._unknowns.owner(n), self._unknowns.step(n, u)
-            up, down = (self._change(k, stepped(u, n, s * h), self.plate) for s in (1, -1))
-            nearby.append((up, down, 2 * h))
-        nodes = self.grid.nodes
-        stated = (self.nuisances, u[self._unknowns.stated]) if self.nuisances and derivatives else None
-        solved = read_off(asked, moved, nearby, stated)
-        changed = np.array([solved.heave - self.grid.rational.displacement(G), solved.pitch])
-        simple = nodes.spread(changed, self.grid.unchanged_poles(G), solved.poles)
-        if not derivatives and not self._shifting:
-            return None, np.array([*simple, np.zeros_like(simple[0])])
-        # A derivative has every pole twice, and only those of the changed plate.
-        twice = [solved.heave_by_G[None], solved.heave_by_z, solved.heave_by_u]
-        if self._pitching:
-            twice += [solved.pitch_by_z, solved.pitch_by_u]
-        spread = nodes.spread(np.concatenate(twice), solved.poles, solved.poles)
-        heaves = len(solved.heave_by_z) + len(solved.heave_by_u)
-        heave, turned = spread[1 : 1 + heaves], spread[1 + heaves :]
-        by = _ByChange(heave, turned if self._pitching else np.zeros_like(heave))
-        return by, np.array([*simple, spread[0]])
+            return ready[1:]
+        asked = self._asked(G, self._changes(u))
+        return asked, motions([asked])[0]
 
     @property
     def _moves(self) -> bool:
@@ -194,21 +218,18 @@ class SweepResponse:
         own = [u[self._unknowns.stated], *(self._unknowns.of(k, u) for k in self._changing + self._shifting)]
         return b"".join(part.tobytes() for part in (G_law, *own))
 
-    def _is_known(self, key: bytes, *, derivatives: bool) -> bool:
-        return self._last is not None and self._last[0] == key and (self._last[1] or not derivatives)
-
     def _asked(self, G: Complex, change: Change) -> Asked:
         known, own = self.grid.known_poles(G), self.plate.group == PLAIN
         if known is not None:
             known = known.on(own)
         return Asked(self.plate, self.grid.nodes.omega, G, change, known, bool(self._pitching))
 
-    def asked(self, law: CoreLaw, u: Array, *, derivatives: bool) -> Asked | None:
+    def asked(self, law: CoreLaw, u: Array) -> Asked | None:
         """What has to be solved there; None: nothing. `u` of shape (unknowns,)."""
         if not self._moves:
             return None
         G_law = law.modulus(self.problem.points.omega)
-        if self._is_known(self._key(G_law, u), derivatives=derivatives):
+        if self._last is not None and self._last[0] == self._key(G_law, u):
             return None
         G, _ = self._bearing(law, G_law, self._modulus(law, u, G_law))
         return self._asked(G, self._changes(u))
@@ -286,7 +307,8 @@ class SweepResponse:
         up, down = stepped(u, n, h), stepped(u, n, -h)
         if k in self._changing and at.plate.by is not None:
             place = len(self.nuisances) + self._moving_it.index(n)
-            found = found + at.per_x * (at.plate.by.heave[place] + at.pitch * at.plate.by.turned[place])
+            by = at.plate.by.heave[place]
+            found = found + at.per_x * (by + at.pitch * at.plate.by.turned[place] if self._pitching else by)
         if k in self._pitching:
             effect = self.effects[k]
             above, below = (
@@ -311,7 +333,8 @@ class SweepResponse:
         """Of the velocity before the channels to each stated number."""
         assert at.plate.by is not None
         stated = slice(0, len(self.nuisances))
-        return list(at.per_x * (at.plate.by.heave[stated] + at.pitch * at.plate.by.turned[stated]))
+        by = at.plate.by.heave[stated]
+        return list(at.per_x * (by + at.pitch * at.plate.by.turned[stated] if self._pitching else by))
 
 
 @dataclass(frozen=True)
@@ -333,10 +356,13 @@ class _OfPlate:
     x: Complex
     """Displacement per acceleration of the base, or per force."""
     slope: Complex
-    """dx/dG."""
+    """dx/dG; of the unchanged plate until derivatives are asked for."""
     turned: Complex
     """Displacement per pitch acceleration."""
+    solved: tuple[Asked, Motions] | None
+    """What the nodes were asked, and how they move; None where nothing moves them."""
     by: "_ByChange | None"
+    """None: not asked for so far."""
 
 
 @dataclass(frozen=True)
@@ -346,3 +372,4 @@ class _ByChange:
     heave: Complex
     """Shape (numbers, points)."""
     turned: Complex
+    """The same of a turning base; of no number where the base does not turn."""

@@ -11,7 +11,7 @@ from fitting.diagnosis.candidates import CandidateFit, has_place
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.marginal import cost
-from fitting.diagnosis.predictive import checks, form_error, passes, temper
+from fitting.diagnosis.predictive import checks, form_error, most_unrefused, passes, temper
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import refit
 from fitting.diagnosis.refitted import Refitted
@@ -112,6 +112,10 @@ class Search:
         """Chi-square per degree of freedom that the formulas of a trial's effects may leave."""
         dof = max(1, scored.fitted.data - scored.fitted.parameter_count)
         return 1 + form_error(self._none, scored.fitted, self._alone) / dof
+
+    def unrefused(self, effects: Sequence[Effect]) -> float:
+        """Chi-square that these effects must come down to, for no check to refuse what they leave or ask."""
+        return most_unrefused(self._none, effects)
 
     def validate(self, scored_fits: Sequence[ScoredFit]) -> None:
         """Validations to come, side by side."""

@@ -204,6 +204,7 @@ class SeveralResponse(SweepResponse):
 
     def __init__(self, problem: SeveralProblem, effects: Sequence[Effect], *, coarse: bool = False) -> None:
         self.problem: SeveralProblem = problem
+        self.apart = True
         self.effects, self.nuisances, self.plate = tuple(effects), problem.nuisances, problem.plate
         count = len(self.nuisances)
         self.parameters = (*(STATED_NUMBER,) * count, *(q for e in effects for q in e.parameters))
@@ -226,20 +227,20 @@ class SeveralResponse(SweepResponse):
             response = SweepResponse(m, inner, m.coarse if coarse else None, plate, reference)
             self._of_member.append((response, np.concatenate(places)))
 
-    def _solve(self, law: CoreLaw, u: Array, *, derivatives: bool) -> None:
+    def _solve(self, law: CoreLaw, u: Array) -> None:
         """What several members ask of one plate, all at once."""
         plates = self.problem.plates
         for number in {k for k in plates if plates.count(k) > 1}:
             its = [
                 (r, law_at(law, k), u[at]) for k, (r, at) in enumerate(self._of_member) if plates[k] == number
             ]
-            asked = [(r, v, one) for r, own, v in its if (one := r.asked(own, v, derivatives=derivatives))]
+            asked = [(r, v, one) for r, own, v in its if (one := r.asked(own, v))]
             for (r, v, one), moved in zip(asked, motions([one for *_, one in asked]), strict=True):
                 r.know(one, moved, v)
 
     def velocity(self, law: CoreLaw, u: Array) -> Complex:
         """Phasors in m/s, member after member. Shape (points,)."""
-        self._solve(law, u, derivatives=False)
+        self._solve(law, u)
         return np.concatenate(
             [r.velocity(law_at(law, k), u[at]) for k, (r, at) in enumerate(self._of_member)]
         )
@@ -247,7 +248,7 @@ class SeveralResponse(SweepResponse):
     def with_derivatives(self, law: CoreLaw, u: Array) -> tuple[Complex, Complex]:
         """Phasors and derivatives as `Response.with_derivatives` gives them."""
         n = len(law.names)
-        self._solve(law, u, derivatives=True)
+        self._solve(law, u)
         found, rows = [], np.zeros((n + len(u), len(self.problem.sweep)), complex)
         each = zip(self._of_member, self.problem.starts_at, strict=True)
         for k, ((response, at), part) in enumerate(each):

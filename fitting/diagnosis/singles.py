@@ -62,7 +62,7 @@ class Singles:
             some, left = (left[: SEARCH.at_a_time], left[SEARCH.at_a_time :]) if astray else (left, [])
             self._look_around(some, astray=astray)
             best = [one for name in some for one in work.thorough(name, astray=astray)]
-            tasks = [(form, rough, np.inf) for form, rough in best]
+            tasks = [(form, rough, self._goal(rough) if astray else np.inf) for form, rough in best]
             self._keep(self._each(work.finished, tasks, self._part(0.7, 0.1)))
             if astray and self._settle(self._part(0.8, 0.1)):
                 break
@@ -71,7 +71,7 @@ class Singles:
         """Rough fits from further starts of some effects, and far ones where the law is no place to begin."""
         work, found = self._work, dict[Form, list[Refitted]]()
         asked = [one for name in names for one in work.unfollowed(name)]
-        for (form, _), fitted in zip(asked, self._each(work.followed, asked), strict=True):
+        for (form, *_), fitted in zip(asked, self._each(work.followed, asked), strict=True):
             found.setdefault(form, []).append(fitted)
         for (name, number), fits in found.items():
             work.candidates[name][number].learn(Known(elsewhere=sorted(fits, key=lambda f: f.chi2)))
@@ -117,11 +117,25 @@ class Singles:
 
     def _finish(self, rough: Iterable[tuple[Form, Refitted]], report: Report = lambda fraction: None) -> None:
         """What may come near to what explains everything, if anything does, followed to its end, once."""
-        goal = self._work.goal(self._order()[0].fitted) if self._settled else np.inf
-        new = {f: form for form, f in rough if f not in self._finished and f.may_reach(goal)}
+        new = {f: form for form, f in rough if f not in self._finished and f.may_reach(self._goal(f))}
         self._finished |= new.keys()
-        tasks = [(form, f, goal) for f, form in new.items()]
+        tasks = [(form, f, self._goal(f)) for f, form in new.items()]
         self._keep(self._each(self._work.finished, tasks, report))
+
+    def _goal(self, rough: Refitted) -> float:
+        """Chi-square that a rough fit must come down to, to matter.
+
+        Near to what explains everything, if anything does. Where the law is no place to begin: to where no
+        check refuses it by its size, or near to the last of those that a second effect is looked for beside,
+        which by the end will be no worse than now.
+        """
+        search, order = self._search, self._order()
+        if self._settled:
+            return self._work.goal(order[0].fitted)
+        if not self._astray or len(order) < SEARCH.leaders:
+            return np.inf
+        near = order[SEARCH.leaders - 1].fitted.chi2 + SEARCH.near * search.temper(order[0])
+        return max(near, search.unrefused(rough.effects))
 
     def _begin(self, tasks: Iterable[FirstLook]) -> None:
         for begun in tasks:

@@ -79,9 +79,6 @@ class SearchThresholds:
     """Times the least chi-square: rough fits beyond are not followed to the end."""
     wrong: float = 2.0
     """Chi-square per degree of freedom beyond which the law so far is no place to begin."""
-    refused: float = 2.0
-    """Chi-square per degree of freedom that the check of a residual's size refuses (1.87 where the noise is
-    known to 8 %): two effects that cannot come down to it, nor near to the best two, are not followed."""
     hopeless: float = 30.0
     """Chi-square per degree of freedom that finer grids will not mend."""
     able: float = 0.2

@@ -1,6 +1,6 @@
 """Dataclasses of arrays to and from flat named arrays, for files without pickle."""
 
-from dataclasses import fields, is_dataclass
+from dataclasses import Field, fields, is_dataclass
 from typing import Any, TypeVar, get_type_hints
 
 import numpy as np
@@ -10,12 +10,12 @@ T = TypeVar("T")
 
 
 def pack(value: Any, prefix: str = "") -> dict[str, NDArray[Any]]:
-    """Every field as an array, nested dataclasses as `outer.inner`.
+    """Every field that it is made of as an array, nested dataclasses as `outer.inner`.
 
     Shapes as in the fields, () of a number.
     """
     packed: dict[str, NDArray[Any]] = {}
-    for field in fields(value):
+    for field in _given(value):
         item, name = getattr(value, field.name), prefix + field.name
         if is_dataclass(item):
             packed |= pack(item, f"{name}.")
@@ -28,7 +28,7 @@ def unpack(cls: type[T], packed: dict[str, NDArray[Any]], prefix: str = "") -> T
     """The inverse of `pack`. Raises `KeyError` where an array is missing. Shapes as `pack` gives them."""
     hints = get_type_hints(cls)
     values: dict[str, Any] = {}
-    for field in fields(cls):  # type: ignore[arg-type]
+    for field in _given(cls):
         hint, name = hints[field.name], prefix + field.name
         if is_dataclass(hint):
             values[field.name] = unpack(hint, packed, f"{name}.")  # type: ignore[arg-type]
@@ -39,3 +39,8 @@ def unpack(cls: type[T], packed: dict[str, NDArray[Any]], prefix: str = "") -> T
         else:
             values[field.name] = packed[name]
     return cls(**values)
+
+
+def _given(of: Any) -> list[Field[Any]]:
+    """Fields that are given; others are what it keeps as it is used."""
+    return [field for field in fields(of) if field.init]

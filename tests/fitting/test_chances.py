@@ -6,7 +6,15 @@ import pytest
 from scipy import stats
 
 import fitting
-from fitting.chances import chi2_above, chi2_density, chi2_exceeded, chi2_median, f_above, normal_above
+from fitting.chances import (
+    chi2_above,
+    chi2_density,
+    chi2_exceeded,
+    chi2_median,
+    f_above,
+    normal_above,
+    normal_exceeded,
+)
 
 RNG = np.random.default_rng(3)
 FREEDOM = RNG.integers(1, 300, 500)
@@ -18,6 +26,7 @@ def test_they_are_scipys_to_the_bit():
     np.testing.assert_array_equal(chi2_exceeded(chance, FREEDOM), stats.chi2.isf(chance, FREEDOM))
     np.testing.assert_array_equal(chi2_median(FREEDOM), stats.chi2.median(FREEDOM))
     np.testing.assert_array_equal(normal_above(z), stats.norm.sf(z))
+    np.testing.assert_array_equal(normal_exceeded(chance), stats.norm.isf(chance))
     np.testing.assert_array_equal(chi2_density(x, FREEDOM), stats.chi2.pdf(x, FREEDOM))
     np.testing.assert_array_equal(f_above(x, 2, FREEDOM), stats.f.sf(x, 2, FREEDOM))
 

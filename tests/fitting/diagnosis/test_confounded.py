@@ -64,3 +64,4 @@ def test_only_an_effect_of_one_size_can_be_asked_whether_it_hides():
 def test_of_a_mass_on_rubber_the_law_has_the_last_word_and_of_plates_it_has_not():
     assert last_word({"shear-pair"}) is in_light_of_the_law
     assert last_word({"plate"}) is None
+    assert last_word({"beam"}) is None

@@ -42,5 +42,16 @@ def test_a_pace_is_the_better_one_of_the_last_two_steps_and_not_known_before():
     assert steps.pace == 0.0
 
 
+def test_a_rough_fit_ends_where_no_step_it_has_left_could_make_it_the_best():
+    alone = least_squares(valley, [-1.2, 1.0], max_nfev=10)
+    well_behind = Steps(rival=-1e3, most=10)
+    found = least_squares(valley, [-1.2, 1.0], max_nfev=10, callback=well_behind)
+    assert found.status == -2
+    assert found.nfev < alone.nfev
+    near_by = Steps(rival=2 * alone.cost - 1e-3, most=10)
+    again = least_squares(valley, [-1.2, 1.0], max_nfev=10, callback=near_by)
+    np.testing.assert_array_equal(again.x, alone.x)
+
+
 def at(chi2):
     return OptimizeResult(cost=chi2 / 2)

@@ -78,6 +78,9 @@ class World:
     def allowed(self, scored):
         return 1.0
 
+    def unrefused(self, effects):
+        return 2.0 * self.data
+
     def has_places(self, name):
         return False
 

@@ -7,6 +7,7 @@ from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.predictive import (
     checks,
     form_error,
+    most_unrefused,
     passes,
     temper,
     weakest,
@@ -149,3 +150,25 @@ def test_one_check_below_the_level_is_enough_to_fail():
     assert passes({"size": VERDICT.check_level, "signs": 0.5})
     assert not passes({"size": 0.99 * VERDICT.check_level, "signs": 0.5})
     assert weakest({"size": 0.3, "signs": 0.2}) == ("signs", 0.2)
+
+
+@pytest.mark.parametrize("effects", [(), (Rough(),)])
+def test_what_leaves_more_than_any_check_allows_is_refused(effects):
+    none = fitted(20 * white(1), z=np.zeros(10))
+    most = most_unrefused(none, effects)
+    size = np.sqrt(1.01 * most / (6 * N))
+    assert (
+        checks(SWEEP, EVIDENCE, none, fitted(size * white(2), effects=effects))["size"] < VERDICT.check_level
+    )
+    moved = np.full(10, np.sqrt(most / 10))
+    asked = checks(SWEEP, EVIDENCE, none, fitted(white(2), z=moved, effects=effects))
+    assert asked["tolerances"] < VERDICT.check_level
+
+
+def test_what_no_check_refuses_is_below_what_is_never_refused():
+    none = fitted(20 * white(1), z=np.zeros(10))
+    one = fitted(1.3 * white(2), z=np.full(10, 1.5), effects=(Rough(),))
+    assert passes(
+        {k: p for k, p in checks(SWEEP, EVIDENCE, none, one).items() if k in ("size", "tolerances")}
+    )
+    assert one.chi2 < most_unrefused(none, one.effects)

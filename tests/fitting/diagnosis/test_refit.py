@@ -1,5 +1,7 @@
 """A fit of unknowns of which some are known beside others."""
 
+from unittest import mock
+
 import numpy as np
 import pytest
 
@@ -19,12 +21,14 @@ class Reads:
     """How much the root of each file gives, and the law in two points beside."""
 
     def __init__(self, effect, files):
-        self.effects, self.parameters = (effect,), effect.parameters
+        self.effects, self.parameters, self.apart = (effect,), effect.parameters, True
         self.nuisances, self.plate, self.files = (), None, files
 
+    def velocity(self, law, u):
+        return np.concatenate([np.log(law.values), SOFTNESS / u[: self.files]]).astype(complex)
+
     def with_derivatives(self, law, u):
-        gives = SOFTNESS / u[: self.files]
-        v = np.concatenate([np.log(law.values), gives]).astype(complex)
+        gives, v = SOFTNESS / u[: self.files], self.velocity(law, u)
         dv = np.zeros((2 + len(u), len(v)), complex)
         dv[0, 0] = dv[1, 1] = 1.0
         for k in range(self.files):
@@ -65,9 +69,25 @@ def test_what_a_step_is_given_has_the_products_of_all_rows():
     evidence = Evidence(measured, sigma, sigma, np.zeros((8, 1)), True)
     problem = JointProblem(Reads(effect, 2), evidence, LAW, np.array([SOFTNESS, SOFTNESS, EACH]), None)
     x = problem.start + 0.1
-    fewer, r, J = problem.condensed(x), problem.residuals(x), problem.jacobian(x)
-    assert fewer.shape == (J.shape[1] + 1, J.shape[1] + 1)
-    assert len(fewer) < len(r)
-    np.testing.assert_allclose(fewer.T @ fewer, np.c_[J, r].T @ np.c_[J, r], rtol=1e-12, atol=1e-9)
-    assert problem.condensed(x) is fewer
-    assert problem.condensed(x + 0.1) is not fewer
+    short, fewer, r, J = problem.shortened(x), problem.condensed(x), problem.residuals(x), problem.jacobian(x)
+    assert fewer.shape == (J.shape[1] + 1, J.shape[1])
+    assert len(fewer) == len(short) < len(r)
+    both = np.c_[fewer, short]
+    np.testing.assert_allclose(both.T @ both, np.c_[J, r].T @ np.c_[J, r], rtol=1e-12, atol=1e-9)
+
+
+def test_no_slope_is_worked_out_where_a_step_is_not_taken():
+    effect = OfFiles(CATALOGUE["clamp_compliance"], 2, EACH)
+    measured = np.concatenate([np.log(LAW.values), [2.0, 0.5]]).astype(complex)
+    sigma = np.array([1e-3, 1e-3, 0.01, 0.1])
+    evidence = Evidence(measured, sigma, sigma, np.zeros((8, 1)), True)
+    reads = Reads(effect, 2)
+    problem = JointProblem(reads, evidence, LAW, np.array([SOFTNESS, SOFTNESS, EACH]), None)
+    x = problem.start + 0.1
+    with mock.patch.object(reads, "with_derivatives", wraps=reads.with_derivatives) as slopes:
+        problem.shortened(x + 0.1)
+        problem.shortened(x)
+        assert not slopes.called
+        problem.condensed(x)
+        problem.jacobian(x)
+        assert slopes.call_count == 1

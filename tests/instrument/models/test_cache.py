@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from fitting.rational import RationalSweep
 from instrument.models import cache
 from instrument.models.arrays import pack, unpack
 
@@ -47,6 +48,15 @@ def test_dataclasses_of_arrays_come_back_from_flat_arrays():
     packed = pack(VALUE)
     assert set(packed) == {"x", "n", "inner.band", "inner.z"}
     assert same(unpack(Kept, packed))
+
+
+def test_what_a_model_keeps_as_it_is_used_is_no_part_of_it():
+    sweep = RationalSweep(np.array([1.0]), 1e6 + 0j, np.ones((1, 2), complex), np.full((1, 2), 1e-6 + 0j))
+    before = sweep.with_derivative(np.array([1e6 + 1e5j]))
+    packed = pack(sweep)
+    assert set(packed) == {"omega", "G_ref", "c", "mu"}
+    again = unpack(RationalSweep, packed).with_derivative(np.array([1e6 + 1e5j]))
+    np.testing.assert_array_equal(again, before)
 
 
 def test_second_use_does_not_build_again(folder):
