@@ -27,12 +27,13 @@ import os
 import platform
 import re
 from collections import defaultdict
+from functools import cache
 
 import numpy as np
 import scipy
 import scipy.linalg  # its BLAS is loaded, and so part of the fingerprint
 from conftest import DATA
-from threadpoolctl import threadpool_info
+from threadpoolctl import threadpool_info, threadpool_limits
 
 KEPT = DATA / "numbers"
 STORE = "VISCORIG_KEEP_NUMBERS"
@@ -56,7 +57,28 @@ def fingerprint():
         "scipy": scipy.__version__,
         "simd": np.show_config(mode="dicts")["SIMD Extensions"].get("found", []),
         "blas": sorted(blas),
+        "probe": probe(),
     }
+
+
+@cache
+def probe():
+    """A digest of sums, a solution, modes and functions: kernels of one name add by the size of a cache."""
+    rng = np.random.default_rng(11)
+    A, x = rng.standard_normal((2, 301, 203)), rng.standard_normal(4001)
+    with threadpool_limits(1, "blas"):
+        product = A[0] @ A[1].T
+        lossy = product[:160, :160] + 1j * product[100:260, 100:260]
+        found = [
+            product,
+            np.linalg.solve(lossy, A[0][:160].astype(complex)),
+            scipy.linalg.eigh(A[0].T @ A[0])[1],
+            np.linalg.eig(lossy[:40, :40])[0],
+            np.exp(x),
+            np.sin(x) * np.abs(x) ** 0.3,
+            np.fft.rfft(x),
+        ]
+    return hashlib.sha256(b"".join(np.ascontiguousarray(one).tobytes() for one in found)).hexdigest()
 
 
 def lasting(facts):
