@@ -31,6 +31,8 @@ _RESONANCES = (2, 4)
 _HIGHEST_HZ = 2500.0
 _LARGEST_LOSS = 0.35
 """Of a resonance: beyond it no peak is left to measure around."""
+_LEAST_LOSS, _LEAST_OF_FREE_LAYER = 0.02, 0.005
+"""The same where the core takes hardly a part any more: its stretching then counts beside its shear."""
 _MOST_LAWS = 200
 _PROBES = [PlateMaterialLaw("maxwell", (g, 1e3, 1e-3)) for g in (0.3e6, 2e6)]
 """About the softest and the stiffest that is drawn: a law holds over all of what they reach."""
@@ -150,11 +152,13 @@ def draw_case(kind: str, seed: int, exact: bool = False, *, beam: str | None = N
 def _law_and_resonances(rng: np.random.Generator, true: TrueBeam) -> tuple[PlateMaterialLaw, list[Resonance]]:
     """A law that keeps within the campaign's limits over the segments that it leads to."""
     clean = built(true)
+    least = _LEAST_LOSS if true.constraining is not None else _LEAST_OF_FREE_LAYER
     soft, stiff = (seen_apart(resonances(clean, law, _HIGHEST_HZ)) for law in _PROBES)
     band = 0.75 * soft[0].frequency_hz, 1.15 * stiff[: _RESONANCES[1]][-1].frequency_hz
     for _ in range(_MOST_LAWS):
         law, most = draw_law(rng, band), int(rng.integers(_RESONANCES[0], _RESONANCES[1] + 1))
-        chosen = seen_apart(resonances(clean, law, _HIGHEST_HZ))[:most]
+        every = seen_apart(resonances(clean, law, _HIGHEST_HZ))
+        chosen = [r for r in every if r.loss_factor > least][:most]
         inside = fits(law, np.array([r.frequency_hz for r in chosen]))
         if len(chosen) >= _RESONANCES[0] and inside and max(r.loss_factor for r in chosen) < _LARGEST_LOSS:
             return law, chosen
