@@ -57,3 +57,11 @@ def test_a_plates_edges_patches_and_points_are_drawn():
     assert [m.name for m in view.marks] == ["spot", "5 g", "hit"]
     figure = sketch_figure((view,))
     assert figure.axes[0].get_aspect() == 1.0
+
+
+def test_a_beam_that_a_force_drives_has_its_points_and_no_base_that_moves():
+    beam = replace(read("beam"), force_m=0.02, pickup_m=0.09, further_pickups_m=(0.15,))
+    side, _ = sketch_of(beam)
+    assert [(m.name, round(m.x)) for m in side.marks] == [("spot 0", 90), ("spot 1", 150), ("force", 20)]
+    assert not side.arrows
+    assert sketch_of(read("beam"))[0].arrows
