@@ -10,11 +10,12 @@ import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array
-from fitting.effects.base import CLAMP, PLATE_AND_BEAM, WHOLE, Effect, EffectParameter, Points
+from fitting.effects.base import CLAMP, CONSTRAINED, WHOLE, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
 from fitting.effects.released_root import RootSpan, along_root, on_root
+from fitting.effects.span import Span
 from fitting.element import DOFS, U_C, V_C
 
 _SPANNED = (1e6, 1e8, 4e8, 3e9)
@@ -48,7 +49,6 @@ class TreatmentNotGrippedEffect(Effect):
 
     name = "treatment_not_gripped"
     enters = "stiffness"
-    structures = PLATE_AND_BEAM
     source = "free end of a constrained layer, e.g. Plunkett and Lee, J. Acoust. Soc. Am. 48 (1970)"
     needs = CLAMP | WHOLE
     parameters = (
@@ -56,10 +56,13 @@ class TreatmentNotGrippedEffect(Effect):
             "k", "N/m^2", 1e6, 1e12, 1e8, logarithmic=True, neutral=float("inf"), complete=True, mounting=1.0
         ),
     )
-    spans = (FreeTreatment(),)
+    spans: tuple[Span, ...] = (FreeTreatment(),)
     discriminating_test = (
         "a look at the clamp: whether the treatment reaches between the jaws; a strip of it glued down"
     )
+
+    def on(self, kind: str) -> Effect | None:
+        return TreatmentOfBeamEffect() if kind == "beam" else super().on(kind)
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return None if "treatment" in plate.group else "the plate has no clamp"
@@ -72,3 +75,9 @@ class TreatmentNotGrippedEffect(Effect):
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"the clamp hardly holds the constraining layer ({u['k']:.2g} N/m^2 in its plane)"
+
+
+class TreatmentOfBeamEffect(TreatmentNotGrippedEffect):
+    """Of a sandwich beam: on one side, or alike on both."""
+
+    needs = CLAMP | CONSTRAINED

@@ -138,8 +138,7 @@ def _columns(section: BeamSection) -> tuple[NDArray[np.str_], Array, Array]:
     size[moves] = 1 / np.sqrt(np.diag(section.summed("M"))[moves])
     own = _own(section, size)
     let_go = np.flatnonzero(moves & ~s.is_held)
-    of_treatment = np.isin(let_go, np.arange(s.size)[s.place["c"]])
-    above = let_go[of_treatment & (not section.is_doubled)]
+    above = let_go[np.isin(let_go, np.arange(s.size)[s.place["c"]])]
     beside = [("faces", _faces_apart(section, own, size))]
     beside += [(name, np.diag(size)[:, at]) for name, at in (("root", let_go), ("treatment", above))]
     groups = np.concatenate([np.full(own.shape[1], "plate"), *(np.full(b.shape[1], n) for n, b in beside)])
@@ -194,16 +193,17 @@ def _asked_for(section: BeamSection) -> dict[str, Array]:
         found |= {f"root.{axis}": A for axis, A in _root_springs(section).items()}
     if not section.is_sandwich:
         return found
-    volume = section.copies * section.width_m * L * section.thickness_m[1] * (2 if section.is_doubled else 1)
-    found["strain.mean_square"] = _slip(section) / volume
+    sides = 2 if section.is_doubled else 1
+    width = section.copies * section.width_m
+    found["strain.mean_square"] = _slip(section) / (sides * width * L * section.thickness_m[1])
+    if s.held_ends:
+        ends = s.rows("c", np.array(s.held_ends))
+        found["treatment.hold"] = sides * width * ends @ ends.T
     if section.is_doubled:
         return found
     by_pieces = np.einsum("p,kpij->kij", section.coefficients[3:6], slip_by_pieces(section.ends))
     found |= {f"strips_x.{k:03d}": A for k, A in enumerate(by_pieces)}
     found["grading_x.K_1"] = _slip(section, x - 0.5)
-    if s.held_ends:
-        ends = s.rows("c", np.array(s.held_ends))
-        found["treatment.hold"] = section.copies * section.width_m * ends @ ends.T
     return found
 
 

@@ -150,3 +150,14 @@ def test_what_needs_a_base_a_clamp_or_one_piece_stands_where_they_are():
         *("constraining_stiffness", "constraining_thickness", "treatment_not_gripped"),
         *("partial_debond", "graded_core"),
     }
+    both = names(replace(SANDWICH, both_sides=True))
+    assert shaken - both == {"partial_debond", "graded_core"}
+
+
+@pytest.mark.parametrize("both_sides", [False, True])
+def test_a_treatment_let_go_at_the_clamp_softens_the_first_mode_and_one_held_fast_does_not(both_sides):
+    beam = replace(SANDWICH, both_sides=both_sides)
+    own = small_modes(beam, LAW, 1)[0].frequency_hz
+    loose, fast = (frequencies(beam, "treatment_not_gripped", [k], 1, LAW)[0] for k in (1e6, 1e12))
+    assert fast == pytest.approx(own, rel=1e-3)
+    assert loose < 0.95 * own
