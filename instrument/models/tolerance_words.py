@@ -20,7 +20,8 @@ _NOT_OF_A_SWEEP = ("mass", "place", "area")
 def asked(specimen: AnySpecimen) -> list[str]:
     """Kinds of stated numbers that a sweep of this specimen can feel."""
     if not isinstance(specimen, Specimen):
-        return [*specimen.numbers, "gain", "delay"]
+        # What a theory leaves open nobody states.
+        return [*(n for n in specimen.numbers if n in STATED), *specimen.places, "gain", "delay"]
     of_plate = {kind for _, kind in plate_numbers(specimen)}
     unfelt = _NOT_OF_A_SWEEP if specimen.force_m is not None else (*_NOT_OF_A_SWEEP, "force")
     return [name for name in STATED if name not in unfelt and (name not in PLATE or name in of_plate)]

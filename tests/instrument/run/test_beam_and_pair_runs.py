@@ -141,7 +141,9 @@ def test_a_dry_run_foretells_a_beam(tmp_path):
     found = dry_run(path)
     assert isinstance(found.specimen, Beam)
     assert found.segments[0].steps == 9
-    assert {t.name for t in found.result.tolerances} >= {"substrate_young_percent", "length_mm"}
+    named = {t.name for t in found.result.tolerances}
+    assert named >= {"substrate_young_percent", "length_mm", "pickup_mm"}
+    assert "held_width_mm" not in named
 
 
 @pytest.mark.parametrize(
