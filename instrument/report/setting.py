@@ -20,8 +20,8 @@ _OTHERS = {"force": "mV/N", "temperature": "mV/°C"}
 _MOST_LISTED = 8
 _TITLES = {"plate": "Plate", "beam": "Beam", "shear-pair": "Shear pair"}
 _DONE = {
-    ("mounted", "bare"): "bare plate mounted",
-    ("mounted", "damped"): "damped plate mounted",
+    ("mounted", "bare"): "bare {} mounted",
+    ("mounted", "damped"): "damped {} mounted",
     ("aimed", "base"): "laser pointed at the base",
     ("aimed", "pickup"): "laser pointed at the spot",
 }
@@ -106,7 +106,8 @@ def rig_section(contents: Contents) -> ReportSection:
         ("torque", f"{m.torque_n_m:g} N m" if m.torque_n_m else "not stated"),
         ("remounted", f"{m.remount} times" if m.remount != 1 else "once"),
     ]
-    mounting += [("by hand", _done(did)) for did in contents.operator if not did.hit]
+    kind = contents.specimen.kind.replace("-", " ")
+    mounting += [("by hand", _done(did, kind)) for did in contents.operator if not did.hit]
     instruments: Block = Sentence("The session holds no instrument's identity.", "note")
     if contents.began:
         named = {**contents.began[-1].instruments, "sampled at": _rates(contents)}
@@ -117,10 +118,10 @@ def rig_section(contents: Contents) -> ReportSection:
     return ReportSection("Rig", (*blocks, *_temperature(contents)))
 
 
-def _done(did: OperatorDid) -> str:
-    """What a person did at the rig."""
-    named = _DONE.get((did.what, did.detail))
-    return named or f"{did.what} {did.detail}".strip()
+def _done(did: OperatorDid, kind: str) -> str:
+    """What a person did at the rig, a specimen of some kind on it."""
+    named = _DONE.get((did.what, did.detail), f"{did.what} {did.detail}".strip())
+    return named.replace("{}", kind)
 
 
 def _temperature(contents: Contents) -> tuple[Block, ...]:

@@ -15,8 +15,8 @@ from instrument.stream.derived import PointMeasured
 
 
 def sweep_section(contents: Contents, fitted: ReportedFit) -> ReportSection:
-    """What was measured of the damped plate."""
-    title = "Sweep of the damped plate"
+    """What was measured of the damped specimen."""
+    title = f"Sweep of the damped {contents.specimen.kind.replace('-', ' ')}"
     if not contents.points:
         return ReportSection(title, (Sentence("There is no point of a sweep in this session.", "note"),))
     blocks: list[Block] = [Sentence(_summary(contents))]
