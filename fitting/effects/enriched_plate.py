@@ -178,12 +178,14 @@ class EnrichedReducedPlate:
         changed_omega: Array | None = None,
         changed_G: Complex | None = None,
         sides: Sequence[Array] = (),
+        left_out: float = CONDENSED,
     ) -> "EnrichedReducedPlate":
         """Its own even columns as far as they answer at some frequencies and moduli; others as they are.
 
         `changes` are of the plate, on its columns: answers with each of them at `changed_omega` and
         `changed_G` are kept too. Shape (points,) for `omega` and `G`, and for the changed ones. `sides` are
-        further loads to be answered, or rows that read it. Shape (k,) each.
+        further loads to be answered, or rows that read it. Shape (k,) each. `left_out`: of the largest
+        singular value.
         """
         own = np.flatnonzero(self.group == "plate")
         found = [self._answers(own, omega, G, Change(), sides)]
@@ -192,7 +194,7 @@ class EnrichedReducedPlate:
         X = np.concatenate(found, axis=1)
         V, size, _ = np.linalg.svd(np.hstack([X.real, X.imag]), full_matrices=False)
         # Motions that effects stir are of several sides more of its own and less beside them.
-        kept = size > CONDENSED / max(1.0, len(sides) / 2) * size[0]
+        kept = size > left_out / max(1.0, len(sides) / 2) * size[0]
         V = V[:, kept]
         rest = np.flatnonzero(self.group != "plate")
         on = OwnCombined(V, _as_slice(own), _as_slice(rest))

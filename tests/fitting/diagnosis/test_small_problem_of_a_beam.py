@@ -1,0 +1,46 @@
+"""The task of a beam: its first sum on few motions, and what a fit answers with."""
+
+import numpy as np
+import pytest
+
+from fitting.diagnosis.small_problem import SmallProblem
+from fitting.laws.constant import ConstantModulus
+from fitting.specimen import Core, Face
+from fitting.structures import Beam
+from fitting.structures.small import displacement, system_of
+from fitting.sweep import Sweep
+
+ALUMINIUM, FOIL = Face(2e-3, 70e9, 0.3, 2700.0), Face(0.5e-3, 70e9, 0.3, 2700.0)
+LAW = ConstantModulus(1e6, 0.5)
+BEAM = Beam(
+    *(0.2, 0.02, "clamped-free", ALUMINIUM),
+    constraining=FOIL,
+    core=Core(0.3e-3, 0.49, 1000.0, LAW),
+    pickup_m=0.15,
+)
+F = np.geomspace(20, 2000, 80)
+
+
+@pytest.fixture(scope="module")
+def problem():
+    one = np.ones(80, int)
+    return SmallProblem.of_small(Sweep(F, np.ones(80, complex), 9.81 * one, one, one), BEAM)
+
+
+@pytest.mark.parametrize("size_pa", [3e4, 1e6, 5e7])
+@pytest.mark.parametrize("argument", [0.2, 1.0])
+def test_its_first_sum_answers_as_all_of_the_beam_does_for_any_core(problem, size_pa, argument):
+    G, omega = np.full(80, size_pa * np.exp(1j * argument)), 2 * np.pi * F
+    whole = displacement(system_of(BEAM, BEAM.parts()), omega, G)
+    off = np.abs(problem.rational.displacement(G) / whole - 1)
+    assert off.max() < 2e-4
+    assert np.median(off) < 1e-6
+    assert problem.rational.mu.shape[1] < len(system_of(BEAM, BEAM.parts()).load)
+
+
+def test_condensed_to_a_law_it_keeps_what_effects_move(problem):
+    few = problem.condensed(LAW)
+    assert len(few.plate.load) < len(problem.plate.load)
+    assert set(few.plate.group) == set(problem.plate.group)
+    moved = few.plate.moved({"length": 1e-4})
+    assert moved.K.shape == few.plate.K_0.shape
