@@ -25,8 +25,9 @@ from fitting.structures.small import (
 from fitting.sweep import Sweep
 
 _PLACES = 24
+"""Frequencies of a band that a beam's first sum is made to hold at: some four to each resonance."""
 _SIZES, _ANGLES = (0.01, 0.1, 0.5, 2.0, 10.0, 100.0), (0.1, 0.8, 1.4)
-"""Frequencies, and moduli by size and argument, that a beam's first sum holds for."""
+"""And moduli, over a size and by argument: a decade or less apart, from hardly any loss to mostly loss."""
 _LEFT_OUT = 1e-6
 """Of its largest singular value: off by 1e-7, by 1e-4 in the depth of an anti-resonance without losses."""
 FEW = 10
