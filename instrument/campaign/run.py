@@ -39,8 +39,12 @@ Judge = Callable[[Job], dict[str, Any]]
 
 def jobs_of(count: int, seed: int, kinds: Sequence[str] = ()) -> list[Job]:
     """Kinds in rotation, seeds from `seed` on."""
-    rotation = tuple(kinds) or ROTATION
-    return [Job(rotation[k % len(rotation)], seed + k) for k in range(count)]
+    return in_rotation(tuple(kinds) or ROTATION, count, seed)
+
+
+def in_rotation(kinds: Sequence[str], count: int, seed: int) -> list[Job]:
+    """One kind after the other, seeds from `seed` on."""
+    return [Job(kinds[k % len(kinds)], seed + k) for k in range(count)]
 
 
 def judge(job: Job, taken_out: bool) -> dict[str, Any]:

@@ -1,17 +1,15 @@
 """SPECIMEN.toml with `[beam]`."""
 
-from typing import Annotated, Any
+from typing import Any
 
-from pydantic import Field, model_validator
+from pydantic import model_validator
 
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Core, Drive, Reading
 from fitting.structures.beam import Beam, Ends
 from instrument.files.layer_tables import Poisson, StatedLayer
-from instrument.files.specimen_file import TolerancesSection, law_of, tolerances_of
+from instrument.files.specimen_file import TolerancesSection, law_of, tolerances_of, with_further_pickups
 from instrument.files.toml import NotNegative, Positive, TomlTable
-
-_MOST_PICKUPS = 100
 
 
 class _Length(TomlTable):
@@ -59,7 +57,7 @@ class BeamDocument(TomlTable):
     constraining: StatedLayer | None = None
     core: _Viscoelastic | None = None
     pickup: _Spot | None = None
-    further_pickups: Annotated[list[_Spot], Field(max_length=_MOST_PICKUPS - 1)] | None = None
+    further_pickups: list[_Spot] | None = None
     """Of `[[pickup]]`, those after the first."""
     base: _Base = _Base()
     excitation: _Excitation | None = None
@@ -68,12 +66,7 @@ class BeamDocument(TomlTable):
     @model_validator(mode="before")
     @classmethod
     def _several(cls, given: Any) -> Any:
-        pickups = given.get("pickup") if isinstance(given, dict) else None
-        if not isinstance(pickups, list):
-            return given
-        if not 0 < len(pickups) <= _MOST_PICKUPS:
-            raise ValueError(f"{len(pickups)} pickups, expected 1 to {_MOST_PICKUPS}")
-        return {**given, "pickup": pickups[0], "further_pickups": pickups[1:] or None}
+        return with_further_pickups(given)
 
     @model_validator(mode="after")
     def _whole(self) -> "BeamDocument":

@@ -163,12 +163,7 @@ class SpecimenDocument(TomlTable):
     @model_validator(mode="before")
     @classmethod
     def _several(cls, given: Any) -> Any:
-        pickups = given.get("pickup") if isinstance(given, dict) else None
-        if not isinstance(pickups, list):
-            return given
-        if not 0 < len(pickups) <= _MOST_PICKUPS:
-            raise ValueError(f"{len(pickups)} pickups, expected 1 to {_MOST_PICKUPS}")
-        return {**given, "pickup": pickups[0], "further_pickups": pickups[1:] or None}
+        return with_further_pickups(given)
 
     @property
     def pickups(self) -> list[_Pickup]:
@@ -205,6 +200,16 @@ class SpecimenDocument(TomlTable):
                 if at is not None and at > side:
                     raise ValueError(f"{table}.{name} = {at:g} is off the plate, expected 0 to {side:g}")
         return self
+
+
+def with_further_pickups(given: Any) -> Any:
+    """A document's tables, of several `[[pickup]]` the first under its name. Raises `ValueError`."""
+    pickups = given.get("pickup") if isinstance(given, dict) else None
+    if not isinstance(pickups, list):
+        return given
+    if not 0 < len(pickups) <= _MOST_PICKUPS:
+        raise ValueError(f"{len(pickups)} pickups, expected 1 to {_MOST_PICKUPS}")
+    return {**given, "pickup": pickups[0], "further_pickups": pickups[1:] or None}
 
 
 def read_specimen(path: Path) -> Specimen:

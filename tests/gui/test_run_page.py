@@ -14,6 +14,7 @@ from window_runs import PATIENCE_MS, opened, started, wait_for_end, wait_for_poi
 
 from gui.pages.run.check import Check
 from gui.pages.run.new_case import REAL, NewCase
+from gui.state.time_to_go import TimeToGo
 from instrument.files.rig_file import RigDocument
 from instrument.files.toml import read_document
 from instrument.session.storage import SessionFile
@@ -244,13 +245,16 @@ def test_a_simulated_experiment_is_made_and_its_secret_not_shown(qtbot, window, 
     assert "is there already" in said[0]
 
 
-def test_the_time_left_is_said_from_the_beginning(qtbot, window, unchecked, rig, tmp_path):
+def test_the_time_left_is_known_before_the_first_point(qtbot, window, unchecked, rig, tmp_path, monkeypatch):
+    """In the order in which the window is told: by the clock a point may come before the bar is drawn."""
+    told, plan, take = [], TimeToGo.plan, TimeToGo.take
+    monkeypatch.setattr(TimeToGo, "plan", lambda *given: (told.append("plan"), plan(*given)))
+    monkeypatch.setattr(TimeToGo, "take", lambda *given: (told.append(type(given[1]).__name__), take(*given)))
     opened(qtbot, window, unchecked, tmp_path / "experiment.toml")
     live = started(qtbot, window, unchecked)
     qtbot.waitUntil(lambda: "left" in window.bar.left.text(), timeout=PATIENCE_MS)
-    # That it is known before the first one `state/test_time_to_go.py` shows, where nothing is in a hurry.
-    assert len(live.state.contents.points) < 5
     wait_for_points(qtbot, window, 5)
+    assert "plan" in told[: told.index("PointMeasured")]
     assert "left" in window.bar.left.text()
     assert 0 < live.fraction < 0.5
     window.controller.abort()

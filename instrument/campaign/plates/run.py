@@ -8,10 +8,10 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from instrument.campaign.plates.answers import Answer, Band, line_of, outcome_from, outcome_of
+from instrument.campaign.plates.answers import Answer, Band, judged, outcome_from
 from instrument.campaign.plates.cases import KINDS, NONE, PAIR, PlateCase, draw_case
 from instrument.campaign.plates.tables import summary
-from instrument.campaign.run import Job, run_campaign
+from instrument.campaign.run import Job, in_rotation, run_campaign
 from instrument.progress import Progress, quiet
 
 SUMMARY = "summary.md"
@@ -25,25 +25,14 @@ Visible = Callable[[PlateCase], float | None]
 
 def plate_jobs(count: int, seed: int, kinds: Sequence[str] = ()) -> list[Job]:
     """Kinds in rotation, seeds from `seed` on."""
-    rotation = tuple(kinds) or ROTATION
-    return [Job(rotation[k % len(rotation)], seed + k) for k in range(count)]
+    return in_rotation(tuple(kinds) or ROTATION, count, seed)
 
 
 def judge_plate(
     job: Job, exact: bool, identify: Identify | None, diagnose: Diagnose | None, visible: Visible | None
 ) -> dict[str, Any]:
     """Draw, identify, diagnose, compare. What raises leaves no answer and is tried again."""
-    case = draw_case(job.kind, job.seed, exact)
-    band: Band | None = None
-    said: Answer | None = None
-    error, shows = "", None
-    try:
-        band = identify(case) if identify is not None else None
-        said = diagnose(case) if diagnose is not None else None
-        shows = visible(case) if visible is not None else shows
-    except Exception as raised:
-        error = " ".join(f"{type(raised).__name__}: {raised}".split())
-    return line_of(outcome_of(case, band, said, error, shows))
+    return judged(draw_case(job.kind, job.seed, exact), identify, diagnose, visible)
 
 
 def run_plates(
