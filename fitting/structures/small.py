@@ -175,6 +175,8 @@ class SmallSystem(EnrichedReducedPlate):
     """As fits and effects take it; it knows how its stated numbers change it."""
 
     stated: SmallSpecimen | None = None
+    counts: tuple[int, int, int] = (0, 0, 0)
+    """How many parts K_0, K_1 and M have."""
 
     def moved(self, by: Mapping[str, float]) -> Change:
         """What it becomes with some numbers moved, as `SmallSpecimen.coefficients` takes them."""
@@ -188,9 +190,6 @@ class SmallSystem(EnrichedReducedPlate):
         )
         load = c[n_0 + n_1 + n_M :].real @ self.load_part
         return Change(K=_real_where_it_is(K), K_1=K_1.real, M=M.real, load=load)
-
-    counts: tuple[int, int, int] = (0, 0, 0)
-    """How many parts K_0, K_1 and M have."""
 
 
 def system_of(
