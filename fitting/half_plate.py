@@ -18,14 +18,14 @@ from fitting.linear import Chain, with_damping
 from fitting.plate import Plate
 
 Indices = NDArray[np.intp]
-Parity = Literal["even", "odd", "carried"]
+Parity = Literal["even", "odd", "carried", "all"]
 
 
 class HalfPlate:
-    """The plate's matrices on motions even or odd in y, or on all it carries, as blocks of `chain`."""
+    """The plate's matrices on motions even or odd in y, what it carries or all, as blocks of `chain`."""
 
     def __init__(self, plate: Plate, parity: Parity) -> None:
-        sides = {"even": (plate.even,), "odd": (plate.odd,)}[parity] if parity != "carried" else plate.sides
+        sides = _sides(plate, parity)
         whole = sp.csc_array(sp.hstack(sides)) if len(sides) > 1 else sides[0]
         line = _chained([_lines(plate, P) for P in sides])
         order = np.argsort(line, kind="stable")
@@ -64,6 +64,14 @@ class HalfPlate:
         A += self.K_0
         A.real -= omega**2 * self.M
         return with_damping(self.chain.factorise(A), omega, damping.U, damping.d)
+
+
+def _sides(plate: Plate, parity: Parity) -> tuple[sp.csc_array, ...]:
+    if parity == "all":
+        return (sp.eye_array(plate.size, format="csc"),)
+    if parity == "carried":
+        return plate.sides
+    return (plate.even,) if parity == "even" else (plate.odd,)
 
 
 def _chained(each: Sequence[Indices]) -> Indices:

@@ -245,10 +245,15 @@ class Specimen:
 
     @property
     def offers(self) -> frozenset[str]:
-        """As `StatedSpecimen` has it; `whole`: one treatment all over one side; `isotropic substrate`."""
+        """As `StatedSpecimen` has it; `whole`: one treatment all over one side; `isotropic substrate`.
+
+        `root`: one clamped edge alone, both sides of the axis alike.
+        """
         found = {"base"} if self.force_m is None else set()
-        if self.boundary == "cantilever" and self.mirrored:
+        if "clamped" in self.edges:
             found.add("clamp")
+        if self.boundary == "cantilever" and self.mirrored:
+            found.add("root")
         if not self.patches and not self.both_sides:
             found.add("whole")
         if self.substrate.rolled is None:

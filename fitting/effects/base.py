@@ -47,6 +47,7 @@ Entry = Literal["stiffness", "mass", "load", "observation", "channel", "time", "
 
 PLATE_ONLY = frozenset({"plate"})
 BASE, CLAMP = frozenset({"base"}), frozenset({"clamp"})
+ROOT = CLAMP | {"root"}
 WHOLE = frozenset({"whole"})
 CONSTRAINED, ONE_PIECE = frozenset({"constraining"}), frozenset({"one piece"})
 PLATE_AND_BEAM = frozenset({"plate", "beam"})
@@ -153,7 +154,8 @@ class Effect:
     """Kinds of specimens on which it has a meaning as it is."""
 
     needs: ClassVar[frozenset[str]] = frozenset()
-    """What a specimen must offer: a `base` that moves, a `clamp`, one side treated as a `whole`; of a beam a
+    """What a specimen must offer: a `base` that moves, a `clamp`, a plate's `root`, one side treated as a
+    `whole`; of a beam a
     `constraining` layer, and to be `one piece`, not two halves about a driven centre."""
 
     chance: ClassVar[float] = 0.02

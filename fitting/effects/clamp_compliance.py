@@ -1,10 +1,11 @@
-"""The plate's root yields: springs per area of the root face.
+"""The plate's clamps yield: springs per area of the clamped faces, alike on all of them.
 
-Those along the plate let the root turn, which is what softens it. Across the plate springs of the same
+Those along the plate let a clamped edge turn, which is what softens it. Across the plate springs of the same
 stiffness move it by nothing that shows: one stiffness serves for both.
 """
 
 from collections.abc import Mapping
+from typing import Literal
 
 import numpy as np
 import scipy.sparse as sp
@@ -12,62 +13,78 @@ import scipy.sparse as sp
 from fitting.arrays import Array
 from fitting.effects.base import CLAMP, PLATE_AND_BEAM, Effect, EffectParameter, Points
 from fitting.effects.change import Change
+from fitting.effects.clamp_span import ClampSpan, on_a_rim
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
-from fitting.effects.released_root import RootSpan
+from fitting.effects.released_rim import clamped_edges, on_edge, treated_along
+from fitting.effects.released_root import along_root, on_root
 from fitting.element import DOFS, THETA_X, THETA_Y, U_B, U_C, V_B, V_C, W
+from fitting.specimen import Specimen
 
 _SPANNED = (4e12, 1e13, 3e13, 1e14, 1e15)
 """N/m^3, from softer than a clamp ought to be to nearly rigid."""
 
 
-class YieldingRoot(RootSpan):
-    """Motions with a yielding root. Along y it is held, as between jaws."""
+class YieldingRoot(ClampSpan):
+    """Motions with yielding clamps. Along itself each is held, as between jaws."""
 
     name = "root"
-    released = (U_C, U_B, W, THETA_Y)
+    released, released_along_x = (U_C, U_B, W, THETA_Y), (V_C, V_B, W, THETA_X)
 
     def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
+        if on_a_rim(full):
+            return {"x": rim_springs(full, "across"), "z": rim_springs(full, "z")}
         return {"x": root_springs(full, "x"), "z": root_springs(full, "z")}
 
     def springs(self, full: FullPlate) -> list[sp.csc_array]:
-        S = full.once("root springs", lambda: root_springs(full, "x") + root_springs(full, "z"))
+        S = full.once("root springs", lambda: sum(self.matrices(full).values()))
         return [k * S for k in _SPANNED]
 
 
 def root_springs(full: FullPlate, axis: str) -> sp.csc_array:
     """Unit springs per area of the root face along an axis, as a stiffness. Shape (n, n)."""
-    s = full.specimen
-    H_b = s.substrate.thickness_m
-    gripped = not s.patches or any(p.from_x_m == 0 for p in s.patches)
-    H_c = s.constraining.thickness_m if s.constraining and gripped else 0.0
-    H_v = s.core.between_faces_m if s.core and gripped else 0.0
-    sides = 2 if s.both_sides else 1
+    patches = full.specimen.patches
+    gripped = not patches or any(p.from_x_m == 0 for p in patches)
+    return on_root(full, along_root(full), face_springs(full.specimen, axis, gripped=gripped))
+
+
+def rim_springs(full: FullPlate, axis: Literal["across", "z"]) -> sp.csc_array:
+    """Unit springs per area of every clamped edge's face, across the edge or along z. Shape (n, n)."""
+    found = []
+    for edge in clamped_edges(full):
+        along = edge.across if axis == "across" else "z"
+        bare, whole = (face_springs(full.specimen, along, gripped=gripped) for gripped in (False, True))
+        found += [on_edge(full, edge, bare), on_edge(full, edge, whole - bare, treated_along(full, edge))]
+    return sp.csc_array(sum(found))
+
+
+def face_springs(specimen: Specimen, axis: str, *, gripped: bool) -> Array:
+    """Unit springs per area along an axis on a node's motions, through all layers. Shape (7, 7).
+
+    `gripped`: whether core and constraining layers reach the clamp.
+    """
+    H_b = specimen.substrate.thickness_m
+    H_c = specimen.constraining.thickness_m if specimen.constraining and gripped else 0.0
+    H_v = specimen.core.between_faces_m if specimen.core and gripped else 0.0
+    sides = 2 if specimen.both_sides else 1
     local = np.zeros((DOFS, DOFS))
     if axis == "z":
         local[W, W] = H_b + sides * H_v + sides * H_c
-    else:
-        along_x = axis == "x"
-        u_b, u_c, theta, sign = (U_B, U_C, THETA_Y, 1.0) if along_x else (V_B, V_C, THETA_X, -1.0)
-        rows = np.zeros((6, DOFS))
-        # Mean and turn of each layer across its thickness; u = u_b + z theta_y, v = v_b - z theta_x.
-        rows[0, u_b], rows[1, theta] = np.sqrt(H_b), np.sqrt(H_b**3 / 12)
-        rows[2, u_c], rows[3, theta] = np.sqrt(H_c), np.sqrt(H_c**3 / 12)
-        rows[4, [u_b, u_c, theta]] = np.sqrt(H_v) * np.array([0.5, 0.5, sign * (H_b - H_c) / 4])
-        rows[5, [u_b, u_c, theta]] = np.sqrt(H_v / 12) * np.array([-1.0, 1.0, -sign * (H_b + H_c) / 2])
-        rows[2:] *= np.sqrt(sides)
-        local = rows.T @ rows
-    n_y, b = full.loose.mesh.n_y, full.loose.mesh.sides_m[1]
-    along = sp.diags_array([b / 6, 2 * b / 3, b / 6], offsets=[-1, 0, 1], shape=(n_y + 1, n_y + 1)).tolil()
-    along[0, 0] = along[n_y, n_y] = b / 3
-    n, dofs = full.loose.mesh.size, full.loose.mesh.dofs
-    block = sp.kron(along, np.pad(local, (0, dofs - DOFS))).tocoo()
-    whole = sp.coo_array((block.data, (block.row, block.col)), (n, n)).tocsr()
-    return sp.csc_array(whole[full.loose.free][:, full.loose.free])
+        return local
+    along_x = axis == "x"
+    u_b, u_c, theta, sign = (U_B, U_C, THETA_Y, 1.0) if along_x else (V_B, V_C, THETA_X, -1.0)
+    rows = np.zeros((6, DOFS))
+    # Mean and turn of each layer across its thickness; u = u_b + z theta_y, v = v_b - z theta_x.
+    rows[0, u_b], rows[1, theta] = np.sqrt(H_b), np.sqrt(H_b**3 / 12)
+    rows[2, u_c], rows[3, theta] = np.sqrt(H_c), np.sqrt(H_c**3 / 12)
+    rows[4, [u_b, u_c, theta]] = np.sqrt(H_v) * np.array([0.5, 0.5, sign * (H_b - H_c) / 4])
+    rows[5, [u_b, u_c, theta]] = np.sqrt(H_v / 12) * np.array([-1.0, 1.0, -sign * (H_b + H_c) / 2])
+    rows[2:] *= np.sqrt(sides)
+    return np.asarray(rows.T @ rows)
 
 
 class ClampComplianceEffect(Effect):
-    """Springs at the root."""
+    """Springs at the clamps."""
 
     name = "clamp_compliance"
     enters = "stiffness"
@@ -92,7 +109,7 @@ class ClampComplianceEffect(Effect):
         return Change(K=springs(plate, u))
 
     def story(self, u: Mapping[str, float]) -> str:
-        return f"the plate's root is elastic ({u['k']:.2g} N/m^3 of root face)"
+        return f"the plate's clamp is elastic ({u['k']:.2g} N/m^3 of clamped face)"
 
 
 def springs(plate: EnrichedReducedPlate, u: Array) -> Array:

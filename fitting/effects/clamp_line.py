@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import CLAMP, ONE_PIECE, Effect, EffectParameter, Points
+from fitting.effects.base import CLAMP, ONE_PIECE, ROOT, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
@@ -28,7 +28,7 @@ class Length(Span):
     columns = 16
 
     def forces(self, full: FullPlate, at: Snapshot) -> Array | Complex:
-        if "clamp" not in full.specimen.offers:
+        if "root" not in full.specimen.offers:
             return super().forces(full, at)
         length = full.specimen.length_m
         places = [
@@ -66,7 +66,7 @@ class ClampLineEffect(Effect):
     name = "clamp_line"
     enters = "stiffness"
     source = "the paper's Eq. (15) to (18) on a mesh stretched along x; the viscous damping kept"
-    needs = CLAMP
+    needs = ROOT
     parameters: tuple[EffectParameter, ...] = (
         EffectParameter("dlength", "m", -8e-3, 8e-3, 1e-3, spread=2e-3, mounting=_MOUNTING_M),
         EffectParameter("pickup_too", "1", 0.0, 1.0, 0.0, neutral=None, fixed=True),

@@ -79,7 +79,8 @@ def _halves(full: FullPlate) -> tuple[Motions, ...]:
     """Even and odd motions apart where nothing but effects couples them, all together otherwise."""
     if full.only_even:
         return Motions(full, "even"), Motions(full, "odd")
-    return (Motions(full, "carried"),)
+    # Let go the clamps may be alike on both sides, though the held plate is not.
+    return (Motions(full, "carried" if full.specimen.alike_in_y else "all"),)
 
 
 def reach_over(frequency_hz: Array) -> float:

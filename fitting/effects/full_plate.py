@@ -23,12 +23,12 @@ Solver = Callable[[Array | Complex], Complex]
 
 
 class FullPlate:
-    """A held plate and the same with its root let go, if it has one; `n` counts the latter's unknowns."""
+    """A held plate and the same with its clamps let go, if any; `n` counts the latter's unknowns."""
 
     def __init__(self, plate: Plate, damping: LowRankDamping) -> None:
         self.held, self.damping = plate, damping
         specimen = plate.specimen
-        self.loose = Plate(_loose(specimen)) if specimen.boundary == "cantilever" else plate
+        self.loose = Plate(_loose(specimen)) if "clamp" in specimen.offers else plate
         self.lift = _lift(plate, self.loose)
         self._made: dict[str, Any] = {}
         self._making = RLock()
@@ -195,7 +195,8 @@ def _nothing(forces: Array | Complex) -> Complex:
 
 
 def _loose(specimen: Specimen) -> Specimen:
-    return replace(specimen, boundary="free", elements=specimen.mesh)
+    edges = ("free" if edge == "clamped" else edge for edge in specimen.edges)
+    return replace(specimen, boundary="-".join(edges), elements=specimen.mesh)
 
 
 def _lift(held: Plate, loose: Plate) -> sp.csc_array:

@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
 from fitting.effects.full_plate import FullPlate, Snapshot
-from fitting.effects.span import Span
 from fitting.linear import times
 
 Indices = NDArray[np.intp]
@@ -122,13 +121,17 @@ def along_root(full: FullPlate, weight: Array | None = None) -> sp.csr_array:
 
     `weight` is given at the nodes, linear between them.
     """
-    n_y, b = full.loose.mesh.n_y, full.loose.mesh.sides_m[1]
-    g = np.ones(n_y + 1) if weight is None else weight
+    return along_line(full.loose.mesh.n_y, full.loose.mesh.sides_m[1], weight)
+
+
+def along_line(count: int, step_m: float, weight: Array | None = None) -> sp.csr_array:
+    """As `along_root`, of a line of `count` elements of length `step_m`. Shape (count + 1, count + 1)."""
+    g = np.ones(count + 1) if weight is None else weight
     low, high = g[:-1], g[1:]
-    diagonal = np.zeros(n_y + 1)
-    diagonal[:-1] += b * (low / 4 + high / 12)
-    diagonal[1:] += b * (low / 12 + high / 4)
-    beside = b * (low + high) / 12
+    diagonal = np.zeros(count + 1)
+    diagonal[:-1] += step_m * (low / 4 + high / 12)
+    diagonal[1:] += step_m * (low / 12 + high / 4)
+    beside = step_m * (low + high) / 12
     return sp.csr_array(sp.diags_array([beside, diagonal, beside], offsets=[-1, 0, 1]))
 
 
@@ -138,24 +141,3 @@ def on_root(full: FullPlate, along: sp.sparray, local: Array) -> sp.csc_array:
     block = sp.kron(along, np.pad(local, (0, dofs - len(local)))).tocoo()
     whole = sp.coo_array((block.data, (block.row, block.col)), (n, n)).tocsr()
     return sp.csc_array(whole[full.loose.free][:, full.loose.free])
-
-
-class RootSpan(Span):
-    """Motions with some of the root's degrees of freedom on springs; a plate without a clamp has none."""
-
-    released: Sequence[int]
-
-    def springs(self, full: FullPlate) -> Sequence[sp.sparray]:
-        """At the root of the full plate, as stiff as is typical. Shape (n, n) each."""
-        raise NotImplementedError
-
-    def forces(self, full: FullPlate, at: Snapshot) -> Array | Complex:
-        if "clamp" not in full.specimen.offers:
-            return super().forces(full, at)
-        return root_forces(full, at, self.released)
-
-    def responses(self, full: FullPlate, at: Snapshot, answers: Complex) -> Complex:
-        if "clamp" not in full.specimen.offers:
-            return answers
-        odd = self.odd or not full.only_even
-        return released(full, at, self.released, answers, odd=odd).answers(full, self.springs(full))

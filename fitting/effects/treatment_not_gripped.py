@@ -1,4 +1,4 @@
-"""The clamp holds the substrate alone: core and constraining layer end free at the root.
+"""The clamp holds the substrate alone: core and constraining layer end free at it.
 
 A free end of the constraining layer carries no tension: the plate is softer there, and its core shears
 otherwise. The springs that hold it in its plane say how free it is.
@@ -12,9 +12,11 @@ import scipy.sparse as sp
 from fitting.arrays import Array
 from fitting.effects.base import CLAMP, CONSTRAINED, WHOLE, Effect, EffectParameter, Points
 from fitting.effects.change import Change
+from fitting.effects.clamp_span import ClampSpan, on_a_rim
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
-from fitting.effects.released_root import RootSpan, along_root, on_root
+from fitting.effects.released_rim import clamped_edges, on_edge
+from fitting.effects.released_root import along_root, on_root
 from fitting.effects.span import Span
 from fitting.element import DOFS, U_C, V_C
 
@@ -22,11 +24,11 @@ _SPANNED = (1e6, 1e8, 4e8, 3e9)
 """N/m^2, from nearly free to nearly gripped."""
 
 
-class FreeTreatment(RootSpan):
-    """Motions with the constraining layer let go at the root, w and the substrate held."""
+class FreeTreatment(ClampSpan):
+    """Motions with the constraining layer let go at the clamps, w and the substrate held."""
 
     name = "treatment"
-    released = (U_C, V_C)
+    released = released_along_x = (U_C, V_C)
     columns = 12
 
     def matrices(self, full: FullPlate) -> Mapping[str, sp.sparray | Array]:
@@ -38,14 +40,16 @@ class FreeTreatment(RootSpan):
 
 
 def hold(full: FullPlate) -> sp.csc_array:
-    """Unit springs per width on the constraining layer's root, along x and y. Shape (n, n)."""
+    """Unit springs per width on the constraining layer's clamped edges, along x and y. Shape (n, n)."""
     local = np.zeros((DOFS, DOFS))
     local[U_C, U_C] = local[V_C, V_C] = 1.0
+    if on_a_rim(full):
+        return sp.csc_array(sum(on_edge(full, edge, local) for edge in clamped_edges(full)))
     return on_root(full, along_root(full), local)
 
 
 class TreatmentNotGrippedEffect(Effect):
-    """Springs k per width hold the constraining layer's root in its plane; none would leave it free."""
+    """Springs k per width hold the constraining layer in its plane at the clamp; none would leave it free."""
 
     name = "treatment_not_gripped"
     enters = "stiffness"

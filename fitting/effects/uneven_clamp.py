@@ -6,12 +6,13 @@ import numpy as np
 import scipy.sparse as sp
 
 from fitting.arrays import Array
-from fitting.effects.base import CLAMP, Effect, EffectParameter, Points
+from fitting.effects.base import ROOT, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.clamp_compliance import ClampComplianceEffect, root_springs
+from fitting.effects.clamp_span import RootSpan
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate
-from fitting.effects.released_root import RootSpan, along_root
+from fitting.effects.released_root import along_root
 from fitting.element import THETA_Y, U_B, U_C, W
 
 _MOST = 0.95
@@ -56,7 +57,7 @@ class UnevenClampEffect(Effect):
     name = "uneven_clamp"
     enters = "stiffness"
     source = "elastic foundation of the root face, stiffness linear along the width"
-    needs = CLAMP
+    needs = ROOT
     parameters = (
         *ClampComplianceEffect.parameters,
         EffectParameter("slope", "1", -_MOST, _MOST, 0.3, spread=0.4, mounting=0.3),
