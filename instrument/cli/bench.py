@@ -73,6 +73,12 @@ from instrument.progress import bar
     multiple=True,
     help="Only these; may be repeated.",
 )
+@click.option(
+    "--shows",
+    type=click.FloatRange(min=0),
+    help="With --plates or --beams: where what is hidden shows by less than this in chi-square, beside law, "
+    "tolerances and hammer test, the sweep is drawn and not diagnosed.",
+)
 @click.option("--workers", type=click.IntRange(min=1), default=2, show_default=True, help="Processes.")
 @click.option(
     "--taken-out/--no-taken-out",
@@ -92,6 +98,7 @@ def bench(
     count: int,
     seed: int,
     kinds: tuple[str, ...],
+    shows: float | None,
     workers: int,
     taken_out: bool,
 ) -> None:
@@ -105,6 +112,8 @@ def bench(
         raise BadInput(
             "--diagnosis, --plates, --beams and --apart are campaigns by themselves, expected one of them"
         )
+    if shows is not None and (law_alone or plates_folder is beams_folder):
+        raise BadInput("--shows is of diagnoses with --plates or --beams, expected one of them")
     if json_path is not None:
         raise BadInput("--json and a campaign: the outcomes are in the folder, a line of JSON each")
     of_each = ((plates_folder, PLATE_KINDS), (beams_folder, BEAM_KINDS), (apart_folder, WEAK))
@@ -120,7 +129,9 @@ def bench(
         jobs = plate_jobs(count, seed, kinds)
         run = partial(run_plates, jobs, plates_folder, exact=exact, workers=workers, progress=bar)
         judged = diagnosed_without_the_truth if without_truth else diagnosed
-        found = run(identify=identified) if law_alone else run(diagnose=judged, visible=visible_chi2)
+        found = (
+            run(identify=identified) if law_alone else run(diagnose=judged, visible=visible_chi2, least=shows)
+        )
         click.echo(write_plate_summary(found, plates_folder))
         return
     if beams_folder is not None:
@@ -128,7 +139,7 @@ def bench(
             run_beams, beam_jobs(count, seed, kinds), beams_folder, exact=exact, workers=workers
         )
         alone = partial(of_beams, identify=beam_identified)
-        traced = partial(of_beams, diagnose=beam_diagnosed, visible=beam_visible)
+        traced = partial(of_beams, diagnose=beam_diagnosed, visible=beam_visible, least=shows)
         found = (alone if law_alone else traced)(progress=bar)
         click.echo(write_beam_summary(found, beams_folder))
         return

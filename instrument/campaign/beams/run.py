@@ -39,10 +39,15 @@ def beam_jobs(count: int, seed: int, kinds: Sequence[str] = ()) -> list[Job]:
 
 
 def judge_beam(
-    job: Job, exact: bool, identify: Identify | None, diagnose: Diagnose | None, visible: Visible | None
+    job: Job,
+    exact: bool,
+    identify: Identify | None,
+    diagnose: Diagnose | None,
+    visible: Visible | None,
+    least: float | None = None,
 ) -> dict[str, Any]:
     """Draw, identify, diagnose, compare. What raises leaves no answer and is tried again."""
-    return judged(draw_case(job.kind, job.seed, exact), identify, diagnose, visible)
+    return judged(draw_case(job.kind, job.seed, exact), identify, diagnose, visible, least)
 
 
 def run_beams(
@@ -53,16 +58,20 @@ def run_beams(
     identify: Identify | None = None,
     diagnose: Diagnose | None = None,
     visible: Visible | None = None,
+    least: float | None = None,
     workers: int = 2,
     progress: Progress = quiet,
 ) -> list[dict[str, Any]]:
     """Lines of all jobs, with those an earlier run left. Raises `BadInput`, `StoppedByUser`.
 
-    `visible` says how plainly what is hidden shows. All three go to other processes: functions of a module.
+    `visible` says how plainly what is hidden shows; where that is less than `least`, nothing else is asked. All
+    three go to other processes: functions of a module.
     """
-    judged_by = partial(judge_beam, exact=exact, identify=identify, diagnose=diagnose, visible=visible)
+    judged_by = partial(
+        judge_beam, exact=exact, identify=identify, diagnose=diagnose, visible=visible, least=least
+    )
     by = [f.__name__ for f in (identify, diagnose) if f is not None]
-    options = {"of": "beams", "exact": exact, "by": by}
+    options = {"of": "beams", "exact": exact, "least": least, "by": by}
     return run_campaign(
         jobs, folder, workers=workers, judged_by=judged_by, options=options, progress=progress
     )

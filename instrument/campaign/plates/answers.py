@@ -183,21 +183,31 @@ class PlateOutcome:
     visible_chi2: float | None = None
     """How plainly what is hidden shows (`visible.visible_chi2`); None where it was not asked."""
 
+    @property
+    def asked(self) -> bool:
+        """Whether anything was: what is hidden may show too little."""
+        return self.identified is not None or self.said is not None or bool(self.error)
+
 
 def judged(
     case: _Case,
     identify: Callable[[_Case], Band] | None,
     diagnose: Callable[[_Case], Answer] | None,
     visible: Callable[[_Case], float | None] | None,
+    least: float | None = None,
 ) -> dict[str, Any]:
-    """A case's line: identified, diagnosed, compared. What raises leaves no answer and is tried again."""
+    """A case's line: identified, diagnosed, compared. What raises leaves no answer and is tried again.
+
+    Where something is hidden that is visible by less than `least`, nothing is asked.
+    """
     band: Band | None = None
     said: Answer | None = None
     error, shows = "", None
     try:
-        band = identify(case) if identify is not None else None
-        said = diagnose(case) if diagnose is not None else None
-        shows = visible(case) if visible is not None else shows
+        shows = visible(case) if visible is not None else None
+        if least is None or shows is None or shows >= least:
+            band = identify(case) if identify is not None else None
+            said = diagnose(case) if diagnose is not None else None
     except Exception as raised:
         error = " ".join(f"{type(raised).__name__}: {raised}".split())
     return line_of(outcome_of(case, band, said, error, shows))

@@ -29,10 +29,15 @@ def plate_jobs(count: int, seed: int, kinds: Sequence[str] = ()) -> list[Job]:
 
 
 def judge_plate(
-    job: Job, exact: bool, identify: Identify | None, diagnose: Diagnose | None, visible: Visible | None
+    job: Job,
+    exact: bool,
+    identify: Identify | None,
+    diagnose: Diagnose | None,
+    visible: Visible | None,
+    least: float | None = None,
 ) -> dict[str, Any]:
     """Draw, identify, diagnose, compare. What raises leaves no answer and is tried again."""
-    return judged(draw_case(job.kind, job.seed, exact), identify, diagnose, visible)
+    return judged(draw_case(job.kind, job.seed, exact), identify, diagnose, visible, least)
 
 
 def run_plates(
@@ -43,15 +48,23 @@ def run_plates(
     identify: Identify | None = None,
     diagnose: Diagnose | None = None,
     visible: Visible | None = None,
+    least: float | None = None,
     workers: int = 2,
     progress: Progress = quiet,
 ) -> list[dict[str, Any]]:
     """Lines of all jobs, with those an earlier run left. Raises `BadInput`, `StoppedByUser`.
 
-    `visible` says how plainly what is hidden shows. All three go to other processes: functions of a module.
+    `visible` says how plainly what is hidden shows; where that is less than `least`, nothing else is asked. All
+    three go to other processes: functions of a module.
     """
-    judged_by = partial(judge_plate, exact=exact, identify=identify, diagnose=diagnose, visible=visible)
-    options = {"exact": exact, "by": [f.__name__ for f in (identify, diagnose) if f is not None]}
+    judged_by = partial(
+        judge_plate, exact=exact, identify=identify, diagnose=diagnose, visible=visible, least=least
+    )
+    options = {
+        "exact": exact,
+        "least": least,
+        "by": [f.__name__ for f in (identify, diagnose) if f is not None],
+    }
     return run_campaign(
         jobs, folder, workers=workers, judged_by=judged_by, options=options, progress=progress
     )

@@ -21,9 +21,12 @@ from instrument.campaign.tables import markdown
 
 def summary(outcomes: Sequence[PlateOutcome], of: str = "plates") -> str:
     """The whole score of specimens that are solid plates, or what `of` calls them."""
+    drawn, outcomes = len(outcomes), [o for o in outcomes if o.asked]
     found = scores(outcomes)
     plates = len({o.plate for o in outcomes})
     parts = [f"# {len(outcomes)} sweeps of {plates} solid {of}"]
+    if drawn > len(outcomes):
+        parts.append(f"{drawn - len(outcomes)} more were drawn in which what is hidden shows too little.")
     if any(o.said is not None for o in outcomes):
         parts += [
             "## Naming\n"

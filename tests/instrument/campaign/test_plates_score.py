@@ -157,3 +157,23 @@ def test_the_command_takes_kinds_of_one_campaign_only(tmp_path):
 
 def test_every_kind_is_in_rotation():
     assert {job.kind for job in plate_jobs(60, 0)} == set(KINDS)
+
+
+@pytest.mark.parametrize(("least", "diagnosed"), [("20", True), ("40", False)])
+def test_what_shows_too_little_is_drawn_and_not_diagnosed(tmp_path, monkeypatch, least, diagnosed):
+    monkeypatch.setattr("instrument.cli.bench.diagnosed", no_effect)
+    monkeypatch.setattr("instrument.cli.bench.visible_chi2", thirty)
+    options = ["--count", "2", "--seed", "11", "--kind", "gain_error", "--workers", "1", "--shows", least]
+    said = CliRunner().invoke(bench, ["--plates", str(tmp_path), *options]).output
+    assert said.startswith(f"# {2 * diagnosed} sweeps")
+    assert ("2 more were drawn in which what is hidden shows too little." in said) is not diagnosed
+
+
+@pytest.mark.parametrize("more", [[], ["--plates", "x", "--law-alone"], ["--apart", "x"]])
+def test_what_shows_is_asked_of_diagnoses_on_solids_alone(tmp_path, monkeypatch, more):
+    monkeypatch.chdir(tmp_path)
+    if not more:
+        more = ["--diagnosis", "x"]
+    found = CliRunner().invoke(bench, [*more, "--shows", "20"])
+    assert isinstance(found.exception, BadInput)
+    assert "--shows is of diagnoses with --plates or --beams" in str(found.exception)
