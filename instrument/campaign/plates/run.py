@@ -54,8 +54,8 @@ def run_plates(
 ) -> list[dict[str, Any]]:
     """Lines of all jobs, with those an earlier run left. Raises `BadInput`, `StoppedByUser`.
 
-    `visible` says how plainly what is hidden shows; where that is less than `least`, nothing else is asked. All
-    three go to other processes: functions of a module.
+    `visible` says how plainly what is hidden shows; where that is less than `least`, nothing else is asked.
+    All three go to other processes: functions of a module.
     """
     judged_by = partial(
         judge_plate, exact=exact, identify=identify, diagnose=diagnose, visible=visible, least=least
