@@ -142,6 +142,8 @@ def shift_of(name: str) -> Shift:
     return Shift(int(patch) - 1, "xy".index(axis))
 
 
+_ROUNDING_M = 1e-9
+"""A patch's edge so near to the plate's is the plate's."""
 SHIFT_M = 1e-4
 """How far patches are moved either way for what a shift does to first order."""
 
@@ -164,7 +166,8 @@ def _sides(patch: Patch) -> tuple[float, float, float, float]:
 
 def _inner(specimen: Specimen, patch: Patch) -> list[int]:
     x_0, x_1, y_0, y_1 = _sides(patch)
-    inside = (x_0 > 0, x_1 < specimen.length_m, y_0 > 0, y_1 < specimen.width_m)
+    x, y = specimen.length_m - _ROUNDING_M, specimen.width_m - _ROUNDING_M
+    inside = (x_0 > _ROUNDING_M, x_1 < x, y_0 > _ROUNDING_M, y_1 < y)
     return [k for k, moves in enumerate(inside) if moves]
 
 

@@ -163,10 +163,12 @@ def on_motions(part: Array, V: Array) -> Array:
 def projected_parts(plate: Plate, V: Array, *, one_parity: bool = False) -> Array:
     """V^T P_p V of every part: of K_0, then of K_1, then of M. `V` of shape (n, k); shape (parts, k, k).
 
-    `one_parity`: all columns are even in y, or all are odd. Half of the elements do then.
+    `one_parity`: all columns are even in y, or all are odd. Half of the elements do then, of a plate without
+    patches.
     """
     dofs, weight = plate.mesh.element_dofs(), np.ones(plate.mesh.n_x * plate.mesh.n_y)
-    if one_parity:
+    # A patch that is laid elsewhere is no longer alike on both sides.
+    if one_parity and not shifts_of(plate.specimen):
         n_y = plate.mesh.n_y
         twice = 2 * (np.arange(len(dofs)) % n_y) + 1
         weight = np.where(twice > n_y, 0.0, np.where(twice == n_y, 1.0, 2.0))

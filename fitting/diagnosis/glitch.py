@@ -11,6 +11,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex, Mask
 from fitting.diagnosis.small_problem import SmallProblem
+from fitting.identification.validation import rms
 from fitting.laws import CoreLaw
 from fitting.noise import groups_of
 
@@ -44,6 +45,8 @@ class Glitch:
     high_hz: float
     largest: float
     """Off by so much, of the reading."""
+    rms: float
+    """The same, all over it."""
 
 
 def glitches(problem: SmallProblem, law: CoreLaw, v: Complex) -> tuple[Mask, tuple[Glitch, ...]]:
@@ -70,9 +73,9 @@ def glitches(problem: SmallProblem, law: CoreLaw, v: Complex) -> tuple[Mask, tup
             if np.sum(over & inside) < _SHORTEST:
                 continue
             aside[group[inside]] = True
-            found.append(
-                Glitch(float(f[inside].min()), float(f[inside].max()), float(np.abs(rest[inside]).max()))
-            )
+            off_by = np.abs(rest[inside])
+            size = float(off_by.max()), rms(off_by)
+            found.append(Glitch(float(f[inside].min()), float(f[inside].max()), *size))
         if aside[group].mean() > _MOST:
             aside[group] = False
             found = [g for g in found if not (f.min() <= g.low_hz <= f.max())]

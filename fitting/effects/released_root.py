@@ -78,7 +78,9 @@ def released(
 
 def _moved(full: FullPlate, dofs: Sequence[int]) -> Array:
     """Motions of the root, smooth along y. Shape (released, few)."""
-    return np.asarray(np.kron(_along(full.loose.mesh.n_y + 1), np.eye(len(dofs))), dtype=float)
+    smooth = np.kron(_along(full.loose.mesh.n_y + 1), np.eye(len(dofs)))
+    there = smooth[_is_there(full, _of_root(full, dofs))]
+    return np.asarray(there[:, np.any(there, axis=0)], dtype=float)
 
 
 def _beside_root(full: FullPlate, at: Snapshot, dofs: Sequence[int]) -> sp.csr_array:
@@ -111,9 +113,20 @@ def _mirrored(full: FullPlate, X: Array | Complex) -> Array | Complex:
 
 
 def root_dofs(full: FullPlate, dofs: Sequence[int]) -> Indices:
-    """Places of the root nodes' degrees of freedom among the loose plate's. Shape (dofs,)."""
-    wanted = (np.arange(full.loose.mesh.n_y + 1)[:, None] * full.loose.mesh.dofs + np.asarray(dofs)).ravel()
-    return np.asarray(np.searchsorted(full.loose.free, wanted), dtype=np.intp)
+    """Places of the root nodes' degrees of freedom among the loose plate's. Shape (dofs it has,)."""
+    wanted = _of_root(full, dofs)
+    there = wanted[_is_there(full, wanted)]
+    return np.asarray(np.searchsorted(full.loose.free, there), dtype=np.intp)
+
+
+def _of_root(full: FullPlate, dofs: Sequence[int]) -> Indices:
+    nodes = np.arange(full.loose.mesh.n_y + 1)
+    return np.asarray((nodes[:, None] * full.loose.mesh.dofs + np.asarray(dofs)).ravel(), dtype=np.intp)
+
+
+def _is_there(full: FullPlate, wanted: Indices) -> NDArray[np.bool_]:
+    """Layers that do not stretch, and treatment that is not there, have no motion. Shape of `wanted`."""
+    return np.isin(wanted, full.loose.free)
 
 
 def along_root(full: FullPlate, weight: Array | None = None) -> sp.csr_array:

@@ -28,7 +28,6 @@ from fitting.diagnosis.small_problem import DEAF, SmallProblem
 from fitting.errors import OutsideModel
 from fitting.identification.bare_plate import fit_bare_plate
 from fitting.identification.result import summarise
-from fitting.identification.validation import rms
 from fitting.laws import CoreLaw
 from fitting.noise import Noise, noise_of
 from fitting.reduced import ReducedPlate
@@ -47,6 +46,8 @@ from instrument.progress import Progress, quiet
 
 _ROUNDS = 4
 """A bound on time."""
+_NO_RIG = 0.1
+"""Of a reading: a misfit beyond it is another specimen, unit or sign."""
 _MISFIT = 3.0
 """Chi-square per degree of freedom from which a misfit is more than noise."""
 
@@ -153,10 +154,11 @@ class _Work:
 
     def without_glitches(self) -> tuple[Begun, Noise]:
         """The fit of what is no local disturbance."""
-        for _ in range(_ROUNDS):
+        for left in reversed(range(_ROUNDS)):
             problem, noise = self.problem()
             begun = begin(problem, None, noise, self.bare, self.start)
-            if not self._set_aside(begun):
+            # The last fit is of the points that are left.
+            if not left or not self._set_aside(begun):
                 break
         return begun, noise
 
@@ -181,30 +183,61 @@ class _Work:
         for k, other in enumerate(self.aside):
             g, h = one.glitch, other.glitch
             if other.file == one.file and g.low_hz <= 1.06 * h.high_hz and h.low_hz <= 1.06 * g.high_hz:
-                whole = Glitch(min(g.low_hz, h.low_hz), max(g.high_hz, h.high_hz), max(g.largest, h.largest))
-                self.aside[k] = SetAside(one.file, whole, one.points + other.points)
+                points = one.points + other.points
+                off = np.sqrt((one.points * g.rms**2 + other.points * h.rms**2) / points)
+                both = (min(g.low_hz, h.low_hz), max(g.high_hz, h.high_hz), max(g.largest, h.largest))
+                self.aside[k] = SetAside(one.file, Glitch(*both, float(off)), points)
                 return
         self.aside.append(one)
 
     def with_misfit(self, begun: Begun) -> bool:
-        """Take what the fit leaves as what readings are worth; False where noise explains it."""
-        if not begun.evidence.scale_known or not begun.none.chi2_per_dof > _MISFIT:
-            return False
+        """Take what the fit leaves as what readings are worth; False where noise explains it.
+
+        So it is of every file where one law does not do, and of one in which a fixture resonates: what was
+        set aside has tails, and a fit that follows them calls them law and channels.
+        """
+        self._lawless |= begun.evidence.scale_known and begun.none.chi2_per_dof > _MISFIT
         assert isinstance(begun.problem, SeveralProblem)
         v, law = begun.none.velocity_m_s, begun.none.law
         for k, (m, part) in enumerate(zip(begun.problem.members, begun.problem.starts_at, strict=True)):
             if not isinstance(m, SmallProblem) or not isinstance(m.specimen, ShearPair):
                 continue
-            off = (m.sweep.response_m_s if m.sweep.has_phase else np.abs(m.sweep.response_m_s)) / (
-                v[part] if m.sweep.has_phase else np.abs(v[part])
-            ) - 1
-            self.misfit[k] = rms(np.abs(off)) / np.sqrt(2)
+            stretches = [one for one in self.aside if one.file == numbers_of(self.files)[k]]
+            if not self._lawless and not stretches:
+                continue
+            has_phase, read = m.sweep.has_phase, m.sweep.response_m_s
+            off = (read if has_phase else np.abs(read)) / (v[part] if has_phase else np.abs(v[part])) - 1
+            squares = np.sum(np.abs(off) ** 2) + sum(one.points * one.glitch.rms**2 for one in stretches)
+            self.misfit[k] = np.sqrt(squares / (len(off) + sum(one.points for one in stretches)) / 2)
             hears = np.abs(m.feels(law, v[part])) > DEAF
             if hears.sum() > len(law.names) and not self._deaf_taken:
                 self.used[k][np.flatnonzero(self.used[k])[~hears]] = False
         self._deaf_taken = True
         return any(self.misfit)
 
+    def about_misfit(self) -> str:
+        """What was taken for the error of readings, in a sentence."""
+        sizes = ", ".join(f"{100 * m:.2g}" for m in self.misfit)
+        if max(self.misfit) > _NO_RIG:
+            return (
+                f"one law leaves {sizes} % of the readings, more than any rig is off: is every file with "
+                "its own specimen, and are mass, units and signs as the files have them? The law means "
+                "nothing else"
+            )
+        once = f"({sizes} %), once for every 0.12 in ln f, is taken for the error of"
+        if not self._lawless:
+            return (
+                "where a fixture resonates readings are off beyond what is set aside too: the rms of that "
+                f"and of what is left {once} the rest"
+            )
+        return (
+            f"the files follow no one law within their noise: each file's rms misfit {once} its readings, "
+            "for files whose cores differ by a few percent, and for a gain and a phase that all have in "
+            "common; see 'viscorig diagnose'"
+        )
+
+    _lawless: bool = False
+    """Whether noise does not explain what one law leaves."""
     _deaf_taken: bool = False
 
 
@@ -237,13 +270,7 @@ def identify_together(
         if work.with_misfit(begun):
             for _ in range(2):
                 begun, noise = work.without_glitches()
-                sizes = ", ".join(f"{100 * m:.2g}" for m in work.misfit)
-            further = (
-                f"the files follow no one law within their noise: each file's rms misfit ({sizes} %), once "
-                "for every 0.12 in ln f, is taken for the error of its readings, for files whose cores "
-                "differ by a few percent, and for a gain and a phase that all have in common; see "
-                "'viscorig diagnose'",
-            )
+            further = (work.about_misfit(),)
         fit = fit_of(begun)
     seconds = perf_counter() - ready
     theory = _check_theories(files, fit.law)

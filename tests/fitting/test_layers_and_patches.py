@@ -235,5 +235,28 @@ def test_effects_that_ask_for_the_whole_treatment_stand_on_no_patch():
         assert CATALOGUE[name].standing_on(PLATE) is not None
         assert CATALOGUE[name].standing_on(patched) is None
     assert CATALOGUE["orthotropic_substrate"].standing_on(TURNED) is None
-    assert CATALOGUE["clamp_compliance"].standing_on(EVERYTHING) is None
+    for name in ("clamp_line", "uneven_clamp"):
+        assert CATALOGUE[name].standing_on(EVERYTHING) is None
+    assert CATALOGUE["clamp_compliance"].standing_on(EVERYTHING) is not None
     assert CATALOGUE["added_mass"].standing_on(EVERYTHING) is not None
+
+
+@pytest.mark.parametrize("reach", [0.15, 1e-10])
+def test_a_patch_about_the_axis_is_even_and_its_shift_across_is_not(reach):
+    """To first order what one edge gives up the other one gains: even motions do not feel it."""
+    L, B = PLATE.length_m, PLATE.width_m
+    patch = Patch(0.2 * L, 0.7 * L, reach * B if reach > 1e-3 else 0.0, (1 - reach) * B)
+    specimen = replace(PLATE, patches=(patch,))
+    assert [s.name for s in shifts_of(specimen)] == ["patch_1_x", "patch_1_y"][: 1 + (reach > 1e-3)]
+    plate = Plate(specimen)
+    assert specimen.only_even
+    X = plate.even @ np.random.default_rng(0).normal(size=(plate.even.shape[1], 2))
+    found, whole = (projected_parts(plate, X, one_parity=one) for one in (True, False))
+    np.testing.assert_array_equal(found, whole)
+    counts = np.cumsum(names_of(specimen).counts[:2])
+    K_1 = np.split(found, counts)[1]
+    moved = replace(specimen, patches=shifts_of(specimen)[-1].of(specimen, SHIFT_M))
+    c = coefficients(moved, specimen)
+    K = X.T @ (Plate(moved).K_1 @ X) - X.T @ (plate.K_1 @ X)
+    by = np.tensordot(c.K_1 - coefficients(specimen, specimen).K_1, K_1, 1)
+    assert np.abs(by - K).max() < 1e-3 * np.abs(X.T @ (plate.K_1 @ X)).max()

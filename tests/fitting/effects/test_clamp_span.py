@@ -96,6 +96,17 @@ def test_patches_reach_the_clamps_or_do_not(boundary):
     assert lift @ rim_springs(rim.full, "z") @ lift == pytest.approx(area, abs=above * b)
 
 
+def test_a_root_of_a_plate_treated_on_both_sides_or_not_up_to_it():
+    """Where the substrate does not stretch, or no treatment is, there is nothing to let go."""
+    patch = (Patch(0.05, 0.2, 0.0, 0.1999),)
+    for changes in ({"both_sides": True}, {"patches": patch}):
+        rim = Rim(CLAMPS[:1], boundary="cantilever", pickup_m=(0.13, 0.06), **changes)
+        assert not on_a_rim(rim.full)
+        S = root_springs(rim.full, "x") + root_springs(rim.full, "z")
+        effect, K = CATALOGUE["clamp_compliance"], 3e13 * S
+        assert rim.error(effect, [3e13], K=K, free=rim.freed(ACROSS)) < 5e-4
+
+
 def test_a_plate_on_its_root_alone_has_the_root_s_springs(full):
     assert not on_a_rim(full.full)
     assert sp.linalg.norm(rim_springs(full.full, "z") - root_springs(full.full, "z")) < 1e-15
