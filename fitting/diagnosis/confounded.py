@@ -4,10 +4,11 @@ A shear pair's readings depend on modulus over mass alone, the rubber's own iner
 stated wrongly leaves nothing, and moves the law by as much. Then `none` would say more than the data do.
 """
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from fitting.arrays import Array
 from fitting.diagnosis.marginal import expected_size
@@ -17,6 +18,7 @@ from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.verdict import NONE, Judgement
 from fitting.effects.base import Effect
+from fitting.tolerances import OF_THEORY
 
 HIDDEN = 1.0
 """Standard deviations that a cause of the usual size may leave and still be hidden."""
@@ -69,7 +71,11 @@ def _neutral(value: float | None) -> float:
 def _hides(search: Search, effect: Effect) -> bool:
     if not _one_size(effect):
         return False
-    return hides(search.none.fitted, _as_absent(search, effect).fitted, search.problem.points.omega)
+    problem, none = search.problem, search.none.fitted
+    # What a theory leaves open widens the law's band and says nothing of a cause beside it.
+    open_kinds = [n.kind in OF_THEORY for n in problem.nuisances.each]
+    left_open = (len(none.law.names) + np.flatnonzero(open_kinds)).tolist()
+    return hides(none, _as_absent(search, effect).fitted, problem.points.omega, left_open)
 
 
 def _one_size(effect: Effect) -> bool:
@@ -77,10 +83,10 @@ def _one_size(effect: Effect) -> bool:
     return len(sized) == 1 and sized[0].neutral is not None and not sized[0].logarithmic
 
 
-def hides(none: Refitted, absent: Refitted, omega: Array) -> bool:
+def hides(none: Refitted, absent: Refitted, omega: Array, left_open: Sequence[int] = ()) -> bool:
     """Whether the law can do what an effect of one size would; `absent` has it last, at its neutral value.
 
-    `omega` in rad/s, shape (points,).
+    `omega` in rad/s, shape (points,). `left_open`: unknowns of `none` that are held for the law's errors.
     """
     (effect,) = absent.effects
     if not _one_size(effect):
@@ -96,8 +102,14 @@ def hides(none: Refitted, absent: Refitted, omega: Array) -> bool:
     if np.linalg.norm(left) > HIDDEN:
         return False
     by_log = (law.jacobian(omega) * law.values[:, None] / law.modulus(omega)).real
-    C = none.covariance[: len(law.names), : len(law.names)]
+    C = _held(none.covariance, np.asarray(left_open, dtype=int), len(law.names))
     return bool(_rms(by_log.T @ moved[: len(law.names)]) > MOVES * _rms(np.sqrt(_diagonal(by_log, C))))
+
+
+def _held(C: Array, at: NDArray[np.intp], count: int) -> Array:
+    """Covariance of the first unknowns, others held. Shape (count, count)."""
+    by = C[:count, at]
+    return np.asarray(C[:count, :count] - by @ np.linalg.solve(C[np.ix_(at, at)], by.T))
 
 
 def _diagonal(rows: Array, C: Array) -> Array:

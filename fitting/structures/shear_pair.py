@@ -25,10 +25,12 @@ from fitting.tolerances import STATED
 
 ORDER = 6
 """Polynomials over the thickness: the wave is then exact to 1e-9 where kt < 2."""
-NUMBERS = ("mass", "area", "core_thickness", "core_density")
+NUMBERS = ("mass", "area", "core_thickness", "core_density", "free_edges")
 EDGE = 0.1153
 """c of an edge: of a long strip of incompressible rubber, its plane problem, and of annular and full discs as
 solids, to 0.4 % up to a thickness of half their width (`tests/drivers/simulated/plant/test_solid_pad.py`)."""
+MOST_BY_EDGES = 0.5
+"""Of G A/t: thicker discs are blocks that bend and tip, of which no formula here holds."""
 _TYPICAL = {"mass": 2e-3}
 """Of a moving mass, weighed."""
 
@@ -86,6 +88,16 @@ class ShearPair(BaseDriven):
         outer, inner = np.sqrt((total + difference) / 2), np.sqrt(max(total - difference, 0.0) / 2)
         return float(EDGE * self.core.thickness_m / ((outer - inner) / 2))
 
+    @property
+    def left_out_by_edges(self) -> float:
+        """How much higher G' is where they are counted, relative; of a full disc where no shape is stated."""
+        softer = self.softer_by_edges
+        if self.gyration_m is None:
+            softer = EDGE * self.core.thickness_m / np.sqrt(self.area_m2 / np.pi)
+        # Bending is in what edges give way: where it is counted that much less is missing.
+        counted = self.softer_by_bending if self.bending else 0.0
+        return float(max(1 / (1 - min(softer, MOST_BY_EDGES)) / (1 + counted) - 1, 0.0))
+
     def parts(self) -> Parts:
         """For unit mass, unit rubber mass and unit A/t."""
         P, dP, mean = pad(ORDER)
@@ -110,13 +122,16 @@ class ShearPair(BaseDriven):
         mass = self.mass_kg * np.exp(by.get("mass", 0.0))
         rubber = self.core.density_kg_m3 * np.exp(by.get("core_density", 0.0)) * area * t
         stiff = 1 - self.softer_by_edges * np.exp(by.get("core_thickness", 0.0)) if self.edges else 1.0
+        stiff *= np.exp(by.get("free_edges", 0.0))
         softer = self.softer_by_bending * np.exp(2 * by.get("core_thickness", 0.0)) if self.bending else 0.0
         return np.array([stiff * area / t / (1 + softer), mass, rubber, mass, rubber], complex)
 
     def tolerance(self, name: str) -> float:
-        """Named, else typical."""
+        """Named, else typical; of `free_edges` what is not counted of them, or what the count leaves open."""
         if self.exact:
             return 0.0
+        if name == "free_edges":
+            return self.softer_by_edges**2 if self.edges else self.left_out_by_edges
         return float(self.tolerances.get(name, _TYPICAL.get(name, STATED[name].typical)))
 
     def theory_error(self, frequency_hz: Array, G: Complex) -> None:
@@ -132,6 +147,7 @@ class ShearPair(BaseDriven):
             "core_density": (self.core.density_kg_m3, 1.0, "kg/m^3"),
             "gain": (1.0, 1.0, "1"),
             "delay": (0.0, 1e6, "us"),
+            "free_edges": (1.0, 1.0, "1"),
         }[kind]
 
 

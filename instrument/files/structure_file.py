@@ -11,7 +11,7 @@ from fitting.errors import OutsideModel
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.specimen import Core, Reading
 from fitting.structures import AnySpecimen
-from fitting.structures.shear_pair import ShearPair, disc
+from fitting.structures.shear_pair import MOST_BY_EDGES, ShearPair, disc
 from instrument.errors import BadInput
 from instrument.files.beam_file import BeamDocument
 from instrument.files.law_table import with_rows
@@ -31,7 +31,7 @@ _RUBBER = 0.4999
 
 class _Disc(TomlTable):
     mass_kg: Positive
-    discs: int = Field(default=1, ge=1, le=100)
+    discs: int = Field(ge=1, le=100)
     thickness_mm: Positive
     outer_diameter_mm: Positive | None = None
     inner_diameter_mm: NotNegative | None = None
@@ -108,7 +108,7 @@ class ShearPairDocument(TomlTable):
             # Of the only layer there is.
             named.setdefault("core_thickness", named["thickness"])
             del named["thickness"]
-        return ShearPair(
+        found = ShearPair(
             mass_kg=p.mass_kg,
             discs=p.discs,
             area_m2=area,
@@ -121,6 +121,13 @@ class ShearPairDocument(TomlTable):
             tolerances=named,
             exact=self.tolerances is not None and self.tolerances.exact,
         )
+        if found.edges and found.softer_by_edges > MOST_BY_EDGES:
+            raise OutsideModel(
+                f"[shear-pair] edges = true with discs {p.thickness_mm:g} mm thick: their edges would take "
+                f"{100 * found.softer_by_edges:.0f} % of the stiffness, expected at most "
+                f"{100 * MOST_BY_EDGES:.0f} % (thinner discs)"
+            )
+        return found
 
 
 AnyDocument = SpecimenDocument | BeamDocument | ShearPairDocument

@@ -29,14 +29,13 @@ def remarks_on_edges(specimen: AnySpecimen) -> tuple[str, ...]:
     """Where the free edges of a pair's discs matter and are not counted."""
     if not isinstance(specimen, ShearPair) or specimen.edges:
         return ()
-    # Bending is in what edges give way: where it is counted that much less is missing.
-    counted = specimen.softer_by_bending if specimen.bending else 0.0
-    missing = 1 / (1 - specimen.softer_by_edges) / (1 + counted) - 1
+    missing = specimen.left_out_by_edges
     if missing < _WORTH_SAYING:
         return ()
+    how = "edges = true" if specimen.gyration_m is not None else "edges = true, with the discs' diameters"
     return (
-        f"what the discs' free edges give way is not counted: with it G' is {100 * missing:.2g} % higher "
-        "([shear-pair] edges = true)",
+        f"what the discs' free edges give way makes G' up to {100 * missing:.2g} % higher: allowed for, not "
+        f"counted ([shear-pair] {how})",
     )
 
 

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from fitting.laws.constant import ConstantModulus
@@ -15,7 +16,7 @@ PAIR = ShearPair(mass_kg=0.5, discs=2, area_m2=1.2e-3, core=CORE, gyration_m=1.0
 
 def percent(pair):
     (said,) = remarks_on_edges(pair)
-    return float(said.split("G' is ")[1].split(" %")[0])
+    return float(said.split("G' up to ")[1].split(" %")[0])
 
 
 def test_what_edges_give_way_is_said_as_the_modulus_will_show_it():
@@ -25,6 +26,11 @@ def test_what_edges_give_way_is_said_as_the_modulus_will_show_it():
 
 def test_bending_that_is_counted_is_missing_no_more():
     assert 0 < percent(replace(PAIR, bending=True)) < percent(PAIR)
+
+
+def test_where_only_an_area_is_stated_a_full_disc_stands_for_it():
+    full = replace(PAIR, gyration_m=(PAIR.area_m2 / np.pi) ** 0.5 / 2)
+    assert percent(replace(PAIR, gyration_m=None)) == pytest.approx(percent(full), rel=0.05)
 
 
 def test_nothing_is_said_of_edges_that_are_counted_or_hardly_count():

@@ -34,8 +34,18 @@ def law_error(found, f=(60.0, 150.0, 400.0)):
 def test_one_pair_gives_its_law():
     found = identify_together(files([0.573])).found.result
     assert law_error(found.law, (60, 150)).max() < 0.01
-    # Area and thickness are known to 2 % each: so is the modulus.
+    # Area and thickness are known to 2 % each, and what free edges give way is left open by 7 %.
     error = found.band.storage_modulus_standard_error_pa / found.band.storage_modulus_pa
+    assert np.median(error) == pytest.approx(np.sqrt(0.068**2 + 2 * 0.02**2), rel=0.1)
+    assert {one.name: one for one in found.fit.adjusted}["free_edges"].tolerance == pytest.approx(
+        0.068, abs=2e-3
+    )
+
+
+def test_edges_that_are_counted_leave_the_modulus_as_well_known_as_area_and_thickness():
+    given = [File(sweep(pair(0.573)), pair(0.573, edges=True))]
+    band = identify_together(given).found.result.band
+    error = band.storage_modulus_standard_error_pa / band.storage_modulus_pa
     assert 0.025 < np.median(error) < 0.05
 
 
