@@ -69,7 +69,7 @@ class DiagnosisProblem:
     passes: NodeGrid
     """Dense, every pass of a segment for itself."""
     dense: Nodes
-    """For what has poles that are not taken out."""
+    """For strains of the core, which are squares of motions."""
     nuisances: Nuisances
     """The stated numbers that may move."""
 
@@ -176,7 +176,7 @@ class DiagnosisProblem:
             return replace(grid, nodes=grid.nodes.around(found.near), poles=found)
 
         fine, coarse, passes = (made_for(g) for g in (self.fine, self.coarse, self.passes))
-        return replace(self, fine=fine, coarse=coarse, passes=passes)
+        return replace(self, fine=fine, coarse=coarse, passes=passes, dense=self.dense.around(found.near))
 
 
 def points_of(sweep: Sweep, specimen: StatedSpecimen) -> Points:
