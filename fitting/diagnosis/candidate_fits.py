@@ -81,16 +81,32 @@ class CandidateFits:
 
     def other_laws(self, effect: Effect) -> list[Refitted]:
         """Fits with each of the laws that an effect has in the place of the stated one."""
-        response = response_of(self.problem, [*self.none.effects, effect])
-        coarse = response_of(self.problem, [*self.none.effects, effect], self.problem.coarse)
         laws = effect.laws(self.none.law, self.problem.points)
-        rough = [refit(coarse, self.evidence, law, self.none.u, tolerance=ROUGH) for law in laws]
+        return self._best_laws(self.none, effect, laws)
+
+    def other_laws_beside(self, one: tuple[Refitted, str, float]) -> list[Refitted]:
+        """The same beside a fit of another effect.
+
+        None where the law that is freest to bend does not come down to `goal`.
+        """
+        before, name, goal = one
+        effect = self.effects[name]
+        laws = effect.laws(before.law, self.problem.points)
+        freest = max(laws, key=lambda law: len(law.names))
+        coarse = response_of(self.problem, [*before.effects, effect], self.problem.coarse)
+        rough = refit(coarse, self.evidence, freest, before.u, tolerance=ROUGH, goal=goal)
+        return self._best_laws(before, effect, laws) if rough.chi2 < goal else []
+
+    def _best_laws(self, before: Refitted, effect: Effect, laws: Sequence[CoreLaw]) -> list[Refitted]:
+        response = response_of(self.problem, [*before.effects, effect])
+        coarse = response_of(self.problem, [*before.effects, effect], self.problem.coarse)
+        rough = [refit(coarse, self.evidence, law, before.u, tolerance=ROUGH) for law in laws]
         nearest = min(rough, key=lambda f: f.chi2)
-        if self.none.chi2 - nearest.chi2 > SEARCH.least_expected:
-            further = effect.following(nearest.law, self.none.law, self.problem.points)
+        if before.chi2 - nearest.chi2 > SEARCH.least_expected:
+            further = effect.following(nearest.law, before.law, self.problem.points)
             rough += [refit(coarse, self.evidence, law, nearest.u, tolerance=ROUGH) for law in further]
         order = sorted(rough, key=lambda f: cost(f, self.problem.plate))
-        worth = [f for f in order if f.chi2 < self.none.chi2]
+        worth = [f for f in order if f.chi2 < before.chi2]
         best = worth[: SEARCH.laws_finished] or order[:1]
         return [refit(response, self.evidence, f.law, f.u) for f in best]
 

@@ -147,6 +147,24 @@ class Nodes:
             found[..., c.points] = (weighted @ c.plain.T) * (1 / at[c.plain.shape[1] :])
         return found
 
+    def away(
+        self, squares: Callable[[NDArray[np.intp], Places], Complex], *, at_nodes: bool = False
+    ) -> Array:
+        """|w^2 - p^2| over |p|^2 of each cluster's poles, multiplied: at its points, or at its nodes.
+
+        `squares` gives those of some poles, by their numbers, as they have moved for some places. Shape
+        (poles, places), or (poles, 1) where they are the same for all.
+        """
+        found = np.ones(len(self.omega if at_nodes else self.points))
+        size = np.abs(self.poles) ** 2
+        for c in self._clusters:
+            count = c.plain.shape[1]
+            places, w = (c.nodes, c.squares[:count]) if at_nodes else (c.points, c.squares[count:])
+            p = squares(c.poles, places)
+            # Parts by themselves: complex numbers multiply slowly.
+            found[places] = np.sqrt(((w - p.real) ** 2 + p.imag**2).prod(axis=0)) / size[c.poles].prod()
+        return found
+
     @cached_property
     def _neighbours(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """The nodes before and after each pole's, of the same cluster."""

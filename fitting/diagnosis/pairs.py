@@ -183,7 +183,7 @@ class Pairs:
         return next((t for t in near if not kept >= set(t.names)), None)
 
     def _exchanged(self, pair: ScoredFit, kept: Effect) -> list[ScoredFit]:
-        """Another effect, or another place of the same, beside the one of a pair that is kept."""
+        """Another effect, another place of the same, or another law beside the one of a pair that is kept."""
         work, each = self._search.work, self._search.executor.each
         before = work.alone((pair.fitted, kept))
         gone = {*pair.names} - {kept.name}
@@ -192,7 +192,9 @@ class Pairs:
         promising = sorted(looks, key=lambda one: -one[1][0][0])[: SEARCH.exchanged]
         goal = work.goal(pair.fitted)
         fits = each(work.second, [(before, form, starts, goal) for form, starts in promising])
-        return [self._search.judged(f) for f in fits if f is not None]
+        laws = [(before, e.name, goal) for e in self._search.effects if e.replaces_law]
+        bent = [f for found in each(work.other_laws_beside, laws) for f in found]
+        return [self._search.judged(f) for f in [*(f for f in fits if f is not None), *bent]]
 
 
 def _with_a_say(begun: Sequence[list[Refitted]]) -> list[list[Refitted]]:

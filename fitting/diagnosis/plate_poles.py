@@ -61,9 +61,14 @@ class PlatePoles:
             return None, nodes.poles
         key = nodes.omega.tobytes() + G.tobytes()
         if self._latest is None or self._latest[0] != key:
-            at = nodes.pole_node
-            modes = np.array([self._known[complex(p)] for p in nodes.poles], complex)
-            near = ModulusNear(nodes.omega[at], G[at], nodes.slope(G))
-            known = KnownPoles(nodes.poles, modes, nodes.cluster[at], near)
+            known = self.known(nodes, G)
             self._latest = key, known, known.followed(self.matrices)[0]
         return self._latest[1:]
+
+    def known(self, nodes: Nodes, G: Complex) -> KnownPoles:
+        """The poles that nodes were made for, to be followed to where a modulus has them. Shape (nodes,)."""
+        at = nodes.pole_node
+        modes = np.array([self._known[complex(p)] for p in nodes.poles], complex)
+        return KnownPoles(
+            nodes.poles, modes, nodes.cluster[at], ModulusNear(nodes.omega[at], G[at], nodes.slope(G))
+        )

@@ -32,6 +32,8 @@ _SMALL = 40
 """Columns of a plate that is not condensed: a small structure, or one whose basis was never large."""
 _PLACES, _REACH, _PLACES_SEED = 4, 2.0, 5
 """Of the tolerances' box, that a condensed plate answers for: how many, how far in standard deviations."""
+_BESIDE = 0.25
+"""Of a cluster's width: so far beside it poles are taken out of strains; what is further, nodes follow."""
 _SECONDS_A_POINT = 10.0
 """Pace assumed where no time is kept."""
 
@@ -69,7 +71,7 @@ class DiagnosisProblem:
     passes: NodeGrid
     """Dense, every pass of a segment for itself."""
     dense: Nodes
-    """For what has poles that are not taken out."""
+    """For strains of the core, which are squares of motions."""
     nuisances: Nuisances
     """The stated numbers that may move."""
 
@@ -175,8 +177,12 @@ class DiagnosisProblem:
         def made_for(grid: NodeGrid) -> NodeGrid:
             return replace(grid, nodes=grid.nodes.around(found.near), poles=found)
 
+        def close(low: float, high: float) -> Complex:
+            p, reach = found.near(low, high), _BESIDE * (high - low)
+            return p[(p.real > low - reach) & (p.real < high + reach)]
+
         fine, coarse, passes = (made_for(g) for g in (self.fine, self.coarse, self.passes))
-        return replace(self, fine=fine, coarse=coarse, passes=passes)
+        return replace(self, fine=fine, coarse=coarse, passes=passes, dense=self.dense.around(close))
 
 
 def points_of(sweep: Sweep, specimen: StatedSpecimen) -> Points:

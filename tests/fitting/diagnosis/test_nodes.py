@@ -33,6 +33,23 @@ def test_without_the_poles_the_same_nodes_do_not_suffice():
     assert np.abs(found - expected).max() > 1e-3 * np.abs(expected).max()
 
 
+def test_what_rises_as_one_over_the_distance_from_poles_is_smooth_times_that_distance():
+    nodes = Nodes.of(OMEGA, 16).around(between)
+    size = [np.abs(response(w, MOVED)) for w in (nodes.omega, OMEGA)]
+    away = [nodes.away(lambda mine, at: MOVED[mine, None] ** 2, at_nodes=there) for there in (True, False)]
+    found = (nodes.plain @ np.log(size[0] * away[0])) - np.log(away[1])
+    np.testing.assert_allclose(found, np.log(size[1]), atol=1e-6)
+
+
+def test_poles_may_be_elsewhere_for_every_point():
+    nodes = Nodes.of(OMEGA, 16).around(between)
+    moved = POLES[:, None] * (1 + np.linspace(0.0, 0.02, len(OMEGA)))
+    found = nodes.away(lambda mine, at: moved[mine][:, at] ** 2)
+    own = np.repeat([0, 1], [90, 80])
+    each = moved[own, np.arange(len(OMEGA))]
+    np.testing.assert_allclose(found, np.abs(OMEGA**2 - each**2) / np.abs(POLES[own]) ** 2)
+
+
 def test_few_points_are_nodes_themselves():
     omega = 2 * np.pi * np.array([18.4, 19.3, 20.2, 100.5])
     nodes = Nodes.of(omega, 16)

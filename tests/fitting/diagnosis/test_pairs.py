@@ -29,7 +29,7 @@ class World:
     def __init__(self, names, **chi2):
         self.effects = [effect(n) for n in names]
         self.chi2 = {frozenset(two.split("_")): value for two, value in chi2.items()}
-        self.work, self.kept, self.goals = self, [], []
+        self.work, self.kept, self.goals, self.laws = self, [], [], []
 
     def fit(self, *effects):
         chi2 = self.chi2.get(frozenset(e.name for e in effects), NOTHING)
@@ -52,6 +52,11 @@ class World:
         rough, goal = one
         self.goals.append(goal)
         return rough
+
+    def other_laws_beside(self, one):
+        before, name, goal = one
+        self.laws.append((before.effects[0].name, name, goal))
+        return [self.second((before, (name, 0), None, None))]
 
     def look(self, one):
         before, forms = one
@@ -103,6 +108,15 @@ def test_what_an_exchange_leads_to_is_exchanged_again():
     assert world.found("w")[0] == {"v", "b"}
     # Beside each effect others are looked for once, whichever pairs it is in.
     assert sorted(world.kept) == ["a", "b", "v", "w"]
+
+
+def test_another_law_is_tried_beside_what_is_kept_of_the_best_two():
+    world = World("wab", w=200.0, w_a=180.0, a_law=100.0)
+    law = effect("law")
+    law.replaces_law = True
+    world.effects.append(law)
+    assert world.found("w")[0] == {"a", "law"}
+    assert {(one, goal) for one, _, goal in world.laws} == {("w", 180.0), ("a", 180.0)}
 
 
 def test_where_no_two_effects_do_better_than_one_nothing_is_exchanged():

@@ -145,6 +145,50 @@ def test_alone_it_does_stand_for_it():
     assert said.equivalent == {"clamp_compliance": ("clamp_compliance", "viscous_damping")}
 
 
+def test_what_comes_beside_another_of_the_group_does_not_stand_for_the_best_either():
+    """More damping beside a clamp that rubs: it is the friction that may be there instead."""
+    said = judged(
+        POOR_NONE,
+        scored("clamp_compliance", cost=0.0),
+        scored("clamp_friction", cost=1.0),
+        scored("clamp_friction", "viscous_damping", cost=2.0),
+    )
+    assert said.equivalent == {"clamp_compliance": ("clamp_compliance", "clamp_friction")}
+
+
+def test_where_both_of_a_pair_are_exchanged_each_stands_for_what_it_stands_for_alone():
+    said = judged(
+        POOR_NONE,
+        scored("clamp_compliance", "sensor_lowpass", cost=0.0),
+        scored("clamp_compliance", "channel_delay", cost=0.5),
+        scored("clamp_line", "channel_delay", cost=1.0),
+    )
+    assert said.equivalent == {
+        "clamp_compliance": ("clamp_compliance", "clamp_line"),
+        "sensor_lowpass": ("sensor_lowpass", "channel_delay"),
+    }
+
+
+def test_where_nothing_is_known_of_both_each_may_stand_for_either():
+    pair = scored("clamp_compliance", "sensor_lowpass", cost=0.0)
+    said = judged(POOR_NONE, pair, scored("clamp_line", "channel_delay", cost=0.5))
+    for name in pair.names:
+        assert set(said.equivalent[name]) == {name, "clamp_line", "channel_delay"}
+
+
+def test_what_comes_beside_one_of_the_best_stands_for_the_other_though_that_one_may_do_alone():
+    said = judged(
+        POOR_NONE,
+        scored("base_rocking", "partial_debond", cost=0.0),
+        scored("base_rocking", "graded_core", cost=1.0),
+        scored("base_rocking", cost=1.5),
+    )
+    assert said.equivalent == {
+        "base_rocking": ("base_rocking",),
+        "partial_debond": ("partial_debond", "graded_core"),
+    }
+
+
 def test_one_of_the_group_that_passes_is_enough():
     every = scored("gain_error", cost=0.0, fails=True), scored("spot_offset", cost=1.0)
     said = judged(POOR_NONE, *every)

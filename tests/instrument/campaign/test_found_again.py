@@ -44,6 +44,7 @@ TWO_PASSED_BY = {
     "neither led by itself, and a third did most of what both do": 110049,
     "two masses did a loose strip's work beside a wrong substrate": 110149,
     "air is all but what a wrong substrate does, and a large step hid the rest": 110173,
+    "another law was not looked for beside a base that rocks, and a mass did its work": 110124,
 }
 
 
@@ -53,3 +54,11 @@ def test_two_effects_that_were_passed_by_are_found(seed):
     case = draw(PAIR, seed)
     found = diagnose(case.sweep, case.specimen, hammer=case.hammer).result
     assert {e.name for e in found.effects} == {*case.truth.names}
+
+
+@pytest.mark.long
+def test_softening_over_a_sharp_resonance_leaves_nothing_for_a_tether():
+    case = draw("amplitude_softening", 110114)
+    found = diagnose(case.sweep, case.specimen, hammer=case.hammer).result
+    assert (found.verdict, [e.name for e in found.effects]) == ("effect", ["amplitude_softening"])
+    assert found.after.chi2_per_dof < 1.0

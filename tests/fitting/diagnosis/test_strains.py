@@ -1,0 +1,75 @@
+"""Strains of the core, as softening goes by them, beside those of a plate solved at every point."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from fitting.damping import viscous_damping
+from fitting.diagnosis.plate_answer import StrainedCore
+from fitting.diagnosis.problem import DiagnosisProblem
+from fitting.diagnosis.strains import Reference, Strains
+from fitting.domain import domain_of
+from fitting.effects import CATALOGUE
+from fitting.effects.added_mass import PointMass
+from fitting.effects.amplitude_softening import CoreStrain
+from fitting.effects.change import Change
+from fitting.effects.enriching import enriched
+from fitting.effects.full_plate import FullPlate
+from fitting.laws.constant import ConstantModulus
+from fitting.plate import Plate
+from fitting.rational import rational_sweep
+from fitting.reduced import reduce_plate
+from fitting.sweep import Sweep
+
+F_HZ = np.linspace(14.0, 26.0, 90)
+OMEGA = 2 * np.pi * F_HZ
+LAW = ConstantModulus(0.3e6, 0.2)
+"""Of a core that damps little: the first resonance is some 1.5 Hz wide."""
+MASS, STEP = np.array([5e-3, 0.25, 0.16]), np.array([5e-6, 0.0, 0.0])
+
+
+@pytest.fixture(scope="module")
+def clamped(zn1):
+    """A plate of few elements, exact as stated, and its sweep over the first resonance."""
+    specimen = replace(zn1, elements=(8, 6), exact=True)
+    plate = Plate(specimen)
+    damping = viscous_damping(plate)
+    reduced = reduce_plate(plate, damping, domain_of(specimen, F_HZ))
+    widened = enriched(FullPlate(plate, damping), plate.carried @ reduced.V, [PointMass(), CoreStrain()])
+    ones = np.ones(len(F_HZ))
+    sweep = Sweep(F_HZ, ones + 0j, ones, np.ones(len(F_HZ), int), np.ones(len(F_HZ), int))
+    problem = DiagnosisProblem.of(sweep, specimen, widened, lambda omega: rational_sweep(reduced, omega))
+    return SimpleNamespace(problem=problem.around(LAW), plate=widened)
+
+
+def with_mass(plate, mass):
+    return CATALOGUE["added_mass"].change(plate, mass)
+
+
+def exact(plate, softened, change):
+    return StrainedCore(plate, OMEGA, LAW.modulus(OMEGA) * (1 - softened), change).strain
+
+
+@pytest.mark.parametrize("softened", [-0.2, 0.0, 0.1, 0.2, 0.4])
+@pytest.mark.parametrize("mass", [None, MASS], ids=["as it is", "with a mass"])
+def test_strain_over_a_sharp_resonance_is_that_of_a_plate_solved_at_every_point(clamped, softened, mass):
+    change = Change() if mass is None else with_mass(clamped.plate, mass)
+    reference = Reference()
+    strains = Strains(clamped.problem, clamped.plate, reference)
+    found = strains.under(LAW, b"", lambda: change)(np.full(len(F_HZ), softened))
+    expected = exact(clamped.plate, softened, change)
+    assert expected.max() > 5 * expected.min()
+    np.testing.assert_allclose(found * reference.strain, expected, rtol=2e-3)
+
+
+def test_strain_a_step_further_over_a_sharp_resonance_is_what_the_changed_plate_has(clamped):
+    up, down = (with_mass(clamped.plate, MASS + s * STEP) for s in (1, -1))
+    strains = Strains(clamped.problem, clamped.plate, Reference())
+    softened = np.full(len(F_HZ), 0.1)
+    here = (LAW, b"", lambda: with_mass(clamped.plate, MASS))
+    along = strains.along(*here, (up, down, 2 * STEP[0]), STEP[0])(softened)
+    found = np.log(along / strains.under(*here)(softened))
+    expected = np.log(exact(clamped.plate, 0.1, up) / exact(clamped.plate, 0.1, down)) / 2
+    assert np.abs(found - expected).max() < 0.01 * np.abs(expected).max()
