@@ -124,6 +124,18 @@ def theory_error(specimen: Specimen, frequency_hz: ArrayLike, G: ArrayLike = 0.0
     )
 
 
+def thickness_error(specimen: Specimen, wavenumber: Array, G: Complex) -> tuple[Array, Array]:
+    """What comes of layers that stretch across their thickness alone, all else exact: relative errors.
+
+    Of the frequency and of the loss factor of waves (1/m), core moduli given. Shape (waves,) each.
+    """
+    layers = stack(specimen, G)
+    held = tuple(replace(x, stretches=False) for x in layers)
+    return _errors(
+        exact_lambda(held, wavenumber, _QUICK_ORDER), exact_lambda(layers, wavenumber, _QUICK_ORDER)
+    )
+
+
 def check_theory(specimen: Specimen, law: CoreLaw | None, frequency_hz: ArrayLike) -> TheoryError:
     """The error over a band, where the layer-wise plate may be used; `law` None for a bare plate.
 

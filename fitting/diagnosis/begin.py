@@ -67,9 +67,9 @@ def begin(
     if not problem.specimen.exact:
         laws = [BentLaw.over(one, sweep.frequency_hz, problem.freedom) for one in laws]
     law, u = laws[0], problem.as_stated
-    for _ in range(_ROUNDS):
+    v = model.velocity(law)
+    for round in range(_ROUNDS):
         here = problem.condensed(law).around(law)
-        v = model.velocity(law)
         evidence = Evidence.of(sweep, noise, model_error(here, reduced, law, v), v, bare)
         if not noise.is_known and len(u):
             # Tolerances weigh against readings: those need a size, and their misfit is all there is.
@@ -84,6 +84,9 @@ def begin(
         omega = problem.coarse.nodes.omega
         moved = np.max(np.abs(none.law.modulus(omega) / law.modulus(omega) - 1))
         law, u = none.law, none.u
-        if moved < _FAR:
+        if moved < _FAR and not (problem.errs_as_found and round == 0):
             break
+        v = model.velocity(law)
+        if problem.errs_as_found:
+            problem, v = problem.as_found(none.z), none.velocity_m_s
     return Begun(here, problem.plate, evidence, followed(here, evidence, none, executor), first)

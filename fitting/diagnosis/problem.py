@@ -148,6 +148,15 @@ class DiagnosisProblem:
         """How much more than usual the law may bend."""
         return 1.0
 
+    @property
+    def errs_as_found(self) -> bool:
+        """Whether what the model gets wrong is asked where the stated numbers are found (`as_found`)."""
+        return False
+
+    def as_found(self, z: Array) -> "DiagnosisProblem":
+        """The same, its model's error asked with its stated numbers there. `z` of shape (numbers,)."""
+        return self
+
     def model_error(self, law: CoreLaw, v: Complex) -> Complex | None:
         """Changes of the velocity `v` by what the model gets wrong; None for a plate, see `model_error`.
 

@@ -142,6 +142,16 @@ class SeveralProblem(DiagnosisProblem):
         laws = [law_at(law, k) for k in range(len(self.members))]
         return replace(self, members=one_plate.around(self.members, self.plates, laws))
 
+    @property
+    def errs_as_found(self) -> bool:
+        """Where any member's does."""
+        return any(m.errs_as_found for m in self.members)
+
+    def as_found(self, z: Array) -> "SeveralProblem":
+        """Every member with its own. `z` of shape (numbers,)."""
+        each = zip(self.members, self.places, strict=True)
+        return replace(self, members=tuple(m.as_found(np.asarray(z)[at]) for m, at in each))
+
     def model_error(self, law: CoreLaw, v: Complex) -> Complex:
         """Each member's own. Shape (any, points)."""
         rows = []

@@ -1,7 +1,7 @@
 """The task of one sweep of a small structure: exact at every point, no grid between."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 from fitting.noise import Noise
 from fitting.structures.small import (
+    SmallNuisances,
     SmallSpecimen,
     SmallSystem,
     check_driven,
@@ -59,6 +60,8 @@ class SmallProblem(DiagnosisProblem):
 
     misfit: float = 0.0
     """Of the reading, relative: what a fit has left that nothing explains."""
+    found: Array | None = None
+    """Where a fit has its stated numbers, in standard deviations; None: as stated. Shape (numbers,)."""
 
     @classmethod
     def of_small(cls, sweep: Sweep, specimen: SmallSpecimen) -> "SmallProblem":
@@ -115,6 +118,31 @@ class SmallProblem(DiagnosisProblem):
         more = self.misfit * together * np.abs(self.sweep.response_m_s)
         return Noise(np.hypot(noise.std_m_s, more) if noise.is_known else more, "misfit")
 
+    @property
+    def errs_as_found(self) -> bool:
+        """A beam's: a resonance is narrower than its stated numbers may be off."""
+        return self.specimen.kind == "beam" and len(self.nuisances) > 0
+
+    def as_found(self, z: Array) -> "SmallProblem":
+        """The same, its model's error asked with its stated numbers there. `z` of shape (numbers,)."""
+        return replace(self, found=np.array(z))
+
+    def _system(self) -> SmallSystem:
+        """With its stated numbers where they were found."""
+        system, stated = self.plate, self.nuisances
+        assert isinstance(system, SmallSystem)
+        if self.found is None or not isinstance(stated, SmallNuisances):
+            return system
+        change = stated.change(system, self.found)
+        return replace(
+            system,
+            K_0=system.K_0 + change.K,
+            K_1=system.K_1 + change.K_1,
+            M=system.M + change.M,
+            load=system.load + change.load,
+            observe=system.observe + change.observe,
+        )
+
     def model_error(self, law: CoreLaw, v: Complex) -> Complex:
         """Gain and phase of the instruments, how they drift, and what the structure's theory gets wrong.
 
@@ -123,10 +151,9 @@ class SmallProblem(DiagnosisProblem):
         has_phase = self.points.has_phase
         segments = [self.sweep.segment == number for number in np.unique(self.sweep.segment)]
         rows = [row for s in segments for row in channel_rows(self.sweep, s, v, has_phase=has_phase)]
-        specimen, system = self.specimen, self.plate
-        if isinstance(system, SmallSystem):
-            drive = self.points.acceleration_m_s2
-            rows += theory_rows(specimen, system, self.sweep.omega, law, drive)  # type: ignore[arg-type]
+        if isinstance(self.plate, SmallSystem):
+            drive, omega = self.points.acceleration_m_s2, self.sweep.omega
+            rows += theory_rows(self.specimen, self._system(), omega, law, drive)  # type: ignore[arg-type]
         if self.misfit:
             hats = octaves(self.sweep.omega)
             size = WANDERING * self.misfit

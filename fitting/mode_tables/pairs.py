@@ -8,9 +8,11 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
+from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.search import ScoredFit
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect
+from fitting.errors import OutsideModel
 from fitting.mode_tables.explaining import Explaining
 
 LEADERS = 3
@@ -54,7 +56,8 @@ def best_pairs(
     found: dict[frozenset[str], ScoredFit] = {}
     for n, k in enumerate(chosen.values()):
         leader, form, starts = asked[k]
-        for f in work.fits(form, leader.fitted, starts):
+        fits = work.fits(form, leader.fitted, starts)
+        for f in (*fits, *(other for one in fits for other in _beyond(work, one))):
             scored = work.scored(f)
             known = found.get(frozenset(scored.names))
             if work.determined(f) and (known is None or scored.cost < known.cost):
@@ -62,6 +65,22 @@ def best_pairs(
         report((n + 1) / len(chosen))
     ranked = sorted(found.values(), key=lambda t: t.cost)
     return [*ranked, *(one for pair in ranked[:1] for one in _alone(work, pair))]
+
+
+def _beyond(work: Explaining, pair: Refitted) -> list[Refitted]:
+    """Two factors on numbers fitted again from their reciprocals.
+
+    Of faces that are alike there is a valley on the other side too.
+    """
+    each = [q for e in pair.effects for q in e.parameters]
+    if any(q.neutral != 1 or q.fixed for q in each):
+        return []
+    u = pair.u.copy()
+    u[pair.stated :] = np.clip(1 / u[pair.stated :], *np.array([(q.lower, q.upper) for q in each]).T)
+    try:
+        return [work.ended(pair.effects, pair.law, u)]
+    except (OutsideModel, np.linalg.LinAlgError):
+        return []
 
 
 def _alone(work: Explaining, pair: ScoredFit) -> list[ScoredFit]:

@@ -55,6 +55,9 @@ class Beam:
     base_acceleration_m_s2: float = PUBLISHED_G_M_S2
     tolerances: Mapping[str, float] = field(default_factory=dict, hash=False)
     exact: bool = False
+    slender: bool = False
+    """Whether it is as thin and narrow as handbooks' formulas have it: nothing turns, shears or curves across
+    but the core."""
 
     kind = "beam"
     modal_ratios: tuple[float, ...] = ()
@@ -122,8 +125,10 @@ class Beam:
         if self.core is not None:
             # How a free layer stretches depends on Poisson's ratio as on the modulus.
             layers.append(("core", ("thickness", "density")))
-        held = ("held_width",) if _HELD_ENDS[self.boundary] else ()
-        return (*(f"{layer}_{n}" for layer, numbers in layers for n in numbers), "length", *held)
+        # A base drives a wider beam by as much more.
+        wide = ("width",) if self.force_m is not None else ()
+        held = ("held_width",) if _HELD_ENDS[self.boundary] and not self.slender else ()
+        return (*(f"{layer}_{n}" for layer, numbers in layers for n in numbers), "length", *wide, *held)
 
     def parts(self) -> Parts:
         """For unit coefficients, on the basis of modes."""
@@ -146,7 +151,10 @@ class Beam:
             copies=self.copies,
             thickness_m=tuple(0.0 if x is None else x.thickness_m for x in layers),  # type: ignore[arg-type]
             both_sides=self.both_sides,
-            coefficients=tuple(self.coefficients({}).real[:15].tolist()),
+            coefficients=tuple(self.coefficients({}).real[:18].tolist()),
+            rigidity=self._rigidity,
+            poisson=tuple(0.0 if x is None else x.poisson for x in layers),  # type: ignore[arg-type]
+            is_slender=self.slender,
         )
 
     @property
@@ -155,15 +163,15 @@ class Beam:
         return 2 if self.boundary == "centre-driven" else 1
 
     def coefficients(self, by: Mapping[str, float]) -> Complex:
-        """Three of the faces' stiffness, three of slip, three of a free layer, six of inertia, the load.
+        """Three of the faces' stiffness, as much of it as clamps hold, three of slip, three of a free layer.
 
-        Shape (16,).
+        Then six of inertia, and the load. Shape (19,).
         """
         b, c, v = (self._moved(name, by) for name in ("substrate", "constraining", "core"))
         span = self.span_m
         L = span + by.get("length", 0.0) * (span / self.length_m)
-        L -= by.get("held_width", 0.0) + (self.held_width_m if self.held_width else 0.0)
-        width = self.width_m * self.copies
+        held = (1.0 if self.held_width else 0.0) + by.get("held_width", 0.0) / (self.held_width_m or 1.0)
+        width = (self.width_m + by.get("width", 0.0)) * self.copies
         E_b, h_b, m_b = _of_face(b)
         E_c, h_c, m_c = _of_face(c)
         H = v["thickness"] if v else 0.0
@@ -178,20 +186,49 @@ class Beam:
         d, e = H + (h_b + h_c) / 2, (h_c - h_b) / 2
         if v and c:
             slip = twice * np.array([L / H, d / H, d**2 / H / L])
-            inertia = [m_v / 4 * L, m_v / 4 * e, m_v / 4 * e**2 / L]
+            inertia = [m_v / 4 * L, m_v / 4 * e, (m_v / 4 * e**2 + self._turning(b, c, v)) / L]
             mass = m_b + m_c + m_v
         else:
             sides = 2 if self.both_sides else 1
             low, high = h_b / 2, h_b / 2 + H
             first = 0.0 if self.both_sides else (high**2 - low**2) / 2
             moments = np.array([sides * H, first, sides * (high**3 - low**3) / 3])
-            ratio = 2 * (1 + v["poisson"]) if v else 0.0
-            free = ratio * moments / np.array([L, L**2, L**3])
-            inertia = [0.0, 0.0, 0.0]
+            free = self._young_per_shear * moments / np.array([L, L**2, L**3])
+            inertia = [0.0, 0.0, self._turning(b, c, v) / L]
             mass = m_b + sides * m_v
         M = np.array([mass * L, m_b * L, m_c * L, *inertia])
         load = width * mass * L if self.force_m is None else 1.0
-        return np.append(width * np.concatenate([K_0, slip, free, M]), load).astype(complex)
+        return np.append(width * np.concatenate([K_0, held * K_0, slip, free, M]), load).astype(complex)
+
+    def _turning(self, b: dict[str, float], c: dict[str, float], v: dict[str, float]) -> float:
+        """Inertia of what turns with the sections, per area: of layers about their own middles, in kg."""
+        if self.slender:
+            return 0.0
+        sides = 2 if self.both_sides else 1
+        own = [(1, b), (sides, c)] if c else [(1, b)]
+        found = sum(n * x["density"] * x["thickness"] ** 3 / 12 for n, x in own)
+        if v and not c:
+            low, high = b["thickness"] / 2, b["thickness"] / 2 + v["thickness"]
+            found += sides * v["density"] * (high**3 - low**3) / 3
+        return float(found)
+
+    @property
+    def _young_per_shear(self) -> float:
+        """Of a free layer: it narrows as the substrate does that it is bonded to."""
+        if self.core is None:
+            return 0.0
+        nu, its = self.core.poisson, self.substrate.poisson
+        if self.slender:
+            return 2 * (1 + nu)
+        return 2 * (1 - 2 * nu * its + its**2) / (1 - nu)
+
+    @property
+    def _rigidity(self) -> tuple[float, float]:
+        """Of both faces' bending, N m."""
+        b, c = self.substrate, self.constraining
+        twice = 2 if self.is_doubled else 1
+        above = twice * c.young_pa * c.thickness_m**3 if c is not None else 0.0
+        return b.young_pa * b.thickness_m**3 / 12, above / 12
 
     @property
     def held_width_m(self) -> float:
@@ -223,9 +260,9 @@ class Beam:
         if layers is not None:
             return sandwich_error(layers, self._poisson * self.width_m, frequency_hz, G)
         c = self.coefficients({})
-        L, mass = self.span_m, float(c[9].real / self.span_m)
-        axial = c[0] * L + G * c[6] * L
-        bending = c[2] * L**3 + G * c[8] * L**3 - (G * c[7] * L**2) ** 2 / axial
+        L, mass = self.span_m, float(c[12].real / self.span_m)
+        axial = c[0] * L + G * c[9] * L
+        bending = c[2] * L**3 + G * c[11] * L**3 - (G * c[10] * L**2) ** 2 / axial
         return free_layer_error(bending, mass, self._poisson * self.width_m, frequency_hz)
 
     def _moved(self, name: str, by: Mapping[str, float]) -> dict[str, float]:
@@ -249,6 +286,7 @@ class Beam:
     def stated_number(self, kind: str) -> tuple[float, float, str]:
         """In SI, with the factor to the unit of results."""
         others = {"gain": (1.0, 1.0, "1"), "delay": (0.0, 1e6, "us"), "length": (self.length_m, 1e3, "mm")}
+        others["width"] = self.width_m, 1e3, "mm"
         others |= {name: (x, 1e3, "mm") for name, x in self.places.items()}
         others["held_width"] = (self.held_width_m if self.held_width else 0.0, 1e3, "mm")
         if kind in others:

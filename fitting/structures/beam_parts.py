@@ -7,7 +7,7 @@ their stiffness: faces of another one stretch apart (`faces`). Matrices go by th
 (`fitting.effects`).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -15,7 +15,27 @@ import scipy.linalg as la
 from numpy.typing import NDArray
 
 from fitting.arrays import Array
-from fitting.structures.beam_shapes import ORDER, Shapes, gauss, matrices_of, shapes_of, slip_by_pieces
+from fitting.structures.beam_shapes import (
+    ORDER,
+    BeamMatrices,
+    Shapes,
+    gauss,
+    matrices_of,
+    shapes_of,
+    slip_by_pieces,
+    square,
+)
+from fitting.structures.beam_width import (
+    PLACES,
+    WEIGHT,
+    curved_across,
+    followed,
+    give_of_face,
+    give_of_layer,
+    narrowed,
+    reach,
+    sheared,
+)
 from fitting.structures.small import Parts
 
 _MODES = 10
@@ -28,6 +48,10 @@ _APART = 1e-5
 """Of the faces' own stretching: what their modes have already."""
 _ELEMENTS = 200
 """Along the beam, w a cubic on each: of any column off by 1e-5, of ten modes by 1e-7."""
+
+
+PARTS = {"K_0": slice(0, 6), "K_1": slice(6, 12), "M": slice(12, 18)}
+"""Where their coefficients are."""
 
 
 @dataclass(frozen=True)
@@ -44,6 +68,12 @@ class BeamSection:
     both_sides: bool
     coefficients: tuple[float, ...]
     """Of K_0, K_1 and M, losses left out."""
+    rigidity: tuple[float, float]
+    """Of substrate and constraining layers in bending, by any common measure."""
+    poisson: tuple[float, float, float]
+    """Of substrate, core and constraining layer."""
+    is_slender: bool = False
+    """Whether nothing of its width, nor of its faces' own shear, is counted."""
 
     @property
     def is_sandwich(self) -> bool:
@@ -73,8 +103,70 @@ class BeamSection:
 
     def summed(self, which: str) -> Array:
         """K_0, K_1 or M over all unknowns, K_1 for a modulus of one. Shape (size, size)."""
-        of = {"K_0": slice(0, 3), "K_1": slice(3, 9), "M": slice(9, 15)}[which]
-        return np.tensordot(self.coefficients[of], getattr(matrices_of(self.ends), which), axes=1)
+        return np.tensordot(self.coefficients[PARTS[which]], getattr(sectioned(self), which), axes=1)
+
+
+@lru_cache(maxsize=64)
+def sectioned(section: BeamSection) -> BeamMatrices:
+    """Those of its ends with what its width does, and of K_0 three more: how much more where that is held."""
+    plain = matrices_of(section.ends)
+    if section.is_slender:
+        return replace(plain, K_0=np.concatenate([plain.K_0, np.zeros_like(plain.K_0)]))
+    free, held = (_across(section, held=held) for held in (False, True))
+    bend, L = section.shapes.rows("w", PLACES, 2), section.length_m
+    K_0 = plain.K_0 + free
+    for share, k, nu in _faces(section):
+        K_0[2] -= share * sheared(bend, bend, give_of_face(section.thickness_m[k] / L, nu), section.ends)
+    return replace(plain, K_0=np.concatenate([K_0, held - free]), K_1=plain.K_1 + _core_across(section))
+
+
+def _core_across(section: BeamSection) -> Array:
+    """What a width adds to a core's shear, and what width and shear do to a free layer. As K_1."""
+    s, L = section.shapes, section.length_m
+    (nu_b, nu_v, nu_c), h_v = section.poisson, section.thickness_m[1]
+    bend, found = s.rows("w", PLACES, 2), np.zeros_like(matrices_of(section.ends).K_1)
+    if section.is_sandwich:
+        # Its faces narrow by what it lets them slip, and it shears across.
+        nu = np.average([nu_b, nu_c], weights=section.rigidity)
+        apart = s.rows("c", PLACES, 1) - s.rows("b", PLACES, 1)
+        apart, bend = (followed(e, _reach(section, 0), section.ends) for e in (apart, bend))
+        crossed = (apart * WEIGHT) @ bend.T
+        slip = np.array([square(apart, WEIGHT), crossed + crossed.T, square(bend, WEIGHT)])
+        found[:3] = (nu * section.width_m / L) ** 2 / 12 * slip
+    elif h_v:
+        stretch, give = s.rows("b", PLACES, 1), give_of_layer(h_v / L, nu_v)
+        crossed = sheared(stretch, bend, give, section.ends)
+        found[3] -= sheared(stretch, stretch, give, section.ends)
+        found[4] += crossed + crossed.T
+        found[5] -= sheared(bend, bend, give, section.ends)
+        across = curved_across(bend, _reach(section, 0), section.ends, held=False)
+        found[5] += nu_b**2 / (1 + nu_v) / (1 - nu_b) * across
+    return found
+
+
+def _faces(section: BeamSection) -> list[tuple[float, int, float]]:
+    """Share of the bending rigidity, place among the layers, Poisson's ratio."""
+    share = np.array(section.rigidity) / sum(section.rigidity)
+    return [(float(share[n]), k, section.poisson[k]) for n, k in enumerate((0, 2)) if share[n] > 0]
+
+
+def _reach(section: BeamSection, layer: int) -> float:
+    L = section.length_m
+    return reach(section.width_m / L, section.thickness_m[layer] / L, section.poisson[layer])
+
+
+def _across(section: BeamSection, *, held: bool) -> Array:
+    """What a width adds to stretching of u_b and u_c and to bending. Shape (3, size, size)."""
+    s, found = section.shapes, np.zeros((3, section.shapes.size, section.shapes.size))
+    for share, k, nu in _faces(section):
+        stretch = s.rows("c" if k else "b", PLACES, 1)
+        stiffer = nu**2 / (1 - nu**2)
+        if section.is_sandwich:
+            width = section.width_m / section.length_m
+            found[1 if k else 0] = stiffer * narrowed(stretch, width, nu, section.ends, held=held)
+        bent = curved_across(s.rows("w", PLACES, 2), _reach(section, k), section.ends, held=held)
+        found[2] += share * stiffer * bent
+    return found
 
 
 @lru_cache(maxsize=64)
@@ -83,7 +175,7 @@ def parts_of(section: BeamSection, pickup: float | None, force: float | None) ->
 
     None: not read, and driven by its base.
     """
-    matrices, s = matrices_of(section.ends), section.shapes
+    matrices, s = sectioned(section), section.shapes
     group, V, size = _columns(section)
     K_0, K_1, M = (np.array([V.T @ P @ V for P in getattr(matrices, name)]) for name in ("K_0", "K_1", "M"))
     lifted = V.T @ matrices.load if s.held_ends else np.zeros(V.shape[1])
@@ -201,7 +293,7 @@ def _asked_for(section: BeamSection) -> dict[str, Array]:
         found["treatment.hold"] = sides * width * ends @ ends.T
     if section.is_doubled:
         return found
-    by_pieces = np.einsum("p,kpij->kij", section.coefficients[3:6], slip_by_pieces(section.ends))
+    by_pieces = np.einsum("p,kpij->kij", section.coefficients[6:9], slip_by_pieces(section.ends))
     found |= {f"strips_x.{k:03d}": A for k, A in enumerate(by_pieces)}
     found["grading_x.K_1"] = _slip(section, x - 0.5)
     return found
@@ -210,7 +302,7 @@ def _asked_for(section: BeamSection) -> dict[str, Array]:
 def _slip(section: BeamSection, share: Array | float = 1.0) -> Array:
     """The core's shear for a modulus of one, times a share at every place of quadrature."""
     x, weight = gauss(2 * ORDER)
-    return np.tensordot(section.coefficients[3:6], section.shapes.slip(x, weight * share), axes=1)
+    return np.tensordot(section.coefficients[6:9], section.shapes.slip(x, weight * share), axes=1)
 
 
 def _root_springs(section: BeamSection) -> dict[str, Array]:

@@ -94,9 +94,13 @@ class Shapes:
         found[self.place[which]] = np.vstack([held, *(_derived(p, derivative)(x)[None] for p in loose)])
         return found
 
-    def slip(self, x: Array, weight: Array) -> Array:
-        """The core's shear: (u_c - u_b)^2, 2 (u_c - u_b) w' and w'^2, integrated. Shape (3, size, size)."""
-        across, slope = self.rows("c", x) - self.rows("b", x), self.rows("w", x, 1)
+    def slip(self, x: Array, weight: Array, derivative: int = 0) -> Array:
+        """The core's shear: (u_c - u_b)^2, 2 (u_c - u_b) w' and w'^2, integrated; or its derivative's.
+
+        Shape (3, size, size).
+        """
+        across = self.rows("c", x, derivative) - self.rows("b", x, derivative)
+        slope = self.rows("w", x, derivative + 1)
         crossed = _both(across, slope, weight)
         return np.array([_both(across, across, weight), crossed + crossed.T, _both(slope, slope, weight)])
 
@@ -129,8 +133,8 @@ def matrices_of(ends: str) -> BeamMatrices:
     w, b, c = (s.rows(name, x) for name in ("w", "b", "c"))
     slope, bend, stretch = s.rows("w", x, 1), s.rows("w", x, 2), s.rows("b", x, 1)
 
-    def square(a: Array) -> Array:
-        return _both(a, a, weight)
+    def squared(a: Array) -> Array:
+        return square(a, weight)
 
     def mixed(a: Array, other: Array) -> Array:
         found = _both(a, other, weight)
@@ -138,9 +142,9 @@ def matrices_of(ends: str) -> BeamMatrices:
 
     total = c + b
     return BeamMatrices(
-        K_0=np.array([square(stretch), square(s.rows("c", x, 1)), square(bend)]),
-        K_1=np.array([*s.slip(x, weight), square(stretch), -mixed(stretch, bend), square(bend)]),
-        M=np.array([square(w), square(b), square(c), square(total), mixed(total, slope), square(slope)]),
+        K_0=np.array([squared(stretch), squared(s.rows("c", x, 1)), squared(bend)]),
+        K_1=np.array([*s.slip(x, weight), squared(stretch), -mixed(stretch, bend), squared(bend)]),
+        M=np.array([squared(w), squared(b), squared(c), squared(total), mixed(total, slope), squared(slope)]),
         load=-(w @ weight),
     )
 
@@ -156,6 +160,11 @@ def gauss(points: int, low: float = 0.0, high: float = 1.0) -> tuple[Array, Arra
     """Places and weights of Gauss' quadrature between two places. Shape (points,) each."""
     x, weight = np.polynomial.legendre.leggauss(points)
     return low + (x + 1) / 2 * (high - low), weight / 2 * (high - low)
+
+
+def square(a: Array, weight: Array) -> Array:
+    """Integrals of products of rows. `a` of shape (k, places); returns (k, k)."""
+    return _both(a, a, weight)
 
 
 def _derived(p: Polynomial, times: int) -> Polynomial:

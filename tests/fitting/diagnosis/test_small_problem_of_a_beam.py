@@ -1,5 +1,7 @@
 """The task of a beam: its first sum on few motions, and what a fit answers with."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -44,3 +46,18 @@ def test_condensed_to_a_law_it_keeps_what_effects_move(problem):
     assert set(few.plate.group) == set(problem.plate.group)
     moved = few.plate.moved({"length": 1e-4})
     assert moved.K.shape == few.plate.K_0.shape
+
+
+def test_what_its_theory_gets_wrong_is_asked_where_its_numbers_are_found(problem):
+    assert problem.errs_as_found
+    z = np.zeros(len(problem.nuisances))
+    length = [n.name for n in problem.nuisances.each].index("length")
+    z[length] = 20.0
+    longer = replace(BEAM, length_m=BEAM.length_m + 20 * BEAM.tolerance("length"))
+    one = np.ones(80, int)
+    expected = SmallProblem.of_small(Sweep(F, np.ones(80, complex), 9.81 * one, one, one), longer)
+    v = np.ones(80, complex)
+    rows, own, stated = (p.model_error(LAW, v) for p in (problem.as_found(z), expected, problem))
+    apart = np.linalg.norm(own - stated)
+    # Another length is another width in shares of it, and another error: little beside another resonance.
+    assert np.linalg.norm(rows - own) < 0.1 * apart

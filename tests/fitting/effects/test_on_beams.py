@@ -18,7 +18,7 @@ ALUMINIUM, FOIL = Face(2e-3, 70e9, 0.3, 2700.0), Face(0.5e-3, 70e9, 0.3, 2700.0)
 LAW, STIFF = ConstantModulus(1e6, 0.5), ConstantModulus(1e6, 0.01)
 CORE = Core(0.3e-3, 0.49, 1000.0, LAW)
 L, B = 0.2, 0.02
-BARE = Beam(L, B, "clamped-free", ALUMINIUM, pickup_m=0.15)
+BARE = Beam(L, B, "clamped-free", ALUMINIUM, pickup_m=0.15, slender=True)
 SANDWICH = replace(BARE, constraining=FOIL, core=CORE)
 PER_LENGTH, RIGIDITY = 2700 * B * 2e-3, 70e9 * B * 2e-3**3 / 12
 

@@ -17,7 +17,7 @@ from instrument.cli.main import run
 
 STEEL = Face(1e-3, 205e9, 0.29, 7850.0)
 LAW = ConstantModulus(1e9, 0.05)
-OBERST = Beam(0.2, 0.01, "clamped-free", STEEL, core=Core(1.5e-3, 0.4, 1300.0, LAW))
+OBERST = Beam(0.2, 0.01, "clamped-free", STEEL, core=Core(1.5e-3, 0.4, 1300.0, LAW), slender=True)
 
 
 def table_of(beam, law, count=4):

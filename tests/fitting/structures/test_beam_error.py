@@ -31,11 +31,14 @@ def test_a_clamp_holds_the_width_as_if_the_beam_were_shorter():
     assert replace(SANDWICH, boundary="free-free").held_width_m == 0.0
 
 
-def test_where_it_is_counted_every_mode_is_higher_by_twice_its_share_of_the_length():
+def test_where_it_is_counted_every_mode_is_higher_the_first_one_as_if_it_were_so_much_shorter():
     counted = replace(SANDWICH, held_width=True)
-    for a, b in zip(small_modes(SANDWICH, None, 3), small_modes(counted, None, 3), strict=True):
-        # Without the core's shear only the faces bend: f goes with 1/L^2.
-        assert b.frequency_hz / a.frequency_hz - 1 == pytest.approx(2 * 5.55e-4 / 0.2, rel=0.02)
+    pairs = zip(small_modes(SANDWICH, None, 4), small_modes(counted, None, 4), strict=True)
+    higher = [b.frequency_hz / a.frequency_hz - 1 for a, b in pairs]
+    # Without the core's shear only the faces bend: f goes with 1/L^2. Short waves curve across in its reach.
+    assert higher[0] == pytest.approx(2 * 5.55e-4 / 0.2, rel=0.1)
+    assert np.all(np.diff(higher) < 0)
+    assert 0.3 < higher[3] / higher[0] < 0.6
     open_yet = SANDWICH.tolerance("held_width")
     assert open_yet == pytest.approx(SANDWICH.held_width_m)
     assert counted.tolerance("held_width") == pytest.approx(HELD_WIDTH_WITHIN * open_yet)
@@ -46,23 +49,30 @@ def test_a_fit_may_move_it_however_exact_the_beam_is():
     assert [n.name for n in each] == ["held_width"]
     free = replace(SANDWICH, boundary="free-free")
     assert "held_width" not in free.numbers
-    moved = SANDWICH.coefficients({"held_width": 1e-3})
-    assert moved == pytest.approx(replace(SANDWICH, length_m=0.199).coefficients({}))
+    assert "held_width" not in replace(SANDWICH, slender=True).numbers
+    moved = SANDWICH.coefficients({"held_width": SANDWICH.held_width_m})
+    assert moved == pytest.approx(replace(SANDWICH, held_width=True).coefficients({}))
 
 
 def test_of_halves_about_a_driven_centre_it_is_that_of_one_clamp():
     halves = replace(SANDWICH, boundary="centre-driven", length_m=0.4)
     assert halves.held_width_m == pytest.approx(SANDWICH.held_width_m)
-    moved = halves.coefficients({"held_width": 1e-3})
-    assert moved == pytest.approx(replace(halves, length_m=0.398).coefficients({}))
+    for a, b in zip(
+        small_modes(replace(halves, held_width=True), LAW, 3),
+        small_modes(replace(SANDWICH, held_width=True), LAW, 3),
+        strict=True,
+    ):
+        assert a.frequency_hz == pytest.approx(b.frequency_hz, rel=1e-9)
 
 
 def test_the_theory_is_the_less_certain_the_shorter_the_wave():
     f, G = np.array([30.0, 300.0, 3000.0]), np.full(3, 1e6 + 5e5j)
     error = SANDWICH.theory_error(f, G)
-    assert np.all(np.diff(error.frequency) > 0)
+    assert np.all(np.diff(np.hypot(error.frequency, error.together[0])) > 0)
     assert error.frequency[0] < 1e-3
-    assert np.all((error.loss > 0.005) & (error.loss < 0.05))
+    # Where the faces no longer move together the loss is another one by percents.
+    assert np.all(np.diff(error.loss) > 0)
+    assert np.all((error.loss > 0.0029) & (error.loss < 0.05))
 
 
 def test_a_free_layer_s_loss_is_that_of_the_composite():

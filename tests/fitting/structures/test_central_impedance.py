@@ -16,7 +16,7 @@ from fitting.structures.small_modes import small_modes
 
 LOSS = 0.02
 GLASS = Face(8e-3, 70e9, 0.22, 2500.0, loss_factor=LOSS)
-BARE = Beam(0.3, 0.025, "centre-driven", GLASS)
+BARE = Beam(0.3, 0.025, "centre-driven", GLASS, slender=True)
 B = 70e9 * 0.025 * 8e-3**3 / 12
 
 

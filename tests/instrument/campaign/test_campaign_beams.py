@@ -4,9 +4,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import scipy.linalg as la
 from click.testing import CliRunner
 
-from fitting.structures.small_modes import small_velocity
+from fitting.laws.constant import ConstantModulus
+from fitting.structures.small_modes import small_modes, small_velocity
 from instrument.campaign.beams import simulate
 from instrument.campaign.beams.cases import KINDS, NONE, draw_case
 from instrument.campaign.beams.geometry import BEAMS, beam_named
@@ -258,3 +260,18 @@ def test_a_moved_spot_is_not_called_nothing():
     case = draw_case("spot_offset", 3, beam="strip")
     assert diagnosed(case).verdict != NONE
     assert len(identified(case).frequency_hz) > 1
+
+
+@pytest.mark.parametrize("name", ["free", "long", "strip", "laminate"])
+def test_modes_of_the_theory_are_those_of_the_solid(name, monkeypatch):
+    monkeypatch.setattr(simulate, "PIECES", 20)
+    true = beam_named(name)
+    solid = built(true).basis
+    G = 1.5e6 * (1 + 0.4j)
+    values = la.eigvals(solid.K_faces.sum(axis=0) + G * solid.K_core.sum(axis=0), solid.M)
+    values = values[np.argsort(values.real)][0 if true.clamped else 3 :]
+    modes = small_modes(beam_from(toml(true, None, 100.0, held_width=True)), ConstantModulus(1.5e6, 0.4), 3)
+    for value, mode in zip(values, modes, strict=False):
+        assert mode.frequency_hz == pytest.approx(np.sqrt(value.real) / (2 * np.pi), rel=1e-3)
+        if value.imag / value.real > 0.04:
+            assert mode.loss_factor == pytest.approx(value.imag / value.real, rel=5e-3)

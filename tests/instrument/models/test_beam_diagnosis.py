@@ -61,7 +61,7 @@ def off(law):
     ("beam", "name", "hidden", "found_within"),
     [
         (CLAMPED, "added_mass", {"mass": 3e-3, "x": 0.16}, {"mass": 3e-4, "x": 1e-3}),
-        (CLAMPED, "clamp_compliance", {"k": 2e13}, {"k": 4e12}),
+        (CLAMPED, "clamp_compliance", {"k": 1e13}, {"k": 2e12}),
         (FREE, "added_mass", {"mass": 3e-3, "x": 0.16}, {"mass": 3e-4, "x": 1e-3}),
     ],
     ids=["mass-clamped", "clamp-yields", "mass-free"],
@@ -72,7 +72,9 @@ def test_what_is_hidden_is_named_with_its_size_and_place(beam, name, hidden, fou
     for key, within in found_within.items():
         assert result.effects[0].parameters[key].value == pytest.approx(hidden[key], abs=within)
     assert max(off(result.after.law)) < 0.06
-    assert max(off(result.before.law)) > 0.1
+    # Without it the law is off, or a stated number is where none can be.
+    pulled = max(abs(one.pull) for one in result.before.adjusted)
+    assert pulled > 3 if name == "clamp_compliance" else max(off(result.before.law)) > 0.1
 
 
 def test_a_clean_free_beam_struck_at_a_point_has_nothing():
