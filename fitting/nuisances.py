@@ -135,6 +135,9 @@ class Nuisances:
 
     def by_coefficients(self, z: Array) -> Array:
         """Their derivatives to z, as far as these vary linearly with z. Shape (count, parts + 1)."""
+        return self._kept.get("dc", z, lambda: self._by_coefficients(z))
+
+    def _by_coefficients(self, z: Array) -> Array:
         found = self._differences(np.zeros(len(self)))
         for k in self._of_plate:
             if abs(z[k]) > _FELT:

@@ -24,7 +24,8 @@ from fitting.diagnosis.refit import ROUGH, kept, refit
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
-from fitting.diagnosis.usual_law import followed, polished
+from fitting.diagnosis.usual_law import finished, followed, polished
+from fitting.diagnosis.wide_valley import in_wide_valley, of_effects, whole, with_stated
 from fitting.effects.base import Effect
 from fitting.identification.validation import Validation
 from fitting.laws import CoreLaw
@@ -189,10 +190,15 @@ class CandidateFits:
         each = enumerate(self.candidates[name])
         return [((name, k), s, rival) for k, c in each if c.known.elsewhere is None for s in c.further_starts]
 
-    def followed(self, one: tuple[Form, Start, float]) -> Refitted:
-        """A rough fit from one start; `rival` as `refit` takes it."""
-        (name, number), start, rival = one
-        return self.candidates[name][number].followed(start, rival)
+    def set_out(self, one: tuple[Form, Start, float]) -> Refitted:
+        """A few steps from one start."""
+        (name, number), start, _ = one
+        return self.candidates[name][number].set_out(start)
+
+    def gone_on(self, one: tuple[Form, Refitted, float]) -> Refitted:
+        """The same followed roughly; `rival` as `refit` takes it."""
+        (name, number), begun, rival = one
+        return self.candidates[name][number].gone_on(begun, rival)
 
     def far(self, one: tuple[Form, Known]) -> Known:
         """What is known of a form, rough fits in wide valleys among it."""
@@ -246,7 +252,8 @@ class CandidateFits:
     def near(self, one: tuple[Refitted, Form, list[Start], float]) -> Refitted | None:
         """The same roughly."""
         before, form, starts, goal = one
-        candidate = CandidateFit(self.problem, self.evidence, before, self.form(form), starts, goal)
+        effect = self.form(form)
+        candidate = CandidateFit(self.problem, self.evidence, before, effect, starts, goal, one=True)
         return candidate.near[0] if candidate.near else None
 
     def alone(self, one: tuple[Refitted, Effect]) -> Refitted:
@@ -262,8 +269,8 @@ class CandidateFits:
         By a linear step weighed as the readings are; where a place is to be found, as it is there too. Shape
         (parameters,) each.
         """
-        before, forms = one
-        found = [[u for _, u in starts[:1]] for starts in self._looks(one, self.evidence)]
+        before, forms = whole(self.problem, self.evidence, one[0]), one[1]
+        found = [[u for _, u in starts[:1]] for starts in self._looks((before, forms), self.evidence)]
         placed = [k for k, form in enumerate(forms) if has_place(self.form(form))]
         there = self._looks((before, [forms[k] for k in placed]), self.evidence.blunt()) if placed else []
         for k, starts in zip(placed, there, strict=True):
@@ -276,38 +283,47 @@ class CandidateFits:
         Shape (parameters,) of each start; none: its own first one.
         """
         before, form, starts = one
-        effect = self.form(form)
-        response = response_of(self.problem, [*before.effects, effect], self.problem.coarse)
-        each = starts or effect.starts(self.problem.plate, self.problem.points)[:1]
-        blunt, known = self.evidence.blunt(), before.u
-        fits = [
-            refit(response, blunt, before.law, np.concatenate([known, u]), tolerance=ROUGH, brief=True)
-            for u in each
-        ]
+        effects = [*before.effects, self.form(form)]
+        each = starts or effects[-1].starts(self.problem.plate, self.problem.points)[:1]
+        known, law = of_effects(before), before.law
+        begun = (np.concatenate([known, u]) for u in each)
+        fits = [in_wide_valley(self.problem, effects, self.evidence, law, u, brief=True) for u in begun]
         return sorted(fits, key=lambda f: f.chi2)
 
     def wide(self, begun: Refitted) -> Refitted:
         """What has begun in a wide valley, followed roughly there."""
-        return self._from(begun, self.evidence.blunt())
+        u = of_effects(begun)
+        return in_wide_valley(self.problem, begun.effects, self.evidence, begun.law, u)
+
+    def left_in_wide_valley(self, fitted: Refitted) -> float:
+        """Chi-square that a fit as the readings are comes to, followed in a wide valley."""
+        return self.wide(fitted).chi2
+
+    @property
+    def noise_in_wide_valleys(self) -> float:
+        """Chi-square that noise alone is expected to leave there."""
+        share = (self.evidence.sigma_m_s / self.evidence.blunt().sigma_m_s) ** 2
+        return float(np.sum(share)) * self.evidence.count / len(share)
 
     def briefly(self, wide: Refitted) -> Refitted:
         """What a wide valley has led to, a few steps on as the readings are."""
-        return self._from(wide, self.evidence, brief=True)
+        return self._from(wide, brief=True)
 
     def roughly(self, brief: Refitted) -> Refitted:
         """The same followed roughly."""
-        return self._from(brief, self.evidence)
+        return self._from(brief)
 
-    def _from(self, fitted: Refitted, evidence: Evidence, *, brief: bool = False) -> Refitted:
+    def _from(self, fitted: Refitted, *, brief: bool = False) -> Refitted:
         response = response_of(self.problem, fitted.effects, self.problem.coarse)
-        return refit(response, evidence, fitted.law, fitted.u, tolerance=ROUGH, brief=brief)
+        u = with_stated(self.problem, fitted)
+        return refit(response, self.evidence, fitted.law, u, tolerance=ROUGH, brief=brief)
 
     def ended(self, one: tuple[Refitted, float]) -> Refitted:
         """A rough fit followed to the end, or to where a chi-square is out of reach."""
         rough, goal = one
         if not rough.may_reach(goal):
             return rough
-        return polished(self.problem, rough.effects, self.evidence, rough.law, rough.u, goal)
+        return finished(self.problem, self.evidence, rough, goal)
 
     def fitted(self, one: tuple[Sequence[Effect], CoreLaw, Array]) -> Refitted:
         """Some effects fitted to the end, from a law and unknowns. Shape (unknowns,)."""
@@ -318,11 +334,16 @@ class CandidateFits:
         """A fit followed to its very end."""
         return followed(self.problem, self.evidence, fitted)
 
-    def beside(self, one: tuple[Refitted, Effect, float]) -> Refitted:
-        """An effect beside a rough fit: the best one in wide valleys, followed as `ended` does."""
-        before, effect, goal = one
+    def beside(self, one: tuple[Refitted, Effect, float, float]) -> Refitted | None:
+        """An effect beside a rough fit: the best one in wide valleys, followed as `ended` does.
+
+        None where it leaves more than `most` there.
+        """
+        rough, effect, goal, most = one
+        before = whole(self.problem, self.evidence, rough)
         candidate = CandidateFit(self.problem, self.evidence, before, effect)
-        return candidate.finished(candidate.far[0], goal)
+        begun = candidate.far[0]
+        return candidate.finished(begun, goal) if begun.chi2 < most else None
 
 
 def _best_first(fits: list[tuple[A, Refitted]]) -> list[tuple[A, Refitted]]:

@@ -16,7 +16,8 @@ from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
-from fitting.diagnosis.usual_law import polished
+from fitting.diagnosis.usual_law import finished
+from fitting.diagnosis.wide_valley import in_wide_valley, of_effects, with_stated
 from fitting.effects.base import Effect, Points
 from fitting.laws import CoreLaw
 
@@ -130,10 +131,15 @@ class CandidateFit:
         effect: Effect,
         starts: Sequence[Start] | None = None,
         goal: float = np.inf,
+        *,
+        one: bool = False,
     ) -> None:
-        """`starts` as `look` gives them, where they are known; `goal` as `refit` takes it."""
+        """`starts` as `look` gives them, where they are known; `goal` as `refit` takes it.
+
+        `one`: of all starts only what leads furthest is asked for.
+        """
         self.problem, self.evidence, self.before = problem, evidence, before
-        self.effect, self._goal = effect, goal
+        self.effect, self._goal, self._one = effect, goal, one
         self._known = Known(starts)
 
     @property
@@ -165,21 +171,20 @@ class CandidateFit:
         self,
         law: CoreLaw,
         u: Array,
-        evidence: Evidence,
         *,
-        as_stated: bool = False,
         brief: bool = False,
         rival: float = np.inf,
     ) -> Refitted:
-        known = self.before.u.copy()
-        if as_stated:
-            # Without the effect the stated numbers may have been moved to do its work.
-            known[: self.before.stated] = 0.0
-        start = np.concatenate([known, u])
-        # In a valley made wider chi-square is another one.
-        goal = self._goal if evidence is self.evidence else np.inf
+        start = np.concatenate([self.before.u, u])
         return refit(
-            self._response, evidence, law, start, tolerance=ROUGH, brief=brief, goal=goal, rival=rival
+            self._response,
+            self.evidence,
+            law,
+            start,
+            tolerance=ROUGH,
+            brief=brief,
+            goal=self._goal,
+            rival=rival,
         )
 
     @property
@@ -235,7 +240,7 @@ class CandidateFit:
 
     def briefly(self) -> list[Refitted]:
         """A few steps from the best start of each form: where the effect cannot be what is looked for."""
-        return [self._rough(self.before.law, u, self.evidence, brief=True) for _, u in self._one_a_form()]
+        return [self._rough(self.before.law, u, brief=True) for _, u in self._one_a_form()]
 
     @property
     def elsewhere(self) -> list[Refitted]:
@@ -272,7 +277,12 @@ class CandidateFit:
         return SEARCH.more_places if has_place(self.effect) else 0
 
     def _from(self, starts: Sequence[Start]) -> list[Refitted]:
-        return sorted((self.followed(start) for start in starts), key=_chi2)
+        if not self._one:
+            return sorted((self.followed(start) for start in starts), key=_chi2)
+        found = list[Refitted]()
+        for start in starts:
+            found.append(self.followed(start, min((f.chi2 for f in found), default=np.inf)))
+        return sorted(found, key=_chi2)
 
     def followed(self, start: Start, rival: float = np.inf) -> Refitted:
         """A rough fit from one start, a few steps of it where little is promised and no more gained.
@@ -281,10 +291,20 @@ class CandidateFit:
         """
         promise, u = start
         if 0 < promise < SEARCH.least_promise:
-            brief = self._rough(self.before.law, u, self.evidence, brief=True)
+            brief = self._rough(self.before.law, u, brief=True)
             if brief.converged or abs(self.before.chi2 - brief.chi2) < SEARCH.least_gain:
                 return brief
-        return self._rough(self.before.law, u, self.evidence, rival=rival)
+        return self._rough(self.before.law, u, rival=rival)
+
+    def set_out(self, start: Start) -> Refitted:
+        """A few steps from one start."""
+        return self._rough(self.before.law, start[1], brief=True)
+
+    def gone_on(self, begun: Refitted, rival: float = np.inf) -> Refitted:
+        """What has set out followed roughly; `rival` as `refit` takes it."""
+        if begun.converged:
+            return begun
+        return refit(self._response, self.evidence, begun.law, begun.u, tolerance=ROUGH, rival=rival)
 
     @property
     def plain(self) -> list[Refitted]:
@@ -296,10 +316,10 @@ class CandidateFit:
     @cached_property
     def quick(self) -> list[Refitted]:
         """One rough fit, begun in a wide valley from the better of the first and the most promising start."""
-        blunt, starts = self.evidence.blunt(), [self._first_start, *self._promising_elsewhere]
-        rough = (self._rough(self.before.law, u, blunt, as_stated=True) for u in starts)
-        wide = min(rough, key=_chi2)
-        return [refit(self._response, self.evidence, wide.law, wide.u, tolerance=ROUGH)]
+        starts = [self._first_start, *self._promising_elsewhere]
+        wide = min((self._in_wide_valley(self.before.law, u) for u in starts), key=_chi2)
+        u = with_stated(self.problem, wide)
+        return [refit(self._response, self.evidence, wide.law, u, tolerance=ROUGH)]
 
     @property
     def far(self) -> list[Refitted]:
@@ -322,14 +342,17 @@ class CandidateFit:
         return [u for _, u in self.starts[:1] if not np.array_equal(u, self._first_start)]
 
     def _wide(self, u: Array) -> list[Refitted]:
-        blunt = self.evidence.blunt()
         laws = (self.before.law, bent_as(self.before.law, self.problem.stated_law))
-        fits = [self._rough(law, u, blunt, as_stated=True) for law in laws]
-        return sorted(fits, key=_chi2)
+        return sorted((self._in_wide_valley(law, u) for law in laws), key=_chi2)
+
+    def _in_wide_valley(self, law: CoreLaw, u: Array) -> Refitted:
+        # Without the effect the stated numbers may have been moved to do its work.
+        begun = np.concatenate([of_effects(self.before), u])
+        return in_wide_valley(self.problem, [*self.before.effects, self.effect], self.evidence, law, begun)
 
     def finished(self, rough: Refitted, goal: float = np.inf) -> Refitted:
         """A rough fit followed to the end, or to where a chi-square of `goal` is out of reach."""
-        return polished(self.problem, rough.effects, self.evidence, rough.law, rough.u, goal)
+        return finished(self.problem, self.evidence, rough, goal)
 
 
 def bent_as(law: CoreLaw, other: CoreLaw) -> CoreLaw:

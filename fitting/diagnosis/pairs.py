@@ -7,6 +7,7 @@ from typing import TypeVar
 import numpy as np
 
 from fitting.diagnosis.candidate_fits import Form
+from fitting.diagnosis.candidates import has_place
 from fitting.diagnosis.executor import Call
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.search import ScoredFit, Search
@@ -55,16 +56,18 @@ class Pairs:
                 beside[scored] = beside.get(scored, 0) + 1
                 chosen.setdefault(frozenset((*scored.names, name)), int(k))
         full = [(tasks[k][0].fitted, tasks[k][1], looks[k], np.inf) for k in chosen.values()]
-        rough = [f for f in each(work.near, full, lambda x: report(0.4 + 0.2 * x)) if f is not None]
+        begun = each(work.near, full, lambda x: report(0.4 + 0.2 * x))
+        rough = _longest_first([f for f in begun if f is not None])
         best = search.judged(min(rough, key=_chi2)) if rough and wide else None
         goals = [self._goal(best, f.effects) if best else np.inf for f in rough]
         fits = each(work.ended, list(zip(rough, goals, strict=True)), lambda x: report(0.6 + 0.2 * x))
         found = sorted((search.judged(f) for f in fits), key=_cost)
         if wide and found and not self._will_do([*leaders[:1], *found]):
             # The best may only have begun from the wrong place, or not have looked promising.
-            found += self._begun_again(found[: SEARCH.retried])
+            most = self._most_left([*(t for t in singles if _plainly(t)), *found])
+            found += self._begun_again(found[: SEARCH.retried], most)
             if not self._will_do(found):
-                found += self._every_second([t for t in singles if _plainly(t)], found)
+                found += self._every_second([t for t in singles if _plainly(t)], found, most)
         report(0.9)
         if found and min(t.cost for t in found) < singles[0].cost:
             found += self._improved(found)
@@ -92,18 +95,28 @@ class Pairs:
         self._search.rested(moving, found[: len(moving)])
         return [one for looks in found[len(moving) :] for one in looks]
 
-    def _begun_again(self, pairs: Sequence[ScoredFit]) -> list[ScoredFit]:
-        """Each effect of some pairs beside the other one fitted alone, in wide valleys."""
+    def _most_left(self, known: Sequence[ScoredFit]) -> float:
+        """Chi-square that a pair may leave in its wide valley: twice what the best so far leave, or noise."""
+        work = self._search.work
+        best = sorted((t for t in known if len(_plainly(t)) == len(t.names)), key=_cost)[: SEARCH.measured]
+        left = self._search.executor.each(work.left_in_wide_valley, [t.fitted for t in best])
+        return SEARCH.leaves * max(work.noise_in_wide_valleys, min(left, default=np.inf))
+
+    def _begun_again(self, pairs: Sequence[ScoredFit], most: float) -> list[ScoredFit]:
+        """Each effect of some pairs beside the other one fitted alone, in wide valleys.
+
+        What leaves no more there than `most` goes on as the readings are.
+        """
         search, work, each = self._search, self._search.work, self._search.executor.each
         plain = [t.fitted.effects for t in pairs if len(_plainly(t)) == 2]
         search.fit_plainly(sorted({e.name for effects in plain for e in effects}))
         asked = [
-            (rough, second, self._goal(pairs[0], effects))
+            (rough, second, self._goal(pairs[0], effects), most)
             for effects in plain
             for first, second in permutations(effects)
             for rough in work.candidates[first.name][0].plain
         ]
-        return [search.judged(f) for f in each(work.beside, asked)]
+        return [search.judged(f) for f in each(work.beside, asked) if f is not None]
 
     def _will_do(self, scored_fits: Sequence[ScoredFit]) -> bool:
         """Whether any, the law being of the stated kind, leaves little and fails no check."""
@@ -125,11 +138,13 @@ class Pairs:
             for number in range(len(e.variants()))
         ]
 
-    def _every_second(self, leaders: Sequence[ScoredFit], pairs: Sequence[ScoredFit]) -> list[ScoredFit]:
+    def _every_second(
+        self, leaders: Sequence[ScoredFit], pairs: Sequence[ScoredFit], most: float
+    ) -> list[ScoredFit]:
         """Every effect beside the leading ones; the best pairs that are new to the end.
 
-        All begin where a leading one alone has come to in its wide valley. Those that do well go on there,
-        then as the readings are, then to the end.
+        All begin where a leading one alone has come to in its wide valley. Those that do well go on there;
+        what leaves no more than `most` there goes on as the readings are, then to the end.
         """
         search, work, each = self._search, self._search.work, self._search.executor.each
         known = {frozenset(t.names) for t in pairs}
@@ -143,12 +158,14 @@ class Pairs:
         starts = self._looks(work.look_wide, list(zip(before, others, strict=True)))
         beside = [(fitted, form) for fitted, forms in zip(before, others, strict=True) for form in forms]
         tasks = [(fitted, form, us) for (fitted, form), us in zip(beside, starts, strict=True)]
-        begun = sorted(each(work.begun_wide, tasks), key=lambda fits: fits[0].chi2)
+        able = [fits for fits in each(work.begun_wide, tasks) if fits[0].chi2 < SEARCH.comes_down * most]
+        begun = sorted(able, key=lambda fits: fits[0].chi2)
         wide = each(work.wide, [f for fits in _with_a_say(begun) for f in fits])
-        brief = sorted(each(work.briefly, list(wide)), key=_chi2)
+        brief = sorted(each(work.briefly, [f for f in wide if f.chi2 < most]), key=_chi2)
         rough = sorted(each(work.roughly, brief[: SEARCH.rough]), key=_chi2)
         best = min([*leaders, *pairs], key=_cost)
-        ended = each(work.ended, [(f, self._goal(best, f.effects)) for f in rough[: SEARCH.pairs_a_leader]])
+        left = _longest_first(rough[: SEARCH.pairs_a_leader])
+        ended = each(work.ended, [(f, self._goal(best, f.effects)) for f in left])
         return [search.judged(f) for f in ended]
 
     def _improved(self, pairs: Sequence[ScoredFit]) -> list[ScoredFit]:
@@ -190,6 +207,7 @@ class Pairs:
         forms = [f for f in self._others([kept.name]) if f[0] not in gone or work.has_places(f[0])]
         looks = [one for one in zip(forms, self._looks(work.look, [(before, forms)]), strict=True) if one[1]]
         promising = sorted(looks, key=lambda one: -one[1][0][0])[: SEARCH.exchanged]
+        promising.sort(key=lambda one: not work.has_places(one[0][0]))
         goal = work.goal(pair.fitted)
         fits = each(work.second, [(before, form, starts, goal) for form, starts in promising])
         laws = [(before, e.name, goal) for e in self._search.effects if e.replaces_law]
@@ -206,6 +224,11 @@ def _with_a_say(begun: Sequence[list[Refitted]]) -> list[list[Refitted]]:
         beside[name] = beside.get(name, 0) + 1
         (chosen if beside[name] <= SEARCH.pairs_a_leader else left).append(fits)
     return chosen + left[: max(0, SEARCH.wide - len(chosen))]
+
+
+def _longest_first(rough: Sequence[Refitted]) -> list[Refitted]:
+    """Rough fits in the order in which they are best followed: hands then end at the same time."""
+    return sorted(rough, key=lambda f: (f.converged, -sum(has_place(e) for e in f.effects)))
 
 
 def _cost(scored: ScoredFit) -> float:

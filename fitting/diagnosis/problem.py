@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -175,6 +176,14 @@ class DiagnosisProblem:
     def as_stated(self) -> Array:
         """Where every stated number is what it is stated to be. Shape (numbers,)."""
         return np.zeros(len(self.nuisances))
+
+    @cached_property
+    def held(self) -> "DiagnosisProblem":
+        """The same, its stated numbers taken at their word: an evaluation takes half the time.
+
+        Itself where they are few, or more than numbers of one plate.
+        """
+        return replace(self, nuisances=replace(self.nuisances, each=())) if self.nuisances.each else self
 
     def around(self, law: CoreLaw, poles: PlatePoles | None = None) -> "DiagnosisProblem":
         """The same, its grids made for the poles that the plate has under a law.

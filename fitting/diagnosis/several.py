@@ -137,6 +137,11 @@ class SeveralProblem(DiagnosisProblem):
         members = one_plate.condensed(self.members, self.plates, laws)
         return replace(self, members=members, plate=members[0].plate)
 
+    @property
+    def held(self) -> "SeveralProblem":
+        """Itself."""
+        return self
+
     def around(self, law: CoreLaw, poles: PlatePoles | None = None) -> "SeveralProblem":
         """Every member's grids made for a law."""
         laws = [law_at(law, k) for k in range(len(self.members))]

@@ -6,7 +6,7 @@ import numpy as np
 
 from fitting.chances import chi2_above
 from fitting.diagnosis.candidate_fits import FirstLook, Form
-from fitting.diagnosis.candidates import Known, has_place
+from fitting.diagnosis.candidates import Known, Start, has_place
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.thresholds import SEARCH, VERDICT
@@ -71,7 +71,7 @@ class Singles:
         """Rough fits from further starts of some effects, and far ones where the law is no place to begin."""
         work, found = self._work, dict[Form, list[Refitted]]()
         asked = [one for name in names for one in work.unfollowed(name)]
-        for (form, *_), fitted in zip(asked, self._each(work.followed, asked), strict=True):
+        for (form, *_), fitted in zip(asked, self._followed(asked), strict=True):
             found.setdefault(form, []).append(fitted)
         for (name, number), fits in found.items():
             work.candidates[name][number].learn(Known(elsewhere=sorted(fits, key=lambda f: f.chi2)))
@@ -79,6 +79,18 @@ class Singles:
         wide = forms if astray else []
         for ((name, number), _), known in zip(wide, self._each(work.far, wide), strict=True):
             work.candidates[name][number].learn(known)
+
+    def _followed(self, asked: Sequence[tuple[Form, Start, float]]) -> list[Refitted]:
+        """Rough fits from some starts, in order. Of many of an effect those that have come furthest go on."""
+        work, order = self._work, dict[str, list[int]]()
+        begun = list(self._each(work.set_out, asked))
+        for k in sorted(range(len(asked)), key=lambda k: begun[k].chi2):
+            order.setdefault(asked[k][0][0], []).append(k)
+        going = [k for places in order.values() for k in places[: SEARCH.places_followed]]
+        tasks = [(asked[k][0], begun[k], asked[k][2]) for k in going]
+        for k, fitted in zip(going, self._each(work.gone_on, tasks), strict=True):
+            begun[k] = fitted
+        return begun
 
     def _settle(self, report: Report) -> bool:
         """Whether an effect explains all there is: then all others begin again from its law."""

@@ -86,6 +86,11 @@ class SmallProblem(DiagnosisProblem):
         assert isinstance(found, SmallProblem)
         return found
 
+    @property
+    def held(self) -> "SmallProblem":
+        """Itself."""
+        return self
+
     def around(self, law: CoreLaw, poles: PlatePoles | None = None) -> "SmallProblem":
         """The same under any law."""
         return self

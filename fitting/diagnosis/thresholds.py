@@ -118,6 +118,14 @@ class SearchThresholds:
     """Leaders beside which every other effect is then begun ..."""
     wide: int = 32
     """... pairs of those that are followed in wide valleys, `pairs_a_leader` of each among them ..."""
+    measured: int = 3
+    """... and of the best so far, how many say what may be left there: ..."""
+    leaves: float = 2.0
+    """... what leaves more than so many times as much there goes no further, as of what is really there noise
+    alone is left (a choice) ..."""
+    comes_down: float = 2.0
+    """... by which factor what has begun there may still come down: of 200 that were followed none did by 1.7
+    with what is stated taken at its word ..."""
     rough: int = 16
     """... and fits of those that are then followed as the readings are."""
     followed: int = 2
@@ -126,6 +134,8 @@ class SearchThresholds:
     """... and of one with a place to be found."""
     more_places: int = 36
     """Further starts of the latter, in a thorough search ..."""
+    places_followed: int = 12
+    """... of those, how many go on after a few steps: of 36 the best was among the first five by then ..."""
     most_places: int = 30
     """... and of the rest, where all that lead lean."""
     finished: int = 2

@@ -18,6 +18,7 @@ from fitting.diagnosis.refit import AT_REST, refit
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
+from fitting.diagnosis.wide_valley import with_stated
 from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
 
@@ -87,6 +88,24 @@ def polished(
         if moved < _FAR:
             break
     return fitted
+
+
+def finished(
+    problem: DiagnosisProblem, evidence: Evidence, rough: Refitted, goal: float = np.inf
+) -> Refitted:
+    """A rough fit to the end as `polished` does it, or to where a chi-square of `goal` is out of reach.
+
+    One that had not come to its end first goes on as it was begun, on few nodes and motions, while it gains:
+    a step takes two thirds of the time there, and what they leave out is made good by the last steps.
+    """
+    law, u = rough.law, with_stated(problem, rough)
+    if not rough.converged:
+        here = problem.around(law)
+        rough = refit(response_of(here, rough.effects, here.coarse), evidence, law, u, goal=goal)
+        if not rough.may_reach(goal):
+            return rough
+        law, u = rough.law, rough.u
+    return polished(problem, rough.effects, evidence, law, u, goal)
 
 
 def at_rest(problem: DiagnosisProblem, evidence: Evidence, fitted: Refitted) -> Refitted:

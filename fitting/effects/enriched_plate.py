@@ -36,7 +36,9 @@ ROUGHLY = 1e-3
 """The same of a plate to choose between starts: off by 3e-4 with stated numbers two tolerances off."""
 _MOST_TAKEN = 12
 """Plates with some spans' columns that are kept. A bound on memory: one takes up to 6 MB."""
-_MADE_ANEW = ("_taken", "_stacks", "roughly")
+_MOST_ROWS = 32
+"""Rows that are kept: those of one evaluation. A choice."""
+_MADE_ANEW = ("_taken", "_stacks", "_rows", "roughly")
 """By another process."""
 
 
@@ -304,7 +306,22 @@ class EnrichedReducedPlate:
         return float(self.size[1])
 
     def row(self, x_m: float, y_m: float, dx: int = 0, dy: int = 0) -> Array:
-        """Reads w, or its derivative, at a point of the plate; beyond an edge the nearest one. Shape (k,)."""
+        """Reads w, or its derivative, at a point of the plate; beyond an edge the nearest one. Shape (k,).
+
+        The latest are kept: a step along one unknown of an effect leaves its other places where they are.
+        """
+        key, known = (float(x_m), float(y_m), dx, dy), self._rows
+        if key not in known:
+            while len(known) >= _MOST_ROWS:
+                del known[next(iter(known))]
+            known[key] = self._row(*key)
+        return known[key]
+
+    @cached_property
+    def _rows(self) -> dict[tuple[float, float, int, int], Array]:
+        return {}
+
+    def _row(self, x_m: float, y_m: float, dx: int, dy: int) -> Array:
         mesh = self._mesh
         a, b = mesh.sides_m
         x, y = min(max(x_m, 0.0), mesh.length_m), min(max(y_m, 0.0), mesh.width_m)
@@ -312,7 +329,9 @@ class EnrichedReducedPlate:
         first = i * (mesh.n_y + 1) + j
         corners = [first, first + mesh.n_y + 1, first + mesh.n_y + 2, first + 1]
         shape = Shape(a, b).deflection_by_corners(x - i * a, y - j * b, dx, dy)
-        return np.asarray(shape.ravel() @ self.deflection[corners].reshape(shape.size, -1))
+        found = np.asarray(shape.ravel() @ self.deflection[corners].reshape(shape.size, -1))
+        found.setflags(write=False)
+        return found
 
     @cached_property
     def _mesh(self) -> Mesh:

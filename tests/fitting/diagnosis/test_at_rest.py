@@ -113,3 +113,29 @@ def test_of_a_law_far_from_what_cores_are_both_ways_are_followed_in_one_go(monke
     fitted = SimpleNamespace(law=far, chi2=516.2, effects=(), u=np.empty(0))
     assert usual_law.followed(problem, None, fitted, Counting()).chi2 == 509.0
     assert asked == [2]
+
+
+@pytest.mark.parametrize(("brief", "grids"), [(True, ["coarse", "fine"]), (False, ["fine"])])
+def test_a_rough_fit_that_was_on_its_way_goes_on_where_it_was_begun_first(valley, monkeypatch, brief, grids):
+    problem, evidence = valley
+    problem.coarse, problem.nuisances, asked = "coarse", (), []
+
+    def response_of(problem, effects, grid="fine"):
+        asked.append(grid)
+        return Winding()
+
+    monkeypatch.setattr(usual_law, "response_of", response_of)
+    rough = refit(Winding(), evidence, BEGINNING if brief else END, np.empty(0), brief=brief)
+    assert rough.converged is not brief
+    found = usual_law.finished(problem, evidence, rough)
+    assert found.law.values == pytest.approx(END.values, rel=1e-3)
+    assert list(dict.fromkeys(asked)) == grids
+
+
+def test_a_rough_fit_that_cannot_come_to_a_goal_is_left_on_few_nodes(valley, monkeypatch):
+    problem, evidence = valley
+    problem.coarse, problem.nuisances = "coarse", ()
+    rough = refit(Winding(), evidence, BEGINNING, np.empty(0), brief=True)
+    monkeypatch.setattr(usual_law, "polished", None)
+    # Of a sum of squares.
+    assert usual_law.finished(problem, evidence, rough, goal=-1e9).chi2 <= rough.chi2

@@ -46,9 +46,7 @@ def test_of_many_places_those_that_promise_are_followed(monkeypatch):
 
 def test_what_is_looked_at_briefly_is_looked_at_in_every_form(monkeypatch):
     begun = []
-    monkeypatch.setattr(
-        CandidateFit, "_rough", lambda _, law, u, evidence, *, brief: begun.append(u.tolist())
-    )
+    monkeypatch.setattr(CandidateFit, "_rough", lambda _, law, u, *, brief: begun.append(u.tolist()))
     starts = (9.0, [0.3, 0.0]), (8.0, [0.2, 0.0]), (0.1, [0.1, 1.0])
     known = [(promise, np.array(u)) for promise, u in starts]
     CandidateFit(None, None, SimpleNamespace(law=None), TwoForms(), known).briefly()

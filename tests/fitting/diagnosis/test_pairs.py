@@ -33,7 +33,7 @@ class World:
 
     def fit(self, *effects):
         chi2 = self.chi2.get(frozenset(e.name for e in effects), NOTHING)
-        return SimpleNamespace(effects=effects, chi2=chi2, chi2_per_dof=1.0, data=self.data)
+        return SimpleNamespace(effects=effects, chi2=chi2, chi2_per_dof=1.0, data=self.data, converged=True)
 
     def judged(self, fitted):
         return ScoredFit(fitted, fitted.chi2)
@@ -199,7 +199,7 @@ class Wanting(World):
         self.candidates = {
             n: [SimpleNamespace(plain=[self.fit(e)])] for n, e in zip(names, self.effects, strict=True)
         }
-        self.followed = []
+        self.followed, self.went_on = [], []
 
     def judged(self, fitted):
         return ScoredFit(fitted, fitted.chi2, {"size": 1e-9})
@@ -218,7 +218,13 @@ class Wanting(World):
         self.followed.append(tuple(e.name for e in begun.effects))
         return begun
 
+    noise_in_wide_valleys = 300.0
+
+    def left_in_wide_valley(self, fitted):
+        return fitted.chi2
+
     def briefly(self, wide):
+        self.went_on.append(tuple(e.name for e in wide.effects))
         return wide
 
     def roughly(self, brief):
@@ -252,6 +258,12 @@ def test_of_what_begins_in_wide_valleys_the_best_go_on_and_the_best_of_every_lea
     assert [two[0] for two in world.followed] == ["w", "b", "a", "w"]
     assert world.followed[:2] == [("w", "c"), ("b", "w")]
     assert world.followed[3] == ("w", "b")
+
+
+def test_what_leaves_far_more_in_its_wide_valley_than_is_known_goes_no_further(monkeypatch):
+    world = wanting(monkeypatch, 4, "wabc", w=200.0, w_c=150.0, w_b=610.0, b_c=300.0)
+    world.found("w", wide=True)
+    assert sorted(world.went_on) == [("b", "c"), ("w", "c")]
 
 
 @pytest.mark.parametrize("wide", [False, True])
