@@ -124,8 +124,8 @@ class SearchThresholds:
     """... what leaves more than so many times as much there goes no further, as of what is really there noise
     alone is left (a choice) ..."""
     comes_down: float = 2.0
-    """... by which factor what has begun there may still come down: with what is stated taken at its word none
-    of 36 that were followed did by more than 1.3 ..."""
+    """... by which factor what has begun there may still come down: with what is stated taken at its word
+    none of 36 that were followed did by more than 1.3 ..."""
     rough: int = 16
     """... and fits of those that are then followed as the readings are."""
     followed: int = 2

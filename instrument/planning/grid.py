@@ -19,7 +19,7 @@ from fitting.planning.candidates import Candidates, candidate_frequencies, regio
 from fitting.planning.exact_problem import exact_problem
 from fitting.planning.signatures import Signature, signatures_of
 from fitting.reduced import ReducedPlate
-from fitting.specimen import Specimen
+from fitting.specimen import Specimen, StatedSpecimen
 from fitting.sweep import Integers, Sweep
 from instrument.models.set_up import Hammer, set_up
 from instrument.planning.costs import dwell_seconds, step_seconds
@@ -134,13 +134,14 @@ class Grid:
         here = dict(zip((n.name for n in problem.nuisances.each), z.tolist(), strict=True))
         # A plate that carries effects hears modes that this one does not: they stay as stated.
         found = signatures_of(
-            rich, law, np.array([here.get(n.name, 0.0) for n in rich.nuisances.each]), _likely()
+            rich, law, np.array([here.get(n.name, 0.0) for n in rich.nuisances.each]), _likely(rich.specimen)
         )
         return cls(candidates, problem, v, errors, tuple(found))
 
 
-def _likely() -> list[Effect]:
-    return [e for e in catalogue() if not any(q.neutral is None and not q.fixed for q in e.parameters)]
+def _likely(specimen: StatedSpecimen) -> list[Effect]:
+    each = catalogue(specimen)
+    return [e for e in each if not any(q.neutral is None and not q.fixed for q in e.parameters)]
 
 
 def far(law: CoreLaw, other: CoreLaw, band_hz: tuple[float, float], share: float) -> bool:

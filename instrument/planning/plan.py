@@ -16,7 +16,7 @@ from fitting.planning.confusion import EffectOutlook, outlooks
 from fitting.planning.limits import limited_by
 from fitting.planning.sensitivity import Sensitivity, bent
 from fitting.planning.signatures import judged_elsewhere, signatures_of
-from fitting.specimen import Specimen
+from fitting.specimen import Specimen, StatedSpecimen
 from fitting.sweep import Integers
 from instrument.models.set_up import Hammer
 from instrument.models.theory import theory_remark
@@ -79,7 +79,7 @@ def make_plan(
     for_law = completed(level.choice.taken, outlook, s)
     taken = counted(len(c), for_law)
     problem = outlook.problem(level.level_g * PUBLISHED_G_M_S2, outlook.here)
-    effects = catalogue()
+    effects = catalogue(outlook.specimen)
     with progress("what effects would change") as report:
         bent_law = bent(specimen.core.law, problem)  # type: ignore[union-attr]
         signatures = signatures_of(problem, bent_law, problem.as_stated, effects, report)
@@ -108,9 +108,10 @@ def make_plan(
     )
 
 
-def catalogue() -> list[Effect]:
+def catalogue(specimen: StatedSpecimen) -> list[Effect]:
     """Effects that a plate may have beside the law, in the order of their names."""
-    return [e for _, e in sorted(CATALOGUE.items()) if not judged_elsewhere(e)]
+    forms = (e.standing_on(specimen) for _, e in sorted(CATALOGUE.items()))
+    return [form for form in forms if form is not None and not judged_elsewhere(form)]
 
 
 def counted(size: int, chosen: Sequence[int] | Integers) -> Array:

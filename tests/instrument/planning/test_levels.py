@@ -10,6 +10,8 @@ from planning_cases import aims, sensitivity
 from instrument.errors import BadInput
 from instrument.facts.plan import PlannedStep
 from instrument.files.new_file import write_new
+from instrument.files.specimen_file import read_specimen
+from instrument.paper_case import case_file
 from instrument.planning.into_experiment import begun, without_sweep, write_into
 from instrument.planning.levels import at_level, chosen_level, levels_of
 from instrument.planning.outlook import usual_band, visible
@@ -89,9 +91,14 @@ def test_a_plan_has_both_ends_and_enough_of_every_region_the_loudest_first():
 
 
 def test_what_a_plan_forecasts_is_in_the_order_of_names():
-    names = [e.name for e in catalogue()]
+    plate = read_specimen(case_file("zn1.toml"))
+    names = [e.name for e in catalogue(plate)]
     assert names == sorted(names)
-    assert "added_mass" in names
+    assert {"added_mass", "base_roll", "graded_core"} <= set(names)
+    free = replace(plate, boundary="free", force_m=(0.02, 0.02), both_sides=True)
+    struck = {e.name for e in catalogue(free)}
+    assert not struck & {"base_roll", "graded_core", "clamp_compliance"}
+    assert "added_mass" in struck
 
 
 def setup(displacement):
