@@ -18,6 +18,7 @@ from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.verdict import NONE, Judgement
 from fitting.effects.base import Effect
+from fitting.nuisance import Nuisance
 from fitting.tolerances import OF_THEORY
 
 HIDDEN = 1.0
@@ -71,11 +72,9 @@ def _neutral(value: float | None) -> float:
 def _hides(search: Search, effect: Effect) -> bool:
     if not _one_size(effect):
         return False
-    problem, none = search.problem, search.none.fitted
-    # What a theory leaves open widens the law's band and says nothing of a cause beside it.
-    open_kinds = [n.kind in OF_THEORY for n in problem.nuisances.each]
-    left_open = (len(none.law.names) + np.flatnonzero(open_kinds)).tolist()
-    return hides(none, _as_absent(search, effect).fitted, problem.points.omega, left_open)
+    problem = search.problem
+    absent = _as_absent(search, effect).fitted
+    return hides(search.none.fitted, absent, problem.points.omega, problem.nuisances.each)
 
 
 def _one_size(effect: Effect) -> bool:
@@ -83,10 +82,10 @@ def _one_size(effect: Effect) -> bool:
     return len(sized) == 1 and sized[0].neutral is not None and not sized[0].logarithmic
 
 
-def hides(none: Refitted, absent: Refitted, omega: Array, left_open: Sequence[int] = ()) -> bool:
+def hides(none: Refitted, absent: Refitted, omega: Array, stated: Sequence[Nuisance] = ()) -> bool:
     """Whether the law can do what an effect of one size would; `absent` has it last, at its neutral value.
 
-    `omega` in rad/s, shape (points,). `left_open`: unknowns of `none` that are held for the law's errors.
+    `omega` in rad/s, shape (points,). `stated`: the stated numbers of `none`.
     """
     (effect,) = absent.effects
     if not _one_size(effect):
@@ -102,7 +101,9 @@ def hides(none: Refitted, absent: Refitted, omega: Array, left_open: Sequence[in
     if np.linalg.norm(left) > HIDDEN:
         return False
     by_log = (law.jacobian(omega) * law.values[:, None] / law.modulus(omega)).real
-    C = _held(none.covariance, np.asarray(left_open, dtype=int), len(law.names))
+    # What a theory leaves open widens the law's band and says nothing of a cause beside it.
+    left_open = np.flatnonzero([n.kind in OF_THEORY for n in stated])
+    C = _held(none.covariance, len(law.names) + left_open, len(law.names))
     return bool(_rms(by_log.T @ moved[: len(law.names)]) > MOVES * _rms(np.sqrt(_diagonal(by_log, C))))
 
 

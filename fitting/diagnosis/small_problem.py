@@ -67,7 +67,7 @@ class SmallProblem(DiagnosisProblem):
     def of_small(cls, sweep: Sweep, specimen: SmallSpecimen) -> "SmallProblem":
         """Everything made, which takes milliseconds."""
         parts = specimen.parts()
-        check_driven(parts, specimen.kind)
+        check_driven(parts, specimen)
         system = widened_system_of(specimen, parts)
         assert specimen.core is not None
         size = float(np.exp(np.mean(np.log(np.abs(specimen.core.law.modulus(sweep.omega))))))

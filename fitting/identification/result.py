@@ -98,6 +98,7 @@ def summarise(
     known = noise.is_known and method == "direct"
     whole = uncertainty_of(fit, noise_is_known=known)
     uncertainty = whole.of_first(len(fit.law.plain.names))
+    band = law_band(sweep, fit.law, whole)
     return Identification(
         method=method,
         law=fit.law.plain,
@@ -108,8 +109,8 @@ def summarise(
         predicted_m_s=np.abs(fit.velocity_m_s),
         difference_percent=differences_percent(sweep, fit.velocity_m_s),
         validation=validation,
-        band=law_band(sweep, fit.law, whole),
-        warnings=(*_warnings(sweep, fit, uncertainty, known), *further_warnings),
+        band=band,
+        warnings=(*_gain_of_energy(band), *_warnings(sweep, fit, uncertainty, known), *further_warnings),
     )
 
 
@@ -158,6 +159,16 @@ def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: 
             "and the law may be biased beyond its band"
         )
     return said
+
+
+def _gain_of_energy(band: LawBand) -> list[str]:
+    k = int(np.argmin(band.loss_factor))
+    if not band.loss_factor[k] < 0:
+        return []
+    return [
+        f"the loss factor is negative ({band.loss_factor[k]:.2g} at {band.frequency_hz[k]:.3g} Hz), which no "
+        "material has by itself: are phases those of e^{+i omega t}, and do both channels read alike?"
+    ]
 
 
 def _looseness_warnings(law: CoreLaw, uncertainty: Uncertainty) -> list[str]:

@@ -108,7 +108,7 @@ def _in_light_of_the_law(
         neutral = [0.0 if q.neutral is None else q.neutral for q in form.parameters]
         u = np.concatenate([begun.none.z, neutral])
         absent = kept(begun.problem.response([form]), begun.evidence, begun.none.law, u)
-        if hides(begun.none, absent, begun.problem.points.omega):
+        if hides(begun.none, absent, begun.problem.points.omega, begun.problem.each):
             why = (
                 f"{effect.name} cannot be told from the core's modulus by these data: what one does to the "
                 "modes the other does too. The law found is that of what is stated."

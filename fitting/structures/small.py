@@ -232,11 +232,15 @@ def widened_system_of(
     )
 
 
-def check_driven(parts: Parts, kind: str) -> None:
+def check_driven(parts: Parts, specimen: SmallSpecimen) -> None:
     """Raise `OutsideModel` where nothing drives it, or nothing is read."""
-    if not parts.load.any():
-        raise OutsideModel(f"a free {kind} has no base to be excited by, expected another boundary")
-    if not np.any(np.abs(parts.observe) > _STILL):
+    # What effects let go moves where the specimen as stated is held.
+    own = slice(None) if parts.group is None else parts.group == "plate"
+    if not np.any(np.abs(parts.load[..., own]) > _STILL):
+        if specimen.drive == "force":
+            raise OutsideModel("[excitation] lies on a held end, expected x_mm of a point that moves")
+        raise OutsideModel(f"a free {specimen.kind} has no base to be excited by, expected another boundary")
+    if not np.any(np.abs(parts.observe[own]) > _STILL):
         raise OutsideModel("[pickup] is missing or lies on a held end, expected x_mm of a point that moves")
 
 

@@ -63,6 +63,6 @@ def small_velocity(specimen: SmallSpecimen, frequency_hz: Array) -> Complex:
     law = specimen.core.law if specimen.core is not None else None
     G = law.modulus(omega) if law is not None else np.zeros(len(omega), complex)
     parts = specimen.parts()
-    check_driven(parts, specimen.kind)
+    check_driven(parts, specimen)
     x = displacement(system_of(specimen, parts), omega, G)
     return velocity(omega, x, specimen.reads) * specimen.drive_amplitude

@@ -2,12 +2,18 @@
 
 from collections.abc import Sequence
 
+import numpy as np
+
+from fitting.arrays import Array
+from fitting.laws import CoreLaw
 from fitting.structures import AnySpecimen, Beam, ShearPair
 from instrument.models.files import File
 from instrument.models.remarks import remarks_on_law, remarks_on_noise
 
 _WORTH_SAYING = 0.01
 """Of the modulus: a correction that is left out."""
+_FAR = 10.0
+"""Times the modulus of the law in a file: more is asked about."""
 _WORTH_SAYING_OF_A_BEAM = 1e-3
 """Of a resonance."""
 
@@ -36,6 +42,23 @@ def remarks_on_edges(specimen: AnySpecimen) -> tuple[str, ...]:
     return (
         f"what the discs' free edges give way makes G' up to {100 * missing:.2g} % higher: allowed for, not "
         f"counted ([shear-pair] {how})",
+    )
+
+
+def remarks_on_scale(specimen: AnySpecimen, law: CoreLaw, frequency_hz: Array) -> tuple[str, ...]:
+    """Where a pair's modulus is far from where its file begins: it scales with each of its numbers, unseen.
+
+    `frequency_hz` of shape (points,).
+    """
+    if not isinstance(specimen, ShearPair):
+        return ()
+    omega = 2 * np.pi * frequency_hz
+    ratio = float(np.median(np.abs(law.modulus(omega) / specimen.core.law.modulus(omega))))
+    if 1 / _FAR < ratio < _FAR:
+        return ()
+    return (
+        f"the modulus is {ratio:.2g} times that of the law it begins with: if that is not expected, is the "
+        "frequency in Hz, the mass in kg, area and thickness in mm, and how many discs are there?",
     )
 
 

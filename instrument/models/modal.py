@@ -39,6 +39,8 @@ from instrument.progress import Progress, quiet
 Report = Callable[[float], None]
 _LOST = 0.1
 """Relative: stated numbers within their tolerances move frequencies by a tenth of that."""
+_MISFIT = 3.0
+"""Chi-square per degree from which errors of modes do not explain what is left."""
 _WARMER = 2.0
 """K between rows of a table, from which a damping polymer is another one."""
 
@@ -142,14 +144,22 @@ def check_theories(
 
 
 def remark_on_fit(fit: ModalFit, tables: Sequence[ModalTable]) -> tuple[str, ...]:
-    """That a law leaves more of the frequencies than any tolerance would; nothing where it does not."""
-    measured = np.concatenate([t.frequency_hz for t in tables])
-    off = float(np.sqrt(np.mean((np.concatenate(fit.predicted_hz) / measured - 1) ** 2)))
-    if off <= _LOST:
+    """That a law leaves more of the modes than errors or tolerances would; nothing where it does not."""
+    off_f = np.concatenate(fit.predicted_hz) / np.concatenate([t.frequency_hz for t in tables]) - 1
+    off_eta = np.concatenate(fit.predicted_loss) / np.concatenate([t.loss_factor for t in tables]) - 1
+    if (rms_f := float(np.sqrt(np.mean(off_f**2)))) > _LOST:
+        return (
+            f"the fit does not follow the modes (rms {100 * rms_f:.3g} % in frequency): check mode numbers, "
+            "specimen and unit",
+        )
+    chi2 = fit.uncertainty.chi2_per_dof
+    if not chi2 > _MISFIT:
         return ()
     return (
-        f"the fit does not follow the modes (rms {100 * off:.3g} % in frequency): check mode numbers, "
-        "specimen and unit",
+        f"the modes are off by {chi2:.3g} times what their errors explain (chi-square per degree), by up to "
+        f"{100 * np.abs(off_f).max():.2g} % in frequency and {100 * np.abs(off_eta).max():.2g} % in loss "
+        "factor: check mode numbers, and that loss factors are no damping ratios (half of them); else the "
+        "model lacks something, and the law may be biased beyond its band",
     )
 
 

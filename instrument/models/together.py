@@ -35,7 +35,7 @@ from fitting.specimen import Specimen
 from fitting.structures import Beam, ShearPair
 from fitting.sweep import Sweep
 from instrument.models.diagnosis import Diagnosed, effects_among
-from instrument.models.file_remarks import remarks_on_files
+from instrument.models.file_remarks import remarks_on_files, remarks_on_scale
 from instrument.models.files import File, mounted, name_of, numbers_of, one_plate, plates_of
 from instrument.models.identification import Identified, Joint
 from instrument.models.second_process import executor
@@ -280,7 +280,8 @@ def identify_together(
         if noise.source == "misfit":
             validation = validation.without_noise
     sweep = begun.problem.sweep
-    further += (*remarks_on_files(files), *theory, *(one.words(files) for one in work.aside))
+    scale = remarks_on_scale(plate, fit.law, sweep.frequency_hz)
+    further += (*scale, *remarks_on_files(files), *theory, *(one.words(files) for one in work.aside))
     result = summarise("direct", sweep, noise, fit, validation, further)
     validated = perf_counter() - checked
     found = Identified(result, ready - began, seconds, validated, joint=Joint(begun, None), bare=bare)

@@ -88,4 +88,4 @@ def _read_at(outlook: Outlook, mesh: Mesh, spot_m: tuple[float, float]) -> At:
 
 
 def _row(plate: Plate, V: Array, spot_m: tuple[float, float]) -> Array:
-    return np.asarray((plate.even.T @ plate.observe(*spot_m)) @ V)
+    return np.asarray((plate.carried.T @ plate.observe(*spot_m)) @ V)

@@ -10,7 +10,7 @@ from fitting.errors import TooFewPoints
 from fitting.identification import direct
 from fitting.identification.model import SweepModel
 from fitting.identification.residuals import Residuals
-from fitting.identification.result import differences_percent, summarise
+from fitting.identification.result import LawBand, _gain_of_energy, differences_percent, summarise
 from fitting.identification.uncertainty import uncertainty_of
 from fitting.identification.validation import Validation
 from fitting.laws.constant import ConstantModulus
@@ -248,3 +248,11 @@ def test_a_parameter_the_data_leave_open_is_named(table5, nine, zn1):
     sweep = table5.take(np.array([0, 1, 3, 4, 5]))
     said = warnings_of(sweep, nine.take(np.array([0, 1, 3, 4, 5])), zn1.core.law)
     assert "bound" in said or "not fixed" in said
+
+
+def test_a_law_that_gives_energy_is_asked_about():
+    f, one = np.array([10.0, 20.0, 40.0]), np.ones(3)
+    lossy, giving = (LawBand(f, 1e6 * one, np.array([0.3, 0.1, eta]), one, one) for eta in (0.2, -0.4))
+    assert _gain_of_energy(lossy) == []
+    (said,) = _gain_of_energy(giving)
+    assert said.startswith("the loss factor is negative (-0.4 at 40 Hz)")

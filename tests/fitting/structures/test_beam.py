@@ -5,6 +5,7 @@ import pytest
 import scipy.linalg as la
 from scipy.optimize import newton
 
+from fitting.errors import OutsideModel
 from fitting.laws.constant import ConstantModulus
 from fitting.specimen import Core, Face
 from fitting.structures import Beam
@@ -148,3 +149,20 @@ def test_near_equal_numbers_are_said():
     found = sandwich(205e9, 1e-3, 0.25e-3, 1000 / 7850, 0.25, 2, 100.0, 71.0, 0.01)
     assert any("nearly equal" in text for text in found.objections)
     assert any("near one" in text for text in oberst(205e9, 1.0, 0.2, 0.92, 0.01, 2).objections)
+
+
+@pytest.mark.parametrize(
+    ("places", "said"),
+    [
+        ({"pickup_m": 0.0}, "lies on a held end"),
+        ({"pickup_m": 0.15, "force_m": 0.0}, r"\[excitation\] lies on a held end"),
+        ({"pickup_m": 0.15, "boundary": "free-free"}, "no base to be excited by"),
+    ],
+)
+def test_what_is_held_is_neither_read_nor_driven(places, said):
+    """Effects let held ends go; the beam as it is stated does not."""
+    face = Face(2e-3, 70e9, 0.3, 2700.0)
+    core = Core(0.5e-3, 0.49, 1000.0, ConstantModulus(1e6, 0.5))
+    beam = Beam(0.2, 0.01, "clamped-free", face, constraining=face, core=core)
+    with pytest.raises(OutsideModel, match=said):
+        small_velocity(replace(beam, **places), np.array([100.0]))

@@ -8,7 +8,7 @@ import pytest
 from fitting.laws.constant import ConstantModulus
 from fitting.specimen import Core
 from fitting.structures import ShearPair
-from instrument.models.file_remarks import remarks_on_edges
+from instrument.models.file_remarks import remarks_on_edges, remarks_on_scale
 
 CORE = Core(6e-3, 0.5, 1100.0, ConstantModulus(5e6, 0.3))
 PAIR = ShearPair(mass_kg=0.5, discs=2, area_m2=1.2e-3, core=CORE, gyration_m=1.0e-2)
@@ -36,3 +36,11 @@ def test_where_only_an_area_is_stated_a_full_disc_stands_for_it():
 def test_nothing_is_said_of_edges_that_are_counted_or_hardly_count():
     assert remarks_on_edges(replace(PAIR, edges=True)) == ()
     assert remarks_on_edges(replace(PAIR, core=replace(CORE, thickness_m=2e-4))) == ()
+
+
+@pytest.mark.parametrize(("times", "asked"), [(0.05, True), (0.2, False), (6.0, False), (39.0, True)])
+def test_a_modulus_far_from_where_its_file_begins_is_asked_about(times, asked):
+    said = remarks_on_scale(PAIR, ConstantModulus(5e6 * times, 0.3), np.array([50.0, 100.0]))
+    assert bool(said) is asked
+    if asked:
+        assert f"{times:.2g} times" in said[0]

@@ -85,8 +85,19 @@ def test_a_table_beside_a_sweep_is_refused(table, capsys):
 
 
 def test_a_fit_that_leaves_the_modes_says_so():
-    tables = [SimpleNamespace(frequency_hz=np.array([100.0, 200.0]))]
-    near, far = (SimpleNamespace(predicted_hz=(np.array([100.0, f]),)) for f in (210.0, 240.0))
-    assert remark_on_fit(near, tables) == ()
-    (said,) = remark_on_fit(far, tables)
+    tables = [SimpleNamespace(frequency_hz=np.array([100.0, 200.0]), loss_factor=np.array([0.2, 0.2]))]
+
+    def fit(second_hz, loss, chi2):
+        return SimpleNamespace(
+            predicted_hz=(np.array([100.0, second_hz]),),
+            predicted_loss=(np.array([0.2, loss]),),
+            uncertainty=SimpleNamespace(chi2_per_dof=chi2),
+        )
+
+    assert remark_on_fit(fit(210.0, 0.2, 2.0), tables) == ()
+    (said,) = remark_on_fit(fit(240.0, 0.2, 90.0), tables)
     assert said.startswith("the fit does not follow the modes (rms 14.1 % in frequency)")
+    (said,) = remark_on_fit(fit(202.0, 0.1, 5.6), tables)
+    assert said.startswith("the modes are off by 5.6 times what their errors explain")
+    assert "1 % in frequency and 50 % in loss factor" in said
+    assert "no damping ratios" in said
