@@ -20,6 +20,7 @@ from instrument.results.session_result import (
     recorded_result,
     result_of,
 )
+from instrument.results.standing import none_is_likelier
 from instrument.results.typeset import note, quantity, typeset
 from instrument.session.contents import Contents
 
@@ -29,6 +30,10 @@ _ROWS = 9
 _BEFORE = (
     "This is the law before the diagnosis, which found an effect that the model lacked: the law to use is "
     "the one after it, at the head of the page and in the section Diagnosis."
+)
+
+_NOT_EXCLUDED = (
+    "The diagnosis found no effect likelier than none: what it could not rule out is in its section."
 )
 
 
@@ -129,6 +134,8 @@ def _doubt(contents: Contents) -> list[Block]:
         return []
     if found.verdict == "unknown":
         return [Sentence(f"Diagnosis: {UNKNOWN}. The law may be far off its band.", "warning")]
+    if none_is_likelier(found):
+        return [Sentence(_NOT_EXCLUDED, "note")]
     return [Sentence(_BEFORE, "warning")]
 
 

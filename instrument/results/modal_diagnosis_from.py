@@ -67,8 +67,11 @@ def _effects(found: DiagnosedModes, scored: ScoredFit) -> tuple[FoundEffect, ...
 
 def _candidate(found: DiagnosedModes, scored: ScoredFit, tables: Sequence[ModalTable]) -> Candidate:
     known = found.begun.evidence.scale_known
+    accepted = found.judgement.accepted
+    # Its sizes are those of the verdict, which may have the last word on them.
+    sized = accepted if accepted is not None and accepted.names == scored.names else scored
     return Candidate(
-        _effects(found, scored),
+        _effects(found, sized),
         scored.cost - found.scored[0].cost,
         scored.fitted.chi2_per_dof if known else float("nan"),
         found.judgement.probability.get(scored.names, 0.0),

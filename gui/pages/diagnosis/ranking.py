@@ -14,7 +14,7 @@ from instrument.results.typeset import typeset
 RowStanding = Standing | Literal["not fitted"]
 WORDS: dict[RowStanding, str] = {
     "found": "found",
-    "equal": "not told from it",
+    "equal": "not told apart",
     "none": "no effect",
     "other": "",
     "not fitted": "not fitted",

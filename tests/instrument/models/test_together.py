@@ -57,6 +57,8 @@ def test_one_mass_stated_wrongly_and_the_modulus_are_one():
     assert found.verdict == "ambiguous"
     assert found.effects[0].name == "added_mass"
     assert found.equivalent["added_mass"] == ("added_mass", "none")
+    row = next(c for c in found.candidates if c.name == "added_mass")
+    assert row.effects[0].parameters == found.effects[0].parameters
 
 
 @among("added_mass", "gain_error", "channel_delay")

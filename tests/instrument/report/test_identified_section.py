@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from conftest import TABLE_4
+from diagnosis_cases import diagnosis as diagnosed
 from diagnosis_cases import sweep
 from result_cases import identification
 
@@ -152,12 +153,20 @@ def test_the_page_s_law_is_compared_with_the_run_s_own(run, points, said):
     [("unknown", "The law may be far off its band"), ("effect", "This is the law before the diagnosis")],
 )
 def test_after_a_diagnosis_the_law_is_called_what_it_is(verdict, said):
-    diagnosis = SimpleNamespace(result=SimpleNamespace(verdict=verdict))
+    diagnosis = SimpleNamespace(result=diagnosed(verdict=verdict))
     made, _, sentences = section(found(warnings=("a remark",)), diagnosis=diagnosis)
     assert made.title.endswith("before the diagnosis")
     assert said in sentences[1]
     assert sentences[2] == "A remark."
     assert section(found())[0].title == "Identification of the core"
+
+
+def test_no_effect_is_said_to_be_found_where_none_is_likelier():
+    ambiguous = diagnosed(verdict="ambiguous").but(equivalent={"added_mass": ("added_mass", "none")})
+    (first, *rest) = ambiguous.candidates
+    likelier = (first.but(probability=0.02), *rest[:-1], rest[-1].but(probability=0.9))
+    found_none = SimpleNamespace(result=ambiguous.but(candidates=likelier))
+    assert "found no effect likelier than none" in section(found(), diagnosis=found_none)[2][1]
 
 
 def test_what_is_left_is_three_numbers_and_each_segment_from_the_others():
