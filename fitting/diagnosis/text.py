@@ -6,6 +6,7 @@ from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.result import FoundEffect, Stage
+from fitting.diagnosis.structure import in_words
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.diagnosis.verdict import NONE, Judgement
 from fitting.effects.base import Effect
@@ -25,7 +26,7 @@ def explain(
     catalogue: dict[str, Effect],
 ) -> tuple[str, ...]:
     """What was left, what explains it, how sure that is, what it did to the material."""
-    said = [_left(before)]
+    said = [_left(problem, before)]
     scored = judgement.accepted
     if judgement.verdict == "none" and judgement.by_hand:
         said.append("No effect is accepted, by your word.")
@@ -119,8 +120,9 @@ def next_measurement(judgement: Judgement, catalogue: dict[str, Effect], *, with
     return "To tell them apart: " + "; ".join(f"{way} ({name})" for way, name in ways.items()) + "."
 
 
-def _left(before: Stage) -> str:
-    text = f"The stated plate with its best law leaves {before.rms_percent:.2g} % rms in amplitude"
+def _left(problem: DiagnosisProblem, before: Stage) -> str:
+    kind = in_words(problem.specimen.kind)
+    text = f"The stated {kind} with its best law leaves {before.rms_percent:.2g} % rms in amplitude"
     if np.isfinite(before.chi2_per_dof):
         text += (
             f", {before.chi2_per_dof:.3g} times what noise and model error explain (chi-square per degree)"

@@ -230,6 +230,11 @@ class _Work:
                 "where a fixture resonates readings are off beyond what is set aside too: the rms of that "
                 f"and of what is left {once} the rest"
             )
+        if len(self.files) == 1:
+            return (
+                f"the readings follow no law within their noise: their rms misfit {once} the readings, and "
+                "for a gain and a phase; see 'viscorig diagnose'"
+            )
         return (
             f"the files follow no one law within their noise: each file's rms misfit {once} its readings, "
             "for files whose cores differ by a few percent, and for a gain and a phase that all have in "

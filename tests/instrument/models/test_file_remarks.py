@@ -3,11 +3,13 @@
 from dataclasses import replace
 
 import pytest
+from shear_pair_cases import sweep
 
 from fitting.laws.constant import ConstantModulus
 from fitting.specimen import Core
 from fitting.structures import ShearPair
-from instrument.models.file_remarks import remarks_on_edges
+from instrument.models.file_remarks import remarks_on_edges, remarks_on_files
+from instrument.models.files import File
 
 CORE = Core(6e-3, 0.5, 1100.0, ConstantModulus(5e6, 0.3))
 PAIR = ShearPair(mass_kg=0.5, discs=2, area_m2=1.2e-3, core=CORE, gyration_m=1.0e-2)
@@ -30,3 +32,17 @@ def test_bending_that_is_counted_is_missing_no_more():
 def test_nothing_is_said_of_edges_that_are_counted_or_hardly_count():
     assert remarks_on_edges(replace(PAIR, edges=True)) == ()
     assert remarks_on_edges(replace(PAIR, core=replace(CORE, thickness_m=2e-4))) == ()
+
+
+def edges_of(*files):
+    return [said for said in remarks_on_files(files) if "edges" in said]
+
+
+def test_what_holds_of_all_files_is_said_once_and_of_some_by_their_names():
+    thinner = replace(PAIR, core=replace(CORE, thickness_m=3e-3))
+    a, b, c = (File(sweep(PAIR, points=30), p, n) for n, p in zip("abc", (PAIR, PAIR, thinner), strict=True))
+    (said,) = edges_of(a, b)
+    assert said.startswith("what the discs' free edges")
+    both, alone = edges_of(a, b, c)
+    assert both.startswith("a, b: what the discs'")
+    assert alone.startswith("c: what the discs'")

@@ -57,6 +57,7 @@ def test_one_mass_stated_wrongly_and_the_modulus_are_one():
     assert found.verdict == "ambiguous"
     assert found.effects[0].name == "added_mass"
     assert found.equivalent["added_mass"] == ("added_mass", "none")
+    assert found.explanation[0].startswith("The stated shear pair with its best law")
     row = next(c for c in found.candidates if c.name == "added_mass")
     assert row.effects[0].parameters == found.effects[0].parameters
 
@@ -153,6 +154,18 @@ def test_where_a_fixture_resonates_the_rest_is_worth_less_too(mass_kg, at_hz):
     G = LAW.modulus(2 * np.pi * band.frequency_hz)
     pull = (band.loss_factor - G.imag / G.real) / band.loss_factor_standard_error
     assert np.abs(pull).max() < 3
+
+
+def test_one_file_is_not_spoken_of_as_several():
+    (said,) = [one for one in _misfit([0.2533]) if "taken for the error" in one]
+    assert "files" not in said
+    assert "each file" not in said
+    (said,) = [one for one in _misfit([0.2533, 0.573]) if "taken for the error" in one]
+    assert said.startswith("the files follow no one law")
+
+
+def _misfit(masses):
+    return identify_together(files(masses, wander=0.02)).found.result.warnings
 
 
 def test_where_no_law_fits_there_is_no_chi_square(capsys):

@@ -28,6 +28,7 @@ from instrument.report.law_figures import law_figure, residual_figures
 from instrument.report.measured import Measured
 
 SWEEP = sweep()
+PLATE = SimpleNamespace(kind="plate")
 PULLED = (Adjusted("gain", 1.0, 0.02, 0.96, 0.01, -2.0, "1"),)
 
 
@@ -61,7 +62,7 @@ def found(std=0.01, *, noise="stated", adjusted=(), warnings=(), bound=None, **v
     )
 
 
-def reported(result, bare=None, specimen=None):
+def reported(result, bare=None, specimen=PLATE):
     return ReportedFit(SessionFit(SimpleNamespace(result=result), SWEEP, specimen, bare))
 
 
@@ -184,6 +185,12 @@ def test_what_is_left_is_three_numbers_and_each_segment_from_the_others():
     for source, words in (("unknown", "not known: the noise is not"), ("misfit", "none: readings count by")):
         rows = dict(unexplained_section(reported(found(noise=source))).blocks[1].rows)
         assert rows["chi² per degree of freedom"].startswith(words)
+
+
+def test_the_model_of_a_pair_is_not_called_a_plate():
+    pair = SimpleNamespace(kind="shear-pair")
+    first = unexplained_section(reported(found(), specimen=pair)).blocks[0]
+    assert first.text == "Before: the model has no further effects than the shear pair and its core."
 
 
 def test_the_law_to_sign_is_the_recorded_one_unless_the_run_left_none_of_all_its_points(monkeypatch):
