@@ -271,11 +271,11 @@ def identify_together(
         work.problem()
         ready = perf_counter()
         begun, noise = work.without_glitches()
-        further: tuple[str, ...] = ()
+        misfit: tuple[str, ...] = ()
         if work.with_misfit(begun):
             for _ in range(2):
                 begun, noise = work.without_glitches()
-            further = (work.about_misfit(),)
+            misfit = (work.about_misfit(),)
         fit = fit_of(begun)
     seconds = perf_counter() - ready
     theory = _check_theories(files, fit.law)
@@ -285,8 +285,9 @@ def identify_together(
         if noise.source == "misfit":
             validation = validation.without_noise
     sweep = begun.problem.sweep
-    further += (*remarks_on_files(files), *theory, *(one.words(files) for one in work.aside))
+    further = (*remarks_on_files(files), *theory, *(one.words(files) for one in work.aside))
     result = summarise("direct", sweep, noise, fit, validation, further)
+    result = replace(result, warnings=(*misfit, *result.warnings))
     validated = perf_counter() - checked
     found = Identified(result, ready - began, seconds, validated, joint=Joint(begun, None), bare=bare)
     return Together(found, sweep, tuple(work.aside))
