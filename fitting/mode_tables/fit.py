@@ -66,9 +66,7 @@ def begin_modal(problem: ModalProblem, start: CoreLaw, *, scale_known: bool = Tr
     """The best law without any effect. Raises `TooFewPoints`, `OutsideModel`."""
     count = 2 * len(problem.frequency_hz)
     if count <= len(start.plain.names):
-        raise TooFewPoints(
-            f"{count} numbers cannot carry the {len(start.plain.names)} parameters of {start.kind}"
-        )
+        raise TooFewPoints(_too_few(problem, start))
     u = np.zeros(len(problem.each))
     none, problem = _roughly(problem, start, u)
     for _ in range(_ROUNDS):
@@ -82,22 +80,32 @@ def begin_modal(problem: ModalProblem, start: CoreLaw, *, scale_known: bool = Tr
     return BegunModal(problem, evidence, none, start)
 
 
+def _too_few(problem: ModalProblem, start: CoreLaw) -> str:
+    """How many modes there are, in which files, and how many it takes."""
+    modes, parameters = len(problem.frequency_hz), len(start.plain.names)
+    names = ", ".join(m.table.name for m in problem.members if m.table.name)
+    said = f"{names}{': ' if names else ''}{modes} mode{'s' * (modes > 1)} with {2 * modes} numbers"
+    return (
+        f"{said} cannot carry the {parameters} parameters of {start.kind}, expected {parameters // 2 + 1} "
+        "modes or more, or a [core.law] of fewer parameters"
+    )
+
+
 def _roughly(problem: ModalProblem, start: CoreLaw, u: Array) -> tuple[Refitted, ModalProblem]:
     omega = 2 * np.pi * problem.frequency_hz
-    found = []
+    found, refused = [], OutsideModel("no law was tried")
     for factor in _SOFTER_AND_STIFFER:
         law = scaled(start, factor)
         here = problem.around(law)
         evidence = here.evidence().blunt()
         try:
             rough = refit(here.response(), evidence, law, u, tolerance=ROUGH)
-        except OutsideModel:
+        except OutsideModel as error:
+            refused = error
             continue
         found.append((rough.chi2, rough))
     if not found:
-        raise OutsideModel(
-            "the table has a mode that the model has not, expected modes from 1, rigid ones left out"
-        )
+        raise refused
     best = min(found, key=lambda one: one[0])[1]
     law = best.law
     plain = within_search(law.plain, omega)
