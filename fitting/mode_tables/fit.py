@@ -41,6 +41,7 @@ class ModalFit:
     predicted_hz: tuple[Array, ...]
     predicted_loss: tuple[Array, ...]
     adjusted: tuple[Adjusted, ...]
+    iterations: int
     evaluations: int
     converged: bool
 
@@ -58,8 +59,17 @@ class BegunModal:
 
 def fit_modes(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> ModalFit:
     """The law of all tables. Raises `TooFewPoints`, `OutsideModel`."""
-    problem = ModalProblem.of([member_of(t, s) for t, s in zip(tables, specimens, strict=True)])
-    return modal_fit_of(begin_modal(problem, start_of(tables, specimens)))
+    return fit_problem(problem_of(tables, specimens), start_of(tables, specimens))
+
+
+def problem_of(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> ModalProblem:
+    """Tables with the models of their specimens."""
+    return ModalProblem.of([member_of(t, s) for t, s in zip(tables, specimens, strict=True)])
+
+
+def fit_problem(problem: ModalProblem, start: CoreLaw) -> ModalFit:
+    """The law without any effect. Raises as `fit_modes`."""
+    return modal_fit_of(begin_modal(problem, start))
 
 
 def begin_modal(problem: ModalProblem, start: CoreLaw, *, scale_known: bool = True) -> BegunModal:
@@ -150,6 +160,7 @@ def modal_fit_of(begun: BegunModal, fitted: Refitted | None = None) -> ModalFit:
         tuple(f[part] for part in problem.parts),
         tuple(eta[part] for part in problem.parts),
         problem.adjusted(fitted.z, errors),
+        fitted.iterations,
         fitted.evaluations,
         fitted.converged,
     )

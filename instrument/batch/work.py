@@ -9,7 +9,7 @@ from threadpoolctl import threadpool_limits
 from fitting.errors import FittingError
 from fitting.specimen import Specimen
 from instrument.batch.keys import program
-from instrument.batch.of_modes import diagnosed_modes, identified_modes, rms_percent
+from instrument.batch.of_modes import diagnosed_modes, identified_modes
 from instrument.batch.task import BatchTask
 from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult, StageFitted
@@ -118,7 +118,7 @@ def _of_modes(task: BatchTask, data: Path, specimen: Path) -> Outcome:
         diagnosed, measured = diagnosed_modes(data, specimen, insist=task.insist)
         return _done(measured, _of_diagnosis(diagnosed))
     result, measured = identified_modes(data, specimen, insist=task.insist)
-    return _done(measured, _of_fit(result) | {"rms_percent": rms_percent(result)})
+    return _done(measured, _of_fit(result))
 
 
 def _done(measured: dict[str, Any], facts: dict[str, Any]) -> Outcome:
