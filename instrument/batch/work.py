@@ -4,6 +4,7 @@ import os
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from threadpoolctl import threadpool_limits
 
 from fitting.errors import FittingError
@@ -52,11 +53,14 @@ def outcome_of(task: BatchTask) -> Outcome:
     os.environ[PROCESSES] = "1"
     with threadpool_limits(1, "blas"):
         try:
-            found = _worked(task)
+            # What numpy warns of on the way belongs to no one at the console.
+            with np.errstate(all="ignore"):
+                found = _worked(task)
         except (BadInput, FittingError) as error:
             found = failure(_without_folders(task, str(error)))
         except Exception as error:  # one row is not the end of a batch
-            found = failure(f"{type(error).__name__}: {_without_folders(task, str(error))}", again=True)
+            said = f"{type(error).__name__}: {_without_folders(task, str(error))}"
+            found = failure(f"internal error: {said} (report it)", again=True)
     return {**found, "program": program()}
 
 

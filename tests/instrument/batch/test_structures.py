@@ -6,11 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from instrument.batch import work
+from instrument.batch.asking import tasks_of
 from instrument.batch.keys import Keys
 from instrument.batch.of_modes import identified_modes
 from instrument.batch.task import BatchTask
 from instrument.batch.work import outcome_of
 from instrument.cli.main import run
+from instrument.errors import BadInput
 
 SHARED = ("law_kind", "parameters", "standard_errors", "chi2_per_dof", "converged", "warnings")
 MODES = "mode,frequency_hz,loss_factor\n1,75.6,0.233\n2,377.5,0.264\n3,963.9,0.228\n4,1744.8,0.175\n"
@@ -84,6 +87,27 @@ def test_a_hammer_test_is_refused_where_there_is_no_plate(folder):
     files = [str(folder / name) for name in ("modes.csv", "beam.toml", "hammer.json")]
     said = "hammer.json: a hammer test with a table of modes, expected a sweep"
     assert outcome_of(BatchTask(*files))["failed"] == said
+
+
+def test_what_fails_inside_is_said_as_such_and_warns_no_one(folder, monkeypatch, recwarn):
+    def broken(task):
+        np.log(np.array([-1.0]))
+        raise np.linalg.LinAlgError("SVD did not converge")
+
+    monkeypatch.setattr(work, "_worked", broken)
+    said = outcome_of(BatchTask(str(folder / "modes.csv"), str(folder / "beam.toml")))
+    assert said["failed"] == "internal error: LinAlgError: SVD did not converge (report it)"
+    assert said["again"]
+    assert not recwarn.list
+
+
+def test_a_misspelt_column_of_specimens_is_named(tmp_path):
+    (tmp_path / "t.csv").write_text("data,spec\na.csv,b.toml\n")
+    with pytest.raises(BadInput, match="no specimen, the nearest is spec; expected it, or --specimen"):
+        tasks_of([tmp_path / "t.csv"], None)
+    assert tasks_of([tmp_path / "t.csv"], tmp_path / "b.toml")
+    (tmp_path / "t.csv").write_text("data,spec\na.h5,steel\n")
+    assert tasks_of([tmp_path / "t.csv"], None)
 
 
 def test_what_a_table_leaves_is_of_its_frequencies(folder):
