@@ -261,6 +261,11 @@ FAULTS = {
     "both shapes": (PAIR.replace("discs = 2", "discs = 2\narea_mm2 = 700.0"), "area_mm2"),
     "hole": (PAIR.replace("11.8", "34.0"), "inner_diameter_mm = 34"),
     "two kinds": (PAIR + "\n[plate]\n", "[plate] and [shear-pair]"),
+    "another's tolerance": (
+        PAIR + "[tolerances]\nlength_mm = 0.3\n",
+        "tolerances.length_mm: a shear-pair has no",
+    ),
+    "two pickups": (PAIR + 2 * "[[pickup]]\n", "pickup: [[pickup]], expected one table [pickup]"),
     "unknown key": (PAIR.replace("mass_kg", "mass_g"), "mass_g"),
     "no law": (PAIR.replace('"fractional-zener"', '"rubber"'), "core.law.kind"),
 }
@@ -298,3 +303,6 @@ def test_the_commands_take_shear_pairs(tmp_path, capsys):
         assert run([*words, "--json", str(tmp_path / "out.json")]) == 0, words
     assert run(["identify", str(tmp_path / "a.csv"), *["--specimen", pair_toml] * 2]) == 2
     assert "2 times --specimen for 1 files" in capsys.readouterr().err
+    words = ["identify", str(tmp_path / "a.csv"), "--specimen", pair_toml, "--uncertainty", "bootstrap"]
+    assert run(words) == 2
+    assert "bootstrap with a shear-pair: expected profile" in capsys.readouterr().err
