@@ -6,6 +6,7 @@ b is a Gaussian process in the logarithm of the frequency, here by its values at
 the formula. Its whitened values are unknowns with priors of unit width, fitted beside the law's parameters.
 """
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Self
@@ -81,6 +82,11 @@ class BentLaw(CoreLaw):
     def limits(self) -> list[Quantity]:
         """In the order of `names`."""
         return [*self.law.limits, *(_BEND,) * len(self.bend)]
+
+    def places_at_limit(self, at_limit: Collection[str]) -> int:
+        """Knots at which the bend of G' or of eta is among these names."""
+        half = len(self.knots_hz)
+        return len({k % half for k in range(2 * half) if f"bend_{k + 1}" in at_limit})
 
     def with_values(self, values: Array) -> Self:
         """The same law with other parameters and another bend. Shape (names,)."""

@@ -228,12 +228,18 @@ def _candidate(
 ) -> Candidate:
     chi2 = scored.fitted.chi2_per_dof if noise_known else float("nan")
     scale = search.temper(scored)
+    accepted = judgement.accepted
+    if accepted is not None and accepted.names == scored.names:
+        # Its sizes are those of the verdict, which may have the last word on them.
+        sized, scale = accepted.fitted, search.temper(accepted)
+    else:
+        sized = scored.fitted
     return Candidate(
-        found_effects(scored.fitted, problem.plate, scale),
+        found_effects(sized, problem.plate, scale),
         scored.cost - best,
         chi2,
         judgement.probability.get(scored.names, 0.0),
-        few_of_law(problem, scored.fitted, scale),
+        few_of_law(problem, sized, scale),
         dict(scored.checks),
     )
 

@@ -19,10 +19,12 @@ _FEWEST = 20
 """Readings of a trace: the usual rule for the normal limit of the runs test."""
 
 
-def structure(sweep: Sweep, evidence: Evidence, whitened: Array, chi2_per_dof: float) -> tuple[str, ...]:
+def structure(
+    sweep: Sweep, evidence: Evidence, whitened: Array, chi2_per_dof: float, kind: str = "plate"
+) -> tuple[str, ...]:
     """What is not random in whitened residuals, in words; nothing where the noise is unknown.
 
-    Shape (data,).
+    Shape (data,). `kind` is the specimen's.
     """
     if not evidence.scale_known:
         return ()
@@ -37,8 +39,14 @@ def structure(sweep: Sweep, evidence: Evidence, whitened: Array, chi2_per_dof: f
     along = evidence.whitening.along(whitened)
     if len(along) and along @ along > chi2_exceeded(VERDICT.bent_by_chance, len(along)):
         times = float(np.sqrt(along @ along / len(along)))
-        said.append(f"the plate would have to be off by {times:.2g} times what a layer-wise plate is")
+        theory = "a layer-wise plate" if kind == "plate" else "its theory"
+        said.append(f"the {in_words(kind)} would have to be off by {times:.2g} times what {theory} is")
     return tuple(said)
+
+
+def in_words(kind: str) -> str:
+    """A specimen's kind, as sentences have it."""
+    return kind.replace("-", " ")
 
 
 def roughness(sweep: Sweep, whitened: Array, parts: int) -> float:

@@ -2,10 +2,13 @@
 
 import numpy as np
 
+from fitting.arrays import Complex
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.result import FoundEffect, Stage
+from fitting.diagnosis.several import SeveralProblem
+from fitting.diagnosis.structure import in_words
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.diagnosis.verdict import NONE, Judgement
 from fitting.effects.base import Effect
@@ -25,7 +28,7 @@ def explain(
     catalogue: dict[str, Effect],
 ) -> tuple[str, ...]:
     """What was left, what explains it, how sure that is, what it did to the material."""
-    said = [_left(before)]
+    said = [_left(problem, before)]
     scored = judgement.accepted
     if judgement.verdict == "none" and judgement.by_hand:
         said.append("No effect is accepted, by your word.")
@@ -119,8 +122,9 @@ def next_measurement(judgement: Judgement, catalogue: dict[str, Effect], *, with
     return "To tell them apart: " + "; ".join(f"{way} ({name})" for way, name in ways.items()) + "."
 
 
-def _left(before: Stage) -> str:
-    text = f"The stated plate with its best law leaves {before.rms_percent:.2g} % rms in amplitude"
+def _left(problem: DiagnosisProblem, before: Stage) -> str:
+    kind = in_words(problem.specimen.kind)
+    text = f"The stated {kind} with its best law leaves {before.rms_percent:.2g} % rms in amplitude"
     if np.isfinite(before.chi2_per_dof):
         text += (
             f", {before.chi2_per_dof:.3g} times what noise and model error explain (chi-square per degree)"
@@ -135,15 +139,36 @@ def _worst_segment(problem: DiagnosisProblem, before: Stage) -> int:
 
 
 def _moved(problem: DiagnosisProblem, fitted: Refitted) -> str:
-    """How much the effect changes the response, segment by segment, the law kept."""
+    """How much the effect changes the response, the law kept."""
     plain = response_of(problem, ()).velocity(fitted.law, fitted.z)
-    changed = 100 * np.abs(fitted.velocity_m_s / plain - 1)
+    return moved_words(problem, plain, fitted.velocity_m_s)
+
+
+def moved_words(problem: DiagnosisProblem, plain: Complex, velocity_m_s: Complex) -> str:
+    """How much a response differs from a plain one: by segment, of several files or spots the most.
+
+    Shape (points,) each.
+    """
+    changed = 100 * np.abs(velocity_m_s / plain - 1)
     parts = []
     for number in np.unique(problem.sweep.segment):
         inside = problem.sweep.segment == number
         peak = np.flatnonzero(inside)[np.argmax(np.abs(plain[inside]))]
-        parts.append(f"{changed[inside].max():.2g} % near {problem.sweep.frequency_hz[peak]:.0f} Hz")
-    return f"It changes the response by up to {', '.join(parts)}."
+        most = f"{changed[inside].max():.2g} % near {problem.sweep.frequency_hz[peak]:.0f} Hz"
+        parts.append((float(changed[inside].max()), f"{most}{_whose(problem, int(peak))}"))
+    if isinstance(problem, SeveralProblem) and len(problem.members) > 1:
+        parts = [max(parts)]
+    return f"It changes the response by up to {', '.join(words for _, words in parts)}."
+
+
+def _whose(problem: DiagnosisProblem, point: int) -> str:
+    """The file and the spot of a point, where there are several."""
+    if not isinstance(problem, SeveralProblem):
+        return ""
+    every = zip(problem.starts_at, problem.belongs, strict=True)
+    place = next(place for part, place in every if part.start <= point < part.stop)
+    said = "" if len({p.file for p in problem.belongs}) < 2 else f" in file {place.file}"
+    return said if place.pickup is None else f"{said} at pickup {place.pickup}"
 
 
 def _chi2(before: Stage, after: Stage) -> str:

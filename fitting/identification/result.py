@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array
+from fitting.bent_law import BentLaw
 from fitting.identification.fit import Fit
 from fitting.identification.uncertainty import Uncertainty, uncertainty_of
 from fitting.identification.validation import Validation, rms
@@ -132,11 +133,6 @@ def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: 
             f"too few points: {len(sweep)} ({data} numbers) for {len(law.names)} parameters, more than "
             "that are needed; the parameters found are one choice of many and carry no standard error"
         )
-    for name, side in uncertainty.at_bound.items():
-        said.append(f"{name} sits at its {side} bound: the data do not fix it on that side")
-    said.extend(_looseness_warnings(law, uncertainty))
-    said.extend(_correlation_warnings(law, uncertainty))
-    said.extend(law.objections())
     if not fit.converged:
         said.append(f"not converged after {fit.iterations} iterations: take the values as provisional")
     if fit.criterion_met is False:
@@ -158,7 +154,25 @@ def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: 
             "(chi-square per degree of freedom): the model lacks something, "
             "and the law may be biased beyond its band"
         )
-    return said
+    return [*said, *_law_warnings(fit.law, uncertainty)]
+
+
+def _law_warnings(fitted: CoreLaw, uncertainty: Uncertainty) -> list[str]:
+    """What the data say of the parameters one by one, the bends of the law together."""
+    law = fitted.plain
+    said = [
+        f"{name} sits at its {side} bound: the data do not fix it on that side"
+        for name, side in uncertainty.at_bound.items()
+        if name in law.names
+    ]
+    if isinstance(fitted, BentLaw) and fitted.places_at_limit(uncertainty.at_bound):
+        said.append(
+            f"the law bends as far as it may at {fitted.places_at_limit(uncertainty.at_bound)} of "
+            f"{len(fitted.knots_hz)} places: its form is not this material's, or something else is amiss"
+        )
+    said.extend(_looseness_warnings(law, uncertainty))
+    said.extend(_correlation_warnings(law, uncertainty))
+    return [*said, *law.objections()]
 
 
 def _gain_of_energy(band: LawBand) -> list[str]:

@@ -41,6 +41,7 @@ class ModalFit:
     predicted_hz: tuple[Array, ...]
     predicted_loss: tuple[Array, ...]
     adjusted: tuple[Adjusted, ...]
+    iterations: int
     evaluations: int
     converged: bool
 
@@ -58,17 +59,24 @@ class BegunModal:
 
 def fit_modes(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> ModalFit:
     """The law of all tables. Raises `TooFewPoints`, `OutsideModel`."""
-    problem = ModalProblem.of([member_of(t, s) for t, s in zip(tables, specimens, strict=True)])
-    return modal_fit_of(begin_modal(problem, start_of(tables, specimens)))
+    return fit_problem(problem_of(tables, specimens), start_of(tables, specimens))
+
+
+def problem_of(tables: Sequence[ModalTable], specimens: Sequence[AnySpecimen]) -> ModalProblem:
+    """Tables with the models of their specimens."""
+    return ModalProblem.of([member_of(t, s) for t, s in zip(tables, specimens, strict=True)])
+
+
+def fit_problem(problem: ModalProblem, start: CoreLaw) -> ModalFit:
+    """The law without any effect. Raises as `fit_modes`."""
+    return modal_fit_of(begin_modal(problem, start))
 
 
 def begin_modal(problem: ModalProblem, start: CoreLaw, *, scale_known: bool = True) -> BegunModal:
     """The best law without any effect. Raises `TooFewPoints`, `OutsideModel`."""
     count = 2 * len(problem.frequency_hz)
     if count <= len(start.plain.names):
-        raise TooFewPoints(
-            f"{count} numbers cannot carry the {len(start.plain.names)} parameters of {start.kind}"
-        )
+        raise TooFewPoints(_too_few(problem, start))
     u = np.zeros(len(problem.each))
     none, problem = _roughly(problem, start, u)
     for _ in range(_ROUNDS):
@@ -82,22 +90,32 @@ def begin_modal(problem: ModalProblem, start: CoreLaw, *, scale_known: bool = Tr
     return BegunModal(problem, evidence, none, start)
 
 
+def _too_few(problem: ModalProblem, start: CoreLaw) -> str:
+    """How many modes there are, in which files, and how many it takes."""
+    modes, parameters = len(problem.frequency_hz), len(start.plain.names)
+    names = ", ".join(m.table.name for m in problem.members if m.table.name)
+    said = f"{names}{': ' if names else ''}{modes} mode{'s' * (modes > 1)} with {2 * modes} numbers"
+    return (
+        f"{said} cannot carry the {parameters} parameters of {start.kind}, expected {parameters // 2 + 1} "
+        "modes or more, or a [core.law] of fewer parameters"
+    )
+
+
 def _roughly(problem: ModalProblem, start: CoreLaw, u: Array) -> tuple[Refitted, ModalProblem]:
     omega = 2 * np.pi * problem.frequency_hz
-    found = []
+    found, refused = [], OutsideModel("no law was tried")
     for factor in _SOFTER_AND_STIFFER:
         law = scaled(start, factor)
         here = problem.around(law)
         evidence = here.evidence().blunt()
         try:
             rough = refit(here.response(), evidence, law, u, tolerance=ROUGH)
-        except OutsideModel:
+        except OutsideModel as error:
+            refused = error
             continue
         found.append((rough.chi2, rough))
     if not found:
-        raise OutsideModel(
-            "the table has a mode that the model has not, expected modes from 1, rigid ones left out"
-        )
+        raise refused
     best = min(found, key=lambda one: one[0])[1]
     law = best.law
     plain = within_search(law.plain, omega)
@@ -142,6 +160,7 @@ def modal_fit_of(begun: BegunModal, fitted: Refitted | None = None) -> ModalFit:
         tuple(f[part] for part in problem.parts),
         tuple(eta[part] for part in problem.parts),
         problem.adjusted(fitted.z, errors),
+        fitted.iterations,
         fitted.evaluations,
         fitted.converged,
     )

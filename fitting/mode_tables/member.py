@@ -125,7 +125,11 @@ class Member:
         count = int(self.table.mode.max())
         found = modes_of(A, law, count, float(self.table.frequency_hz[0]))
         if len(found) < count:
-            raise OutsideModel(f"mode {count}, expected one of the {len(found)} that the model has")
+            of = f"{self.table.name}: " if self.table.name else ""
+            raise OutsideModel(
+                f"{of}mode {count}, expected one of the {len(found)} that the model has, numbered from 1 in "
+                "the order of frequency, rigid ones left out"
+            )
         return A, [found[int(k) - 1] for k in self.table.mode]
 
     def _by_stated(

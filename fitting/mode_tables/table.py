@@ -21,6 +21,8 @@ class ModalTable:
     frequency_std_hz: Array | None = None
     loss_factor_std: Array | None = None
     temperature_c: Array | None = None
+    name: str = ""
+    """Of its file."""
 
     @property
     def relative_std(self) -> tuple[Array, Array]:

@@ -10,7 +10,8 @@ from pathlib import Path
 
 from instrument.batch.task import BatchTask
 from instrument.errors import BadInput
-from instrument.files.table import number, read_rows
+from instrument.files.nearest import nearest
+from instrument.files.table import Rows, number, read_rows
 from instrument.interchange.given import is_session
 
 
@@ -62,6 +63,7 @@ def _of_table(table: Path, specimen: Path | None, hammer: Path | None) -> list[B
         assert "data" in header
 
     header, rows = read_rows(table, check)
+    _check_specimens(table, header, rows, specimen)
     found = []
     for line, row in rows:
         cell = dict(zip(header, row, strict=True))
@@ -77,6 +79,15 @@ def _of_table(table: Path, specimen: Path | None, hammer: Path | None) -> list[B
             )
         )
     return found
+
+
+def _check_specimens(table: Path, header: list[str], rows: Rows, specimen: Path | None) -> None:
+    """Raise `BadInput` where sweeps have no specimen and a column was meant to name it."""
+    near = nearest("specimen", [name for name in header if name != "data"])
+    if specimen is not None or "specimen" in header or near is None:
+        return
+    if not all(is_session(Path(row[header.index("data")])) for _, row in rows):
+        raise BadInput(f"{table}: header: no specimen, the nearest is {near}; expected it, or --specimen")
 
 
 def _beside(table: Path, name: str | None) -> str | None:

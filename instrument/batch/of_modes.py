@@ -36,12 +36,6 @@ def diagnosed_modes(data: Path, specimen: Path, *, insist: bool) -> tuple[Diagno
     return result, _measured(tables[0].frequency_hz, mean_temperature(tables))
 
 
-def rms_percent(result: ModalResult) -> float:
-    """Of predicted frequencies over measured ones less one."""
-    off = [mode.predicted_hz / mode.frequency_hz - 1 for mode in result.modes]
-    return 100 * float(np.sqrt(np.mean(np.square(off))))
-
-
 def _measured(frequency_hz: np.ndarray[Any, Any], temperature_c: float | None) -> dict[str, Any]:
     return {
         "points": len(frequency_hz),

@@ -4,12 +4,13 @@ import os
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from threadpoolctl import threadpool_limits
 
 from fitting.errors import FittingError
 from fitting.specimen import Specimen
 from instrument.batch.keys import program
-from instrument.batch.of_modes import diagnosed_modes, identified_modes, rms_percent
+from instrument.batch.of_modes import diagnosed_modes, identified_modes
 from instrument.batch.task import BatchTask
 from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult, StageFitted
@@ -52,11 +53,14 @@ def outcome_of(task: BatchTask) -> Outcome:
     os.environ[PROCESSES] = "1"
     with threadpool_limits(1, "blas"):
         try:
-            found = _worked(task)
+            # What numpy warns of on the way belongs to no one at the console.
+            with np.errstate(all="ignore"):
+                found = _worked(task)
         except (BadInput, FittingError) as error:
             found = failure(_without_folders(task, str(error)))
         except Exception as error:  # one row is not the end of a batch
-            found = failure(f"{type(error).__name__}: {_without_folders(task, str(error))}", again=True)
+            said = f"{type(error).__name__}: {_without_folders(task, str(error))}"
+            found = failure(f"internal error: {said} (report it)", again=True)
     return {**found, "program": program()}
 
 
@@ -118,7 +122,7 @@ def _of_modes(task: BatchTask, data: Path, specimen: Path) -> Outcome:
         diagnosed, measured = diagnosed_modes(data, specimen, insist=task.insist)
         return _done(measured, _of_diagnosis(diagnosed))
     result, measured = identified_modes(data, specimen, insist=task.insist)
-    return _done(measured, _of_fit(result) | {"rms_percent": rms_percent(result)})
+    return _done(measured, _of_fit(result))
 
 
 def _done(measured: dict[str, Any], facts: dict[str, Any]) -> Outcome:

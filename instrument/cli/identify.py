@@ -185,9 +185,8 @@ def identify(
                 "--pointwise, --method, --no-viscous-damping, --with: expected one plate read at one spot"
             )
         if set(depths) - {"profile"}:
-            raise click.UsageError(
-                "--uncertainty posterior and bootstrap with several files or spots: expected profile"
-            )
+            of = "several files or spots" if len(files) > 1 else f"a {files[0].specimen.kind}"
+            raise click.UsageError(f"--uncertainty posterior and bootstrap with {of}: expected profile")
         _identify_together(out, files, every, depths, with_budget=with_budget)
         return
     given = every[0]

@@ -56,7 +56,9 @@ def read_each(
     one_plate: bool = False,
     own_hammer: bool = False,
 ) -> list[Given]:
-    """Read every file with its specimen, paired in order; one specimen serves all. Raises as `read_data`.
+    """Read every file with its specimen, paired in order; one specimen serves all.
+
+    Raises `BadInput`, `UsageError`.
 
     With `one_plate` a hammer test may come with several files, and is the first one's; with `own_hammer`
     sessions keep their own.
@@ -76,8 +78,7 @@ def read_each(
             read_structure(specimen)
             question_specimen(specimen, insist=insist)
     given = [
-        read_data(
-            out,
+        _read_data(
             one,
             specimen,
             None if k else hammer,
@@ -85,6 +86,8 @@ def read_each(
         )
         for k, (one, specimen) in enumerate(zip(data, paired, strict=True))
     ]
+    for remark in dict.fromkeys(one.remark for one in given if one.remark):
+        out.say(f"{remark}\n")
     if hammer is not None and not isinstance(given[0].specimen, Specimen):
         raise click.UsageError(f"--hammer with a {given[0].specimen.kind}: expected a plate")
     if hammer is not None and len({_bare(one) for one in given}) > 1:
@@ -150,13 +153,8 @@ def together(given: Sequence[Given], data: Sequence[Path]) -> list[File] | None:
     ]
 
 
-def read_data(
-    out: Output, data: Path, specimen: Path | None, hammer: Path | None, *, no_hammer: bool
-) -> Given:
-    """Read DATA, its specimen and its hammer test. Raises `BadInput`, `UsageError`."""
+def _read_data(data: Path, specimen: Path | None, hammer: Path | None, *, no_hammer: bool) -> Given:
+    """DATA, its specimen and its hammer test. Raises `BadInput`, `UsageError`."""
     if hammer is not None and no_hammer:
         raise click.UsageError("--hammer and --no-hammer exclude each other")
-    given = read_given(data, specimen, hammer, own_hammer=not no_hammer)
-    if given.remark:
-        out.say(f"{given.remark}\n")
-    return given
+    return read_given(data, specimen, hammer, own_hammer=not no_hammer)

@@ -1,6 +1,7 @@
 """The result of `viscorig identify` on tables of modes."""
 
 from collections.abc import Mapping
+from math import nan
 
 from instrument.facts.number import MaybeNumber, Number
 from instrument.facts.result import Result
@@ -48,9 +49,17 @@ class ModalResult(Result):
     parameters: Mapping[str, Number]
     """Of the law, in SI units, which the keys end with."""
     standard_errors: Mapping[str, Number]
+    correlations: Mapping[str, Mapping[str, Number]] = {}
+    """Of the logarithms of the parameters."""
+    rms_percent: Number = nan
+    """Of the differences in frequency."""
+    max_percent: Number = nan
     chi2_per_dof: MaybeNumber = None
+    leave_one_out_rms_percent: MaybeNumber = None
+    """None: modes are not left out one by one."""
     modes: tuple[ModeFitted, ...]
     files: tuple[str, ...]
+    iterations: int = 0
     evaluations: int = 0
     converged: bool = True
     law: tuple[LawRow, ...]
@@ -62,3 +71,5 @@ class ModalResult(Result):
     temperature_c: MaybeNumber = None
     """Mean of the rows that state one."""
     seconds: MaybeNumber = None
+    """Of the fit, set-up not counted."""
+    setup_seconds: MaybeNumber = None

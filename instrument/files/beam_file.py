@@ -138,6 +138,6 @@ class BeamDocument(TomlTable):
             force_m=self.force_mm * 1e-3 if self.force_mm is not None else None,
             reads=self.pickup.reads if self.pickup is not None else "relative",
             base_acceleration_m_s2=self.base.acceleration_m_s2,
-            tolerances=tolerances_of(self.tolerances),
+            tolerances=tolerances_of(self.tolerances, "beam"),
             exact=self.tolerances is not None and self.tolerances.exact,
         )

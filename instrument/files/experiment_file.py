@@ -3,11 +3,14 @@
 What a sweep is measured with where the file is silent stands in `instrument/stepped_sine/settings.py`.
 """
 
+import tomllib
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, model_validator
 
+from instrument.errors import BadInput
+from instrument.files.text import read_text
 from instrument.files.toml import NotNegative, Positive, TomlTable, document_faults, read_document
 from instrument.stepped_sine.settings import Dwell, LevelControl, Settle
 
@@ -15,6 +18,8 @@ Count = Annotated[int, Field(ge=1, le=1000)]
 Frequency = Annotated[float, Field(ge=0.5, le=1e5)]
 _LEAST_RATIO = 1.05
 """Of the ends of a band."""
+_SPECIMENS = ("plate", "beam", "shear-pair")
+"""Tables of a specimen's file."""
 _CONTROL, _SETTLE, _DWELL = LevelControl(), Settle(), Dwell()
 
 
@@ -256,9 +261,28 @@ class ExperimentDocument(TomlTable):
 
 def read_experiment(path: Path) -> ExperimentDocument:
     """Read and check an experiment. Raises `BadInput`."""
+    _refuse_specimen(path)
     return read_document(path, ExperimentDocument)
 
 
 def experiment_faults(path: Path) -> list[str]:
     """Everything wrong with it at once."""
+    try:
+        _refuse_specimen(path)
+    except BadInput as error:
+        return [str(error)]
     return document_faults(path, ExperimentDocument)
+
+
+def _refuse_specimen(path: Path) -> None:
+    """Raise `BadInput` for a specimen's file: it lacks all that an experiment has."""
+    try:
+        tables = tomllib.loads(read_text(path))
+    except (BadInput, tomllib.TOMLDecodeError, RecursionError, ValueError):
+        # What is wrong with it is said where it is read.
+        return
+    if any(kind in tables for kind in _SPECIMENS) and "rig" not in tables:
+        raise BadInput(
+            f"{path}: a specimen, expected an experiment, which names its specimen and its rig "
+            "(viscorig new experiment)"
+        )

@@ -6,32 +6,53 @@ import numpy as np
 
 from fitting.mode_tables.table import ModalTable
 from instrument.errors import BadInput
+from instrument.files.nearest import nearest
 from instrument.files.table import number, read_rows
 
 _MUST = ("mode", "frequency_hz", "loss_factor")
 _MAY = ("frequency_std_hz", "loss_factor_std", "temperature_c")
+_OF_OTHERS = ("veloc", "accel", "displac", "recept", "mobil", "force", "storage", "time", "coheren")
+"""How columns of sweeps, FRFs, records and laws begin."""
+_MEANT = 0.8
+"""How alike a column is to the one that was meant."""
+_MOST = 1000
+"""No test numbers so many modes. A choice."""
 
 
 def is_modal_table(path: Path) -> bool:
-    """Whether a CSV's header is a modal table's."""
+    """Whether a CSV's header is a modal table's, or was meant to be one."""
     try:
         header, _ = read_rows(path)
     except BadInput:
         return False
-    return set(_MUST) <= set(header)
+    if set(_MUST) <= set(header):
+        return True
+    if any(name.lower().startswith(_OF_OTHERS) for name in header):
+        return False
+    return "mode" in header or nearest("loss_factor", header, _MEANT) is not None
+
+
+def _check_header(path: Path, header: list[str]) -> None:
+    missing = [name for name in _MUST if name not in header]
+    if not missing:
+        return
+    meant = nearest(missing[0], [name for name in header if name not in (*_MUST, *_MAY)])
+    near = f", the nearest is {meant}" if meant is not None else ""
+    raise BadInput(f"{path}: header: no {missing[0]}{near}; expected {', '.join(_MUST)} of a table of modes")
 
 
 def read_modal_table(path: Path) -> ModalTable:
     """Read and check a table. Raises `BadInput` naming file, line and column."""
-    header, rows = read_rows(path)
+    header, rows = read_rows(path, lambda header: _check_header(path, header))
     columns = {}
     for name in (*_MUST, *(n for n in _MAY if n in header)):
         k = header.index(name)
         values = []
         for line, row in rows:
             value = number(path, line, name, row[k])
-            if (value <= 0 and name != "temperature_c") or (name == "mode" and value != int(value)):
-                expected = "a whole number from 1" if name == "mode" else "more than 0"
+            whole = name != "mode" or (value == int(value) and value <= _MOST)
+            if (value <= 0 and name != "temperature_c") or not whole:
+                expected = f"a whole number from 1 to {_MOST}" if name == "mode" else "more than 0"
                 raise BadInput(f"{path}: line {line}: {name} = {row[k]}, expected {expected}")
             values.append(value)
         columns[name] = np.array(values)
@@ -52,4 +73,5 @@ def read_modal_table(path: Path) -> ModalTable:
         columns.get("frequency_std_hz"),
         columns.get("loss_factor_std"),
         columns.get("temperature_c"),
+        path.name,
     )

@@ -12,6 +12,7 @@ from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import LAWS, CoreLaw
 from fitting.laws.table import Tabulated
 from fitting.specimen import Core, Drive, PlacedMass, Reading, Specimen
+from fitting.tolerances import OF_FEW, STATED
 from instrument.errors import BadInput
 from instrument.files.law_table import with_rows
 from instrument.files.layer_tables import GluePart, PatchPart, Poisson, StatedLayer, refuse_patches
@@ -127,6 +128,13 @@ class TolerancesSection(TomlTable):
     exact: bool = False
 
 
+_OF_LAYERS = tuple(name for name in STATED if name.startswith(("substrate", "constraining")))
+_NOT_OF = {
+    "plate": ("area",),
+    "beam": ("area", "place", *OF_FEW),
+    "shear-pair": (*_OF_LAYERS, *OF_FEW, "length", "width", "pickup", "force", "place"),
+}
+"""Stated numbers that a kind of specimen has not."""
 _UNITS = {"percent": 1e-2, "mm": 1e-3, "us": 1e-6, "deg": pi / 180}
 """Of the keys' endings, in what `fitting.tolerances` counts in."""
 _MOST_PERCENT = 50.0
@@ -258,12 +266,16 @@ def specimen_of(d: SpecimenDocument) -> Specimen:
     )
 
 
-def tolerances_of(table: TolerancesSection | None) -> dict[str, float]:
-    """As named, in what `fitting.tolerances` counts in. Raises `OutsideModel`."""
+def tolerances_of(table: TolerancesSection | None, kind: str = "plate") -> dict[str, float]:
+    """As named, in what `fitting.tolerances` counts in; `kind` of specimen. Raises `OutsideModel`."""
     given = table.model_dump(exclude_none=True, exclude={"exact"}) if table is not None else {}
     found = {}
     for key, value in given.items():
         name, _, unit = key.rpartition("_")
+        if name in _NOT_OF[kind]:
+            raise OutsideModel(
+                f"tolerances.{key}: a {kind} has no such number, expected the keys that its own tables have"
+            )
         if unit == "percent" and value > _MOST_PERCENT:
             raise OutsideModel(
                 f"tolerances.{key} = {value:g}, expected a standard deviation of at most {_MOST_PERCENT:g} %"

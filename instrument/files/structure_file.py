@@ -103,7 +103,7 @@ class ShearPairDocument(TomlTable):
         else:
             assert p.area_mm2 is not None
             area, gyration = p.area_mm2 * 1e-6, None
-        named = tolerances_of(self.tolerances)
+        named = tolerances_of(self.tolerances, "shear-pair")
         if "thickness" in named:
             # Of the only layer there is.
             named.setdefault("core_thickness", named["thickness"])

@@ -19,6 +19,8 @@ Percent = Annotated[float, Field(ge=0, lt=100, allow_inf_nan=False)]
 
 _MOST_SHOWN = 3
 _LONGEST = 80
+_NO_TABLE = ("model_type", "model_attributes_type", "dict_type")
+"""Faults of what is no table where one is expected."""
 _COMMA = re.compile(r"(?m)^\s*[\w.-]+\s*=\s*(-?\d+,\d+)\s*(?:#.*)?$")
 
 
@@ -112,6 +114,9 @@ def _said(fault: dict[str, Any], prefix: str, model: type[BaseModel] | None = No
     if fault["type"] == "extra_forbidden":
         near = nearest(str(fault["loc"][-1]), _keys_at(model, fault["loc"]))
         return f"{place}: unknown key" + (f", the nearest is {near}" if near else "")
+    if fault["type"] in _NO_TABLE:
+        several = isinstance(fault["input"], list)
+        return f"{place}: {'[[' + place + ']], ' if several else found}expected one table [{place}]"
     if place == prefix:
         return message
     return f"{place}: {found}{message[:1].lower()}{message[1:]}"

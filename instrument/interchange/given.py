@@ -126,11 +126,15 @@ def at_its_spot(data: Path | str, read: AnySpecimen, sweep: Sweep) -> tuple[AnyS
     wrong = which[(which < 0) | (which >= max(known, 1))]
     if wrong.size:
         expected = "0" if known < 2 else f"0 to {known - 1}"
-        raise BadInput(f"{data}: column pickup: {wrong[0]}, expected {expected} as the specimen has pickups")
+        raise BadInput(f"{data}: column pickup: {wrong[0]}, expected {expected}: {_spots_words(known)}")
     if len(np.unique(which)) > 1:
         return read, sweep
     spot = read.at_pickup(int(which[0])) if isinstance(read, Specimen | Beam) and known else read
     return spot, replace(sweep, pickup=None)
+
+
+def _spots_words(known: int) -> str:
+    return "the specimen is read at one spot" if known < 2 else f"the specimen has {known} pickups"
 
 
 def _of_session(data: Path, specimen: Path | None, *, own_hammer: bool) -> Given:

@@ -55,7 +55,14 @@ def _kelvin(temperature_c: float | None) -> str:
 
 def _percent(tables: Sequence[ModalTable]) -> str:
     most = max(float(t.loss_factor.max()) for t in tables)
-    return f"loss_factor up to {most:g}: is it in percent?" if most > _LOSSY else ""
+    if most > _LOSSY:
+        return f"loss_factor up to {most:g}: is it in percent?"
+    for t in tables:
+        std = t.loss_factor_std
+        if std is not None and np.median(std / t.loss_factor) > 1:
+            most = float(t.loss_factor.max())
+            return f"loss_factor_std up to {std.max():g} for loss factors up to {most:g}: is it in percent?"
+    return ""
 
 
 def _ask(doubt: str, paths: Sequence[Path]) -> None:

@@ -1,6 +1,6 @@
 """What is to be said of files as they were given, each by its name where there are several."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 
@@ -20,15 +20,24 @@ _WORTH_SAYING_OF_A_BEAM = 1e-3
 
 def remarks_on_files(files: Sequence[File]) -> tuple[str, ...]:
     """Of their noise, their laws, and what a pair's discs and a beam's clamps leave out; each once."""
-    said = []
+    named: dict[str, dict[str, None]] = {}
+    """What is said, and of which files; of none by name where it is of the law."""
     for file in files:
-        of = f"{file.name}: " if file.name and len(files) > 1 else ""
-        said += [of + text for text in remarks_on_noise(file.sweep)]
         s = file.specimen
-        if s.core is not None:
-            said += remarks_on_law(s.core.law, file.sweep.frequency_hz)
-        said += [of + text for text in (*remarks_on_edges(s), *remarks_on_held_width(s))]
-    return tuple(dict.fromkeys(said))
+        of_file = (*remarks_on_noise(file.sweep), *remarks_on_edges(s), *remarks_on_held_width(s))
+        for text in of_file:
+            named.setdefault(text, {})[file.name] = None
+        of_law = remarks_on_law(s.core.law, file.sweep.frequency_hz) if s.core is not None else ()
+        for text in of_law:
+            named.setdefault(text, {})
+    everyone = {file.name for file in files}
+    return tuple(_of(names, everyone) + text for text, names in named.items())
+
+
+def _of(names: Collection[str], everyone: Collection[str]) -> str:
+    """Whose a remark is; empty where it is of all of them."""
+    known = [name for name in names if name]
+    return f"{', '.join(known)}: " if known and len(names) < len(everyone) else ""
 
 
 def remarks_on_edges(specimen: AnySpecimen) -> tuple[str, ...]:

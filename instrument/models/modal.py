@@ -20,7 +20,7 @@ from fitting.laws import CoreLaw
 from fitting.laws.constant import ConstantModulus
 from fitting.mode_tables.build import member_of, own_motions
 from fitting.mode_tables.diagnose import DiagnosedModes, diagnose_modes
-from fitting.mode_tables.fit import ModalFit, fit_modes, start_of
+from fitting.mode_tables.fit import ModalFit, fit_problem, problem_of, start_of
 from fitting.mode_tables.formulas import ByFormula, by_formula
 from fitting.mode_tables.problem import ModalProblem
 from fitting.mode_tables.standing import standing
@@ -54,6 +54,7 @@ class TablesIdentified:
     remarks: tuple[str, ...]
     formulas: tuple[tuple[ByFormula, ...], ...] = ()
     """Of every table."""
+    setup_seconds: float = 0.0
 
 
 def identify_tables(
@@ -66,17 +67,19 @@ def identify_tables(
 
     Raises `TooFewPoints`, and `OutsideModel` also where a plate's theory does not hold for the law found.
     """
-    began = perf_counter()
+    start, began = start_of(tables, specimens), perf_counter()
     with threadpool_limits(1, "blas"), progress("fitting modes"):
-        found = fit_modes(tables, specimens)
+        problem = problem_of(tables, specimens)
+        ready = perf_counter()
+        found = fit_problem(problem, start)
     theory = check_theories(found.law, tables, specimens)
     formulas = tuple(
         by_formula(t, s, found.law, bare) if isinstance(s, Beam) else ()
         for t, s in zip(tables, specimens, strict=True)
     )
-    seconds = perf_counter() - began
+    seconds = perf_counter() - ready
     said = (*remark_on_fit(found, tables), *theory, *remarks_on_tables(tables, specimens))
-    return TablesIdentified(found, seconds, said, formulas)
+    return TablesIdentified(found, seconds, said, formulas, ready - began)
 
 
 @dataclass(frozen=True)

@@ -230,6 +230,11 @@ class _Work:
                 "where a fixture resonates readings are off beyond what is set aside too: the rms of that "
                 f"and of what is left {once} the rest"
             )
+        if len(self.files) == 1:
+            return (
+                f"the readings follow no law within their noise: their rms misfit {once} the readings, and "
+                "for a gain and a phase; see 'viscorig diagnose'"
+            )
         return (
             f"the files follow no one law within their noise: each file's rms misfit {once} its readings, "
             "for files whose cores differ by a few percent, and for a gain and a phase that all have in "
@@ -266,11 +271,11 @@ def identify_together(
         work.problem()
         ready = perf_counter()
         begun, noise = work.without_glitches()
-        further: tuple[str, ...] = ()
+        misfit: tuple[str, ...] = ()
         if work.with_misfit(begun):
             for _ in range(2):
                 begun, noise = work.without_glitches()
-            further = (work.about_misfit(),)
+            misfit = (work.about_misfit(),)
         fit = fit_of(begun)
     seconds = perf_counter() - ready
     theory = _check_theories(files, fit.law)
@@ -281,8 +286,9 @@ def identify_together(
             validation = validation.without_noise
     sweep = begun.problem.sweep
     scale = remarks_on_scale(plate, fit.law, sweep.frequency_hz)
-    further += (*scale, *remarks_on_files(files), *theory, *(one.words(files) for one in work.aside))
+    further = (*scale, *remarks_on_files(files), *theory, *(one.words(files) for one in work.aside))
     result = summarise("direct", sweep, noise, fit, validation, further)
+    result = replace(result, warnings=(*misfit, *result.warnings))
     validated = perf_counter() - checked
     found = Identified(result, ready - began, seconds, validated, joint=Joint(begun, None), bare=bare)
     return Together(found, sweep, tuple(work.aside))

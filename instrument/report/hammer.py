@@ -23,7 +23,9 @@ _WITHOUT_MODES_HZ = 1250.0
 
 def hammer_section(contents: Contents) -> ReportSection:
     """Computed again from the hits as they were recorded."""
-    title = f"Hammer test of the bare {contents.specimen.kind}"
+    kind = contents.specimen.kind
+    # A pair is never struck.
+    title = "Hammer test" if kind == "shear-pair" else f"Hammer test of the bare {kind}"
     if not contents.hits:
         return ReportSection(title, (Sentence("There is no hammer test in this session.", "note"),))
     blocks: list[Block] = [hits_table(contents.hits)]

@@ -2,8 +2,10 @@
 
 import numpy as np
 
+from fitting.diagnosis.structure import in_words
 from fitting.identification.result import Identification
 from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen
 from instrument.facts.session_result import SessionResult
 from instrument.interchange.identified import SessionFit
 from instrument.report.blocks import Block, FactsBlock, FigureBlock, ReportSection, Sentence, TableBlock
@@ -20,6 +22,7 @@ from instrument.results.session_result import (
     recorded_result,
     result_of,
 )
+from instrument.results.standing import none_is_likelier
 from instrument.results.typeset import note, quantity, typeset
 from instrument.session.contents import Contents
 
@@ -29,6 +32,10 @@ _ROWS = 9
 _BEFORE = (
     "This is the law before the diagnosis, which found an effect that the model lacked: the law to use is "
     "the one after it, at the head of the page and in the section Diagnosis."
+)
+
+_NOT_EXCLUDED = (
+    "The diagnosis found no effect likelier than none: what it could not rule out is in its section."
 )
 
 
@@ -97,9 +104,7 @@ def unexplained_section(fitted: ReportedFit) -> ReportSection:
     if v.leave_one_out_rms_percent is not None:
         rows.append(("each point predicted from the others", f"{v.leave_one_out_rms_percent:.3g} % rms"))
     blocks: list[Block] = [
-        Sentence(
-            "Before: the model has no further effects than the plate, its core and its viscous damping."
-        ),
+        Sentence(f"Before: the model has no further effects than {_parts(fitted.fit.specimen)}."),
         FactsBlock("", tuple(rows)),
     ]
     if v.held_out:
@@ -112,6 +117,13 @@ def unexplained_section(fitted: ReportedFit) -> ReportSection:
 
 
 _HELD_OUT = ("segment", "rms / %", "its noise / %")
+
+
+def _parts(specimen: AnySpecimen) -> str:
+    """What a model without effects is made of."""
+    if specimen.kind == "plate":
+        return "the plate, its core and its viscous damping"
+    return f"the {in_words(specimen.kind)} and its core"
 
 
 def _hammer(fit: SessionFit) -> str:
@@ -129,6 +141,8 @@ def _doubt(contents: Contents) -> list[Block]:
         return []
     if found.verdict == "unknown":
         return [Sentence(f"Diagnosis: {UNKNOWN}. The law may be far off its band.", "warning")]
+    if none_is_likelier(found):
+        return [Sentence(_NOT_EXCLUDED, "note")]
     return [Sentence(_BEFORE, "warning")]
 
 

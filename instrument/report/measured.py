@@ -8,6 +8,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from instrument.facts.diagnosis import DiagnosisResult, PointLeft
+from instrument.results.standing import none_is_likelier
 from instrument.session.contents import Contents
 from instrument.stream.derived import PointMeasured
 
@@ -66,6 +67,8 @@ def explained(measured: Measured, found: DiagnosisResult | None) -> list[tuple[A
     For each pass, level and spot: frequencies in Hz, velocity over base acceleration in s, (points,) each.
     """
     if found is None or not found.effects or found.verdict not in ("effect", "ambiguous"):
+        return []
+    if none_is_likelier(found):
         return []
     after = {w: p.after for w, p in zip(Which.of(found.points), found.points, strict=True)}
     lines: dict[tuple[int, float, int], list[tuple[float, complex]]] = {}

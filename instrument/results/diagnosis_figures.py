@@ -36,7 +36,7 @@ _PARTS = (
 _MOST_SEGMENTS = 5
 _OTHER = "#9bb8d3"
 _BAR_COLOURS: dict[Standing, str] = {"found": MARK, "equal": MODEL, "none": "#444444", "other": _OTHER}
-_BAR_NAMES = {MARK: "accepted", MODEL: "not to be told from it", _OTHER: "others"}
+_BAR_NAMES = {MARK: "accepted", MODEL: "not to be told apart", _OTHER: "others"}
 
 
 def save_diagnosis_figures(found: DiagnosisResult, folder: Path) -> list[Path]:

@@ -8,6 +8,7 @@ from fitting.diagnosis.of_files import ALIKE, EACH, FILE
 from instrument.facts.diagnosis import CandidateFitted, DiagnosisResult, EffectFound, ParameterFound
 from instrument.facts.rows import LawRow
 from instrument.results.error_words import FLOOR_PERCENT, is_below_floor
+from instrument.results.standing import none_is_likelier
 
 _MOST_PARAMETERS = 4
 UNKNOWN = "verdict unknown"
@@ -25,6 +26,8 @@ def verdict_line(found: DiagnosisResult) -> str:
     accepted = [e for e in found.effects if e.name in groups]
     channels = [e for e in found.effects if e.name not in groups]
     said = _SAID.get(found.verdict) or " and ".join(_sized(e) for e in accepted)
+    if none_is_likelier(found):
+        said = f"no effect is likelier{_share_of_none(found)} than {said}"
     if found.by_hand and not accepted:
         said = "no effect accepted"
     elif found.verdict == "none":
@@ -53,8 +56,17 @@ def set_aside_words(found: DiagnosisResult) -> str:
 
 def _weighed(found: DiagnosisResult) -> str:
     """How sure it is that there is nothing, where that was weighed."""
-    p = next((c.probability for c in found.candidates if c.name == "none"), nan)
+    p = _none(found)
     return "" if isnan(p) else f" that these data can name ({100 * p:.0f} % for no effect)"
+
+
+def _share_of_none(found: DiagnosisResult) -> str:
+    p = _none(found)
+    return "" if isnan(p) else f" ({100 * p:.0f} %)"
+
+
+def _none(found: DiagnosisResult) -> float:
+    return next((c.probability for c in found.candidates if c.name == "none"), nan)
 
 
 def with_verdict(title: str, found: DiagnosisResult) -> str:

@@ -4,7 +4,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from fitting.arrays import Array
 from fitting.diagnosis import text
 from fitting.diagnosis.result import Candidate, FoundEffect
 from fitting.diagnosis.search import ScoredFit
@@ -17,7 +16,7 @@ from fitting.mode_tables.table import ModalTable
 from instrument.facts.diagnosis import DiagnosisResult, EffectFound, ModeLeft, StageFitted
 from instrument.models.modal import TablesDiagnosed
 from instrument.results.diagnosis_from import candidate_from, parameters_from
-from instrument.results.modal_from import modal_band
+from instrument.results.modal_from import modal_band, percent_off
 from instrument.results.rows_from import adjusted_from, law_rows_from
 
 
@@ -49,7 +48,10 @@ def modal_diagnosis_from(
         before=first,
         after=last,
         adjusted=adjusted_from(after.adjusted),
+        p_value=None,
+        nested_held_out_rms_percent=None,
         next_measurement=text.next_measurement(judgement, catalogue, with_hammer=False),
+        unseen=(),
         explanation=_explanation(diagnosed, effects, first, last),
         warnings=diagnosed.remarks,
         points=(),
@@ -67,8 +69,11 @@ def _effects(found: DiagnosedModes, scored: ScoredFit) -> tuple[FoundEffect, ...
 
 def _candidate(found: DiagnosedModes, scored: ScoredFit, tables: Sequence[ModalTable]) -> Candidate:
     known = found.begun.evidence.scale_known
+    accepted = found.judgement.accepted
+    # Its sizes are those of the verdict, which may have the last word on them.
+    sized = accepted if accepted is not None and accepted.names == scored.names else scored
     return Candidate(
-        _effects(found, scored),
+        _effects(found, sized),
         scored.cost - found.scored[0].cost,
         scored.fitted.chi2_per_dof if known else float("nan"),
         found.judgement.probability.get(scored.names, 0.0),
@@ -78,25 +83,22 @@ def _candidate(found: DiagnosedModes, scored: ScoredFit, tables: Sequence[ModalT
 
 
 def _stage(fit: ModalFit, tables: Sequence[ModalTable], band: LawBand) -> StageFitted:
-    off = _percent(fit, tables)
+    off = percent_off(fit, tables)
     plain = fit.law.plain
     errors = fit.uncertainty.of_first(len(plain.names)).standard_errors * plain.values
     return StageFitted(
         rms_percent=float(np.sqrt(np.mean(off**2))),
         max_percent=float(np.abs(off).max()),
         chi2_per_dof=fit.uncertainty.chi2_per_dof,
+        held_out=(),
+        held_out_rms_percent=None,
+        leave_one_out_rms_percent=None,
         law_kind=plain.kind,
         parameters=dict(zip(plain.names, plain.values.tolist(), strict=True)),
         standard_errors=dict(zip(plain.names, errors.tolist(), strict=True)),
         law=law_rows_from(band),
         adjusted=adjusted_from(fit.adjusted),
     )
-
-
-def _percent(fit: ModalFit, tables: Sequence[ModalTable]) -> Array:
-    """Of frequencies. Shape (modes,)."""
-    measured = np.concatenate([t.frequency_hz for t in tables])
-    return 100 * (np.concatenate(fit.predicted_hz) / measured - 1)
 
 
 def _modes(before: ModalFit, after: ModalFit, tables: Sequence[ModalTable]) -> tuple[ModeLeft, ...]:

@@ -5,7 +5,9 @@ from dataclasses import asdict
 
 import numpy as np
 
+from fitting.arrays import Array
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ, LawBand
+from fitting.identification.validation import rms
 from fitting.mode_tables.fit import ModalFit
 from fitting.mode_tables.table import ModalTable
 from instrument.facts.modal import FormulaRow, ModalResult, ModeFitted
@@ -21,15 +23,24 @@ def modal_from(
     """The result of `identify` on modal tables."""
     found = identified.fit
     plain = found.law.plain
-    errors = found.uncertainty.of_first(len(plain.names)).standard_errors * plain.values
+    own = found.uncertainty.of_first(len(plain.names))
+    errors, off = own.standard_errors * plain.values, percent_off(found, tables)
     return ModalResult(
         method="modes",
         law_kind=plain.kind,
         parameters=dict(zip(plain.names, plain.values.tolist(), strict=True)),
         standard_errors=dict(zip(plain.names, errors.tolist(), strict=True)),
+        correlations={
+            name: dict(zip(plain.names, row.tolist(), strict=True))
+            for name, row in zip(plain.names, own.correlations, strict=True)
+        },
+        rms_percent=rms(off),
+        max_percent=float(np.abs(off).max()),
         chi2_per_dof=found.uncertainty.chi2_per_dof,
+        leave_one_out_rms_percent=None,
         modes=modes_fitted(found, tables),
         files=tuple(names),
+        iterations=int(found.iterations),
         evaluations=int(found.evaluations),
         converged=bool(found.converged),
         law=law_rows_from(modal_band(found, tables)),
@@ -38,7 +49,14 @@ def modal_from(
         warnings=identified.remarks,
         temperature_c=mean_temperature(tables),
         seconds=identified.seconds,
+        setup_seconds=identified.setup_seconds,
     )
+
+
+def percent_off(found: ModalFit, tables: Sequence[ModalTable]) -> Array:
+    """100 (predicted / measured - 1) of frequencies. Shape (modes,)."""
+    measured = np.concatenate([t.frequency_hz for t in tables])
+    return np.asarray(100 * (np.concatenate(found.predicted_hz) / measured - 1))
 
 
 def _formulas(identified: TablesIdentified) -> tuple[FormulaRow, ...]:

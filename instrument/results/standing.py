@@ -1,11 +1,11 @@
-"""How each candidate of a diagnosis stands: found, not told from it, or other."""
+"""How each candidate of a diagnosis stands: found, not told from others, or other; what its law is with."""
 
 from itertools import product
 from math import isnan
 from typing import Literal
 
 from fitting.diagnosis.verdict import holding
-from instrument.facts.diagnosis import DiagnosisResult
+from instrument.facts.diagnosis import DiagnosisResult, StageFitted
 
 Standing = Literal["found", "equal", "none", "other"]
 
@@ -17,7 +17,7 @@ def standing(name: str, found: DiagnosisResult) -> Standing:
     groups = found.equivalent
     together = set(name.split(" + "))
     if groups and together == set(groups):
-        return "found"
+        return "equal" if none_is_likelier(found) else "found"
     if not groups or found.verdict != "ambiguous":
         return "other"
     group = _group(found)
@@ -25,6 +25,27 @@ def standing(name: str, found: DiagnosisResult) -> Standing:
         # Nothing was weighed: one stands for another, effect by effect.
         return "equal" if any(together == set(names) for names in product(*groups.values())) else "other"
     return "equal" if name in group else "other"
+
+
+def none_is_likelier(found: DiagnosisResult) -> bool:
+    """Whether the likeliest is no effect, and what is named is only not excluded."""
+    if found.by_hand or not any("none" in group for group in found.equivalent.values()):
+        return False
+    shares = {frozenset(c.name.split(" + ")): c.probability for c in found.candidates}
+    return shares.get(frozenset({"none"}), 0.0) > shares.get(frozenset(found.equivalent), 0.0)
+
+
+def law_words(found: DiagnosisResult) -> str:
+    """What the law is with, after "with"; empty where no effect is at issue."""
+    effects = " and ".join(found.equivalent)
+    return f"no effect, or {effects}" if none_is_likelier(found) else effects
+
+
+def stage_before(found: DiagnosisResult) -> StageFitted | None:
+    """The fit before the effects, where the law that stands is another one for them."""
+    if not found.equivalent or (none_is_likelier(found) and found.before.law == found.after.law):
+        return None
+    return found.before
 
 
 def _group(found: DiagnosisResult) -> set[str] | None:

@@ -11,6 +11,7 @@ from gui.theme import Role
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_words import UNKNOWN, with_verdict
 from instrument.results.numbers import format_number, with_error
+from instrument.results.standing import law_words, stage_before
 
 _ERRORS = {
     "what the fit leaves": "Held-out data: a segment predicted by law and effects fitted to the others",
@@ -75,8 +76,8 @@ class LawChange(QWidget):
         before, after = laws(found)
         self.doubt.setVisible(found.verdict == "unknown")
         lines = [LawLine(with_verdict("before", found), before, "model", dashed=True)]
-        if found.equivalent:
-            lines.append(LawLine(f"after: with {' and '.join(found.equivalent)}", after, "data"))
+        if stage_before(found) is not None:
+            lines.append(LawLine(f"after: with {law_words(found)}", after, "data"))
         self.plots.show_lines(lines)
         rows = []
         for f in references_hz(found):

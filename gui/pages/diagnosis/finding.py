@@ -15,7 +15,7 @@ from instrument.results.typeset import capitalised, typeset
 _EDGE_PX = 5
 _GAP_PX = 12
 _MEANINGS: dict[str, tuple[Role, str]] = {
-    "none": ("good", "No structure beyond noise and the plate model's own error."),
+    "none": ("good", "No structure beyond noise and the model's own error."),
     "effect": ("data", "One explanation, nothing else near it."),
     "ambiguous": ("fair", "Several explanations fit as well."),
     "unknown": ("bad", "Structure that nothing in the catalogue explains."),

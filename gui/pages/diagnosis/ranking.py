@@ -14,7 +14,7 @@ from instrument.results.typeset import typeset
 RowStanding = Standing | Literal["not fitted"]
 WORDS: dict[RowStanding, str] = {
     "found": "found",
-    "equal": "not told from it",
+    "equal": "not told apart",
     "none": "no effect",
     "other": "",
     "not fitted": "not fitted",
@@ -68,7 +68,7 @@ def group_words(found: DiagnosisResult) -> str:
 def about(name: str) -> str:
     """What an effect is, and what would show it by itself."""
     if name == "none":
-        return "The stated plate with its best law, no effect added."
+        return "The specimen as stated with its best law, no effect added."
     return "\n\n".join(_about_one(one) for one in effects_of([name]) if one in CATALOGUE)
 
 

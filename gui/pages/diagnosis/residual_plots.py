@@ -10,6 +10,7 @@ from gui.plots import Axis, Plot
 from gui.plots.curve import Symbol
 from gui.theme import Role, current_theme
 from instrument.facts.diagnosis import STAGES, DiagnosisResult, StageName
+from instrument.results.standing import law_words
 
 _ROOM = 1.12
 _LEAST_HEIGHT_PX = 100
@@ -180,8 +181,12 @@ def _name_series(plot: Plot) -> None:
 
 
 def _title(found: DiagnosisResult, stage: StageName) -> str:
-    accepted = " and ".join(found.equivalent) or "any effect"
-    said = f"before: without {accepted}" if stage == "before" else f"after: with {accepted}"
+    accepted = law_words(found) or "any effect"
+    said = (
+        f"before: without {' and '.join(found.equivalent) or 'any effect'}"
+        if stage == "before"
+        else f"after: with {accepted}"
+    )
     if stage == "after" and not found.equivalent:
         said = "after: the same, no effect is accepted"
     chi2, rms = found.stage(stage).chi2_per_dof, found.stage(stage).rms_percent

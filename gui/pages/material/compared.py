@@ -11,6 +11,7 @@ from instrument.files.sweep_file import read_sweep
 from instrument.paper_case import TABLE_4, case_file
 from instrument.results.diagnosis_words import UNKNOWN
 from instrument.results.session_result import BEFORE_DIAGNOSIS
+from instrument.results.standing import law_words, stage_before
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
 
@@ -43,11 +44,11 @@ def recorded_laws(path: Path) -> list[ComparedLaw]:
     diagnosis = contents.diagnosis.result if contents.diagnosis is not None else None
     if fit is None:
         raise BadInput(f"{path}: no law was fitted in this session, expected one with a finished fit")
-    if diagnosis is not None and diagnosis.equivalent:
+    if diagnosis is not None and stage_before(diagnosis) is not None:
         effects = " and ".join(diagnosis.equivalent)
         before, after = (LawCurve.of(stage.law) for stage in diagnosis.stages)
         return [
-            ComparedLaw(path.stem, after, f"{path}: its diagnosis, with {effects}"),
+            ComparedLaw(path.stem, after, f"{path}: its diagnosis, with {law_words(diagnosis)}"),
             ComparedLaw(f"{path.stem}, before", before, f"{path}: {BEFORE_DIAGNOSIS}, without {effects}"),
         ]
     doubt = f", {UNKNOWN}" if diagnosis is not None and diagnosis.verdict == "unknown" else ""

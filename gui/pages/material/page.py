@@ -26,6 +26,7 @@ from instrument.results.session_result import (
     recorded_result,
     result_of,
 )
+from instrument.results.standing import law_words, stage_before
 from instrument.results.typeset import note, typeset
 from instrument.stream.derived import FitUpdated
 
@@ -88,7 +89,7 @@ class MaterialPage(Page):
         fit, shown = self._latest, self._shown
         result = fit.result if fit is not None else None
         # Nothing is before a diagnosis that accepted no effect: its law is that one.
-        before = shown.found.before if shown is not None and shown.found.equivalent else None
+        before = stage_before(shown.found) if shown is not None else None
         stands = shown.found.after if shown is not None else result
         resonances = resonances_hz(result.points) if result is not None else {}
         rows = places(_curve(stands), resonances, _curve(before)) if stands is not None else []
@@ -115,18 +116,14 @@ class MaterialPage(Page):
             lines.append(LawLine(f"earlier fits ({len(fits) - 1})", earlier, "faint", width=1.0))
         shown = self._shown
         if shown is not None:
-            lines += _diagnosed_lines(shown)
+            lines += diagnosed_lines(shown)
         elif fits:
             lines.append(LawLine("identified", self._curve(fits[-1]), "model"))
         lines += self.comparison.lines
         self.plots.show_lines(lines, self._resonances)
 
     def _show_notes(self, result: IdentificationResult | None, shown: ShownDiagnosis | None) -> None:
-        notes = list(result.warnings) if result is not None else []
-        if shown is not None and shown.found.equivalent:
-            notes = [f"{BEFORE_DIAGNOSIS}: {said}" for said in notes]
-        if shown is not None:
-            notes += shown.found.warnings
+        notes = notes_of(result, shown)
         if self._is_unknown:
             notes.insert(
                 0, f"{UNKNOWN}: nothing explains what the fit leaves, the law may be far off its band"
@@ -213,15 +210,25 @@ class MaterialPage(Page):
         column.addWidget(whole, 1)
 
 
-def _diagnosed_lines(shown: ShownDiagnosis) -> list[LawLine]:
+def notes_of(result: IdentificationResult | None, shown: ShownDiagnosis | None) -> list[str]:
+    """What a fit and a diagnosis have to say of themselves, each once."""
+    notes = list(result.warnings) if result is not None else []
+    if shown is None:
+        return notes
+    notes = [said for said in notes if said not in shown.found.warnings]
+    if stage_before(shown.found) is not None:
+        notes = [f"{BEFORE_DIAGNOSIS}: {said}" for said in notes]
+    return [*notes, *shown.found.warnings]
+
+
+def diagnosed_lines(shown: ShownDiagnosis) -> list[LawLine]:
     """The law that stands, and before it that without the effects accepted."""
     by_hand = ", by hand" if shown.asked is not None and shown.asked.by_hand else ""
-    effects = " and ".join(shown.found.equivalent)
-    if not effects:
+    if stage_before(shown.found) is None:
         return [LawLine(with_verdict(f"result{by_hand}", shown.found), _curve(shown.found.after), "model")]
     return [
         LawLine(BEFORE_DIAGNOSIS, _curve(shown.found.before), "model", dashed=True, width=1.5),
-        LawLine(f"result: with {effects}{by_hand}", _curve(shown.found.after), "data"),
+        LawLine(f"result: with {law_words(shown.found)}{by_hand}", _curve(shown.found.after), "data"),
     ]
 
 

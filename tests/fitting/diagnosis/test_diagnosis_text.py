@@ -1,8 +1,13 @@
 """Words of a diagnosis that say no more than is known."""
 
+import numpy as np
 import pytest
+from shear_pair_cases import pair, sweep
 
-from fitting.diagnosis.text import how_likely
+from fitting.diagnosis.of_files import Place
+from fitting.diagnosis.several import SeveralProblem
+from fitting.diagnosis.small_problem import SmallProblem
+from fitting.diagnosis.text import how_likely, moved_words
 from fitting.diagnosis.verdict import Judgement
 
 
@@ -11,3 +16,21 @@ def test_what_is_named_beside_a_likelier_none_is_not_called_most_likely(none, wo
     names = ("gain_error",)
     said = Judgement("ambiguous", None, {}, probability={(): none, names: 0.35})
     assert how_likely(said, names) == words
+
+
+def moved(*places):
+    """What is said where the last of members at these places moves by 6 %, the others hardly."""
+    member = SmallProblem.of_small(sweep(pair(0.3), points=20), pair(0.3))
+    problem = SeveralProblem.of_members([member] * len(places), [None] * len(places), places)
+    plain = problem.sweep.response_m_s
+    factor = np.full(len(plain), 1.0 + 2e-5)
+    factor[problem.starts_at[-1]] = 1.06
+    return moved_words(problem, plain, factor * plain)
+
+
+def test_of_several_files_and_spots_the_most_moved_is_said_with_its_place():
+    assert moved(Place(1), Place(2)).startswith("It changes the response by up to 6 % near ")
+    assert moved(Place(1), Place(2)).endswith(" Hz in file 2.")
+    assert moved(Place(1, 0), Place(1, 1)).endswith(" Hz at pickup 1.")
+    assert moved(Place(1, 0), Place(2, 1)).endswith(" Hz in file 2 at pickup 1.")
+    assert moved(Place(1)).endswith(" Hz.")

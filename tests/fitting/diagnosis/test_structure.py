@@ -41,6 +41,14 @@ def test_a_plate_that_is_off_by_more_than_it_may_be_is_structure():
         assert any("layer-wise" in one for one in said) == told
 
 
+def test_a_beam_is_not_called_a_plate():
+    data = sweep()
+    known, r = bending(data, 5.0)
+    (said,) = [one for one in structure(data, known, r, 1.0, "shear-pair") if "off by" in one]
+    assert said.startswith("the shear pair would have to be off by")
+    assert said.endswith("times what its theory is")
+
+
 def test_white_residuals_are_rarely_taken_for_structure():
     data, alarms = sweep(), 0
     for seed in range(300):

@@ -5,9 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from fitting.bent_law import BentLaw
 from fitting.identification.fit import Fit
+from fitting.identification.result import summarise
 from fitting.identification.uncertainty import uncertainty_of
+from fitting.identification.validation import Validation
 from fitting.laws.constant import ConstantModulus
+from fitting.noise import noise_of
+from fitting.sweep import Sweep
 
 LAW = ConstantModulus(1e6, 0.5)
 J = np.array([[2.0, 0.0], [0.0, 4.0], [0.0, 0.0], [0.0, 0.0]])
@@ -47,3 +52,21 @@ def test_as_many_parameters_as_readings_leave_nothing_to_judge_by():
     found = uncertainty_of(replace(FIT, readings=2), noise_is_known=True)
     assert np.isnan(found.chi2_per_dof)
     assert np.isnan(found.standard_errors).all()
+
+
+def test_bends_at_their_limits_are_one_line_after_what_matters_more():
+    v = 0.1 * np.exp(1j * np.arange(20.0))
+    one = np.ones(20, dtype=np.intp)
+    sweep = Sweep(np.linspace(10, 300, 20), v, np.full(20, 9.81), one, one, std_m_s=np.full(20, 1e-4))
+    bent = BentLaw.over(LAW, sweep.frequency_hz)
+    count, knots = len(bent.names), len(bent.knots_hz)
+    bends = np.full(bent.bend_count, np.exp(8.0))
+    bends[1] = bends[knots + 1] = 1.0
+    law = bent.with_values(np.concatenate([LAW.values, bends]))
+    fit = Fit(law, np.full(40, 3.0), np.eye(40, count), 2 * v, 5, 6, converged=True)
+    said = summarise("direct", sweep, noise_of(sweep), fit, Validation()).warnings
+    (bent_said,) = [one for one in said if "bend" in one]
+    assert bent_said.startswith(f"the law bends as far as it may at {knots - 1} of {knots} places")
+    first = [one for one in said if "does not follow the data" in one or "times what the noise" in one]
+    assert len(first) == 2
+    assert max(map(said.index, first)) < said.index(bent_said)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fitting.complex_modes import complex_modes
-from fitting.errors import TooFewPoints
+from fitting.errors import OutsideModel, TooFewPoints
 from fitting.laws import LAWS
 from fitting.mode_tables.build import member_of, tapped
 from fitting.mode_tables.fit import fit_modes
@@ -57,14 +57,19 @@ def test_two_lengths_share_a_core_and_not_a_length():
 
 
 def test_one_mode_cannot_carry_four_parameters():
-    with pytest.raises(TooFewPoints):
-        fit_modes([table(beam(), 1, np.random.default_rng(0))], [beam()])
+    one = replace(table(beam(), 1, np.random.default_rng(0)), name="t.csv")
+    with pytest.raises(TooFewPoints, match=r"t\.csv: 1 mode with 2 numbers .* expected 3 modes"):
+        fit_modes([one], [beam()])
 
 
 TABLE = "mode,frequency_hz,loss_factor\n1,70.0,0.15\n2,311.0,0.12\n3,773.0,0.08\n4,1449.0,0.05\n"
 FAULTS = {
     "half a mode": (TABLE.replace("2,311", "2.5,311"), "line 3: mode = 2.5"),
     "no loss": (TABLE.replace("0.12", "0"), "line 3: loss_factor = 0"),
+    "no name": (TABLE.replace("loss_factor", "loss_facter"), "no loss_factor, the nearest is loss_facter"),
+    "no column": ("mode,frequency_hz\n1,70.0\n", "no loss_factor; expected mode, frequency_hz, loss_factor"),
+    "no mode": ("frequency_hz,loss_factor\n70.0,0.1\n", "no mode; expected mode"),
+    "too high": (TABLE.replace("4,1449", "1000000000,1449"), "line 5: mode = 1000000000"),
     "twice": (TABLE.replace("2,311", "1,311"), "twice"),
 }
 
@@ -75,6 +80,26 @@ def test_a_bad_table_is_refused_in_one_line(tmp_path, text, said):
     with pytest.raises(BadInput) as error:
         read_modal_table(tmp_path / "t.csv")
     assert said in str(error.value)
+    assert is_modal_table(tmp_path / "t.csv")
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        "frequency_hz,velocity_m_s,mode",
+        "frequency_hz,storage_modulus_pa,loss_factor",
+        "frequency_hz,mobility_re",
+    ],
+)
+def test_other_tables_are_not_taken_for_tables_of_modes(tmp_path, header):
+    (tmp_path / "t.csv").write_text(f"{header}\n{','.join('123'[: header.count(',') + 1])}\n")
+    assert not is_modal_table(tmp_path / "t.csv")
+
+
+def test_a_mode_beyond_the_model_names_the_file_and_what_to_do():
+    beyond = replace(table(beam(), 6, np.random.default_rng(0)), mode=np.arange(6.0) + 600, name="t.csv")
+    with pytest.raises(OutsideModel, match=r"t\.csv: mode 605, expected one of the .* from 1"):
+        fit_modes([beyond], [beam()])
 
 
 def test_the_command_takes_a_table(tmp_path):

@@ -103,7 +103,7 @@ def test_candidates_are_ranked_with_their_group(looked_at):
     page = looked_at
     table = page.candidates.table
     assert table.texts(0)[:4] == ["added_mass", "spot_offset", "added_mass + spot_offset", "none"]
-    assert table.texts(1)[:2] == ["found", "not told from it"]
+    assert table.texts(1)[:2] == ["found", "not told apart"]
     assert "added_mass, spot_offset" in page.candidates.groups.text()
     assert [table.cell(k, 2).share for k in range(4)] == pytest.approx([1.0, 0.99125, 0.985, 0.0])
 

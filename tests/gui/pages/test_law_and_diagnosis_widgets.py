@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from diagnosis_cases import diagnosis
+from result_cases import identification
 
 from gui.pages.diagnosis.candidates import Candidates
 from gui.pages.diagnosis.comparison import HeldOutBars, LawChange
@@ -14,6 +15,7 @@ from gui.pages.diagnosis.residual_plots import ResidualPlots
 from gui.pages.diagnosis.stages import compared
 from gui.pages.law.curve import LawCurve
 from gui.pages.law.plots import LawLine, LawPlots
+from gui.pages.material.page import diagnosed_lines, notes_of
 from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
 
 
@@ -60,6 +62,31 @@ def test_what_effects_change_is_said_in_numbers_and_doubted_where_nothing_fits(m
     assert change.plots.names == ("before", "after: with added_mass")
     change.show_diagnosis(diagnosis(verdict="unknown"))
     assert not change.doubt.isHidden()
+
+
+def not_excluded():
+    """An added mass that the data cannot tell from no effect, which is far likelier."""
+    found = diagnosis(verdict="ambiguous")
+    none = found.candidates[-1].but(probability=0.97)
+    candidates = (*(c.but(probability=0.01) for c in found.candidates[:-1]), none)
+    equivalent = {"added_mass": ("added_mass", "none")}
+    return found.but(equivalent=equivalent, candidates=candidates, after=found.before)
+
+
+def test_what_is_less_likely_than_no_effect_is_not_drawn_as_found(made):
+    found, change = not_excluded(), made(LawChange())
+    change.show_diagnosis(found)
+    assert change.plots.names == ("before",)
+    assert "found" not in [row.standing for row in ranked(found)]
+    shown = ShownDiagnosis(found, "recorded")
+    assert [line.name for line in diagnosed_lines(shown)] == ["result"]
+
+
+def test_a_note_that_fit_and_diagnosis_have_in_common_is_said_once():
+    found = not_excluded().but(warnings=("a remark on the file",))
+    fit = identification(warnings=("a remark on the file", "one on the fit"))
+    said = notes_of(fit, ShownDiagnosis(found, "recorded"))
+    assert said == ["one on the fit", "a remark on the file"]
 
 
 def test_the_residual_of_every_segment_is_drawn_before_and_after(made, qtbot):

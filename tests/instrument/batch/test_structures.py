@@ -6,12 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from instrument.batch import work
+from instrument.batch.asking import tasks_of
 from instrument.batch.keys import Keys
-from instrument.batch.of_modes import rms_percent
+from instrument.batch.of_modes import identified_modes
 from instrument.batch.task import BatchTask
 from instrument.batch.work import outcome_of
 from instrument.cli.main import run
-from instrument.facts.modal import ModalResult, ModeFitted
+from instrument.errors import BadInput
 
 SHARED = ("law_kind", "parameters", "standard_errors", "chi2_per_dof", "converged", "warnings")
 MODES = "mode,frequency_hz,loss_factor\n1,75.6,0.233\n2,377.5,0.264\n3,963.9,0.228\n4,1744.8,0.175\n"
@@ -87,10 +89,38 @@ def test_a_hammer_test_is_refused_where_there_is_no_plate(folder):
     assert outcome_of(BatchTask(*files))["failed"] == said
 
 
-def test_what_a_table_leaves_is_of_its_frequencies():
-    mode = ModeFitted(
-        file=1, mode=1, frequency_hz=100.0, predicted_hz=102.0, loss_factor=0.1, predicted_loss_factor=0.2
-    )
-    other = mode.but(mode=2, predicted_hz=100.0)
-    found = ModalResult(law_kind="", parameters={}, standard_errors={}, modes=(mode, other), files=(), law=())
-    assert rms_percent(found) == pytest.approx(2 / np.sqrt(2))
+def test_what_fails_inside_is_said_as_such_and_warns_no_one(folder, monkeypatch, recwarn):
+    def broken(task):
+        np.log(np.array([-1.0]))
+        raise np.linalg.LinAlgError("SVD did not converge")
+
+    monkeypatch.setattr(work, "_worked", broken)
+    said = outcome_of(BatchTask(str(folder / "modes.csv"), str(folder / "beam.toml")))
+    assert said["failed"] == "internal error: LinAlgError: SVD did not converge (report it)"
+    assert said["again"]
+    assert not recwarn.list
+
+
+def test_a_misspelt_column_of_specimens_is_named(tmp_path):
+    (tmp_path / "t.csv").write_text("data,spec\na.csv,b.toml\n")
+    with pytest.raises(BadInput, match="no specimen, the nearest is spec; expected it, or --specimen"):
+        tasks_of([tmp_path / "t.csv"], None)
+    assert tasks_of([tmp_path / "t.csv"], tmp_path / "b.toml")
+    (tmp_path / "t.csv").write_text("data,spec\na.h5,steel\n")
+    assert tasks_of([tmp_path / "t.csv"], None)
+
+
+def test_what_a_table_leaves_is_of_its_frequencies(folder):
+    found, _ = identified_modes(folder / "modes.csv", folder / "beam.toml", insist=True)
+    off = [100 * (mode.predicted_hz / mode.frequency_hz - 1) for mode in found.modes]
+    assert found.rms_percent == pytest.approx(np.sqrt(np.mean(np.square(off))))
+    assert found.max_percent == pytest.approx(np.abs(off).max())
+
+
+def test_the_json_of_a_table_has_the_keys_of_a_sweep_s(folder):
+    found, _ = identified_modes(folder / "modes.csv", folder / "beam.toml", insist=True)
+    written = found.as_json()
+    assert written["leave_one_out_rms_percent"] is None
+    assert written["iterations"] > 0
+    assert written["setup_seconds"] > 0
+    assert list(written["correlations"]) == list(written["parameters"])

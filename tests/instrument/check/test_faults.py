@@ -7,10 +7,11 @@ import pytest
 from beam_cases import BEAM
 
 from fitting.structures.beam import Beam
+from instrument.check.dry_run import all_faults
 from instrument.check.faults import experiment_objections
 from instrument.check.forecast import Forecast
 from instrument.session.configuration import read_whole_experiment
-from instrument.simulated_case import write_case
+from instrument.simulated_case import case_file, write_case
 
 FORECAST = Forecast(SimpleNamespace(), np.array([20.0, 60.0, 110.0]), np.ones(3))
 RANGED = {
@@ -180,3 +181,12 @@ def test_a_sweep_that_chooses_its_steps_is_of_a_plate(tmp_path):
     path.write_text(path.read_text().replace("specimen.toml", "beam.toml"))
     said = experiment_objections(read_whole_experiment(path), FORECAST, ("sweep",))
     assert 'sweep.plan = "adaptive": the specimen is a beam, expected a plate, or segments' in said[-1]
+
+
+def test_a_specimen_in_the_place_of_an_experiment_is_one_fault():
+    path = case_file("specimen.toml")
+    (said,) = all_faults(path)
+    assert said == (
+        f"{path}: a specimen, expected an experiment, which names its specimen and its rig "
+        "(viscorig new experiment)"
+    )

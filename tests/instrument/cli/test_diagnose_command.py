@@ -1,6 +1,7 @@
 """`viscorig diagnose` as a user calls it: what it reads, refuses, prints, saves."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +14,8 @@ from uff_files import ratio_set, write_sets
 
 import instrument.cli.diagnose as command
 from instrument.cli.main import run
+from instrument.cli.output import Output
+from instrument.cli.reading import read_each
 from instrument.facts.follow_up import FollowUp
 from instrument.paper_case import case_file
 from instrument.report.diagnosis import diagnosis_sections
@@ -200,6 +203,12 @@ def test_an_frf_is_the_pickup_over_the_bases_acceleration(capsys, given, tmp_pat
     assert status == 0, err
     assert "over the base's acceleration" in out
     np.testing.assert_allclose(given["sweep"].response_m_s, V_OVER_A * 9.81, rtol=1e-12)
+
+
+def test_what_is_taken_for_granted_of_several_frfs_is_said_once(capsys, tmp_path):
+    paths = [frf_csv(tmp_path / f"{name}.csv", "mobility", V_OVER_A) for name in "ab"]
+    read_each(Output(None), paths, [Path(ZN1)], None, no_hammer=False, insist=True)
+    assert capsys.readouterr().out.count("an FRF: taken as") == 1
 
 
 def write_uff(path, under):

@@ -80,6 +80,12 @@ def test_a_clamp_that_holds_the_width_is_counted_where_the_file_says_so(tmp_path
         (FORCE + "[base]\nacceleration_m_s2 = 9.81\n", "clamped-free", "", "expected one of them"),
         ("", "free-free", "held_width = true", "expected a held end"),
         (
+            "[tolerances]\narea_percent = 1.0\n",
+            "clamped-free",
+            "",
+            "area_percent: a beam has no such",
+        ),
+        (
             '[[pickup]]\nx_mm = 10.0\n[[pickup]]\nx_mm = 20.0\nreads = "absolute"\n',
             *("clamped-free", "", "pickups that read relative and absolute"),
         ),

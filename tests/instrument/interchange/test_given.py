@@ -6,13 +6,16 @@ from following_cases import MASS, MASS_KG, MASS_MM, SPOT, SPOT_MM, run
 from formula_rig import SWEEP, formula_rig
 
 from fitting.specimen import PlacedMass
+from fitting.sweep import Sweep
 from instrument.cli.main import run as viscorig
 from instrument.errors import BadInput
 from instrument.files.new_file import write_new
+from instrument.files.specimen_file import read_specimen
 from instrument.interchange.csv_export import export_csv
 from instrument.interchange.files_of import files_of
-from instrument.interchange.given import read_given
+from instrument.interchange.given import at_its_spot, read_given
 from instrument.interchange.identified import session_sweep
+from instrument.paper_case import case_file
 from instrument.session.configuration import read_whole_experiment
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
@@ -29,6 +32,14 @@ def finished(tmp_path_factory):
     with formula_rig(folder, sweep=SWEEP) as (_, experiment):
         experiment.path.write_text(experiment.path.read_text() + FOLLOWS)
         return run(read_whole_experiment(experiment.path), folder, (MASS, SPOT))
+
+
+def test_a_column_of_spots_that_the_specimen_lacks_says_how_many_it_has():
+    one = np.ones(2, dtype=np.intp)
+    of_two = Sweep(np.array([10.0, 20.0]), one + 0j, one * 1.0, one, one, pickup=np.array([0, 1]))
+    plate = read_specimen(case_file("zn1.toml"))
+    with pytest.raises(BadInput, match="pickup: 1, expected 0: the specimen is read at one spot"):
+        at_its_spot("a.csv", plate, of_two)
 
 
 def test_a_known_mass_that_a_run_put_on_is_on_the_plate_of_its_points(finished):

@@ -16,11 +16,12 @@ from instrument.paper_case import case_file
 HZ = np.array([74.3, 365.6, 922.2, 1670.0])
 
 
-def tables_and_fit(measured_hz, loss_factor=0.2, temperature_c=None):
+def tables_and_fit(measured_hz, loss_factor=0.2, std=None, temperature_c=None):
     """Two tables of two modes, and a fit that knows them in Hz."""
     eta, warm = np.full(2, loss_factor), None if temperature_c is None else np.full(2, temperature_c)
+    spread = None if std is None else np.array([1.0, 2.0]) * std
     tables = [
-        SimpleNamespace(frequency_hz=part, loss_factor=eta, temperature_c=warm)
+        SimpleNamespace(frequency_hz=part, loss_factor=eta, loss_factor_std=spread, temperature_c=warm)
         for part in np.split(measured_hz, 2)
     ]
     return tables, SimpleNamespace(predicted_hz=tuple(np.split(HZ, 2)))
@@ -32,12 +33,16 @@ def test_modes_are_asked_about_with_all_their_files():
 
 
 def test_modes_near_the_fit_are_not_asked_about():
-    question_modes(*tables_and_fit(1.1 * HZ), [Path("a.csv")])
+    question_modes(*tables_and_fit(1.1 * HZ, std=0.02), [Path("a.csv")])
 
 
 @pytest.mark.parametrize(
     ("stated", "asked"),
-    [({"loss_factor": 22.0}, "22: is it in percent"), ({"temperature_c": 293.0}, "293: is it in K")],
+    [
+        ({"loss_factor": 22.0}, "22: is it in percent"),
+        ({"std": 1.5}, "loss_factor_std up to 3 for loss factors up to 0.2: is it in percent"),
+        ({"temperature_c": 293.0}, "293: is it in K"),
+    ],
 )
 def test_other_columns_of_modes_are_asked_about_in_another_unit(stated, asked):
     with pytest.raises(BadInput, match=asked):

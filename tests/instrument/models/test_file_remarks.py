@@ -4,11 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from shear_pair_cases import sweep
 
 from fitting.laws.constant import ConstantModulus
 from fitting.specimen import Core
 from fitting.structures import ShearPair
-from instrument.models.file_remarks import remarks_on_edges, remarks_on_scale
+from instrument.models.file_remarks import remarks_on_edges, remarks_on_files, remarks_on_scale
+from instrument.models.files import File
 
 CORE = Core(6e-3, 0.5, 1100.0, ConstantModulus(5e6, 0.3))
 PAIR = ShearPair(mass_kg=0.5, discs=2, area_m2=1.2e-3, core=CORE, gyration_m=1.0e-2)
@@ -44,3 +46,17 @@ def test_a_modulus_far_from_where_its_file_begins_is_asked_about(times, asked):
     assert bool(said) is asked
     if asked:
         assert f"{times:.2g} times" in said[0]
+
+
+def edges_of(*files):
+    return [said for said in remarks_on_files(files) if "edges" in said]
+
+
+def test_what_holds_of_all_files_is_said_once_and_of_some_by_their_names():
+    thinner = replace(PAIR, core=replace(CORE, thickness_m=3e-3))
+    a, b, c = (File(sweep(PAIR, points=30), p, n) for n, p in zip("abc", (PAIR, PAIR, thinner), strict=True))
+    (said,) = edges_of(a, b)
+    assert said.startswith("what the discs' free edges")
+    both, alone = edges_of(a, b, c)
+    assert both.startswith("a, b: what the discs'")
+    assert alone.startswith("c: what the discs'")

@@ -67,6 +67,9 @@ def test_one_mass_stated_wrongly_and_the_modulus_are_one():
     assert found.verdict == "ambiguous"
     assert found.effects[0].name == "added_mass"
     assert found.equivalent["added_mass"] == ("added_mass", "none")
+    assert found.explanation[0].startswith("The stated shear pair with its best law")
+    row = next(c for c in found.candidates if c.name == "added_mass")
+    assert row.effects[0].parameters == found.effects[0].parameters
 
 
 @among("added_mass", "gain_error", "channel_delay")
@@ -163,6 +166,18 @@ def test_where_a_fixture_resonates_the_rest_is_worth_less_too(mass_kg, at_hz):
     assert np.abs(pull).max() < 3
 
 
+def test_one_file_is_not_spoken_of_as_several():
+    (said,) = [one for one in _misfit([0.2533]) if "taken for the error" in one]
+    assert "files" not in said
+    assert "each file" not in said
+    (said,) = [one for one in _misfit([0.2533, 0.573]) if "taken for the error" in one]
+    assert said.startswith("the files follow no one law")
+
+
+def _misfit(masses):
+    return identify_together(files(masses, wander=0.02)).found.result.warnings
+
+
 def test_where_no_law_fits_there_is_no_chi_square(capsys):
     found = identify_together(files([0.2533, 0.573], wander=0.02)).found
     result = found.result
@@ -256,6 +271,11 @@ FAULTS = {
     "both shapes": (PAIR.replace("discs = 2", "discs = 2\narea_mm2 = 700.0"), "area_mm2"),
     "hole": (PAIR.replace("11.8", "34.0"), "inner_diameter_mm = 34"),
     "two kinds": (PAIR + "\n[plate]\n", "[plate] and [shear-pair]"),
+    "another's tolerance": (
+        PAIR + "[tolerances]\nlength_mm = 0.3\n",
+        "tolerances.length_mm: a shear-pair has no",
+    ),
+    "two pickups": (PAIR + 2 * "[[pickup]]\n", "pickup: [[pickup]], expected one table [pickup]"),
     "unknown key": (PAIR.replace("mass_kg", "mass_g"), "mass_g"),
     "no law": (PAIR.replace('"fractional-zener"', '"rubber"'), "core.law.kind"),
 }
@@ -293,3 +313,6 @@ def test_the_commands_take_shear_pairs(tmp_path, capsys):
         assert run([*words, "--json", str(tmp_path / "out.json")]) == 0, words
     assert run(["identify", str(tmp_path / "a.csv"), *["--specimen", pair_toml] * 2]) == 2
     assert "2 times --specimen for 1 files" in capsys.readouterr().err
+    words = ["identify", str(tmp_path / "a.csv"), "--specimen", pair_toml, "--uncertainty", "bootstrap"]
+    assert run(words) == 2
+    assert "bootstrap with a shear-pair: expected profile" in capsys.readouterr().err

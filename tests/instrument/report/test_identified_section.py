@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from conftest import TABLE_4
+from diagnosis_cases import diagnosis as diagnosed
 from diagnosis_cases import sweep
 from result_cases import identification
 
@@ -27,6 +28,7 @@ from instrument.report.law_figures import law_figure, residual_figures
 from instrument.report.measured import Measured
 
 SWEEP = sweep()
+PLATE = SimpleNamespace(kind="plate")
 PULLED = (Adjusted("gain", 1.0, 0.02, 0.96, 0.01, -2.0, "1"),)
 
 
@@ -60,7 +62,7 @@ def found(std=0.01, *, noise="stated", adjusted=(), warnings=(), bound=None, **v
     )
 
 
-def reported(result, bare=None, specimen=None):
+def reported(result, bare=None, specimen=PLATE):
     return ReportedFit(SessionFit(SimpleNamespace(result=result), SWEEP, specimen, bare))
 
 
@@ -152,12 +154,20 @@ def test_the_page_s_law_is_compared_with_the_run_s_own(run, points, said):
     [("unknown", "The law may be far off its band"), ("effect", "This is the law before the diagnosis")],
 )
 def test_after_a_diagnosis_the_law_is_called_what_it_is(verdict, said):
-    diagnosis = SimpleNamespace(result=SimpleNamespace(verdict=verdict))
+    diagnosis = SimpleNamespace(result=diagnosed(verdict=verdict))
     made, _, sentences = section(found(warnings=("a remark",)), diagnosis=diagnosis)
     assert made.title.endswith("before the diagnosis")
     assert said in sentences[1]
     assert sentences[2] == "A remark."
     assert section(found())[0].title == "Identification of the core"
+
+
+def test_no_effect_is_said_to_be_found_where_none_is_likelier():
+    ambiguous = diagnosed(verdict="ambiguous").but(equivalent={"added_mass": ("added_mass", "none")})
+    (first, *rest) = ambiguous.candidates
+    likelier = (first.but(probability=0.02), *rest[:-1], rest[-1].but(probability=0.9))
+    found_none = SimpleNamespace(result=ambiguous.but(candidates=likelier))
+    assert "found no effect likelier than none" in section(found(), diagnosis=found_none)[2][1]
 
 
 def test_what_is_left_is_three_numbers_and_each_segment_from_the_others():
@@ -175,6 +185,12 @@ def test_what_is_left_is_three_numbers_and_each_segment_from_the_others():
     for source, words in (("unknown", "not known: the noise is not"), ("misfit", "none: readings count by")):
         rows = dict(unexplained_section(reported(found(noise=source))).blocks[1].rows)
         assert rows["chi² per degree of freedom"].startswith(words)
+
+
+def test_the_model_of_a_pair_is_not_called_a_plate():
+    pair = SimpleNamespace(kind="shear-pair")
+    first = unexplained_section(reported(found(), specimen=pair)).blocks[0]
+    assert first.text == "Before: the model has no further effects than the shear pair and its core."
 
 
 def test_the_law_to_sign_is_the_recorded_one_unless_the_run_left_none_of_all_its_points(monkeypatch):

@@ -2,6 +2,7 @@
 
 import base64
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -94,6 +95,8 @@ def test_a_hit_left_out_says_why_and_the_run_had_found_the_same(contents):
     assert "The run itself had found the same from these hits." in said
     none = hammer_section(replace(contents, hits=[]))
     assert none.blocks[0].text == "There is no hammer test in this session."
+    pair = SimpleNamespace(specimen=SimpleNamespace(kind="shear-pair"), hits=[])
+    assert hammer_section(pair).title == "Hammer test"
 
 
 def test_a_page_without_a_fit_says_so_and_draws_what_was_measured(contents):

@@ -167,6 +167,14 @@ def test_a_named_effect_has_its_size_and_each_mode_what_is_left_before_and_after
     assert result.after.rms_percent < result.before.rms_percent
 
 
+def test_the_json_of_tables_has_the_keys_of_a_sweep_s(stiffer):
+    written = stiffer[1].as_json()
+    assert [written[key] for key in ("p_value", "nested_held_out_rms_percent", "unseen")] == [None, None, []]
+    for stage in ("before", "after"):
+        assert written[stage]["held_out"] == []
+        assert written[stage]["held_out_rms_percent"] is None
+
+
 def test_candidates_carry_their_probability_and_the_story_says_what_was_found(stiffer):
     _, result = stiffer
     assert [c.name for c in result.candidates] == ["substrate_stiffness", "none"]

@@ -1,7 +1,9 @@
 import numpy as np
 from diagnosis_cases import diagnosis
 
-from instrument.results.standing import standing
+from instrument.facts.diagnosis import DiagnosisResult
+from instrument.results.diagnosis_words import verdict_line
+from instrument.results.standing import law_words, none_is_likelier, stage_before, standing
 
 
 def stand(found):
@@ -35,3 +37,35 @@ def test_nothing_is_equal_to_what_is_certain():
 def test_by_hand_one_effect_stands_for_another_as_the_verdict_has_them():
     found = stand(weighed(np.nan, np.nan, np.nan, np.nan))
     assert (found["spot_offset"], found["added_mass + spot_offset"]) == ("equal", "other")
+
+
+def not_excluded(none=0.97) -> DiagnosisResult:
+    """No effect is likeliest, an added mass cannot be told from it; the law is that without."""
+    found = weighed(1 - none, 0.0, 0.0, none)
+    return found.but(equivalent={"added_mass": ("added_mass", "none")}, after=found.before)
+
+
+def test_what_is_less_likely_than_no_effect_is_not_found_but_not_told_apart():
+    found = not_excluded()
+    assert none_is_likelier(found)
+    assert stand(found)["added_mass"] != "found"
+    assert stage_before(found) is None
+    assert law_words(found) == "no effect, or added_mass"
+    assert verdict_line(found).startswith(
+        "verdict: ambiguous: no effect is likelier (97 %) than added_mass (mass"
+    )
+
+
+def test_what_is_likelier_than_no_effect_is_found():
+    found = not_excluded(none=0.4)
+    assert not none_is_likelier(found)
+    assert stand(found)["added_mass"] == "found"
+    assert stage_before(found) is found.before
+    assert law_words(found) == "added_mass"
+    assert "likelier" not in verdict_line(found)
+
+
+def test_a_law_that_the_group_moves_is_not_the_one_before():
+    found = not_excluded()
+    moved = found.but(after=found.after.but(law=found.after.law[1:]))
+    assert stage_before(moved) is moved.before
