@@ -127,6 +127,8 @@ def _parts(specimen: AnySpecimen) -> str:
 
 
 def _hammer(fit: SessionFit) -> str:
+    if fit.specimen.kind != "plate":
+        return "stated numbers within their tolerances"
     if fit.bare is None:
         return "without a hammer test: stiffness and viscous damping as the specimen states them"
     assert isinstance(fit.specimen, Specimen)

@@ -117,7 +117,7 @@ def test_the_law_in_the_band_is_a_few_rows_with_both_ends():
 
 
 def test_stated_numbers_are_listed_where_a_fit_has_moved_them():
-    specimen = SimpleNamespace(tolerances={})
+    specimen = SimpleNamespace(kind="plate", tolerances={})
     made = identification_section(contents(), reported(found(adjusted=PULLED), specimen=specimen))
     moved = made.blocks[
         [getattr(b, "title", "") for b in made.blocks].index(
@@ -189,7 +189,9 @@ def test_what_is_left_is_three_numbers_and_each_segment_from_the_others():
 
 def test_the_model_of_a_pair_is_not_called_a_plate():
     pair = SimpleNamespace(kind="shear-pair")
-    first = unexplained_section(reported(found(), specimen=pair)).blocks[0]
+    of_pair = reported(found(), specimen=pair)
+    first = unexplained_section(of_pair).blocks[0]
+    assert "hammer" not in identification_section(contents(), of_pair).blocks[0].text
     assert first.text == "Before: the model has no further effects than the shear pair and its core."
 
 
