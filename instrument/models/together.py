@@ -1,74 +1,35 @@
-"""Files with their specimens under one law: any structure, one file or several; identified and diagnosed.
-
-Stretches that a fixture's own resonance spoils are set aside first. Where what is left of some files is far
-above their noise and nothing explains it, that misfit becomes part of what the readings are worth.
-"""
+"""Files with their specimens under one law: any structure, one file or several; identified and diagnosed."""
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from time import perf_counter
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from fitting.arrays import Mask
-from fitting.diagnosis.begin import Begun, begin
 from fitting.diagnosis.confounded import last_word
 from fitting.diagnosis.diagnose import diagnose_task, seen_in_channels
-from fitting.diagnosis.evidence import BareModes
-from fitting.diagnosis.glitch import Glitch, glitches
 from fitting.diagnosis.joining import joined
 from fitting.diagnosis.joint import fit_of
-from fitting.diagnosis.of_files import Place, among
+from fitting.diagnosis.of_files import among
 from fitting.diagnosis.prediction import held_out
-from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.result import FoundEffect, ParameterEstimate
-from fitting.diagnosis.several import SeveralProblem
-from fitting.diagnosis.small_problem import DEAF, SmallProblem
 from fitting.errors import OutsideModel
 from fitting.identification.bare_plate import fit_bare_plate
 from fitting.identification.result import summarise
 from fitting.laws import CoreLaw
-from fitting.noise import Noise, noise_of
-from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
-from fitting.structures import Beam, ShearPair
 from fitting.sweep import Sweep
 from instrument.models.diagnosis import Diagnosed, effects_among
 from instrument.models.file_remarks import remarks_on_files, remarks_on_scale
-from instrument.models.files import File, mounted, name_of, numbers_of, one_plate, plates_of
+from instrument.models.files import File, mounted, numbers_of, one_plate
+from instrument.models.files_at_work import FilesAtWork, SetAside
 from instrument.models.identification import Identified, Joint
 from instrument.models.second_process import executor
 from instrument.models.set_up import Hammer
 from instrument.models.theory import check_each_theory
 from instrument.models.transfer import with_transfer
 from instrument.progress import Progress, quiet
-
-_ROUNDS = 4
-"""A bound on time."""
-_NO_RIG = 0.1
-"""Of a reading: a misfit beyond it is another specimen, unit or sign."""
-_MISFIT = 3.0
-"""Chi-square per degree of freedom from which a misfit is more than noise."""
-
-
-@dataclass(frozen=True)
-class SetAside:
-    """A stretch of one file that takes no part."""
-
-    file: int
-    """From 1."""
-    glitch: Glitch
-    points: int
-
-    def words(self, files: Sequence[File]) -> str:
-        """Where, in a sentence."""
-        name = name_of(files, self.file)
-        of = f"{name}: " if name else ""
-        return (
-            f"{of}{self.glitch.low_hz:.0f} to {self.glitch.high_hz:.0f} Hz is a local disturbance (up to "
-            f"{100 * self.glitch.largest:.2g} %), as of a fixture's resonance: {self.points} points set aside"
-        )
 
 
 @dataclass(frozen=True)
@@ -91,171 +52,6 @@ class DiagnosedTogether:
     aside: tuple[SetAside, ...] = ()
 
 
-@dataclass
-class _Work:
-    """The files as far as they are understood."""
-
-    files: Sequence[File]
-    progress: Progress
-    with_effects: bool
-    hammer: Hammer | None = None
-    """Of the bare plate, which is then that of every file."""
-    bare: BareModes | None = None
-    used: list[Mask] = field(default_factory=list)
-    misfit: list[float] = field(default_factory=list)
-    aside: list[SetAside] = field(default_factory=list)
-    made: dict[int, tuple[bytes, SmallProblem]] = field(default_factory=dict)
-    """Of every file that is of a small structure, for which of its points."""
-    start: CoreLaw = field(init=False)
-    """What fits begin with."""
-
-    def __post_init__(self) -> None:
-        self.used = [np.ones(len(f.sweep), bool) for f in self.files]
-        self.misfit = [0.0] * len(self.files)
-        self.start = _start_of(self.files)
-
-    def problem(self) -> tuple[SeveralProblem, Noise]:
-        """Of the points in use."""
-        sweeps = [file.sweep.take(used) for file, used in zip(self.files, self.used, strict=True)]
-        plates, self.bare = plates_of(
-            self.files, sweeps, self.hammer, self.progress, with_effects=self.with_effects
-        )
-        members: list[DiagnosisProblem] = []
-        reduced: list[ReducedPlate | None] = []
-        noises = []
-        for k, (file, sweep) in enumerate(zip(self.files, sweeps, strict=True)):
-            noise = noise_of(sweep)
-            if isinstance(file.specimen, Specimen):
-                member, of_it = plates[k]
-                members.append(member)
-                reduced.append(of_it)
-            else:
-                small = replace(self._small(k, sweep, file.specimen), misfit=self.misfit[k])
-                noise = small.noise(noise)
-                members.append(small)
-                reduced.append(None)
-            noises.append(noise)
-        known = all(n.is_known for n in noises)
-        std = [
-            n.std_m_s if known else np.abs(m.sweep.response_m_s) for n, m in zip(noises, members, strict=True)
-        ]
-        source = noises[0].source if known else "unknown"
-        if known and any(self.misfit):
-            source = "misfit"
-        places = [Place(n, f.pickup) for n, f in zip(numbers_of(self.files), self.files, strict=True)]
-        return SeveralProblem.of_members(members, reduced, places), Noise(np.concatenate(std), source)
-
-    def _small(self, k: int, sweep: Sweep, specimen: Beam | ShearPair) -> SmallProblem:
-        """Of the points in use; made anew where these are others."""
-        used = self.used[k].tobytes()
-        if k not in self.made or self.made[k][0] != used:
-            self.made[k] = used, SmallProblem.of_small(sweep, specimen)
-        return self.made[k][1]
-
-    def without_glitches(self) -> tuple[Begun, Noise]:
-        """The fit of what is no local disturbance."""
-        for left in reversed(range(_ROUNDS)):
-            problem, noise = self.problem()
-            begun = begin(problem, None, noise, self.bare, self.start)
-            # The last fit is of the points that are left.
-            if not left or not self._set_aside(begun):
-                break
-        return begun, noise
-
-    def _set_aside(self, begun: Begun) -> bool:
-        assert isinstance(begun.problem, SeveralProblem)
-        found = False
-        for k, (m, part) in enumerate(zip(begun.problem.members, begun.problem.starts_at, strict=True)):
-            if not isinstance(m, SmallProblem) or not isinstance(m.specimen, ShearPair):
-                continue
-            aside, stretches = glitches(m, begun.none.law, begun.none.velocity_m_s[part])
-            f = m.sweep.frequency_hz
-            for g in stretches:
-                count = int(np.sum((f >= g.low_hz) & (f <= g.high_hz)))
-                self._add(SetAside(numbers_of(self.files)[k], g, count))
-            if aside.any():
-                self.used[k][np.flatnonzero(self.used[k])[aside]] = False
-                found = True
-        return found
-
-    def _add(self, one: SetAside) -> None:
-        """Stretches of a file that touch are one."""
-        for k, other in enumerate(self.aside):
-            g, h = one.glitch, other.glitch
-            if other.file == one.file and g.low_hz <= 1.06 * h.high_hz and h.low_hz <= 1.06 * g.high_hz:
-                points = one.points + other.points
-                off = np.sqrt((one.points * g.rms**2 + other.points * h.rms**2) / points)
-                both = (min(g.low_hz, h.low_hz), max(g.high_hz, h.high_hz), max(g.largest, h.largest))
-                self.aside[k] = SetAside(one.file, Glitch(*both, float(off)), points)
-                return
-        self.aside.append(one)
-
-    def with_misfit(self, begun: Begun) -> bool:
-        """Take what the fit leaves as what readings are worth; False where noise explains it.
-
-        So it is of every file where one law does not do, and of one in which a fixture resonates: what was
-        set aside has tails, and a fit that follows them calls them law and channels.
-        """
-        self._lawless |= begun.evidence.scale_known and begun.none.chi2_per_dof > _MISFIT
-        assert isinstance(begun.problem, SeveralProblem)
-        v, law = begun.none.velocity_m_s, begun.none.law
-        for k, (m, part) in enumerate(zip(begun.problem.members, begun.problem.starts_at, strict=True)):
-            if not isinstance(m, SmallProblem) or not isinstance(m.specimen, ShearPair):
-                continue
-            stretches = [one for one in self.aside if one.file == numbers_of(self.files)[k]]
-            if not self._lawless and not stretches:
-                continue
-            has_phase, read = m.sweep.has_phase, m.sweep.response_m_s
-            off = (read if has_phase else np.abs(read)) / (v[part] if has_phase else np.abs(v[part])) - 1
-            squares = np.sum(np.abs(off) ** 2) + sum(one.points * one.glitch.rms**2 for one in stretches)
-            self.misfit[k] = np.sqrt(squares / (len(off) + sum(one.points for one in stretches)) / 2)
-            hears = np.abs(m.feels(law, v[part])) > DEAF
-            if hears.sum() > len(law.names) and not self._deaf_taken:
-                self.used[k][np.flatnonzero(self.used[k])[~hears]] = False
-        self._deaf_taken = True
-        return any(self.misfit)
-
-    def about_misfit(self) -> str:
-        """What was taken for the error of readings, in a sentence."""
-        sizes = ", ".join(f"{100 * m:.2g}" for m in self.misfit)
-        if max(self.misfit) > _NO_RIG:
-            return (
-                f"one law leaves {sizes} % of the readings, more than any rig is off: is every file with "
-                "its own specimen, and are mass, units and signs as the files have them? The law means "
-                "nothing else"
-            )
-        once = f"({sizes} %), once for every 0.12 in ln f, is taken for the error of"
-        if not self._lawless:
-            return (
-                "where a fixture resonates readings are off beyond what is set aside too: the rms of that "
-                f"and of what is left {once} the rest"
-            )
-        if len(self.files) == 1:
-            return (
-                f"the readings follow no law within their noise: their rms misfit {once} the readings, and "
-                "for a gain and a phase; see 'viscorig diagnose'"
-            )
-        return (
-            f"the files follow no one law within their noise: each file's rms misfit {once} its readings, "
-            "for files whose cores differ by a few percent, and for a gain and a phase that all have in "
-            "common; see 'viscorig diagnose'"
-        )
-
-    _lawless: bool = False
-    """Whether noise does not explain what one law leaves."""
-    _deaf_taken: bool = False
-
-
-def _start_of(files: Sequence[File]) -> CoreLaw:
-    """The law of the first file's specimen. Raises `OutsideModel`."""
-    laws = [f.specimen.core.law for f in files if f.specimen.core is not None]
-    if len(laws) < len(files):
-        raise OutsideModel("a bare specimen has no core to identify, expected a core in every one")
-    if len({law.kind for law in laws}) > 1:
-        raise OutsideModel("the specimens name different core laws, expected one: it is one material")
-    return laws[0]
-
-
 def identify_together(
     files: Sequence[File], progress: Progress = quiet, hammer: Hammer | None = None
 ) -> Together:
@@ -266,7 +62,7 @@ def identify_together(
     began = perf_counter()
     plate = files[0].specimen
     bare = fit_bare_plate(plate, *hammer) if hammer is not None and isinstance(plate, Specimen) else None
-    work = _Work(files, progress, with_effects=False, hammer=hammer)
+    work = FilesAtWork(files, progress, with_effects=False, hammer=hammer)
     with threadpool_limits(1, "blas"), progress("fitting"):
         work.problem()
         ready = perf_counter()
@@ -313,7 +109,7 @@ def diagnose_together(
         )
     among_files = effects_among([f.specimen for f in files], without, accept)
     effects = [e for e, _ in among_files]
-    work = _Work(files, progress, with_effects=True, hammer=hammer)
+    work = FilesAtWork(files, progress, with_effects=True, hammer=hammer)
     with threadpool_limits(1, "blas"), executor() as workers:
         channels: list[FoundEffect] = []
         numbers = numbers_of(files)

@@ -8,7 +8,8 @@ from instrument.facts.diagnosis import DiagnosisResult, PointLeft
 from instrument.facts.identification import IdentificationResult, PointFitted
 from instrument.facts.rows import StretchSetAside
 from instrument.models.files import File, name_of, numbers_of
-from instrument.models.together import DiagnosedTogether, SetAside, Together
+from instrument.models.files_at_work import SetAside
+from instrument.models.together import DiagnosedTogether, Together
 from instrument.results.diagnosis_from import diagnosis_from
 from instrument.results.identification_from import identification_from
 

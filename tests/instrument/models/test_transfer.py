@@ -5,7 +5,8 @@ import pytest
 from shear_pair_cases import HEAVIER_KG, LAW, fixture_factor, pair, sweeps_of_masses
 
 from instrument.models.files import File
-from instrument.models.together import _Work, diagnose_together
+from instrument.models.files_at_work import FilesAtWork
+from instrument.models.together import diagnose_together
 from instrument.models.transfer import with_transfer
 from instrument.progress import quiet
 
@@ -26,7 +27,7 @@ def test_only_what_all_files_have_in_common_is_listed_and_changes_the_law(alike)
     given = files(alike=alike)
     # Nothing searched: as where the catalogue has explained nothing.
     before = diagnose_together(given, accept=[]).found.result
-    work = _Work(given, quiet, with_effects=True)
+    work = FilesAtWork(given, quiet, with_effects=True)
     work.used = np.split(before.used, np.cumsum([len(one.sweep) for one in given])[:-1])
     found = with_transfer(before, work)
     listed = {c.name: c for c in found.channels}

@@ -1,0 +1,43 @@
+"""Which points of files take part, and what is said of what they are worth."""
+
+import pytest
+from shear_pair_cases import pair, sweep
+
+from fitting.diagnosis.glitch import Glitch
+from instrument.models.files import File
+from instrument.models.files_at_work import FilesAtWork, SetAside
+from instrument.progress import quiet
+
+FILES = [File(sweep(pair(m), points=30), pair(m), name) for m, name in ((0.2533, "a.csv"), (0.573, "b.csv"))]
+
+
+def test_stretches_of_one_file_that_touch_are_one():
+    work = FilesAtWork(FILES, quiet, with_effects=False)
+    for one in ((1, 100.0, 120.0, 10), (1, 121.0, 130.0, 30), (1, 200.0, 210.0, 5), (2, 118.0, 125.0, 5)):
+        file, low_hz, high_hz, points = one
+        work._add(SetAside(file, Glitch(low_hz, high_hz, 1e-3 * points, 1e-4 * points), points))
+    assert [(s.file, s.glitch.low_hz, s.glitch.high_hz, s.points) for s in work.aside] == [
+        (1, 100.0, 130.0, 40),
+        (1, 200.0, 210.0, 5),
+        (2, 118.0, 125.0, 5),
+    ]
+    whole = work.aside[0]
+    assert whole.glitch.largest == 0.03
+    # By the points that each had.
+    assert whole.glitch.rms**2 * 40 == pytest.approx(10 * 1e-3**2 + 30 * 3e-3**2)
+    assert whole.words(FILES).startswith("a.csv: 100 to 130 Hz is a local disturbance (up to 3 %)")
+
+
+@pytest.mark.parametrize(
+    ("misfit", "lawless", "said"),
+    [
+        ([0.004, 0.0], False, "where a fixture resonates"),
+        ([0.004, 0.02], True, "follow no one law"),
+        ([0.3, 0.02], True, "more than any rig is off"),
+    ],
+)
+def test_what_readings_are_worth_is_said_by_its_reason(misfit, lawless, said):
+    work = FilesAtWork(FILES, quiet, with_effects=False)
+    work.misfit, work._lawless = misfit, lawless
+    assert said in work.about_misfit()
+    assert f"{100 * misfit[0]:.2g}" in work.about_misfit()
