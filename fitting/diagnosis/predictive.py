@@ -65,7 +65,7 @@ def checks(sweep: Sweep, evidence: Evidence, none: Refitted, fitted: Refitted) -
     along = evidence.whitening.along(whitened)
     t = 1 + may_leave / VERDICT.formula_shapes
     if len(along):
-        found["the plate's own error"] = float(chi2_above(along @ along / t, len(along)))
+        found["the model's own error"] = float(chi2_above(along @ along / t, len(along)))
     if fitted.stated:
         found["tolerances"] = float(chi2_above(fitted.unexplained / t, fitted.stated))
     runs, memory = along_frequency(sweep, whitened, parts=2 if evidence.has_phase else 1)

@@ -3,10 +3,10 @@
     ln(measured / predicted) = g(f) + o_file(f) + J x + noise
 
 g is common to all files, o each file's own, both complex Gaussian processes of ln f of unknown size, each the
-sum of a slow one and a fine one; x moves law and stated numbers within what is known of them. To first order
-everything is normal, so the sizes are those that make the readings likeliest, and the transfer is there where
-g makes them far likelier than o alone. Masses part it from the core: 1/T is then a straight line in the mass,
-at every frequency by itself, and g the inverse of where the line begins.
+sum of a slow one and a fine one; x moves law, stated numbers and each file's own core within what is known of
+them. To first order everything is normal, so the sizes are those that make the readings likeliest, and the
+transfer is there where g makes them far likelier than o alone. Masses part it from the core: 1/T is then a
+straight line in the mass, at every frequency by itself, and g the inverse of where the line begins.
 """
 
 from dataclasses import dataclass
@@ -21,6 +21,7 @@ from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
+from fitting.diagnosis.several import SeveralProblem
 from fitting.diagnosis.wandering import Wandering
 from fitting.identification.validation import HeldOutSegment, Validation, rms
 
@@ -57,7 +58,9 @@ class _Linear:
     r: Complex
     """ln(measured / predicted), the stated numbers and the bend taken back to what was stated."""
     by_x: Complex
-    """Changes of ln of the reading by a standard deviation of what is known of x. Shape (x, points)."""
+    """Changes of ln of the reading by a standard deviation of what is known of x. Shape (x, points).
+
+    Those of each file's own core last: `r` is as stated in them."""
     noise: Array
     t: Array
     file: NDArray[np.intp]
@@ -144,6 +147,8 @@ def _linear(
     measured = problem.sweep.response_m_s[taken]
     r = np.log(measured / v[taken]) + moved @ by
     noise = evidence.sigma_m_s[taken] / np.abs(v[taken])
+    if isinstance(problem, SeveralProblem):
+        by = np.concatenate([by, problem.own_cores(none.law, v)[:, taken]])
     return _Linear(r, by, noise, np.log(problem.sweep.frequency_hz[taken]), file[taken])
 
 

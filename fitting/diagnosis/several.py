@@ -25,7 +25,7 @@ from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid, spans_of
 from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.sharing import CHANNELS, OF_EACH_FILE, OF_EACH_PLATE, OF_EACH_SPOT, Places, shared
-from fitting.diagnosis.small_problem import BENT_MORE, SmallProblem
+from fitting.diagnosis.small_problem import BENT_MORE, LEVEL, SmallProblem
 from fitting.diagnosis.strains import Reference
 from fitting.diagnosis.unknowns import STATED_NUMBER
 from fitting.diagnosis.wandering import Wandering
@@ -168,9 +168,21 @@ class SeveralProblem(DiagnosisProblem):
             rows.append(block)
         if self.wandering is not None:
             rows.append(self.wandering.rows(np.log(self.sweep.frequency_hz), self.file_of_points, v))
+            rows.append(self.own_cores(law, v) * v)
         elif (alike := self.alike) > 0:
             rows.append(alike * np.array([v, 1j * v]))
         return np.concatenate(rows)
+
+    def own_cores(self, law: CoreLaw, v: Complex) -> Complex:
+        """What a core a little stiffer in one file than in the others does to ln of the reading, by `LEVEL`.
+
+        No two files are at one temperature. Of members that are small. Shape (members, points).
+        """
+        rows = np.zeros((len(self.members), len(v)), complex)
+        for k, (m, part) in enumerate(zip(self.members, self.starts_at, strict=True)):
+            if isinstance(m, SmallProblem):
+                rows[k, part] = LEVEL * m.feels(law_at(law, k), v[part])
+        return rows
 
     @property
     def alike(self) -> float:

@@ -50,7 +50,7 @@ class VerdictThresholds:
     memory_sigma: float = 6.0
     """Of Ljung-Box's test, the same; its tail is heavier."""
     bent_by_chance: float = 1e-4
-    """Chance that the plate's own error is as large: one clean sweep in ten thousand is called structured."""
+    """Chance that the model's own error is as large: one clean sweep in ten thousand is called structured."""
 
 
 @dataclass(frozen=True)

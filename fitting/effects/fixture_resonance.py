@@ -88,8 +88,7 @@ class LocalDisturbanceEffect(FixtureResonanceEffect):
         return "it shows in the readings themselves"
 
     def story(self, u: Mapping[str, float]) -> str:
-        of = f" of file {u['file']:.0f}" if "file" in u else ""
         return (
-            f"a local disturbance{of} from {u['from']:.0f} to {u['to']:.0f} Hz, as of a fixture's resonance, "
-            "is set aside"
+            f"a local disturbance from {u['from']:.0f} to {u['to']:.0f} Hz, as of a fixture's resonance, is "
+            "set aside"
         )

@@ -150,7 +150,9 @@ class FilesAtWork:
                 points = one.points + other.points
                 off = np.sqrt((one.points * g.rms**2 + other.points * h.rms**2) / points)
                 both = (min(g.low_hz, h.low_hz), max(g.high_hz, h.high_hz), max(g.largest, h.largest))
-                self.aside[k] = SetAside(one.file, Glitch(*both, float(off)), points)
+                del self.aside[k]
+                # What lies between two of them joins both.
+                self._add(SetAside(one.file, Glitch(*both, float(off)), points))
                 return
         self.aside.append(one)
 

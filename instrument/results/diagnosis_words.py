@@ -5,8 +5,9 @@ from itertools import groupby
 from math import isnan, nan
 
 from fitting.diagnosis.of_files import ALIKE, EACH, FILE
+from fitting.diagnosis.thresholds import VERDICT
 from instrument.facts.diagnosis import CandidateFitted, DiagnosisResult, EffectFound, ParameterFound
-from instrument.facts.rows import LawRow
+from instrument.facts.rows import LawRow, StretchSetAside
 from instrument.results.error_words import FLOOR_PERCENT, is_below_floor
 from instrument.results.standing import none_is_likelier
 
@@ -43,15 +44,23 @@ def verdict_line(found: DiagnosisResult) -> str:
 
 
 def set_aside_words(found: DiagnosisResult) -> str:
-    """The points that took no part, neighbours of the measured grid as a range."""
-    aside = set(found.set_aside_hz)
+    """The points that took no part: stretches by their file, else neighbours of the grid as a range."""
+    stretches = found.set_aside or ()
+    aside = {f for f in found.set_aside_hz if not any(s.from_hz <= f <= s.to_hz for s in stretches)}
     grid = sorted(aside.union(point.frequency_hz for point in found.points))
     runs = [list(run) for out, run in groupby(grid, aside.__contains__) if out]
     listed = [
         f"{run[0]:.4g} to {run[-1]:.4g}" if len(run) >= _RANGE else ", ".join(f"{f:.4g}" for f in run)
         for run in runs
     ]
-    return f"Set aside: {', '.join(listed)} Hz."
+    said = [f"{', '.join(listed)} Hz"] if listed else []
+    by_file = groupby(sorted(stretches, key=lambda s: (s.file, s.from_hz)), lambda s: s.name)
+    said += [(f"in {name} " if name else "") + f"{_ranges(list(its))} Hz" for name, its in by_file]
+    return f"Set aside: {'; '.join(said)}."
+
+
+def _ranges(stretches: Sequence[StretchSetAside]) -> str:
+    return ", ".join(f"{s.from_hz:.4g} to {s.to_hz:.4g}" for s in stretches)
 
 
 def _weighed(found: DiagnosisResult) -> str:
@@ -75,8 +84,13 @@ def with_verdict(title: str, found: DiagnosisResult) -> str:
 
 
 def probability_words(candidate: CandidateFitted, found: DiagnosisResult) -> str:
-    """Of an explanation, one of those tried being right; a dash where none was weighed."""
+    """Of an explanation, one of those tried being right; a dash where none was weighed.
+
+    Where nothing explains the data, what the checks refuse has none: the best of the wrong is not certain.
+    """
     p = candidate.probability
+    if found.verdict == "unknown" and any(tail < VERDICT.check_level for tail in candidate.checks.values()):
+        return "refused"
     if found.by_hand or isnan(p):
         return "-"
     if p < _LEAST:

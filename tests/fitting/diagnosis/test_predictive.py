@@ -73,7 +73,7 @@ def test_noise_and_stated_numbers_as_expected_pass():
 
 def test_every_tail_is_looked_at():
     found = checked(white(0), np.zeros(5))
-    assert set(found) == {"size", "the plate's own error", "tolerances", "signs", "memory"}
+    assert set(found) == {"size", "the model's own error", "tolerances", "signs", "memory"}
     assert all(0 <= p <= 1 for p in found.values())
     assert "tolerances" not in checked(white(0))
 
@@ -85,7 +85,7 @@ def test_every_tail_is_looked_at():
         ("signs", lambda: white(2) + 1.5 * np.sin(np.arange(6 * N) / 9), ()),
         ("memory", lambda: np.convolve(white(3), [0.6, 0.6, 0.5], "same"), ()),
         ("tolerances", lambda: white(4), np.full(20, 2.0)),
-        ("the plate's own error", lambda: white(5) + 1.2 * SEGMENTS @ np.array([1.0, -1.0, 1.0]), ()),
+        ("the model's own error", lambda: white(5) + 1.2 * SEGMENTS @ np.array([1.0, -1.0, 1.0]), ()),
     ],
 )
 def test_what_is_not_as_it_would_be_left_fails_by_name(what, left, z):

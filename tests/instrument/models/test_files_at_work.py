@@ -28,6 +28,13 @@ def test_stretches_of_one_file_that_touch_are_one():
     assert whole.words(FILES).startswith("a.csv: 100 to 130 Hz is a local disturbance (up to 3 %)")
 
 
+def test_a_stretch_between_two_joins_both():
+    work = FilesAtWork(FILES, quiet, with_effects=False)
+    for low_hz, high_hz in ((100.0, 120.0), (200.0, 240.0), (121.0, 195.0)):
+        work._add(SetAside(1, Glitch(low_hz, high_hz, 0.01, 0.001), 10))
+    assert [(s.glitch.low_hz, s.glitch.high_hz, s.points) for s in work.aside] == [(100.0, 240.0, 30)]
+
+
 @pytest.mark.parametrize(
     ("misfit", "lawless", "said"),
     [

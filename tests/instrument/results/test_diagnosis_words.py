@@ -7,6 +7,7 @@ from diagnosis_cases import diagnosis
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
 from instrument.facts.diagnosis import ParameterFound
+from instrument.facts.rows import StretchSetAside
 from instrument.results.diagnosis_figures import law_figure
 from instrument.results.diagnosis_words import (
     log_odds,
@@ -39,6 +40,14 @@ def test_nothing_was_weighed_by_hand_nor_before_there_were_probabilities():
     first = found.candidates[0]
     assert probability_words(first, found.but(by_hand=True)) == "-"
     assert probability_words(first.without("probability"), found) == "-"
+
+
+def test_what_the_checks_refuse_has_no_probability_where_nothing_explains_the_data():
+    refused = diagnosis().candidates[0].but(probability=1.0, checks={"size": 1e-9, "signs": 0.3})
+    passed = refused.but(checks={"size": 0.02, "signs": 0.3})
+    assert probability_words(refused, diagnosis(verdict="unknown")) == "refused"
+    assert probability_words(passed, diagnosis(verdict="unknown")) == "> 99.9 %"
+    assert probability_words(refused, diagnosis()) == "> 99.9 %"
 
 
 @pytest.mark.parametrize(
@@ -91,3 +100,16 @@ def test_neighbours_that_were_set_aside_are_a_range():
     used = tuple(point.but(frequency_hz=f) for f in (10.0, 50.5, 70.0))
     found = diagnosis().but(points=used, set_aside_hz=(20.0, 30.0, 40.0, 60.0, 65.0, 100.0))
     assert set_aside_words(found) == "Set aside: 20 to 40, 60, 65, 100 Hz."
+
+
+def test_stretches_of_files_are_said_by_their_file_and_not_point_by_point():
+    point = diagnosis().points[0]
+    used = tuple(point.but(frequency_hz=f) for f in (10.0, 20.1, 30.1, 70.0))
+    stretches = [
+        StretchSetAside(file=file, name=name, from_hz=low, to_hz=high, largest_percent=5.0, points=3)
+        for file, name, low, high in ((2, "b.csv", 60.0, 65.0), (1, "a.csv", 20.0, 40.0))
+    ]
+    found = diagnosis().but(
+        points=used, set_aside_hz=(20.0, 20.2, 30.0, 40.0, 60.0, 65.0, 100.0), set_aside=tuple(stretches)
+    )
+    assert set_aside_words(found) == "Set aside: 100 Hz; in a.csv 20 to 40 Hz; in b.csv 60 to 65 Hz."
