@@ -27,6 +27,11 @@ _RATIO_PERCENT = (0.003, 12.0)
 """The largest of a bare plate's modal damping ratios."""
 _KNOWN_PERCENT, _UNKNOWN_MM = 0.05, 20.0
 """A stiffness, thickness or gain is known no better; a place on a plate is not known worse."""
+_MOST_GB = 5.0
+"""What a response may take unasked: 80 x 80 elements do, six times as many as are converged. A choice."""
+_HUNDRED_SQUARE = (80.0, 8.0)
+"""What a response of 100 x 100 elements took: seconds, GB. Both go with the longer side, and with the third
+and second power of the shorter one: its lines are factorised."""
 SPOT_MM = 0.3
 """No laser's spot is so near an edge: it would be half beside it."""
 
@@ -80,7 +85,14 @@ def specimen_doubts(tables: dict[str, Any]) -> list[str]:
     found: list[str] = []
     for name, usual in wanted.items():
         found += outside(name, tables.get(name), usual)
-    return [*found, *_damping(tables), *_pickup(tables), *_tolerances(tables), *_law(tables)]
+    return [
+        *found,
+        *_damping(tables),
+        *_pickup(tables),
+        *_tolerances(tables),
+        *_law(tables),
+        *_mesh(tables),
+    ]
 
 
 def outside(place: str, table: Any, usual: dict[str, Usual]) -> Iterator[str]:
@@ -153,3 +165,21 @@ def _law(tables: dict[str, Any]) -> Iterator[str]:
             f"core.law gives |G*| = {size * 1e-6:.3g} MPa at {_FREQUENCY_HZ:g} Hz, outside {low * 1e-6:g} to "
             f"{high * 1e-6:g} MPa: are its moduli in MPa?"
         )
+
+
+def _mesh(tables: dict[str, Any]) -> Iterator[str]:
+    table = tables.get("mesh")
+    sides = [table.get(f"elements_{axis}") for axis in "xy"] if isinstance(table, dict) else []
+    if not sides or not all(isinstance(n, int) for n in sides):
+        return
+    short, long = sorted(n / 100 for n in sides)
+    seconds, gb = (at * long * short**power for at, power in zip(_HUNDRED_SQUARE, (3, 2), strict=True))
+    if gb > _MOST_GB:
+        yield (
+            f"mesh of {sides[0]} x {sides[1]} elements, a response of which takes some {_time(seconds)} and "
+            f"{gb:.2g} GB: leave [mesh] out (about 1040 elements are converged) or take fewer"
+        )
+
+
+def _time(seconds: float) -> str:
+    return f"{seconds / 60:.0f} min" if seconds > 90 else f"{seconds:.0f} s"

@@ -105,3 +105,11 @@ def test_a_number_a_unit_away_is_questioned_with_the_unit_it_would_be_usual_in(t
     question_specimen(path, insist=True)
     with pytest.raises(BadInput, match=INSIST):
         question_specimen(path)
+
+
+def test_a_mesh_that_takes_minutes_and_all_memory_is_questioned_before_any_work():
+    (doubt,) = specimen_doubts({"mesh": {"elements_x": 200, "elements_y": 200}})
+    assert doubt.startswith("mesh of 200 x 200 elements, a response of which takes some 21 min and 64 GB")
+    # Lines across a strip are short, however many there are.
+    for x, y in ((80, 80), (400, 20), (10, 10)):
+        assert specimen_doubts({"mesh": {"elements_x": x, "elements_y": y}}) == []
