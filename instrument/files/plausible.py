@@ -169,8 +169,9 @@ def _law(tables: dict[str, Any]) -> Iterator[str]:
 
 def _mesh(tables: dict[str, Any]) -> Iterator[str]:
     table = tables.get("mesh")
-    sides = [table.get(f"elements_{axis}") for axis in "xy"] if isinstance(table, dict) else []
-    if not sides or not all(isinstance(n, int) for n in sides):
+    stated = [table.get(f"elements_{axis}") for axis in "xy"] if isinstance(table, dict) else []
+    sides = [n for n in stated if isinstance(n, int)]
+    if not sides or len(sides) < len(stated):
         return
     short, long = sorted(n / 100 for n in sides)
     seconds, gb = (at * long * short**power for at, power in zip(_HUNDRED_SQUARE, (3, 2), strict=True))
