@@ -67,6 +67,7 @@ _PAIR = {
     "outer_diameter_mm": Usual(2.0, 1_000.0, "discs 10 to 100", _LENGTH),
     "area_mm2": Usual(3.0, 1e6, "discs 100 to 10 000", {"cm2": 100.0, "m2": 1e6}),
 }
+_PLACED = {"mass_kg": Usual(1e-5, 2.0, "sensors and known masses 0.0005 to 0.1", {"g": 1e-3, "mg": 1e-6})}
 _BASE = {"acceleration_m_s2": Usual(1e-3, 2_000.0, f"1 g is {PUBLISHED_G_M_S2:g}", {"mm/s^2": 1e-3})}
 
 
@@ -85,6 +86,9 @@ def specimen_doubts(tables: dict[str, Any]) -> list[str]:
     found: list[str] = []
     for name, usual in wanted.items():
         found += outside(name, tables.get(name), usual)
+    placed = tables.get("mass")
+    for mass in placed if isinstance(placed, list) else []:
+        found += outside("mass", mass, _PLACED)
     return [
         *found,
         *_damping(tables),

@@ -140,3 +140,10 @@ def test_an_optional_column_of_modes_by_another_name_is_not_passed_over(tmp_path
 def test_a_column_of_somebody_s_own_stays_in_a_table_of_modes(tmp_path, name):
     path = written(tmp_path, f"mode,frequency_hz,loss_factor,{name}\n1,10,0.2,0.1\n", "modes.csv")
     assert len(read_modal_table(path).mode) == 1
+
+
+def test_a_mass_in_grams_is_questioned():
+    assert specimen_doubts({"mass": [{"mass_kg": 0.005}, {"mass_kg": 0.4}]}) == []
+    (doubt,) = specimen_doubts({"mass": [{"mass_kg": 0.005}, {"mass_kg": 5}]})
+    assert doubt.startswith("mass.mass_kg = 5 is outside 1e-05 to 2")
+    assert doubt.endswith("is it in g?")
