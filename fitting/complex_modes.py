@@ -20,6 +20,8 @@ from fitting.real_modes import real_modes
 
 _SPARE = 4
 """Real modes kept beyond those asked for, so that the last ones are spanned too."""
+_MODULI = 3
+"""Real ones whose modes span the start: in the band's middle, softer and stiffer."""
 _STEPS = 100
 """Of either iteration, a bound: what has not settled by then is given as it is."""
 _TOLERANCE = 1e-9
@@ -76,13 +78,15 @@ def complex_modes(
     if not 0 < count <= plate.size // 2:
         raise OutsideModel(f"{count} modes asked for, expected 1 to {plate.size // 2}")
     modulus = _modulus_of(law)
-    V = _span(plate, modulus, count)
+    # A factorisation is what takes the time, of each modulus and of each mode.
+    whole = _MODULI + count
+    V = _span(plate, modulus, count, lambda done: progress(done / whole))
     K_0, K_1, M = (V.T @ (A @ V) for A in (plate.K_0, plate.K_1, plate.M))
     modes = []
     for r in range(count):
         omega, u = _fixed_point(K_0, K_1, M, modulus, r)
         modes.append(_correct(plate, modulus, omega, V @ u))
-        progress((r + 1) / count)
+        progress((_MODULI + r + 1) / whole)
     return modes
 
 
@@ -92,11 +96,14 @@ def _modulus_of(law: CoreLaw | None) -> Callable[[float], complex]:
     return lambda omega: complex(law.modulus(np.array([omega]))[0])
 
 
-def _span(plate: Plate, modulus: Callable[[float], complex], count: int) -> Array:
+def _span(
+    plate: Plate, modulus: Callable[[float], complex], count: int, done: Callable[[int], None]
+) -> Array:
     """Real modes at the moduli the law takes over the band of the modes, orthonormal. Shape (n, k)."""
     wanted = min(count + _SPARE, plate.size - 8)
     G = abs(modulus(2 * np.pi * 100.0))
     modes = real_modes(plate, G, wanted)
+    done(1)
     if G == 0:
         return modes.shapes
     ends = [abs(modulus(omega)) for omega in (modes.omega[0], modes.omega[-1])]
@@ -104,7 +111,10 @@ def _span(plate: Plate, modulus: Callable[[float], complex], count: int) -> Arra
     # A lossy core's complex shapes lie between the shapes of stiffer and softer real cores.
     spread = 1 + min(tan, 1.0)
     moduli = [min(ends) / spread, max(ends) * spread]
-    shapes = [modes.shapes, *(real_modes(plate, g, wanted).shapes for g in moduli)]
+    shapes = [modes.shapes]
+    for g in moduli:
+        shapes.append(real_modes(plate, g, wanted).shapes)
+        done(len(shapes))
     U, s, _ = la.svd(np.hstack(shapes), full_matrices=False)
     return np.asarray(U[:, s > 1e-10 * s[0]])
 

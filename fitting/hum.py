@@ -70,6 +70,8 @@ class _Deviations:
     chance: Array
     """Of as large a deviation by noise; 1 where nothing can be said."""
     stands_out: Points
+    between: Points
+    """Whether neighbours lie on both sides."""
 
 
 @dataclass(frozen=True)
@@ -87,7 +89,7 @@ class _Channels:
         follows = np.abs(self.response.relative + self.base.relative) >= np.abs(self.response.relative)
         return ~follows & (self.base.chance < self.response.chance)
 
-    def worse(self, name: Literal["chance", "stands_out"]) -> NDArray[Any]:
+    def worse(self, name: Literal["chance", "stands_out", "between"]) -> NDArray[Any]:
         """Of the channel that deviates more."""
         other = self.response if self.base is None else self.base
         return np.where(self.in_base, getattr(other, name), getattr(self.response, name))
@@ -109,7 +111,9 @@ def mains_hum(sweep: Sweep, noise: Noise) -> HumSeen | None:
     cores = {line: _core(sweep, line) for line in _lines(f)}
     tests = sum(int(core.sum()) for core in cores.values()) * (1 if now.base is None else 2)
     least = {line: float(chance[core & stands_out].min(initial=1.0)) for line, core in cores.items()}
-    if not any(p * tests < FALSE_ALARM for p in least.values()):
+    # A sweep's first and last readings may be off by how it began and ended: alone they are no hum.
+    inside = np.any(list(cores.values()), axis=0) & stands_out & now.worse("between") if cores else aside
+    if not np.any(chance[inside] * tests < FALSE_ALARM):
         return None
     seen = {line: p for line, p in least.items() if p < _ONCE_FOUND}
     mains = max(MAINS_HZ, key=lambda hz: -sum(np.log(max(p, 1e-300)) for s, p in seen.items() if s % hz == 0))
@@ -161,13 +165,14 @@ def _core(sweep: Sweep, line: float) -> Points:
 def _deviations(sweep: Sweep, reading: NDArray[Any], std: Array, aside: Points) -> _Deviations:
     count = len(sweep)
     size, relative = np.zeros((2, count), dtype=reading.dtype)
-    chance, stands_out = np.ones(count), np.zeros(count, dtype=bool)
+    chance, (stands_out, between) = np.ones(count), np.zeros((2, count), dtype=bool)
     for group in groups_of(sweep):
         found = _in_group(sweep.frequency_hz[group], reading[group], std[group], aside[group])
         if found is not None:
             size[group], relative[group] = found.size, found.relative
             chance[group], stands_out[group] = found.chance, found.stands_out
-    return _Deviations(size, relative, chance, stands_out)
+            between[group] = found.between
+    return _Deviations(size, relative, chance, stands_out, between)
 
 
 def _in_group(f: Array, v: NDArray[Any], std: Array, aside: Points) -> _Deviations | None:
@@ -197,19 +202,19 @@ def _in_group(f: Array, v: NDArray[Any], std: Array, aside: Points) -> _Deviatio
         return None
     z2 = z2 / scale2
     chance = f_above(z2 / parts, parts, _freedom(int(quiet.sum()), parts))
-    chance = np.where(_is_within(f, apart), chance, 1.0)
+    between = (apart.min(axis=1) < 0) & (apart.max(axis=1) > 0)
+    chance = np.where(between | _is_near(f, apart), chance, 1.0)
     beside = np.argsort(np.where(quiet, np.abs(f - middle[:, None]), np.inf), axis=1)[:, :_NEIGHBOURS]
     stands_out = z2 > _STANDS_OUT**2 * z2[beside].max(axis=1)
-    return _Deviations(v - curve, (v - curve) / curve, chance, stands_out)
+    return _Deviations(v - curve, (v - curve) / curve, chance, stands_out, between)
 
 
-def _is_within(f: Array, apart: Array) -> Points:
-    """Where the curve is drawn between neighbours, or reaches little beyond them, as at a sweep's end.
+def _is_near(f: Array, apart: Array) -> Points:
+    """Where the curve reaches little beyond its neighbours, if at all: a sweep's end.
 
     `apart` has shape (points, neighbours).
     """
-    between = (apart.min(axis=1) < 0) & (apart.max(axis=1) > 0)
-    return np.asarray(between | (np.abs(apart).min(axis=1) <= np.maximum(2 * _REACH_HZ, _BEYOND * f)))
+    return np.asarray(np.abs(apart).min(axis=1) <= np.maximum(2 * _REACH_HZ, _BEYOND * f))
 
 
 def _neighbours(f: Array, middle: Array, quiet: Points) -> NDArray[np.intp] | None:

@@ -22,6 +22,10 @@ _STRONG_CORRELATION = 0.99
 """Beyond, a pair's own errors are seven times what one has with the other known: a warning."""
 LOST_PERCENT = 30.0
 """Difference in amplitude beyond which a fit has not followed the data at all."""
+CORE_PA = (1e4, 2e8)
+"""G' of what is used as a core: soft gels and foams have 10 kPa, rubbers 0.3 to 10 MPa, damping polymers to
+some 100 MPa in their transition, where they damp; a glass of 1 GPa does not (the data sheets in Nashif, Jones
+and Henderson, Vibration Damping, 1985). What lies outside is nearly always a wrong unit."""
 _PULLED = 3.0
 """Tolerances that a stated number may be moved without a word."""
 _MISFIT = 1.5
@@ -111,7 +115,12 @@ def summarise(
         difference_percent=differences_percent(sweep, fit.velocity_m_s),
         validation=validation,
         band=band,
-        warnings=(*_gain_of_energy(band), *_warnings(sweep, fit, uncertainty, known), *further_warnings),
+        warnings=(
+            *_gain_of_energy(band),
+            *_beyond_cores(band),
+            *_warnings(sweep, fit, uncertainty, known),
+            *further_warnings,
+        ),
     )
 
 
@@ -182,6 +191,17 @@ def _gain_of_energy(band: LawBand) -> list[str]:
     return [
         f"the loss factor is negative ({band.loss_factor[k]:.2g} at {band.frequency_hz[k]:.3g} Hz), which no "
         "material has by itself: are phases those of e^{+i omega t}, and do both channels read alike?"
+    ]
+
+
+def _beyond_cores(band: LawBand) -> list[str]:
+    (low, high), storage = CORE_PA, band.storage_modulus_pa
+    if low <= np.median(storage) <= high:
+        return []
+    return [
+        f"G' is {1e-6 * storage.min():.3g} to {1e-6 * storage.max():.3g} MPa; cores have {1e-6 * low:g} to "
+        f"{1e-6 * high:g} MPa: are frequencies in Hz, accelerations in m/s^2, masses in kg, thicknesses in "
+        "mm, areas in mm^2, and all discs counted?"
     ]
 
 

@@ -65,7 +65,7 @@ class Step:
         match event:
             case BlockAcquired() if not self.over and event.counts.size:
                 self._hear(_Heard(event, vibrometer.scale_m_s_v if vibrometer is not None else np.nan))
-            case ShakerCommanded():
+            case ShakerCommanded() if not self.over:
                 self.commands.append(event)
                 self.last_change = event, self._end
             case RangeSet():

@@ -14,6 +14,11 @@ from instrument.files.nearest import nearest
 from instrument.files.table import Rows, number, read_rows
 from instrument.interchange.given import is_session
 
+_OPTIONAL = ("hammer", "temperature_c")
+"""Columns of a table beside its data and specimens."""
+_MEANT = 0.8
+"""How alike an unknown column is to the one that was meant."""
+
 
 def tasks_of(
     files: Sequence[Path],
@@ -64,6 +69,7 @@ def _of_table(table: Path, specimen: Path | None, hammer: Path | None) -> list[B
 
     header, rows = read_rows(table, check)
     _check_specimens(table, header, rows, specimen)
+    _check_optional(table, header)
     found = []
     for line, row in rows:
         cell = dict(zip(header, row, strict=True))
@@ -88,6 +94,18 @@ def _check_specimens(table: Path, header: list[str], rows: Rows, specimen: Path 
         return
     if not all(is_session(Path(row[header.index("data")])) for _, row in rows):
         raise BadInput(f"{table}: header: no specimen, the nearest is {near}; expected it, or --specimen")
+
+
+def _check_optional(table: Path, header: list[str]) -> None:
+    """Raise `BadInput` where a column was meant to name a hammer test or a temperature."""
+    missing = [name for name in _OPTIONAL if name not in header]
+    for name in header:
+        meant = nearest(name, missing, _MEANT) if name not in ("data", "specimen", *_OPTIONAL) else None
+        if meant is not None:
+            raise BadInput(
+                f"{table}: header: column {name} is unknown, the nearest is {meant}: expected that, or a "
+                "name that is not like it"
+            )
 
 
 def _beside(table: Path, name: str | None) -> str | None:

@@ -1,6 +1,7 @@
 """A row's work: read, identify or diagnose, and say in one line why not. The same here and on a cluster."""
 
 import os
+import traceback
 from pathlib import Path
 from typing import Any
 
@@ -59,9 +60,23 @@ def outcome_of(task: BatchTask) -> Outcome:
         except (BadInput, FittingError) as error:
             found = failure(_without_folders(task, str(error)))
         except Exception as error:  # one row is not the end of a batch
-            said = f"{type(error).__name__}: {_without_folders(task, str(error))}"
-            found = failure(f"internal error: {said} (report it)", again=True)
+            found = failure(_without_folders(task, _inside(error)), again=True)
     return {**found, "program": program()}
+
+
+def _inside(error: Exception) -> str:
+    """What to do about an exception that nothing foresaw, and what those ask for who can mend it."""
+    *_, place = traceback.extract_tb(error.__traceback__) or [None]
+    where = f" in {Path(place.filename).name}, line {place.lineno}" if place is not None else ""
+    if isinstance(error, np.linalg.LinAlgError | FloatingPointError):
+        return (
+            "the equations of this specimen and these data have no solution: are units, edges, spots and "
+            f"signs those of the files? If so, it is viscorig's fault: report both files ({error}{where})"
+        )
+    return (
+        "viscorig itself failed at this row, whatever its files say; the others stand: report both files "
+        f"({type(error).__name__}{where}: {error})"
+    )
 
 
 def failure(why: str, *, again: bool = False) -> Outcome:

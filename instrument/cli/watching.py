@@ -105,7 +105,7 @@ def said_of(event: Event) -> str | None:
         case LimitWarned():
             value, unit = shown_quantity(event.value, event.unit)
             limit, _ = shown_quantity(event.limit, event.unit)
-            return f"warning: step {event.step}: {event.what} {value:.4g} of {limit:.4g} {unit}"
+            return f"warning: {event.place}: {event.what} {value:.4g} of {limit:.4g} {unit}"
         case SoakBegan():
             goal = f"{event.set_point_c:g} °C, within {event.within_c:g} °C for {event.soak_s:g} s"
             return f"soaking at {goal}"

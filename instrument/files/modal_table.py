@@ -15,6 +15,11 @@ _OF_OTHERS = ("veloc", "accel", "displac", "recept", "mobil", "force", "storage"
 """How columns of sweeps, FRFs, records and laws begin."""
 _MEANT = 0.8
 """How alike a column is to the one that was meant."""
+_SLIP = 0.88
+"""How alike a column is to an optional one of which it is a slip; `loss_factor_fit` is a name of its own."""
+_SPREADS = frozenset(("sd", "std", "stdev", "sigma", "se", "err", "error", "unc", "uncertainty"))
+_OF_LOSS = frozenset(("loss", "eta", "damping", "tan"))
+_WARM = frozenset(("temp", "temperature"))
 _MOST = 1000
 """No test numbers so many modes. A choice."""
 
@@ -34,11 +39,35 @@ def is_modal_table(path: Path) -> bool:
 
 def _check_header(path: Path, header: list[str]) -> None:
     missing = [name for name in _MUST if name not in header]
+    unknown = [name for name in header if name not in (*_MUST, *_MAY)]
     if not missing:
+        _check_optional(path, header, unknown)
         return
-    meant = nearest(missing[0], [name for name in header if name not in (*_MUST, *_MAY)])
+    meant = nearest(missing[0], unknown)
     near = f", the nearest is {meant}" if meant is not None else ""
     raise BadInput(f"{path}: header: no {missing[0]}{near}; expected {', '.join(_MUST)} of a table of modes")
+
+
+def _check_optional(path: Path, header: list[str], unknown: list[str]) -> None:
+    """Left out in silence, a standard deviation or a temperature would give another law."""
+    for name in unknown:
+        meant = _meant_by(name)
+        if meant is not None and meant not in header:
+            raise BadInput(
+                f"{path}: header: column {name} is unknown, the nearest is {meant}: expected that, or a name "
+                "that is not like it"
+            )
+
+
+def _meant_by(name: str) -> str | None:
+    """Which optional column a name is of: a slip of the pen, or its other words."""
+    alike = nearest(name, _MAY, _SLIP)
+    if alike is not None:
+        return alike
+    words = name.lower().split("_")
+    if not _SPREADS.isdisjoint(words):
+        return "loss_factor_std" if not _OF_LOSS.isdisjoint(words) else "frequency_std_hz"
+    return "temperature_c" if words[0] in _WARM else None
 
 
 def read_modal_table(path: Path) -> ModalTable:

@@ -27,6 +27,11 @@ _RATIO_PERCENT = (0.003, 12.0)
 """The largest of a bare plate's modal damping ratios."""
 _KNOWN_PERCENT, _UNKNOWN_MM = 0.05, 20.0
 """A stiffness, thickness or gain is known no better; a place on a plate is not known worse."""
+_MOST_GB = 5.0
+"""What a response may take unasked: 80 x 80 elements do, six times as many as are converged. A choice."""
+_HUNDRED_SQUARE = (80.0, 8.0)
+"""What a response of 100 x 100 elements took: seconds, GB. Both go with the longer side, and with the third
+and second power of the shorter one: its lines are factorised."""
 SPOT_MM = 0.3
 """No laser's spot is so near an edge: it would be half beside it."""
 
@@ -62,6 +67,7 @@ _PAIR = {
     "outer_diameter_mm": Usual(2.0, 1_000.0, "discs 10 to 100", _LENGTH),
     "area_mm2": Usual(3.0, 1e6, "discs 100 to 10 000", {"cm2": 100.0, "m2": 1e6}),
 }
+_PLACED = {"mass_kg": Usual(1e-5, 2.0, "sensors and known masses 0.0005 to 0.1", {"g": 1e-3, "mg": 1e-6})}
 _BASE = {"acceleration_m_s2": Usual(1e-3, 2_000.0, f"1 g is {PUBLISHED_G_M_S2:g}", {"mm/s^2": 1e-3})}
 
 
@@ -80,7 +86,17 @@ def specimen_doubts(tables: dict[str, Any]) -> list[str]:
     found: list[str] = []
     for name, usual in wanted.items():
         found += outside(name, tables.get(name), usual)
-    return [*found, *_damping(tables), *_pickup(tables), *_tolerances(tables), *_law(tables)]
+    placed = tables.get("mass")
+    for mass in placed if isinstance(placed, list) else []:
+        found += outside("mass", mass, _PLACED)
+    return [
+        *found,
+        *_damping(tables),
+        *_pickup(tables),
+        *_tolerances(tables),
+        *_law(tables),
+        *_mesh(tables),
+    ]
 
 
 def outside(place: str, table: Any, usual: dict[str, Usual]) -> Iterator[str]:
@@ -153,3 +169,22 @@ def _law(tables: dict[str, Any]) -> Iterator[str]:
             f"core.law gives |G*| = {size * 1e-6:.3g} MPa at {_FREQUENCY_HZ:g} Hz, outside {low * 1e-6:g} to "
             f"{high * 1e-6:g} MPa: are its moduli in MPa?"
         )
+
+
+def _mesh(tables: dict[str, Any]) -> Iterator[str]:
+    table = tables.get("mesh")
+    stated = [table.get(f"elements_{axis}") for axis in "xy"] if isinstance(table, dict) else []
+    sides = [n for n in stated if isinstance(n, int)]
+    if not sides or len(sides) < len(stated):
+        return
+    short, long = sorted(n / 100 for n in sides)
+    seconds, gb = (at * long * short**power for at, power in zip(_HUNDRED_SQUARE, (3, 2), strict=True))
+    if gb > _MOST_GB:
+        yield (
+            f"mesh of {sides[0]} x {sides[1]} elements, a response of which takes some {_time(seconds)} and "
+            f"{gb:.2g} GB: leave [mesh] out (about 1040 elements are converged) or take fewer"
+        )
+
+
+def _time(seconds: float) -> str:
+    return f"{seconds / 60:.0f} min" if seconds > 90 else f"{seconds:.0f} s"

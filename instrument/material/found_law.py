@@ -23,6 +23,7 @@ from instrument.material.found_shift import FoundShift
 from instrument.material.knowledge import LawPosterior, posterior_of
 from instrument.progress import Progress, quiet
 from instrument.results.session_result import recorded_result
+from instrument.results.standing import none_leads
 from instrument.session.contents import Contents, contents_of
 from instrument.session.storage import SessionFile
 
@@ -71,16 +72,27 @@ class _Named(BaseModel):
     name: str
 
 
+class _Weighed(_Named):
+    probability: float | None = None
+
+
 class _Diagnosed(BaseModel):
     verdict: str
     after: _LawFound
     effects: list[_Named] = []
     equivalent: dict[str, list[str]] = {}
+    candidates: list[_Weighed] = []
+    by_hand: bool = False
 
     @property
     def words(self) -> str:
         """What the verdict names, and what the data cannot tell from it."""
         said = " and ".join(e.name for e in self.effects)
+        if not self.by_hand and none_leads(
+            self.equivalent, {c.name: c.probability or 0.0 for c in self.candidates}
+        ):
+            shown = [e.name for e in self.effects if e.name not in self.equivalent]
+            return f"{' and '.join(['no effect', *shown])}, not told from {' and '.join(self.equivalent)}"
         others = [n for name, group in self.equivalent.items() for n in group if n != name]
         if others:
             said += f", not told from {', '.join('no effect' if n == 'none' else n for n in others)}"

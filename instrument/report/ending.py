@@ -82,10 +82,13 @@ def _limits(contents: Contents) -> list[str]:
         if known is None or event.value > known.value:
             worst[event.what] = event
     return [
-        f"Near or over its limit: {what}, {_said(e.value, e.unit)} at step {e.step}, "
-        f"limit {_said(e.limit, e.unit)}."
+        f"Near or over its limit: {what}, {_said(e.value, e.unit)} {_at(e)}, limit {_said(e.limit, e.unit)}."
         for what, e in worst.items()
     ]
+
+
+def _at(event: LimitWarned | LimitExceeded) -> str:
+    return event.place if event.frequency_hz else f"at {event.place}"
 
 
 def _said(value: float, unit: str) -> str:

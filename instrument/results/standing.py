@@ -1,5 +1,6 @@
 """How each candidate of a diagnosis stands: found, not told from others, or other; what its law is with."""
 
+from collections.abc import Mapping, Sequence
 from itertools import product
 from math import isnan
 from typing import Literal
@@ -29,10 +30,17 @@ def standing(name: str, found: DiagnosisResult) -> Standing:
 
 def none_is_likelier(found: DiagnosisResult) -> bool:
     """Whether the likeliest is no effect, and what is named is only not excluded."""
-    if found.by_hand or not any("none" in group for group in found.equivalent.values()):
+    return not found.by_hand and none_leads(
+        found.equivalent, {c.name: c.probability for c in found.candidates}
+    )
+
+
+def none_leads(equivalent: Mapping[str, Sequence[str]], probability: Mapping[str, float]) -> bool:
+    """The same of the accepted names, each with what is not told from it, and every candidate's share."""
+    if not any("none" in group for group in equivalent.values()):
         return False
-    shares = {frozenset(c.name.split(" + ")): c.probability for c in found.candidates}
-    return shares.get(frozenset({"none"}), 0.0) > shares.get(frozenset(found.equivalent), 0.0)
+    shares = {frozenset(name.split(" + ")): p for name, p in probability.items()}
+    return shares.get(frozenset({"none"}), 0.0) > shares.get(frozenset(equivalent), 0.0)
 
 
 def law_words(found: DiagnosisResult) -> str:

@@ -15,7 +15,14 @@ from instrument.run.live_diagnosis import Diagnoser, able, diagnose_points
 from instrument.run.live_fit import Fitter, fit_points
 from instrument.session.setup import setup_of
 from instrument.session.storage import SessionFile
-from instrument.stream.derived import DiagnosisFound, FitUpdated, PointMeasured, StepsChosen
+from instrument.stream.derived import (
+    DiagnosisFound,
+    FitUpdated,
+    LimitExceeded,
+    LimitWarned,
+    PointMeasured,
+    StepsChosen,
+)
 from instrument.stream.event import Derived, Event, from_line, to_line
 from instrument.stream.raw import (
     AcquisitionBegan,
@@ -137,7 +144,9 @@ def _compare(again: Replayed, computed: Derived | None, recorded: Derived) -> No
 
 
 def _as_known_then(computed: Event, recorded: Event) -> Event:
-    """Without what a diagnosis says since, where the recording is of an older version that does not."""
+    """Without what limits and diagnoses say since, where the recording is of an older version."""
+    if isinstance(computed, LimitWarned | LimitExceeded) and getattr(recorded, "frequency_hz", None) == 0:
+        return replace(computed, frequency_hz=0.0)
     if not isinstance(computed, DiagnosisFound) or not isinstance(recorded, DiagnosisFound):
         return computed
     if computed.result is None or recorded.result is None:

@@ -20,7 +20,10 @@ from instrument.run.analysis import Analysis
 from instrument.run.control import RunControl
 from instrument.run.rig import Rig
 from instrument.run.soaking import Soaking, read_temperature
+from instrument.stepped_sine.drive import lowers_first
 from instrument.stepped_sine.plan import Action, ChoiceWanted, Plan, RangeWanted, Result, WordWanted
+from instrument.stepped_sine.settings import SweepSettings
+from instrument.stepped_sine.settling_trace import begins_at
 from instrument.stream.derived import (
     DriveRequested,
     HitJudged,
@@ -68,16 +71,16 @@ class Runner:
         analysis: Analysis,
         emit: Callable[[Event], list[Derived]],
         control: RunControl,
-        ramp_s: float,
+        settings: SweepSettings,
         choice: Callable[[int, float], StepsChosen | None] | None = None,
     ) -> None:
         """`choice` gives the choice of a number within so many seconds, for an adaptive sweep."""
         self._choice = choice
         self._rig, self._analysis, self._emit, self._control = rig, analysis, emit, control
-        self._ramp_s = ramp_s
+        self._settings = settings
         self._range: Range | None = None
         self._beaten = -1e9
-        self._drive_v = 0.0
+        self._frequency_hz = self._drive_v = 0.0
         self._acquisitions = self._samples = 0
 
     def sweep(self, part: Part, plan: Plan) -> None:
@@ -199,6 +202,8 @@ class Runner:
             if (read := read_temperature(self._rig)) is not None:
                 self._emit(read)
             self._emit(SignalLevelRead(self._rig.vibrometer.signal_level()))
+            if lowers_first(self._frequency_hz, self._drive_v, began.frequency_hz, began.drive_v):
+                self._lower(began.drive_v)
             self._emit(began)
             self._command(began.frequency_hz, began.drive_v)
             while not self._control.held:
@@ -258,11 +263,21 @@ class Runner:
         if status.interlock_open:
             raise RigStopped("shaker interlock open: close it, then begin again")
 
-    def _command(self, frequency_hz: float, drive_v: float) -> None:
+    def _lower(self, drive_v: float) -> None:
+        """Less drive at the frequency it has, and until it is there: these samples are of no step."""
+        command = self._command(self._frequency_hz, drive_v)
+        begin = begins_at(command, self._samples, self._rig.front_end.sample_rate_hz, self._settings)
+        while self._samples < begin:
+            self._read(begin - self._samples)
+
+    def _command(self, frequency_hz: float, drive_v: float) -> ShakerCommanded:
+        ramp_s = self._settings.control.ramp_s
         change = max(abs(drive_v - self._drive_v), 1e-6)
-        echo = self._rig.shaker.command(frequency_hz, drive_v, change / self._ramp_s)
-        self._drive_v = echo.drive_v
-        self._emit(ShakerCommanded(echo.sequence, frequency_hz, echo.drive_v, self._ramp_s, echo.sample))
+        echo = self._rig.shaker.command(frequency_hz, drive_v, change / ramp_s)
+        self._frequency_hz, self._drive_v = frequency_hz, echo.drive_v
+        command = ShakerCommanded(echo.sequence, frequency_hz, echo.drive_v, ramp_s, echo.sample)
+        self._emit(command)
+        return command
 
     def _set_range(self, name: str) -> None:
         if self._range is None or self._range.name != name:

@@ -135,10 +135,8 @@ class SessionRun:
             )
         )
         _clear_heartbeat_alarm(rig)
-        ramp_s = self._setup.sweep.control.ramp_s
-        runner = Runner(
-            rig, self.analysis, self._emit, self._control, ramp_s, self._sweep.choice if self._sweep else None
-        )
+        choice = self._sweep.choice if self._sweep else None
+        runner = Runner(rig, self.analysis, self._emit, self._control, self._setup.sweep, choice)
         if "hammer" in self._parts and self.analysis.damping is None:
             self._hammer(rig, runner)
             if self._sweep is not None and self.analysis.damping is not None:

@@ -1,4 +1,4 @@
-"""The limits of a step: base, response, travel. Looked at in every block, ramps included."""
+"""The limits of a step: base, response, travel. Looked at in every block that is read."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,7 +44,7 @@ class Guard:
 
     def stop(self, what: str, value: float, limit: float, unit: str, remedy: str) -> LimitExceeded:
         """The event that ends the run."""
-        return LimitExceeded(self._began.step, what, value, limit, unit, remedy)
+        return LimitExceeded(self._began.step, what, value, limit, unit, remedy, self._began.frequency_hz)
 
     def level(self, base_m_s2: float) -> list[Derived]:
         """The fitted base acceleration against the abort band around its level."""
@@ -60,4 +60,4 @@ class Guard:
         if value <= self._settings.limits.warn * limit or what in self._warned:
             return []
         self._warned.add(what)
-        return [LimitWarned(self._began.step, what, value, limit, unit)]
+        return [LimitWarned(self._began.step, what, value, limit, unit, self._began.frequency_hz)]

@@ -131,6 +131,12 @@ class PointMeasured(Derived):
         return complex(self.velocity_re_m_s, self.velocity_im_m_s)
 
 
+def _place(frequency_hz: float, step: int) -> str:
+    if frequency_hz:
+        return f"at {frequency_hz:g} Hz"
+    return f"step {step}" if step else ""
+
+
 @dataclass(frozen=True)
 class LimitWarned(Derived):
     """A quantity comes near its limit."""
@@ -140,6 +146,13 @@ class LimitWarned(Derived):
     value: float
     limit: float
     unit: str
+    frequency_hz: float = 0.0
+    """Of the step; 0 where there is none, or an older version recorded it."""
+
+    @property
+    def place(self) -> str:
+        """Where people find it: steps count loop checks and calibration too, which nobody planned."""
+        return _place(self.frequency_hz, self.step)
 
 
 @dataclass(frozen=True)
@@ -152,12 +165,19 @@ class LimitExceeded(Derived):
     limit: float
     unit: str
     remedy: str
+    frequency_hz: float = 0.0
+    """As of `LimitWarned`."""
+
+    @property
+    def place(self) -> str:
+        """As of `LimitWarned`; empty where it is of no step."""
+        return _place(self.frequency_hz, self.step)
 
     @property
     def message(self) -> str:
         """One line for people."""
         value = f"{self.value:.4g} {self.unit}".strip()
-        where = f"step {self.step}: " if self.step else ""
+        where = f"{self.place}: " if self.place else ""
         limit = f"{self.limit:.4g} {self.unit}".strip()
         return f"{where}{self.what} {value}, limit {limit}: {self.remedy}"
 

@@ -189,3 +189,22 @@ def test_a_resonance_just_beyond_a_coarse_sweep_is_no_hum():
         noise = 0.002 * np.abs(v) * (rng.normal(size=len(f)) + 1j * rng.normal(size=len(f)))
         sweep = Sweep(f, v + noise, 9.81 * ones, ones, ones, base_m_s2=9.81 * ones + 0j)
         assert found(sweep) is None
+
+
+@pytest.mark.parametrize("off", [(0,), (-1,), (0, -1)])
+def test_the_first_and_last_line_of_a_swept_sine_alone_are_no_hum(off):
+    """A swept sine begins and ends with a jump: its lines at 100 and 500 Hz have neighbours on one side."""
+    for seed in range(5):
+        sweep = measured(np.random.default_rng(seed), points=401, regions=((100, 500),), base=False)
+        velocity = sweep.velocity_m_s.copy()
+        velocity[list(off)] *= 1.3
+        assert found(replace(sweep, velocity_m_s=velocity)) is None
+
+
+def test_hum_at_a_sweeps_end_is_set_aside_where_it_shows_inside_too():
+    rng = np.random.default_rng(0)
+    sweep = measured(rng, points=401, regions=((100, 500),), base=False)
+    f = sweep.frequency_hz
+    seen = found(replace(sweep, velocity_m_s=sweep.velocity_m_s + hum(rng, f, 5e-2, dwell_s=2.0)))
+    assert {2, 10} < set(seen.multiples)
+    assert seen.points[[0, -1]].all()

@@ -230,3 +230,9 @@ def test_point_off_the_plate_is_refused(coarse_plate, point):
 def test_free_plate_has_no_base(coarse):
     with pytest.raises(OutsideModel, match="no base"):
         _ = Plate(replace(coarse, boundary="free")).base_load
+
+
+def test_progress_of_modes_is_told_from_the_first_factorisation_on(coarse):
+    told = []
+    complex_modes(Plate(coarse), coarse.core.law, 2, told.append)
+    assert told == [0.2, 0.4, 0.6, 0.8, 1.0]

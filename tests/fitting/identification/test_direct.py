@@ -10,7 +10,13 @@ from fitting.errors import TooFewPoints
 from fitting.identification import direct
 from fitting.identification.model import SweepModel
 from fitting.identification.residuals import Residuals
-from fitting.identification.result import LawBand, _gain_of_energy, differences_percent, summarise
+from fitting.identification.result import (
+    LawBand,
+    _beyond_cores,
+    _gain_of_energy,
+    differences_percent,
+    summarise,
+)
 from fitting.identification.uncertainty import uncertainty_of
 from fitting.identification.validation import Validation
 from fitting.laws.constant import ConstantModulus
@@ -256,3 +262,13 @@ def test_a_law_that_gives_energy_is_asked_about():
     assert _gain_of_energy(lossy) == []
     (said,) = _gain_of_energy(giving)
     assert said.startswith("the loss factor is negative (-0.4 at 40 Hz)")
+
+
+@pytest.mark.parametrize(("mpa", "asked"), [(0.005, True), (0.02, False), (150.0, False), (350.0, True)])
+def test_a_modulus_that_no_core_has_is_asked_about_with_its_units(mpa, asked):
+    f, one = np.array([10.0, 20.0, 40.0]), np.ones(3)
+    said = _beyond_cores(LawBand(f, 1e6 * mpa * np.array([0.6, 1.0, 1.2]), 0.3 * one, one, one))
+    assert bool(said) is asked
+    if asked:
+        assert said[0].startswith(f"G' is {0.6 * mpa:.3g} to {1.2 * mpa:.3g} MPa; cores have 0.01 to 200 MPa")
+        assert "frequencies in Hz" in said[0]

@@ -89,16 +89,45 @@ def test_a_hammer_test_is_refused_where_there_is_no_plate(folder):
     assert outcome_of(BatchTask(*files))["failed"] == said
 
 
-def test_what_fails_inside_is_said_as_such_and_warns_no_one(folder, monkeypatch, recwarn):
+@pytest.mark.parametrize(
+    ("error", "begins", "ends"),
+    [
+        (
+            np.linalg.LinAlgError("SVD did not converge"),
+            "the equations of this specimen and these data have no solution: are units, edges",
+            "(SVD did not converge in test_structures.py, line ",
+        ),
+        (
+            IndexError("list index out of range"),
+            "viscorig itself failed at this row, whatever its files say; the others stand: report both files",
+            "(IndexError in test_structures.py, line ",
+        ),
+    ],
+)
+def test_what_fails_inside_says_what_to_do_about_it_and_warns_no_one(
+    folder, monkeypatch, recwarn, error, begins, ends
+):
     def broken(task):
         np.log(np.array([-1.0]))
-        raise np.linalg.LinAlgError("SVD did not converge")
+        raise error
 
     monkeypatch.setattr(work, "_worked", broken)
     said = outcome_of(BatchTask(str(folder / "modes.csv"), str(folder / "beam.toml")))
-    assert said["failed"] == "internal error: LinAlgError: SVD did not converge (report it)"
+    assert said["failed"].startswith(begins)
+    assert ends in said["failed"]
     assert said["again"]
     assert not recwarn.list
+
+
+@pytest.mark.parametrize(
+    ("name", "meant"), [("hamer", "hammer"), ("temperature", "temperature_c"), ("Hammer", "hammer")]
+)
+def test_a_misspelt_optional_column_is_named(tmp_path, name, meant):
+    (tmp_path / "t.csv").write_text(f"data,{name},operator\na.csv,1,me\n")
+    with pytest.raises(BadInput, match=f"column {name} is unknown, the nearest is {meant}"):
+        tasks_of([tmp_path / "t.csv"], tmp_path / "b.toml")
+    (tmp_path / "t.csv").write_text("data,operator\na.csv,me\n")
+    assert tasks_of([tmp_path / "t.csv"], tmp_path / "b.toml")
 
 
 def test_a_misspelt_column_of_specimens_is_named(tmp_path):

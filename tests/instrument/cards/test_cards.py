@@ -118,6 +118,19 @@ def test_a_law_after_a_diagnosis_says_what_it_reckons_with(tmp_path, to):
 
 
 @pytest.mark.parametrize("to", FORMATS)
+def test_what_is_less_likely_than_no_effect_is_not_what_a_law_is_with(tmp_path, to):
+    """A lone pair's mass and modulus are one: its added mass is never excluded, and of 2 %."""
+    path = tmp_path / "d.json"
+    named = {"effects": [{"name": "added_mass"}], "equivalent": {"added_mass": ["added_mass", "none"]}}
+    weighed = [{"name": "none", "probability": 0.95}, {"name": "added_mass", "probability": 0.02}]
+    of_pair = {"verdict": "ambiguous", "after": facts(), "candidates": weighed, **named}
+    path.write_text(json.dumps(of_pair), encoding="utf-8")
+    assert "with: no effect, not told from added_mass" in card(path, to)
+    path.write_text(json.dumps({**of_pair, "by_hand": True}), encoding="utf-8")
+    assert "with: added_mass, not told from no effect" in card(path, to)
+
+
+@pytest.mark.parametrize("to", FORMATS)
 def test_a_law_whose_verdict_is_unknown_says_so(tmp_path, to):
     path = tmp_path / "diagnose.json"
     path.write_text(json.dumps({"verdict": "unknown", "before": {}, "after": facts()}), encoding="utf-8")

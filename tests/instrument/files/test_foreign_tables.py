@@ -105,3 +105,45 @@ def test_a_number_a_unit_away_is_questioned_with_the_unit_it_would_be_usual_in(t
     question_specimen(path, insist=True)
     with pytest.raises(BadInput, match=INSIST):
         question_specimen(path)
+
+
+def test_a_mesh_that_takes_minutes_and_all_memory_is_questioned_before_any_work():
+    (doubt,) = specimen_doubts({"mesh": {"elements_x": 200, "elements_y": 200}})
+    assert doubt.startswith("mesh of 200 x 200 elements, a response of which takes some 21 min and 64 GB")
+    # Lines across a strip are short, however many there are.
+    for x, y in ((80, 80), (400, 20), (10, 10)):
+        assert specimen_doubts({"mesh": {"elements_x": x, "elements_y": y}}) == []
+
+
+@pytest.mark.parametrize(
+    ("name", "meant"),
+    [
+        ("frequency_sd", "frequency_std_hz"),
+        ("frequency_std_Hz", "frequency_std_hz"),
+        ("frequency_error_hz", "frequency_std_hz"),
+        ("loss_factor_sd", "loss_factor_std"),
+        ("eta_std", "loss_factor_std"),
+        ("los_factor_std", "loss_factor_std"),
+        ("temperature_k", "temperature_c"),
+        ("temp_c", "temperature_c"),
+    ],
+)
+def test_an_optional_column_of_modes_by_another_name_is_not_passed_over(tmp_path, name, meant):
+    path = written(tmp_path, f"mode,frequency_hz,loss_factor,{name}\n1,10,0.2,0.1\n", "modes.csv")
+    with pytest.raises(BadInput, match=f"column {name} is unknown, the nearest is {meant}"):
+        read_modal_table(path)
+
+
+@pytest.mark.parametrize(
+    "name", ["note", "loss_factor_fit", "loss_factor_2", "frequency_fem_hz", "mode_shape"]
+)
+def test_a_column_of_somebody_s_own_stays_in_a_table_of_modes(tmp_path, name):
+    path = written(tmp_path, f"mode,frequency_hz,loss_factor,{name}\n1,10,0.2,0.1\n", "modes.csv")
+    assert len(read_modal_table(path).mode) == 1
+
+
+def test_a_mass_in_grams_is_questioned():
+    assert specimen_doubts({"mass": [{"mass_kg": 0.005}, {"mass_kg": 0.4}]}) == []
+    (doubt,) = specimen_doubts({"mass": [{"mass_kg": 0.005}, {"mass_kg": 5}]})
+    assert doubt.startswith("mass.mass_kg = 5 is outside 1e-05 to 2")
+    assert doubt.endswith("is it in g?")

@@ -9,6 +9,7 @@ from shear_pair_cases import sweep
 from fitting.laws.constant import ConstantModulus
 from fitting.specimen import Core
 from fitting.structures import ShearPair
+from fitting.structures.shear_pair import EDGE
 from instrument.models.file_remarks import remarks_on_edges, remarks_on_files, remarks_on_scale
 from instrument.models.files import File
 
@@ -46,6 +47,20 @@ def test_a_modulus_far_from_where_its_file_begins_is_asked_about(times, asked):
     assert bool(said) is asked
     if asked:
         assert f"{times:.2g} times" in said[0]
+
+
+def test_a_modulus_that_no_core_has_is_not_asked_about_twice():
+    """The fit asks; 5 MPa is where this pair's file begins."""
+    assert remarks_on_scale(PAIR, ConstantModulus(350e6, 0.3), np.array([50.0, 100.0])) == ()
+
+
+def test_discs_thicker_than_wide_are_said_to_be_beyond_what_counts_their_edges():
+    """Of the solid disc itself 4 % more gives way at 1.5 times: `test_solid_pad.py` has its size."""
+    width = EDGE * CORE.thickness_m / PAIR.softer_by_edges
+    as_wide, thicker = (replace(CORE, thickness_m=times * width) for times in (1.0, 1.5))
+    assert remarks_on_edges(replace(PAIR, edges=True, core=as_wide)) == ()
+    (said,) = remarks_on_edges(replace(PAIR, edges=True, core=thicker))
+    assert said.startswith("the discs are 1.5 times as thick as r_o - r_i")
 
 
 def edges_of(*files):

@@ -27,7 +27,7 @@ from instrument.simulated_case.structure import mounted_structure
 from instrument.stream.derived import FitUpdated
 
 SEGMENTS = {
-    "shear-pair": ((60.0, 110.0, 6), (220.0, 420.0, 11)),
+    "shear-pair": ((60.0, 110.0, 16), (220.0, 420.0, 11)),
     "beam": ((35.0, 65.0, 9),),
 }
 PAIR_LAW = "g0_mpa = 4.0"
@@ -133,6 +133,20 @@ def test_a_fits_curve_goes_through_the_points_of_its_session(pair_run, tmp_path)
         read = abs(p.velocity_m_s / p.base_m_s2) * contents.specimen.base_acceleration_m_s2
         assert point.velocity_m_s == pytest.approx(read, rel=6e-3)
         assert 0 < point.velocity_standard_error_m_s < 0.01 * point.velocity_m_s
+
+
+@pytest.mark.long
+def test_a_pair_is_driven_across_the_rigs_own_resonance_in_coarse_steps(tmp_path):
+    """The fixture's, at 162 Hz beside an anti-resonance: seven times the gain from 150 to 160 Hz."""
+    path = write_files(tmp_path, "shear-pair")
+    touching = "".join(
+        f"[[sweep.segments]]\nlow_hz = {low}\nhigh_hz = {high}\npoints = 15\n"
+        for low, high in ((60, 200), (200, 400))
+    )
+    path.write_text(path.read_text().split("sentinel = false")[0] + touching)
+    run = run_experiment(read_whole_experiment(path), tmp_path, ("sweep",), fit=no_fit)
+    assert len(run.points) == 33
+    assert all(abs(p.control_error_percent) < 1 for p in run.points)
 
 
 def test_a_dry_run_foretells_a_beam(tmp_path):

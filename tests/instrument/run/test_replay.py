@@ -1,9 +1,10 @@
 """What a replay says of a derived event that is another one than recorded."""
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from instrument.run.replay import _first_difference
+from instrument.run.replay import _as_known_then, _first_difference
+from instrument.stream.derived import LimitExceeded
 from instrument.stream.event import Derived
 
 
@@ -24,3 +25,12 @@ def test_the_innermost_place_is_named_not_the_same_begin_of_both():
 
 def test_a_plain_field_is_named_by_itself():
     assert _first_difference(found(2.0, 3), found(2.0)) == "Found.number: 1 recorded, 3 computed"
+
+
+def test_a_limit_recorded_before_it_named_its_frequency_is_as_it_was():
+    recorded = LimitExceeded(7, "velocity", 1.2, 1.0, "m/s", "lower the level")
+    computed = replace(recorded, frequency_hz=160.0)
+    assert _as_known_then(computed, recorded) == recorded
+    assert _as_known_then(computed, computed) == computed
+    assert recorded.message == "step 7: velocity 1.2 m/s, limit 1 m/s: lower the level"
+    assert computed.message.startswith("at 160 Hz: velocity 1.2 m/s")

@@ -55,6 +55,20 @@ def test_what_a_fit_counts_for_free_edges_is_what_the_solid_gives_way(thickness,
     assert counted == pytest.approx(shear_share(stated), rel=4e-3)
 
 
+@pytest.mark.parametrize(
+    ("inner", "times", "off"), [(0, 1.0, 0.013), (10, 1.0, 0.0045), (0, 1.5, 0.041), (0, 2.0, 0.091)]
+)
+def test_thick_discs_give_way_by_more_than_is_counted(inner, times, off):
+    """Up to a thickness of r_o - r_i by no more than its square, which every fit leaves open."""
+    outer = 30 if inner else 20
+    stated = PairStated(0.5, 1, 1e-3 * times * (outer - inner) / 2, 1e-3 * outer, 1e-3 * inner, 1100.0)
+    area, gyration = disc(stated.outer_m, stated.inner_m)
+    core = Core(stated.thickness_m, 0.4999, 1100.0, ConstantModulus(1e6, 0.1))
+    softer = ShearPair(0.5, 1, area, core, gyration, edges=True).softer_by_edges
+    assert (1 - softer) / shear_share(stated) - 1 == pytest.approx(off, abs=1e-3)
+    assert (off < 1.05 * softer**2) is (times <= 1)
+
+
 def test_an_edges_share_is_that_of_a_long_strip():
     """The plane problem: 12 thicknesses long, faces held, one moved along the other; both ends free."""
     length = 12.0
