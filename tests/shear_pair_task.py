@@ -29,8 +29,8 @@ class Task:
     def fits(self, *effects):
         return CandidateFits(self.begun.problem, self.begun.evidence, self.begun.none, effects)
 
-    def search(self, *effects):
-        return Search(self.begun.problem, self.begun.evidence, self.begun.none, effects, ALONE)
+    def search(self, *effects, executor=ALONE):
+        return Search(self.begun.problem, self.begun.evidence, self.begun.none, effects, executor)
 
     def diagnosed(self, *effects, **how):
         start = PAIR.core.law

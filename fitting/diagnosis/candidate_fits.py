@@ -96,12 +96,22 @@ class CandidateFits:
         freest = max(laws, key=lambda law: len(law.names))
         coarse = response_of(self.problem, [*before.effects, effect], self.problem.coarse)
         rough = refit(coarse, self.evidence, freest, before.u, tolerance=ROUGH, goal=goal)
-        return self._best_laws(before, effect, laws) if rough.chi2 < goal else []
+        if rough.chi2 >= goal:
+            return []
+        return self._best_laws(before, effect, [law for law in laws if law is not freest], [rough])
 
-    def _best_laws(self, before: Refitted, effect: Effect, laws: Sequence[CoreLaw]) -> list[Refitted]:
+    def _best_laws(
+        self,
+        before: Refitted,
+        effect: Effect,
+        laws: Sequence[CoreLaw],
+        begun: Sequence[Refitted] = (),
+    ) -> list[Refitted]:
+        """To the end; some have `begun` roughly."""
         response = response_of(self.problem, [*before.effects, effect])
         coarse = response_of(self.problem, [*before.effects, effect], self.problem.coarse)
         rough = [refit(coarse, self.evidence, law, before.u, tolerance=ROUGH) for law in laws]
+        rough += begun
         nearest = min(rough, key=lambda f: f.chi2)
         if before.chi2 - nearest.chi2 > SEARCH.least_expected:
             further = effect.following(nearest.law, before.law, self.problem.points)
@@ -201,12 +211,12 @@ class CandidateFits:
         return self.candidates[name][number].gone_on(begun, rival)
 
     def far(self, one: tuple[Form, Known]) -> Known:
-        """What is known of a form, rough fits in wide valleys among it."""
+        """Rough fits of a form in wide valleys; of what is known of it nothing else, for that is known."""
         (name, number), known = one
         candidate = self.candidates[name][number]
         candidate.learn(known)
-        _ = candidate.far
-        return candidate.known
+        far = candidate.far
+        return Known(plain=candidate.plain, far=far)
 
     def thorough(self, name: str, *, astray: bool) -> list[tuple[Form, Refitted]]:
         """The best of an effect's rough fits, but for the one that has been followed to its end.
@@ -217,15 +227,12 @@ class CandidateFits:
         gone = _best_first([(form, f) for form, c in forms for f in c.near])[:1]
         near = _best_first([(form, f) for form, c in forms for f in [*c.near, *c.elsewhere]])
         near = [one for one in near[: SEARCH.finished] if one not in gone]
-        far = _best_first([(form, f) for form, c in forms for f in c.far]) if astray else []
-        return [*near, *far[: SEARCH.finished]]
+        return [*near, *(self.from_stated(name) if astray else [])]
 
-    def from_stated(self, one: tuple[str, State]) -> list[Refitted]:
-        """In wide valleys from what is stated; the best to the end."""
-        name, state = one
-        self.learn(name, state)
-        far = _best_first([(c, f) for c in self.candidates[name] for f in c.far])
-        return [c.finished(f) for c, f in far[: SEARCH.finished]]
+    def from_stated(self, name: str) -> list[tuple[Form, Refitted]]:
+        """The best of an effect's fits in wide valleys, begun from what is stated."""
+        forms = [((name, k), c) for k, c in enumerate(self.candidates[name])]
+        return _best_first([(form, f) for form, c in forms for f in c.far])[: SEARCH.finished]
 
     def everywhere(self, one: tuple[str, State]) -> list[Refitted]:
         """From starts not followed so far; the best to the end."""

@@ -149,7 +149,7 @@ def _searched(search: Search, noise: Noise, report: Report) -> tuple[Search, lis
     singles = _bettered(singles, [one for pair in pairs[:1] for one in search.alone(pair)])
     found = [*singles, *pairs]
     best = min([search.none, *found], key=_cost)
-    scored_fits = sorted(search.at_rest(found, best), key=_cost)
+    scored_fits = sorted(search.at_rest(found, best, [search.none]), key=_cost)
     judgement = judge(
         *search.tempered(scored_fits),
         hidden=frozenset(e.name for e in search.unnamed),

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebvander
 from numpy.typing import NDArray
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Array, Complex, Places, as_slice
 from fitting.sweep import segments_by_gap
 
 HZ_A_NODE = 4.0
@@ -24,8 +24,6 @@ through evenly spaced points magnify without bound (Runge; 56 nodes from 77 poin
 _FARTHEST, _LEAST_DAMPED = 0.4, 0.25
 """A pole followed further than this from the unchanged one, or losing more of its damping (relative), is
 another mode's."""
-
-Places = NDArray[np.intp] | slice
 
 
 @dataclass(frozen=True)
@@ -136,14 +134,14 @@ class Nodes:
         poles = self._near(first, self.poles)
         moved = self._near(second, poles)
         p, q = poles[:, None] ** 2, moved[:, None] ** 2
-        size = np.abs(poles)[:, None] ** 4
+        # Times what is one over it: complex numbers divide slowly.
+        per_size = 1 / np.abs(poles)[:, None] ** 4
         found = np.zeros((*values.shape[:-1], len(self.points)), complex)
         for c in self._clusters:
             # (w^2 - p^2) (w^2 - p'^2) over |p|^4 for its every pole.
             mine = c.poles
-            at = ((c.squares - p[mine]) * (c.squares - q[mine]) / size[mine]).prod(axis=0)
+            at = ((c.squares - p[mine]) * (c.squares - q[mine]) * per_size[mine]).prod(axis=0)
             weighted = values[..., c.nodes] * at[: c.plain.shape[1]]
-            # Times what is one over them: complex numbers divide slowly.
             found[..., c.points] = (weighted @ c.plain.T) * (1 / at[c.plain.shape[1] :])
         return found
 
@@ -182,7 +180,7 @@ class Nodes:
             mine = np.flatnonzero(self.cluster[self.pole_node] == number)
             plain = self.plain[np.ix_(inside, here)].astype(complex)
             squares = np.concatenate([self.omega[here], self.points[inside]]) ** 2
-            found.append(_Cluster(_as_slice(here), _as_slice(inside), mine, plain, squares))
+            found.append(_Cluster(as_slice(here), as_slice(inside), mine, plain, squares))
         return found
 
     def _near(self, moved: Complex, otherwise: Complex) -> Complex:
@@ -190,12 +188,6 @@ class Nodes:
         far = np.abs(moved - self.poles) > _FARTHEST * np.abs(self.poles)
         lost = far | (moved.imag < _LEAST_DAMPED * self.poles.imag)
         return np.where(lost, otherwise, moved)
-
-
-def _as_slice(places: NDArray[np.intp]) -> Places:
-    """The same places; as a slice, which copies nothing, where they follow one another."""
-    together = len(places) and np.all(np.diff(places) == 1)
-    return slice(int(places[0]), int(places[-1]) + 1) if together else places
 
 
 def _smoothing(nodes: Array, points: Array, plain: Array) -> Array:

@@ -201,7 +201,7 @@ class Pairs:
 
     def _exchanged(self, pair: ScoredFit, kept: Effect) -> list[ScoredFit]:
         """Another effect, another place of the same, or another law beside the one of a pair that is kept."""
-        work, each = self._search.work, self._search.executor.each
+        work = self._search.work
         before = work.alone((pair.fitted, kept))
         gone = {*pair.names} - {kept.name}
         forms = [f for f in self._others([kept.name]) if f[0] not in gone or work.has_places(f[0])]
@@ -209,10 +209,13 @@ class Pairs:
         promising = sorted(looks, key=lambda one: -one[1][0][0])[: SEARCH.exchanged]
         promising.sort(key=lambda one: not work.has_places(one[0][0]))
         goal = work.goal(pair.fitted)
-        fits = each(work.second, [(before, form, starts, goal) for form, starts in promising])
         laws = [(before, e.name, goal) for e in self._search.effects if e.replaces_law]
-        bent = [f for found in each(work.other_laws_beside, laws) for f in found]
-        return [self._search.judged(f) for f in [*(f for f in fits if f is not None), *bent]]
+        # Those that take longest come first: hands then end at the same time.
+        calls: list[Call] = [(work.other_laws_beside, one) for one in laws]
+        calls += [(work.second, (before, form, starts, goal)) for form, starts in promising]
+        found = list(self._search.executor.together(calls))
+        fits = [f for f in found[len(laws) :] if f is not None]
+        return [self._search.judged(f) for f in [*fits, *(f for bent in found[: len(laws)] for f in bent)]]
 
 
 def _with_a_say(begun: Sequence[list[Refitted]]) -> list[list[Refitted]]:

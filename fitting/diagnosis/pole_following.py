@@ -71,19 +71,15 @@ class KnownPoles:
     def _apart(self, moved: Matrices) -> tuple[Complex, Complex]:
         """What the modes of each cluster make of it, by Ritz: (A + p B - p^2 C) s = 0."""
         K_0, K_1, M, C_1 = self.modes @ moved @ self.modes.T
-        p, y = np.empty_like(self.at), self.modes.copy()
-        for number in set(self.cluster.tolist()):
+        still, slope = self.modulus.G - self.modulus.slope * self.modulus.omega, self.modulus.slope
+        # Each by itself first: most are alone.
+        a, b, c, d = (np.diagonal(one) for one in (K_0, K_1, M, C_1))
+        p, y = _forward(a + still * b, slope * b + 1j * d, c), self.modes.copy()
+        for number in np.flatnonzero(np.bincount(self.cluster) > 1):
             mine = np.flatnonzero(self.cluster == number)
-            omega, G, slope = (
-                w[mine[len(mine) // 2]] for w in (self.modulus.omega, self.modulus.G, self.modulus.slope)
-            )
-            here = np.ix_(mine, mine)
-            A = K_0[here] + (G - slope * omega) * K_1[here]
-            B, C = slope * K_1[here] + 1j * C_1[here], M[here]
-            if len(mine) == 1:
-                p[mine] = _forward(A[0], B[0], C[0])
-                continue
-            found, s = _quadratic(A, B, C)
+            here, middle = np.ix_(mine, mine), mine[len(mine) // 2]
+            A = K_0[here] + still[middle] * K_1[here]
+            found, s = _quadratic(A, slope[middle] * K_1[here] + 1j * C_1[here], M[here])
             was, now = linear_sum_assignment(np.abs(self.at[mine][:, None] - found))
             p[mine[was]], y[mine[was]] = found[now], s[now] @ self.modes[mine]
         return p, y
@@ -101,7 +97,9 @@ def _quadratic(A: Complex, B: Complex, C: Complex) -> tuple[Complex, Complex]:
     Shapes (m, m) to (m,) and (m, m).
     """
     m = len(A)
-    companion = np.vstack([np.eye(m, 2 * m, k=m), np.linalg.solve(C, np.hstack([A, B]))])
+    companion = np.zeros((2 * m, 2 * m), complex)
+    companion[range(m), range(m, 2 * m)] = 1.0
+    companion[m:] = np.linalg.solve(C, np.concatenate([A, B], axis=1))
     values, vectors = np.linalg.eig(companion)
     forward = np.argsort(values.real)[m:]
     return values[forward], np.asarray(vectors[:m, forward].T)
@@ -111,21 +109,24 @@ def _rayleigh_iterated(
     moved: Matrices, y: Complex, p: Complex, modulus: ModulusNear
 ) -> tuple[Complex, Complex]:
     """Better p and y by Rayleigh's quotient iteration from guesses. Shapes (poles,) and (poles, k)."""
-    M = moved[2]
-    energies = _energies(moved, y)
+    energies, forces = _energies(moved, y)
     for _ in range(_STEPS):
         square = _rayleigh(energies, p, modulus) * (1 + _OFF)
         A = dynamic_stiffness(moved, p, modulus.at(p), square)
-        turned = np.linalg.solve(A, (y @ M)[:, :, None])[:, :, 0]
+        turned = np.linalg.solve(A, forces[2][:, :, None])[:, :, 0]
         y = np.asarray(turned / np.linalg.norm(turned, axis=1)[:, None], dtype=complex)
-        energies = _energies(moved, y)
+        energies, forces = _energies(moved, y)
         p = np.sqrt(_rayleigh(energies, p, modulus))
     return np.sqrt(_rayleigh(energies, p, modulus)), y
 
 
-def _energies(moved: Matrices, y: Complex) -> Complex:
-    """Y^T N y of each of the matrices. Shapes (4, k, k) and (poles, k) to (4, poles)."""
-    return np.asarray(((y @ moved) * y).sum(axis=2))
+def _energies(moved: Matrices, y: Complex) -> tuple[Complex, Complex]:
+    """Y^T N y and N y of each of the matrices.
+
+    Shapes (4, k, k) and (poles, k) to (4, poles) and (4, poles, k).
+    """
+    forces = y @ moved
+    return (forces * y).sum(axis=2), forces
 
 
 def _rayleigh(energies: Complex, p: Complex, modulus: ModulusNear) -> Complex:

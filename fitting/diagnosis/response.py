@@ -45,8 +45,13 @@ class SweepResponse:
         grid: NodeGrid | None = None,
         plate: EnrichedReducedPlate | None = None,
         reference: Reference | None = None,
+        *,
+        every: bool = False,
     ) -> None:
-        """Where they are at hand: `plate`, as far as these effects need it, and softening's `reference`."""
+        """Where they are at hand: `plate`, as far as these effects need it, and softening's `reference`.
+
+        `every`: derivatives to unknowns that a fit leaves alone too; else they are zero.
+        """
         self.problem, self.effects, self.nuisances = problem, tuple(effects), problem.nuisances
         self.apart = True
         self._unknowns = Unknowns(len(self.nuisances), self.effects)
@@ -60,7 +65,9 @@ class SweepResponse:
         self._pitching = [k for k, e in enumerate(self.effects) if type(e).pitch is not Effect.pitch]
         self._shifting = [k for k, e in enumerate(self.effects) if type(e).modulus is not Effect.modulus]
         each = self._unknowns.slices
-        self._moving_it = [n for k in self._changing for n in range(each[k].start, each[k].stop)]
+        self._fitted = [n for n, q in enumerate(self.parameters) if every or not q.fixed]
+        moving_it = [n for k in self._changing for n in range(each[k].start, each[k].stop)]
+        self._moving_it = [n for n in moving_it if n in self._fitted]
         grid = grid or problem.fine
         if self._shifting and (self._changing or self._pitching or not self.nuisances.change_nothing):
             # The modulus is another one in every pass.
@@ -82,11 +89,15 @@ class SweepResponse:
         at = self._with_slopes(law, u)
         by_law = self._modulus_by_law(law, u) * (at.plate.slope * at.per_x)
         count = len(self.nuisances)
-        by_z = self._by_stated(at) if count else []
-        by_u = [self._by(k, law, u, at) for k in range(count, len(self.parameters))]
-        raw = np.array([*by_law, *by_z, *by_u]).reshape(-1, len(at.raw))
+        by_z = self._by_stated(at) if count else np.zeros((0, len(at.raw)))
+        of_effects = [k for k in self._fitted if k >= count]
+        raw = np.zeros((len(by_law) + len(self.parameters), len(at.raw)), complex)
+        raw[: len(by_law)] = by_law
+        raw[len(by_law) : len(by_law) + count] = by_z
+        for k in of_effects:
+            raw[len(by_law) + k] = self._by(k, law, u, at)
         moved = self._channels.along(at.raw, at.v, raw, u)
-        for k in range(count, len(self.parameters)):
+        for k in of_effects:
             moved[len(by_law) + k] += self._channels.by(k, at.raw, u)
         if count:
             by_reading = self.nuisances.by_reading(at.v, self.problem.points.omega, u[self._unknowns.stated])
@@ -329,12 +340,12 @@ class SweepResponse:
             found = found + at.per_x * at.plate.slope * dG
         return found
 
-    def _by_stated(self, at: "_At") -> list[Complex]:
+    def _by_stated(self, at: "_At") -> Complex:
         """Of the velocity before the channels to each stated number."""
         assert at.plate.by is not None
         stated = slice(0, len(self.nuisances))
         by = at.plate.by.heave[stated]
-        return list(at.per_x * (by + at.pitch * at.plate.by.turned[stated] if self._pitching else by))
+        return np.asarray(at.per_x * (by + at.pitch * at.plate.by.turned[stated] if self._pitching else by))
 
 
 @dataclass(frozen=True)

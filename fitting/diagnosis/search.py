@@ -9,7 +9,7 @@ from fitting.arrays import Array
 from fitting.diagnosis.candidate_fits import CandidateFits
 from fitting.diagnosis.candidates import CandidateFit, has_place
 from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.executor import Executor
+from fitting.diagnosis.executor import Call, Executor
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.predictive import checks, form_error, most_unrefused, passes, temper
 from fitting.diagnosis.problem import DiagnosisProblem
@@ -119,9 +119,14 @@ class Search:
 
     def validate(self, scored_fits: Sequence[ScoredFit]) -> None:
         """Validations to come, side by side."""
-        new = [t for t in scored_fits if id(t) not in self._validations]
-        said = self.executor.each(self.work.held_out, [t.fitted for t in new])
-        self._validations |= {id(t): (t, v) for t, v in zip(new, said, strict=True)}
+        new = self._not_validated(scored_fits)
+        self._learn_validations(new, self.executor.each(self.work.held_out, [t.fitted for t in new]))
+
+    def _not_validated(self, scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
+        return [t for t in scored_fits if id(t) not in self._validations]
+
+    def _learn_validations(self, scored_fits: Sequence[ScoredFit], said: Iterable[Validation]) -> None:
+        self._validations |= {id(t): (t, v) for t, v in zip(scored_fits, said, strict=True)}
 
     def validation(self, scored: ScoredFit) -> Validation:
         """What a trial says of data it has not seen."""
@@ -138,10 +143,19 @@ class Search:
         begun = [([e], pair.law, np.concatenate([pair.z, pair.of(e)])) for e in pair.effects]
         return [self.judged(f) for f in self.executor.each(self.work.fitted, begun)]
 
-    def at_rest(self, scored_fits: Sequence[ScoredFit], best: ScoredFit) -> list[ScoredFit]:
-        """What may be in one group with `best` followed to its very end, the others as they are."""
-        asked = [(self.work.at_rest, fitted) for fitted in self.moving(scored_fits, best)]
-        self.rested([f for _, f in asked], self.executor.together(asked))
+    def at_rest(
+        self, scored_fits: Sequence[ScoredFit], best: ScoredFit, validated: Sequence[ScoredFit] = ()
+    ) -> list[ScoredFit]:
+        """What may be in one group with `best` followed to its very end, the others as they are.
+
+        Meanwhile some are `validated`: neither needs to know of the other.
+        """
+        moving, new = self.moving(scored_fits, best), self._not_validated(validated)
+        calls: list[Call] = [(self.work.at_rest, fitted) for fitted in moving]
+        calls += [(self.work.held_out, t.fitted) for t in new]
+        found = list(self.executor.together(calls))
+        self.rested(moving, found[: len(moving)])
+        self._learn_validations(new, found[len(moving) :])
         return [self._at_its_end(t) for t in scored_fits]
 
     def moving(self, scored_fits: Sequence[ScoredFit], best: ScoredFit) -> list[Refitted]:

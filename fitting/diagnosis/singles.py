@@ -24,8 +24,8 @@ class Singles:
         self._effects = {e.name: e for e in search.beside_the_law}
         self._laws = [e.name for e in search.effects if e.name not in self._effects]
         self._settled = False
-        self._finished = set[Refitted]()
-        """Rough fits that have been followed to their end."""
+        self._finished = dict[Refitted, float]()
+        """Rough fits that have been followed to their end, and the chi-square they had to come down to."""
 
     def best(self) -> list[ScoredFit]:
         """One trial of each effect, best first."""
@@ -48,9 +48,9 @@ class Singles:
             begun = self._each(work.begun, [(n, work.state(n)) for n in first], self._part(0.1, 0.1))
             self._begin(begun)
             self._finish([f for t in self._order()[:1] for f in self._near(t)])
-            again = [(n, work.state(n)) for t in self._order()[:1] if self._leans(t) for n in t.names]
-            for fits in self._each(work.from_stated, again):
-                self._keep(fits)
+            again = [n for t in self._order()[:1] if self._leans(t) for n in t.names]
+            self._look_far(again)
+            self._to_the_end([(form, f, np.inf) for n in again for form, f in work.from_stated(n)])
         if not self._settle(self._part(0.2, 0.2)):
             left = [n for n in (*self._laws, *self._effects) if n not in first]
             self._begin(self._each(work.begun, [(n, work.state(n)) for n in left], self._part(0.2, 0.2)))
@@ -62,8 +62,8 @@ class Singles:
             some, left = (left[: SEARCH.at_a_time], left[SEARCH.at_a_time :]) if astray else (left, [])
             self._look_around(some, astray=astray)
             best = [one for name in some for one in work.thorough(name, astray=astray)]
-            tasks = [(form, rough, self._goal(rough) if astray else np.inf) for form, rough in best]
-            self._keep(self._each(work.finished, tasks, self._part(0.7, 0.1)))
+            asked = [(form, rough, self._goal(rough) if astray else np.inf) for form, rough in best]
+            self._to_the_end(asked, self._part(0.7, 0.1))
             if astray and self._settle(self._part(0.8, 0.1)):
                 break
 
@@ -75,9 +75,15 @@ class Singles:
             found.setdefault(form, []).append(fitted)
         for (name, number), fits in found.items():
             work.candidates[name][number].learn(Known(elsewhere=sorted(fits, key=lambda f: f.chi2)))
-        forms = [((name, k), known) for name in names for k, known in enumerate(work.state(name))]
-        wide = forms if astray else []
-        for ((name, number), _), known in zip(wide, self._each(work.far, wide), strict=True):
+        if astray:
+            self._look_far(names)
+
+    def _look_far(self, names: Sequence[str]) -> None:
+        """Rough fits of some effects in wide valleys."""
+        work = self._work
+        each = [((name, k), known) for name in names for k, known in enumerate(work.state(name))]
+        forms = [one for one in each if one[1].far is None]
+        for ((name, number), _), known in zip(forms, self._each(work.far, forms), strict=True):
             work.candidates[name][number].learn(known)
 
     def _followed(self, asked: Sequence[tuple[Form, Start, float]]) -> list[Refitted]:
@@ -130,8 +136,14 @@ class Singles:
     def _finish(self, rough: Iterable[tuple[Form, Refitted]], report: Report = lambda fraction: None) -> None:
         """What may come near to what explains everything, if anything does, followed to its end, once."""
         new = {f: form for form, f in rough if f not in self._finished and f.may_reach(self._goal(f))}
-        self._finished |= new.keys()
-        tasks = [(form, f, self._goal(f)) for f, form in new.items()]
+        self._to_the_end([(form, f, self._goal(f)) for f, form in new.items()], report)
+
+    def _to_the_end(
+        self, asked: Iterable[tuple[Form, Refitted, float]], report: Report = lambda fraction: None
+    ) -> None:
+        """Rough fits, each with its goal as `refit` takes it; none again that has gone as far."""
+        tasks = [one for one in asked if one[2] > self._finished.get(one[1], -np.inf)]
+        self._finished |= {f: goal for _, f, goal in tasks}
         self._keep(self._each(self._work.finished, tasks, report))
 
     def _goal(self, rough: Refitted) -> float:

@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Array, Complex, as_slice
 from fitting.dynamic_stiffness import dynamic_stiffness, stacked
 from fitting.effects.change import Change
 from fitting.effects.combined_columns import AllCombined, OwnCombined, own_and_beside
@@ -199,7 +199,7 @@ class EnrichedReducedPlate:
         kept = size > left_out / max(1.0, len(sides) / 2) * size[0]
         V = V[:, kept]
         rest = np.flatnonzero(self.group != "plate")
-        on = OwnCombined(V, _as_slice(own), _as_slice(rest))
+        on = OwnCombined(V, as_slice(own), as_slice(rest))
         group = np.concatenate([np.full(V.shape[1], "plate"), self.group[rest]])
         return replace(self._with(on, group), shares=size[kept])
 
@@ -273,7 +273,7 @@ class EnrichedReducedPlate:
     def stack(self, prefix: str) -> Array:
         """Matrices whose names begin so, in order. Shape (count, k, k)."""
         if prefix not in self._stacks:
-            self._stacks[prefix] = self.matrices[_as_slice(_starting(self.names, (prefix,)))]
+            self._stacks[prefix] = self.matrices[as_slice(_starting(self.names, (prefix,)))]
         return self._stacks[prefix]
 
     @cached_property
@@ -346,12 +346,6 @@ def _squares(stack: Array, columns: NDArray[np.intp]) -> Array:
     k, n = stack.shape[-1], len(columns)
     places = (k * columns[:, None] + columns).ravel()
     return np.asarray(np.take(stack.reshape(-1, k * k), places, axis=1).reshape(-1, n, n))
-
-
-def _as_slice(places: NDArray[np.intp]) -> slice | NDArray[np.intp]:
-    """The same places; as a slice, which copies nothing, where they follow one another."""
-    together = len(places) and np.all(np.diff(places) == 1)
-    return slice(int(places[0]), int(places[-1]) + 1) if together else places
 
 
 def _starting(names: Names, prefixes: tuple[str, ...]) -> NDArray[np.intp]:

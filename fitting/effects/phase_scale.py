@@ -1,10 +1,12 @@
 """The phase meter's scale is off: phases come out a few percent too large or too small."""
 
 from collections.abc import Mapping
+from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Array, Complex, Places, as_slice
 from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 
@@ -56,12 +58,26 @@ def continuous_phase(v: Complex, omega: Array) -> Array:
 
     Shapes (points,) of `omega`, (..., points) of `v`.
     """
-    order = np.argsort(omega, kind="stable")
-    gaps = np.flatnonzero(np.diff(np.log(omega[order])) > _GAP) + 1
-    phase = np.empty(v.shape)
-    for here in np.split(order, gaps):
-        found = np.unwrap(np.angle(v[..., here]))
-        largest = np.argmax(np.abs(v[..., here]), axis=-1, keepdims=True)
-        peak = np.take_along_axis(found, largest, axis=-1)
-        phase[..., here] = found - 2 * np.pi * np.ceil((peak - _HIGHEST) / (2 * np.pi))
+    order, segments = _upwards(omega.tobytes())
+    angle, size, phase = np.angle(v[..., order]), np.abs(v[..., order]), np.empty(v.shape)
+    found = angle.copy()
+    # Whole turns between segments are no matter: a segment's own follow from its peak.
+    found[..., 1:] -= 2 * np.pi * np.cumsum(np.round(np.diff(angle) / (2 * np.pi)), axis=-1)
+    for here in segments:
+        largest = np.argmax(size[..., here], axis=-1, keepdims=True)
+        peak = np.take_along_axis(found[..., here], largest, axis=-1)
+        found[..., here] -= 2 * np.pi * np.ceil((peak - _HIGHEST) / (2 * np.pi))
+    phase[..., order] = found
     return phase
+
+
+@lru_cache(maxsize=32)
+def _upwards(omega: bytes) -> tuple[Places, list[slice]]:
+    """The order of frequencies in rad/s, and where each segment lies in it.
+
+    Kept: every step of a fit asks for the same ones.
+    """
+    known = np.frombuffer(omega)
+    order = np.argsort(known, kind="stable")
+    gaps = np.flatnonzero(np.diff(np.log(known[order])) > _GAP) + 1
+    return as_slice(order), [slice(a, b) for a, b in pairwise([0, *gaps.tolist(), len(known)])]

@@ -206,7 +206,7 @@ class Expecting:
             longer = sum(e.longer_m(fitted.u[p]) for e, p in zip(effects, places, strict=True))
             effects = [*effects, further.mass]
             u = np.concatenate([u, further.mass.unknowns_on(member.plate.length_m, longer)])
-        every, by_every = SweepResponse(member, effects).with_derivatives(fitted.law, u)
+        every, by_every = SweepResponse(member, effects, every=True).with_derivatives(fitted.law, u)
         v, dv = every[further.at], by_every[:, further.at]
         column = np.cumsum(fitted.free) - 1 + n
         by = np.zeros((n + int(fitted.free.sum()), len(v)), complex)

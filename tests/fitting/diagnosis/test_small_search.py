@@ -9,6 +9,7 @@ from shear_pair_task import GAIN, HIGH, LAW, MASS, Task
 from fitting.diagnosis.candidate_fits import CandidateFits
 from fitting.diagnosis.candidates import Known
 from fitting.diagnosis.diagnose import seen_in_channels
+from fitting.diagnosis.executor import Executor
 from fitting.diagnosis.singles import Singles
 from fitting.effects.base import ChannelFinding, Effect
 from fitting.errors import OutsideModel
@@ -128,6 +129,40 @@ def test_a_rough_fit_that_leads_and_was_on_its_way_is_followed_to_its_end_once(h
     Singles(high.search(MASS, GAIN), lambda fraction: None).best()
     assert len({id(f) for f in followed}) == len(followed)
     assert (GAIN,) in {f.effects for f in followed}
+
+
+def test_what_has_been_followed_to_a_goal_is_followed_again_only_to_an_easier_one(high, monkeypatch):
+    asked, plain = [], CandidateFits.finished
+
+    def finished(self, one):
+        asked.append(one[2])
+        return plain(self, one)
+
+    monkeypatch.setattr(CandidateFits, "finished", finished)
+    search = high.search(GAIN)
+    singles = Singles(search, lambda fraction: None)
+    search.work.begun(("gain_error", search.work.state("gain_error")))
+    ((form, rough),) = search.work.best_near("gain_error")
+    for goal in (rough.chi2, 0.9 * rough.chi2, rough.chi2, np.inf, rough.chi2):
+        singles._to_the_end([(form, rough, goal)])
+    assert asked == [rough.chi2, np.inf]
+
+
+def test_a_fit_says_what_it_makes_of_unseen_data_while_others_come_to_their_end(high):
+    class Counting(Executor):
+        def together(self, calls, report=lambda fraction: None):
+            asked.append([do.__name__ for do, _ in calls])
+            return super().together(calls, report)
+
+    asked = []
+    search = high.search(GAIN, executor=Counting())
+    (best,) = Singles(search, lambda fraction: None).best()
+    asked.clear()
+    search.at_rest([best], best, [search.none])
+    assert asked == [["at_rest", "held_out"]]
+    assert search.validation(search.none) == search.work.held_out(search.none.fitted)
+    search.at_rest([best], best, [search.none])
+    assert asked[1:] == [[]]
 
 
 def test_of_a_clean_sweep_no_single_effect_is_worth_more_than_none(clean):

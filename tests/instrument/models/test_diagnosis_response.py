@@ -10,6 +10,7 @@ from fitting.diagnosis.plate_answer import answer
 from fitting.diagnosis.response import SweepResponse
 from fitting.effects import CATALOGUE
 from fitting.effects.temperature_drift import C_1, C_2_K
+from fitting.planning.known_mass import KnownMass
 from instrument.files.sweep_file import read_sweep
 from instrument.models.set_up import set_up
 from tests.conftest import DATA
@@ -68,3 +69,18 @@ def test_a_core_that_warms_on_a_root_that_yields(once_up, make):
         up, down = (response.velocity(law, u + np.array([0, s * h, 0])) for s in (1, -1))
         slope = (up - down) / (2 * h)
         assert np.abs(by[len(law.names) + 1] - slope).max() < 0.02 * np.abs(slope).max()
+
+
+def test_what_a_fit_leaves_alone_has_no_derivative_unless_it_is_asked_for(once_up):
+    with threadpool_limits(1, "blas"):
+        problem = set_up(once_up, plate_of_the_rig()).problem
+        law, mass = problem.stated_law, KnownMass(3e-3, (0.25, 0.12), 0.01, 1e-3)
+        (v, by), (same, every) = (
+            SweepResponse(problem, [mass], every=every).with_derivatives(law, mass.values)
+            for every in (False, True)
+        )
+    free = len(law.names) + 1
+    assert np.array_equal(v, same)
+    assert by[:free] == pytest.approx(every[:free], rel=1e-9)
+    assert np.all(by[free:] == 0)
+    assert np.all(np.abs(every[free:]).max(axis=1) > 0)
