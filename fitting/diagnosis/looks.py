@@ -23,6 +23,8 @@ _SMALL = 0.02
 """Of a start's strength: there every effect is linear."""
 _LEAST_BEND, _ALMOST = 30.0, 0.5
 """Chi-square that a step leaves where its bend is in the way; its share of what is felt. A choice."""
+_NEXT_TO = 0.06
+"""In ln f: frequencies that are no further apart are one place. Three steps of a fixture's grid; a choice."""
 _LARGEST = 20.0
 """Times a start's strength: no step is trusted further. A choice."""
 
@@ -61,8 +63,8 @@ def promising(
 ) -> list[Start]:
     """The same of the last effect of `response`; `plain` is without it. Its own starts are the default.
 
-    Of its own starts a small step is looked at too where one of full size is almost the law's work: it bends, and
-    what nobody else does is then lost in the bend.
+    Of its own starts a small step is looked at too where one of full size is almost the law's work: it bends,
+    and what nobody else does is then lost in the bend.
 
     Shapes: `points` (points,) each; `starts` (parameters,) each.
     """
@@ -78,7 +80,20 @@ def promising(
         slope = slopes(response, before.law, before.u, small, v)
         told = [step.scaled(u, step.felt_of_slope(u, m)) for u, m in zip(small, slope, strict=True)]
         found += [one for one in told if one is not None and one[0] > SEARCH.least_promise]
-    return sorted((one for one in found if one is not None), key=lambda f: -f[0])
+    return _apart(effect, sorted((one for one in found if one is not None), key=lambda f: -f[0]))
+
+
+def _apart(effect: Effect, starts: Sequence[Start]) -> list[Start]:
+    """Starts, best first, in the order in which they are followed: those that lead their neighbours first.
+
+    Of frequencies next to each other all go where the one goes that promises most.
+    """
+    place = [q.neutral is None and q.logarithmic and not q.fixed for q in effect.parameters]
+    if not any(place):
+        return list(starts)
+    ln = np.log([u[place.index(True)] for _, u in starts])
+    led = [bool(np.any(np.abs(ln[:k] - x) < _NEXT_TO)) for k, x in enumerate(ln)]
+    return [starts[k] for k in np.argsort(led, kind="stable")]
 
 
 def _directions(effect: Effect, starts: Sequence[Array]) -> list[Array]:

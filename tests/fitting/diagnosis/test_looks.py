@@ -77,3 +77,37 @@ def test_a_small_bend_a_second_step_takes_off(bent):
     (first, _), (again, _) = bent(bend=5.0)[0], bent(bend=5.0, again=True)[0]
     assert first < 4
     assert again > 20
+
+
+class Humming(Effect):
+    """A gain at one frequency; its starts are dense."""
+
+    name = "humming"
+    parameters = (
+        EffectParameter("frequency", "Hz", 1.0, 100.0, 10.0, logarithmic=True, neutral=None),
+        EffectParameter("size", "1", -9.0, 9.0, 1.0),
+    )
+
+    def starts(self, plate, points):
+        return [np.array([f, 1.0]) for f in (10.0, 10.3, 10.6, 10.9, 30.0)]
+
+
+class HummingResponse:
+    """Every start is heard by itself, the lowest frequencies most plainly."""
+
+    effects, plate = (Humming(),), None
+
+    def velocity(self, law, u):
+        heard = {10.0: 1.0, 10.3: 0.9, 10.6: 0.8, 10.9: 0.7, 30.0: 0.6}
+        return np.array([u[1] * heard[u[0]] if len(u) else 0.0, u[1] if len(u) else 0.0, 0.0], complex)
+
+
+def test_of_frequencies_next_to_each_other_one_is_followed_first(monkeypatch):
+    monkeypatch.setattr(looks, "response_of", lambda *_: HummingResponse())
+    evidence = Evidence(np.zeros(3, complex), np.ones(3), np.ones(3), np.zeros((6, 1)), True)
+    before = SimpleNamespace(
+        effects=(), law=None, u=np.empty(0), residuals=np.array([-9.0, 0, 0, 0, 0, 0]), feels=np.zeros((6, 0))
+    )
+    found = look(SimpleNamespace(coarse=None, points=None), evidence, before, Humming())
+    assert [u[0] for _, u in found] == [10.0, 30.0, 10.3, 10.6, 10.9]
+    assert found[1][0] < found[4][0]
