@@ -84,16 +84,18 @@ def promising(
 
 
 def _apart(effect: Effect, starts: Sequence[Start]) -> list[Start]:
-    """Starts, best first, in the order in which they are followed: those that lead their neighbours first.
+    """Starts, best first, as they are followed: by turns one that leads its neighbours and one that is led.
 
-    Of frequencies next to each other all go where the one goes that promises most.
+    Of frequencies next to each other most go where the one goes that promises most, not all.
     """
     place = [q.neutral is None and q.logarithmic and not q.fixed for q in effect.parameters]
     if not any(place):
         return list(starts)
     ln = np.log([u[place.index(True)] for _, u in starts])
-    led = [bool(np.any(np.abs(ln[:k] - x) < _NEXT_TO)) for k, x in enumerate(ln)]
-    return [starts[k] for k in np.argsort(led, kind="stable")]
+    led = np.array([np.any(np.abs(ln[:k] - x) < _NEXT_TO) for k, x in enumerate(ln)], bool)
+    # The first, the second, ... of its kind.
+    turn = np.where(led, np.cumsum(led), np.cumsum(~led))
+    return [starts[k] for k in np.lexsort((led, turn))]
 
 
 def _directions(effect: Effect, starts: Sequence[Array]) -> list[Array]:

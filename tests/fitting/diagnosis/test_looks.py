@@ -102,12 +102,12 @@ class HummingResponse:
         return np.array([u[1] * heard[u[0]] if len(u) else 0.0, u[1] if len(u) else 0.0, 0.0], complex)
 
 
-def test_of_frequencies_next_to_each_other_one_is_followed_first(monkeypatch):
+def test_of_frequencies_next_to_each_other_not_all_are_followed_first(monkeypatch):
     monkeypatch.setattr(looks, "response_of", lambda *_: HummingResponse())
     evidence = Evidence(np.zeros(3, complex), np.ones(3), np.ones(3), np.zeros((6, 1)), True)
     before = SimpleNamespace(
         effects=(), law=None, u=np.empty(0), residuals=np.array([-9.0, 0, 0, 0, 0, 0]), feels=np.zeros((6, 0))
     )
     found = look(SimpleNamespace(coarse=None, points=None), evidence, before, Humming())
-    assert [u[0] for _, u in found] == [10.0, 30.0, 10.3, 10.6, 10.9]
-    assert found[1][0] < found[4][0]
+    assert [u[0] for _, u in found] == [10.0, 10.3, 30.0, 10.6, 10.9]
+    assert found[2][0] < found[4][0]
