@@ -129,11 +129,38 @@ def thickness_error(specimen: Specimen, wavenumber: Array, G: Complex) -> tuple[
 
     Of the frequency and of the loss factor of waves (1/m), core moduli given. Shape (waves,) each.
     """
+    return _errors(*_held_and_exact(specimen, wavenumber, G))
+
+
+def _held_and_exact(specimen: Specimen, wavenumber: Array, G: Complex) -> tuple[Complex, Complex]:
+    """Of waves whose layers do not stretch across their thickness, and of exact ones."""
     layers = stack(specimen, G)
     held = tuple(replace(x, stretches=False) for x in layers)
-    return _errors(
-        exact_lambda(held, wavenumber, _QUICK_ORDER), exact_lambda(layers, wavenumber, _QUICK_ORDER)
+    return exact_lambda(held, wavenumber, _QUICK_ORDER), exact_lambda(layers, wavenumber, _QUICK_ORDER)
+
+
+def check_beam_theory(layers: Specimen, law: CoreLaw, frequency_hz: ArrayLike) -> TheoryError:
+    """The error over a band of a sandwich beam whose faces shear and turn: its core does not stretch.
+
+    `layers` is a plate of the same ones. Raises `OutsideModel` where it is beyond a plate's limits at the
+    lowest frequency: there waves are longest.
+    """
+    f = np.atleast_1d(np.asarray(frequency_hz, dtype=float))
+    G = law.modulus(2 * np.pi * f)
+    whole = theory_error(layers, f, G)
+    held, exact = _held_and_exact(layers, whole.wavenumber, G)
+    frequency, loss = _errors(held, exact)
+    delta = np.asarray(np.log(exact / held) / 2, dtype=complex)
+    error = replace(
+        whole,
+        frequency_error=frequency,
+        loss_factor_error=loss,
+        delta=delta,
+        worst_assumption=FACES_TOGETHER,
     )
+    if error.excess[np.argmin(f)] > 1:
+        raise OutsideModel(refusal(error, "beam"))
+    return error
 
 
 def check_theory(specimen: Specimen, law: CoreLaw | None, frequency_hz: ArrayLike) -> TheoryError:
@@ -144,7 +171,7 @@ def check_theory(specimen: Specimen, law: CoreLaw | None, frequency_hz: ArrayLik
     f = np.atleast_1d(np.asarray(frequency_hz, dtype=float))
     error = theory_error(specimen, f, law.modulus(2 * np.pi * f) if law is not None else 0.0)
     if not error.acceptable:
-        raise OutsideModel(_refusal(error))
+        raise OutsideModel(refusal(error))
     return error
 
 
@@ -236,7 +263,8 @@ def _worst_assumption(specimen: Specimen, k: Array, G: Complex) -> Assumption:
     return max(made, key=lambda assumption: made[assumption])
 
 
-def _refusal(error: TheoryError) -> str:
+def refusal(error: TheoryError, of: str = "plate") -> str:
+    """What is off where it is worst, why, and what to do; `of` says what theory's."""
     worst = int(np.argmax(error.excess))
     f, loss = error.frequency_error[worst], error.loss_factor_error[worst]
     if abs(loss) / LOSS_LIMIT >= abs(f) / FREQUENCY_LIMIT:
@@ -245,7 +273,7 @@ def _refusal(error: TheoryError) -> str:
         what, number, limit = "resonance", f, FREQUENCY_LIMIT
     why = error.worst_assumption
     return (
-        f"plate theory at {error.frequency_hz[worst]:.4g} Hz: {what} {100 * abs(number):.3g} % "
+        f"{of} theory at {error.frequency_hz[worst]:.4g} Hz: {what} {100 * abs(number):.3g} % "
         f"{'below' if number < 0 else 'above'} exact elasticity (limit {100 * limit:g} %), "
         f"{why.failure}: expected {why.remedy}"
     )

@@ -7,15 +7,9 @@ from typing import TypeVar
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.diagnosis.candidates import (
-    CandidateFit,
-    Known,
-    Start,
-    has_place,
-    is_over_decades,
-    look,
-)
+from fitting.diagnosis.candidates import CandidateFit, Known, is_over_decades
 from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.looks import Start, has_place, look
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.prediction import held_out
 from fitting.diagnosis.predictive import temper

@@ -1,4 +1,4 @@
-"""One effect beside a fit so far: a first look by one linear step, rough fits, then a fit to the end."""
+"""One effect beside a fit so far: rough fits from what a first look promises, then a fit to the end."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
@@ -6,10 +6,10 @@ from functools import cached_property
 
 import numpy as np
 
-from fitting.arrays import Array, Complex
+from fitting.arrays import Array
 from fitting.bent_law import BentLaw
 from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.of_files import OfFiles
+from fitting.diagnosis.looks import Start, has_place, look
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refit import ROUGH, refit
 from fitting.diagnosis.refitted import Refitted
@@ -18,95 +18,11 @@ from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.diagnosis.usual_law import finished
 from fitting.diagnosis.wide_valley import in_wide_valley, of_effects, with_stated
-from fitting.effects.base import Effect, Points
+from fitting.effects.base import Effect
 from fitting.laws import CoreLaw
-
-Start = tuple[float, Array]
-"""The chi-square that a start may gain, and its unknowns; zero where a linear step cannot tell."""
 
 _NEAR_BY = 3.0
 """Times: starts of an unknown over decades that are no further apart lead to the same place. A choice."""
-
-
-def look(
-    problem: DiagnosisProblem,
-    evidence: Evidence,
-    before: Refitted,
-    effect: Effect,
-    *,
-    again: bool = False,
-    plain: SweepResponse | None = None,
-) -> list[Start]:
-    """Starts of an effect, scaled by a linear step, with the chi-square each may gain; best first.
-
-    `plain` is the coarse response without it, where several effects are looked at beside one fit. `again`: a
-    step of the size that the first one ends with tells once more, where there is no place to be found. A
-    large one bends, and what is all but another effect's work is then lost in the bend.
-    """
-    response = response_of(problem, [*before.effects, effect], problem.coarse)
-    plain = plain or response_of(problem, before.effects, problem.coarse)
-    found = promising(response, plain, problem.points, evidence, before)
-    if not again or has_place(effect) or not effect.parameters:
-        return found
-    told = [u for promise, u in found[: SEARCH.followed] if promise > 0]
-    steps = promising(response, plain, problem.points, evidence, before, told)
-    return sorted([*found, *steps], key=lambda f: -f[0])
-
-
-def promising(
-    response: SweepResponse,
-    plain: SweepResponse,
-    points: Points,
-    evidence: Evidence,
-    before: Refitted,
-    starts: Sequence[Array] | None = None,
-) -> list[Start]:
-    """The same of the last effect of `response`; `plain` is without it. Its own starts are the default.
-
-    Shapes: `points` (points,) each; `starts` (parameters,) each.
-    """
-    effect = response.effects[-1]
-    law, known = before.law, before.u
-    v = plain.velocity(law, known)
-    r = before.residuals
-    Q = before.feels
-    lower, upper = effect.limits(response.plate)
-    starts, found = effect.starts(response.plate, points) if starts is None else starts, []
-    for u, moved in zip(starts, moves(response, law, known, starts, v), strict=True):
-        s = np.zeros(len(r))
-        rows = np.concatenate([evidence.jacobian(v, moved[None])[:, 0], evidence.bare_moves(effect, u)])
-        # What is known beforehand does not feel the effect.
-        s[: len(rows)] = rows
-        s = s - Q @ (Q.T @ s)
-        size = float(s @ s)
-        if not np.isfinite(size) or size <= 0:
-            continue
-        a = -float(r @ s) / size
-        if not effect.parameters:
-            found.append((float(r @ r - (r + s) @ (r + s)), u))
-            continue
-        one_sided = any(
-            q.neutral is not None and not q.lower < q.neutral < q.upper for q in effect.parameters
-        )
-        if a <= 0 and one_sided:
-            found.append((0.0, u))
-            continue
-        at = np.clip(effect.scaled(u, np.clip(a, -20, 20) or 1e-3), lower, upper)
-        found.append((a**2 * size, at))
-    return sorted(found, key=lambda f: -f[0])
-
-
-def moves(
-    response: SweepResponse, law: CoreLaw, known: Array, starts: Sequence[Array], v: Complex
-) -> Complex:
-    """How the phasors move from `v` as the last effect comes in from each start. Shape (starts, points)."""
-    effect = response.effects[-1]
-    form = effect.inner if isinstance(effect, OfFiles) else effect
-    if has_place(effect) and type(form).change is not Effect.change:
-        # Many places to be tried: one adjoint serves all of them.
-        return response.signatures(law, known, starts)
-    with np.errstate(all="ignore"):
-        return np.array([response.velocity(law, np.concatenate([known, u])) - v for u in starts])
 
 
 @dataclass
@@ -362,11 +278,6 @@ def bent_as(law: CoreLaw, other: CoreLaw) -> CoreLaw:
 
 def _chi2(fitted: Refitted) -> float:
     return fitted.chi2
-
-
-def has_place(effect: Effect) -> bool:
-    """Whether an unknown has no neutral value: where it sits, or at which frequency, is to be found."""
-    return any(q.neutral is None and not q.fixed for q in effect.parameters)
 
 
 def is_over_decades(effect: Effect) -> bool:

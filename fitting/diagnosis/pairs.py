@@ -7,8 +7,8 @@ from typing import TypeVar
 import numpy as np
 
 from fitting.diagnosis.candidate_fits import Form
-from fitting.diagnosis.candidates import has_place
 from fitting.diagnosis.executor import Call
+from fitting.diagnosis.looks import has_place
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.thresholds import SEARCH

@@ -7,9 +7,10 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.diagnosis.candidate_fits import CandidateFits
-from fitting.diagnosis.candidates import CandidateFit, has_place
+from fitting.diagnosis.candidates import CandidateFit
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.executor import Call, Executor
+from fitting.diagnosis.looks import has_place
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.predictive import checks, form_error, most_unrefused, passes, temper
 from fitting.diagnosis.problem import DiagnosisProblem

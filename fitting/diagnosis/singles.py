@@ -6,7 +6,8 @@ import numpy as np
 
 from fitting.chances import chi2_above
 from fitting.diagnosis.candidate_fits import FirstLook, Form
-from fitting.diagnosis.candidates import Known, Start, has_place
+from fitting.diagnosis.candidates import Known
+from fitting.diagnosis.looks import Start, has_place
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.search import ScoredFit, Search
 from fitting.diagnosis.thresholds import SEARCH, VERDICT

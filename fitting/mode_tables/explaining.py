@@ -7,8 +7,8 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.chances import chi2_above, normal_above
-from fitting.diagnosis.candidates import Start, promising
 from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.looks import Start, promising
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.of_files import OfFiles
 from fitting.diagnosis.predictive import form_error

@@ -6,18 +6,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.diagnosis.candidates import has_place, moves
+from fitting.diagnosis.looks import has_place, slopes
 from fitting.diagnosis.marginal import expected_size
 from fitting.diagnosis.problem import DiagnosisProblem
-from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.responses import response_of
 from fitting.effects.base import Effect, EffectParameter
 from fitting.laws import CoreLaw
 
 _FEW = 12
 """Starts of an effect that are looked at: of a grid of places, so many spread over it."""
-_SMALL = 0.02
-"""Of a start's strength: there every effect is linear."""
 
 
 @dataclass(frozen=True)
@@ -112,7 +109,7 @@ def signatures_of(
         response = response_of(problem, [*beside, effect], problem.coarse)
         starts = effect.starts(response.plate, problem.points)
         starts = [starts[k] for k in np.unique(np.linspace(0, len(starts) - 1, _FEW).astype(int))]
-        moved = _linear(response, law, known, starts, plain)
+        moved = slopes(response, law, known, starts, plain)
         kept = [
             k
             for k, m in enumerate(moved)
@@ -121,19 +118,6 @@ def signatures_of(
         if kept:
             found.append(Signature(effect, tuple(starts[k] for k in kept), moved[kept]))
     return found
-
-
-def _linear(
-    response: SweepResponse, law: CoreLaw, known: Array, starts: Sequence[Array], v: Complex
-) -> Complex:
-    """What an effect changes, to first order, in the strength of its starts. Shape (starts, points)."""
-    effect = response.effects[-1]
-    by_adjoint = has_place(effect) and type(effect).change is not Effect.change
-    if by_adjoint or not effect.parameters:
-        return moves(response, law, known, starts, v)
-    # Two small strengths: interpolated otherwise than without the effect, zero has an error of its own.
-    weak, twice = ([effect.scaled(u, k * _SMALL) for u in starts] for k in (1, 2))
-    return np.asarray((moves(response, law, known, twice, v) - moves(response, law, known, weak, v)) / _SMALL)
 
 
 def judged_elsewhere(effect: Effect) -> bool:

@@ -12,9 +12,10 @@ import numpy as np
 
 from fitting.arrays import Array
 from fitting.diagnosis.begin import Begun
-from fitting.diagnosis.candidates import CandidateFit, look
+from fitting.diagnosis.candidates import CandidateFit
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.executor import ALONE, Executor
+from fitting.diagnosis.looks import look
 from fitting.diagnosis.marginal import cost
 from fitting.diagnosis.model_error import model_error
 from fitting.diagnosis.refit import refit

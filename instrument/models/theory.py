@@ -9,7 +9,7 @@ from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen, Beam
-from fitting.theory_error import TheoryError, check_theory, theory_error
+from fitting.theory_error import TheoryError, check_beam_theory, check_theory, refusal
 
 _PLACES = 10
 """Frequencies of a band that are looked at: the error is smooth in frequency."""
@@ -34,14 +34,12 @@ def check_each_theory(
 
 
 def _of_beam(layers: Specimen, law: CoreLaw, frequency_hz: Array) -> str:
-    refused = theory_remark(layers, law, frequency_hz)
-    if not refused:
-        return ""
-    # Where it fails everywhere it fails at the lowest one, where waves are longest.
-    theory_over(layers, law, np.array([np.min(frequency_hz)]))
     f = np.geomspace(np.min(frequency_hz), np.max(frequency_hz), 4 * _PLACES)
-    holds = theory_error(layers, f, law.modulus(2 * np.pi * f)).excess <= 1
-    return f"{refused}; resonances above {f[holds][-1]:.3g} Hz count by so much less"
+    error = check_beam_theory(layers, law, f)
+    if error.acceptable:
+        return ""
+    last = f[np.argmax(error.excess > 1) - 1]
+    return f"{refusal(error, 'beam')}; resonances above {last:.3g} Hz count by so much less"
 
 
 def theory_over(specimen: Specimen, law: CoreLaw, frequency_hz: Array) -> TheoryError:

@@ -5,9 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from fitting.diagnosis import candidates
-from fitting.diagnosis.candidates import CandidateFit, look
-from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.candidates import CandidateFit
 from fitting.effects.base import Effect, EffectParameter
 
 SIZE = EffectParameter("size", "m", -1.0, 1.0, 0.1)
@@ -88,42 +86,3 @@ def test_the_first_start_is_not_followed_again_where_it_is_the_most_promising_on
     monkeypatch.setattr(Placed, "starts", lambda *_: [np.array([0.1, 0.5, 0.0])])
     monkeypatch.setattr(CandidateFit, "_wide", lambda _, u: [SimpleNamespace(chi2=u[0])])
     assert [f.chi2 for f in one.far] == begun
-
-
-class Bent(Effect):
-    """Its first order is what the law does too, but for a little; its second order nobody else does."""
-
-    name, parameters = "bent", (EffectParameter("size", "1", -5.0, 5.0, 1.0),)
-
-
-class BentResponse:
-    """Readings (like the law, alone, by the bend)."""
-
-    effects, plate = (Bent(),), None
-
-    def velocity(self, law, u):
-        size = u[0] if len(u) else 0.0
-        return np.array([100 * size, size, 30 * size**2], complex)
-
-
-@pytest.fixture
-def bent(monkeypatch):
-    """A look at it, beside a law that takes up the first reading; the second asks for a third of it."""
-    monkeypatch.setattr(candidates, "response_of", lambda *_: BentResponse())
-    evidence = Evidence(np.zeros(3, complex), np.ones(3), np.ones(3), np.zeros((6, 1)), True)
-    before = SimpleNamespace(
-        effects=(),
-        law=None,
-        u=np.empty(0),
-        residuals=np.array([0, -10.0, 0, 0, 0, 0]),
-        feels=np.eye(6)[:, :1],
-    )
-    problem = SimpleNamespace(coarse=None, points=None)
-    return lambda **how: look(problem, evidence, before, Bent(), **how)
-
-
-def test_what_a_large_step_hides_in_its_bend_a_second_smaller_one_shows(bent):
-    hidden, shown = bent()[0], bent(again=True)[0]
-    # All of it were 10^2; of a size of one the bend is thirty times what is looked for.
-    assert hidden[0] < 1
-    assert shown[0] > 50

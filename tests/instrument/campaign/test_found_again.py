@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from instrument.campaign.beams.cases import draw_case as draw_beam
+from instrument.campaign.beams.judged import diagnosed as beam_diagnosed
 from instrument.campaign.cases import PAIR, draw
 from instrument.campaign.plates.cases import draw_case
 from instrument.campaign.plates.judged import diagnosed
@@ -62,3 +64,9 @@ def test_softening_over_a_sharp_resonance_leaves_nothing_for_a_tether():
     found = diagnose(case.sweep, case.specimen, hammer=case.hammer).result
     assert (found.verdict, [e.name for e in found.effects]) == ("effect", ["amplitude_softening"])
     assert found.after.chi2_per_dof < 1.0
+
+
+@pytest.mark.long
+def test_a_drift_that_is_almost_the_laws_work_is_counted_for_what_it_explains():
+    answer = beam_diagnosed(draw_beam("temperature_drift", 8112))
+    assert answer.probabilities["temperature_drift"] > 0.03

@@ -6,16 +6,18 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from beam_cases import BEAM
 from conftest import TABLE_4
 
 from fitting.errors import OutsideModel
 from fitting.laws.constant import ConstantModulus
 from fitting.sweep import Sweep
 from instrument.cli.main import run
+from instrument.files.structure_file import read_structure
 from instrument.models.diagnosis import diagnose
 from instrument.models.identification import _checked, identify
 from instrument.models.specimen_models import Models
-from instrument.models.theory import theory_remark
+from instrument.models.theory import check_each_theory, theory_remark
 from instrument.paper_case import case_file
 from instrument.results.identification_from import identification_from
 
@@ -122,3 +124,40 @@ def test_the_command_ends_with_2(capsys, tmp_path, coarse):
     assert (status, captured.out) == (2, "")
     assert captured.err.count("\n") == 1
     assert "plate theory" in captured.err
+
+
+def a_beam(tmp_path, thicker=1.0):
+    """Its faces so many times as thick."""
+    (tmp_path / "beam.toml").write_text(BEAM)
+    beam = read_structure(tmp_path / "beam.toml")
+    assert beam.constraining is not None
+    faces = {
+        name: replace(face, thickness_m=thicker * face.thickness_m)
+        for name, face in (("substrate", beam.substrate), ("constraining", beam.constraining))
+    }
+    return replace(beam, **faces)
+
+
+def notes_of(beam, g_pa, from_hz=50.0):
+    law = ConstantModulus(g_pa=g_pa, loss_factor=0.5)
+    return check_each_theory([beam], law, [np.array([from_hz, 2500.0])])
+
+
+def test_faces_of_a_beam_that_shear_are_in_its_theory(tmp_path):
+    thick = a_beam(tmp_path, thicker=6.0)
+    assert "the faces shear" in theory_remark(
+        thick.as_plate, ConstantModulus(g_pa=5e7, loss_factor=0.5), np.array([50.0, 2500.0])
+    )
+    assert notes_of(thick, 5e7) == ()
+
+
+def test_a_core_of_a_beam_that_stretches_is_said_with_where_it_begins(tmp_path):
+    (note,) = notes_of(a_beam(tmp_path, thicker=3.0), 5e5)
+    assert note.startswith("beam theory at 2500 Hz: ")
+    assert "the core stretches across its thickness" in note
+    assert "resonances above" in note
+
+
+def test_a_beam_whose_core_stretches_everywhere_is_refused(tmp_path):
+    with pytest.raises(OutsideModel, match="beam theory at"):
+        notes_of(a_beam(tmp_path, thicker=3.0), 1e4, from_hz=1000.0)
