@@ -28,6 +28,7 @@ def identify_shifted(
     figures: Path | None,
     *,
     vertical: bool,
+    temperature_k: float | None = None,
 ) -> None:
     """Fit, print, draw; a law that is not simple is refused after its figures are saved."""
     plate = given[0].specimen
@@ -44,7 +45,16 @@ def identify_shifted(
     if tested is not None and any(one.session for one in given):
         out.say(f"the hammer test is that of {tested[1]}\n")
     modes = tested[0] if tested is not None else None
-    found = identify_at_temperatures(sweeps, plate, kind, reference_c, bar, vertical=vertical, hammer=modes)
+    found = identify_at_temperatures(
+        sweeps,
+        plate,
+        kind,
+        reference_c,
+        bar,
+        vertical=vertical,
+        hammer=modes,
+        temperature_k=temperature_k,
+    )
     if figures is not None:
         from instrument.results.shifted_figures import save_shifted_figures
 

@@ -158,7 +158,7 @@ def found(monkeypatch):
     def make(simple=True):
         verdict = Verdict(simple, 0.4, 1.2, 30.0, "one law serves" if simple else "no one law serves")
 
-        def identify(sweeps, plate, kind, reference_c, progress, *, vertical, hammer):
+        def identify(sweeps, plate, kind, reference_c, progress, *, vertical, hammer, temperature_k):
             asked.append(([s.name for s in sweeps], kind, reference_c, vertical, hammer))
             return Shifted(fit, verdict, band, tuple(each), None, 2.0)
 
