@@ -125,7 +125,8 @@ def _refusal(fit: ShiftedFit, difference: str) -> str:
         )
     return (
         words
-        + "try --shift free: if it is refused too, the material is not thermorheologically simple, or not one material"
+        + "try --shift free: if it is refused too, the material is not thermorheologically simple, or not "
+        "one material"
     )
 
 

@@ -177,6 +177,7 @@ def identify(
         insist=insist,
         one_plate=True,
         own_hammer=at_temperatures and hammer is None,
+        at_temperatures=at_temperatures,
     )
     if shift is not None:
         if pointwise or method == "paper" or no_viscous_damping or dma is not None or with_budget or depths:

@@ -34,7 +34,9 @@ def identify_shifted(
     plate = given[0].specimen
     if len(given) < 2:
         raise click.UsageError(f"--shift: {len(given)} file, expected sweeps at two temperatures or more")
-    if not isinstance(plate, Specimen) or any(g.specimen != plate for g in given):
+    if not isinstance(plate, Specimen):
+        raise BadInput(f"--shift: the specimen is a {plate.kind}, expected a plate: others have no shift yet")
+    if any(g.specimen != plate for g in given):
         raise BadInput("--shift: expected sweeps of one plate, one --specimen for all")
     sweeps = []
     for path, one in zip(data, given, strict=True):
