@@ -2,8 +2,8 @@
 
     python tests/campaigns/temperatures.py [--seeds 5] [--points 60]
 
-Temperatures are exact. Prints a row a case: WLF and Arrhenius truth as they are and with a vibrometer 1.1 ms late, and a core of two
-processes, which has no one law.
+Prints a row a case: WLF and Arrhenius truth as they are and with a vibrometer 1.1 ms late, and a core of two
+processes, which has no one law. Temperatures are exact.
 """
 
 import sys
