@@ -134,6 +134,12 @@ def _check_header(path: Path, header: list[str]) -> None:
     for column in understood():
         if column.given == "always" and column.name not in header:
             near = nearest(column.name, header)
+            turning = next((name for name in header if "rad_s" in name or "omega" in name.lower()), None)
+            if turning:
+                raise BadInput(
+                    f"{path}: header: column {column.name} missing, found {turning}: expected Hz, rad/s "
+                    "over 2 pi"
+                )
             found = f"is it {near}?" if near else f"found {', '.join(header)[:120]}"
             raise BadInput(f"{path}: header: column {column.name} missing, {found}")
     known = [column.name for column in understood()]

@@ -160,3 +160,11 @@ def test_a_column_of_temperatures_has_a_mean_and_ends(tmp_path):
     assert file.temperature_c == 21.5
     assert file.temperature_range_c == (20.0, 23.0)
     assert read_sweep(write(tmp_path, AMPLITUDES)).temperature_range_c is None
+
+
+def test_a_column_of_angular_frequencies_is_told_its_cure(tmp_path):
+    text = "omega_rad_s,velocity_m_s\n115.6,0.07\n"
+    with pytest.raises(
+        BadInput, match=r"frequency_hz missing, found omega_rad_s: expected Hz, rad/s over 2 pi"
+    ):
+        read_sweep(write(tmp_path, text))
