@@ -66,10 +66,9 @@ class Given:
 
     def said(self, result: R) -> R:
         """A result of these data, which says whose they are."""
-        if isinstance(result, IdentificationResult) and self.temperature_c is not None:
-            result = result.but(temperature_c=self.temperature_c)
         if not self.session:
-            return result
+            known = isinstance(result, IdentificationResult) and self.temperature_c is not None
+            return result.but(temperature_c=self.temperature_c) if known else result
         said = result.but(session=self.session, reads=self.reads)
         of_session = isinstance(said, IdentificationResult) and self.recorded is not None
         return said.but(session_result=self.recorded) if of_session else said
