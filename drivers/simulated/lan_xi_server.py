@@ -14,7 +14,7 @@ from urllib.parse import urlsplit
 
 import numpy as np
 
-from drivers.errors import Garbled, Refused
+from drivers.errors import Garbled, Refused, Unreachable
 from drivers.front_end import lan_xi_documents as documents
 from drivers.front_end.lan_xi_documents import ModuleInfo
 from drivers.simulated.lan_xi_measurement import Acquired, Measurement, Source
@@ -70,7 +70,12 @@ class LanXiServer:
         self._listener: socket.socket | None = None
         self._stream: Measurement | None = None
         self._status: list[dict[str, str]] = []
-        self._http = ThreadingHTTPServer(("127.0.0.1", port), self._handler())
+        try:
+            self._http = ThreadingHTTPServer(("127.0.0.1", port), self._handler())
+        except OSError as error:
+            raise Unreachable(
+                f"simulated front-end: cannot serve at 127.0.0.1:{port}: {error.strerror or error}"
+            ) from error
         self._http.daemon_threads = False
         self._thread = Thread(target=self._http.serve_forever, args=(0.05,), name="lan-xi http")
         self._thread.start()

@@ -29,6 +29,8 @@ from fitting.temperature.one_law import OneLaw, OwnLaws
 from fitting.temperature.shifts import Shift
 from fitting.temperature.start import start_of
 
+_TOLD = 0.5
+"""Of a temperature: below it the others say nothing of any, and their scatter means nothing."""
 _ROUNDS = 4
 """Of a fit's most evaluations: a bound on time; what has not come to its end by then says so."""
 
@@ -76,7 +78,8 @@ class TemperatureProblem:
             a = np.exp(shift.log_shift(p))
             law = BentLaw.over(plain, np.array([f * k for b, k in zip(bands, a, strict=True) for f in b]))
         b = (1.0,) * (shift.moved_count if self.vertical else 0)
-        return OneLaw(law, shift, tuple(shift.positive(p).tolist()), self.points, b)
+        as_stated = (1.0,) * (len(self.points) if shift.moves_temperatures else 0)
+        return OneLaw(law, shift, tuple(shift.positive(p).tolist()), self.points, b, as_stated)
 
     def fitted(self, law: CoreLaw, z: Array, effects: Sequence[Effect] = ()) -> Refitted:
         """The best from here. `z` of shape (unknowns,): the stated numbers, then those of the effects."""
@@ -174,15 +177,42 @@ class ShiftedFit:
         return np.asarray(np.abs(size) * np.sqrt(np.diag(self._of(self._shifts))))
 
     @property
-    def log_shift(self) -> Array:
-        """Ln a_T of every sweep. Shape (sweeps,)."""
+    def sweeps_log_shift(self) -> Array:
+        """Ln a_T of every sweep, at the temperature that it has by the fit. Shape (sweeps,)."""
         return self.joint.log_shift
 
     @property
+    def log_shift(self) -> Array:
+        """Ln a_T at every stated temperature; free factors are those of the sweeps. Shape (sweeps,)."""
+        return self.shift.log_shift(self.parameters)
+
+    @property
     def log_shift_errors(self) -> Array:
-        """Shape (sweeps,)."""
-        slope = self.joint.shift_slope
+        """With what is not known of the temperatures. Shape (sweeps,)."""
+        slope = self.shift.slope(self.parameters) * self.shift.by_log(self.parameters)
+        return np.hypot(self._errors_by(slope), self._by_temperatures)
+
+    @property
+    def sweeps_log_shift_errors(self) -> Array:
+        """Of `sweeps_log_shift`, by the parameters alone. Shape (sweeps,)."""
+        return self._errors_by(self.joint.shift_slope)
+
+    def _errors_by(self, slope: Array) -> Array:
         return np.sqrt(np.maximum(np.einsum("ki,ij,kj->k", slope, self._of(self._shifts), slope), 0.0))
+
+    @property
+    def _by_temperatures(self) -> Array:
+        """Of free factors: what they and the reference's would be off. Shape (sweeps,)."""
+        shift = self.shift
+        if shift.kind != "free" or shift.error_k == 0:
+            return np.zeros(len(self.joint.points))
+        each, at = np.unique(shift.temperature_c, return_inverse=True)
+        if len(each) < 2:
+            return np.zeros(len(at))
+        by_k = np.gradient(shift.log_shift(self.parameters, each), each)
+        reference = by_k[np.argmin(np.abs(each - shift.reference_c))]
+        found = shift.error_k * np.hypot(by_k, reference)
+        return np.asarray(np.where(each == shift.nearest_c, 0.0, found)[at])
 
     @property
     def log_vertical(self) -> Array:
@@ -203,7 +233,7 @@ class ShiftedFit:
     def law_covariance(self) -> Array:
         """Of the law's log parameters, its bend's among them. Shape (names, names)."""
         v = self._shifts.stop + len(self.joint.b)
-        at = [*range(self._own), *range(v, len(self.joint.names))]
+        at = [*range(self._own), *range(v, v + self.law.bend_count)]
         return self._covariance[np.ix_(at, at)]
 
     def own_law(self, sweep: int) -> CoreLaw:
@@ -223,8 +253,27 @@ class ShiftedFit:
 
     @cached_property
     def degrees(self) -> float:
-        """How many effective parameters fewer one law has, those with priors by what the data ask of them."""
-        return max(1.0, _effective(self.own) - _effective(self.one))
+        """How many effective parameters fewer one law has, those with priors by what the data ask of them.
+
+        Temperatures are readings as good as others, of a thermometer.
+        """
+        return max(1.0, _effective(self.own) - _effective(self.one) + self.thermometers)
+
+    @property
+    def thermometers(self) -> float:
+        """How many of the stated temperatures are told by the others and the law."""
+        count = len(self.joint.warmer)
+        if not count:
+            return 0.0
+        stop = len(self.one.residuals) - sum(len(e.ties) for e in self.one.effects)
+        return count - _shares(self.one)[stop - count : stop].sum()
+
+    @property
+    def temperature_chance(self) -> float:
+        """That temperatures are so far off by what is said of their error; 1 where they are exact."""
+        if self.thermometers < _TOLD:
+            return 1.0
+        return float(chi2_above(float(self.joint.off @ self.joint.off), self.thermometers))
 
     @property
     def noise_known(self) -> bool:
@@ -250,10 +299,15 @@ class ShiftedFit:
 
 def _effective(fit: Refitted) -> float:
     """Trace of the hat matrix of the readings."""
+    return float(_shares(fit)[: fit.data].sum())
+
+
+def _shares(fit: Refitted) -> Array:
+    """The diagonal of the hat matrix. Shape (rows,)."""
     J = fit.jacobian
     size = np.linalg.norm(J, axis=0)
     U, s, _ = np.linalg.svd(J / np.where(size > 0, size, 1.0), full_matrices=False)
-    return float(np.sum(U[: fit.data, s > 1e-12 * s.max()] ** 2))
+    return np.asarray(np.sum(U[:, s > 1e-12 * s.max()] ** 2, axis=1))
 
 
 def fit_shifted(

@@ -13,16 +13,23 @@ from fitting.arrays import Array
 from fitting.diagnosis.member_laws import MemberLaws
 from fitting.laws.base import CoreLaw, Quantity
 from fitting.temperature.shifted_law import ShiftedLaw
-from fitting.temperature.shifts import Shift
+from fitting.temperature.shifts import FARTHEST, Shift
 
 _LEAST, _MOST = float(np.exp(-0.5)), float(np.exp(0.5))
 _VERTICAL = Quantity("", 1.0, _LEAST, _MOST, (_LEAST, _MOST))
 """A factor on the modulus: beyond a half it is no vertical shift of one material."""
+_NEAREST, _FARTHEST = float(np.exp(-FARTHEST)), float(np.exp(FARTHEST))
+_WARMER = Quantity("", 1.0, _NEAREST, _FARTHEST, (_NEAREST, _FARTHEST))
+"""How far a stated temperature is moved: e to the power of its standard deviations, as a bend is kept."""
 
 
 @dataclass(frozen=True)
 class OneLaw(MemberLaws):
-    """G*_k(omega) = b_k G*(a_k omega): parameters are the law's, the shift's, the b_k, then the bend."""
+    """G*_k(omega) = b_k G*(a_k omega): the law's parameters, the shift's, the b_k, the bend, temperatures.
+
+    A temperature's departure from what is stated has a prior of variance one, as each number of the bend has,
+    and stands with it.
+    """
 
     law: CoreLaw
     """At the reference temperature."""
@@ -32,6 +39,8 @@ class OneLaw(MemberLaws):
     points: tuple[int, ...]
     b: tuple[float, ...] = ()
     """Of each temperature but the reference; none where no vertical shift is asked for."""
+    warmer: tuple[float, ...] = ()
+    """Of each sweep, e to the power of standard deviations; none where temperatures are as stated."""
 
     @property
     def kind(self) -> str:  # type: ignore[override]
@@ -45,24 +54,26 @@ class OneLaw(MemberLaws):
 
     @property
     def bend_count(self) -> int:
-        """Of the law that is shifted."""
-        return self.law.bend_count
+        """Of the law that is shifted, and what is known of the temperatures alike."""
+        return self.law.bend_count + len(self.warmer)
 
     @property
     def _own(self) -> int:
-        return len(self.law.names) - self.bend_count
+        return len(self.law.names) - self.law.bend_count
 
     @property
     def names(self) -> list[str]:
-        """The law's own, the shift's, vertical factors, the bend."""
+        """The law's own, the shift's, vertical factors, the bend, temperatures."""
         own, n = self.law.names, self._own
-        return [*own[:n], *self.shift.names, *(f"vertical_{k + 1}" for k in range(len(self.b))), *own[n:]]
+        up = [f"vertical_{k + 1}" for k in range(len(self.b))]
+        warmer = [f"temperature_{k + 1}" for k in range(len(self.warmer))]
+        return [*own[:n], *self.shift.names, *up, *own[n:], *warmer]
 
     @property
     def values(self) -> Array:
         """In the order of `names`."""
         own, n = self.law.values, self._own
-        return np.concatenate([own[:n], self.theta, self.b, own[n:]])
+        return np.concatenate([own[:n], self.theta, self.b, own[n:], self.warmer])
 
     @property
     def limits(self) -> list[Quantity]:
@@ -70,7 +81,7 @@ class OneLaw(MemberLaws):
         own, n = self.law.limits, self._own
         low, high = self.shift.positive(self.shift.lowest), self.shift.positive(self.shift.highest)
         shifts = [Quantity("", 1.0, a, b, (a, b)) for a, b in zip(low.tolist(), high.tolist(), strict=True)]
-        return [*own[:n], *shifts, *(_VERTICAL,) * len(self.b), *own[n:]]
+        return [*own[:n], *shifts, *(_VERTICAL,) * len(self.b), *own[n:], *(_WARMER,) * len(self.warmer)]
 
     @property
     def search_widths(self) -> Array:
@@ -80,10 +91,12 @@ class OneLaw(MemberLaws):
 
     def with_values(self, values: Array) -> Self:
         """The same with other parameters. Shape (names,)."""
-        n, m, v = self._own, len(self.theta), len(self.b)
-        law = self.law.with_values(np.concatenate([values[:n], values[n + m + v :]]))
-        theta, b = (tuple(part.tolist()) for part in (values[n : n + m], values[n + m : n + m + v]))
-        return replace(self, law=law, theta=theta, b=b)
+        n, m, v, bend = self._own, len(self.theta), len(self.b), self.law.bend_count
+        own, theta, b, bent, warmer = np.split(values, np.cumsum([n, m, v, bend]))
+        law = self.law.with_values(np.concatenate([own, bent]))
+        return replace(
+            self, law=law, theta=tuple(theta.tolist()), b=tuple(b.tolist()), warmer=tuple(warmer.tolist())
+        )
 
     @property
     def parameters(self) -> Array:
@@ -93,12 +106,22 @@ class OneLaw(MemberLaws):
     @property
     def log_shift(self) -> Array:
         """Ln a of every sweep. Shape (sweeps,)."""
-        return self.shift.log_shift(self.parameters)
+        return self.shift.log_shift(self.parameters, self._moved_c)
+
+    @property
+    def off(self) -> Array:
+        """How far temperatures were moved, in standard deviations. Shape (sweeps,), or (0,) where exact."""
+        return np.log(np.array(self.warmer))
+
+    @property
+    def _moved_c(self) -> Array | None:
+        """None where free factors are of sweeps and not of a temperature."""
+        return self.shift.temperature_c + self.shift.error_k * self.off if self.warmer else None
 
     @property
     def shift_slope(self) -> Array:
         """Derivatives of `log_shift` to the logarithms of `theta`. Shape (sweeps, parameters)."""
-        return self.shift.slope(self.parameters) * self.shift.by_log(self.parameters)
+        return self.shift.slope(self.parameters, self._moved_c) * self.shift.by_log(self.parameters)
 
     def vertical_place(self, member: int) -> int | None:
         """Which of `b` a sweep has."""
@@ -114,10 +137,14 @@ class OneLaw(MemberLaws):
     def chain(self, member: int) -> Array:
         """As `MemberLaws.chain`. Shape (names of the sweep's law, names)."""
         n, m, v, whole = self._own, len(self.theta), len(self.b), len(self.law.names)
-        found = np.zeros((whole + 2, whole + m + v))
+        found = np.zeros((whole + 2, whole + m + v + len(self.warmer)))
         found[:n, :n] = np.eye(n)
-        found[n:whole, n + m + v :] = np.eye(whole - n)
+        found[n:whole, n + m + v : whole + m + v] = np.eye(whole - n)
         found[whole, n : n + m] = self.shift_slope[member]
+        moved = self._moved_c
+        if moved is not None:
+            by_k = self.shift.by_temperature(self.parameters, moved)[member]
+            found[whole, whole + m + v + member] = by_k * self.shift.error_k
         place = self.vertical_place(member)
         if place is not None:
             found[whole + 1, n + m + place] = 1.0

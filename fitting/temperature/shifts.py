@@ -16,6 +16,10 @@ GAS_J_MOL_K = 8.314462618
 """Molar gas constant, CODATA 2018 (exact since 2019)."""
 _ZERO_K = 273.15
 """0 degrees Celsius."""
+FARTHEST = 5.0
+"""Standard deviations that a temperature is moved at most: beyond, it is a mistake and no scatter."""
+_STEP_K = 1e-3
+"""Of central differences along the temperature, where forms are smooth over kelvins."""
 _LN10 = float(np.log(10.0))
 """WLF is written with the decimal logarithm."""
 
@@ -26,8 +30,15 @@ class Shift:
 
     kind: Kind
     temperature_c: Array
-    """Of each sweep."""
+    """Of each sweep, as stated."""
     reference_c: float
+    error_k: float = 0.0
+    """Standard deviation of each stated temperature; what a form makes of it is fitted."""
+
+    @property
+    def moves_temperatures(self) -> bool:
+        """Whether the temperatures are unknowns of the fit: free factors take any as they are."""
+        return self.kind != "free" and self.error_k > 0
 
     @property
     def names(self) -> list[str]:
@@ -43,9 +54,17 @@ class Shift:
         return np.unique(self.temperature_c)
 
     @property
+    def nearest_c(self) -> float:
+        """The stated temperature that is nearest to the reference."""
+        return float(self._temperatures[np.argmin(np.abs(self._temperatures - self.reference_c))])
+
+    @property
     def _moved(self) -> list[float]:
-        nearest = self._temperatures[np.argmin(np.abs(self._temperatures - self.reference_c))]
-        return [float(t) for t in self._temperatures if t != nearest]
+        return [float(t) for t in self._temperatures if t != self.nearest_c]
+
+    @property
+    def _coldest_c(self) -> float:
+        return float(self.temperature_c.min()) - FARTHEST * self.error_k
 
     @property
     def scales(self) -> Array:
@@ -58,7 +77,7 @@ class Shift:
     def lowest(self) -> Array:
         """Limits below; of WLF C2 keeps every temperature above the pole. Shape (parameters,)."""
         if self.kind == "wlf":
-            return np.array([1e-3, max(1.0, 1.0 + self.reference_c - float(self.temperature_c.min()))])
+            return np.array([1e-3, max(1.0, 1.0 + self.reference_c - self._coldest_c)])
         return np.array([1.0]) if self.kind == "arrhenius" else np.full(len(self._moved), -60.0)
 
     @property
@@ -88,14 +107,19 @@ class Shift:
         at = self._temperatures
         return np.asarray(np.interp(T, at, [known.get(float(t), 0.0) for t in at]))
 
-    def slope(self, p: Array) -> Array:
-        """Derivatives of `log_shift` to the parameters. Shape (sweeps, parameters)."""
+    def by_temperature(self, p: Array, temperature_c: Array) -> Array:
+        """Derivatives of `log_shift` to the temperatures, in 1/K. Shapes (sweeps,) both."""
+        up, down = (self.log_shift(p, temperature_c + h) for h in (_STEP_K, -_STEP_K))
+        return np.asarray((up - down) / (2 * _STEP_K))
+
+    def slope(self, p: Array, temperature_c: Array | None = None) -> Array:
+        """Derivatives of `log_shift` to the parameters, at its temperatures. Shape (sweeps, parameters)."""
         found = []
         for k, size in enumerate(self.scales):
             h = 1e-5 * size
             up, down = p.copy(), p.copy()
             up[k], down[k] = p[k] + h, p[k] - h
-            found.append((self.log_shift(up) - self.log_shift(down)) / (2 * h))
+            found.append((self.log_shift(up, temperature_c) - self.log_shift(down, temperature_c)) / (2 * h))
         return np.array(found).T.reshape(len(self.temperature_c), len(p))
 
     def positive(self, p: Array) -> Array:

@@ -11,6 +11,7 @@ import numpy as np
 
 from fitting.temperature.causes import REFUSED, Cause, explains
 from fitting.temperature.joint import ShiftedFit
+from fitting.temperature.thermometers import misread, rising
 
 _POINTS = 25
 """Over a sweep's band: the wicket plot is compared at them."""
@@ -41,8 +42,17 @@ def serving(causes: Sequence[Cause]) -> list[Cause]:
     return [c for c in able if c.cost < able[0].cost + _NEAR]
 
 
-def judge(fit: ShiftedFit, causes: Sequence[Cause] = ()) -> Verdict:
-    """What the checks say together; `causes` are those looked at where `in_doubt`."""
+def judge(
+    fit: ShiftedFit,
+    causes: Sequence[Cause] = (),
+    apart: ShiftedFit | None = None,
+    names: Sequence[str] = (),
+) -> Verdict:
+    """What the checks say together; `causes` are those looked at where `in_doubt`.
+
+    `apart` is one law with a factor for every sweep: where it serves, temperatures or form are refused and
+    not the material. `names` of the sweeps; their numbers otherwise.
+    """
     able = serving(causes)
     best = able[0].fit if able else fit
     off, at = _wicket(best)
@@ -73,6 +83,10 @@ def judge(fit: ShiftedFit, causes: Sequence[Cause] = ()) -> Verdict:
             f"To be rid of it: {cure}",
         )
     other = next((c for c in causes if explains(c.fit)), None)
+    if apart is not None and not in_doubt(apart):
+        return Verdict(False, best.p_value, *_wicket(apart), _temperatures_refused(fit, apart, names))
+    if apart is not None and explains(fit):
+        off, at = _wicket(apart)
     if explains(fit):
         return told(False, _refusal(fit, f"differs by up to {off:.2g} % at {at:g} degC"))
     if other is not None:
@@ -105,8 +119,39 @@ def _refusal(fit: ShiftedFit, difference: str) -> str:
         f"{difference}; "
     )
     if fit.shift.kind == "free":
-        return words + "the material is not thermorheologically simple here, identify each temperature alone"
-    return words + "try --shift free: if it is refused too, the material is not thermorheologically simple"
+        return (
+            words
+            + "the material is not thermorheologically simple here, or not one material: identify each alone"
+        )
+    return (
+        words
+        + "try --shift free: if it is refused too, the material is not thermorheologically simple, or not "
+        "one material"
+    )
+
+
+def _temperatures_refused(fit: ShiftedFit, apart: ShiftedFit, names: Sequence[str]) -> str:
+    how = {"wlf": "WLF", "arrhenius": "Arrhenius", "free": "one factor a temperature"}[fit.shift.kind]
+    words = (
+        f"the temperatures as stated do not go with {how} ({_gain(fit)}), the material with one law does, "
+        f"each sweep shifted by a factor of its own ({_gain(apart)}): "
+    )
+    wrong = misread(fit.shift, apart)
+    if wrong is not None:
+        others = f"its sweep is that of {wrong.read_c:.1f} degC by the others, check it"
+        unlike = "its sweep goes with no temperature by the others, check it"
+        said = others if np.isfinite(wrong.read_c) else unlike
+        name = names[wrong.sweep] if names else f"sweep {wrong.sweep + 1}"
+        return words + f"{name} is stated at {wrong.stated_c:g} degC, {said}"
+    if fit.shift.kind == "free":
+        return words + "sweeps stated at one temperature were not at one, check them"
+    upwards = rising(fit.shift, apart.log_shift)
+    if upwards is not None:
+        words += f"the factor of {upwards[1]:g} degC is above that of {upwards[0]:g} degC; "
+    return words + (
+        "check the temperatures, or say with --temperature-k how well they are known; --shift free takes "
+        "the factors as they are"
+    )
 
 
 def _wicket(fit: ShiftedFit) -> tuple[float, float]:
@@ -115,7 +160,7 @@ def _wicket(fit: ShiftedFit) -> tuple[float, float]:
     for k, (low, high) in enumerate(fit.bands_hz):
         omega = 2 * np.pi * np.geomspace(low, high, _POINTS)
         storage, eta = fit.own_law(k).storage_and_loss(omega)
-        a, up = np.exp(fit.log_shift[k]), np.exp(fit.log_vertical[k])
+        a, up = np.exp(fit.sweeps_log_shift[k]), np.exp(fit.log_vertical[k])
         wide = np.geomspace(omega[0] / 10, omega[-1] * 10, 400) * a
         joint_storage, joint_eta = fit.law.storage_and_loss(wide)
         off = 100 * np.abs(eta / np.interp(storage, up * joint_storage, joint_eta) - 1)

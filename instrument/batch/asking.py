@@ -11,8 +11,10 @@ from pathlib import Path
 from instrument.batch.task import BatchTask
 from instrument.errors import BadInput
 from instrument.files.nearest import nearest
+from instrument.files.plausible import INSIST
 from instrument.files.table import Rows, number, read_rows
 from instrument.interchange.given import is_session
+from instrument.interchange.questions import kelvin_doubt
 
 _OPTIONAL = ("hammer", "temperature_c")
 """Columns of a table beside its data and specimens."""
@@ -33,7 +35,7 @@ def tasks_of(
     if tables and len(files) > 1:
         raise BadInput(f"{tables[0]}: a table beside other files, expected one table, or data only")
     if tables:
-        found = _of_table(tables[0], specimen, hammer)
+        found = _of_table(tables[0], specimen, hammer, insist=insist)
     else:
         found = [_task(path, specimen, hammer) for path in files]
         lonely = next((t for t in found if t.specimen is None and not is_session(Path(t.data))), None)
@@ -61,7 +63,7 @@ def _is_table(path: Path) -> bool:
     return "data" in [name.strip().strip('"') for name in head.split(",")]
 
 
-def _of_table(table: Path, specimen: Path | None, hammer: Path | None) -> list[BatchTask]:
+def _of_table(table: Path, specimen: Path | None, hammer: Path | None, *, insist: bool) -> list[BatchTask]:
     """Paths in a table are from the table's own folder."""
 
     def check(header: list[str]) -> None:
@@ -76,12 +78,15 @@ def _of_table(table: Path, specimen: Path | None, hammer: Path | None) -> list[B
         if not cell["data"]:
             raise BadInput(f"{table}: line {line}: data is empty, expected a session or a sweep")
         t = cell.get("temperature_c") or ""
+        warm = number(table, line, "temperature_c", t) if t else None
+        if not insist and (doubt := kelvin_doubt(warm)):
+            raise BadInput(f"{table}: line {line}: {doubt}; {INSIST}")
         found.append(
             BatchTask(
                 _beside(table, cell["data"]) or "",
                 _beside(table, cell.get("specimen")) or (str(specimen) if specimen else None),
                 _beside(table, cell.get("hammer")) or (str(hammer) if hammer else None),
-                number(table, line, "temperature_c", t) if t else None,
+                warm,
             )
         )
     return found

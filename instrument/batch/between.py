@@ -1,7 +1,7 @@
 """Between the rows of one temperature: how far their laws lie apart beyond what is not known of each."""
 
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -48,7 +48,7 @@ def between_rows(rows: Iterable[BatchRow]) -> list[Between]:
     or whose law has no standard errors take no part.
     """
     bands: dict[Group, list[tuple[float, float]]] = defaultdict(list)
-    for row in rows:
+    for row in _once(rows):
         law = _law(row)
         if law is not None:
             bands[_group(row)].append((float(law["frequency_hz"][0]), float(law["frequency_hz"][-1])))
@@ -58,7 +58,7 @@ def between_rows(rows: Iterable[BatchRow]) -> list[Between]:
         if len(some) >= FEWEST and (low := max(b[0] for b in some)) < (high := min(b[1] for b in some))
     }
     found: dict[Group, list[tuple[str, Array, Array]]] = defaultdict(list)
-    for row in rows:
+    for row in _once(rows):
         law = _law(row)
         if law is not None and (group := _group(row)) in at:
             found[group].append((row.task.data, *_curve(law, at[group])))
@@ -67,6 +67,16 @@ def between_rows(rows: Iterable[BatchRow]) -> list[Between]:
         for group, some in sorted(found.items(), key=lambda item: (item[0] is None, item[0]))
         for curves, errors in [(np.array([c for _, c, _ in some]), np.array([e for _, _, e in some]))]
     ]
+
+
+def _once(rows: Iterable[BatchRow]) -> Iterator[BatchRow]:
+    """A file that is named twice is one specimen."""
+    seen = set()
+    for row in rows:
+        named = row.task.data, row.task.specimen, row.task.hammer, _group(row)
+        if named not in seen:
+            seen.add(named)
+            yield row
 
 
 def _group(row: BatchRow) -> Group:

@@ -104,6 +104,12 @@ from instrument.results.uncertainty_facts import Depth, in_depth, in_depth_facts
     help="With --shift: the temperature of the law; the middle one otherwise.",
 )
 @click.option(
+    "--temperature-k",
+    type=click.FloatRange(min=0.0),
+    help="With --shift: standard deviation of each stated temperature; 0.3 otherwise, 0 where everything "
+    "stated is exact.",
+)
+@click.option(
     "--vertical", is_flag=True, help="With --shift: the modulus of a temperature may be off by a factor."
 )
 @click.option(
@@ -130,6 +136,7 @@ def identify(
     samples: int,
     shift: Kind | None,
     reference_c: float | None,
+    temperature_k: float | None,
     vertical: bool,
     bare: Path | None,
     figures: Path | None,
@@ -147,8 +154,8 @@ def identify(
         raise click.UsageError(
             "--figures shows the law band by band, expected --pointwise, --with or --shift"
         )
-    if shift is None and (reference_c is not None or vertical):
-        raise click.UsageError("--reference-c and --vertical: expected --shift with them")
+    if shift is None and (reference_c is not None or temperature_k is not None or vertical):
+        raise click.UsageError("--reference-c, --temperature-k and --vertical: expected --shift with them")
     out = Output(json_path)
     if are_tables(data, specimen):
         if pointwise or method == "paper" or hammer is not None or dma is not None or with_budget or depths:
@@ -170,13 +177,16 @@ def identify(
         insist=insist,
         one_plate=True,
         own_hammer=at_temperatures and hammer is None,
+        at_temperatures=at_temperatures,
     )
     if shift is not None:
         if pointwise or method == "paper" or no_viscous_damping or dma is not None or with_budget or depths:
             raise click.UsageError(
-                "--shift goes with --reference-c, --vertical, --hammer and --figures alone"
+                "--shift goes with --reference-c, --temperature-k, --vertical, --hammer and --figures alone"
             )
-        identify_shifted(out, data, every, shift, reference_c, figures, vertical=vertical)
+        identify_shifted(
+            out, data, every, shift, reference_c, figures, vertical=vertical, temperature_k=temperature_k
+        )
         return
     files = together(every, data)
     if files is not None:

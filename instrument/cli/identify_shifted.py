@@ -28,12 +28,15 @@ def identify_shifted(
     figures: Path | None,
     *,
     vertical: bool,
+    temperature_k: float | None = None,
 ) -> None:
     """Fit, print, draw; a law that is not simple is refused after its figures are saved."""
     plate = given[0].specimen
     if len(given) < 2:
         raise click.UsageError(f"--shift: {len(given)} file, expected sweeps at two temperatures or more")
-    if not isinstance(plate, Specimen) or any(g.specimen != plate for g in given):
+    if not isinstance(plate, Specimen):
+        raise BadInput(f"--shift: the specimen is a {plate.kind}, expected a plate: others have no shift yet")
+    if any(g.specimen != plate for g in given):
         raise BadInput("--shift: expected sweeps of one plate, one --specimen for all")
     sweeps = []
     for path, one in zip(data, given, strict=True):
@@ -44,7 +47,16 @@ def identify_shifted(
     if tested is not None and any(one.session for one in given):
         out.say(f"the hammer test is that of {tested[1]}\n")
     modes = tested[0] if tested is not None else None
-    found = identify_at_temperatures(sweeps, plate, kind, reference_c, bar, vertical=vertical, hammer=modes)
+    found = identify_at_temperatures(
+        sweeps,
+        plate,
+        kind,
+        reference_c,
+        bar,
+        vertical=vertical,
+        hammer=modes,
+        temperature_k=temperature_k,
+    )
     if figures is not None:
         from instrument.results.shifted_figures import save_shifted_figures
 

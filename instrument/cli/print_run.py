@@ -93,6 +93,9 @@ def print_damping(out: Output, found: DampingFound) -> None:
 def print_quality(out: Output, points: list[PointMeasured]) -> None:
     """A line for the whole sweep."""
     steps = [p for p in points if p.purpose == "step"]
+    if not steps:
+        out.say("no step of the sweep was measured")
+        return
     off = max(abs(p.control_error_percent) for p in steps)
     noise = float(np.median([100 * p.velocity_std_m_s / abs(p.velocity_m_s) for p in steps]))
     marked = sum(bool(p.remarks) for p in steps)

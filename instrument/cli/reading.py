@@ -15,7 +15,7 @@ from instrument.files.modal_table import is_modal_table, read_modal_table
 from instrument.files.plausible import question_specimen
 from instrument.files.structure_file import read_structure
 from instrument.interchange.given import Given, read_given
-from instrument.interchange.questions import question_data
+from instrument.interchange.questions import question_data, question_temperatures
 from instrument.models.files import File, spots_of
 from instrument.progress import bar
 
@@ -55,6 +55,7 @@ def read_each(
     insist: bool,
     one_plate: bool = False,
     own_hammer: bool = False,
+    at_temperatures: bool = False,
 ) -> list[Given]:
     """Read every file with its specimen, paired in order; one specimen serves all.
 
@@ -63,7 +64,8 @@ def read_each(
     With `one_plate` a hammer test may come with several files, and is the first one's; with `own_hammer`
     sessions keep their own.
 
-    Stated numbers and data that no such plate has are questioned, unless someone insists.
+    Stated numbers and data that no such plate has are questioned, unless someone insists; so are files of
+    several temperatures, unless they are `at_temperatures` of their own.
     """
     if len(specimens) > 1 and len(specimens) != len(data):
         raise click.UsageError(
@@ -95,6 +97,8 @@ def read_each(
     if not insist:
         for one, path in zip(given, data, strict=True):
             question_data(one, path, bar)
+        if not at_temperatures:
+            question_temperatures([one.temperature_c for one in given], data)
     return given
 
 

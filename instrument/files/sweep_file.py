@@ -49,6 +49,16 @@ class SweepFile:
     @property
     def temperature_c(self) -> float | None:
         """Mean of the column of that name, where there is one. Raises `BadInput`."""
+        values = self._temperatures_c()
+        return float(values.mean()) if len(values) else None
+
+    @property
+    def temperature_range_c(self) -> tuple[float, float] | None:
+        """Its ends. Raises `BadInput`."""
+        values = self._temperatures_c()
+        return (float(values.min()), float(values.max())) if len(values) else None
+
+    def _temperatures_c(self) -> Array:
         cells = [c for c in self.unknown.get("temperature_c", []) if c.strip()]
         try:
             values = np.array([float(c) for c in cells])
@@ -56,7 +66,7 @@ class SweepFile:
             values = np.array([np.nan])
         if not np.all(np.isfinite(values) & (values > -273.15)):
             raise BadInput(f"{self.path}: column temperature_c: expected numbers in degrees Celsius")
-        return float(values.mean()) if len(values) else None
+        return values
 
     def sweep(self, amplitude: float, drive: Drive = "base") -> Sweep:
         """The sweep, levels multiples of `amplitude`: m/s^2 of the base, or newtons. Raises `BadInput`."""
@@ -124,6 +134,12 @@ def _check_header(path: Path, header: list[str]) -> None:
     for column in understood():
         if column.given == "always" and column.name not in header:
             near = nearest(column.name, header)
+            turning = next((name for name in header if "rad_s" in name or "omega" in name.lower()), None)
+            if turning:
+                raise BadInput(
+                    f"{path}: header: column {column.name} missing, found {turning}: expected Hz, rad/s "
+                    "over 2 pi"
+                )
             found = f"is it {near}?" if near else f"found {', '.join(header)[:120]}"
             raise BadInput(f"{path}: header: column {column.name} missing, {found}")
     known = [column.name for column in understood()]
@@ -140,6 +156,13 @@ def _check_header(path: Path, header: list[str]) -> None:
         raise BadInput(
             f"{path}: header: no velocity, expected velocity_re_m_s and velocity_im_m_s, or velocity_m_s, "
             "or acceleration or displacement in their place"
+        )
+    phases = [name for name in header if "phase" in name.lower()]
+    if not readings and phases:
+        raise BadInput(
+            f"{path}: header: column {phases[0]} beside amplitudes, phases are not read so: expected "
+            "velocity_re_m_s and velocity_im_m_s, amplitude times cosine and sine; without the column "
+            "amplitudes alone are fitted"
         )
     if len(readings) > 1:
         raise BadInput(f"{path}: header: {readings[0][0]} and {readings[1][0]}, expected one kind of reading")

@@ -54,6 +54,8 @@ class Given:
     with_masses: tuple[File, ...] = ()
     """The data of each clamping, known mass that a run put on the plate and place where it was struck; empty
     where there is none."""
+    temperature_range_c: tuple[float, float] | None = None
+    """Of a column."""
 
     @property
     def plate(self) -> Specimen:
@@ -65,7 +67,8 @@ class Given:
     def said(self, result: R) -> R:
         """A result of these data, which says whose they are."""
         if not self.session:
-            return result
+            known = isinstance(result, IdentificationResult) and self.temperature_c is not None
+            return result.but(temperature_c=self.temperature_c) if known else result
         said = result.but(session=self.session, reads=self.reads)
         of_session = isinstance(said, IdentificationResult) and self.recorded is not None
         return said.but(session_result=self.recorded) if of_session else said
@@ -112,7 +115,8 @@ def _of_sweep(data: Path, specimen: Path | None) -> Given:
             f"{data}: column mass_kg: a known mass was on the plate in some rows, expected a file for each, "
             "its specimen with [[mass]] (or the session itself)"
         )
-    return Given(read, file.sweep(level, drive), None, temperature_c=file.temperature_c)
+    sweep, warm, ends = file.sweep(level, drive), file.temperature_c, file.temperature_range_c
+    return Given(read, sweep, None, temperature_c=warm, temperature_range_c=ends)
 
 
 def at_its_spot(data: Path | str, read: AnySpecimen, sweep: Sweep) -> tuple[AnySpecimen, Sweep]:

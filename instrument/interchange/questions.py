@@ -20,6 +20,10 @@ from instrument.progress import Progress, quiet
 
 _WARM_C = 200.0
 """Few damping materials are measured warmer, and no laboratory is colder in kelvin."""
+_APART_K = 2.0
+"""Between files of one law: by more a polymer in its transition is another one by tenths."""
+_DRIFTED_K = 5.0
+"""Within one sweep, from its coldest row to its warmest: no mean is that of all of it."""
 _LOSSY = 3.0
 """More than a mode of any structure has."""
 
@@ -31,7 +35,7 @@ def question_data(given: Given, path: Path, progress: Progress = quiet, like: Sp
     """
     plate = given.specimen
     if not given.session:
-        _ask(_kelvin(given.temperature_c), [path])
+        _ask(kelvin_doubt(given.temperature_c) or _drifted(given.temperature_range_c), [path])
     if given.session or not isinstance(plate, Specimen) or plate.core is None or plate.pickup_m is None:
         return
     if plate.force_m is not None or plate.further_pickups_m or plate.masses:
@@ -42,12 +46,36 @@ def question_data(given: Given, path: Path, progress: Progress = quiet, like: Sp
 def question_modes(tables: Sequence[ModalTable], fit: ModalFit, paths: Sequence[Path]) -> None:
     """Ask about tables beside their fit without any effect. Raises `BadInput`."""
     warmest = [float(t.temperature_c.max()) for t in tables if t.temperature_c is not None]
-    _ask(_kelvin(max(warmest, default=None)) or _percent(tables), paths)
+    _ask(kelvin_doubt(max(warmest, default=None)) or _percent(tables), paths)
+    question_temperatures(
+        [None if t.temperature_c is None else float(t.temperature_c.mean()) for t in tables], paths
+    )
     measured, predicted = (np.concatenate(f) for f in ([t.frequency_hz for t in tables], fit.predicted_hz))
     _ask(modal_doubt(measured, predicted), paths)
 
 
-def _kelvin(temperature_c: float | None) -> str:
+def question_temperatures(temperatures_c: Sequence[float | None], paths: Sequence[Path]) -> None:
+    """Ask about files of one law that are not of one temperature. Raises `BadInput`."""
+    known = sorted((t, path) for t, path in zip(temperatures_c, paths, strict=False) if t is not None)
+    if known and known[-1][0] - known[0][0] > _APART_K:
+        (cold, first), (warm, last) = known[0], known[-1]
+        raise BadInput(
+            f"{first}: at {cold:g} degC, {last.name} at {warm:g} degC: one law is that of one temperature, "
+            f"expected 'identify --shift', or files of one temperature; {INSIST}"
+        )
+
+
+def _drifted(range_c: tuple[float, float] | None) -> str:
+    if range_c is None or range_c[1] - range_c[0] <= _DRIFTED_K:
+        return ""
+    return (
+        f"temperature_c from {range_c[0]:g} to {range_c[1]:g} in one sweep: its law is that of no one "
+        "temperature, expected a file for each"
+    )
+
+
+def kelvin_doubt(temperature_c: float | None) -> str:
+    """Empty for a temperature that a damping material may have been measured at."""
     if temperature_c is None or temperature_c <= _WARM_C:
         return ""
     return f"temperature_c = {temperature_c:g}: is it in K?"

@@ -66,7 +66,7 @@ def _each_alone(wicket: Axes, cole: Axes, curves: Axes, found: Shifted) -> None:
         name = f"{T[k]:g} °C"
         wicket.loglog(storage, eta, color=color, label=name)
         cole.plot(storage / 1e6, storage * eta / 1e6, color=color)
-        curves.loglog(at * np.exp(found.fit.log_shift[k]), storage, color=color)
+        curves.loglog(at * np.exp(found.fit.sweeps_log_shift[k]), storage, color=color)
     one = found.band
     wicket.loglog(one.storage_modulus_pa, one.loss_factor, "k--", lw=0.8, label="one law")
     cole.plot(one.storage_modulus_pa / 1e6, one.storage_modulus_pa * one.loss_factor / 1e6, "k--", lw=0.8)

@@ -3,7 +3,7 @@
     python tests/campaigns/temperatures.py [--seeds 5] [--points 60]
 
 Prints a row a case: WLF and Arrhenius truth as they are and with a vibrometer 1.1 ms late, and a core of two
-processes, which has no one law.
+processes, which has no one law. Temperatures are exact.
 """
 
 import sys
@@ -47,14 +47,16 @@ def main(seeds: int, points: int) -> None:
         for late_s in (0.0, DELAY_S):
             covered(plate, kind, truth, laws, late_s, seeds if late_s == 0 else 1, points)
     two = [TwoProcesses(a, b) for a, b in zip(arrhenius(4e4), arrhenius(1.6e5), strict=True)]
-    found = identify_shifted(sweeps(two, 0, points), plate, "free", REFERENCE)
+    found = identify_shifted(sweeps(two, 0, points), plate, "free", REFERENCE, temperature_k=0.0)
     print(f"two processes: simple {found.verdict.simple}; {found.verdict.words}")
 
 
 def covered(plate, kind, truth, laws, late_s, seeds, points):
     moved, off, worst, said = T != REFERENCE, [], [], []
     for seed in range(seeds):
-        found = identify_shifted(sweeps(laws, seed, points, late_s), plate, kind, REFERENCE)
+        found = identify_shifted(
+            sweeps(laws, seed, points, late_s), plate, kind, REFERENCE, temperature_k=0.0
+        )
         off += ((found.fit.log_shift - truth)[moved] / found.fit.log_shift_errors[moved]).tolist()
         G = LAW.modulus(2 * np.pi * found.band.frequency_hz)
         law = found.band.storage_modulus_pa * (1 + 1j * found.band.loss_factor)

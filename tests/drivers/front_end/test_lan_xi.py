@@ -314,3 +314,9 @@ def test_four_channels_come_faster_than_three_million_samples_a_second(server, s
     for _ in range(400):
         front_end.read(8192)
     assert 400 * 8192 / (time.perf_counter() - begun) > 3e6
+
+
+def test_a_port_that_is_taken_is_said_by_what_wanted_it(server):
+    port = int(server.url.rpartition(":")[2])
+    with pytest.raises(Unreachable, match=f"front-end: cannot serve at 127.0.0.1:{port}: Address already"):
+        LanXiServer(Ramps(), channels=6, sample_rates=RATES, port=port)

@@ -1,5 +1,7 @@
 """The laws of all temperatures as one set of parameters: what each sweep reads, and how it goes with them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from temperature_cases import LAW, REFERENCE, T
@@ -26,6 +28,12 @@ def one_law(kind, b=()):
     return OneLaw(bent(), shift, tuple(theta.tolist()), POINTS, b)
 
 
+def with_temperatures(kind, off=(0.5, -1.0, 2.0, 0.3, -0.4), error_k=0.3):
+    law = one_law(kind, (1.02, 0.98, 1.05, 0.95))
+    warmer = tuple(np.exp(off).tolist())
+    return replace(law, shift=Shift(kind, T, REFERENCE, error_k), warmer=warmer)
+
+
 def own_laws():
     laws = [BentLaw.over(LAW, F * 1.1**k) for k in range(len(T))]
     return OwnLaws(tuple(laws), POINTS)
@@ -36,6 +44,8 @@ CASES = {
     "arrhenius, vertical": one_law("arrhenius", (1.02, 0.98, 1.05, 0.95)),
     "free": one_law("free"),
     "own": own_laws(),
+    "wlf, temperatures": with_temperatures("wlf"),
+    "arrhenius, temperatures": with_temperatures("arrhenius"),
 }
 
 
@@ -59,7 +69,15 @@ def test_names_values_limits_and_priors_go_together(name):
     assert len(law.names) == len(law.values) == len(law.limits) == len(set(law.names))
     assert len(law.search_widths) + law.bend_count == len(law.names)
     np.testing.assert_array_equal(law.with_values(law.values).values, law.values)
-    assert all("bend" in n for n in law.names[len(law.names) - law.bend_count :])
+    known = law.names[len(law.names) - law.bend_count :]
+    assert all("bend" in n or n.startswith("temperature_") for n in known)
+
+
+def test_a_moved_temperature_is_where_its_sweep_is_read():
+    law = with_temperatures("wlf")
+    warm = Shift("wlf", T + 0.3 * np.array([0.5, -1.0, 2.0, 0.3, -0.4]), REFERENCE)
+    np.testing.assert_allclose(law.log_shift, warm.log_shift(law.parameters))
+    np.testing.assert_allclose(law.off, [0.5, -1.0, 2.0, 0.3, -0.4])
 
 
 def test_the_reference_has_the_law_itself_and_a_shift_is_along_the_frequency():

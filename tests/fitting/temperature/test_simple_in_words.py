@@ -35,7 +35,7 @@ def fit(p=0.4, own=1.0, *, noise_known=True, off=1.0):
         degrees=4.0,
         law=LAW,
         own_law=of_its_own,
-        log_shift=np.log([4.0, 1.0]),
+        sweeps_log_shift=np.log([4.0, 1.0]),
         log_vertical=np.zeros(2),
         bands_hz=[(14.0, 300.0)] * 2,
         shift=SimpleNamespace(kind="wlf", temperature_c=T),

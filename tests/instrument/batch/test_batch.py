@@ -174,6 +174,7 @@ def test_parquet_holds_the_same_numbers(whole):
         (["rows.csv", "sweep-0000.csv"], "expected one table"),
         (["empty.csv"], "no rows"),
         (["warm.csv"], "expected a number"),
+        (["kelvin.csv"], "line 2: temperature_c = 293.15: is it in K?; --force"),
     ],
 )
 def test_a_wrong_question_is_one_line(tmp_path, given, said):
@@ -182,6 +183,7 @@ def test_a_wrong_question_is_one_line(tmp_path, given, said):
         ("rows.csv", "data\nx.csv\n"),
         ("empty.csv", "data,specimen\n"),
         ("warm.csv", "data,temperature_c\nx.csv,warm\n"),
+        ("kelvin.csv", "data,temperature_c\nx.csv,293.15\n"),
     ):
         (tmp_path / name).write_text(text, encoding="utf-8")
     with pytest.raises(BadInput, match=re.escape(said)):

@@ -71,3 +71,10 @@ def test_two_rows_or_bands_apart_have_none():
     other = row(7, 1.0)
     other.outcome["law"]["frequency_hz"] = (FREQUENCIES_HZ * 100).tolist()
     assert between_rows([*rows(3, 0.0), other]) == []
+
+
+def test_a_file_that_is_named_twice_is_one_specimen():
+    some = rows(4, 0.02)
+    (found,) = between_rows([*some, some[1], some[1]])
+    assert found.result.rows == 4
+    assert between_rows([some[0], some[0], some[1]]) == []

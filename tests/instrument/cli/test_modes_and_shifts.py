@@ -158,7 +158,7 @@ def found(monkeypatch):
     def make(simple=True):
         verdict = Verdict(simple, 0.4, 1.2, 30.0, "one law serves" if simple else "no one law serves")
 
-        def identify(sweeps, plate, kind, reference_c, progress, *, vertical, hammer):
+        def identify(sweeps, plate, kind, reference_c, progress, *, vertical, hammer, temperature_k):
             asked.append(([s.name for s in sweeps], kind, reference_c, vertical, hammer))
             return Shifted(fit, verdict, band, tuple(each), None, 2.0)
 
@@ -215,7 +215,7 @@ def test_sweeps_that_make_no_shift_are_refused(zn1, found):
     others = [given(zn1, 0), given(zn1.with_law(LAW), 1), given(zn1, 2)]
     with pytest.raises(BadInput, match="expected sweeps of one plate"):
         shift(others)
-    with pytest.raises(BadInput, match="expected sweeps of one plate"):
+    with pytest.raises(BadInput, match="the specimen is a beam, expected a plate"):
         shift([given(BEAM, k) for k in range(3)])
     cold = given(zn1, 1)
     cold.temperature_c = None

@@ -14,6 +14,7 @@ from instrument.cli.output import Output
 from instrument.cli.print_beside import print_beside
 from instrument.cli.print_budget import print_budget
 from instrument.cli.print_modes import print_formulas, print_modal_law, print_modes
+from instrument.cli.print_run import print_quality
 from instrument.cli.print_uncertainty import print_in_depth
 from instrument.facts.beside import BesideTable
 from instrument.facts.budget import BudgetRow
@@ -206,3 +207,8 @@ def test_a_table_outside_the_band_is_said_to_have_nothing_to_compare(capsys):
 def test_a_refused_damping_is_said_to_be_and_no_number():
     assert _percent(Refusal("too few lines")) == "refused"
     assert _percent(DampingEstimate(100.0, 0.0123, 1e-4)) == "1.2300 +- 0.01"
+
+
+def test_a_sweep_that_was_stopped_before_its_first_step_has_no_quality(capsys):
+    print_quality(Output(None), [])
+    assert "no step of the sweep was measured" in capsys.readouterr().out

@@ -140,3 +140,31 @@ def test_bad_sweep_is_refused_in_one_line(tmp_path, case):
     assert message.startswith(str(path))
     assert expected in message
     assert "\n" not in message
+
+
+@pytest.mark.parametrize("name", ["phase_deg", "velocity_phase_rad", "Phase [deg]"])
+def test_a_phase_beside_amplitudes_is_not_passed_over(tmp_path, name):
+    text = f"frequency_hz,velocity_m_s,{name}\n18.4,0.07,-90\n19.3,0.11,-100\n"
+    with pytest.raises(BadInput, match=r"header: column .* beside amplitudes, phases are not read so"):
+        read_sweep(write(tmp_path, text))
+
+
+def test_a_phase_beside_both_parts_is_a_column_of_its_own(tmp_path):
+    text = "frequency_hz,velocity_re_m_s,velocity_im_m_s,phase_deg\n18.4,-0.01,0.07,98\n"
+    assert read_sweep(write(tmp_path, text)).unknown == {"phase_deg": ["98"]}
+
+
+def test_a_column_of_temperatures_has_a_mean_and_ends(tmp_path):
+    text = "frequency_hz,velocity_m_s,temperature_c\n18.4,0.07,20\n19.3,0.11,23\n19.9,0.1,\n"
+    file = read_sweep(write(tmp_path, text))
+    assert file.temperature_c == 21.5
+    assert file.temperature_range_c == (20.0, 23.0)
+    assert read_sweep(write(tmp_path, AMPLITUDES)).temperature_range_c is None
+
+
+def test_a_column_of_angular_frequencies_is_told_its_cure(tmp_path):
+    text = "omega_rad_s,velocity_m_s\n115.6,0.07\n"
+    with pytest.raises(
+        BadInput, match=r"frequency_hz missing, found omega_rad_s: expected Hz, rad/s over 2 pi"
+    ):
+        read_sweep(write(tmp_path, text))

@@ -9,8 +9,9 @@ import pytest
 from conftest import DATA
 
 from instrument.errors import BadInput
+from instrument.facts.identification import IdentificationResult
 from instrument.interchange.given import read_given
-from instrument.interchange.questions import question_data, question_modes
+from instrument.interchange.questions import question_data, question_modes, question_temperatures
 from instrument.paper_case import case_file
 
 HZ = np.array([74.3, 365.6, 922.2, 1670.0])
@@ -55,3 +56,41 @@ def test_a_sweep_in_kilohertz_is_asked_about_and_a_session_is_not():
     with pytest.raises(BadInput, match=r"sweep\.csv: .* the frequencies are in kHz"):
         question_data(kilo, Path("sweep.csv"))
     question_data(replace(kilo, session="monday"), Path("monday.h5"))
+
+
+def test_files_of_unlike_temperatures_are_asked_about_before_they_get_one_law():
+    paths = [Path("a.csv"), Path("b.csv"), Path("c.csv")]
+    with pytest.raises(BadInput, match=r"^c\.csv: at 0 degC, a\.csv at 20 degC: .* 'identify --shift'"):
+        question_temperatures([20.0, None, 0.0], paths)
+    question_temperatures([20.0, 21.5, None], paths)
+    question_temperatures([None, None, None], paths)
+
+
+def test_tables_of_modes_of_unlike_temperatures_are_asked_about():
+    tables, fit = tables_and_fit(HZ, temperature_c=20.0)
+    tables[1].temperature_c = np.full(2, 35.0)
+    with pytest.raises(BadInput, match="one law is that of one temperature"):
+        question_modes(tables, fit, [Path("a.csv"), Path("b.csv")])
+
+
+def test_a_sweep_through_many_temperatures_is_asked_about():
+    given = read_given(DATA / "practice-002.csv", case_file("zn1.toml"), None)
+    with pytest.raises(BadInput, match="temperature_c from 20 to 60 in one sweep"):
+        question_data(replace(given, temperature_range_c=(20.0, 60.0)), Path("sweep.csv"))
+    question_data(replace(given, temperature_range_c=(20.0, 22.0)), Path("sweep.csv"))
+
+
+def test_a_law_says_at_which_temperature_it_was_found():
+    given = read_given(DATA / "practice-002.csv", case_file("zn1.toml"), None)
+    facts = IdentificationResult(
+        law_kind="constant",
+        parameters={},
+        standard_errors={},
+        correlations={},
+        points=(),
+        rms_percent=1.0,
+        max_percent=2.0,
+        law=(),
+    )
+    assert replace(given, temperature_c=21.0).said(facts).temperature_c == 21.0
+    assert replace(given, temperature_c=None).said(facts).temperature_c is None

@@ -131,3 +131,46 @@ def test_a_hammer_test_of_the_bare_plate_takes_part_once_for_all(plate):
     assert found.fit.one.residuals.size == without.fit.one.residuals.size + 8
     errors = [np.sqrt(f.fit.law_covariance[0, 0]) for f in (found, without)]
     assert errors[0] < errors[1]
+
+
+def stated_otherwise(made, off):
+    return [replace(one, temperature_c=one.temperature_c + k) for one, k in zip(made, off, strict=True)]
+
+
+def test_temperatures_a_little_off_are_no_fault_of_the_material(plate):
+    off = np.array([0.35, -0.2, 0.1, -0.4, 0.3])
+    made = stated_otherwise(sweeps(plate, [OneProcess(a) for a in wlf()]), off)
+    found = identify_shifted(made, plate, "wlf", REFERENCE)
+    assert found.verdict.simple
+    # At the temperatures as stated, by the form that made them.
+    truth = Shift("wlf", T + off, REFERENCE).log_shift(np.array([4.0, 60.0]))
+    assert np.all(np.abs(found.fit.log_shift - truth) < 3 * found.fit.log_shift_errors + 1e-9)
+    exact = identify_shifted(made, plate, "wlf", REFERENCE, temperature_k=0.0)
+    # A temperature that may move is one unknown and one reading more.
+    assert found.fit.degrees == pytest.approx(exact.fit.degrees, abs=1.0)
+    assert exact.verdict.simple is False
+    assert "the temperatures as stated do not go with WLF" in exact.verdict.words
+
+
+def test_one_wrong_temperature_is_named_and_the_material_is_not_blamed(plate):
+    made = stated_otherwise(sweeps(plate, [OneProcess(a) for a in wlf()]), [0, 0, 0, 15.0, 0])
+    words = identify_shifted(made, plate, "wlf", REFERENCE).verdict.words
+    assert "28.csv is stated at 43 degC, its sweep is that of 28." in words
+    assert "loss factor" not in words
+    free = identify_shifted(made, plate, "free", REFERENCE)
+    assert any("the factor of 43 degC is above that of 36 degC" in one for one in free.warnings)
+
+
+def test_three_temperatures_leave_wlf_nothing_that_checks_one(plate):
+    made = stated_otherwise(sweeps(plate, [OneProcess(a) for a in wlf()])[:3], [0, 0, 20.0])
+    found = identify_shifted(made, plate, "wlf", REFERENCE)
+    assert any(one.startswith("3 temperatures fix WLF without one to spare") for one in found.warnings)
+    whole = identify_shifted(sweeps(plate, [OneProcess(a) for a in wlf()]), plate, "wlf", REFERENCE)
+    assert not any("to spare" in one for one in whole.warnings)
+
+
+def test_temperatures_that_scatter_more_than_is_said_of_them_are_a_note(plate):
+    off = [0.9, -0.8, 0.0, -1.1, 1.0]
+    made = stated_otherwise(sweeps(plate, [OneProcess(a) for a in wlf()]), off)
+    found = identify_shifted(made, plate, "wlf", REFERENCE)
+    assert any("temperatures lie farther from the form than 0.3 K" in one for one in found.warnings)

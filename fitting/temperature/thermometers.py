@@ -1,0 +1,114 @@
+"""Whether the stated temperatures go with what the sweeps say: a wrong one is no fault of the material.
+
+Each sweep may be given a factor of its own. Where one law then serves, the material is simple, and the form
+or a temperature is not as stated; the form through the other sweeps says which one, and what it should be.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from scipy.optimize import brentq, least_squares
+
+from fitting.arrays import Array
+from fitting.chances import chi2_above
+from fitting.temperature.joint import ShiftedFit
+from fitting.temperature.shifts import Shift
+
+_APART_K = 1e-6
+"""Between sweeps of one stated temperature, so that each has a factor of its own; nothing measures it."""
+_REFUSED, _AGREED = 1e-3, 1e-2
+"""Tail probabilities: below the first temperatures do not go together, above the second they do."""
+_LEAST_K = 0.1
+"""Below this a factor is not read finer than a thermometer: what exact temperatures are taken for here."""
+_FAR_K = 150.0
+"""How far from the stated one a temperature is looked for."""
+
+
+@dataclass(frozen=True)
+class Misread:
+    """A sweep whose temperature is not that of the others."""
+
+    sweep: int
+    stated_c: float
+    read_c: float
+    """Where the form through the other sweeps has its factor; NaN where it has it nowhere."""
+
+
+def each_its_own(shift: Shift) -> Shift:
+    """Free factors, one for every sweep even where two are stated at one temperature."""
+    T = shift.temperature_c
+    return Shift("free", T + _APART_K * np.arange(len(T)), shift.reference_c, shift.error_k)
+
+
+def misread(form: Shift, own: ShiftedFit) -> Misread | None:
+    """The one sweep without which all others follow the form, if just one. `own` is of `each_its_own`."""
+    log_a, errors = own.log_shift, own.sweeps_log_shift_errors
+    if form.kind == "free" or _chance(form, log_a, errors, range(len(log_a))) >= _REFUSED:
+        return None
+    found = []
+    for k in range(len(log_a)):
+        others = [j for j in range(len(log_a)) if j != k]
+        if _chance(form, log_a, errors, others) >= _AGREED:
+            found.append(k)
+    if len(found) != 1:
+        return None
+    (k,) = found
+    others = [j for j in range(len(log_a)) if j != k]
+    return Misread(k, float(form.temperature_c[k]), _read(form, log_a, errors, others, k))
+
+
+def rising(shift: Shift, log_a: Array) -> tuple[float, float] | None:
+    """Two neighbouring temperatures of which the warmer one has the larger factor. `log_a` (sweeps,)."""
+    order = np.argsort(shift.temperature_c, kind="stable")
+    for one, two in pairwise(order):
+        if shift.temperature_c[one] < shift.temperature_c[two] and log_a[one] < log_a[two]:
+            return float(shift.temperature_c[one]), float(shift.temperature_c[two])
+    return None
+
+
+def _chance(form: Shift, log_a: Array, errors: Array, sweeps: Sequence[int]) -> float:
+    """That the form scatters so about the factors of some sweeps; NaN where it goes through any."""
+    at = list(sweeps)
+    dof = len(at) - len(form.names) - 1
+    if dof < 1:
+        return float("nan")
+    _, _, chi2 = _through(form, log_a, errors, at)
+    return float(chi2_above(chi2, dof))
+
+
+def _through(form: Shift, log_a: Array, errors: Array, at: list[int]) -> tuple[Array, float, float]:
+    """The form nearest to the factors of some sweeps: parameters, a common offset, chi-square."""
+    T, s, low, high = form.temperature_c[at], form.scales, form.lowest, form.highest
+    few = Shift(form.kind, T, form.reference_c)
+
+    def residuals(q: Array, sigma: Array) -> Array:
+        return np.asarray((few.log_shift(q[:-1] * s, T) + q[-1] - log_a[at]) / sigma)
+
+    q = np.append(np.clip(few.near(log_a[at]), low, high) / s, 0.0)
+    limits = np.append(low / s, -np.inf), np.append(high / s, np.inf)
+    sigma = np.ones(len(at))
+    for _ in range(2):
+        fit = least_squares(residuals, np.clip(q, *limits), bounds=limits, args=(sigma,))
+        q = fit.x
+        by_k = few.by_temperature(q[:-1] * s, T)
+        sigma = np.hypot(errors[at], by_k * max(form.error_k, _LEAST_K))
+    fit = least_squares(residuals, q, bounds=limits, args=(sigma,))
+    return fit.x[:-1] * s, float(fit.x[-1]), 2 * float(fit.cost)
+
+
+def _read(form: Shift, log_a: Array, errors: Array, others: list[int], k: int) -> float:
+    p, offset, _ = _through(form, log_a, errors, others)
+
+    def off(t: float) -> float:
+        return float(form.log_shift(p, np.array([t]))[0] + offset - log_a[k])
+
+    stated = float(form.temperature_c[k])
+    low = stated - _FAR_K
+    if form.kind == "wlf":
+        low = max(low, form.reference_c - float(p[1]) + 1.0)
+    high = stated + _FAR_K
+    if off(low) * off(high) > 0:
+        return float("nan")
+    return float(brentq(off, low, high, xtol=1e-3))

@@ -1,0 +1,60 @@
+"""A wrong temperature among right ones: which sweep it is, what it should be, and when nothing is said."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from fitting.temperature.shifts import Shift
+from fitting.temperature.thermometers import each_its_own, misread, rising
+
+T = np.array([0.0, 10.0, 20.0, 30.0, 40.0])
+FORMS = {"wlf": np.array([9.0, 110.0]), "arrhenius": np.array([1.2e5])}
+
+
+def own(log_a, error=0.01):
+    return SimpleNamespace(log_shift=log_a, sweeps_log_shift_errors=np.full(len(log_a), error))
+
+
+def factors(kind, true_c, reference=20.0):
+    """As sweeps of these true temperatures have them, from the second on."""
+    log_a = Shift(kind, T, reference).log_shift(FORMS[kind], np.asarray(true_c))
+    return log_a - log_a[1]
+
+
+@pytest.mark.parametrize("kind", FORMS)
+@pytest.mark.parametrize(("k", "true_c"), [(2, 40.0), (4, 55.0), (0, 12.0)])
+def test_the_sweep_whose_temperature_is_wrong_is_named_with_its_own(kind, k, true_c):
+    true = T.copy()
+    true[k] = true_c
+    found = misread(Shift(kind, T, 20.0, 0.3), own(factors(kind, true)))
+    assert found.sweep == k
+    assert found.stated_c == T[k]
+    assert found.read_c == pytest.approx(true_c, abs=0.5)
+
+
+def test_right_temperatures_too_few_and_two_wrong_ones_name_nobody():
+    assert misread(Shift("wlf", T, 20.0, 0.3), own(factors("wlf", T))) is None
+    assert (
+        misread(Shift("wlf", T, 20.0, 0.3), own(factors("wlf", T + np.array([12.0, 0.0, -15.0, 0.0, 9.0]))))
+        is None
+    )
+    few = own(factors("wlf", T + np.array([0.0, 0.0, 0.0, 20.0, 0.0]))[:4])
+    assert misread(Shift("wlf", T[:4], 20.0, 0.3), few) is None
+    assert (
+        misread(Shift("free", T, 20.0, 0.3), own(factors("wlf", T + np.array([0.0, 0.0, 20.0, 0.0, 0.0]))))
+        is None
+    )
+
+
+def test_every_sweep_has_a_factor_of_its_own_two_of_one_temperature_too():
+    shift = each_its_own(Shift("wlf", np.array([10.0, 20.0, 20.0]), 20.0, 0.3))
+    assert shift.kind == "free"
+    assert len(shift.names) == 2
+    assert not shift.moves_temperatures
+
+
+def test_a_factor_that_rises_with_the_temperature_is_seen():
+    shift = Shift("free", np.array([0.0, 10.0, 40.0, 30.0]), 10.0)
+    assert rising(shift, np.array([2.5, 0.0, -2.1, -3.8])) == (30.0, 40.0)
+    assert rising(shift, np.array([2.5, 0.0, -3.9, -3.8])) is None
