@@ -75,7 +75,7 @@ def promising(
     moved = moves(response, before.law, before.u, each, v)
     felt = [step.felt(u, m) for u, m in zip(each, moved, strict=True)]
     found = [step.scaled(u, one) for u, one in zip(each, felt, strict=True)]
-    if starts is None and effect.parameters and not by_adjoint(effect):
+    if starts is None and effect.parameters and not before.effects and not by_adjoint(effect):
         small = _directions(effect, [u for u, one in zip(each, felt, strict=True) if step.hides(one)])
         slope = slopes(response, before.law, before.u, small, v)
         told = [step.scaled(u, step.felt_of_slope(u, m)) for u, m in zip(small, slope, strict=True)]

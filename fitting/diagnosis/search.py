@@ -67,7 +67,7 @@ class Search:
         """`unnamed` are fitted alone, for comparison, and never named."""
         self.problem, self.evidence, self.executor = problem, evidence, executor
         self.stated = stated = none.law
-        self._validations: dict[int, tuple[ScoredFit, Validation]] = {}
+        self._validations: dict[Refitted, Validation] = {}
         self.effects, self.unnamed = (
             [e for e in some if e.objection(problem.points, problem.plate) is None]
             for some in (effects, unnamed)
@@ -124,17 +124,16 @@ class Search:
         self._learn_validations(new, self.executor.each(self.work.held_out, [t.fitted for t in new]))
 
     def _not_validated(self, scored_fits: Sequence[ScoredFit]) -> list[ScoredFit]:
-        return [t for t in scored_fits if id(t) not in self._validations]
+        return [t for t in scored_fits if t.fitted not in self._validations]
 
     def _learn_validations(self, scored_fits: Sequence[ScoredFit], said: Iterable[Validation]) -> None:
-        self._validations |= {id(t): (t, v) for t, v in zip(scored_fits, said, strict=True)}
+        self._validations |= {t.fitted: v for t, v in zip(scored_fits, said, strict=True)}
 
     def validation(self, scored: ScoredFit) -> Validation:
         """What a trial says of data it has not seen."""
-        key = id(scored)
-        if key not in self._validations:
-            self._validations[key] = scored, self.work.held_out(scored.fitted)
-        return self._validations[key][1]
+        if scored.fitted not in self._validations:
+            self._validations[scored.fitted] = self.work.held_out(scored.fitted)
+        return self._validations[scored.fitted]
 
     def alone(self, scored: ScoredFit) -> list[ScoredFit]:
         """Each effect of a pair fitted alone from where the pair left it."""

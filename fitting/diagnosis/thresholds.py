@@ -114,7 +114,7 @@ class SearchThresholds:
     """Effects of pairs near the best that are kept while the other one is exchanged ..."""
     exchanged: int = 4
     """... and others that are fitted beside each that is kept."""
-    every_second: int = 3
+    every_second: int = 2
     """Leaders beside which every other effect is then begun ..."""
     wide: int = 32
     """... pairs of those that are followed in wide valleys, `pairs_a_leader` of each among them ..."""
@@ -134,7 +134,7 @@ class SearchThresholds:
     """... and of one with a place to be found."""
     more_places: int = 36
     """Further starts of the latter, in a thorough search ..."""
-    places_followed: int = 12
+    places_followed: int = 8
     """... of those, how many go on after a few steps: of 36 the best was among the first five by then ..."""
     most_places: int = 30
     """... and of the rest, where all that lead lean."""
