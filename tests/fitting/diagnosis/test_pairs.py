@@ -241,7 +241,7 @@ class Wanting(World):
 
 
 def wanting(monkeypatch, wide, names, **chi2):
-    few = replace(SEARCH, leaders=1, pairs=1, pairs_a_leader=1, wide=wide)
+    few = replace(SEARCH, leaders=1, pairs=1, pairs_a_leader=1, wide=wide, every_second=3)
     monkeypatch.setattr("fitting.diagnosis.pairs.SEARCH", few)
     return Wanting(names, **chi2)
 
