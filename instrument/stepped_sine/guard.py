@@ -1,4 +1,4 @@
-"""The limits of a step: base, response, travel. Looked at in every block that is read."""
+"""The limits of a step: base, response, travel, in every block that is read; the base in ramps too."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -7,6 +7,8 @@ from instrument.stepped_sine.settings import SweepSettings
 from instrument.stream.derived import LimitExceeded, LimitWarned
 from instrument.stream.event import Derived
 from instrument.stream.raw import StepBegan
+
+_BASE, _LOWER = "base acceleration", "lower the level"
 
 
 class Guard:
@@ -25,8 +27,8 @@ class Guard:
         base, velocity = np.ptp(x, axis=1) / 2
         travel = base / (2 * np.pi * self._began.frequency_hz) ** 2
         watched = [
-            ("base acceleration", base, limits.base_m_s2, "m/s^2", "lower the level"),
-            ("velocity", velocity, limits.velocity_m_s, "m/s", "lower the level"),
+            (_BASE, base, limits.base_m_s2, "m/s^2", _LOWER),
+            ("velocity", velocity, limits.velocity_m_s, "m/s", _LOWER),
             (
                 "travel of the base",
                 1e3 * travel,
@@ -41,6 +43,14 @@ class Guard:
                 return [self.stop(what, float(value), limit, unit, remedy)]
             events += self._near(what, float(value), limit, unit)
         return events + self._near("drive", drive_v, limits.drive_v, "V")
+
+    def ramp(self, base_m_s2: NDArray[np.float64]) -> list[Derived]:
+        """The base's peak on the way to a new drive against its limit; a level it has none yet.
+
+        Shape (samples,).
+        """
+        peak, limit = float(np.ptp(base_m_s2)) / 2 if len(base_m_s2) else 0.0, self._settings.limits.base_m_s2
+        return [self.stop(f"{_BASE} on the way", peak, limit, "m/s^2", _LOWER)] if peak > limit else []
 
     def stop(self, what: str, value: float, limit: float, unit: str, remedy: str) -> LimitExceeded:
         """The event that ends the run."""

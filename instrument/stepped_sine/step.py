@@ -114,8 +114,9 @@ class StepAnalysis:
             return self._overloaded()
         if overload[row["base"]]:
             return [self._guard.stop("base acceleration channel overload", 1.0, 0.0, "", "raise its range")]
-        self._samples.add(first_sample, self._in_units(volts), self._from)
-        events: list[Derived] = []
+        x = self._in_units(volts)
+        self._samples.add(first_sample, x, self._from)
+        events: list[Derived] = self._guard.ramp(x[0, : max(0, self._from - first_sample)])
         while not self.done and self._samples.count >= self._next_length() and not _final(events):
             events += self._reading(*self._samples.take(self._next_length()))
         return events

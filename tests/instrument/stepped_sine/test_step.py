@@ -130,6 +130,19 @@ def test_a_base_above_its_abort_band_stops():
     assert stop.value == pytest.approx(38.0, rel=0.01)
 
 
+@pytest.mark.parametrize(("peak_m_s2", "stops"), [(40.0, False), (70.0, True)])
+def test_the_base_is_watched_on_the_way_to_a_new_drive(peak_m_s2, stops):
+    """A frequency changes at once: before the ramp is over the base may have rung."""
+    station, step = Station(gain_m_s2_v=9.81 / 1.9), began()
+    analysis = StepAnalysis(step, SETTINGS, SCALING, RATE, RANGE, (), None, 0.8, station.now)
+    analysis.commanded(station.command(step.frequency_hz, step.drive_v))
+    first, volts = station.read(analysis.wanted())
+    ringing = volts.copy()
+    ringing[0, 10:20] += peak_m_s2 * BASE_V * np.resize([1.0, -1.0], 10)
+    stopped = of_kind(analysis.block(first, ringing, (False, False)), LimitExceeded)
+    assert [e.what for e in stopped] == (["base acceleration on the way"] if stops else [])
+
+
 def test_travel_is_limited_and_warned_of():
     step = began(frequency_hz=5.0, drive_v=1.9)
     station = Station(gain_m_s2_v=9.81 / 1.9, stirred=0.0)
