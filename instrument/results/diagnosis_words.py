@@ -15,6 +15,8 @@ _MOST_PARAMETERS = 4
 UNKNOWN = "verdict unknown"
 _LEAST = 1e-3
 """Probability below which, or above one less which, no digits are said."""
+_OUTSIDE_GROUP = 0.05
+"""Most that what is not in the group of 95 % can have."""
 _RANGE = 3
 """Neighbours from which only the first and the last are said."""
 _FILES = {EACH: "in each file its own", ALIKE: "in every file"}
@@ -86,10 +88,12 @@ def with_verdict(title: str, found: DiagnosisResult) -> str:
 def probability_words(candidate: CandidateFitted, found: DiagnosisResult) -> str:
     """Of an explanation, one of those tried being right; a dash where none was weighed.
 
-    Where nothing explains the data, what the checks refuse has none: the best of the wrong is not certain.
+    Where nothing explains the data what is likeliest is refused, by a check or by data held out, and so is
+    what fails a check: the best of the wrong is not certain.
     """
     p = candidate.probability
-    if found.verdict == "unknown" and any(tail < VERDICT.check_level for tail in candidate.checks.values()):
+    fails = any(tail < VERDICT.check_level for tail in candidate.checks.values())
+    if found.verdict == "unknown" and (fails or p > _OUTSIDE_GROUP):
         return "refused"
     if found.by_hand or isnan(p):
         return "-"

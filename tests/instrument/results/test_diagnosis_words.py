@@ -42,12 +42,15 @@ def test_nothing_was_weighed_by_hand_nor_before_there_were_probabilities():
     assert probability_words(first.without("probability"), found) == "-"
 
 
-def test_what_the_checks_refuse_has_no_probability_where_nothing_explains_the_data():
-    refused = diagnosis().candidates[0].but(probability=1.0, checks={"size": 1e-9, "signs": 0.3})
-    passed = refused.but(checks={"size": 0.02, "signs": 0.3})
-    assert probability_words(refused, diagnosis(verdict="unknown")) == "refused"
-    assert probability_words(passed, diagnosis(verdict="unknown")) == "> 99.9 %"
-    assert probability_words(refused, diagnosis()) == "> 99.9 %"
+def test_what_is_refused_has_no_probability_where_nothing_explains_the_data():
+    unknown = diagnosis(verdict="unknown")
+    fails = diagnosis().candidates[0].but(probability=0.01, checks={"size": 1e-9, "signs": 0.3})
+    passes = fails.but(checks={"size": 0.02, "signs": 0.3})
+    assert probability_words(fails, unknown) == "refused"
+    assert probability_words(passes, unknown) == "1.0 %"
+    # The likeliest passes every check and does not predict what it has not seen.
+    assert probability_words(passes.but(probability=1.0), unknown) == "refused"
+    assert probability_words(fails, diagnosis()) == "1.0 %"
 
 
 @pytest.mark.parametrize(
