@@ -18,7 +18,6 @@ from scipy.optimize import minimize
 
 from fitting.arrays import Array, Complex, Mask
 from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.several import SeveralProblem
@@ -96,18 +95,13 @@ def thinned(t: Array, file: NDArray[np.intp], count: int = POINTS) -> NDArray[np
     return np.concatenate(found)
 
 
-def rig_transfer(
-    problem: DiagnosisProblem, evidence: Evidence, none: Refitted, file: NDArray[np.intp]
-) -> RigTransfer | None:
-    """What the files have in common, or None where it is not called for.
-
-    `file`: of every point. Shape (points,).
-    """
+def rig_transfer(problem: SeveralProblem, evidence: Evidence, none: Refitted) -> RigTransfer | None:
+    """What the files have in common, or None where it is not called for."""
     if not problem.sweep.has_phase:
         return None
     t = np.log(problem.sweep.frequency_hz)
-    taken = thinned(t, file)
-    task = _linear(problem, evidence, none, file, taken)
+    taken = thinned(t, problem.file_of_points)
+    task = _linear(problem, evidence, none, taken)
     own, _ = _likeliest(task, common=False)
     both, best = _likeliest(task, common=True)
     if both - own < NATS:
@@ -131,10 +125,9 @@ def validation_of(found: RigTransfer, segment: NDArray[np.intp], noise_percent: 
 
 
 def _linear(
-    problem: DiagnosisProblem,
+    problem: SeveralProblem,
     evidence: Evidence,
     none: Refitted,
-    file: NDArray[np.intp],
     taken: NDArray[np.intp],
 ) -> _Linear:
     v, dv = response_of(problem, none.effects).with_derivatives(none.law, none.u)
@@ -147,9 +140,9 @@ def _linear(
     measured = problem.sweep.response_m_s[taken]
     r = np.log(measured / v[taken]) + moved @ by
     noise = evidence.sigma_m_s[taken] / np.abs(v[taken])
-    if isinstance(problem, SeveralProblem):
-        by = np.concatenate([by, problem.own_cores(none.law, v)[:, taken]])
-    return _Linear(r, by, noise, np.log(problem.sweep.frequency_hz[taken]), file[taken])
+    by = np.concatenate([by, problem.own_cores(none.law, v)[:, taken]])
+    t = np.log(problem.sweep.frequency_hz[taken])
+    return _Linear(r, by, noise, t, problem.file_of_points[taken])
 
 
 def _likeliest(task: _Linear, *, common: bool) -> tuple[float, Wandering]:

@@ -50,7 +50,7 @@ def with_transfer(result: Diagnosis, work: ProblemSource) -> Diagnosis:
     if not _are_pairs(problem) or not noise.is_known or len(set(problem.file_of_points)) < 2:
         work.used = used
         return result
-    found = rig_transfer(problem, begun.evidence, begun.none, problem.file_of_points)
+    found = rig_transfer(problem, begun.evidence, begun.none)
     if found is None:
         work.used = used
         return result

@@ -28,7 +28,7 @@ def law_error(law, f=(100.0, 200.0, 400.0)):
 def test_what_all_masses_have_in_common_is_found_and_leaves_the_law():
     problem, noise = task(sweeps_of_masses(120, alike=True))
     begun = begin(problem, None, noise, None, LAW)
-    found = rig_transfer(begun.problem, begun.evidence, begun.none, begun.problem.file_of_points)
+    found = rig_transfer(begun.problem, begun.evidence, begun.none)
     assert found.nats > 50
     assert found.wandering.of_all > 3 * found.wandering.of_each
     inside = (problem.sweep.frequency_hz > 100) & (problem.sweep.frequency_hz < 400)
@@ -49,13 +49,13 @@ def test_files_that_wander_each_by_itself_have_nothing_in_common():
     problem, noise = task(sweeps_of_masses(120, alike=False))
     begun = begin(problem, None, noise, None, LAW)
     assert begun.none.chi2_per_dof > 3
-    assert rig_transfer(begun.problem, begun.evidence, begun.none, begun.problem.file_of_points) is None
+    assert rig_transfer(begun.problem, begun.evidence, begun.none) is None
 
 
 def test_held_out_it_predicts_better_than_a_law_alone():
     problem, noise = task(sweeps_of_masses(120, alike=True))
     begun = begin(problem, None, noise, None, LAW)
-    found = rig_transfer(begun.problem, begun.evidence, begun.none, begun.problem.file_of_points)
+    found = rig_transfer(begun.problem, begun.evidence, begun.none)
     held = validation_of(found, problem.sweep.segment, np.ones(len(problem.sweep)))
     assert [h.segment for h in held.held_out] == [1, 2, 3]
     # The middle mass shares most of its band with the others.
