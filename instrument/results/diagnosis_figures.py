@@ -91,7 +91,7 @@ def _draw_residual(ax: Axes, points: Sequence[PointLeft], stage: StageName) -> N
         mine = [p for p in points if (p.sweep, p.level_m_s2) == alike]
         band = TWO_STD * _column(mine, "noise_percent")
         if np.isfinite(band).all():
-            name = "noise, ± 2 std" if k == 0 else None
+            name = "noise alone, ± 2 std (chi² counts the model error too)" if k == 0 else None
             f = _column(mine, "frequency_hz")
             ax.fill_between(f, -band, band, color="#888888", alpha=0.2, linewidth=0, label=name)
     ax.axhline(0, color="#888888", linewidth=0.8)

@@ -124,7 +124,8 @@ class ResidualPlots(QWidget):
             above.addWidget(QLabel(text))
             above.addWidget(box)
         above.addStretch(1)
-        above.addWidget(QLabel("own scales; grey: noise, ± 2 standard deviations"))
+        said = "own scales; grey: noise alone, ± 2 standard deviations (chi² counts the model error too)"
+        above.addWidget(QLabel(said))
         titles = QHBoxLayout()
         for label in (self._before, self._after):
             titles.addWidget(label, 1)
