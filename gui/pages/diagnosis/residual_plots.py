@@ -124,8 +124,9 @@ class ResidualPlots(QWidget):
             above.addWidget(QLabel(text))
             above.addWidget(box)
         above.addStretch(1)
-        said = "own scales; grey: noise alone, ± 2 standard deviations (chi² counts the model error too)"
-        above.addWidget(QLabel(said))
+        band = QLabel("own scales; grey: noise alone, ± 2 std")
+        band.setToolTip("What is left may be larger: chi² counts the model error too.")
+        above.addWidget(band)
         titles = QHBoxLayout()
         for label in (self._before, self._after):
             titles.addWidget(label, 1)
