@@ -55,7 +55,8 @@ class AmplitudeSofteningEffect(Effect):
     discriminating_test = "a second level"
 
     def on(self, kind: str) -> Effect | None:
-        return SofteningBySizeEffect() if kind in ("shear-pair", "beam") else super().on(kind)
+        own = {"shear-pair": PadSofteningEffect, "beam": BeamSofteningEffect}.get(kind)
+        return own() if own else super().on(kind)
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         if points.drive == "base":
@@ -75,15 +76,22 @@ class AmplitudeSofteningEffect(Effect):
         )
 
 
-class SofteningBySizeEffect(AmplitudeSofteningEffect):
-    """The same of a pad in shear or of a sandwich beam, seen from two levels on."""
+class BeamSofteningEffect(AmplitudeSofteningEffect):
+    """The same of a beam, whose free layers do not shear."""
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         if "strain.mean_square" not in plate.names:
             return "a free layer does not shear"
+        return super().objection(points, plate)
+
+
+class PadSofteningEffect(AmplitudeSofteningEffect):
+    """The same of a pad in shear, seen from two levels on."""
+
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         if points.drive == "force":
             return super().objection(points, plate)
-        # Over one level strain is a function of frequency, as the law is.
+        # Over one level the strain of a pad goes up and down once over a wide band, as a law may.
         return None if points.levels > 1 else "one level does not tell softening from the law"
 
 

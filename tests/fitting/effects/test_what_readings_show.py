@@ -1,6 +1,7 @@
 """Effects that a reading, a reference or the time shows: what they make of a sweep."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -45,6 +46,16 @@ def test_data_that_are_absolute_cannot_be_so_by_mistake():
     effect = AbsoluteVelocityEffect()
     assert effect.objection(points([0, 1, 2], reads="absolute"), None)
     assert effect.objection(points([0, 1, 2]), None) is None
+
+
+def test_one_level_shows_softening_of_a_beam_and_none_of_a_pad():
+    softening, one_level = AmplitudeSofteningEffect(), points([0, 1, 2])
+    sheared, free_layer = SimpleNamespace(names={"strain.mean_square"}), SimpleNamespace(names=set())
+    assert softening.on("beam").objection(one_level, sheared) is None
+    assert "free layer" in softening.on("beam").objection(one_level, free_layer)
+    assert "one level" in softening.on("shear-pair").objection(one_level, sheared)
+    two_levels = replace(one_level, acceleration_m_s2=np.array([9.81, 9.81, 2.45]))
+    assert softening.on("shear-pair").objection(two_levels, sheared) is None
 
 
 def test_a_core_warms_from_what_the_law_says_to_shorter_times():

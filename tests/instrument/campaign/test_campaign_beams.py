@@ -262,6 +262,14 @@ def test_a_moved_spot_is_not_called_nothing():
     assert len(identified(case).frequency_hz) > 1
 
 
+@pytest.mark.long
+def test_a_core_that_softens_is_named_from_one_level():
+    case = draw_case("amplitude_softening", 8214)
+    assert len(set(case.sweep.commanded_m_s2)) == 1
+    said = diagnosed(case)
+    assert (said.verdict, said.effects) == ("effect", ("amplitude_softening",))
+
+
 @pytest.mark.parametrize("name", ["free", "long", "strip", "laminate"])
 def test_modes_of_the_theory_are_those_of_the_solid(name, monkeypatch):
     monkeypatch.setattr(simulate, "PIECES", 20)
