@@ -16,6 +16,8 @@ from fitting.sweep import segments_by_gap
 
 HZ_A_NODE = 4.0
 """Of wide clusters: 10 nodes leave 2e-4 over a segment of 30 to 50 Hz (decision 16); wider ones keep pace."""
+_MOST = 2.4
+"""Times the least number of nodes: with the poles out, 24 leave 1e-4 over clusters of 80 to 200 Hz too."""
 MOST_POLES = 4
 """Taken out of a cluster: those in it and one on either side; more make the weights lose digits."""
 _STEADIEST = 10.0
@@ -65,13 +67,19 @@ class Nodes:
         least: int,
         passes: NDArray[np.intp] | None = None,
         *,
+        cuts: Array | None = None,
         hz_a_node: float = HZ_A_NODE,
     ) -> "Nodes":
         """At least `least` nodes a cluster, more where it is wide; no more than it has frequencies.
 
-        `passes` numbers the points (shape (points,)): each has clusters of its own.
+        `passes` numbers the points (shape (points,)): each has clusters of its own. `cuts` (rad/s, ascending,
+        shape (any,)) part clusters that hold more poles than can be taken out.
         """
         numbers = segments_by_gap(omega / (2 * np.pi))
+        if cuts is not None and len(cuts):
+            numbers = np.unique(
+                np.stack([numbers, np.searchsorted(cuts, omega)]), axis=1, return_inverse=True
+            )[1]
         if passes is not None:
             _, numbers = np.unique(np.stack([numbers, passes]), axis=1, return_inverse=True)
         nodes, clusters = [], []
@@ -80,6 +88,7 @@ class Nodes:
             inside = numbers == number
             known = np.unique(omega[inside])
             wanted = max(least, least // 2 + int(np.ptp(known) / (2 * np.pi * hz_a_node)))
+            wanted = min(wanted, int(_MOST * least))
             at = known if len(known) <= wanted else _chebyshev(known[0], known[-1], wanted)
             block = np.zeros((len(omega), len(at)))
             block[inside] = _interpolation(at, omega[inside])

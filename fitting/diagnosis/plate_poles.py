@@ -1,16 +1,41 @@
 """Poles of the unchanged plate near a range of frequencies."""
 
 import numpy as np
+from scipy.linalg import eigh
 
-from fitting.arrays import Complex
+from fitting.arrays import Array, Complex
 from fitting.diagnosis.nodes import MOST_POLES, Nodes
 from fitting.diagnosis.pole_following import KnownPoles, ModulusNear
 from fitting.dynamic_stiffness import stacked
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
+from fitting.sweep import segments_by_gap
 
 PLAIN, ODD = "plate", "plate/odd"
 """Groups of the unchanged plate's motions: those that its load excites; those odd across its width."""
+
+
+_HELD, _A_PART = MOST_POLES - 1, 2
+"""Poles of a cluster that is left whole, and of each part of one that is not: what is beside a part is taken
+out too, and poles move as the law does."""
+
+
+def cuts_between(plate: EnrichedReducedPlate, law: CoreLaw, omega: Array) -> Array:
+    """Where clusters of frequencies (rad/s, shape (points,)) hold too many poles to take them all out.
+
+    Half-way between poles, ascending, rad/s. Shape (any,).
+    """
+    own = np.ix_(*[np.flatnonzero(plate.group == PLAIN)] * 2)
+    found = []
+    numbers = segments_by_gap(omega / (2 * np.pi))
+    for number in np.unique(numbers):
+        low, high = omega[numbers == number].min(), omega[numbers == number].max()
+        stiffness = plate.K_0[own].real + law.modulus(np.array([(low + high) / 2]))[0].real * plate.K_1[own]
+        p = np.sqrt(np.maximum(eigh(stiffness, plate.M[own], eigvals_only=True), 0))
+        p = p[(p > low) & (p < high)]
+        if len(p) > _HELD:
+            found.append((p[_A_PART - 1 : -1 : _A_PART] + p[_A_PART::_A_PART]) / 2)
+    return np.concatenate(found) if found else np.empty(0)
 
 
 class PlatePoles:

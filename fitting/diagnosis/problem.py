@@ -8,7 +8,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.nodes import HZ_A_NODE, Nodes
-from fitting.diagnosis.plate_poles import PlatePoles
+from fitting.diagnosis.plate_poles import PlatePoles, cuts_between
 from fitting.diagnosis.pole_following import KnownPoles
 from fitting.effects.added_mass import AddedMassEffect
 from fitting.effects.base import Effect, Points
@@ -89,10 +89,12 @@ class DiagnosisProblem:
 
         `plate` and `rational` are of `reference`, a specimen like this one, where that is given.
         """
+        assert specimen.core is not None
+        cuts = cuts_between(plate, specimen.core.law, sweep.omega)
         grids = [
-            Nodes.of(sweep.omega, FINE),
-            Nodes.of(sweep.omega, COARSE, hz_a_node=2 * HZ_A_NODE),
-            Nodes.of(sweep.omega, DENSE, sweep.sweep),
+            Nodes.of(sweep.omega, FINE, cuts=cuts),
+            Nodes.of(sweep.omega, COARSE, cuts=cuts, hz_a_node=2 * HZ_A_NODE),
+            Nodes.of(sweep.omega, DENSE, sweep.sweep, cuts=cuts),
         ]
         omega = np.unique(np.concatenate([sweep.omega, *(g.omega for g in grids)]))
         whole = rational(omega)
@@ -101,7 +103,7 @@ class DiagnosisProblem:
             return whole.at(np.searchsorted(omega, some * (1 - 1e-12)))
 
         fine, coarse, passes = (NodeGrid(g, at(g.omega)) for g in grids)
-        points, dense = points_of(sweep, specimen), Nodes.of(sweep.omega, DENSE)
+        points, dense = points_of(sweep, specimen), Nodes.of(sweep.omega, DENSE, cuts=cuts)
         nuisances = nuisances_of(specimen, plate, has_phase=sweep.has_phase, reference=reference)
         return cls(sweep, specimen, plate, points, at(sweep.omega), fine, coarse, passes, dense, nuisances)
 
