@@ -80,8 +80,12 @@ class JointProblem:
         fewer, unknowns).
         """
         both = np.column_stack([self.residuals(x), self.jacobian(x)])
-        R = np.asarray(np.linalg.qr(both, mode="r"), dtype=float)
-        return -R[:, 1:] if R[0, 0] < 0 else R[:, 1:]
+        try:
+            # A third of the time. What is known beforehand keeps every column well apart from the others.
+            return np.asarray(np.linalg.cholesky(both.T @ both).T[:, 1:])
+        except np.linalg.LinAlgError:
+            R = np.asarray(np.linalg.qr(both, mode="r"), dtype=float)
+            return -R[:, 1:] if R[0, 0] < 0 else R[:, 1:]
 
     def residuals(self, x: Array) -> Array:
         """Whitened, as `Refitted.residuals`. Shape (rows,)."""
