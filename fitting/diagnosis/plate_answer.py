@@ -124,7 +124,7 @@ class PlateAnswer:
 
     @property
     def poles(self) -> Complex:
-        """Where the poles that were asked for have gone, rad/s."""
+        """Where the poles that were asked for have gone, rad/s. Shape (poles,)."""
         return self.moved.poles
 
     @cached_property
@@ -152,7 +152,7 @@ class PlateAnswer:
 
     @cached_property
     def pitch_by_u(self) -> Complex:
-        """The same of a turning base."""
+        """The same of a turning base. Shape (unknowns, nodes)."""
         p, step = self.moved.p, self._step
         return self._each([step.by(d, p) for d in self._slopes]) if p is not None else 0 * self.heave_by_u
 
@@ -166,7 +166,7 @@ class PlateAnswer:
 
     @cached_property
     def pitch_by_z(self) -> Complex:
-        """The same of a turning base."""
+        """The same of a turning base. Shape (count, nodes)."""
         p = self.moved.p
         if self.nuisances is None or p is None:
             return 0 * self.heave_by_z
