@@ -290,11 +290,13 @@ class Nuisances:
             found[k] += q @ row
         for k, moved_mass in self._masses.by_mass(plate, q, adjoint, z).items():
             found[k] += omega**2 * moved_mass
-        factor = self._damping(len(plate.d), z)
-        for k, mode in self._damped:
-            u = plate.U[:, mode]
-            strength = self._sigma[k] * factor[mode] * plate.d[mode]
-            found[k] -= 1j * omega * strength * (adjoint @ u) * (q @ u)
+        damped = self.by_damping(len(plate.d), z)
+        modes = [mode for mode, _ in damped.values()]
+        strength = np.array([slope for _, slope in damped.values()]) * plate.d[modes]
+        # All modes at once: each by itself is a product too small for its call.
+        found[list(damped)] -= (
+            1j * omega * (strength * (adjoint @ plate.U[:, modes]) * (q @ plate.U[:, modes])).T
+        )
         return found
 
     def reading(self, v: Complex, omega: Array, z: Array) -> Complex:

@@ -34,13 +34,10 @@ class Channels:
         """What is read of derivatives of the velocity `raw`, itself read as `read`. Shape (any, points)."""
         if not self._touching:
             return self._as_stated(by, u)
-        found = np.zeros_like(by)
-        size = np.abs(by).max(axis=1, keepdims=True)
-        some = size[:, 0] > 0
-        # A channel may bend, and a derivative to 10^14 N/m^3 drowns beside the velocity.
-        h = _SMALL * np.abs(raw).max() / size[some]
-        found[some] = (self.read(raw + h * by[some], u) - read) / h
-        return found
+        # Each reading goes by its own velocity alone: two directions of that tell all others.
+        h = _SMALL * np.abs(raw)
+        along, across = (self.read(np.stack([raw + h, raw + 1j * h]), u) - read) / h
+        return np.asarray(by.real * along + by.imag * across)
 
     def by(self, n: int, raw: Complex, u: Array) -> Complex:
         """How what is read of a velocity goes with unknown n of an effect. Shape (points,)."""

@@ -59,6 +59,8 @@ class Pairs:
         begun = each(work.near, full, lambda x: report(0.4 + 0.2 * x))
         rough = _longest_first([f for f in begun if f is not None])
         best = search.judged(min(rough, key=_chi2)) if rough and wide else None
+        if best:
+            rough = [f for f in rough if f.chi2 < SEARCH.left_behind * best.fitted.chi2]
         goals = [self._goal(best, f.effects) if best else np.inf for f in rough]
         fits = each(work.ended, list(zip(rough, goals, strict=True)), lambda x: report(0.6 + 0.2 * x))
         found = sorted((search.judged(f) for f in fits), key=_cost)

@@ -18,23 +18,6 @@ from fitting.nuisances import Nuisances
 
 
 @dataclass(frozen=True)
-class PlateAnswer:
-    """At every node; displacements per base acceleration (heave) or angular acceleration (pitch)."""
-
-    heave: Complex
-    heave_by_G: Complex
-    pitch: Complex
-    heave_by_u: Complex
-    """To each unknown. Shape (unknowns, nodes)."""
-    pitch_by_u: Complex
-    heave_by_z: Complex
-    """To each stated number, in standard deviations. Shape (count, nodes)."""
-    pitch_by_z: Complex
-    poles: Complex
-    """Where the poles that were asked for have gone, rad/s."""
-
-
-@dataclass(frozen=True)
 class Asked:
     """What is to be solved: a plate as something changes it, at some nodes."""
 
@@ -125,59 +108,103 @@ def _place(row: Array, each: list[Array]) -> int:
     return len(each) - 1
 
 
+@dataclass(frozen=True)
+class PlateAnswer:
+    """What is read of the motions of what was asked for, each worked out as it is asked for.
+
+    At every node; displacements per base acceleration (heave) or angular acceleration (pitch).
+    """
+
+    asked: Asked
+    moved: Motions
+    nearby: Sequence[tuple[Change, Change, float]] = ()
+    """For every unknown the changes a step above and below, and the step between them."""
+    nuisances: tuple[Nuisances, Array] | None = None
+    """With where they are: the change has what they change in it."""
+
+    @property
+    def poles(self) -> Complex:
+        """Where the poles that were asked for have gone, rad/s. Shape (poles,)."""
+        return self.moved.poles
+
+    @cached_property
+    def heave(self) -> Complex:
+        """Shape (nodes,)."""
+        return self.moved.q @ self._observe - self.asked.change.travel / self.asked.omega**2
+
+    @cached_property
+    def pitch(self) -> Complex:
+        """Shape (nodes,)."""
+        p = self.moved.p
+        return np.zeros(len(self.asked.omega), complex) if p is None else p @ self._observe
+
+    @cached_property
+    def heave_by_G(self) -> Complex:
+        """Shape (nodes,)."""
+        K_1 = self.asked.matrices[1]
+        return np.asarray(-np.einsum("pi,pi->p", self.moved.z, self.moved.q @ K_1.T))
+
+    @cached_property
+    def heave_by_u(self) -> Complex:
+        """To each unknown. Shape (unknowns, nodes)."""
+        q, step = self.moved.q, self._step
+        return self._each([step.by(d, q) + step.by_base(d) for d in self._slopes])
+
+    @cached_property
+    def pitch_by_u(self) -> Complex:
+        """The same of a turning base. Shape (unknowns, nodes)."""
+        p, step = self.moved.p, self._step
+        return self._each([step.by(d, p) for d in self._slopes]) if p is not None else 0 * self.heave_by_u
+
+    @cached_property
+    def heave_by_z(self) -> Complex:
+        """To each stated number, in standard deviations. Shape (count, nodes)."""
+        if self.nuisances is None:
+            return self._each([])
+        (who, at), a = self.nuisances, self.asked
+        return who.by_response(a.plate, a.omega, a.G, self.moved.q, self.moved.z, at)
+
+    @cached_property
+    def pitch_by_z(self) -> Complex:
+        """The same of a turning base. Shape (count, nodes)."""
+        p = self.moved.p
+        if self.nuisances is None or p is None:
+            return 0 * self.heave_by_z
+        (who, at), a = self.nuisances, self.asked
+        return who.by_pitch(a.plate, a.omega, a.G, p, self.moved.z, at)
+
+    @cached_property
+    def _observe(self) -> Array:
+        return np.asarray(self.asked.plate.observe + self.asked.change.observe)
+
+    @cached_property
+    def _step(self) -> "_Step":
+        return _Step(self.asked.plate, self.asked.omega, self.asked.G, self.moved.z)
+
+    @cached_property
+    def _slopes(self) -> list[Change]:
+        return [_between(up, down, 1 / h) for up, down, h in self.nearby]
+
+    def _each(self, rows: list[Complex]) -> Complex:
+        return np.array(rows) if rows else np.zeros((0, len(self.asked.omega)), complex)
+
+
 def answer(
     plate: EnrichedReducedPlate,
     omega: Array,
     G: Complex,
     change: Change,
-    nearby: list[tuple[Change, Change, float]],
+    nearby: Sequence[tuple[Change, Change, float]],
     *,
     with_pitch: bool,
     nuisances: tuple[Nuisances, Array] | None = None,
 ) -> PlateAnswer:
-    """Solve the nodes, and read; no poles are followed. As `Asked` and `read_off` have it.
+    """Solve the nodes, and read; no poles are followed. As `Asked` and `PlateAnswer` have it.
 
     Shape (nodes,) for `omega` and `G`.
     """
     asked = Asked(plate, omega, G, change, None, with_pitch)
-    return read_off(asked, motions([asked])[0], nearby, nuisances)
-
-
-def read_off(
-    asked: Asked,
-    moved: Motions,
-    nearby: list[tuple[Change, Change, float]],
-    nuisances: tuple[Nuisances, Array] | None = None,
-) -> PlateAnswer:
-    """What is read of the motions of what was asked for. Shape (nodes,) of the plate's every answer.
-
-    `nearby` has for every unknown the changes a step above and below, and the step between them. `nuisances`
-    with where they are: the change has what they change in it.
-    """
-    plate, omega, G, change = asked.plate, asked.omega, asked.G, asked.change
-    q, z, p = moved.q, moved.z, moved.p
-    K_1, observe = asked.matrices[1], plate.observe + change.observe
-    travel = -1 / omega**2
-    step = _Step(plate, omega, G, z)
-    pairs = [(_between(up, down, 1 / h)) for up, down, h in nearby]
-    none = np.zeros((0, len(omega)), complex)
-    by_z = pitch_by_z = none
-    if nuisances is not None:
-        who, at = nuisances
-        by_z = who.by_response(plate, omega, G, q, z, at)
-        pitch_by_z = who.by_pitch(plate, omega, G, p, z, at) if p is not None else 0 * by_z
-    return PlateAnswer(
-        heave=q @ observe + travel * change.travel,
-        heave_by_G=-np.einsum("pi,pi->p", z, q @ K_1.T),
-        pitch=p @ observe if p is not None else np.zeros(len(omega), complex),
-        heave_by_u=np.array([step.by(d, q) + step.by_base(d) for d in pairs]) if pairs else none,
-        pitch_by_u=np.array([step.by(d, p) for d in pairs])
-        if pairs and p is not None
-        else np.zeros((len(pairs), len(omega)), complex),
-        heave_by_z=by_z,
-        pitch_by_z=pitch_by_z,
-        poles=moved.poles,
-    )
+    return PlateAnswer(asked, motions([asked])[0], nearby, nuisances)
 
 
 def _between(up: Change, down: Change, per_step: float) -> Change:
@@ -239,7 +266,7 @@ class StrainedCore:
         return np.sqrt(np.maximum(square, 1e-300))
 
     def by(self, nearby: tuple[Change, Change, float]) -> Array:
-        """Derivative of ln strain to an unknown; `nearby` as `read_off` takes it of each. Shape (nodes,)."""
+        """Derivative of ln strain to an unknown; `nearby` as `PlateAnswer` has it of each. Shape (nodes,)."""
         up, down, h = nearby
         # What the pickup reads strains nothing.
         d = replace(_between(up, down, 1 / h), observe=0.0, travel=0.0)

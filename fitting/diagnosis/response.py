@@ -15,7 +15,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.channels import Channels
-from fitting.diagnosis.plate_answer import Asked, Motions, motions, read_off
+from fitting.diagnosis.plate_answer import Asked, Motions, PlateAnswer, motions
 from fitting.diagnosis.plate_poles import PLAIN
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid, spans_of
 from fitting.diagnosis.strains import Reference, Strains
@@ -77,6 +77,7 @@ class SweepResponse:
         self._latest: tuple[CoreLaw, Array, _At] | None = None
         self._ready: tuple[Array, Asked, Motions] | None = None
         self._latest_change: tuple[bytes, Change] | None = None
+        self._latest_law: tuple[CoreLaw, Complex] | None = None
         self._strains = Strains(problem, self.plate, reference or Reference())
         self._strained = bool(self._shifting) and any(s.name == "strain" for s in spans)
 
@@ -116,10 +117,10 @@ class SweepResponse:
         found = [others._change(k, known, self.plate) for k in others._changing]
         if not self.nuisances.change_nothing:
             found.append(self._stated_change(known[self._unknowns.stated]))
-        G, _ = others._bearing(law, law.modulus(self.problem.points.omega), at.plate.G)
+        G, _ = others._bearing(law, others._of_law(law), at.plate.G)
         asked = self._asked(G, reduce(Change.and_then, found, Change()))
         by_start = [(self._moving(last.change(self.plate, u)), Change(), 1.0) for u in starts]
-        solved = read_off(asked, motions([asked])[0], by_start)
+        solved = PlateAnswer(asked, motions([asked])[0], by_start)
         by_u = nodes.spread(np.stack([solved.heave_by_u, solved.pitch_by_u]), solved.poles, solved.poles)
         raw = at.per_x * (by_u[0] + at.pitch * by_u[1])
         return others._channels.along(at.raw, at.v, raw, known)
@@ -159,11 +160,17 @@ class SweepResponse:
 
     def _of_plate(self, law: CoreLaw, u: Array) -> "_OfPlate":
         """What goes with the plate and its core: one for all that only turns its base or reads it."""
-        G_law = law.modulus(self.problem.points.omega)
+        G_law = self._of_law(law)
         key = self._key(G_law, u)
         if self._last is None or self._last[0] != key:
             self._last = key, self._of_plate_anew(law, u, G_law)
         return self._last[1]
+
+    def _of_law(self, law: CoreLaw) -> Complex:
+        """Its modulus at every point; the latest is kept, for the starts of an effect beside one law."""
+        if self._latest_law is None or self._latest_law[0] is not law:
+            self._latest_law = law, law.modulus(self.problem.points.omega)
+        return self._latest_law[1]
 
     def _of_plate_anew(self, law: CoreLaw, u: Array, G_law: Complex) -> "_OfPlate":
         G = self._modulus(law, u, G_law)
@@ -172,7 +179,7 @@ class SweepResponse:
             return _OfPlate(G, x, slope, np.zeros(len(G), complex), None, None)
         G_nodes, smooth = self._bearing(law, G_law, G)
         asked, moved = self._solved(u, G_nodes)
-        solved, nodes = read_off(asked, moved, []), self.grid.nodes
+        solved, nodes = PlateAnswer(asked, moved), self.grid.nodes
         changed = np.array([solved.heave - self.grid.rational.displacement(G_nodes), solved.pitch])
         more, turned = nodes.spread(changed, self.grid.unchanged_poles(G_nodes), solved.poles)
         x = x + more
@@ -192,7 +199,7 @@ class SweepResponse:
             up, down = (self._change(k, stepped(u, n, s * h), self.plate) for s in (1, -1))
             nearby.append((up, down, 2 * h))
         stated = (self.nuisances, u[self._unknowns.stated]) if self.nuisances else None
-        solved = read_off(asked, moved, nearby, stated)
+        solved = PlateAnswer(asked, moved, nearby, stated)
         # A derivative has every pole twice, and only those of the changed plate.
         twice = [solved.heave_by_G[None], solved.heave_by_z, solved.heave_by_u]
         if self._pitching:
@@ -239,7 +246,7 @@ class SweepResponse:
         """What has to be solved there; None: nothing. `u` of shape (unknowns,)."""
         if not self._moves:
             return None
-        G_law = law.modulus(self.problem.points.omega)
+        G_law = self._of_law(law)
         if self._last is not None and self._last[0] == self._key(G_law, u):
             return None
         G, _ = self._bearing(law, G_law, self._modulus(law, u, G_law))
@@ -332,10 +339,10 @@ class SweepResponse:
             # A changed plate strains its core otherwise.
             nearby = self._change(k, up, self.plate), self._change(k, down, self.plate), 2 * h
             strain = self._strains.along(law, self._strain_key(u), lambda: self._changes(u), nearby, h)
-            dG = (self._modulus(law, u, law.modulus(omega), strain) - at.plate.G) / h
+            dG = (self._modulus(law, u, self._of_law(law), strain) - at.plate.G) / h
             found = found + at.per_x * at.plate.slope * dG
         if k in self._shifting:
-            G_law = law.modulus(omega)
+            G_law = self._of_law(law)
             dG = (self._modulus(law, up, G_law) - self._modulus(law, down, G_law)) / (2 * h)
             found = found + at.per_x * at.plate.slope * dG
         return found

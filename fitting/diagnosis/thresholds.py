@@ -76,7 +76,7 @@ class SearchThresholds:
     promising: float = 5.0
     """In cost below none's: below it nothing is gone into twice."""
     left_behind: float = 4.0
-    """Times the least chi-square: rough fits beyond are not followed to the end."""
+    """Times the least chi-square: rough fits beyond, of one effect or of two, are not followed to the end."""
     wrong: float = 2.0
     """Chi-square per degree of freedom beyond which the law so far is no place to begin."""
     hopeless: float = 30.0

@@ -252,7 +252,10 @@ class Effect:
         return None
 
     def reading(self, v: Complex, points: Points, u: Array) -> Complex | None:
-        """What the channels make of velocities `v` in m/s; None: nothing. Shape (..., points), as `v`."""
+        """What the channels make of velocities `v` in m/s; None: nothing. Shape (..., points), as `v`.
+
+        Each reading goes by its own point's velocity alone, and smoothly.
+        """
         return None
 
     def longer_m(self, u: Array) -> float:

@@ -34,6 +34,11 @@ CONDENSED = 1e-4
 """Of the largest singular value, what a condensed plate may leave out; its reading is then off by 1e-5."""
 ROUGHLY = 1e-3
 """The same of a plate to choose between starts: off by 3e-4 with stated numbers two tolerances off."""
+_LEADING = 0.7
+"""Of the motions that an effect adds, which come the largest first, those that such a plate keeps: its nodes
+are too few to tell what the rest does. A choice."""
+_MIXED = "mixed"
+"""Group of columns that are of several spans, in no order."""
 _MOST_TAKEN = 12
 """Plates with some spans' columns that are kept. A bound on memory: one takes up to 6 MB."""
 _MOST_ROWS = 32
@@ -120,11 +125,14 @@ class EnrichedReducedPlate:
 
     @cached_property
     def roughly(self) -> "EnrichedReducedPlate":
-        """The same without those of its own columns that matter least; itself where it was not condensed."""
+        """The same without those columns that matter least; itself where it was not condensed."""
         if not len(self.shares):
             return self
         kept = np.ones(len(self.load), dtype=bool)
         kept[: len(self.shares)] = self.shares > ROUGHLY * self.shares[0]
+        for name in {*self.group} - {"plate", _MIXED}:
+            beside = np.flatnonzero(self.group == name)
+            kept[beside[int(np.ceil(_LEADING * len(beside))) :]] = False
         return replace(self._keeping(np.flatnonzero(kept)), shares=np.empty(0))
 
     def _keeping(self, columns: NDArray[np.intp]) -> "EnrichedReducedPlate":
@@ -225,7 +233,7 @@ class EnrichedReducedPlate:
         T = own_and_beside(self.gram, own)
         if T is None:
             return self
-        return self._on(T, np.where(np.arange(T.shape[1]) < own.sum(), "plate", "mixed"))
+        return self._on(T, np.where(np.arange(T.shape[1]) < own.sum(), "plate", _MIXED))
 
     def _on(self, T: Array, group: Names) -> "EnrichedReducedPlate":
         """On the combinations T of its columns. Shape (k, fewer)."""

@@ -67,9 +67,11 @@ def test_a_channel_that_bends_reads_each_derivative_as_if_it_were_alone(counted)
     by = np.array([V[::-1] * 1e12, np.zeros(3), 1e-9j * V])
     alone = [read.along(V, read.read(V, u), one[None], u)[0] for one in by]
     assert np.array_equal(read.along(V, read.read(V, u), by, u), alone)
-    each = [1e-6 * np.abs(V).max() / np.abs(by[k]).max() for k in (0, 2)]
-    moved = [(read.read(V + h * by[k], u) - read.read(V, u)) / h for h, k in zip(each, (0, 2), strict=True)]
-    assert np.array_equal(np.array(alone)[[0, 2]], moved)
+    for k in (0, 2):
+        h = 1e-6 * np.abs(V).max() / np.abs(by[k]).max()
+        central = (read.read(V + h * by[k], u) - read.read(V - h * by[k], u)) / (2 * h)
+        # A step to one side is off by half of itself.
+        assert np.abs(alone[k] - central).max() < 2e-6 * np.abs(central).max()
 
 
 def test_a_reading_goes_with_the_unknown_of_its_channel():

@@ -282,3 +282,12 @@ def test_where_one_leaves_much_pairs_are_followed_that_may_be_the_best_or_not_be
     world.data = data
     world.found("w", wide=wide)
     assert world.goals[:2] == [goal, goal]
+
+
+def test_what_is_far_behind_the_best_pair_when_fitted_roughly_is_not_followed():
+    world = World("wab", w=900.0, w_a=100.0, w_b=390.0)
+    world.found("w", wide=True)
+    assert len(world.goals) == 2
+    world = World("wab", w=900.0, w_a=100.0, w_b=410.0)
+    world.found("w", wide=True)
+    assert len(world.goals) == 1

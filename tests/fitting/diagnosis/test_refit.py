@@ -76,6 +76,19 @@ def test_what_a_step_is_given_has_the_products_of_all_rows():
     np.testing.assert_allclose(both.T @ both, np.c_[J, r].T @ np.c_[J, r], rtol=1e-12, atol=1e-9)
 
 
+@pytest.mark.parametrize("alike", [0.0, 1.0, 1 - 1e-9], ids=["few rows", "one column twice", "almost"])
+def test_so_it_has_where_columns_are_made_of_others_or_rows_are_few(alike):
+    rng = np.random.default_rng(1)
+    r, J = rng.normal(size=6), rng.normal(size=(6, 9 if not alike else 3))
+    J[:, -1] += alike * (J[:, 0] - J[:, -1])
+    problem = mock.Mock(JointProblem, residuals=lambda x: r, jacobian=lambda x: J)
+    x = np.zeros(J.shape[1])
+    short, fewer = JointProblem.shortened(problem, x), JointProblem.condensed(problem, x)
+    assert len(fewer) == len(short) == min(len(r), len(x) + 1)
+    both = np.c_[fewer, short]
+    np.testing.assert_allclose(both.T @ both, np.c_[J, r].T @ np.c_[J, r], rtol=1e-12, atol=1e-12)
+
+
 def test_no_slope_is_worked_out_where_a_step_is_not_taken():
     effect = OfFiles(CATALOGUE["clamp_compliance"], 2, EACH)
     measured = np.concatenate([np.log(LAW.values), [2.0, 0.5]]).astype(complex)
