@@ -31,7 +31,7 @@ class Diagnosed:
     seconds: float
     """Everything else."""
     effects: tuple[Effect, ...] = ()
-    """What was looked for in one sweep; empty where effects were accepted by hand, or files were several."""
+    """What was looked for; empty where effects were accepted by hand."""
 
 
 def effects_on(

@@ -151,8 +151,7 @@ def diagnose_together(
     theory = _check_theories(files, result.after.law)
     further = (*remarks_on_files(files), *theory, *(one.words(files) for one in work.aside))
     result = replace(result, warnings=(*result.warnings, *further))
-    # Of one beam what may be there unseen is asked, as of a plate: that a pair's mass may be is its verdict.
-    asked = tuple(effects) if len(files) == 1 and kinds == {"beam"} and accept is None else ()
+    asked = tuple(tried) if accept is None else ()
     found = Diagnosed(result, ready - began, perf_counter() - ready, asked)
     return DiagnosedTogether(found, _all(files), tuple(work.aside))
 

@@ -5,11 +5,12 @@ import pytest
 
 from fitting.effects import CATALOGUE, Points
 from fitting.effects.ac_coupling import AcCouplingEffect
+from fitting.effects.phase_offset import PhaseOffsetEffect
 from fitting.effects.phase_scale import continuous_phase
 
 F = np.concatenate([np.linspace(19, 23, 21), np.linspace(92, 106, 31), np.linspace(270, 290, 21)])
 LOWPASS, PHASE = (CATALOGUE[n] for n in ("sensor_lowpass", "phase_scale"))
-HIGHPASS = AcCouplingEffect()
+HIGHPASS, OFFSET = AcCouplingEffect(), PhaseOffsetEffect()
 
 
 def points(f=F):
@@ -73,13 +74,25 @@ def test_phases_are_counted_as_the_meter_does():
     assert np.angle(half / velocity()) == pytest.approx(0.03 * lag)
 
 
-def test_a_scale_of_phase_is_not_judged_by_amplitudes():
+def test_an_offset_of_phase_is_one_angle_at_every_frequency():
+    ratio = OFFSET.reading(velocity(), points(), np.radians([1.5])) / velocity()
+    assert ratio == pytest.approx(np.exp(1j * np.radians(1.5)))
+    assert OFFSET.reading(velocity(), points(), np.array([0.0])) == pytest.approx(velocity())
+    assert OFFSET.story({"phase": np.radians(1.5)}) == (
+        "the velocity channel leads by +1.5 degrees at every frequency"
+    )
+
+
+@pytest.mark.parametrize("effect", [PHASE, OFFSET])
+def test_phases_are_not_judged_by_amplitudes(effect):
     no_phase = Points(2 * np.pi * F, np.ones(len(F)), F, True, False, "relative")
-    assert PHASE.objection(no_phase, None)
-    assert PHASE.objection(points(), None) is None
+    assert effect.objection(no_phase, None)
+    assert effect.objection(points(), None) is None
 
 
-@pytest.mark.parametrize(("effect", "at"), [(LOWPASS, [2e3]), (HIGHPASS, [0.5]), (PHASE, [1.02, 0.0])])
+@pytest.mark.parametrize(
+    ("effect", "at"), [(LOWPASS, [2e3]), (HIGHPASS, [0.5]), (PHASE, [1.02, 0.0]), (OFFSET, [0.02])]
+)
 def test_readings_are_smooth_in_their_unknown(effect, at):
     h = 1e-4 * at[0]
     first = np.eye(len(at))[0]

@@ -8,6 +8,7 @@ import pytest
 from rivals import all_but, among
 from shear_pair_cases import HEAVIER_KG, LAW, MASSES_KG, pair, sweep
 
+from fitting.planning.unseen import unseen
 from instrument.cli.main import run
 from instrument.cli.output import Output
 from instrument.cli.print_identification import print_identification
@@ -110,6 +111,31 @@ def test_a_mass_of_one_file_is_that_file_s(without):
     assert found.verdict == "effect"
     assert found.effects[0].parameters["mass"].value == pytest.approx(0.05 * 0.573, rel=0.05)
     assert found.effects[0].parameters["file"].value == 3
+
+
+@among("phase_offset", "phase_scale", "gain_error", "channel_delay")
+def test_an_angle_between_two_accelerometers_is_not_taken_for_the_core(without):
+    # With time stamps a gain and a drift did as well: certain, and the modulus off by a quarter.
+    angle = np.radians(-2.0)
+    given = [
+        File(replace(f.sweep, velocity_m_s=f.sweep.velocity_m_s * np.exp(1j * angle)), f.specimen)
+        for f in files(HEAVIER_KG)
+    ]
+    found = diagnose_together(given, without=without).found.result
+    (effect,) = found.effects
+    assert (found.verdict, effect.name) == ("effect", "phase_offset")
+    assert effect.parameters["phase"].value == pytest.approx(angle, abs=2e-3)
+    assert law_error(found.after.law).max() < 0.02
+
+
+@pytest.mark.parametrize("masses", [[0.573], HEAVIER_KG])
+def test_what_may_hide_in_a_pair_s_law_is_said(masses):
+    among_these = all_but("channel_delay", "gain_error")
+    found = diagnose_together(files(masses, points=40), without=among_these).found
+    hidden = {one.name: one for one in unseen(found.result.rivals, found.effects)}
+    # One mass over another is all that is read: a law follows a delay, and three masses part them.
+    assert ("channel_delay" in hidden) == (len(masses) == 1)
+    assert "channel_delay" in {e.name for e in found.effects}
 
 
 def test_four_masses_as_stated_leave_nothing():
