@@ -95,8 +95,10 @@ def _function(
     for k in range(columns.shape[1]):
         one = name if columns.shape[1] == 1 else f"{name} column {k + 1}"
         if unit.per is not None:
+            if not np.iscomplexobj(columns):
+                raise BadInput(f"{where}: real numbers, expected complex ones: amplitude or real part?")
             H = columns[:, k].astype(np.complex128) * unit.factor
-            found.add_ratio(Ratio(one, x, H, unit.quantity, unit.per))
+            found.add_ratio(Ratio(one, x, H, unit.quantity, unit.per, response=one))
         elif is_time:
             records.append(
                 (
