@@ -32,6 +32,8 @@ Named = dict[str, NDArray[Any]]
 _RATES = ("sample_rate_hz", "sampling_rate_hz", "fs", "fs_hz", "sample_rate", "sampling_frequency")
 _FREQUENCIES, _TIMES = ("frequency", "freq", "f"), ("time", "t")
 _LONGEST = 200
+_CARRIED = ("mass_kg", "mounting", "temperature_c")
+"""Columns of ours that say of which plate, or at what temperature, a row is: whoever fits asks about them."""
 _AXIS_HZ = {"Hz": 1.0, "kHz": 1e3, "rad/s": 1 / (2 * np.pi), "": 1.0}
 _AXIS_S = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "": 1.0}
 
@@ -75,7 +77,7 @@ def read_table(source: str, table: Named, found: Found) -> bool:
 def _say_left(source: str, table: Named, used: list[_Signal], found: Found) -> None:
     """Of what was not taken, its names: nobody else would miss them."""
     taken = {name for signal in used for name in signal.names}
-    words = (*_FREQUENCIES, *_TIMES, *_RATES, "coherence", "accepted", "hit", *_others())
+    words = (*_FREQUENCIES, *_TIMES, *_RATES, "coherence", "accepted", "hit", *_others(), *_CARRIED)
     left = [n for n in table if n not in taken and not any(n.lower().startswith(w) for w in words)]
     if used and left:
         found.said.append(f"passed over: {source}: {', '.join(left)[:_LONGEST]}")
@@ -209,6 +211,9 @@ def _sweep(
         unsaid = np.iscomplexobj(v) and not np.iscomplexobj(a)
         over = f", with {drive.words}{' (no phase: taken as 0)' if unsaid else ''}"
     columns |= {n: np.asarray(table[n], float) for n in _others() if n in table and table[n].shape == f.shape}
+    columns |= {
+        n: x for n in _CARRIED if n in table and np.all(np.isfinite(x := np.asarray(table[n], float)))
+    }
     how = "phasors" if np.iscomplexobj(v) else "amplitudes"
     band = f"{len(f)} points, {f.min():.5g} to {f.max():.5g} Hz"
     found.said.append(f"{source}: {reading.words} as velocity {how}{over}, {band}")
