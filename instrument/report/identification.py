@@ -3,6 +3,7 @@
 import numpy as np
 
 from fitting.diagnosis.structure import in_words
+from fitting.digits import two_digits
 from fitting.identification.result import Identification
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
@@ -222,4 +223,6 @@ def _live(contents: Contents, r: Identification) -> Sentence:
     worst = max(abs(recorded[n] / v - 1) for n, v in zip(r.law.names, r.law.values, strict=True))
     if worst <= _SAME:
         return Sentence("The live identification of the run ended with the same parameters.")
-    return Sentence(f"The run's own fit differs by up to {100 * worst:.2g} % in a parameter.", "warning")
+    return Sentence(
+        f"The run's own fit differs by up to {two_digits(100 * worst)} % in a parameter.", "warning"
+    )

@@ -1,0 +1,13 @@
+"""Numbers in sentences are written out."""
+
+import pytest
+
+from fitting.digits import two_digits
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [(634.0, "630"), (99.8, "100"), (104.0, "100"), (15.2, "15"), (0.383, "0.38"), (0.0, "0"), (-3.04, "-3")],
+)
+def test_a_number_has_two_digits_and_no_exponent(value, said):
+    assert two_digits(value) == said
