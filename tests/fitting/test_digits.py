@@ -2,7 +2,7 @@
 
 import pytest
 
-from fitting.digits import two_digits
+from fitting.digits import two_digits, written_out
 
 
 @pytest.mark.parametrize(
@@ -11,3 +11,8 @@ from fitting.digits import two_digits
 )
 def test_a_number_has_two_digits_and_no_exponent(value, said):
     assert two_digits(value) == said
+
+
+def test_a_number_of_five_figures_is_written_out_with_its_digits():
+    assert written_out(97352.0, 3) == "97400"
+    assert written_out(0.1384, 3) == "0.138"
