@@ -163,8 +163,8 @@ def remark_on_fit(fit: ModalFit, tables: Sequence[ModalTable]) -> tuple[str, ...
         f"the modes are off by {chi2:.3g} times what their errors explain (chi-square per degree), by up to "
         f"{two_digits(100 * np.abs(off_f).max())} % in frequency and "
         f"{two_digits(100 * np.abs(off_eta).max())} % in loss factor: check mode numbers, "
-        "and that loss factors are no damping ratios (half of them); else the model lacks something, and the law "
-        "may be biased beyond its band",
+        "and that loss factors are no damping ratios (half of them); else the model lacks something, and "
+        "the law may be biased beyond its band",
     )
 
 
