@@ -235,7 +235,8 @@ class SweepPage(Page):
     def _said_of_model(self, state: SessionState) -> str:
         fit = state.contents.fit
         if fit is None:
-            return "fitting ..." if state.fit_running is not None else "no fit yet"
+            none = "no fit" if state.run.over else "no fit yet"
+            return "fitting ..." if state.fit_running is not None else none
         if fit.result is None:
             return f"fit {fit.number}: {fit.message}"
         count, rms = len(fit.result.points), two_digits(fit.result.rms_percent)

@@ -1,3 +1,5 @@
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from diagnosed_session import diagnosed_session
@@ -324,3 +326,11 @@ def test_a_fit_that_lacks_what_the_diagnosis_found_is_said_to_be_before_it(qtbot
     page = window.pages[1]
     qtbot.waitUntil(lambda: "rms" in page.response.model.text(), timeout=PATIENCE_MS)
     assert page.response.model.text().startswith("before the diagnosis: rms ")
+
+
+@pytest.mark.parametrize(("over", "said"), [(False, "no fit yet"), (True, "no fit")])
+def test_a_run_that_is_over_has_no_fit_to_come(looked_at, over, said):
+    state = SimpleNamespace(
+        contents=SimpleNamespace(fit=None), fit_running=None, run=SimpleNamespace(over=over)
+    )
+    assert looked_at._said_of_model(state) == said
