@@ -21,8 +21,9 @@ TIME, FRF, TRANSMISSIBILITY, COHERENCE = 1, 4, 5, 6
 CODES: dict[Quantity, int] = {"displacement": 8, "velocity": 11, "acceleration": 12, "force": 13}
 """Data types of an axis."""
 _QUANTITIES = {code: quantity for quantity, code in CODES.items()}
-_HERTZ = {"Hz": 1.0, "1/s": 1.0, "kHz": 1e3, "rad/s": 1 / (2 * np.pi)}
-_SECONDS = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "us": 1e-6}
+HERTZ = {"Hz": 1.0, "1/s": 1.0, "kHz": 1e3, "rad/s": 1 / (2 * np.pi)}
+SECONDS = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "us": 1e-6}
+"""Units of an abscissa."""
 _OTHER_AXES = {19: "rpm", 20: "orders"}
 """Data types of an abscissa that is neither time nor frequency."""
 _AXES = {1: " X", 2: " Y", 3: " Z", 4: " about X", 5: " about Y", 6: " about Z"}
@@ -148,7 +149,7 @@ def _coherence(where: str, k: int, s: dict[str, Any]) -> Function:
     values = np.asarray(s["data"], float)
     unit = Unit("force", 1.0, "force")
     return Function(
-        _line(s), _name(s, k), COHERENCE, _axis(where, s, _HERTZ), values, unit, between=_between(s)
+        _line(s), _name(s, k), COHERENCE, _axis(where, s, HERTZ), values, unit, between=_between(s)
     )
 
 
@@ -164,7 +165,7 @@ def _ratio(where: str, k: int, s: dict[str, Any], scale: _Scale, over: Quantity 
         _line(s),
         _name(s, k),
         s["func_type"],
-        _axis(where, s, _HERTZ),
+        _axis(where, s, HERTZ),
         np.asarray(s["data"], np.complex128) * (unit.factor * _sign(s, "rsp") * _sign(s, "ref")),
         unit,
         level_m_s2=level,
@@ -187,9 +188,9 @@ def _ratio_unit(where: str, s: dict[str, Any], scale: _Scale, over: Quantity | N
 
 def _record(where: str, k: int, s: dict[str, Any], scale: _Scale) -> Function:
     unit = _unit(where, "ordinate", s, scale)
-    x = _axis(where, s, _SECONDS)
+    x = _axis(where, s, SECONDS)
     even = s.get("abscissa_spacing")
-    step = float(s["abscissa_inc"]) * _axis_factor(where, s, _SECONDS) if even else _step(where, x)
+    step = float(s["abscissa_inc"]) * _axis_factor(where, s, SECONDS) if even else _step(where, x)
     if not step > 0:
         raise BadInput(f"{where}: a step of {step:g} s between samples, expected more than 0")
     values = np.asarray(s["data"], float) * unit.factor

@@ -31,7 +31,7 @@ def read_csv(path: Path) -> Found:
             raise BadInput(
                 f"{path}: header: found {', '.join(header)[:100]}, expected a frequency with a velocity or "
                 "an FRF, or a force with a response and times; units in the names, as in velocity_mm_s or "
-                "'Force [N]'"
+                "'Force [N]'; and two rows or more"
             )
     return found
 

@@ -11,6 +11,7 @@ from fitting.modal.frf import Motion
 from instrument.errors import BadInput
 from instrument.files.mat import read_mat_variables
 from instrument.files.rates import rate_of_step
+from instrument.files.uff58 import HERTZ, SECONDS
 from instrument.files.units import DERIVATIVE, KNOWN, Unit, unit_of
 from instrument.interchange.found import Found, Ratio, motion_of
 from instrument.interchange.read_table import Named, read_table
@@ -91,7 +92,8 @@ def _function(
     if unit is None:
         raise BadInput(f"{where}: ordinate in {label!r}, expected one of {KNOWN}, or one over another")
     columns = values[:, None] if values.ndim == 1 else values
-    is_time = _label(function["x_values"]).lower() in ("s", "sec")
+    is_time, factor = _axis(where, _label(function["x_values"]))
+    x = x * factor
     for k in range(columns.shape[1]):
         one = name if columns.shape[1] == 1 else f"{name} column {k + 1}"
         if unit.per is not None:
@@ -110,6 +112,17 @@ def _function(
             )
         else:
             found.said.append(f"passed over: {one}: a spectrum in {label}, expected one signal over another")
+
+
+def _axis(where: str, label: str) -> tuple[bool, float]:
+    """Whether an abscissa is of times, and its factor to s or Hz. Raises `BadInput` for another one."""
+    for is_time, units in ((True, SECONDS), (False, HERTZ)):
+        known = {unit.lower(): factor for unit, factor in units.items()}
+        if label.lower() in known:
+            return is_time, known[label.lower()]
+    if label:
+        raise BadInput(f"{where}: abscissa in {label!r}, expected {', '.join((*HERTZ, *SECONDS))}")
+    return False, 1.0
 
 
 def _abscissa(where: str, axis: dict[str, Any], count: int) -> Array:

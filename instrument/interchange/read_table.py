@@ -127,8 +127,10 @@ def _signals(source: str, table: Named) -> list[_Signal]:
     for name in table:
         if name in others:
             continue
-        if unit_in(name) is None and part_in(name) != "phase":
-            refuse_unknown(source, name)
+        unit = unit_in(name)
+        if (unit is None or unit.per is None) and part_in(name) != "phase":
+            refuse_unknown(source, name, unit)
+        if unit is None and part_in(name) != "phase":
             continue
         parts.setdefault(stem_of(name), {})[part_in(name)] = name
     return [s for stem, by_part in parts.items() if (s := _signal(source, table, stem, by_part)) is not None]
@@ -167,6 +169,8 @@ def _signal(source: str, table: Named, stem: tuple[str, ...], names: dict[Part, 
 
 def _on_lines(source: str, table: Named, f: Array, signals: list[_Signal], found: Found) -> list[_Signal]:
     """Those taken: ratios, or a velocity beside its base acceleration or its force."""
+    for s in (s for s in signals if s.values.shape != f.shape):
+        found.said.append(f"passed over: {source}: {s.name}: {s.values.shape} beside {len(f)} frequencies")
     signals = [s for s in signals if s.values.shape == f.shape]
     alone = sum(s.unit.per is not None for s in signals) == 1
     for s in signals:
@@ -202,6 +206,7 @@ def _sweep(
 ) -> Columns:
     columns: Columns = {"frequency_hz": f}
     v = _as(source, reading, "velocity", f)
+    _check_rows(source, reading, f)
     columns |= _phasor("velocity", "m_s", v) if np.iscomplexobj(v) else {"velocity_m_s": v}
     over = ", no base channel"
     if drive is not None:
@@ -218,6 +223,14 @@ def _sweep(
     band = f"{len(f)} points, {f.min():.5g} to {f.max():.5g} Hz"
     found.said.append(f"{source}: {reading.words} as velocity {how}{over}, {band}")
     return columns
+
+
+def _check_rows(source: str, reading: _Signal, f: Array) -> None:
+    """Raise `BadInput` for a row of a sweep that is none."""
+    for what, bad in (("no number", ~np.isfinite(reading.values)), ("a frequency not above 0", ~(f > 0))):
+        if bad.any():
+            row = int(np.flatnonzero(bad)[0]) + 1
+            raise BadInput(f"{source}: {reading.name}: {what} in row {row} of {len(f)}, expected none such")
 
 
 def _as(source: str, signal: _Signal, wanted: Quantity, f: Array) -> NDArray[Any]:

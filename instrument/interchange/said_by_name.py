@@ -72,8 +72,11 @@ def unit_in(name: str) -> Unit | None:
     stem = next((_STEMS[w] for w in words if w in _STEMS), None)
     if stem is not None:
         return unit_of(stem)
-    lower = name.strip().lower()
-    return next((unit_of(u) for suffix, u in _SUFFIXES if lower.endswith(suffix)), None)
+    over, per, under = name.strip().lower().rpartition("_per")
+    if per:
+        units = [next((u for suffix, u in _SUFFIXES if end.endswith(suffix)), "") for end in (over, under)]
+        return unit_of("({})/({})".format(*units))
+    return next((unit_of(u) for suffix, u in _SUFFIXES if under.endswith(suffix)), None)
 
 
 def part_in(name: str) -> Part:
@@ -150,12 +153,16 @@ def _last_unit(words: list[str], units: dict[str, float]) -> str:
     return next((u for u in ("/".join(words[-2:]), words[-1]) if u in units), "?")
 
 
-def refuse_unknown(source: str, name: str) -> None:
-    """Raise `BadInput` for something that decides a law, in a unit that is not known or not said."""
-    unit, words = bracketed(name)
+def refuse_unknown(source: str, name: str, unit: Unit | None) -> None:
+    """Raise `BadInput` for what decides a law, in no known unit, or for a ratio in that of one signal."""
+    said, words = bracketed(name)
+    if unit is not None:
+        if _RATIOS & set(words):
+            raise BadInput(f"{source}: {name}: a ratio in one unit, expected one over another")
+        return
     decides = bool(_MEASURED & {word.rstrip("0123456789") for word in words})
     part = part_in(name) in ("re", "im", "magnitude") or bool(BASE & set(words))
-    if unit and decides:
-        raise BadInput(f"{source}: {name}: in {unit!r}, expected one of {KNOWN}, or one over another")
-    if not unit and decides and part:
+    if said and decides:
+        raise BadInput(f"{source}: {name}: in {said!r}, expected one of {KNOWN}, or one over another")
+    if not said and decides and part:
         raise BadInput(f"{source}: {name}: no unit, expected one in its name: {KNOWN}, or one over another")

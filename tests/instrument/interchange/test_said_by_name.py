@@ -43,6 +43,8 @@ def of(table):
         ("Velocity [m/s rms]", "m/s"),
         ("velocity_mm_s", "mm/s"),
         ("H1 [s]", "s"),
+        ("FRF_m_s_per_m_s2", "(m/s)/(m/s^2)"),
+        ("frf_re_m_s2_per_n", "(m/s^2)/N"),
     ],
 )
 def test_a_unit_is_read_as_it_stands(name, unit):
@@ -95,8 +97,8 @@ def test_a_base_or_force_in_no_known_unit_is_not_left_out_in_silence(column, sai
 
 
 def test_what_decides_nothing_needs_no_unit_and_is_said_to_be_left_out():
-    refuse_unknown("a", "Velocity range")
-    refuse_unknown("a", "Drive [V]")
+    refuse_unknown("a", "Velocity range", None)
+    refuse_unknown("a", "Drive [V]", None)
     found = of(PARTS | {"Drive [V]": F, "Coherence": F})
     assert found.said[1:] == ["passed over: a: Drive [V]"]
 
@@ -155,6 +157,26 @@ def test_a_rate_and_times_that_contradict_are_refused():
         read_table("a", table, Found())
 
 
+def test_a_ratio_in_the_unit_of_one_signal_is_no_motion():
+    with pytest.raises(BadInput, match="a ratio in one unit, expected one over another"):
+        of({"FRF real [m/s]": V.real, "FRF imag [m/s]": V.imag})
+
+
+@pytest.mark.parametrize(
+    ("frequency_hz", "velocity", "said"),
+    [(F, np.where(F[2] == F, np.nan, V), "no number in row 3"), (F - F[0], V, "not above 0 in row 1")],
+)
+def test_a_row_that_is_none_is_refused_by_its_place(frequency_hz, velocity, said):
+    with pytest.raises(BadInput, match=said):
+        read_table("a", {"frequency_hz": frequency_hz, "velocity_m_s": velocity}, Found())
+
+
+def test_a_matrix_beside_frequencies_is_said_to_be_left_out():
+    found = Found()
+    read_table("a", {"frequency_hz": F, "velocity_m_s": np.column_stack([V, V])}, found)
+    assert found.said == ["passed over: a: velocity_m_s: (5, 2) beside 5 frequencies"]
+
+
 # In a file
 
 
@@ -171,6 +193,11 @@ def test_a_column_that_lacks_its_first_number_is_refused_by_its_place(tmp_path):
 def test_a_column_of_words_is_said_to_be_left_out(tmp_path):
     found = csv(tmp_path, "frequency_hz,velocity_m_s,remark\n1,2,good\n2,3,4\n")
     assert found.said[0] == "passed over: a.csv: remark: no numbers"
+
+
+def test_a_single_row_is_no_sweep(tmp_path):
+    with pytest.raises(BadInput, match="and two rows or more"):
+        csv(tmp_path, "frequency_hz,velocity_m_s\n1,2\n")
 
 
 @pytest.mark.parametrize("row", ["1,020;0,5;0.1", "1.020,5;0,5;0,1"])
