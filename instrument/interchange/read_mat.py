@@ -85,7 +85,15 @@ def _function(
     records: list[tuple[str, Unit, float, Array]],
 ) -> None:
     where = f"{path}: {name}"
+    for key in ("x_values", "y_values"):
+        if not isinstance(function[key], dict):
+            raise BadInput(f"{where}: {key} is {function[key]!r:.40}, expected a struct")
     values = np.asarray(function["y_values"].get("values"))
+    if values.ndim not in (1, 2) or values.dtype.kind not in "fciu":
+        raise BadInput(
+            f"{where}: y_values.values of shape {values.shape} and type {values.dtype}, expected a column of "
+            "numbers for each response"
+        )
     x = _abscissa(where, function["x_values"], values.shape[0])
     label = _label(function["y_values"])
     unit = unit_of(label)

@@ -221,6 +221,8 @@ def recorded(values, label, step=1e-3):
         ),
         ({"F": recorded(BLOWS[:, 0], "furlong")}, "ordinate in 'furlong'"),
         ({"F": recorded(BLOWS[:, 0], "N", step=0.0)}, "a step of 0, expected"),
+        ({"F": recorded(BLOWS[:, 0], "N") | {"x_values": 5.0}}, "F: x_values is 5.*, expected a struct"),
+        ({"F": recorded(BLOWS[:, 0], "N") | {"y_values": {"values": 5.0}}}, r"values of shape \(\)"),
     ],
 )
 def test_testlab_functions_that_cannot_be_read_are_refused(tmp_path, functions, said):
