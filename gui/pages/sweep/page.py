@@ -243,7 +243,7 @@ class SweepPage(Page):
         said = f"fit of {count} points, rms {rms} %"
         diagnosed = state.contents.diagnosis
         if diagnosed is not None and diagnosed.result is not None and stage_before(diagnosed.result):
-            said = f"{BEFORE_DIAGNOSIS}: rms {rms} % of {count} points"
+            said = f"rms {rms} % {BEFORE_DIAGNOSIS}"
         if self.model.failure:
             return f"{said}; no curve: {self.model.failure}"
         return f"{said} ..." if self.model.busy else said
