@@ -11,6 +11,7 @@ from fitting.arrays import Array
 from fitting.chances import chi2_exceeded
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.thresholds import VERDICT
+from fitting.digits import two_digits
 from fitting.sweep import Sweep
 
 LAGS = 8
@@ -40,7 +41,9 @@ def structure(
     if len(along) and along @ along > chi2_exceeded(VERDICT.bent_by_chance, len(along)):
         times = float(np.sqrt(along @ along / len(along)))
         theory = "a layer-wise plate" if kind == "plate" else "its theory"
-        said.append(f"the {in_words(kind)} would have to be off by {times:.2g} times what {theory} is")
+        said.append(
+            f"the {in_words(kind)} would have to be off by {two_digits(times)} times what {theory} is"
+        )
     return tuple(said)
 
 

@@ -11,6 +11,7 @@ from fitting.diagnosis.several import SeveralProblem
 from fitting.diagnosis.structure import in_words
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.diagnosis.verdict import NONE, Judgement
+from fitting.digits import two_digits
 from fitting.effects.base import Effect
 
 
@@ -70,9 +71,8 @@ def explain(
     if any(NONE in group for group in judgement.equivalent.values()):
         said.append(f"That there is no effect at all keeps {_percent(judgement.probability[()])}.")
     said.append(
-        f"With it the fit leaves {after.rms_percent:.2g} % rms instead of {before.rms_percent:.2g} %"
-        + _chi2(before, after)
-        + _held_out(before, after)
+        f"With it the fit leaves {two_digits(after.rms_percent)} % rms instead of "
+        f"{two_digits(before.rms_percent)} %" + _chi2(before, after) + _held_out(before, after)
     )
     said.append(_law(before, after))
     return tuple(said)
@@ -97,7 +97,7 @@ def _beside_none(judgement: Judgement) -> list[str]:
 
 
 def _percent(probability: float) -> str:
-    return f"{100 * probability:.2g} %"
+    return f"{two_digits(100 * probability)} %"
 
 
 def next_measurement(judgement: Judgement, catalogue: dict[str, Effect], *, with_hammer: bool) -> str:
@@ -124,7 +124,7 @@ def next_measurement(judgement: Judgement, catalogue: dict[str, Effect], *, with
 
 def _left(problem: DiagnosisProblem, before: Stage) -> str:
     kind = in_words(problem.specimen.kind)
-    text = f"The stated {kind} with its best law leaves {before.rms_percent:.2g} % rms in amplitude"
+    text = f"The stated {kind} with its best law leaves {two_digits(before.rms_percent)} % rms in amplitude"
     if np.isfinite(before.chi2_per_dof):
         text += (
             f", {before.chi2_per_dof:.3g} times what noise and model error explain (chi-square per degree)"
@@ -154,7 +154,7 @@ def moved_words(problem: DiagnosisProblem, plain: Complex, velocity_m_s: Complex
     for number in np.unique(problem.sweep.segment):
         inside = problem.sweep.segment == number
         peak = np.flatnonzero(inside)[np.argmax(np.abs(plain[inside]))]
-        most = f"{changed[inside].max():.2g} % near {problem.sweep.frequency_hz[peak]:.0f} Hz"
+        most = f"{two_digits(changed[inside].max())} % near {problem.sweep.frequency_hz[peak]:.0f} Hz"
         parts.append((float(changed[inside].max()), f"{most}{_whose(problem, int(peak))}"))
     if isinstance(problem, SeveralProblem) and len(problem.members) > 1:
         parts = [max(parts)]
@@ -184,7 +184,7 @@ def _held_out(before: Stage, after: Stage) -> str:
     (b, what), (a, _) = pairs
     if a is None or b is None:
         return "."
-    return f"; {what} {a:.2g} % instead of {b:.2g} %."
+    return f"; {what} {two_digits(a)} % instead of {two_digits(b)} %."
 
 
 def _law(before: Stage, after: Stage) -> str:

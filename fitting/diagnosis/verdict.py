@@ -16,6 +16,7 @@ from fitting.diagnosis.predictive import weakest
 from fitting.diagnosis.result import Verdict
 from fitting.diagnosis.search import ScoredFit
 from fitting.diagnosis.thresholds import VERDICT
+from fitting.digits import two_digits
 
 NONE = "none"
 
@@ -70,7 +71,7 @@ def in_light_of(judgement: Judgement, p_value: float | None) -> Judgement:
         or judgement.verdict not in ("effect", "ambiguous")
     ):
         return judgement
-    why = f"gains no more than {100 * p_value:.2g} % of sweeps without any effect do"
+    why = f"gains no more than {two_digits(100 * p_value)} % of sweeps without any effect do"
     nearest = judgement.accepted.names if judgement.accepted is not None else ()
     return replace(judgement, verdict="none", accepted=None, equivalent={}, refused=nearest, why=why)
 

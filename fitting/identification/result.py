@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array
 from fitting.bent_law import BentLaw
+from fitting.digits import written_out
 from fitting.identification.fit import Fit
 from fitting.identification.uncertainty import Uncertainty, uncertainty_of
 from fitting.identification.validation import Validation, rms
@@ -148,7 +149,9 @@ def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: 
         said.append("the 5 % criterion is not met: some point differs by more than 5 %")
     off = rms(differences_percent(sweep, fit.velocity_m_s))
     if off > LOST_PERCENT:
-        said.append(f"the fit does not follow the data (rms {off:.3g} %): check units, level and pickup")
+        said.append(
+            f"the fit does not follow the data (rms {written_out(off, 3)} %): check units, level and pickup"
+        )
     pulled = sorted((one for one in fit.adjusted if abs(one.pull) > _PULLED), key=lambda one: -abs(one.pull))
     if pulled:
         named = ", ".join(f"{one.name} by {one.pull:+.1f}" for one in pulled)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from fitting.digits import two_digits
 from fitting.temperature.causes import REFUSED, Cause, explains
 from fitting.temperature.joint import ShiftedFit
 from fitting.temperature.thermometers import misread, rising
@@ -88,7 +89,7 @@ def judge(
     if apart is not None and explains(fit):
         off, at = _wicket(apart)
     if explains(fit):
-        return told(False, _refusal(fit, f"differs by up to {off:.2g} % at {at:g} degC"))
+        return told(False, _refusal(fit, f"differs by up to {two_digits(off)} % at {at:g} degC"))
     if other is not None:
         beside = _refusal(other.fit, f"differs even where {story(other)} in all sweeps")
         return told(False, beside, other.fit.p_value)

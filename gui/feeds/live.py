@@ -69,7 +69,7 @@ class LiveFeed(Feed):
         super().__init__(parent)
         self.engine = engine if engine is not None else Engine.start(order)
         self.state = SessionState(configuration)
-        self.state.work("starting", None)
+        self.state.begin()
         self.question: OperatorAsked | None = None
         self.ending: Ended | None = None
         self.recording: RecordingBegan | None = None

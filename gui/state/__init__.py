@@ -202,6 +202,11 @@ class SessionState:
         self.run.question = question
         self._changed("run")
 
+    def begin(self) -> None:
+        """A run is on its way; its stream says nothing yet."""
+        self.run.state = "preparing"
+        self.work("starting", None)
+
     def work(self, name: str, fraction: float | None) -> None:
         """Long work before or after measuring: how far it is; None where that is not known."""
         self.run.work = (name, fraction) if name else None

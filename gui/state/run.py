@@ -181,6 +181,8 @@ class Run:
                 return self.message or "what was found stands on Material and Diagnosis"
             case "stopped":
                 return self.ending
+            case "preparing":
+                return "what comes next is made ready"
             case "identifying":
                 return "the law from all points"
             case "diagnosing":

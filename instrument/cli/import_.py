@@ -19,7 +19,7 @@ from instrument.interchange.importing import import_file
 )
 @json_option
 def import_(file: Path, out: Path | None, json_path: str | None) -> None:
-    """FILE (.uff, .unv, .mat, .csv) as CSV for 'viscorig identify' and 'viscorig damping'.
+    """FILE (.uff, .unv, .mat, .lvm, .csv) as CSV for 'viscorig identify' and 'viscorig damping'.
 
     Velocity over base acceleration becomes a sweep, motion over force an FRF, a force with its responses an
     impact record. What is found is listed.

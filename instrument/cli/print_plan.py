@@ -1,5 +1,6 @@
 """A plan as tables."""
 
+from fitting.digits import two_digits
 from fitting.gravity import PUBLISHED_G_M_S2
 from instrument.cli.output import Output
 from instrument.facts.plan import EffectForecast, PlanResult, SpotCompared
@@ -18,7 +19,7 @@ def print_plan(out: Output, found: PlanResult) -> None:
     ]
     out.table("steps", ["segment", "f/Hz", "steps", "s"], rows)
     rows = [
-        [f"{row.frequency_hz:.4g}", f"{row.storage_modulus_percent:.2g}", f"{row.loss_factor_percent:.2g}"]
+        [f"{row.frequency_hz:.4g}", *map(two_digits, (row.storage_modulus_percent, row.loss_factor_percent))]
         for row in found.law[:: max(1, (len(found.law) - 1) // 5)]
     ]
     out.table("predicted standard errors", ["f/Hz", "G'/%", "loss factor/%"], rows)
@@ -33,16 +34,16 @@ def print_plan(out: Output, found: PlanResult) -> None:
 def _headline(out: Output, found: PlanResult) -> None:
     out.say(
         f"{len(found.steps)} steps at {_level(found.level_g)} in about {found.seconds:.0f} s leave at most "
-        f"{found.worst_percent:.2g} % on G' and the loss factor from {found.band_low_hz:g} to "
+        f"{two_digits(found.worst_percent)} % on G' and the loss factor from {found.band_low_hz:g} to "
         f"{found.band_high_hz:g} Hz (predicted to first order)"
     )
     if not found.reached:
         out.say(
             f"{found.target_percent:g} % is out of reach: everything measured would leave "
-            f"{found.limit_percent:.2g} %"
+            f"{two_digits(found.limit_percent)} %"
         )
         for limit in found.limited_by:
-            out.say(f"  {limit.name} known exactly would leave {limit.worst_percent:.2g} %")
+            out.say(f"  {limit.name} known exactly would leave {two_digits(limit.worst_percent)} %")
     out.say(
         f"assumed: readings scatter by {found.noise_share_percent:g} %, "
         f"{1e6 * found.noise_floor_m_s:g} um/s over one second\n"
@@ -63,7 +64,7 @@ def _levels(out: Output, found: PlanResult) -> None:
             f"{acceleration_unit().of(PUBLISHED_G_M_S2 * x.level_g):.4g}",
             f"{x.steps}",
             f"{x.seconds:.0f}",
-            f"{x.worst_percent:.2g}",
+            two_digits(x.worst_percent),
             x.why_not,
         ]
         for x in found.levels
@@ -93,8 +94,8 @@ def _spot(s: SpotCompared) -> list[str]:
         f"{s.y_mm:.0f}",
         f"{s.steps}",
         f"{s.seconds:.0f}" if s.reached else "-",
-        f"{s.worst_percent:.2g}",
-        f"{s.limit_percent:.2g}",
+        two_digits(s.worst_percent),
+        two_digits(s.limit_percent),
     ]
 
 
@@ -102,7 +103,7 @@ def _map(out: Output, found: PlanResult) -> None:
     """What the plan's rig time would leave at each spot, the clamp on the left."""
     grid = [s for s in found.spots if not s.stated]
     along, across = sorted({s.x_mm for s in grid}), sorted({s.y_mm for s in grid})
-    at = {(s.x_mm, s.y_mm): f"{s.worst_percent:.2g}" for s in grid}
+    at = {(s.x_mm, s.y_mm): two_digits(s.worst_percent) for s in grid}
     rows = [[f"{y:.0f}", *(at.get((x, y), "") for x in along)] for y in across]
     out.table(
         "map: % left in the plan's rig time; columns x/mm from the clamp, the other half of the width alike",
@@ -125,7 +126,7 @@ def _effects(out: Output, found: PlanResult) -> None:
 
 def _effect(e: EffectForecast) -> list[str]:
     said = [
-        f"{r.name} ({r.times:.2g})" if r.times is not None else f"{r.name} (never)"
+        f"{r.name} ({two_digits(r.times)})" if r.times is not None else f"{r.name} (never)"
         for r in e.rivals[:_MOST_RIVALS]
     ]
     more = len(e.rivals) - _MOST_RIVALS

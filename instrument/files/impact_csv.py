@@ -7,6 +7,7 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.modal.frf import Frf, Motion
 from instrument.errors import BadInput
+from instrument.files.rates import CONTRADICTION
 from instrument.files.table import number, rate_of_times, read_rows, stated_rate_hz
 from instrument.impact.record import Hit, ResponseChannel
 
@@ -20,8 +21,6 @@ FRF_STEMS: dict[str, Motion] = {
     "mobility": "velocity",
     "receptance": "displacement",
 }
-_CONTRADICTION = 2e-3
-"""Relative, of two statements of one sample rate: times printed with few digits differ by less."""
 
 
 def is_frf(header: list[str]) -> bool:
@@ -100,7 +99,7 @@ def _rate(path: Path, columns: dict[str, Array], rate_hz: float | None) -> float
     said = [r for r in (rate_hz, stated) if r is not None]
     if "time_s" in columns or not said:
         said.append(_rate_of(path, columns))
-    if max(said) > min(said) * (1 + _CONTRADICTION):
+    if max(said) > min(said) * (1 + CONTRADICTION):
         raise BadInput(
             f"{path}: sample rates contradict: {', '.join(f'{r:.6g}' for r in said)} Hz "
             "(--rate, sample_rate_hz, time_s)"

@@ -76,13 +76,17 @@ def _segments(
 ) -> list[SampleBlock]:
     try:
         count = int(header["Channels"][0])
-        step = _float(header["Delta_X"][0], comma=comma)
+        steps = [_float(text, comma=comma) for text in header["Delta_X"][:count] if text]
+        step = steps[0]
     except (KeyError, ValueError, IndexError):
         raise BadInput(f"{path}: line {start}: segment without Channels or Delta_X") from None
     if not 1 <= count <= len(lines[start].split(separator)):
         raise BadInput(f"{path}: line {start}: {count} channels, expected as many as the names below")
     if step <= 0:
         raise BadInput(f"{path}: line {start}: Delta_X = {step:g}, expected more than 0")
+    if any(other != step for other in steps):
+        said = ", ".join(f"{s:g}" for s in steps)
+        raise BadInput(f"{path}: line {start}: Delta_X = {said}, expected the same of every channel")
     columns = facts.get("X_Columns", "One")
     # The first field of a row is the time, empty where X_Columns is No; with Multi each channel has its own.
     first, stride = (1, 2) if columns == "Multi" else (1, 1)

@@ -1,5 +1,8 @@
 """A sample rate from the step between samples, which files write with few digits."""
 
+CONTRADICTION = 2e-3
+"""Relative, of two statements of one sample rate: times printed with few digits differ by less."""
+
 
 def rate_of_step(step_s: float, relative: float) -> float:
     """Samples a second: of the rates the step leaves open, the one with the fewest digits.

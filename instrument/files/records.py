@@ -13,6 +13,7 @@ from instrument.files.guard import checked_frf, checked_hits, said_of
 from instrument.files.impact_csv import MOTIONS, read_impact_csv
 from instrument.files.lvm import read_lvm
 from instrument.files.mat import read_mat_variables
+from instrument.files.table import rate_of_times
 from instrument.files.uff58 import FRF, TIME, Function, read_uff58
 from instrument.files.units import KNOWN_MOTIONS, unit_of
 from instrument.impact.record import Hit, ResponseChannel
@@ -139,7 +140,7 @@ def _mat(path: Path, named: Named) -> Hit:
         for name, v in content.items()
         if isinstance(v, np.ndarray) and v.ndim == 1 and v.dtype.kind in "fiu"
     }
-    rate = named.rate_hz or _mat_rate(content, vectors)
+    rate = named.rate_hz or _mat_rate(path, content, vectors)
     if rate is None:
         raise BadInput(
             f"{path}: no sample rate, expected sample_rate_hz or time_s among its variables, or --rate"
@@ -153,12 +154,14 @@ def _mat(path: Path, named: Named) -> Hit:
     return _hit(path, 1, tuple(lengths), units, np.array(list(lengths.values())), rate, named_here)
 
 
-def _mat_rate(content: dict[str, Any], vectors: dict[str, Array]) -> float | None:
+def _mat_rate(path: Path, content: dict[str, Any], vectors: dict[str, Array]) -> float | None:
     if "sample_rate_hz" in content and np.ndim(content["sample_rate_hz"]) == 0:
         return float(content["sample_rate_hz"])
     if "time_s" in vectors and len(vectors["time_s"]) > 1:
-        t = vectors["time_s"]
-        return float((len(t) - 1) / (t[-1] - t[0]))
+        rate = rate_of_times(vectors["time_s"])
+        if rate is None:
+            raise BadInput(f"{path}: time_s is not evenly spaced, expected a constant step")
+        return rate
     return None
 
 

@@ -32,10 +32,10 @@ def read_rows(
     Raises `BadInput` for what is not such a table.
     """
     header: list[str] | None = None
-    rows: Rows = []
+    top, rows = 0, list[tuple[int, list[str]]]()
     for line, row in _fields(path, separator):
         if header is None:
-            header = row
+            header, top = row, line
             for name in header:
                 if name and header.count(name) > 1:
                     raise BadInput(f"{path}: header: column {name} twice")
@@ -43,9 +43,8 @@ def read_rows(
             check_header(header)
             continue
         if len(row) != len(header):
-            raise BadInput(
-                f"{path}: line {line}: {len(row)} columns, expected {len(header)} as in the header"
-            )
+            expected = f"{len(header)} as in the header (line {top})"
+            raise BadInput(f"{path}: line {line}: {len(row)} columns, expected {expected}")
         rows.append((line, row))
     if header is None:
         raise BadInput(f"{path}: no header, expected a line of column names")

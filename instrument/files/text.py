@@ -19,7 +19,7 @@ def read_text(path: Path, encoding: str = "utf-8-sig") -> str:
         text = content.decode(encoding)
     except UnicodeDecodeError as error:
         raise BadInput(
-            f"{path}: byte {error.start}: not UTF-8 text ({error.reason}), expected a text file"
+            f"{path}: byte {error.start}: not UTF-8 text ({error.reason}), expected UTF-8: save it as such"
         ) from None
     except OSError as error:
         raise BadInput(f"{path}: {error.strerror or error}") from None

@@ -34,6 +34,8 @@ class Ratio:
     """Base acceleration it was measured at."""
     place: tuple[int, int] | None = None
     """Sweep and segment, where the file says."""
+    response: str = ""
+    """Between which points: ratios of one name are passes, of several ones they are spots."""
 
 
 @dataclass
@@ -46,6 +48,8 @@ class Found:
     hits: list[Hit] = field(default_factory=list)
     said: list[str] = field(default_factory=list)
     """What was found, and what was passed over and why: one line each."""
+    _responses: list[tuple[str, Columns]] = field(default_factory=list)
+    """Of the sweeps that are ratios."""
 
     def add_ratio(self, ratio: Ratio, coherence: Array | None = None) -> None:
         """To the sweeps where it is over a base's motion, to the FRFs where it is over a force.
@@ -64,7 +68,21 @@ class Found:
         if ratio.per == "force":
             self._add_frf(ratio, good, coherence)
         else:
-            self.sweeps.append(_columns(ratio, good))
+            self._add_sweep(ratio.response, _columns(ratio, good))
+
+    @property
+    def spots(self) -> list[str]:
+        """Names of the responses by their numbers in the column `pickup`; empty for a single one."""
+        names = list(dict.fromkeys(name for name, _ in self._responses))
+        return names if len(names) > 1 else []
+
+    def _add_sweep(self, response: str, columns: Columns) -> None:
+        """Of several responses none is another's pass: each is a spot of its own."""
+        self.sweeps.append(columns)
+        self._responses.append((response, columns))
+        spots = self.spots
+        for name, theirs in self._responses if spots else ():
+            theirs["pickup"] = np.full(len(theirs["frequency_hz"]), float(spots.index(name)))
 
     def _add_frf(self, ratio: Ratio, good: NDArray[np.bool_], coherence: Array | None) -> None:
         motion = motion_of(ratio.name, ratio.quantity)

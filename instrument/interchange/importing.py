@@ -1,5 +1,6 @@
 """Foreign data to this program's CSV files: sweeps, FRFs, impact records."""
 
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -151,13 +152,17 @@ def _sweep_text(sweeps: list[Columns]) -> str:
 
 
 def _told_apart(sweeps: list[Columns]) -> list[Columns]:
+    """Passes of each spot numbered; as they are where a file numbers them or has but one."""
     if len(sweeps) == 1 or any("sweep" in s for s in sweeps):
         return sweeps
-    return [
-        s
-        | {
-            "sweep": np.full(len(s["frequency_hz"]), float(k)),
+    passes: Counter[float] = Counter()
+    told = []
+    for s in sweeps:
+        spot = float(s["pickup"][0]) if "pickup" in s else 0.0
+        passes[spot] += 1
+        numbered = {
+            "sweep": np.full(len(s["frequency_hz"]), float(passes[spot])),
             "segment": segments_by_gap(s["frequency_hz"]).astype(float),
         }
-        for k, s in enumerate(sweeps, start=1)
-    ]
+        told.append(s | numbered)
+    return told

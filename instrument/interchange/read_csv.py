@@ -10,8 +10,10 @@ from instrument.files.table import Rows, read_rows, stated_rate_hz
 from instrument.files.text import read_text
 from instrument.interchange.found import Found
 from instrument.interchange.read_table import Named, read_table
+from instrument.interchange.said_by_name import part_in, unit_in
 
 _SEPARATORS = (";", "\t", ",")
+_MARKED = re.compile(r"[-+]?\d[\d.,]*(?:[eE][-+]?\d+)?")
 
 
 def read_csv(path: Path) -> Found:
@@ -21,12 +23,15 @@ def read_csv(path: Path) -> Found:
     if rate is not None:
         table["sample_rate_hz"] = np.array([rate])
     found = Found()
+    words = [name for name in header if name and name not in table]
+    if words:
+        found.said.append(f"passed over: {path.name}: {', '.join(words)[:200]}: no numbers")
     for name, part in _hits_apart(path, table):
         if not read_table(name, part, found):
             raise BadInput(
                 f"{path}: header: found {', '.join(header)[:100]}, expected a frequency with a velocity or "
                 "an FRF, or a force with a response and times; units in the names, as in velocity_mm_s or "
-                "'Force [N]'"
+                "'Force [N]'; and two rows or more"
             )
     return found
 
@@ -66,13 +71,33 @@ def _is_units(row: list[str]) -> bool:
 
 
 def _numbers(path: Path, names: list[str], rows: Rows, *, comma: bool) -> Named:
-    """Columns of numbers; a column whose first value is none is text and passed over."""
+    """Columns of numbers; one of none, or of some and without a unit in its name, is text and passed over."""
     if not rows:
         raise BadInput(f"{path}: no rows below the header")
-    numeric = [k for k, name in enumerate(names) if name and _is_number(rows[0][1][k], comma=comma)]
+    if comma:
+        _check_marks(path, rows)
+
+    def is_numeric(k: int, name: str) -> bool:
+        if unit_in(name) is not None or part_in(name) == "phase":
+            return any(_is_number(row[k], comma=comma) for _, row in rows)
+        return _is_number(rows[0][1][k], comma=comma)
+
+    numeric = [k for k, name in enumerate(names) if name and is_numeric(k, name)]
     return {
         names[k]: np.array([_number(path, line, row[k], comma=comma) for line, row in rows]) for k in numeric
     }
+
+
+def _check_marks(path: Path, rows: Rows) -> None:
+    """Raise `BadInput` where commas and points stand in a file's numbers: one of them parts thousands."""
+    fields = [(line, field) for line, row in rows for field in row if _MARKED.fullmatch(field)]
+    points = [field for _, field in fields if "." in field]
+    for line, field in fields:
+        if "," in field and points:
+            raise BadInput(
+                f"{path}: line {line}: {field!r} beside {points[0]!r}, expected one decimal mark, and none "
+                "between thousands"
+            )
 
 
 def _is_number(text: str, *, comma: bool) -> bool:

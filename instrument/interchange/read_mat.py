@@ -11,6 +11,7 @@ from fitting.modal.frf import Motion
 from instrument.errors import BadInput
 from instrument.files.mat import read_mat_variables
 from instrument.files.rates import rate_of_step
+from instrument.files.uff58 import HERTZ, SECONDS
 from instrument.files.units import DERIVATIVE, KNOWN, Unit, unit_of
 from instrument.interchange.found import Found, Ratio, motion_of
 from instrument.interchange.read_table import Named, read_table
@@ -84,19 +85,30 @@ def _function(
     records: list[tuple[str, Unit, float, Array]],
 ) -> None:
     where = f"{path}: {name}"
+    for key in ("x_values", "y_values"):
+        if not isinstance(function[key], dict):
+            raise BadInput(f"{where}: {key} is {function[key]!r:.40}, expected a struct")
     values = np.asarray(function["y_values"].get("values"))
+    if values.ndim not in (1, 2) or values.dtype.kind not in "fciu":
+        raise BadInput(
+            f"{where}: y_values.values of shape {values.shape} and type {values.dtype}, expected a column of "
+            "numbers for each response"
+        )
     x = _abscissa(where, function["x_values"], values.shape[0])
     label = _label(function["y_values"])
     unit = unit_of(label)
     if unit is None:
         raise BadInput(f"{where}: ordinate in {label!r}, expected one of {KNOWN}, or one over another")
     columns = values[:, None] if values.ndim == 1 else values
-    is_time = _label(function["x_values"]).lower() in ("s", "sec")
+    is_time, factor = _axis(where, _label(function["x_values"]))
+    x = x * factor
     for k in range(columns.shape[1]):
         one = name if columns.shape[1] == 1 else f"{name} column {k + 1}"
         if unit.per is not None:
+            if not np.iscomplexobj(columns):
+                raise BadInput(f"{where}: real numbers, expected complex ones: amplitude or real part?")
             H = columns[:, k].astype(np.complex128) * unit.factor
-            found.add_ratio(Ratio(one, x, H, unit.quantity, unit.per))
+            found.add_ratio(Ratio(one, x, H, unit.quantity, unit.per, response=one))
         elif is_time:
             records.append(
                 (
@@ -108,6 +120,17 @@ def _function(
             )
         else:
             found.said.append(f"passed over: {one}: a spectrum in {label}, expected one signal over another")
+
+
+def _axis(where: str, label: str) -> tuple[bool, float]:
+    """Whether an abscissa is of times, and its factor to s or Hz. Raises `BadInput` for another one."""
+    for is_time, units in ((True, SECONDS), (False, HERTZ)):
+        known = {unit.lower(): factor for unit, factor in units.items()}
+        if label.lower() in known:
+            return is_time, known[label.lower()]
+    if label:
+        raise BadInput(f"{where}: abscissa in {label!r}, expected {', '.join((*HERTZ, *SECONDS))}")
+    return False, 1.0
 
 
 def _abscissa(where: str, axis: dict[str, Any], count: int) -> Array:

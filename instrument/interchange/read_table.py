@@ -1,11 +1,7 @@
-"""Named arrays side by side, of a CSV or a MATLAB struct, to what they are.
+"""Named arrays side by side, of a CSV or a MATLAB struct, to what they are by their names."""
 
-A name says what it is, and its unit: `velocity_mm_s`, `Velocity real [mm/s]`, `base_accel_m_s2`, `FRF (g/N)`.
-"""
-
-import re
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,36 +10,31 @@ from fitting.arrays import Array
 from fitting.modal.frf import Motion
 from instrument.errors import BadInput
 from instrument.files.point_columns import understood
+from instrument.files.rates import CONTRADICTION
 from instrument.files.table import rate_of_times
-from instrument.files.units import DERIVATIVE, KNOWN, Quantity, Unit, unit_of
+from instrument.files.units import DERIVATIVE, KNOWN, Quantity, Unit
 from instrument.interchange.found import Columns, Found, Ratio
+from instrument.interchange.said_by_name import (
+    BASE,
+    Part,
+    amplitude_factor,
+    axis_of,
+    bracketed,
+    part_in,
+    radians,
+    refuse_unknown,
+    stem_of,
+    unit_in,
+)
 
 Named = dict[str, NDArray[Any]]
 """Arrays of one length; matrices (samples, hits) for hits side by side; single numbers as arrays of one."""
-Part = Literal["whole", "re", "im", "magnitude", "phase"]
-
-_PARTS: dict[str, Part] = {
-    **dict.fromkeys(("re", "real"), "re"),
-    **dict.fromkeys(("im", "imag", "imaginary"), "im"),
-    **dict.fromkeys(("mag", "magnitude", "amp", "amplitude", "abs", "modulus"), "magnitude"),
-    **dict.fromkeys(("phase", "phi", "arg", "angle"), "phase"),
-}
-_BASE = {"base", "reference", "ref", "clamp", "excitation", "shaker", "input"}
-_STEMS = {"accelerance": "(m/s^2)/N", "inertance": "(m/s^2)/N", "mobility": "(m/s)/N", "receptance": "m/N"}
-_SUFFIXES = (
-    ("_mm_s2", "mm/s^2"),
-    ("_m_s2", "m/s^2"),
-    ("_mm_s", "mm/s"),
-    ("_m_s", "m/s"),
-    ("_mm", "mm"),
-    ("_kn", "kN"),
-    ("_m", "m"),
-    ("_n", "N"),
-    ("_g", "g"),
-)
-"""Units at the end of a name, longest first."""
 _RATES = ("sample_rate_hz", "sampling_rate_hz", "fs", "fs_hz", "sample_rate", "sampling_frequency")
-_AXIS_HZ = {"hz": 1.0, "khz": 1e3, "rad/s": 1 / (2 * np.pi), "": 1.0}
+_FREQUENCIES, _TIMES = ("frequency", "freq", "f"), ("time", "t")
+_LONGEST = 200
+_CARRIED = ("mass_kg", "mounting", "temperature_c")
+"""Columns of ours that say of which plate, or at what temperature, a row is: whoever fits asks about them."""
+_AXIS_HZ = {"Hz": 1.0, "kHz": 1e3, "rad/s": 1 / (2 * np.pi), "": 1.0}
 _AXIS_S = {"s": 1.0, "sec": 1.0, "ms": 1e-3, "": 1.0}
 
 
@@ -55,6 +46,15 @@ class _Signal:
     unit: Unit
     is_base: bool
     values: NDArray[Any]
+    peak: float = 1.0
+    """What an amplitude was made with, of an rms value or one from peak to peak."""
+    names: tuple[str, ...] = ()
+    """Of its parts."""
+
+    @property
+    def words(self) -> str:
+        """What is known of it, for people."""
+        return self.name if self.peak == 1.0 else f"{self.name} times {self.peak:.4g}"
 
 
 def read_table(source: str, table: Named, found: Found) -> bool:
@@ -63,42 +63,52 @@ def read_table(source: str, table: Named, found: Found) -> bool:
     `source` names it in messages.
     """
     signals = _signals(source, table)
-    frequency = _axis(table, ("frequency", "freq", "f"), _AXIS_HZ)
+    frequency = _axis(source, table, _FREQUENCIES, _AXIS_HZ)
     if frequency is not None:
-        _on_lines(source, table, frequency, signals, found)
-        return bool(signals)
-    if any(s.unit.quantity == "force" for s in signals):
-        _records(source, _rate_hz(source, table), signals, table.get("accepted"), found)
-        return True
-    return False
+        used = _on_lines(source, table, frequency, signals, found)
+    elif any(s.unit.quantity == "force" for s in signals):
+        used = _records(source, _rate_hz(source, table), signals, table.get("accepted"), found)
+    else:
+        return False
+    _say_left(source, table, used, found)
+    return bool(signals)
+
+
+def _say_left(source: str, table: Named, used: list[_Signal], found: Found) -> None:
+    """Of what was not taken, its names: nobody else would miss them."""
+    taken = {name for signal in used for name in signal.names}
+    words = (*_FREQUENCIES, *_TIMES, *_RATES, "coherence", "accepted", "hit", *_others(), *_CARRIED)
+    left = [n for n in table if n not in taken and not any(n.lower().startswith(w) for w in words)]
+    if used and left:
+        found.said.append(f"passed over: {source}: {', '.join(left)[:_LONGEST]}")
 
 
 # Axes
 
 
-def _axis(table: Named, words: tuple[str, ...], units: dict[str, float]) -> Array | None:
-    """The column of an axis in its SI unit."""
-    for name, values in table.items():
-        unit, tokens = _bracketed(name)
-        last = tokens[-1] if len(tokens) > 1 and not unit else ""
-        unit = unit or (last if last in units else "")
-        if tokens and tokens[0] in words and unit.lower() in units and values.ndim == 1 and values.size > 1:
-            return np.asarray(values, float) * units[unit.lower()]
-    return None
+def _axis(
+    source: str, table: Named, words: tuple[str, ...], units: dict[str, float], *, needed: bool = True
+) -> Array | None:
+    """The column of an axis in its SI unit; where it is `needed` one in another unit is refused."""
+    rows = [n for n, values in table.items() if values.ndim == 1 and values.size > 1 and unit_in(n) is None]
+    found = axis_of(source, rows, words, units, needed=needed)
+    return None if found is None else np.asarray(table[found[0]], float) * found[1]
 
 
 def _rate_hz(source: str, table: Named) -> float:
-    """Samples a second."""
-    for name in table:
-        if name.lower() in _RATES and table[name].size == 1:
-            return float(table[name].ravel()[0])
-    t = _axis(table, ("time", "t"), _AXIS_S)
-    if t is None:
+    """Samples a second, as is said or as the times have it. Raises `BadInput` where these contradict."""
+    said = [float(table[n].ravel()[0]) for n in table if n.lower() in _RATES and table[n].size == 1]
+    t = _axis(source, table, _TIMES, _AXIS_S, needed=not said)
+    if t is None and not said:
         raise BadInput(f"{source}: no sample rate, expected sample_rate_hz or a column of times")
-    rate = rate_of_times(t)
-    if rate is None:
-        raise BadInput(f"{source}: its times are not evenly spaced, expected a constant step")
-    return rate
+    if t is not None:
+        rate = rate_of_times(t)
+        if rate is None:
+            raise BadInput(f"{source}: its times are not evenly spaced, expected a constant step")
+        said.append(rate)
+    if min(said) > 0 and max(said) > min(said) * (1 + CONTRADICTION):
+        raise BadInput(f"{source}: sample rates contradict: {', '.join(f'{r:.6g}' for r in said)} Hz")
+    return said[0]
 
 
 # Signals
@@ -115,110 +125,112 @@ def _signals(source: str, table: Named) -> list[_Signal]:
     others = _others()
     parts: dict[tuple[str, ...], dict[Part, str]] = {}
     for name in table:
-        if name in others or (_unit(name) is None and _part(name) != "phase"):
+        if name in others:
             continue
-        parts.setdefault(_stem(name), {})[_part(name)] = name
+        unit = unit_in(name)
+        if (unit is None or unit.per is None) and part_in(name) != "phase":
+            refuse_unknown(source, name, unit)
+        if unit is None and part_in(name) != "phase":
+            continue
+        parts.setdefault(stem_of(name), {})[part_in(name)] = name
     return [s for stem, by_part in parts.items() if (s := _signal(source, table, stem, by_part)) is not None]
 
 
 def _signal(source: str, table: Named, stem: tuple[str, ...], names: dict[Part, str]) -> _Signal | None:
-    unit = next((u for part, n in names.items() if part != "phase" and (u := _unit(n))), None)
-    if unit is None:
+    label = next(iter(names.values()))
+    units = [u for part, n in names.items() if part != "phase" and (u := unit_in(n))]
+    if not units:
         return None
+    unit = units[0]
+    if any(u != unit for u in units):
+        raise BadInput(f"{source}: {' and '.join(names.values())}: expected both in one unit")
     if ("re" in names) != ("im" in names):
-        raise BadInput(
-            f"{source}: {next(iter(names.values()))}: its other part is missing, expected re and im"
-        )
+        raise BadInput(f"{source}: {label}: its other part is missing, expected re and im")
     if "re" in names:
         values: NDArray[Any] = table[names["re"]] + 1j * table[names["im"]]
     elif "phase" in names:
         size = names.get("magnitude") or names.get("whole")
         if size is None:
             return None
-        values = table[size] * np.exp(1j * _radians(names["phase"], table[names["phase"]]))
+        values = table[size] * np.exp(1j * radians(source, names["phase"], table[names["phase"]]))
     else:
         values = table[names.get("whole") or names["magnitude"]]
-    label = next(iter(names.values()))
-    return _Signal(label, unit, bool(_BASE & set(stem)), values * unit.factor)
-
-
-def _radians(name: str, values: NDArray[Any]) -> NDArray[Any]:
-    words = name.lower()
-    return np.asarray(values if "rad" in words else np.deg2rad(values))
-
-
-def _bracketed(name: str) -> tuple[str, list[str]]:
-    """The unit in brackets at a name's end, and the words before it."""
-    plain = name.strip()
-    match = re.search(r"\[([^\]]*)\]\s*$", plain) or re.search(r"[\s_]\((.*)\)\s*$", plain)
-    before = plain[: match.start()] if match else plain
-    return (match[1] if match else ""), [w for w in re.split(r"[^a-z0-9]+", before.lower()) if w]
-
-
-def _unit(name: str) -> Unit | None:
-    unit, words = _bracketed(name)
-    if unit:
-        return unit_of(unit)
-    stem = next((_STEMS[w] for w in words if w in _STEMS), None)
-    if stem is not None:
-        return unit_of(stem)
-    lower = name.strip().lower()
-    return next((unit_of(u) for suffix, u in _SUFFIXES if lower.endswith(suffix)), None)
-
-
-def _part(name: str) -> Part:
-    _, words = _bracketed(name)
-    return next((_PARTS[w] for w in words if w in _PARTS), "whole")
-
-
-def _stem(name: str) -> tuple[str, ...]:
-    """What the parts of one quantity have in common."""
-    bracket, words = _bracketed(name)
-    lower = name.strip().lower()
-    if not bracket:
-        tail = next((suffix for suffix, _ in _SUFFIXES if lower.endswith(suffix)), "")
-        words = [w for w in re.split(r"[^a-z0-9]+", lower.removesuffix(tail)) if w]
-    return tuple(w for w in words if w not in _PARTS and w not in ("deg", "rad"))
+    # Of a ratio both are stated alike.
+    peak = (
+        1.0 if unit.per is not None else max(map(amplitude_factor, names.values()), key=lambda x: abs(x - 1))
+    )
+    return _Signal(
+        label, unit, bool(BASE & set(stem)), values * (unit.factor * peak), peak, tuple(names.values())
+    )
 
 
 # What they make together
 
 
-def _on_lines(source: str, table: Named, f: Array, signals: list[_Signal], found: Found) -> None:
-    """Ratios, or a velocity beside its base acceleration."""
+def _on_lines(source: str, table: Named, f: Array, signals: list[_Signal], found: Found) -> list[_Signal]:
+    """Those taken: ratios, or a velocity beside its base acceleration or its force."""
+    for s in (s for s in signals if s.values.shape != f.shape):
+        found.said.append(f"passed over: {source}: {s.name}: {s.values.shape} beside {len(f)} frequencies")
     signals = [s for s in signals if s.values.shape == f.shape]
     alone = sum(s.unit.per is not None for s in signals) == 1
     for s in signals:
         if s.unit.per is not None:
-            ratio = Ratio(f"{source}: {s.name}", f, s.values.astype(complex), s.unit.quantity, s.unit.per)
-            found.add_ratio(ratio, _coherence(table, s.name, alone=alone))
-    motions = [s for s in signals if s.unit.per is None and s.unit.quantity in DERIVATIVE]
-    readings, bases = [s for s in motions if not s.is_base], [s for s in motions if s.is_base]
+            found.add_ratio(_ratio(source, s, f), _coherence(table, s.name, alone=alone))
+    plain = [s for s in signals if s.unit.per is None]
+    forces = [s for s in plain if s.unit.quantity == "force"]
+    motions = [s for s in plain if s.unit.quantity in DERIVATIVE]
+    readings, drives = [s for s in motions if not s.is_base], [s for s in motions if s.is_base] + forces
+    ratios = [s for s in signals if s.unit.per is not None]
     if not readings:
-        return
-    if len(readings) > 1 or len(bases) > 1:
+        return ratios
+    if len(readings) > 1 or len(drives) > 1:
         raise BadInput(
-            f"{source}: {', '.join(s.name for s in motions)}: which is the response? expected one velocity, "
-            f"and one motion of the base (a name with one of {', '.join(sorted(_BASE))})"
+            f"{source}: {', '.join(s.name for s in motions + forces)}: which is the response? expected one "
+            f"velocity, and one force or motion of the base (a name with one of {', '.join(sorted(BASE))})"
         )
-    found.sweeps.append(_sweep(source, table, f, readings[0], bases[0] if bases else None, found))
+    found.sweeps.append(_sweep(source, table, f, readings[0], drives[0] if drives else None, found))
+    return [*ratios, *readings, *drives]
+
+
+def _ratio(source: str, s: _Signal, f: Array) -> Ratio:
+    if not np.iscomplexobj(s.values):
+        raise BadInput(
+            f"{source}: {s.name}: no phase, expected real and imaginary part, or magnitude and phase"
+        )
+    name = f"{source}: {s.name}"
+    return Ratio(name, f, s.values.astype(complex), s.unit.quantity, s.unit.per or "force", response=s.name)
 
 
 def _sweep(
-    source: str, table: Named, f: Array, reading: _Signal, base: _Signal | None, found: Found
+    source: str, table: Named, f: Array, reading: _Signal, drive: _Signal | None, found: Found
 ) -> Columns:
     columns: Columns = {"frequency_hz": f}
     v = _as(source, reading, "velocity", f)
+    _check_rows(source, reading, f)
     columns |= _phasor("velocity", "m_s", v) if np.iscomplexobj(v) else {"velocity_m_s": v}
-    if base is not None:
-        a = _as(source, base, "acceleration", f)
-        columns |= _phasor("base_accel", "m_s2", a)
+    over = ", no base channel"
+    if drive is not None:
+        is_force = drive.unit.quantity == "force"
+        a = drive.values if is_force else _as(source, drive, "acceleration", f)
+        columns |= _phasor("force", "n", a) if is_force else _phasor("base_accel", "m_s2", a)
+        unsaid = np.iscomplexobj(v) and not np.iscomplexobj(a)
+        over = f", with {drive.words}{' (no phase: taken as 0)' if unsaid else ''}"
     columns |= {n: np.asarray(table[n], float) for n in _others() if n in table and table[n].shape == f.shape}
+    columns |= {
+        n: x for n in _CARRIED if n in table and np.all(np.isfinite(x := np.asarray(table[n], float)))
+    }
     how = "phasors" if np.iscomplexobj(v) else "amplitudes"
-    over = f", with {base.name}" if base is not None else ", no base channel"
     band = f"{len(f)} points, {f.min():.5g} to {f.max():.5g} Hz"
-    found.said.append(f"{source}: {reading.name} as velocity {how}{over}, {band}")
+    found.said.append(f"{source}: {reading.words} as velocity {how}{over}, {band}")
     return columns
+
+
+def _check_rows(source: str, reading: _Signal, f: Array) -> None:
+    """Raise `BadInput` for a row of a sweep that is none."""
+    for what, bad in (("no number", ~np.isfinite(reading.values)), ("a frequency not above 0", ~(f > 0))):
+        if bad.any():
+            row = int(np.flatnonzero(bad)[0]) + 1
+            raise BadInput(f"{source}: {reading.name}: {what} in row {row} of {len(f)}, expected none such")
 
 
 def _as(source: str, signal: _Signal, wanted: Quantity, f: Array) -> NDArray[Any]:
@@ -237,16 +249,16 @@ def _phasor(stem: str, unit: str, values: NDArray[Any]) -> Columns:
 
 def _coherence(table: Named, ratio: str, *, alone: bool) -> Array | None:
     """The only one beside the only ratio; else the one whose further words are all in the ratio's name."""
-    names, words = [n for n in table if n.lower().startswith("coherence")], set(_bracketed(ratio)[1])
-    further = {n: set(_bracketed(n)[1]) - {"coherence"} for n in names}
+    names, words = [n for n in table if n.lower().startswith("coherence")], set(bracketed(ratio)[1])
+    further = {n: set(bracketed(n)[1]) - {"coherence"} for n in names}
     own = names if alone and len(names) == 1 else [n for n in names if further[n] and further[n] <= words]
     return np.asarray(table[own[0]], float) if len(own) == 1 else None
 
 
 def _records(
     source: str, rate_hz: float, signals: list[_Signal], accepted: NDArray[Any] | None, found: Found
-) -> None:
-    """A force and its responses; matrices are hits side by side, those not accepted are left out."""
+) -> list[_Signal]:
+    """Those taken: a force and its responses; matrices are hits side by side, those not accepted left out."""
     forces = [s for s in signals if s.unit.quantity == "force" and s.unit.per is None]
     motions = [s for s in signals if s.unit.quantity in DERIVATIVE and s.unit.per is None]
     if len(forces) != 1:
@@ -268,6 +280,7 @@ def _records(
             (s.unit.quantity, _hits(s.values)[k]) for s in responses if s.unit.quantity != "force"
         ]
         found.add_hit(f"{source} hit {k + 1}", rate_hz, force, mine)
+    return [*forces, *responses]
 
 
 def _hits(values: NDArray[Any]) -> list[Array]:

@@ -20,13 +20,23 @@ def read_uff(path: Path) -> Found:
     found, theirs = Found(), [_coherence_of(k, ratios, coherences) for k in range(len(ratios))]
     for f, own in zip(ratios, theirs, strict=True):
         per = f.unit.per or "force"
-        ratio = Ratio(f.name, f.x, f.values, f.unit.quantity, per, f.level_m_s2, f.place)
+        if per != "force" and _is_across(f):
+            found.said.append(f"passed over: {f.name}: {f.points}: not along what drives it")
+            continue
+        turned = f"{f.name} (sign turned: a negative direction)" if f.turned else f.name
+        ratio = Ratio(turned, f.x, f.values, f.unit.quantity, per, f.level_m_s2, f.place, f.points)
         found.add_ratio(ratio, None if own is None else own.values)
     left = [c for c in coherences if not any(c is own for own in theirs)]
     found.said += [f"passed over: {c.name}: a coherence that no one FRF here belongs to" for c in left]
     found.said += [f"passed over: {name}: function type {kind}" for name, kind in universal.others]
     _add_hits(path, found, [f for f in universal.functions if f.kind == TIME])
     return found
+
+
+def _is_across(f: Function) -> bool:
+    """Whether both directions are stated, and are not of one axis."""
+    axes = {at.axis for at in f.between if at.axis}
+    return len(axes) > 1
 
 
 def _coherence_of(k: int, ratios: list[Function], coherences: list[Function]) -> Function | None:

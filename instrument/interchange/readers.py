@@ -33,6 +33,7 @@ READERS: Registry[Reader] = Registry(
     "viscorig.readers",
     {
         **dict.fromkeys(("uff", "unv"), "instrument.interchange.read_uff:read_uff"),
+        "lvm": "instrument.interchange.read_lvm:read_lvm_hits",
         "mat": "instrument.interchange.read_mat:read_mat",
         **dict.fromkeys(("csv", "txt"), "instrument.interchange.read_csv:read_csv"),
     },
@@ -52,6 +53,7 @@ def read_foreign(path: Path) -> Found:
     if not (found.sweeps or found.frfs or found.hits):
         said = "; ".join(found.said) or "no array that says what it is"
         raise BadInput(f"{path}: nothing to import: {one_line(said)[:160]}")
+    found.said += [f"column pickup: {k} is {name}" for k, name in enumerate(found.spots)]
     return found
 
 

@@ -22,6 +22,8 @@ from instrument.session.contents import Contents, RecordedHit, TimedPoint
 _VELOCITY, _ACCELERATION, _FORCE = CODES["velocity"], CODES["acceleration"], CODES["force"]
 _SECONDS, _HERTZ = 17, 18
 _NODES = {"velocity": 1, "base": 2, "force": 3, "response": 4}
+_FURTHER_SPOTS = 10
+"""Node of a further spot, less its number."""
 _LEAST_LINES = 2
 """The library takes the step from the first two."""
 
@@ -48,23 +50,31 @@ def export_uff(contents: Contents, folder: Path) -> tuple[list[Path], list[str]]
 
 def _sweep_sets(contents: Contents) -> tuple[list[dict[str, Any]], list[str]]:
     """Velocity over base acceleration, a set for each segment of each sweep; its level on the z axis."""
-    groups: dict[tuple[int, int, float], list[TimedPoint]] = {}
-    steps = [p for p in contents.points if p.point.purpose == "step"]
+    groups: dict[tuple[int, int, float, int], list[TimedPoint]] = {}
+    every = [p for p in contents.points if p.point.purpose == "step"]
+    steps = [p for p in every if not p.point.mass_kg and not p.point.mounting]
     for p in steps:
-        groups.setdefault((p.point.sweep, p.point.segment, p.point.level_m_s2), []).append(p)
+        key = p.point.sweep, p.point.segment, p.point.level_m_s2, p.point.pickup
+        groups.setdefault(key, []).append(p)
     said = []
-    if len(steps) < len(contents.points):
+    if len(every) < len(contents.points):
         said.append(
-            f"{len(contents.points) - len(steps)} sentinel points are not in the universal file: "
+            f"{len(contents.points) - len(every)} sentinel points are not in the universal file: "
             "a data set has one value a frequency"
         )
+    if len(steps) < len(every):
+        said.append(
+            f"{len(every) - len(steps)} points with a known mass or clamped anew are not in the universal "
+            "file: a data set cannot say so"
+        )
     sets = []
-    for (sweep, segment, level), points in groups.items():
+    for (sweep, segment, level, spot), points in groups.items():
         points.sort(key=lambda p: p.point.frequency_hz)
         if len(points) < _LEAST_LINES:
             said.append(f"sweep {sweep} segment {segment}: one point is too few for a data set")
             continue
-        sets.append(_sweep_set(contents, f"sweep {sweep} segment {segment}", level, points))
+        node = {"rsp_node": _FURTHER_SPOTS + spot} if spot else {}
+        sets.append(_sweep_set(contents, f"sweep {sweep} segment {segment}", level, points) | node)
     return sets, said
 
 

@@ -14,6 +14,7 @@ from typing import Literal
 import numpy as np
 
 from fitting.arrays import Array
+from fitting.digits import two_digits
 from instrument.errors import BadInput
 from instrument.facts.comparison import SpreadAt, SpreadResult, SpreadSize
 from instrument.material.comparing import RESOLUTION, covariance_of
@@ -63,7 +64,9 @@ class Spread:
         """One line that a data sheet could have, of the band's middle."""
         k = len(self.frequency_hz) // 2
         said = [
-            f"{what} {100 * s.value:.2g} % (95 %: {100 * s.lower:.2g} to {100 * s.upper:.2g} %)"
+            "{} {} % (95 %: {} to {} %)".format(
+                what, *(two_digits(100 * x) for x in (s.value, s.lower, s.upper))
+            )
             for what, s in (("G'", self.storage[k]), ("loss factor", self.loss[k]))
         ]
         return (

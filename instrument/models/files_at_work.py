@@ -17,6 +17,7 @@ from fitting.diagnosis.of_files import Place
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.several import SeveralProblem
 from fitting.diagnosis.small_problem import DEAF, SmallProblem
+from fitting.digits import two_digits
 from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 from fitting.noise import Noise, noise_of
@@ -183,7 +184,7 @@ class FilesAtWork:
 
     def about_misfit(self) -> str:
         """What was taken for the error of readings, in a sentence."""
-        sizes = ", ".join(f"{100 * m:.2g}" for m in self.misfit)
+        sizes = ", ".join(two_digits(100 * m) for m in self.misfit)
         if max(self.misfit) > _NO_RIG:
             return (
                 f"one law leaves {sizes} % of the readings, more than any rig is off: is every file with "

@@ -12,6 +12,7 @@ from fitting.arrays import Mask
 from fitting.diagnosis.begin import Begun, begin
 from fitting.diagnosis.joint import fit_of
 from fitting.diagnosis.prediction import held_out
+from fitting.digits import written_out
 from fitting.errors import OutsideModel
 from fitting.identification import paper
 from fitting.identification.bare_plate import BarePlateFit, fit_bare_plate, with_bare_plate
@@ -130,7 +131,8 @@ def _checked(specimen: Specimen, sweep: Sweep, fit: Fit) -> TheoryError:
         if off < LOST_PERCENT:
             raise
         raise OutsideModel(
-            f"{error}; nor does the fit follow the data (rms {off:.3g} %): check units, level and pickup"
+            f"{error}; nor does the fit follow the data (rms {written_out(off, 3)} %): check units, level "
+            "and pickup"
         ) from None
 
 

@@ -10,6 +10,7 @@ from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array
 from fitting.damping import viscous_damping
+from fitting.digits import two_digits, written_out
 from fitting.effects import CATALOGUE, all_spans, span_modules
 from fitting.effects.base import Effect
 from fitting.effects.enriched_plate import EnrichedReducedPlate
@@ -152,17 +153,18 @@ def remark_on_fit(fit: ModalFit, tables: Sequence[ModalTable]) -> tuple[str, ...
     off_eta = np.concatenate(fit.predicted_loss) / np.concatenate([t.loss_factor for t in tables]) - 1
     if (rms_f := float(np.sqrt(np.mean(off_f**2)))) > _LOST:
         return (
-            f"the fit does not follow the modes (rms {100 * rms_f:.3g} % in frequency): check mode numbers, "
-            "specimen and unit",
+            f"the fit does not follow the modes (rms {written_out(100 * rms_f, 3)} % in frequency): check "
+            "mode numbers, specimen and unit",
         )
     chi2 = fit.uncertainty.chi2_per_dof
     if not chi2 > _MISFIT:
         return ()
     return (
         f"the modes are off by {chi2:.3g} times what their errors explain (chi-square per degree), by up to "
-        f"{100 * np.abs(off_f).max():.2g} % in frequency and {100 * np.abs(off_eta).max():.2g} % in loss "
-        "factor: check mode numbers, and that loss factors are no damping ratios (half of them); else the "
-        "model lacks something, and the law may be biased beyond its band",
+        f"{two_digits(100 * np.abs(off_f).max())} % in frequency and "
+        f"{two_digits(100 * np.abs(off_eta).max())} % in loss factor: check mode numbers, "
+        "and that loss factors are no damping ratios (half of them); else the model lacks something, and "
+        "the law may be biased beyond its band",
     )
 
 
@@ -178,8 +180,8 @@ def remarks_on_tables(tables: Sequence[ModalTable], specimens: Sequence[AnySpeci
         if not table.states_its_noise:
             f, eta = table.relative_std
             said.append(
-                f"errors of the modes are not stated: {100 * f.max():.2g} % of frequencies and "
-                f"{100 * eta.max():.2g} % of loss factors at most are taken for granted"
+                f"errors of the modes are not stated: {two_digits(100 * f.max())} % of frequencies and "
+                f"{two_digits(100 * eta.max())} % of loss factors at most are taken for granted"
             )
         warm = table.temperature_c
         if warm is not None and float(warm.max() - warm.min()) > _WARMER:

@@ -16,6 +16,7 @@ from threadpoolctl import threadpool_limits
 from fitting.arrays import Array
 from fitting.diagnosis.begin import begin
 from fitting.diagnosis.refitted import Refitted
+from fitting.digits import two_digits
 from fitting.errors import FittingError
 from fitting.laws import CoreLaw
 from fitting.noise import Noise
@@ -238,7 +239,7 @@ class _Ahead:
         """Candidate, what it teaches, why."""
         goal, c = self._goal, self._grid.candidates
         free = np.isfinite(self._seconds) & (self._taken == 0)
-        said = f"{100 * self.worst:.2g} % so far{self._remark()}"
+        said = f"{two_digits(100 * self.worst)} % so far{self._remark()}"
         if not free.any():
             return None, "", f"time or candidates are used up; {said}"
         wanted = self.worst > max(goal.target, NEAR_LIMIT * self.limit if self.limit > goal.target else 0.0)
@@ -273,7 +274,7 @@ class _Ahead:
         said = ""
         if self.limit > self._goal.target:
             target, limit = 100 * self._goal.target, 100 * self.limit
-            said += f"; {target:g} % is out of reach, everything measured would leave {limit:.2g} %"
+            said += f"; {target:g} % is out of reach, everything measured would leave {two_digits(limit)} %"
         if self._wider > _SAID:
             said += f"; the points scatter {self._wider:.2g} times what is expected, errors are widened by it"
         return said

@@ -3,6 +3,7 @@
 import numpy as np
 
 from fitting.diagnosis.structure import in_words
+from fitting.digits import two_digits, written_out
 from fitting.identification.result import Identification
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
@@ -95,14 +96,18 @@ def unexplained_section(fitted: ReportedFit) -> ReportSection:
         else "not known: the noise is not"
     )
     rows = [
-        ("rms difference in amplitude", f"{r.rms_percent:.3g} %"),
-        ("largest difference in amplitude", f"{r.max_percent:.3g} %"),
+        ("rms difference in amplitude", f"{written_out(r.rms_percent, 3)} %"),
+        ("largest difference in amplitude", f"{written_out(r.max_percent, 3)} %"),
         ("chi² per degree of freedom", chi2),
     ]
     if v.held_out_rms_percent is not None:
-        rows.append(("each segment predicted from the others", f"{v.held_out_rms_percent:.3g} % rms"))
+        rows.append(
+            ("each segment predicted from the others", f"{written_out(v.held_out_rms_percent, 3)} % rms")
+        )
     if v.leave_one_out_rms_percent is not None:
-        rows.append(("each point predicted from the others", f"{v.leave_one_out_rms_percent:.3g} % rms"))
+        rows.append(
+            ("each point predicted from the others", f"{written_out(v.leave_one_out_rms_percent, 3)} % rms")
+        )
     blocks: list[Block] = [
         Sentence(f"Before: the model has no further effects than {_parts(fitted.fit.specimen)}."),
         FactsBlock("", tuple(rows)),
@@ -222,4 +227,6 @@ def _live(contents: Contents, r: Identification) -> Sentence:
     worst = max(abs(recorded[n] / v - 1) for n, v in zip(r.law.names, r.law.values, strict=True))
     if worst <= _SAME:
         return Sentence("The live identification of the run ended with the same parameters.")
-    return Sentence(f"The run's own fit differs by up to {100 * worst:.2g} % in a parameter.", "warning")
+    return Sentence(
+        f"The run's own fit differs by up to {two_digits(100 * worst)} % in a parameter.", "warning"
+    )

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from fitting.digits import two_digits
 from instrument.files.acceleration import acceleration_unit
 from instrument.files.column import ColumnPoint
 from instrument.files.point_columns import in_report
@@ -48,8 +49,8 @@ def _summary(contents: Contents) -> str:
     return (
         f"{_counted(len(steps), 'step')} in {_counted(segments, 'segment')} and {_counted(sweeps, 'sweep')} "
         f"at {levels} {shown.symbol}, {seconds:.0f} s of settling and reading. "
-        f"The base was within {off:.2f} % of its level, the velocity's noise is {noise:.2g} % (median); "
-        f"{_counted(marked, 'step')} with remarks."
+        f"The base was within {off:.2f} % of its level, the velocity's noise is {two_digits(noise)} % "
+        f"(median); {_counted(marked, 'step')} with remarks."
     )
 
 

@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from fitting.arrays import Array
+from fitting.digits import two_digits
 from fitting.sweep import segments_by_gap
 from instrument.errors import BadInput
 from instrument.facts.diagnosis import STAGES, DiagnosisResult, PointLeft, StageName
@@ -70,7 +71,9 @@ def residual_figure(found: DiagnosisResult) -> Figure:
         for ax, stage in zip(pair, STAGES, strict=True):
             _draw_residual(ax, mine, stage)
             rms = found.stage(stage).rms_percent
-            first = f"{stage}: {rms:.2g} % rms in amplitude, own scale" if number == numbers[0] else ""
+            first = (
+                f"{stage}: {two_digits(rms)} % rms in amplitude, own scale" if number == numbers[0] else ""
+            )
             label(ax, title=first, x="Frequency / Hz" if number == numbers[-1] else "")
         label(pair[0], y=f"Segment {number}\nresidual / %")
     legend_above(figure, axes[0, 0])

@@ -6,6 +6,7 @@ from math import isnan, nan
 
 from fitting.diagnosis.of_files import ALIKE, EACH, FILE
 from fitting.diagnosis.thresholds import VERDICT
+from fitting.digits import two_digits
 from instrument.facts.diagnosis import CandidateFitted, DiagnosisResult, EffectFound, ParameterFound
 from instrument.facts.rows import LawRow, StretchSetAside
 from instrument.results.error_words import FLOOR_PERCENT, is_below_floor
@@ -105,9 +106,11 @@ def probability_words(candidate: CandidateFitted, found: DiagnosisResult) -> str
 def resampling_words(found: DiagnosisResult) -> str:
     """What the search makes of data without any effect, and of data it has not seen; empty if not asked."""
     p, rms = found.p_value, found.nested_held_out_rms_percent
-    said = [] if p is None else [f"sweeps without any effect gain as much in {100 * p:.2g} % of cases"]
+    said = (
+        [] if p is None else [f"sweeps without any effect gain as much in {two_digits(100 * p)} % of cases"]
+    )
     if rms is not None:
-        said.append(f"data left out, the whole search repeated without them: {rms:.2g} % rms")
+        said.append(f"data left out, the whole search repeated without them: {two_digits(rms)} % rms")
     return "; ".join(said)
 
 

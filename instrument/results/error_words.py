@@ -2,6 +2,8 @@
 
 from math import isfinite
 
+from fitting.digits import two_digits
+
 FLOOR_PERCENT = 0.01
 """Of a parameter. Below it not noise limits it but the plate's theory, its mesh and its stated sizes."""
 
@@ -11,7 +13,7 @@ def percent_words(error: float, value: float) -> str:
     if not isfinite(error) or not value:
         return "-"
     percent = 100 * error / abs(value)
-    return f"below {FLOOR_PERCENT:g}" if percent < FLOOR_PERCENT else f"{percent:.2g}"
+    return f"below {FLOOR_PERCENT:g}" if percent < FLOOR_PERCENT else two_digits(percent)
 
 
 def ratio_words(ratio: float, error: float, sign: str = "+-") -> str:

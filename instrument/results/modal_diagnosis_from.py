@@ -9,6 +9,7 @@ from fitting.diagnosis.result import Candidate, FoundEffect
 from fitting.diagnosis.search import ScoredFit
 from fitting.diagnosis.stage import found_effects, mixture_of
 from fitting.diagnosis.verdict import NONE
+from fitting.digits import two_digits
 from fitting.identification.result import LawBand
 from fitting.mode_tables.diagnose import DiagnosedModes
 from fitting.mode_tables.fit import ModalFit, modal_fit_of
@@ -122,7 +123,7 @@ def _explanation(
     diagnosed: TablesDiagnosed, effects: Sequence[FoundEffect], before: StageFitted, after: StageFitted
 ) -> tuple[str, ...]:
     judgement = diagnosed.found.judgement
-    said = [f"One law leaves {before.rms_percent:.2g} % rms in frequency."]
+    said = [f"One law leaves {two_digits(before.rms_percent)} % rms in frequency."]
     if judgement.verdict == "none":
         return (*said, "That is what the modes' errors leave: no effect is called for.")
     if judgement.accepted is None:
@@ -142,7 +143,7 @@ def _explanation(
         if others:
             said.append(f"These data cannot tell {name} from {', '.join(others)}.")
     them = "it" if len(effects) == 1 else "them"
-    said.append(f"With {them} {after.rms_percent:.2g} % is left.")
+    said.append(f"With {them} {two_digits(after.rms_percent)} % is left.")
     if not judgement.confirmed:
         said.append("Modes that were left out are predicted no better by two effects than by none.")
     return tuple(said)

@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.figure import Figure
 
+from fitting.digits import two_digits
 from instrument.errors import BadInput
 from instrument.facts.plan import PlanResult
 from instrument.results.drawing import (
@@ -66,7 +67,7 @@ def spots_figure(found: PlanResult) -> Figure:
         norm="log",
     )
     for s in grid:
-        ax.annotate(f"{s.worst_percent:.2g}", (s.x_mm, s.y_mm), ha="center", va="center", fontsize=7)
+        ax.annotate(two_digits(s.worst_percent), (s.x_mm, s.y_mm), ha="center", va="center", fontsize=7)
     stated = [s for s in found.spots if s.stated]
     ax.plot([s.x_mm for s in stated], [s.y_mm for s in stated], "x", color=MODEL, ms=12, label="stated spot")
     figure.colorbar(drawn, ax=ax, label="largest standard error in %")

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
 
+from fitting.digits import written_out
 from fitting.gravity import STANDARD_GRAVITY_M_S2
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from fitting.sweep import Sweep
@@ -103,7 +104,7 @@ def _said(
         "; ".join(law_words(row) for row in law),
         ", ".join(_valid(band, conditions)),
         f"{points} of {conditions.points} points" if points < conditions.points else "",
-        f"rms {fit.rms_percent:.3g} %",
+        f"rms {written_out(fit.rms_percent, 3)} %",
         verdict,
         _DOUBT if diagnosed is not None and diagnosed.verdict == "unknown" else "",
     ]

@@ -1,5 +1,6 @@
 """What a sweep could not have seen, as people read it."""
 
+from fitting.digits import two_digits
 from instrument.facts.diagnosis import UnseenEffect
 
 UNSEEN_TITLE = "not found, but would not be seen if it were there: how far off the law would be"
@@ -9,7 +10,7 @@ UNSEEN_COLUMNS = ("effect", "up to", "chance/%", "G' by/%", "loss factor by/%", 
 def unseen_row(one: UnseenEffect) -> tuple[str, ...]:
     """One row under `UNSEEN_COLUMNS`."""
     shifts = one.storage_modulus_percent, one.loss_factor_percent
-    chance = f"{100 * one.chance:.2g}"
+    chance = two_digits(100 * one.chance)
     return one.name, _size(one), chance, *(f"{s:.1f}" for s in shifts), f"{one.standard_errors:.1f}"
 
 

@@ -36,8 +36,8 @@ from instrument.results.typeset import typeset
 
 _PERCENT = 100
 _HERE = (
-    "Here will be what the model of the plate lacks: the residual of the best law, the effects that may "
-    "explain it, ranked by evidence, and what each does to the material."
+    "Here will be what the model of the specimen lacks: the residual of the best law, the effects that "
+    "may explain it, ranked by evidence, and what each does to the material."
 )
 _WHAT_TO_DO = (
     "Open a session (Ctrl+O) or run an experiment; or drop a sweep of another program (.csv, .uff, .mat) "

@@ -5,6 +5,7 @@ from typing import Any
 from PySide6.QtCore import QEvent, QObject, QTimer
 from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
 
+from fitting.digits import two_digits
 from gui.pages.diagnosis.residual import NAMES, Panel, limit, panel, quantities, segments
 from gui.plots import Axis, Plot
 from gui.plots.curve import Symbol
@@ -193,7 +194,7 @@ def _title(found: DiagnosisResult, stage: StageName) -> str:
         said = "after: the same, no effect is accepted"
     chi2, rms = found.stage(stage).chi2_per_dof, found.stage(stage).rms_percent
     noise = "" if chi2 is None else f", chi² per degree {chi2:.3g}"
-    return f"<b>{said}</b><br>{rms:.2g} % rms in amplitude{noise}"
+    return f"<b>{said}</b><br>{two_digits(rms)} % rms in amplitude{noise}"
 
 
 def _offer(box: QComboBox, choices: dict[str, object]) -> None:

@@ -7,12 +7,12 @@ import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QSplitter, QVBoxLayout, QWidget
 
+from fitting.arrays import Array
+from gui.pages.law.corner import emptiest_corner
 from gui.pages.law.curve import LawCurve
 from gui.plots import Axis, Plot
 from gui.theme import Role
 
-_LEGEND_PX = (-8, -8)
-"""A place where a loss factor that rises is not: the lower right corner."""
 _BANDS = {"± 1 standard error": 1.0, "95 % (± 1.96 standard errors)": 1.96}
 
 
@@ -49,7 +49,6 @@ class LawPlots(QWidget):
         self.above.addWidget(QLabel("shaded"))
         self.above.addWidget(self.bands)
         both = QSplitter(Qt.Orientation.Horizontal)
-        self.loss.getPlotItem().legend.setOffset(_LEGEND_PX)
         for plot in (self.storage, self.loss):
             both.addWidget(plot)
         column = QVBoxLayout(self)
@@ -76,6 +75,13 @@ class LawPlots(QWidget):
             shown |= self._draw_line(line, factor)
         for plot in (self.storage, self.loss):
             plot.keep(shown)
+        self.loss.getPlotItem().legend.setOffset(emptiest_corner(self._losses(factor)))
+
+    def _losses(self, factor: float) -> list[tuple[Array, Array]]:
+        """What is drawn of them: the lines, and the edges of their bands where they have some."""
+        curves = [line.curve for line in self._lines]
+        sides = (-factor, 0.0, factor)
+        return [(c.frequency_hz, c.loss + k * np.nan_to_num(c.loss_error)) for c in curves for k in sides]
 
     def _draw_line(self, line: LawLine, factor: float) -> set[str]:
         c, band = line.curve, f"{line.name}, band"

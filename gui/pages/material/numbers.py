@@ -6,6 +6,7 @@ from math import isnan
 
 import numpy as np
 
+from fitting.digits import two_digits
 from fitting.identification.uncertainty import limits_reached
 from fitting.laws import CoreLaw
 from gui.pages.law.curve import At, LawCurve, places_hz
@@ -71,7 +72,7 @@ def parameters(
                 key,
                 label,
                 with_error(value, error, scale),
-                f"{100 * relative:.2g}" if relative is not None else "–",
+                two_digits(100 * relative) if relative is not None else "–",
                 _remark(key, relative, reached, correlations.get(key, {})),
                 was,
             )

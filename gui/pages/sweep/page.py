@@ -6,6 +6,7 @@ from PySide6.QtCore import QEvent, Qt
 from PySide6.QtGui import QHideEvent, QKeySequence, QShortcut, QShowEvent
 from PySide6.QtWidgets import QCheckBox, QSplitter, QStackedLayout, QTabWidget, QVBoxLayout, QWidget
 
+from fitting.digits import two_digits
 from fitting.gravity import PUBLISHED_G_M_S2
 from gui.controller import AppController
 from gui.page import Page
@@ -27,6 +28,8 @@ from gui.pages.sweep.step import StepPane
 from gui.state import SessionState
 from gui.widgets import hint
 from instrument.check.piece import Region
+from instrument.results.session_result import BEFORE_DIAGNOSIS
+from instrument.results.standing import stage_before
 from instrument.session.configuration import Configuration
 from instrument.stepped_sine.settings import SweepSettings
 
@@ -78,7 +81,7 @@ class SweepPage(Page):
             self._looked_at = self._running = None
         self._want_curves(state)
         regions = state.plan.regions
-        if self.news("points", "sentinels", "fits", "damping") or regions != self.seen.regions:
+        if self.news("points", "sentinels", "fits", "damping", "diagnosis") or regions != self.seen.regions:
             self._look_again(state, regions)
         if self.news("run"):
             self.chooser.show_standings(standings(state, self.seen.points))
@@ -232,11 +235,15 @@ class SweepPage(Page):
     def _said_of_model(self, state: SessionState) -> str:
         fit = state.contents.fit
         if fit is None:
-            return "fitting ..." if state.fit_running is not None else "no fit yet"
+            none = "no fit" if state.run.over else "no fit yet"
+            return "fitting ..." if state.fit_running is not None else none
         if fit.result is None:
             return f"fit {fit.number}: {fit.message}"
-        count, rms = len(fit.result.points), fit.result.rms_percent
-        said = f"fit of {count} points, rms {rms:.2g} %"
+        count, rms = len(fit.result.points), two_digits(fit.result.rms_percent)
+        said = f"fit of {count} points, rms {rms} %"
+        diagnosed = state.contents.diagnosis
+        if diagnosed is not None and diagnosed.result is not None and stage_before(diagnosed.result):
+            said = f"rms {rms} % {BEFORE_DIAGNOSIS}"
         if self.model.failure:
             return f"{said}; no curve: {self.model.failure}"
         return f"{said} ..." if self.model.busy else said

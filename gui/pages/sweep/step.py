@@ -4,6 +4,7 @@ import numpy as np
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QGridLayout, QLabel, QSplitter, QVBoxLayout, QWidget
 
+from fitting.digits import two_digits
 from gui.pages.sweep.following import Following, latest_cycles, words
 from gui.pages.sweep.panes import Key, align, hide_foot, keyed, span
 from gui.plots import Axis, Plot
@@ -181,4 +182,4 @@ class StepPane(QWidget):
 
 def _little(percent: float) -> str:
     """What is far below any limit needs no digits."""
-    return f"{percent:.2g}" if percent >= _LEAST_PERCENT else f"<{_LEAST_PERCENT:g}"
+    return two_digits(percent) if percent >= _LEAST_PERCENT else f"<{_LEAST_PERCENT:g}"

@@ -1,5 +1,8 @@
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
+from diagnosed_session import diagnosed_session
 from PySide6.QtCore import Qt
 from sweep_views import LEFT, click_point, click_segment, shown, value
 
@@ -314,3 +317,20 @@ def test_another_sessions_sweep_is_laid_beside_this_one_and_taken_away(qtbot, op
     np.testing.assert_allclose(np.sort(y), np.sort(1e3 * np.abs(p.over_base_s[steps])), rtol=1e-9)
     page.response.others.setChecked(False)
     assert name not in page.response.amplitude.names
+
+
+def test_a_fit_that_lacks_what_the_diagnosis_found_is_said_to_be_before_it(qtbot, window, tmp_path):
+    window.open(diagnosed_session(tmp_path))
+    qtbot.waitUntil(lambda: window.controller.recorded is not None)
+    window.show_page("sweep")
+    page = window.pages[1]
+    qtbot.waitUntil(lambda: "rms" in page.response.model.text(), timeout=PATIENCE_MS)
+    assert "% before the diagnosis" in page.response.model.text()
+
+
+@pytest.mark.parametrize(("over", "said"), [(False, "no fit yet"), (True, "no fit")])
+def test_a_run_that_is_over_has_no_fit_to_come(looked_at, over, said):
+    state = SimpleNamespace(
+        contents=SimpleNamespace(fit=None), fit_running=None, run=SimpleNamespace(over=over)
+    )
+    assert looked_at._said_of_model(state) == said

@@ -1,9 +1,18 @@
 """What a run is said to do."""
 
+import pytest
+from session_cases import configuration as configuration_of
+
+from gui.state import SessionState
 from gui.state.run import Run
 from instrument.files.experiment_file import read_experiment
 from instrument.simulated_case import case_file
 from instrument.stream.raw import OperatorDid
+
+
+@pytest.fixture
+def configuration():
+    return configuration_of()
 
 
 def test_a_run_that_only_a_person_carries_on_says_so_until_it_is_done():
@@ -15,3 +24,11 @@ def test_a_run_that_only_a_person_carries_on_says_so_until_it_is_done():
     assert run.word == "preparing"
     run.state, run.question = "sweep", "Use these hits"
     assert run.word == "sweep"
+
+
+def test_a_run_on_its_way_is_not_idle_before_its_stream_says_anything(configuration):
+    state = SessionState(configuration)
+    state.begin()
+    assert (state.run.word, state.run.next_words) == ("preparing", "starting")
+    state.work("", None)
+    assert (state.run.word, state.run.next_words) == ("preparing", "what comes next is made ready")

@@ -208,3 +208,10 @@ def test_real_record_agrees_with_its_reference(capsys):
         assert mode["half_power"] is None
         assert "lines in its bandwidth" in mode["why"]
     assert any("inverted" in w for w in found["warnings"])
+
+
+def test_matlab_times_that_are_no_samples_give_no_rate(tmp_path):
+    times = np.array([0.0, 0.1, 0.2, 0.9])
+    savemat(tmp_path / "a.mat", {"time_s": times, "force_n": times, "acceleration_m_s2": times})
+    with pytest.raises(BadInput, match="time_s is not evenly spaced"):
+        read_records(tmp_path / "a.mat", Named())

@@ -12,9 +12,13 @@ from instrument.errors import BadInput
 from instrument.files.new_file import write_new
 from instrument.files.specimen_file import read_specimen
 from instrument.interchange.csv_export import export_csv
+from instrument.interchange.exporting import export_session
 from instrument.interchange.files_of import files_of
 from instrument.interchange.given import at_its_spot, read_given
 from instrument.interchange.identified import session_sweep
+from instrument.interchange.importing import one_table
+from instrument.interchange.read_uff import read_uff
+from instrument.interchange.uff_export import export_uff
 from instrument.paper_case import case_file
 from instrument.session.configuration import read_whole_experiment
 from instrument.session.contents import contents_of
@@ -77,6 +81,28 @@ def test_its_export_is_not_taken_for_a_bare_sweep(capsys, finished, tmp_path):
     line = capsys.readouterr().err.strip()
     assert "column mass_kg" in line
     assert "\n" not in line
+
+
+@pytest.mark.parametrize("kind", ["csv", "mat"])
+def test_nor_is_what_comes_back_from_it(capsys, finished, tmp_path, kind):
+    with SessionFile(finished.session) as file:
+        written = export_session(contents_of(file), kind, tmp_path).files
+    foreign = next(p for p in written if p.suffix == f".{kind}")
+    back = tmp_path / "back.csv"
+    assert viscorig(["import", str(foreign), "--out", str(back)]) == 0
+    assert viscorig(["identify", str(back), "--specimen", str(case_file("zn1.toml"))]) == 2
+    assert "column mass_kg" in capsys.readouterr().err
+
+
+def test_a_universal_file_has_its_spots_apart_and_leaves_out_what_it_cannot_say(finished, tmp_path):
+    with SessionFile(finished.session) as file:
+        contents = contents_of(file)
+    written, notes = export_uff(contents, tmp_path)
+    with_mass = [p for p in contents.measured if p.mass_kg and p.purpose == "step"]
+    assert any(note.startswith(f"{len(with_mass)} points with a known mass") for note in notes)
+    columns = one_table(read_uff(next(p for p in written if "sweep" in p.name)).sweeps)
+    steps = [p for p in contents.measured if not p.mass_kg and p.purpose == "step"]
+    assert sorted(columns["pickup"]) == sorted(p.pickup for p in steps)
 
 
 def test_a_notebook_is_told_to_use_the_command(finished):

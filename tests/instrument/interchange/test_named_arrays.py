@@ -196,6 +196,17 @@ def test_testlab_values_of_an_uneven_axis_are_taken_as_they_are(tmp_path):
     np.testing.assert_allclose(frf.frequency_hz, F)
 
 
+@pytest.mark.parametrize(("unit", "factor"), [("kHz", 1e3), ("rad/s", 1 / (2 * np.pi)), ("Hz", 1.0)])
+def test_testlab_lines_are_in_hertz_whatever_their_label(tmp_path, unit, factor):
+    found = mat(tmp_path, H=lms(V, "(m/s)/N", x_label=unit))
+    np.testing.assert_allclose(found.frfs[0][1].frequency_hz, factor * (10 + 0.5 * np.arange(5)))
+
+
+def test_testlab_orders_are_no_frequencies(tmp_path):
+    with pytest.raises(BadInput, match="H: abscissa in 'rpm', expected Hz"):
+        mat(tmp_path, H=lms(V, "(m/s)/N", x_label="rpm"))
+
+
 def recorded(values, label, step=1e-3):
     return lms(values, label, x_label="s", start=0.0, step=step)
 
@@ -210,6 +221,8 @@ def recorded(values, label, step=1e-3):
         ),
         ({"F": recorded(BLOWS[:, 0], "furlong")}, "ordinate in 'furlong'"),
         ({"F": recorded(BLOWS[:, 0], "N", step=0.0)}, "a step of 0, expected"),
+        ({"F": recorded(BLOWS[:, 0], "N") | {"x_values": 5.0}}, "F: x_values is 5.*, expected a struct"),
+        ({"F": recorded(BLOWS[:, 0], "N") | {"y_values": {"values": 5.0}}}, r"values of shape \(\)"),
     ],
 )
 def test_testlab_functions_that_cannot_be_read_are_refused(tmp_path, functions, said):

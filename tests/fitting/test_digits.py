@@ -1,0 +1,18 @@
+"""Numbers in sentences are written out."""
+
+import pytest
+
+from fitting.digits import two_digits, written_out
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [(634.0, "630"), (99.8, "100"), (104.0, "100"), (15.2, "15"), (0.383, "0.38"), (0.0, "0"), (-3.04, "-3")],
+)
+def test_a_number_has_two_digits_and_no_exponent(value, said):
+    assert two_digits(value) == said
+
+
+def test_a_number_of_five_figures_is_written_out_with_its_digits():
+    assert written_out(97352.0, 3) == "97400"
+    assert written_out(0.1384, 3) == "0.138"

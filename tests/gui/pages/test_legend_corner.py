@@ -1,0 +1,37 @@
+"""A legend lies where it hides least of the curves."""
+
+import numpy as np
+import pytest
+
+from gui.pages.law.corner import emptiest_corner
+from gui.pages.law.curve import LawCurve
+from gui.pages.law.plots import LawLine, LawPlots
+
+F = np.linspace(20.0, 300.0, 60)
+RISING, FALLING = 0.3 + F / 300, 1.3 - F / 300
+
+
+@pytest.mark.parametrize(
+    ("curves", "corner"),
+    [
+        ([RISING], (-8, -8)),
+        ([FALLING], (-8, 8)),
+        ([RISING, FALLING, np.full(60, 1.3)], (8, -8)),
+        ([np.full(60, np.nan)], (-8, -8)),
+        ([], (-8, -8)),
+    ],
+    ids=["rising", "falling", "all but one", "no number", "none"],
+)
+def test_it_goes_where_no_curve_is(curves, corner):
+    if len(curves) == 3:
+        curves = [np.where(F > 130, RISING, np.nan), np.where(F > 130, FALLING, np.nan), np.full(60, 1.3)]
+    assert emptiest_corner([(F, y) for y in curves]) == corner
+
+
+def test_a_falling_loss_factor_is_not_hidden_by_the_names_of_the_lines(qtbot):
+    plots = LawPlots()
+    qtbot.addWidget(plots)
+    nothing = np.full(60, 0.01)
+    for loss, corner in ((RISING, (-8, -8)), (FALLING, (-8, 8))):
+        plots.show_lines([LawLine("result", LawCurve(F, F, nothing, loss, nothing), "data")])
+        assert tuple(plots.loss.getPlotItem().legend.opts["offset"]) == corner
