@@ -113,6 +113,8 @@ class TolerancesSection(TomlTable):
     damping_percent: NotNegative | None = None
     gain_percent: NotNegative | None = None
     delay_us: NotNegative | None = None
+    substrate_young_per_k_percent: NotNegative | None = None
+    constraining_young_per_k_percent: NotNegative | None = None
     substrate_young_y_percent: NotNegative | None = None
     substrate_shear_percent: NotNegative | None = None
     substrate_angle_deg: NotNegative | None = None

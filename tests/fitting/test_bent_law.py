@@ -103,3 +103,24 @@ def test_many_moduli_at_once_are_those_one_by_one(law):
         rows[0, len(law.values) - 1] = 50.0
         expected = [one.with_logs(row).modulus(OMEGA) for row in rows]
         np.testing.assert_allclose(one.moduli(rows, OMEGA), expected, rtol=1e-12)
+
+
+def test_a_slow_bend_goes_on_farther_than_the_usual_one_and_by_more():
+    band = np.array([1.0, 1e6])
+    usual, slow = (BentLaw.over(TABLE_4, band, slow=k, slow_reach=3.0) for k in (0.0, 4.0))
+    omega = 2 * np.pi * np.array([1e2, 1e2 * np.exp(2.0)])
+    usual_W, slow_W = (law._weights(omega) for law in (usual, slow))
+    alike = [
+        W[:, 0] @ W[:, 1] / np.sqrt((W[:, 0] @ W[:, 0]) * (W[:, 1] @ W[:, 1])) for W in (usual_W, slow_W)
+    ]
+    assert alike[0] == pytest.approx(np.exp(-2.0), abs=0.02)
+    assert alike[1] == pytest.approx((np.exp(-2.0) + 16 * np.exp(-0.5 * (2 / 3) ** 2)) / 17, abs=0.02)
+    assert slow_W[:, 0] @ slow_W[:, 0] == pytest.approx(17.0, rel=0.02)
+    assert slow.with_values(slow.values).slow == 4.0
+
+
+def test_a_law_that_may_bend_farther_is_the_same_law_and_its_bend_is_cheaper():
+    law = bent(TABLE_4, 2)
+    freer = law.freer(2.0)
+    np.testing.assert_allclose(freer.modulus(OMEGA), law.modulus(OMEGA), rtol=1e-12)
+    np.testing.assert_allclose(np.log(freer.bend), np.log(law.bend) / 2)

@@ -47,6 +47,15 @@ def test_right_temperatures_too_few_and_two_wrong_ones_name_nobody():
     )
 
 
+def test_specimens_that_were_wrong_together_are_named_by_the_first_of_them():
+    two, true = np.tile(T, 2), np.tile(T, 2)
+    true[[3, 8]] = 18.0
+    log_a = Shift("wlf", two, 20.0).log_shift(FORMS["wlf"], true)
+    found = misread(Shift("wlf", two, 20.0, 0.3), own(log_a - log_a[0]))
+    assert (found.sweep, found.further, found.stated_c) == (3, 1, 30.0)
+    assert found.read_c == pytest.approx(18.0, abs=0.5)
+
+
 def test_every_sweep_has_a_factor_of_its_own_two_of_one_temperature_too():
     shift = each_its_own(Shift("wlf", np.array([10.0, 20.0, 20.0]), 20.0, 0.3))
     assert shift.kind == "free"
