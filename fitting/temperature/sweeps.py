@@ -79,7 +79,7 @@ class Sweeps:
         numbers = [1] * len(begun) if specimens is None else list(specimens)
         stays = [numbers.index(k) for k in numbers]
         problem = SeveralProblem.of_members([b.problem for b in begun], [None] * len(begun), stays=stays)
-        return cls(problem, _side_by_side(begun))
+        return cls(problem, _alike(_side_by_side(begun), begun))
 
     @property
     def lengths(self) -> tuple[int, ...]:
@@ -140,6 +140,23 @@ class Sweeps:
     def modes(self, read: Complex) -> tuple[Array, Array]:
         """None."""
         return np.zeros(0), np.zeros(0)
+
+
+def _alike(evidence: Evidence, begun: Sequence[Begun]) -> Evidence:
+    """With a gain and a delay that all sweeps have in common, besides each one's own: one rig read them."""
+    v = np.concatenate([b.none.velocity_m_s for b in begun])
+    gain, delay = ([_sigma(b, kind) for b in begun] for kind in ("gain", "delay"))
+    omega = np.concatenate([b.problem.sweep.omega for b in begun])
+    points = [len(b.problem.sweep) for b in begun]
+    rows = [np.repeat(gain, points) * v, -1j * omega * np.repeat(delay, points) * v]
+    felt = np.array([row for row in rows if row.any()])
+    if not len(felt) or not evidence.scale_known:
+        return evidence
+    return replace(evidence, B=np.hstack([evidence.B, evidence.over_sigma(v, felt).T]))
+
+
+def _sigma(begun: Begun, kind: str) -> float:
+    return sum(n.sigma for n in begun.problem.nuisances.each if n.kind == kind)
 
 
 def _side_by_side(begun: Sequence[Begun]) -> Evidence:
