@@ -42,6 +42,8 @@ class BentLaw(CoreLaw):
     slow: float = 0.0
     """Of a further bend, times the usual standard deviations, that goes on over `slow_reach` in ln f."""
     slow_reach: float = REACH
+    faint: tuple[float, ...] = ()
+    """Times the usual standard deviation of b_eta at each knot, straight in logarithms between."""
 
     def __post_init__(self) -> None:
         # The law that is bent has looked at its own parameters.
@@ -130,7 +132,7 @@ class BentLaw(CoreLaw):
         per_bend = 1 / np.array(self.bend).reshape(2, -1, *(1,) * np.ndim(omega))
         by_g = self.freedom * STORAGE * W * G * per_bend[0]
         by_e = np.zeros_like(by_g)
-        by_e.imag = self.freedom * LOSS * W * G.imag * per_bend[1]
+        by_e.imag = self.freedom * LOSS * W * self._fainter(omega) * G.imag * per_bend[1]
         return np.concatenate([own, by_g, by_e])
 
     def moduli(self, logs: Array, omega: Array) -> Complex:
@@ -139,6 +141,7 @@ class BentLaw(CoreLaw):
         xi = np.clip(logs[:, n:], -_MOST, _MOST)
         W = self._weights(np.asarray(omega, dtype=float))
         g, e = self.freedom * STORAGE * xi[:, :half] @ W, self.freedom * LOSS * xi[:, half:] @ W
+        e = e * self._fainter(np.asarray(omega, dtype=float))
         G = self.law.moduli(logs[:, :n], omega)
         return _times(np.exp(g), np.exp(e), G)
 
@@ -147,7 +150,14 @@ class BentLaw(CoreLaw):
         # A plain product of two dimensions: `tensordot` would take eight times as long for these few.
         W = self._weights(omega).reshape(xi.shape[1], -1)
         g, e = self.freedom * STORAGE * (xi[0] @ W), self.freedom * LOSS * (xi[1] @ W)
+        e = e * np.ravel(self._fainter(omega)) if self.faint else e
         return g.reshape(np.shape(omega)), e.reshape(np.shape(omega))
+
+    def _fainter(self, omega: Array) -> Array | float:
+        if not self.faint:
+            return 1.0
+        at = np.log(np.maximum(omega, 1e-9) / (2 * np.pi))
+        return np.asarray(np.exp(np.interp(at, np.log(self.knots_hz), np.log(self.faint))))
 
     def _weights(self, omega: Array) -> Array:
         """Of the whitened values at each frequency. Shape (knots, ...)."""

@@ -37,6 +37,9 @@ decades, 7 % over 3.5, 10 % over 5, 15 % over 6.5 and 20 % over 8, G' by four te
 quarter of the decades apart in ln f are alike to 0.6."""
 _NARROW = 2.0
 """Decades over which the usual bend is all there is."""
+_FAINT, _LEAST = 0.03, 1e-3
+"""Loss factor that a material keeps or lacks on a plateau whatever a formula says, of a rubber's size; the
+smallest that is told from none."""
 FREER = 2.0
 """Times that, where no law bends enough: no material owes a formula anything. A choice."""
 _ROUNDS = 4
@@ -87,7 +90,7 @@ class TemperatureProblem:
             decades = float(np.log10(reduced.max() / reduced.min()))
             slow = decades / _SLOW_BY if decades > _NARROW else 0.0
             reach = max(REACH, decades / _REACH_BY)
-            law = BentLaw.over(plain, reduced, slow=slow, slow_reach=reach)
+            law = _with_faint_losses(BentLaw.over(plain, reduced, slow=slow, slow_reach=reach))
         b = (1.0,) * (shift.moved_count if self.vertical else 0)
         as_stated = (1.0,) * (len(self.points) if shift.moves_temperatures else 0)
         return OneLaw(law, shift, tuple(shift.positive(p).tolist()), self.points, b, as_stated)
@@ -118,6 +121,17 @@ class TemperatureProblem:
             total[at] += z
             count[at] += 1
         return total / count
+
+
+def _with_faint_losses(bent: BentLaw) -> BentLaw:
+    """The same, freer in eta where its law has next to none: on a plateau a formula's loss vanishes.
+
+    None of few decades, where it does not.
+    """
+    if not bent.slow:
+        return bent
+    _, eta = bent.law.storage_and_loss(2 * np.pi * np.array(bent.knots_hz))
+    return replace(bent, faint=tuple((1 + _FAINT / np.maximum(eta, _LEAST)).tolist()))
 
 
 @dataclass(frozen=True)
