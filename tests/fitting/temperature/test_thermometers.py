@@ -67,3 +67,13 @@ def test_a_factor_that_rises_with_the_temperature_is_seen():
     shift = Shift("free", np.array([0.0, 10.0, 40.0, 30.0]), 10.0)
     assert rising(shift, np.array([2.5, 0.0, -2.1, -3.8])) == (30.0, 40.0)
     assert rising(shift, np.array([2.5, 0.0, -3.9, -3.8])) is None
+
+
+def test_what_shares_a_free_factor_may_be_a_little_warmer_or_colder_and_what_has_its_own_may_not():
+    shared = Shift("free", np.array([10.0, 10.0, 20.0, 40.0]), 20.0, 0.3)
+    assert shared.moves_temperatures
+    assert not Shift("free", np.array([10.0, 20.0, 40.0]), 20.0, 0.3).moves_temperatures
+    p = np.array([2.0, -3.0])
+    moved = shared.log_shift(p, np.array([9.0, 11.0, 20.0, 42.0]))
+    np.testing.assert_allclose(moved, [2.2, 1.8, 0.0, -3.3])
+    np.testing.assert_allclose(shared.by_temperature(p, shared.temperature_c), [-0.2, -0.2, -0.175, -0.15])
