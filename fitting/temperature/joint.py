@@ -213,7 +213,7 @@ class ShiftedFit:
     def _by_temperatures(self) -> Array:
         """Of free factors: what they and the reference's would be off. Shape (sweeps,)."""
         shift = self.shift
-        if shift.kind != "free" or shift.error_k == 0 or shift.moves_temperatures:
+        if shift.kind != "free" or shift.error_k == 0:
             return np.zeros(len(self.joint.points))
         each, at = np.unique(shift.temperature_c, return_inverse=True)
         if len(each) < 2:
