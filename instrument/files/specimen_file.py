@@ -199,9 +199,9 @@ class SpecimenDocument(TomlTable):
                 if given:
                     raise ValueError(f"{name} without [core] and [constraining], expected a treated plate")
         for name, face in (("substrate", self.substrate), ("constraining", self.constraining)):
-            stated = face.model_fields_set if face is not None else set()
             for key in ("young_percent_per_k", "young_at_c"):
-                if key in stated:
+                # A document that was kept has all its keys.
+                if face is not None and getattr(face, key) is not None:
                     raise ValueError(
                         f"{name}.{key} of a plate, expected it of a beam: others do not count it"
                     )
