@@ -7,7 +7,7 @@ the formula. Its whitened values are unknowns with priors of unit width, fitted 
 """
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Self
 
@@ -39,6 +39,11 @@ class BentLaw(CoreLaw):
     """Exponentials of whitened values: of b_G at the knots, then of b_eta."""
     freedom: float = 1.0
     """Times the usual standard deviations."""
+    slow: float = 0.0
+    """Of a further bend, times the usual standard deviations, that goes on over `slow_reach` in ln f."""
+    slow_reach: float = REACH
+    faint: tuple[float, ...] = ()
+    """Times the usual standard deviation of b_eta at each knot, straight in logarithms between."""
 
     def __post_init__(self) -> None:
         # The law that is bent has looked at its own parameters.
@@ -46,12 +51,24 @@ class BentLaw(CoreLaw):
             super().__post_init__()
 
     @classmethod
-    def over(cls, law: CoreLaw, frequency_hz: Array, freedom: float = 1.0) -> "BentLaw":
+    def over(
+        cls,
+        law: CoreLaw,
+        frequency_hz: Array,
+        freedom: float = 1.0,
+        slow: float = 0.0,
+        slow_reach: float = REACH,
+    ) -> "BentLaw":
         """`law` unbent, free to bend over a range of frequencies, given in any shape."""
         low, high = float(np.min(frequency_hz)), float(np.max(frequency_hz))
         count = 2 + int(np.log(high / low) / _A_KNOT)
         knots = tuple(float(f) for f in np.geomspace(low, high, count))
-        return cls(law, knots, (1.0,) * (2 * count), freedom)
+        return cls(law, knots, (1.0,) * (2 * count), freedom, slow, slow_reach)
+
+    def freer(self, times: float) -> Self:
+        """The same modulus of a law that may bend so many times as far."""
+        bend = tuple(float(b ** (1 / times)) for b in self.bend)
+        return replace(self, bend=bend, freedom=self.freedom * times)
 
     @property
     def plain(self) -> CoreLaw:
@@ -92,7 +109,7 @@ class BentLaw(CoreLaw):
         """The same law with other parameters and another bend. Shape (names,)."""
         n = len(self.law.names)
         bend = tuple(float(v) for v in values[n:])
-        return type(self)(self.law.with_values(values[:n]), self.knots_hz, bend, self.freedom)
+        return replace(self, law=self.law.with_values(values[:n]), bend=bend)
 
     def objections(self) -> list[str]:
         """Of the law that is bent."""
@@ -115,7 +132,7 @@ class BentLaw(CoreLaw):
         per_bend = 1 / np.array(self.bend).reshape(2, -1, *(1,) * np.ndim(omega))
         by_g = self.freedom * STORAGE * W * G * per_bend[0]
         by_e = np.zeros_like(by_g)
-        by_e.imag = self.freedom * LOSS * W * G.imag * per_bend[1]
+        by_e.imag = self.freedom * LOSS * W * self._fainter(omega) * G.imag * per_bend[1]
         return np.concatenate([own, by_g, by_e])
 
     def moduli(self, logs: Array, omega: Array) -> Complex:
@@ -124,6 +141,7 @@ class BentLaw(CoreLaw):
         xi = np.clip(logs[:, n:], -_MOST, _MOST)
         W = self._weights(np.asarray(omega, dtype=float))
         g, e = self.freedom * STORAGE * xi[:, :half] @ W, self.freedom * LOSS * xi[:, half:] @ W
+        e = e * self._fainter(np.asarray(omega, dtype=float))
         G = self.law.moduli(logs[:, :n], omega)
         return _times(np.exp(g), np.exp(e), G)
 
@@ -132,11 +150,18 @@ class BentLaw(CoreLaw):
         # A plain product of two dimensions: `tensordot` would take eight times as long for these few.
         W = self._weights(omega).reshape(xi.shape[1], -1)
         g, e = self.freedom * STORAGE * (xi[0] @ W), self.freedom * LOSS * (xi[1] @ W)
+        e = e * np.ravel(self._fainter(omega)) if self.faint else e
         return g.reshape(np.shape(omega)), e.reshape(np.shape(omega))
+
+    def _fainter(self, omega: Array) -> Array | float:
+        if not self.faint:
+            return 1.0
+        at = np.log(np.maximum(omega, 1e-9) / (2 * np.pi))
+        return np.asarray(np.exp(np.interp(at, np.log(self.knots_hz), np.log(self.faint))))
 
     def _weights(self, omega: Array) -> Array:
         """Of the whitened values at each frequency. Shape (knots, ...)."""
-        found = _weights_at(self.knots_hz, omega.tobytes())
+        found = _weights_at(self.knots_hz, omega.tobytes(), self.slow, self.slow_reach)
         return found.reshape(-1, *np.shape(omega))
 
 
@@ -148,11 +173,16 @@ def _times(storage: Array, loss: Array, G: Complex) -> Complex:
 
 
 @lru_cache(maxsize=32)
-def _weights_at(knots_hz: tuple[float, ...], omega: bytes) -> Array:
+def _weights_at(knots_hz: tuple[float, ...], omega: bytes, slow: float, slow_reach: float) -> Array:
     """k(f, knots) L^-T for frequencies in rad/s, kept: every step of a fit asks for the same ones."""
     x = np.log(np.maximum(np.frombuffer(omega), 1e-9) / (2 * np.pi))
     at = np.log(np.array(knots_hz))
-    K = np.exp(-0.5 * ((at[:, None] - at) / REACH) ** 2)
-    L = np.linalg.cholesky(K + 1e-9 * np.eye(len(K)))
-    between = np.exp(-0.5 * ((x[:, None] - at) / REACH) ** 2)
+
+    def alike(apart: Array) -> Array:
+        found = np.exp(-0.5 * (apart / REACH) ** 2)
+        return found + slow**2 * np.exp(-0.5 * (apart / slow_reach) ** 2) if slow else found
+
+    K = alike(at[:, None] - at)
+    L = np.linalg.cholesky(K + 1e-9 * (1 + slow**2) * np.eye(len(K)))
+    between = alike(x[:, None] - at)
     return np.asarray(np.ascontiguousarray((between @ np.linalg.inv(L).T).T))

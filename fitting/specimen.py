@@ -42,6 +42,12 @@ class Orthotropy:
         return abs(sin(2 * self.angle_rad)) < _ALIGNED
 
 
+METAL_PER_K = -4e-4
+"""Of Young's modulus where nothing is stated: steel has -3e-4, aluminium -5e-4, brass and titanium about."""
+METAL_AT_C = 20.0
+"""Where a stated modulus is taken to hold."""
+
+
 @dataclass(frozen=True)
 class Face:
     """An elastic layer: the substrate or the constraining layer."""
@@ -54,6 +60,20 @@ class Face:
     loss_factor: float = 0.0
     rolled: Orthotropy | None = None
     """None: isotropic."""
+    young_per_k: float | None = None
+    """Change of Young's modulus for a kelvin, relative; None: a metal's, `METAL_PER_K`."""
+    young_at_c: float = METAL_AT_C
+    """The temperature that it is stated for."""
+
+    def warmed(self, temperature_c: float | None, by_per_k: float = 0.0) -> float:
+        """Factor on Young's modulus at a temperature, its change for a kelvin moved by so much.
+
+        None: as stated.
+        """
+        if temperature_c is None:
+            return 1.0
+        per_k = METAL_PER_K if self.young_per_k is None else self.young_per_k
+        return 1 + (per_k + by_per_k) * (temperature_c - self.young_at_c)
 
 
 @dataclass(frozen=True)

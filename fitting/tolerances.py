@@ -13,7 +13,7 @@ from typing import Any, Literal
 from fitting.mesh import is_turned, shift_of, shifts_of
 from fitting.specimen import Face, Orthotropy, Specimen
 
-Unit = Literal["1", "m", "s", "rad"]
+Unit = Literal["1", "m", "s", "rad", "1/K"]
 
 
 @dataclass(frozen=True)
@@ -52,6 +52,8 @@ _STATED = (
     StatedNumber("mass", "1", 0.02, "what sits on the plate, on a letter balance"),
     StatedNumber("place", "m", 5e-4, "where a mass sits, by a rule from the free end; each coordinate"),
     StatedNumber("area", "1", 0.01, "a disc's diameters by caliper"),
+    StatedNumber("substrate_young_per_k", "1/K", 2e-4, "from steel to aluminium; stated, half of it"),
+    StatedNumber("constraining_young_per_k", "1/K", 2e-4, "as the substrate's"),
     StatedNumber("substrate_young_y", "1", 0.03, "a laminate's or a rolled sheet's second axis"),
     StatedNumber("substrate_shear", "1", 0.05, "seldom measured"),
     StatedNumber("substrate_angle", "rad", radians(1.0), "a laminate cut by a square"),
@@ -70,6 +72,10 @@ OF_THEORY = {
 }
 """Numbers that a theory leaves open: nobody states them, and no file names them."""
 
+OF_TEMPERATURE = ("substrate_young_per_k", "constraining_young_per_k")
+"""Numbers that play a part where data are of several temperatures."""
+STATED_PER_K = 0.5
+"""Of the typical standard deviation of a metal's change for a kelvin, where the file states it."""
 OF_FEW = tuple(s.name for s in _STATED[-9:])
 """Numbers that only orthotropic faces, glue and patches have."""
 PLATE = (*(s.name for s in _STATED[:13]), *OF_FEW)

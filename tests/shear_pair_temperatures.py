@@ -11,6 +11,7 @@ from fitting.noise import Noise, noise_of
 from fitting.temperature.joint import TemperatureProblem, fit_shifted
 from fitting.temperature.shifted_law import ShiftedLaw
 from fitting.temperature.shifts import Shift
+from fitting.temperature.sweeps import AloneSweep, Sweeps
 
 T, REFERENCE = np.array([10.0, 20.0, 30.0]), 20.0
 LOG_A = np.array([1.5, 0.0, -1.2])
@@ -26,10 +27,15 @@ def begun(k, law, *, known=True, pair=PAIR):
     return begin(SmallProblem.of_small(s, pair), None, noise, None, cases.LAW)
 
 
+def alone(each):
+    """As what is said of them takes them."""
+    return tuple(AloneSweep(b, None, noise_of(b.problem.sweep)) for b in each)
+
+
 def fitted(laws, kind="free", *, vertical=False, known=True):
     """The task, the fit, and each temperature by itself."""
     each = [begun(k, law, known=known) for k, law in enumerate(laws)]
-    task = TemperatureProblem.of(each, Shift(kind, T, REFERENCE), vertical=vertical)
+    task = TemperatureProblem(Sweeps.of(each), Shift(kind, T, REFERENCE), vertical)
     z = task.stated([b.none.z for b in each])
     return task, fit_shifted(task, [b.none.law for b in each], z), each
 

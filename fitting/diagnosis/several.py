@@ -24,7 +24,7 @@ from fitting.diagnosis.plate_answer import motions
 from fitting.diagnosis.plate_poles import PlatePoles
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid, spans_of
 from fitting.diagnosis.response import SweepResponse
-from fitting.diagnosis.sharing import CHANNELS, OF_EACH_FILE, OF_EACH_PLATE, OF_EACH_SPOT, Places, shared
+from fitting.diagnosis.sharing import Places, shared
 from fitting.diagnosis.small_problem import BENT_MORE, LEVEL, SmallProblem
 from fitting.diagnosis.strains import Reference
 from fitting.diagnosis.unknowns import STATED_NUMBER
@@ -63,12 +63,12 @@ class SeveralProblem(DiagnosisProblem):
         reduced: Sequence[ReducedPlate | None],
         of: Sequence[Place] = (),
         *,
-        one_mounting: bool = False,
+        stays: Sequence[int] | None = None,
     ) -> "SeveralProblem":
         """One task of several, `of` these files, a file each by default.
 
-        `one_mounting`: one plate that stayed where it is, spot and all, so that only the channels are
-        another matter each time. Raises `OutsideModel` where they cannot be fitted together.
+        `stays`: of every member the first one whose specimen it is, which stayed where it is, spot and all.
+        Raises `OutsideModel` where they cannot be fitted together.
         """
         of = tuple(of) or tuple(Place(k + 1) for k in range(len(members)))
         if len({m.points.reads for m in members if m.points.drive == "base"}) > 1:
@@ -78,8 +78,8 @@ class SeveralProblem(DiagnosisProblem):
         if len({m.specimen.exact for m in members}) > 1:
             raise OutsideModel("some specimens are exact, others not, expected one of them")
         plates = one_plate.plates_of(members)
-        apart = CHANNELS if one_mounting else (*OF_EACH_SPOT, *OF_EACH_FILE, *OF_EACH_PLATE)
-        each, places, owners = shared(members, of, apart, mountings(members, plates))
+        mounted = mountings(members, plates) if stays is None else stays
+        each, places, owners = shared(members, of, mounted, stays)
         sweep = joined([m.sweep for m in members])
         rational = side_by_side([m.rational for m in members])
         nodes = EveryPoint.at(sweep.omega)

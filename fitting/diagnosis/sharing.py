@@ -14,7 +14,7 @@ from fitting.nuisance import Nuisance
 OF_EACH_SPOT = ("gain", "delay", "pickup")
 """Kinds of stated numbers that are another one at every spot, though they are stated alike."""
 CHANNELS = ("gain", "delay")
-"""What a mounting does not keep."""
+"""What a specimen that stays where it is does not keep."""
 OF_EACH_FILE = ("force",)
 """And in every file, its spots sharing them."""
 OF_EACH_PLATE = ("mass", "place", "damping", "length", "width")
@@ -25,14 +25,15 @@ Places = tuple[NDArray[np.intp], ...]
 def shared(
     members: Sequence[DiagnosisProblem],
     of: Sequence[Place],
-    apart: Sequence[str],
     mounted: Sequence[int],
+    stays: Sequence[int] | None = None,
 ) -> tuple[tuple[Nuisance, ...], Places, tuple[tuple[int, ...], ...]]:
     """All stated numbers, those of the same thing once: where each member's are, and whose each is.
 
-    Kinds `apart` are another thing in every file or at every spot. `mounted`: of every member the first one
-    of its mounting.
+    `mounted`: of every member the first one of its mounting. `stays`: the first one that it was measured in
+    the place of, spot and all, so that only the channels are another matter; None: none was.
     """
+    there = of if stays is None else [of[k] for k in stays]
     keys: dict[tuple[object, ...], int] = {}
     each: list[Nuisance] = []
     owners: list[list[int]] = []
@@ -41,14 +42,14 @@ def shared(
         at = []
         for n in m.nuisances.each:
             key: tuple[object, ...] = (n.name, n.sigma, stated_number(m.specimen, n)[0])
-            if n.kind not in apart:
-                pass
-            elif n.kind in OF_EACH_SPOT:
+            if n.kind in CHANNELS:
                 key = (n.name, of[k])
+            elif n.kind in OF_EACH_SPOT:
+                key = (n.name, there[k])
             elif n.kind in OF_EACH_PLATE:
-                key = (n.name, of[mounted[k]].file)
+                key = (n.name, there[mounted[k]].file)
             elif n.kind in OF_EACH_FILE:
-                key = (n.name, of[k].file)
+                key = (n.name, there[k].file)
             if key not in keys:
                 keys[key] = len(each)
                 each.append(n)

@@ -72,13 +72,19 @@ def fit_problem(problem: ModalProblem, start: CoreLaw) -> ModalFit:
     return modal_fit_of(begin_modal(problem, start))
 
 
-def begin_modal(problem: ModalProblem, start: CoreLaw, *, scale_known: bool = True) -> BegunModal:
-    """The best law without any effect. Raises `TooFewPoints`, `OutsideModel`."""
+def begin_modal(
+    problem: ModalProblem, start: CoreLaw, *, scale_known: bool = True, however_few: bool = False
+) -> BegunModal:
+    """The best law without any effect. Raises `TooFewPoints`, `OutsideModel`.
+
+    `however_few`: modes that do not carry a law by themselves too, what they leave open as in `start`, which
+    is near.
+    """
     count = 2 * len(problem.frequency_hz)
-    if count <= len(start.plain.names):
+    if count <= len(start.plain.names) and not however_few:
         raise TooFewPoints(_too_few(problem, start))
     u = np.zeros(len(problem.each))
-    none, problem = _roughly(problem, start, u)
+    none, problem = _roughly(problem, start, u, (1.0,) if however_few else _SOFTER_AND_STIFFER)
     for _ in range(_ROUNDS):
         evidence = problem.evidence(scale_known=scale_known)
         before = none.law.modulus(2 * np.pi * problem.frequency_hz)
@@ -101,10 +107,12 @@ def _too_few(problem: ModalProblem, start: CoreLaw) -> str:
     )
 
 
-def _roughly(problem: ModalProblem, start: CoreLaw, u: Array) -> tuple[Refitted, ModalProblem]:
+def _roughly(
+    problem: ModalProblem, start: CoreLaw, u: Array, factors: Sequence[float]
+) -> tuple[Refitted, ModalProblem]:
     omega = 2 * np.pi * problem.frequency_hz
     found, refused = [], OutsideModel("no law was tried")
-    for factor in _SOFTER_AND_STIFFER:
+    for factor in factors:
         law = scaled(start, factor)
         here = problem.around(law)
         evidence = here.evidence().blunt()

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.member_laws import by_all, law_at
 from fitting.diagnosis.of_files import OfFiles
 from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.unknowns import STATED_NUMBER
@@ -37,20 +38,24 @@ class ModalProblem:
     """Of every member's own among them."""
 
     @classmethod
-    def of(cls, members: Sequence[Member]) -> "ModalProblem":
-        """Numbers that are stated alike, value and tolerance, are one."""
+    def of(cls, members: Sequence[Member], specimens: Sequence[int] | None = None) -> "ModalProblem":
+        """Numbers that are stated alike, value and tolerance, are one.
+
+        `specimens`: of every member the number of its specimen; one of its own where nothing is said.
+        """
+        numbers = list(range(1, len(members) + 1)) if specimens is None else list(specimens)
         each: list[Nuisance] = []
         keys: dict[tuple[object, ...], int] = {}
         places = []
-        for k, m in enumerate(members):
+        for m, number in zip(members, numbers, strict=True):
             at = []
             for n in m.stated.each:
-                apart = n.kind in OF_EACH_TABLE and len(members) > 1
+                apart = n.kind in OF_EACH_TABLE and len(set(numbers)) > 1
                 stated = _as_stated(m, n).stated
-                key: tuple[object, ...] = (n.name, k) if apart else (n.name, n.sigma, stated)
+                key: tuple[object, ...] = (n.name, number) if apart else (n.name, n.sigma, stated)
                 if key not in keys:
                     keys[key] = len(each)
-                    each.append(replace(n, name=f"{n.name} [{k + 1}]") if apart else n)
+                    each.append(replace(n, name=f"{n.name} [{number}]") if apart else n)
                 at.append(keys[key])
             places.append(np.array(at, dtype=np.intp))
         return cls(tuple(members), tuple(each), tuple(places))
@@ -79,7 +84,8 @@ class ModalProblem:
 
     def around(self, law: CoreLaw) -> "ModalProblem":
         """With the members' own errors at a law."""
-        return replace(self, members=tuple(with_own_error(m, law) for m in self.members))
+        each = enumerate(self.members)
+        return replace(self, members=tuple(with_own_error(m, law_at(law, k)) for k, m in each))
 
     def evidence(self, *, scale_known: bool = True) -> Evidence:
         """The readings and what each is worth, ln f + i kappa ln eta."""
@@ -121,7 +127,7 @@ class ModalResponse(SweepResponse):
         found = []
         for k, (m, at) in enumerate(zip(self.modal.members, self.modal.places, strict=True)):
             acting = [(e, u[part]) for e, part in self._acting(k)]
-            found.append(m.logs(m.modes(law, u[at], acting)))
+            found.append(m.logs(m.modes(law_at(law, k), u[at], acting)))
         return np.concatenate(found)
 
     def signatures(self, law: CoreLaw, known: Array, starts: Sequence[Array]) -> Complex:
@@ -137,11 +143,13 @@ class ModalResponse(SweepResponse):
         for k, (m, at, here) in enumerate(every):
             acting = [(e, part) for e, part in self._acting(k)]
             steps = [self._steps(part, u) for _, part in acting]
-            v, dv = m.with_derivatives(law, u[at], [(e, u[part]) for e, part in acting], steps)
+            own = law_at(law, k)
+            v, dv = m.with_derivatives(own, u[at], [(e, u[part]) for e, part in acting], steps)
             found.append(v)
             where = np.concatenate([at, *(part for _, part in acting)]).astype(np.intp)
-            rows[:n, here] = dv[:n]
-            rows[n + where, here] = dv[n:]
+            of_law = len(own.names)
+            rows[:n, here] = by_all(law, k, dv[:of_law])
+            rows[n + where, here] = dv[of_law:]
         return np.concatenate(found), rows
 
     def _acting(self, k: int) -> list[tuple[Effect, NDArray[np.intp]]]:

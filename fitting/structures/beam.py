@@ -18,11 +18,11 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.model_error import ModelError
-from fitting.specimen import Core, Drive, Face, Reading, Specimen
+from fitting.specimen import METAL_PER_K, Core, Drive, Face, Reading, Specimen
 from fitting.structures.beam_error import HELD_WIDTH_WITHIN, free_layer_error, sandwich_error, shortened_m
 from fitting.structures.beam_parts import BeamSection, parts_of
 from fitting.structures.small import Parts
-from fitting.tolerances import STATED
+from fitting.tolerances import OF_TEMPERATURE, STATED, STATED_PER_K
 
 Ends = Literal["clamped-free", "free-free", "clamped-clamped", "centre-driven"]
 
@@ -58,6 +58,8 @@ class Beam:
     slender: bool = False
     """Whether it is as thin and narrow as handbooks' formulas have it: nothing turns, shears or curves across
     but the core."""
+    temperature_c: float | None = None
+    """That its faces have; None: the one their moduli are stated for."""
 
     kind = "beam"
     modal_ratios: tuple[float, ...] = ()
@@ -106,6 +108,13 @@ class Beam:
             return self
         return replace(self, pickup_m=self.pickups_m[number], further_pickups_m=())
 
+    def at_temperature(self, temperature_c: float) -> "Beam":
+        """The same beam warmer or colder; an exact one that states nothing of its metal is as stated."""
+        faces = (self.substrate, self.constraining)
+        if self.exact and all(f is None or f.young_per_k is None for f in faces):
+            return self
+        return replace(self, temperature_c=temperature_c)
+
     @property
     def span_m(self) -> float:
         """What vibrates as one piece: half of it where the centre is driven."""
@@ -125,6 +134,9 @@ class Beam:
         if self.core is not None:
             # How a free layer stretches depends on Poisson's ratio as on the modulus.
             layers.append(("core", ("thickness", "density")))
+        if self.temperature_c is not None:
+            faces = [layer for layer, _ in layers if layer != "core"]
+            layers += [(layer, ("young_per_k",)) for layer in faces]
         # A base drives a wider beam by as much more.
         wide = ("width",) if self.force_m is not None else ()
         held = ("held_width",) if _HELD_ENDS[self.boundary] and not self.slender else ()
@@ -142,7 +154,7 @@ class Beam:
 
     @property
     def section(self) -> BeamSection:
-        """What its matrices are made of."""
+        """What its matrices are made of: the same at all temperatures."""
         layers = (self.substrate, self.core, self.constraining)
         return BeamSection(
             ends="clamped-free" if self.boundary == "centre-driven" else self.boundary,
@@ -151,7 +163,7 @@ class Beam:
             copies=self.copies,
             thickness_m=tuple(0.0 if x is None else x.thickness_m for x in layers),  # type: ignore[arg-type]
             both_sides=self.both_sides,
-            coefficients=tuple(self.coefficients({}).real[:18].tolist()),
+            coefficients=tuple(replace(self, temperature_c=None).coefficients({}).real[:18].tolist()),
             rigidity=self._rigidity,
             poisson=tuple(0.0 if x is None else x.poisson for x in layers),  # type: ignore[arg-type]
             is_slender=self.slender,
@@ -275,13 +287,20 @@ class Beam:
             "density": layer.density_kg_m3,
         }
         found = {key: value * float(np.exp(by.get(f"{name}_{key}", 0.0))) for key, value in values.items()}
+        if isinstance(layer, Face):
+            found["young"] *= layer.warmed(self.temperature_c, by.get(f"{name}_young_per_k", 0.0))
         return found | {"poisson": layer.poisson, "loss": getattr(layer, "loss_factor", 0.0)}
 
     def tolerance(self, name: str) -> float:
         """Named, else typical; of `held_width` what the theory leaves open, however exact the beam is."""
         if name == "held_width":
             return self.held_width_m * (HELD_WIDTH_WITHIN if self.held_width else 1.0)
-        return 0.0 if self.exact else float(self.tolerances.get(name, STATED[name].typical))
+        if self.exact:
+            return 0.0
+        typical = STATED[name].typical
+        if name in OF_TEMPERATURE and getattr(self, name.partition("_")[0]).young_per_k is not None:
+            typical *= STATED_PER_K
+        return float(self.tolerances.get(name, typical))
 
     def stated_number(self, kind: str) -> tuple[float, float, str]:
         """In SI, with the factor to the unit of results."""
@@ -292,6 +311,9 @@ class Beam:
         if kind in others:
             return others[kind]
         layer, _, quantity = kind.partition("_")
+        if quantity == "young_per_k":
+            stated = getattr(self, layer).young_per_k
+            return METAL_PER_K if stated is None else stated, 100.0, "%/K"
         name, factor, unit = {
             "young": ("young_pa", 1e-9, "GPa"),
             "thickness": ("thickness_m", 1e3, "mm"),

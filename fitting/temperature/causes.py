@@ -11,24 +11,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from fitting.arrays import Array
-from fitting.diagnosis.begin import Begun
-from fitting.diagnosis.candidates import CandidateFit
-from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.executor import ALONE, Executor
-from fitting.diagnosis.looks import look
 from fitting.diagnosis.marginal import cost
-from fitting.diagnosis.model_error import model_error
-from fitting.diagnosis.refit import refit
-from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.result import FoundEffect
-from fitting.diagnosis.search import Search
-from fitting.diagnosis.singles import Singles
 from fitting.diagnosis.stage import found_effects
-from fitting.diagnosis.thresholds import SEARCH, VERDICT
+from fitting.diagnosis.thresholds import VERDICT
 from fitting.effects.base import Effect
-from fitting.noise import Noise
-from fitting.reduced import ReducedPlate
 from fitting.temperature.joint import ShiftedFit, TemperatureProblem, fit_shifted
+from fitting.temperature.members import Alone, Begun, Joined
 
 REFUSED = 1e-3
 """Tail probability below which one law is refused."""
@@ -42,15 +32,8 @@ _LEADING = 3
 """Causes fitted to all sweeps, of those that explain the worst sweep best; a choice."""
 
 Report = Callable[[float], None]
-
-
-@dataclass(frozen=True)
-class Alone:
-    """One temperature by itself, and what its fit was made with."""
-
-    begun: Begun
-    reduced: ReducedPlate
-    noise: Noise
+Join = Callable[[Sequence[Begun]], Joined]
+"""Fits of members by themselves, side by side."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +56,7 @@ class Cause:
 
 def explains(fit: ShiftedFit) -> bool:
     """Whether a law for each temperature leaves no more than noise."""
-    return fit.own.chi2_per_dof <= VERDICT.size
+    return fit.own_chi2_per_dof <= VERDICT.size
 
 
 def common(effects: Sequence[Effect]) -> list[Effect]:
@@ -86,21 +69,21 @@ def causes_of(
     task: TemperatureProblem,
     fit: ShiftedFit,
     effects: Sequence[Effect],
+    join: Join,
     executor: Executor = ALONE,
     report: Report = lambda fraction: None,
 ) -> list[Cause]:
     """The causes that come nearest, with one law beside them; the best first.
 
-    `task` is of the models of `alone`.
+    `task` is of the models of `alone`, which `join` puts side by side.
     """
-    problem = task.problem
-    able = [e for e in effects if e.objection(problem.points, problem.plate) is None]
+    able = [e for e in effects if e.objection(task.joined.points, task.joined.plate) is None]
     if explains(fit):
         found = [_beside(task, fit, e, u) for e, u in _promising(task, fit, able)]
     else:
         found = []
         for k, effect in enumerate(leading := _of_the_worst(alone, able, executor)):
-            found += _from_each(alone, task, effect)
+            found += _from_each(alone, task, join, effect)
             report((k + 1) / len(leading))
     return sorted(found, key=lambda c: (not c.serves, c.cost))
 
@@ -110,9 +93,7 @@ def _promising(
 ) -> list[tuple[Effect, Array]]:
     """With where to start: each temperature is explained by itself, so one law is near enough for a step."""
     lacking = fit.chi2 - fit.chi2_own
-    looks = [
-        (form, look(task.problem, task.evidence, fit.one, form)) for e in effects for form in e.variants()
-    ]
+    looks = [(form, task.joined.starts(form, fit.one)) for e in effects for form in e.variants()]
     able = [(form, starts[0]) for form, starts in looks if starts]
     able = [one for one in able if one[1][0] == 0 or one[1][0] > _ENOUGH * lacking]
     able.sort(key=lambda one: -one[1][0])
@@ -126,43 +107,23 @@ def _beside(task: TemperatureProblem, fit: ShiftedFit, effect: Effect, u: Array)
 
 
 def _cause(task: TemperatureProblem, fit: ShiftedFit) -> Cause:
-    plate = task.problem.plate
+    plate = task.joined.plate
     (effect,) = fit.one.effects
     (found,) = found_effects(fit.one, plate)
     return Cause(effect, fit, cost(fit.one, plate), found)
 
 
 def _of_the_worst(alone: Sequence[Alone], effects: Sequence[Effect], executor: Executor) -> list[Effect]:
-    """What explains the sweep best that its own law explains worst."""
-    worst = max((a.begun for a in alone), key=lambda b: b.none.chi2_per_dof)
-    search = Search(worst.problem, worst.evidence, worst.none, effects, executor)
-    singles = Singles(search, lambda fraction: None).best()
-    near = [s for s in singles if s.cost < singles[0].cost + SEARCH.near]
-    return [s.fitted.effects[0] for s in near[:_LEADING]]
+    """What explains the member best that its own law explains worst."""
+    worst = max(alone, key=lambda a: a.begun.none.chi2_per_dof)
+    return worst.leading(effects, executor)[:_LEADING]
 
 
-def _from_each(alone: Sequence[Alone], task: TemperatureProblem, effect: Effect) -> list[Cause]:
-    """Fitted to each sweep by itself first: without it no law so far is a place to begin."""
-    each = [_alone_with(a, effect) for a in alone]
+def _from_each(alone: Sequence[Alone], task: TemperatureProblem, join: Join, effect: Effect) -> list[Cause]:
+    """Fitted to each member by itself first: without it no law so far is a place to begin."""
+    each = [a.beside(effect).begun for a in alone]
     u = np.median([b.none.of(effect) for b in each], axis=0)
-    again = task.with_members(each)
+    again = replace(task, joined=join(each), begin=None)
     z = again.stated([b.none.z for b in each])
     fit = fit_shifted(again, [b.none.law for b in each], z, [effect], u)
     return [_cause(again, fit)]
-
-
-def _alone_with(one: Alone, effect: Effect) -> Begun:
-    """A temperature's fit with an effect, the model's error made for what it then predicts."""
-    b = one.begun
-    candidate = CandidateFit(b.problem, b.evidence, b.none, effect)
-    rough = min([*candidate.near[:1], *candidate.far[:1]], key=lambda f: f.chi2)
-    found = candidate.finished(rough)
-    problem, v = b.problem.around(found.law), found.velocity_m_s
-    wrong = model_error(problem, one.reduced, found.law, v)
-    evidence = Evidence.of(problem.sweep, one.noise, wrong, v, b.evidence.bare)
-    return replace(
-        b,
-        problem=problem,
-        evidence=evidence,
-        none=refit(response_of(problem, [effect]), evidence, found.law, found.u),
-    )

@@ -37,8 +37,9 @@ class Shift:
 
     @property
     def moves_temperatures(self) -> bool:
-        """Whether the temperatures are unknowns of the fit: free factors take any as they are."""
-        return self.kind != "free" and self.error_k > 0
+        """Whether the temperatures are unknowns of the fit: a free factor of one sweep takes any as it is."""
+        several = len(self._temperatures) < len(self.temperature_c)
+        return self.error_k > 0 and (self.kind != "free" or several)
 
     @property
     def names(self) -> list[str]:
@@ -105,7 +106,7 @@ class Shift:
         if temperature_c is None:
             return np.array([known.get(float(t), 0.0) for t in T])
         at = self._temperatures
-        return np.asarray(np.interp(T, at, [known.get(float(t), 0.0) for t in at]))
+        return _along(T, at, np.array([known.get(float(t), 0.0) for t in at]))
 
     def by_temperature(self, p: Array, temperature_c: Array) -> Array:
         """Derivatives of `log_shift` to the temperatures, in 1/K. Shapes (sweeps,) both."""
@@ -159,3 +160,14 @@ class Shift:
             for start in starts
         ]
         return np.asarray(min(fits, key=lambda f: f.cost).x * s)
+
+
+def _along(x: Array, at: Array, values: Array) -> Array:
+    """Straight between values, and beyond the ends as between the last two. Shape of `x`."""
+    found = np.asarray(np.interp(x, at, values))
+    if len(at) > 1:
+        for end, beside in ((0, 1), (-1, -2)):
+            slope = (values[end] - values[beside]) / (at[end] - at[beside])
+            beyond = x < at[0] if end == 0 else x > at[-1]
+            found = np.where(beyond, values[end] + slope * (x - at[end]), found)
+    return found

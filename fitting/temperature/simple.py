@@ -5,7 +5,7 @@ For people also by the wicket plot: a simple material has one curve of eta over 
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -48,12 +48,27 @@ def judge(
     causes: Sequence[Cause] = (),
     apart: ShiftedFit | None = None,
     names: Sequence[str] = (),
+    scale_known: bool = True,
 ) -> Verdict:
     """What the checks say together; `causes` are those looked at where `in_doubt`.
 
     `apart` is one law with a factor for every sweep: where it serves, temperatures or form are refused and
-    not the material. `names` of the sweeps; their numbers otherwise.
+    not the material. `names` of the sweeps; their numbers otherwise. Without `scale_known` the size of errors
+    is a guess: by it one law may serve, and none is refused.
     """
+    found = _judged(fit, causes, apart, names)
+    if scale_known or found.simple is not False:
+        return found
+    words = (
+        "whether one shifted law serves cannot be told: the errors of the modes are not stated; were they "
+        f"the usual ones: {found.words}"
+    )
+    return replace(found, simple=None, words=words)
+
+
+def _judged(
+    fit: ShiftedFit, causes: Sequence[Cause], apart: ShiftedFit | None, names: Sequence[str]
+) -> Verdict:
     able = serving(causes)
     best = able[0].fit if able else fit
     off, at = _wicket(best)
@@ -73,14 +88,14 @@ def judge(
         if explains(fit):
             return told(
                 None,
-                f"not simple, or not the plate as stated: one shifted law serves where {said} in all sweeps, "
-                f"which is counted in ({_gain(best)}); without it no one law does ({_gain(fit)}). "
-                f"What decides: {cure}",
+                f"not simple, or not the specimen as stated: one shifted law serves where {said} at all "
+                f"temperatures, which is counted in ({_gain(best)}); without it no one law does "
+                f"({_gain(fit)}). What decides: {cure}",
             )
         return told(
             True,
-            f"the readings fit no law as they are; where {said} in all sweeps, which is counted in, the "
-            f"material is thermorheologically simple as far as these data tell: {_gain(best)}. "
+            f"the readings fit no law as they are; where {said} at all temperatures, which is counted in, "
+            f"the material is thermorheologically simple as far as these data tell: {_gain(best)}. "
             f"To be rid of it: {cure}",
         )
     other = next((c for c in causes if explains(c.fit)), None)
@@ -91,13 +106,13 @@ def judge(
     if explains(fit):
         return told(False, _refusal(fit, f"differs by up to {two_digits(off)} % at {at:g} degC"))
     if other is not None:
-        beside = _refusal(other.fit, f"differs even where {story(other)} in all sweeps")
+        beside = _refusal(other.fit, f"differs even where {story(other)} at all temperatures")
         return told(False, beside, other.fit.p_value)
     return told(
         None,
         "whether one shifted law serves cannot be told: not even a law for each temperature explains the "
-        f"readings (chi-square per degree of freedom {fit.own.chi2_per_dof:.3g}), nor one effect in all "
-        "sweeps; 'viscorig diagnose' each of them first",
+        f"readings (chi-square per degree of freedom {fit.own_chi2_per_dof:.3g}), nor one effect at "
+        "all of them; 'viscorig diagnose' each of them first",
     )
 
 
@@ -135,17 +150,19 @@ def _temperatures_refused(fit: ShiftedFit, apart: ShiftedFit, names: Sequence[st
     how = {"wlf": "WLF", "arrhenius": "Arrhenius", "free": "one factor a temperature"}[fit.shift.kind]
     words = (
         f"the temperatures as stated do not go with {how} ({_gain(fit)}), the material with one law does, "
-        f"each sweep shifted by a factor of its own ({_gain(apart)}): "
+        f"each of the data shifted by a factor of its own ({_gain(apart)}): "
     )
     wrong = misread(fit.shift, apart)
     if wrong is not None:
-        others = f"its sweep is that of {wrong.read_c:.1f} degC by the others, check it"
-        unlike = "its sweep goes with no temperature by the others, check it"
+        others = f"its readings are those of {wrong.read_c:.1f} degC by the others, check it"
+        unlike = "its readings go with no temperature by the others, check it"
         said = others if np.isfinite(wrong.read_c) else unlike
         name = names[wrong.sweep] if names else f"sweep {wrong.sweep + 1}"
+        if wrong.further:
+            name += f", as {wrong.further} more,"
         return words + f"{name} is stated at {wrong.stated_c:g} degC, {said}"
     if fit.shift.kind == "free":
-        return words + "sweeps stated at one temperature were not at one, check them"
+        return words + "data stated at one temperature were not at one, check them"
     upwards = rising(fit.shift, apart.log_shift)
     if upwards is not None:
         words += f"the factor of {upwards[1]:g} degC is above that of {upwards[0]:g} degC; "

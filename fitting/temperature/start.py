@@ -13,6 +13,8 @@ _POINTS = 15
 """Over a sweep's band: curves are laid over each other at them."""
 _STORAGE, _LOSS = 0.02, 0.04
 """What a curve is worth, relative, of G' and of eta."""
+_BEGUN = 6
+"""Laws of single temperatures that one law is sought from. A choice."""
 _FAR = np.linspace(-18.0, 18.0, 361)
 """Ln a_T between neighbouring temperatures that are looked at."""
 
@@ -38,7 +40,14 @@ def start_of(
         shift[k] = shift[before] + _FAR[int(np.argmin(off))]
     nearest = int(np.argmin(np.abs(temperature_c - reference_c)))
     shift -= shift[nearest]
-    return _one_law(laws, omegas, curves, shift, nearest)
+    return _one_law(laws, omegas, curves, shift, nearest, temperature_c)
+
+
+def _some(laws: Sequence[CoreLaw], temperature_c: Array) -> list[CoreLaw]:
+    """Laws of few temperatures, from the coldest to the warmest: each is a place to begin."""
+    order = np.argsort(temperature_c, kind="stable")
+    few = np.unique(np.linspace(0, len(laws) - 1, min(_BEGUN, len(laws))).astype(int))
+    return [laws[order[k]] for k in few]
 
 
 def _curve(law: CoreLaw, omega: Array) -> Array:
@@ -47,7 +56,12 @@ def _curve(law: CoreLaw, omega: Array) -> Array:
 
 
 def _one_law(
-    laws: Sequence[CoreLaw], omegas: list[Array], curves: list[Array], shift: Array, nearest: int
+    laws: Sequence[CoreLaw],
+    omegas: list[Array],
+    curves: list[Array],
+    shift: Array,
+    nearest: int,
+    temperature_c: Array,
 ) -> tuple[CoreLaw, Array]:
     free = np.arange(len(laws)) != nearest
     plain = [law.plain for law in laws]
@@ -69,7 +83,7 @@ def _one_law(
             loss="soft_l1",
             max_nfev=200,
         )
-        for law in plain[nearest : nearest + 1] + plain
+        for law in [plain[nearest], *_some(plain, temperature_c)]
     ]
     best = min(fits, key=lambda f: float(f.cost))
     found = np.zeros(len(laws))

@@ -34,6 +34,8 @@ class Misread:
     stated_c: float
     read_c: float
     """Where the form through the other sweeps has its factor; NaN where it has it nowhere."""
+    further: int = 0
+    """How many more were stated at that temperature, and were not at it either."""
 
 
 def each_its_own(shift: Shift) -> Shift:
@@ -43,20 +45,27 @@ def each_its_own(shift: Shift) -> Shift:
 
 
 def misread(form: Shift, own: ShiftedFit) -> Misread | None:
-    """The one sweep without which all others follow the form, if just one. `own` is of `each_its_own`."""
+    """The one sweep without which all others follow the form, if just one; else those of one temperature.
+
+    `own` is of `each_its_own`.
+    """
     log_a, errors = own.log_shift, own.sweeps_log_shift_errors
     if form.kind == "free" or _chance(form, log_a, errors, range(len(log_a))) >= _REFUSED:
         return None
-    found = []
-    for k in range(len(log_a)):
-        others = [j for j in range(len(log_a)) if j != k]
-        if _chance(form, log_a, errors, others) >= _AGREED:
-            found.append(k)
-    if len(found) != 1:
-        return None
-    (k,) = found
-    others = [j for j in range(len(log_a)) if j != k]
-    return Misread(k, float(form.temperature_c[k]), _read(form, log_a, errors, others, k))
+    T = form.temperature_c
+    alone = [[k] for k in range(len(T))]
+    alike = [its for t in np.unique(T) if len(its := np.flatnonzero(t == T).tolist()) > 1]
+    for groups in (alone, alike):
+        found = [its for its in groups if _chance(form, log_a, errors, _without(T, its)) >= _AGREED]
+        if len(found) == 1:
+            its = found[0]
+            read = np.mean([_read(form, log_a, errors, _without(T, its), k) for k in its])
+            return Misread(its[0], float(T[its[0]]), float(read), len(its) - 1)
+    return None
+
+
+def _without(temperature_c: Array, its: list[int]) -> list[int]:
+    return [k for k in range(len(temperature_c)) if k not in its]
 
 
 def rising(shift: Shift, log_a: Array) -> tuple[float, float] | None:

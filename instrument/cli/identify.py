@@ -13,7 +13,7 @@ from fitting.pointwise import phase_is_kept
 from fitting.specimen import Specimen
 from fitting.temperature.shifts import Kind
 from instrument.cli.identify_modes import identify_modes
-from instrument.cli.identify_shifted import identify_shifted
+from instrument.cli.identify_shifted import identify_shifted, identify_tables_shifted
 from instrument.cli.options import figures_option, file_arguments, json_option
 from instrument.cli.output import Output
 from instrument.cli.print_beside import print_beside
@@ -95,8 +95,8 @@ from instrument.results.uncertainty_facts import Depth, in_depth, in_depth_facts
 @click.option(
     "--shift",
     type=click.Choice(["wlf", "arrhenius", "free"]),
-    help="Files are of one plate at several temperatures (column temperature_c): one law in reduced "
-    "frequency, shifted so.",
+    help="Data are of several temperatures (column temperature_c): one law in reduced frequency, shifted so. "
+    "Of plates, beams or shear pairs; sweeps, a temperature a file, or tables of modes, any number in each.",
 )
 @click.option(
     "--reference-c",
@@ -163,6 +163,23 @@ def identify(
                 "--pointwise, --method paper, --hammer, --with, --budget, --uncertainty with modal tables: "
                 "expected sweeps"
             )
+        if shift is not None:
+            if bare is not None or no_viscous_damping:
+                raise click.UsageError(
+                    "--bare and --no-viscous-damping with --shift: expected tables of treated specimens alone"
+                )
+            identify_tables_shifted(
+                out,
+                data,
+                specimen,
+                shift,
+                reference_c,
+                figures,
+                vertical=vertical,
+                temperature_k=temperature_k,
+                insist=insist,
+            )
+            return
         identify_modes(out, data, specimen, bare, insist=insist)
         return
     if bare is not None:
@@ -185,7 +202,15 @@ def identify(
                 "--shift goes with --reference-c, --temperature-k, --vertical, --hammer and --figures alone"
             )
         identify_shifted(
-            out, data, every, shift, reference_c, figures, vertical=vertical, temperature_k=temperature_k
+            out,
+            data,
+            every,
+            shift,
+            reference_c,
+            figures,
+            vertical=vertical,
+            temperature_k=temperature_k,
+            specimens=specimen,
         )
         return
     files = together(every, data)

@@ -4,14 +4,20 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import click
+import numpy as np
 
 from fitting.errors import OutsideModel
-from fitting.specimen import Specimen
+from fitting.mode_tables.table import ModalTable
+from fitting.structures import AnySpecimen
 from fitting.temperature.shifts import Kind
 from instrument.cli.output import Output
+from instrument.cli.reading import read_tables_at, sweeps_at
 from instrument.errors import BadInput
+from instrument.files.hammer_file import HammerModes
 from instrument.interchange.given import Given
-from instrument.models.temperatures import AtTemperature, Shifted
+from instrument.interchange.questions import question_modes_at, question_tables
+from instrument.models.members import AtTemperature
+from instrument.models.temperatures import Shifted
 from instrument.models.temperatures import identify_shifted as identify_at_temperatures
 from instrument.progress import bar
 from instrument.results.shifted_from import shifted_from
@@ -29,32 +35,64 @@ def identify_shifted(
     *,
     vertical: bool,
     temperature_k: float | None = None,
+    specimens: Sequence[Path] = (),
 ) -> None:
-    """Fit, print, draw; a law that is not simple is refused after its figures are saved."""
-    plate = given[0].specimen
+    """Fit sweeps, print, draw; a law that is not simple is refused after its figures are saved."""
     if len(given) < 2:
         raise click.UsageError(f"--shift: {len(given)} file, expected sweeps at two temperatures or more")
-    if not isinstance(plate, Specimen):
-        raise BadInput(f"--shift: the specimen is a {plate.kind}, expected a plate: others have no shift yet")
-    if any(g.specimen != plate for g in given):
-        raise BadInput("--shift: expected sweeps of one plate, one --specimen for all")
-    sweeps = []
-    for path, one in zip(data, given, strict=True):
-        if one.temperature_c is None:
-            raise BadInput(f"{path}: no temperature, expected a column temperature_c")
-        sweeps.append(AtTemperature(one.sweep, one.temperature_c, path.name))
+    sweeps, stated = sweeps_at(given, data, specimens)
     tested = next(((one.modes, path) for one, path in zip(given, data, strict=True) if one.modes), None)
+    if tested is not None and len(stated) > 1:
+        raise BadInput("--shift: a hammer test with several plates, expected one plate (or --no-hammer)")
     if tested is not None and any(one.session for one in given):
         out.say(f"the hammer test is that of {tested[1]}\n")
     modes = tested[0] if tested is not None else None
+    found = _fitted(out, sweeps, stated, kind, reference_c, figures, vertical, temperature_k, modes)
+    _tell(out, found, sweeps)
+
+
+def identify_tables_shifted(
+    out: Output,
+    data: Sequence[Path],
+    specimens: Sequence[Path],
+    kind: Kind,
+    reference_c: float | None,
+    figures: Path | None,
+    *,
+    vertical: bool,
+    temperature_k: float | None = None,
+    insist: bool = False,
+) -> None:
+    """The same of tables of modes. What no core comes near is refused unless someone insists."""
+    every, stated = read_tables_at(data, specimens, insist=insist)
+    tables = [one.data for one in every if isinstance(one.data, ModalTable)]
+    if not insist:
+        question_tables(tables, data)
+    found = _fitted(out, every, stated, kind, reference_c, figures, vertical, temperature_k)
+    if not insist:
+        question_modes_at(tables, np.exp(found.fit.one.velocity_m_s.real), data)
+    _tell(out, found, every)
+
+
+def _fitted(
+    out: Output,
+    every: Sequence[AtTemperature],
+    stated: Sequence[AnySpecimen],
+    kind: Kind,
+    reference_c: float | None,
+    figures: Path | None,
+    vertical: bool,
+    temperature_k: float | None,
+    hammer: HammerModes | None = None,
+) -> Shifted:
     found = identify_at_temperatures(
-        sweeps,
-        plate,
+        every,
+        stated,
         kind,
         reference_c,
         bar,
         vertical=vertical,
-        hammer=modes,
+        hammer=hammer,
         temperature_k=temperature_k,
     )
     if figures is not None:
@@ -62,14 +100,18 @@ def identify_shifted(
 
         for path in save_shifted_figures(found, figures):
             out.say(f"saved {path}")
+    return found
+
+
+def _tell(out: Output, found: Shifted, every: Sequence[AtTemperature]) -> None:
     if found.verdict.simple is False:
         raise OutsideModel(found.verdict.words)
-    result = shifted_from(found, sweeps)
-    _print(out, found, sweeps)
+    result = shifted_from(found, every)
+    _print(out, found, every)
     out.result(result)
 
 
-def _print(out: Output, found: Shifted, sweeps: Sequence[AtTemperature]) -> None:
+def _print(out: Output, found: Shifted, every_one: Sequence[AtTemperature]) -> None:
     fit, b = found.fit, found.band
     rows = [
         [n, f"{p:.5g}", f"{e:.2g}"]
@@ -78,13 +120,13 @@ def _print(out: Output, found: Shifted, sweeps: Sequence[AtTemperature]) -> None
     out.table(f"shift: {fit.shift.kind}", ["parameter", "value", "standard error"], rows)
     rows = [
         [
-            one.name,
-            f"{one.temperature_c:g}",
+            _names([every_one[j].name for j in its]),
+            f"{every_one[k].temperature_c:g}",
             f"{fit.log_shift[k]:+.4f}",
             f"{fit.log_shift_errors[k]:.4f}",
             f"{fit.log_vertical[k]:+.4f}",
         ]
-        for k, one in enumerate(sweeps)
+        for k, its in _alike(every_one).items()
     ]
     out.table("shift factors", ["file", "temperature/degC", "ln a_T", "standard error", "ln b_T"], rows)
     every = max(1, len(b.frequency_hz) // _ROWS)
@@ -104,3 +146,20 @@ def _print(out: Output, found: Shifted, sweeps: Sequence[AtTemperature]) -> None
     out.say(found.verdict.words)
     for warning in found.warnings:
         out.say(f"note: {warning}")
+
+
+def _alike(every: Sequence[AtTemperature]) -> dict[int, list[int]]:
+    """Members by the first one of each stated temperature, in the order given; tables from cold to warm."""
+    first: dict[float, int] = {}
+    found: dict[int, list[int]] = {}
+    order = range(len(every))
+    if every and isinstance(every[0].data, ModalTable):
+        order = sorted(order, key=lambda k: every[k].temperature_c)  # type: ignore[assignment]
+    for k in order:
+        found.setdefault(first.setdefault(every[k].temperature_c, k), []).append(k)
+    return found
+
+
+def _names(names: Sequence[str]) -> str:
+    own = list(dict.fromkeys(names))
+    return own[0] if len(own) == 1 else f"{own[0]} and {len(own) - 1} more"

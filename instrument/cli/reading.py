@@ -1,24 +1,28 @@
 """DATA of `identify` and `diagnose`, as their options have it."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import click
 
+from fitting.laws.constant import ConstantModulus
 from fitting.mode_tables.table import ModalTable
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
 from instrument.cli.options import force_option
 from instrument.cli.output import Output
 from instrument.errors import BadInput
-from instrument.files.modal_table import is_modal_table, read_modal_table
+from instrument.files.modal_table import is_modal_table, read_modal_table, read_modal_tables
 from instrument.files.plausible import question_specimen
 from instrument.files.structure_file import read_structure
 from instrument.interchange.given import Given, read_given
 from instrument.interchange.questions import question_data, question_temperatures
 from instrument.models.files import File, spots_of
+from instrument.models.members import AtTemperature
 from instrument.progress import bar
 
+_NO_LAW = ConstantModulus(1e6, 0.0)
 _OPTIONS = (
     click.option(
         "--specimen",
@@ -123,15 +127,70 @@ def read_tables(
 
     Stated numbers that no such specimen has are questioned, unless someone insists.
     """
-    if len(specimens) not in (1, len(data)):
-        raise click.UsageError(
-            f"{len(specimens)} times --specimen for {len(data)} tables, expected one for each or one for all"
-        )
-    paths = list(specimens) if len(specimens) == len(data) else [specimens[0]] * len(data)
+    paths = _specimen_of_each(data, specimens, "tables")
     read = [read_structure(path) for path in paths]
     for path in dict.fromkeys(paths):
         question_specimen(path, insist=insist)
     return [read_modal_table(path) for path in data], read
+
+
+def read_tables_at(
+    data: Sequence[Path], specimens: Sequence[Path], *, insist: bool
+) -> tuple[list[AtTemperature], list[AnySpecimen]]:
+    """Tables of modes at several temperatures, one or many in a file, and the specimens by their numbers.
+
+    Files that name one specimen file are of one specimen. Raises `BadInput`, `UsageError`.
+    """
+    paths = _specimen_of_each(data, specimens, "tables")
+    own = list(dict.fromkeys(paths))
+    read = [read_structure(path) for path in own]
+    for path in own:
+        question_specimen(path, insist=insist)
+    found = []
+    for path, specimen in zip(data, paths, strict=True):
+        for table in read_modal_tables(path):
+            assert table.temperature_c is not None
+            T = float(table.temperature_c.mean())
+            found.append(AtTemperature(table, T, path.name, 1 + own.index(specimen)))
+    return found, read
+
+
+def _specimen_of_each(data: Sequence[Path], specimens: Sequence[Path], what: str) -> list[Path]:
+    if len(specimens) not in (1, len(data)):
+        raise click.UsageError(
+            f"{len(specimens)} times --specimen for {len(data)} {what}, expected one for each or one for all"
+        )
+    return list(specimens) if len(specimens) == len(data) else [specimens[0]] * len(data)
+
+
+def sweeps_at(
+    given: Sequence[Given], data: Sequence[Path], specimens: Sequence[Path]
+) -> tuple[list[AtTemperature], list[AnySpecimen]]:
+    """Sweeps and sessions at several temperatures, and the specimens by their numbers.
+
+    Files that name one specimen file, and sessions whose specimens are alike, are of one specimen. Raises
+    `BadInput`.
+    """
+    keys: list[object] = []
+    own: list[AnySpecimen] = []
+    found = []
+    for k, (one, path) in enumerate(zip(given, data, strict=True)):
+        if one.temperature_c is None:
+            raise BadInput(f"{path}: no temperature, expected a column temperature_c")
+        if one.sweep.pickup is not None:
+            raise BadInput(f"{path}: rows of several pickups with --shift, expected those of one spot")
+        key: object = specimens[k] if len(specimens) == len(data) else _but_for_its_law(one.specimen)
+        if key not in keys:
+            keys.append(key)
+            own.append(one.specimen)
+        found.append(AtTemperature(one.sweep, one.temperature_c, path.name, 1 + keys.index(key)))
+    return found, own
+
+
+def _but_for_its_law(specimen: AnySpecimen) -> AnySpecimen:
+    """With a law that says nothing: the stated one is where a fit starts."""
+    core = specimen.core
+    return specimen if core is None else replace(specimen, core=replace(core, law=_NO_LAW))
 
 
 def together(given: Sequence[Given], data: Sequence[Path]) -> list[File] | None:

@@ -5,7 +5,7 @@ from typing import Literal
 from instrument.facts.diagnosis import EffectFound
 from instrument.facts.number import Number
 from instrument.facts.result import Result
-from instrument.facts.rows import LawRow
+from instrument.facts.rows import AdjustedNumber, LawRow
 
 
 class ShiftAt(Result):
@@ -20,6 +20,20 @@ class ShiftAt(Result):
     vertical: Number
     """Factor on G*; 1 where none was asked for."""
     vertical_standard_error: Number
+
+
+class ModeAt(Result):
+    """A mode at one temperature beside the model's under the joint law."""
+
+    name: str
+    """Of its file."""
+    temperature_c: Number
+    """As stated."""
+    mode: int
+    frequency_hz: Number
+    predicted_hz: Number
+    loss_factor: Number
+    predicted_loss_factor: Number
 
 
 class ShiftedResult(Result):
@@ -47,6 +61,10 @@ class ShiftedResult(Result):
     """Of a law for each temperature."""
     wicket_percent: Number
     """Largest distance of eta from the joint law's at one G', over all temperatures."""
+    modes: tuple[ModeAt, ...] = ()
+    """Of tables of modes."""
+    adjusted: tuple[AdjustedNumber, ...] = ()
+    """The stated numbers as the joint fit has them, those of a specimen once for all its temperatures."""
     words: str
     warnings: tuple[str, ...]
     seconds: Number

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
-from fitting.specimen import Face, Glue, Orthotropy, Patch
+from fitting.specimen import METAL_AT_C, Face, Glue, Orthotropy, Patch
 from instrument.files.toml import NotNegative, Positive, TomlTable
 
 Poisson = Annotated[float, Field(gt=-1, lt=0.5, allow_inf_nan=False)]
@@ -23,6 +23,10 @@ class StatedLayer(TomlTable):
     """Of an orthotropic layer nu_xy: how much narrower it gets as it is stretched along its own x."""
     density_kg_m3: Positive
     loss_factor: NotNegative = 0.0
+    young_percent_per_k: Annotated[float, Field(ge=-1, le=1, allow_inf_nan=False)] | None = None
+    """Change of Young's modulus with temperature, for data of several; left out: a metal's."""
+    young_at_c: Annotated[float, Field(gt=-100, lt=200, allow_inf_nan=False)] | None = None
+    """The temperature that it is stated for; left out: 20."""
     young_x_gpa: Positive | None = None
     """With the next two in the place of `young_gpa`: of a rolled sheet or a laminate."""
     young_y_gpa: Positive | None = None
@@ -56,6 +60,8 @@ class StatedLayer(TomlTable):
             density_kg_m3=self.density_kg_m3,
             loss_factor=self.loss_factor,
             rolled=self._own_axes(),
+            young_per_k=None if self.young_percent_per_k is None else 1e-2 * self.young_percent_per_k,
+            young_at_c=METAL_AT_C if self.young_at_c is None else self.young_at_c,
         )
 
     def _own_axes(self) -> Orthotropy | None:

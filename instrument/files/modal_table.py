@@ -3,7 +3,9 @@
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from fitting.mode_tables.table import ModalTable
 from instrument.errors import BadInput
 from instrument.files.nearest import nearest
@@ -20,6 +22,8 @@ _SLIP = 0.88
 _SPREADS = frozenset(("sd", "std", "stdev", "sigma", "se", "err", "error", "unc", "uncertainty"))
 _OF_LOSS = frozenset(("loss", "eta", "damping", "tan"))
 _WARM = frozenset(("temp", "temperature"))
+_ONE_K = 0.5
+"""Rows so near the coldest of them are of one temperature: a chamber holds it, a thermometer reads it so."""
 _MOST = 1000
 """No test numbers so many modes. A choice."""
 
@@ -72,6 +76,45 @@ def _meant_by(name: str) -> str | None:
 
 def read_modal_table(path: Path) -> ModalTable:
     """Read and check a table. Raises `BadInput` naming file, line and column."""
+    columns = _columns(path)
+    warm = columns.get("temperature_c")
+    several = warm is not None and float(np.ptp(warm)) > _ONE_K
+    _check_modes(path, columns, "; rows of several temperatures go with 'identify --shift'" * several)
+    return _table(path, columns)
+
+
+def read_modal_tables(path: Path) -> list[ModalTable]:
+    """A table of several temperatures, those of one temperature apart, the coldest first.
+
+    The row order says nothing; where a mode was measured more than once at one temperature each time is a
+    table. Raises `BadInput`, also where a row has no temperature.
+    """
+    columns = _columns(path)
+    if "temperature_c" not in columns:
+        raise BadInput(f"{path}: no temperature, expected a column temperature_c")
+    found = []
+    for rows in _at_one_temperature(columns["mode"], columns["temperature_c"]):
+        some = {name: values[rows] for name, values in columns.items()}
+        where = f" at {some['temperature_c'].mean():g} degC"
+        _check_modes(path, some, "", where)
+        found.append(_table(path, some))
+    return found
+
+
+def _at_one_temperature(mode: Array, temperature_c: Array) -> list[NDArray[np.intp]]:
+    """Rows that belong together: within `_ONE_K` of the coldest, every mode once."""
+    left, found = list(np.argsort(temperature_c, kind="stable")), []
+    while left:
+        near = [k for k in left if temperature_c[k] - temperature_c[left[0]] <= _ONE_K]
+        # A mode's first reading goes with the first of the others.
+        _, first = np.unique(mode[near], return_index=True)
+        rows = [near[k] for k in sorted(first)]
+        found.append(np.array(rows, dtype=np.intp))
+        left = [k for k in left if k not in rows]
+    return found
+
+
+def _columns(path: Path) -> dict[str, Array]:
     header, rows = read_rows(path, lambda header: _check_header(path, header))
     columns = {}
     for name in (*_MUST, *(n for n in _MAY if n in header)):
@@ -85,18 +128,25 @@ def read_modal_table(path: Path) -> ModalTable:
                 raise BadInput(f"{path}: line {line}: {name} = {row[k]}, expected {expected}")
             values.append(value)
         columns[name] = np.array(values)
+    return columns
+
+
+def _check_modes(path: Path, columns: dict[str, Array], cure: str = "", where: str = "") -> None:
     modes = columns["mode"]
     if len(np.unique(modes)) < len(modes):
         twice = next(int(m) for m in modes if np.sum(modes == m) > 1)
-        raise BadInput(f"{path}: mode {twice} stands twice, expected each once")
+        raise BadInput(f"{path}: mode {twice} stands twice, expected each once{cure}")
     ascending = np.diff(columns["frequency_hz"][np.argsort(modes)])
     if np.any(ascending < 0):
         later = int(np.sort(modes)[1 + int(np.argmin(ascending))])
         raise BadInput(
-            f"{path}: mode {later} lies below an earlier one, expected modes numbered by frequency"
+            f"{path}: mode {later}{where} lies below an earlier one, expected modes numbered by frequency"
         )
+
+
+def _table(path: Path, columns: dict[str, Array]) -> ModalTable:
     return ModalTable(
-        modes,
+        columns["mode"],
         columns["frequency_hz"],
         columns["loss_factor"],
         columns.get("frequency_std_hz"),

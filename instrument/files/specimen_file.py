@@ -12,7 +12,7 @@ from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import LAWS, CoreLaw
 from fitting.laws.table import Tabulated
 from fitting.specimen import Core, Drive, PlacedMass, Reading, Specimen
-from fitting.tolerances import OF_FEW, STATED
+from fitting.tolerances import OF_FEW, OF_TEMPERATURE, STATED
 from instrument.errors import BadInput
 from instrument.files.law_table import with_rows
 from instrument.files.layer_tables import GluePart, PatchPart, Poisson, StatedLayer, refuse_patches
@@ -113,6 +113,8 @@ class TolerancesSection(TomlTable):
     damping_percent: NotNegative | None = None
     gain_percent: NotNegative | None = None
     delay_us: NotNegative | None = None
+    substrate_young_per_k_percent: NotNegative | None = None
+    constraining_young_per_k_percent: NotNegative | None = None
     substrate_young_y_percent: NotNegative | None = None
     substrate_shear_percent: NotNegative | None = None
     substrate_angle_deg: NotNegative | None = None
@@ -130,7 +132,7 @@ class TolerancesSection(TomlTable):
 
 _OF_LAYERS = tuple(name for name in STATED if name.startswith(("substrate", "constraining")))
 _NOT_OF = {
-    "plate": ("area",),
+    "plate": ("area", *OF_TEMPERATURE),
     "beam": ("area", "place", *OF_FEW),
     "shear-pair": (*_OF_LAYERS, *OF_FEW, "length", "width", "pickup", "force", "place"),
 }
@@ -196,6 +198,13 @@ class SpecimenDocument(TomlTable):
             ):
                 if given:
                     raise ValueError(f"{name} without [core] and [constraining], expected a treated plate")
+        for name, face in (("substrate", self.substrate), ("constraining", self.constraining)):
+            for key in ("young_percent_per_k", "young_at_c"):
+                # A document that was kept has all its keys.
+                if face is not None and getattr(face, key) is not None:
+                    raise ValueError(
+                        f"{name}.{key} of a plate, expected it of a beam: others do not count it"
+                    )
         refuse_patches(self.patch or [], self.plate.length_mm, self.plate.width_mm)
         if "base" in self.model_fields_set and self.force_m is not None:
             raise ValueError('[base] with [excitation] kind = "force", expected one of them')

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from fitting.arrays import Array
 from fitting.mode_tables.fit import ModalFit
 from fitting.mode_tables.table import ModalTable
 from fitting.specimen import Specimen
@@ -45,13 +46,22 @@ def question_data(given: Given, path: Path, progress: Progress = quiet, like: Sp
 
 def question_modes(tables: Sequence[ModalTable], fit: ModalFit, paths: Sequence[Path]) -> None:
     """Ask about tables beside their fit without any effect. Raises `BadInput`."""
-    warmest = [float(t.temperature_c.max()) for t in tables if t.temperature_c is not None]
-    _ask(kelvin_doubt(max(warmest, default=None)) or _percent(tables), paths)
+    question_tables(tables, paths)
     question_temperatures(
         [None if t.temperature_c is None else float(t.temperature_c.mean()) for t in tables], paths
     )
-    measured, predicted = (np.concatenate(f) for f in ([t.frequency_hz for t in tables], fit.predicted_hz))
-    _ask(modal_doubt(measured, predicted), paths)
+    question_modes_at(tables, np.concatenate(fit.predicted_hz), paths)
+
+
+def question_tables(tables: Sequence[ModalTable], paths: Sequence[Path]) -> None:
+    """Ask about tables by themselves: kelvin, percent. Raises `BadInput`."""
+    warmest = [float(t.temperature_c.max()) for t in tables if t.temperature_c is not None]
+    _ask(kelvin_doubt(max(warmest, default=None)) or _percent(tables), paths)
+
+
+def question_modes_at(tables: Sequence[ModalTable], predicted_hz: Array, paths: Sequence[Path]) -> None:
+    """Ask about modes that no core comes near. Raises `BadInput`. `predicted_hz` of shape (all modes,)."""
+    _ask(modal_doubt(np.concatenate([t.frequency_hz for t in tables]), predicted_hz), paths)
 
 
 def question_temperatures(temperatures_c: Sequence[float | None], paths: Sequence[Path]) -> None:

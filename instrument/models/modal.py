@@ -115,7 +115,7 @@ def diagnose_tables(
     with threadpool_limits(1, "blas"):
         with progress("spanning what effects change") as report:
             members = [
-                member_of(t, s, partial(_widened, report=report, reach_hz=reach_over(t.frequency_hz)))
+                member_of(t, s, partial(widened, report=report, reach_hz=reach_over(t.frequency_hz)))
                 for t, s in zip(tables, specimens, strict=True)
             ]
         ready = perf_counter()
@@ -128,7 +128,9 @@ def diagnose_tables(
     return TablesDiagnosed(found, effects, ready - began, perf_counter() - ready, remarks)
 
 
-def _widened(specimen: Specimen, V: Array, report: Report, reach_hz: float) -> EnrichedReducedPlate:
+def widened(specimen: Specimen, V: Array, report: Report, reach_hz: float) -> EnrichedReducedPlate:
+    """A plate and its own motions with all that effects need, made or loaded. Shape (n, k)."""
+
     def build() -> EnrichedReducedPlate:
         plate = Plate(specimen)
         full = FullPlate(plate, viscous_damping(plate))

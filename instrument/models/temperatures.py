@@ -1,48 +1,41 @@
-"""Sweeps of one plate at several temperatures under one law in reduced frequency."""
+"""Data of several temperatures under one law in reduced frequency, whatever they were measured on."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from time import perf_counter
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array
-from fitting.diagnosis.begin import Begun, begin
 from fitting.errors import OutsideModel
+from fitting.identification.adjusted import Adjusted
 from fitting.identification.result import LawBand
 from fitting.identification.uncertainty import Uncertainty
-from fitting.noise import noise_of
-from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
-from fitting.temperature.causes import Alone, Cause, causes_of, common
+from fitting.temperature.causes import Cause, causes_of, common, explains
 from fitting.temperature.joint import ShiftedFit, TemperatureProblem, fit_shifted
+from fitting.temperature.members import Alone
 from fitting.temperature.shifts import Kind, Shift
 from fitting.temperature.simple import Verdict, in_doubt, judge, serving
 from fitting.temperature.thermometers import each_its_own, rising
 from instrument.errors import BadInput
-from instrument.models.diagnosis import effects_on
+from instrument.models.members import AtTemperature, Members
 from instrument.models.second_process import executor
-from instrument.models.set_up import Hammer, set_up
-from instrument.models.theory import theory_over
+from instrument.models.set_up import Hammer
+from instrument.models.temperature_remarks import remarks_at_temperatures
+from instrument.models.theory import check_each_theory
 from instrument.progress import Progress, quiet
 
 _BAND_POINTS = 61
+_FREER = 2
+"""Times that a law is let bend further before it is refused. A choice."""
 _SCATTERED = 0.01
 """Tail probability below which temperatures lie farther off than is said of them."""
 _FORMS = {"wlf": "WLF", "arrhenius": "Arrhenius' line"}
 THERMOMETER_K = 0.3
 """Typical standard deviation of a stated temperature: a good thermocouple may be 0.5 K off, a plate lags."""
-
-
-@dataclass(frozen=True)
-class AtTemperature:
-    """A sweep and the core's temperature."""
-
-    sweep: Sweep
-    temperature_c: float
-    name: str = ""
 
 
 @dataclass(frozen=True)
@@ -53,23 +46,28 @@ class Shifted:
     verdict: Verdict
     band: LawBand
     """Over reduced frequency, at the reference temperature."""
-    begun: tuple[Begun, ...]
-    """Each temperature by itself."""
+    alone: tuple[Alone, ...]
+    """Each member by itself."""
     cause: Cause | None
     """Counted in, because all sweeps seem to have it in common."""
     seconds: float
+    remarks: tuple[str, ...] = ()
+    """On data, specimens and theory."""
+    adjusted: tuple[Adjusted, ...] = ()
+    """The stated numbers as the fit has them."""
+    predicted_modes: tuple[Array, Array] = (np.zeros(0), np.zeros(0))
+    """Frequencies and loss factors of tables under the one law. Shape (all modes,) each."""
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """What the numbers do not say."""
         said = [] if self.fit.converged else ["not converged: take the values as provisional"]
-        f = [(b.problem.sweep.frequency_hz.min(), b.problem.sweep.frequency_hz.max()) for b in self.begun]
         a = np.exp(self.fit.sweeps_log_shift)
-        reduced = sorted((low * k, high * k) for (low, high), k in zip(f, a, strict=True))
-        gaps = [one[1] < two[0] for one, two in pairwise(reduced)]
-        if any(gaps):
-            said.append("sweeps do not overlap in reduced frequency: there the shift rests on the law's form")
-        return (*said, *self._of_temperatures)
+        reduced = sorted((low * k, high * k) for (low, high), k in zip(self.fit.bands_hz, a, strict=True))
+        reach = np.maximum.accumulate([high for _, high in reduced])
+        if any(low > before for (low, _), before in zip(reduced[1:], reach, strict=False)):
+            said.append("data do not overlap in reduced frequency: there the shift rests on the law's form")
+        return (*said, *self._of_temperatures, *self.remarks)
 
     @property
     def _of_temperatures(self) -> tuple[str, ...]:
@@ -97,8 +95,8 @@ class Shifted:
 
 
 def identify_shifted(
-    sweeps: Sequence[AtTemperature],
-    specimen: Specimen,
+    every: Sequence[AtTemperature],
+    specimens: AnySpecimen | Sequence[AnySpecimen],
     kind: Kind,
     reference_c: float | None = None,
     progress: Progress = quiet,
@@ -109,92 +107,129 @@ def identify_shifted(
 ) -> Shifted:
     """One law and its shifts. Raises `BadInput`, `FittingError`; the verdict is left to the caller.
 
-    `hammer` is the bare plate's test, one for all sweeps. `temperature_k` is the standard deviation of each
-    stated temperature; without it a typical one, none where everything that is stated is exact.
+    `specimens` by their numbers from 1, or the one of all. `hammer` is the bare plate's test, one for all
+    sweeps. `temperature_k` is the standard deviation of each stated temperature; without it a typical one,
+    none where everything that is stated is exact.
     """
-    if specimen.core is None:
-        raise OutsideModel("a bare plate has no core to identify, expected [core] and [constraining]")
-    T = np.array([one.temperature_c for one in sweeps])
-    needed = {"wlf": 3, "arrhenius": 2, "free": 2}[kind]
-    count = len(np.unique(T))
-    if count < needed:
-        raise BadInput(f"--shift {kind}: {count} temperatures, expected {needed} or more")
-    if len({one.sweep.has_phase for one in sweeps}) > 1:
-        raise BadInput("some sweeps hold phasors, others amplitudes, expected one of them")
+    stated = list(specimens) if isinstance(specimens, Sequence) else [specimens]
+    T = np.array([one.temperature_c for one in every])
+    _check(every, stated, kind, T)
     reference = float(np.sort(T)[(len(T) - 1) // 2]) if reference_c is None else reference_c
     began = perf_counter()
     if temperature_k is None:
-        temperature_k = 0.0 if specimen.exact else THERMOMETER_K
+        temperature_k = 0.0 if all(s.exact for s in stated) else THERMOMETER_K
     shift = Shift(kind, T, reference, temperature_k)
-    asked = _Asked(sweeps, specimen, hammer, shift, vertical, progress)
+    members = Members(every, stated, hammer)
+    asked = _Asked(members, shift, vertical, progress)
     with threadpool_limits(1, "blas"):
         alone, task, fit = asked.fitted(with_effects=False)
+        if in_doubt(fit) and explains(fit):
+            fit = asked.freer(task, fit)
         apart = asked.each_apart(alone) if in_doubt(fit) else None
         told = apart is not None and not in_doubt(apart)
         causes = asked.common_causes(alone, task, fit) if in_doubt(fit) and not told else []
-    begun = tuple(a.begun for a in alone)
-    verdict = judge(fit, causes, apart, [one.name for one in sweeps])
+    verdict = judge(fit, causes, apart, [one.name for one in every], members.scale_known)
     cause = next(iter(serving(causes)), None)
     fit = cause.fit if cause is not None else fit
-    for k, one in enumerate(sweeps):
-        theory_over(specimen, fit.own_law(k), one.sweep.frequency_hz)
-    return Shifted(fit, verdict, _band(fit, begun), begun, cause, perf_counter() - began)
+    remarks = (*members.remarks, *remarks_at_temperatures(members), *_theories(members, fit))
+    joined = task.joined
+    return Shifted(
+        fit,
+        verdict,
+        _band(fit),
+        tuple(alone),
+        cause,
+        perf_counter() - began,
+        remarks,
+        joined.adjusted(fit.one.z, fit.stated_errors),
+        joined.modes(fit.one.velocity_m_s),
+    )
+
+
+def _check(every: Sequence[AtTemperature], stated: Sequence[AnySpecimen], kind: Kind, T: Array) -> None:
+    if any(s.core is None for s in stated):
+        raise OutsideModel("a bare specimen has no core to identify, expected a core in every one")
+    if len({s.kind for s in stated}) > 1:
+        raise BadInput(f"--shift: {' and '.join(sorted({s.kind for s in stated}))}, expected one of them")
+    needed = {"wlf": 3, "arrhenius": 2, "free": 2}[kind]
+    count = len(np.unique(T))
+    if count < needed:
+        raise BadInput(f"--shift {kind}: {count} temperature{'s' * (count > 1)}, expected {needed} or more")
+    sweeps = [one.data for one in every if isinstance(one.data, Sweep)]
+    if len({s.has_phase for s in sweeps}) > 1:
+        raise BadInput("some sweeps hold phasors, others amplitudes, expected one of them")
 
 
 @dataclass(frozen=True)
 class _Asked:
     """What is to be fitted."""
 
-    sweeps: Sequence[AtTemperature]
-    specimen: Specimen
-    hammer: Hammer | None
+    members: Members
     shift: Shift
     vertical: bool
     progress: Progress
 
     def fitted(self, *, with_effects: bool) -> tuple[list[Alone], TemperatureProblem, ShiftedFit]:
         """Each temperature by itself, then all of them; with models that effects can change, or without."""
-        assert self.specimen.core is not None
-        alone = []
         with self.progress("each temperature by itself") as report:
-            for k, one in enumerate(self.sweeps):
-                ready = set_up(one.sweep, self.specimen, self.hammer, with_effects=with_effects)
-                noise = noise_of(one.sweep)
-                found = begin(ready.problem, ready.reduced, noise, ready.bare, self.specimen.core.law)
-                alone.append(Alone(found, ready.reduced, noise))
-                report((k + 1) / len(self.sweeps))
+            alone = self.members.alone(report, with_effects=with_effects)
         with self.progress("one law for all"):
-            begun = [a.begun for a in alone]
-            task = TemperatureProblem.of(begun, self.shift, vertical=self.vertical)
-            fit = fit_shifted(task, [b.none.law for b in begun], task.stated([b.none.z for b in begun]))
-        return alone, task, fit
+            task = self._task(alone, self.shift)
+            return alone, task, self._fit(task, alone)
+
+    def _task(self, alone: Sequence[Alone], shift: Shift) -> TemperatureProblem:
+        joined = self.members.joined([a.begun for a in alone])
+        return TemperatureProblem(joined, shift, self.vertical).near([a.begun.none.law for a in alone])
+
+    def _fit(self, task: TemperatureProblem, alone: Sequence[Alone]) -> ShiftedFit:
+        begun = [a.begun for a in alone]
+        return fit_shifted(task, [b.none.law for b in begun], task.stated([b.none.z for b in begun]))
+
+    def freer(self, task: TemperatureProblem, fit: ShiftedFit) -> ShiftedFit:
+        """One law that bends further, where that is all that one law lacks; else the fit as it is."""
+        with self.progress("a law that bends further"):
+            tried = fit
+            for _ in range(_FREER):
+                found = task.freer(tried) if in_doubt(tried) else None
+                if found is None:
+                    break
+                tried = found
+        return fit if in_doubt(tried) else tried
 
     def each_apart(self, alone: Sequence[Alone]) -> ShiftedFit | None:
-        """One law with a factor for every sweep, whatever its temperature; None where it is no other."""
-        if self.shift.kind == "free" and len(np.unique(self.shift.temperature_c)) == len(self.sweeps):
+        """One law with a factor for every member, whatever its temperature; None where it is no other."""
+        if self.shift.kind == "free" and len(np.unique(self.shift.temperature_c)) == len(alone):
             return None
-        begun = [a.begun for a in alone]
-        with self.progress("a factor for each sweep"):
-            task = TemperatureProblem.of(begun, each_its_own(self.shift), vertical=self.vertical)
-            return fit_shifted(task, [b.none.law for b in begun], task.stated([b.none.z for b in begun]))
+        with self.progress("a factor for each of them"):
+            return self._fit(self._task(alone, each_its_own(self.shift)), alone)
 
     def common_causes(self, alone: Sequence[Alone], task: TemperatureProblem, fit: ShiftedFit) -> list[Cause]:
-        """What all sweeps may have in common: channels first, which ask for no other model of the plate."""
-        effects = common(effects_on(self.specimen))
+        """What all may have in common: channels first, which ask for no other model of the specimen."""
+        effects, join = common(self.members.effects), self.members.joined
         with executor() as workers:
             with self.progress("a common cause in the channels") as report:
-                found = causes_of(alone, task, fit, [e for e in effects if not e.spans], workers, report)
+                plain = [e for e in effects if not e.spans]
+                found = causes_of(alone, task, fit, plain, join, workers, report)
             if any(c.serves for c in found):
                 return found
             spanned, task, fit = self.fitted(with_effects=True)
-            with self.progress("a common cause in plate and rig") as report:
-                return causes_of(spanned, task, fit, effects, workers, report)
+            with self.progress("a common cause in specimen and rig") as report:
+                return causes_of(spanned, task, fit, effects, join, workers, report)
 
 
-def _band(fit: ShiftedFit, begun: Sequence[Begun]) -> LawBand:
+def _theories(members: Members, fit: ShiftedFit) -> tuple[str, ...]:
+    """Raises `OutsideModel` where the theory of layers does not hold for the law at one temperature."""
+    said = dict[str, None]()
+    for k, (one, band) in enumerate(zip(members.every, fit.bands_hz, strict=True)):
+        law = fit.joint.at(k) if members.are_tables else fit.own_law(k)
+        said |= dict.fromkeys(check_each_theory([members.specimen(one)], law, [np.array(band)]))
+    return tuple(said)
+
+
+def _band(fit: ShiftedFit) -> LawBand:
     a = np.exp(fit.sweeps_log_shift)
-    low = min(float(b.problem.sweep.frequency_hz.min() * k) for b, k in zip(begun, a, strict=True))
-    high = max(float(b.problem.sweep.frequency_hz.max() * k) for b, k in zip(begun, a, strict=True))
+    low = min(b[0] * k for b, k in zip(fit.bands_hz, a, strict=True))
+    high = max(b[1] * k for b, k in zip(fit.bands_hz, a, strict=True))
     f: Array = np.geomspace(low, high, _BAND_POINTS)
     storage, eta = fit.law.storage_and_loss(2 * np.pi * f)
     errors = Uncertainty(fit.law_covariance, {}, 1.0).law_band(fit.law, 2 * np.pi * f)

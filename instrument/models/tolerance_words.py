@@ -4,7 +4,7 @@ from math import pi
 
 from fitting.specimen import Specimen
 from fitting.structures import AnySpecimen
-from fitting.tolerances import PLATE, STATED, plate_numbers, tolerance
+from fitting.tolerances import OF_TEMPERATURE, PLATE, STATED, plate_numbers, tolerance
 from instrument.facts.check import ToleranceUsed
 
 _UNITS = {
@@ -12,6 +12,7 @@ _UNITS = {
     "m": ("mm", "mm", 1e3),
     "s": ("us", "µs", 1e6),
     "rad": ("deg", "°", 180 / pi),
+    "1/K": ("percent", "%/K", 1e2),
 }
 """Ending of the file's key, unit for people, factor."""
 _NOT_OF_A_SWEEP = ("mass", "place", "area")
@@ -23,7 +24,9 @@ def asked(specimen: AnySpecimen) -> list[str]:
         # What a theory leaves open nobody states.
         return [*(n for n in specimen.numbers if n in STATED), *specimen.places, "gain", "delay"]
     of_plate = {kind for _, kind in plate_numbers(specimen)}
-    unfelt = _NOT_OF_A_SWEEP if specimen.force_m is not None else (*_NOT_OF_A_SWEEP, "force")
+    unfelt: tuple[str, ...] = (*_NOT_OF_A_SWEEP, *OF_TEMPERATURE)
+    if specimen.force_m is None:
+        unfelt = (*unfelt, "force")
     return [name for name in STATED if name not in unfelt and (name not in PLATE or name in of_plate)]
 
 

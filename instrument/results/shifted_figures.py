@@ -37,8 +37,7 @@ def _nomogram(ax: Axes, found: Shifted) -> None:
     label(ax, x=f"reduced frequency f a_T / Hz (reference {fit.shift.reference_c:g} °C)", y="G' / MPa, eta")
     right = ax.twinx()
     f = np.array([b.frequency_hz[0], b.frequency_hz[-1]])
-    lows = [(x.problem.sweep.frequency_hz.min(), x.problem.sweep.frequency_hz.max()) for x in found.begun]
-    low, high = min(x[0] for x in lows) / 3, max(x[1] for x in lows) * 3
+    low, high = min(x[0] for x in fit.bands_hz) / 3, max(x[1] for x in fit.bands_hz) * 3
     done = set()
     for T, log_a in zip(fit.shift.temperature_c.tolist(), fit.log_shift.tolist(), strict=True):
         if T in done:
@@ -57,20 +56,20 @@ def _nomogram(ax: Axes, found: Shifted) -> None:
 def _each_alone(wicket: Axes, cole: Axes, curves: Axes, found: Shifted) -> None:
     T = found.fit.shift.temperature_c
     span = max(float(np.ptp(T)), 1e-9)
-    for k, b in enumerate(found.begun):
-        f = b.problem.sweep.frequency_hz
-        at = np.geomspace(f.min(), f.max(), _POINTS)
-        storage, eta = b.none.law.storage_and_loss(2 * np.pi * at)
+    for k, (one, (low, high)) in enumerate(zip(found.alone, found.fit.bands_hz, strict=True)):
+        at = np.geomspace(low, high, _POINTS)
+        storage, eta = one.begun.none.law.storage_and_loss(2 * np.pi * at)
         storage = storage / np.exp(found.fit.log_vertical[k])
         color = colormaps["viridis"](0.9 * (T[k] - T.min()) / span)
-        name = f"{T[k]:g} °C"
+        # Several specimens at one temperature are one line of the legend.
+        name = f"{T[k]:g} °C" if T[k] not in T[:k] else None
         wicket.loglog(storage, eta, color=color, label=name)
         cole.plot(storage / 1e6, storage * eta / 1e6, color=color)
         curves.loglog(at * np.exp(found.fit.sweeps_log_shift[k]), storage, color=color)
-    one = found.band
-    wicket.loglog(one.storage_modulus_pa, one.loss_factor, "k--", lw=0.8, label="one law")
-    cole.plot(one.storage_modulus_pa / 1e6, one.storage_modulus_pa * one.loss_factor / 1e6, "k--", lw=0.8)
-    curves.loglog(one.frequency_hz, one.storage_modulus_pa, "k--", lw=0.8)
+    b = found.band
+    wicket.loglog(b.storage_modulus_pa, b.loss_factor, "k--", lw=0.8, label="one law")
+    cole.plot(b.storage_modulus_pa / 1e6, b.storage_modulus_pa * b.loss_factor / 1e6, "k--", lw=0.8)
+    curves.loglog(b.frequency_hz, b.storage_modulus_pa, "k--", lw=0.8)
     label(wicket, x="G' / Pa", y="eta", title="wicket plot")
     label(cole, x="G' / MPa", y="G'' / MPa", title="Cole-Cole")
     label(curves, x="reduced frequency / Hz", y="G' / Pa", title="each temperature alone, shifted")

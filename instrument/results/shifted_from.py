@@ -4,12 +4,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from fitting.mode_tables.table import ModalTable
 from fitting.temperature.causes import Cause
 from instrument.facts.diagnosis import EffectFound
-from instrument.facts.shifted import ShiftAt, ShiftedResult
-from instrument.models.temperatures import AtTemperature, Shifted
+from instrument.facts.shifted import ModeAt, ShiftAt, ShiftedResult
+from instrument.models.members import AtTemperature
+from instrument.models.temperatures import Shifted
 from instrument.results.diagnosis_from import parameters_from
-from instrument.results.rows_from import law_rows_from
+from instrument.results.rows_from import adjusted_from, law_rows_from
 
 
 def shifted_from(found: Shifted, sweeps: Sequence[AtTemperature]) -> ShiftedResult:
@@ -43,10 +45,33 @@ def shifted_from(found: Shifted, sweeps: Sequence[AtTemperature]) -> ShiftedResu
         chi2=fit.chi2,
         chi2_each_alone=fit.chi2_own,
         wicket_percent=verdict.wicket_percent,
+        modes=_modes(found, sweeps),
+        adjusted=adjusted_from(found.adjusted),
         words=verdict.words,
         warnings=found.warnings,
         seconds=found.seconds,
     )
+
+
+def _modes(found: Shifted, every: Sequence[AtTemperature]) -> tuple[ModeAt, ...]:
+    """Measured and predicted, member after member; none of sweeps."""
+    rows = [(one, one.data, k) for one in every if isinstance(one.data, ModalTable) for k in _rows(one.data)]
+    return tuple(
+        ModeAt(
+            name=one.name,
+            temperature_c=one.temperature_c,
+            mode=int(table.mode[k]),
+            frequency_hz=table.frequency_hz[k],
+            predicted_hz=f,
+            loss_factor=table.loss_factor[k],
+            predicted_loss_factor=eta,
+        )
+        for (one, table, k), f, eta in zip(rows, *found.predicted_modes, strict=True)
+    )
+
+
+def _rows(table: ModalTable) -> range:
+    return range(len(table.mode))
 
 
 def _cause_from(cause: Cause) -> EffectFound:

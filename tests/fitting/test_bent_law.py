@@ -103,3 +103,41 @@ def test_many_moduli_at_once_are_those_one_by_one(law):
         rows[0, len(law.values) - 1] = 50.0
         expected = [one.with_logs(row).modulus(OMEGA) for row in rows]
         np.testing.assert_allclose(one.moduli(rows, OMEGA), expected, rtol=1e-12)
+
+
+def test_a_slow_bend_goes_on_farther_than_the_usual_one_and_by_more():
+    band = np.array([1.0, 1e6])
+    usual, slow = (BentLaw.over(TABLE_4, band, slow=k, slow_reach=3.0) for k in (0.0, 4.0))
+    omega = 2 * np.pi * np.array([1e2, 1e2 * np.exp(2.0)])
+    usual_W, slow_W = (law._weights(omega) for law in (usual, slow))
+    alike = [
+        W[:, 0] @ W[:, 1] / np.sqrt((W[:, 0] @ W[:, 0]) * (W[:, 1] @ W[:, 1])) for W in (usual_W, slow_W)
+    ]
+    assert alike[0] == pytest.approx(np.exp(-2.0), abs=0.02)
+    assert alike[1] == pytest.approx((np.exp(-2.0) + 16 * np.exp(-0.5 * (2 / 3) ** 2)) / 17, abs=0.02)
+    assert slow_W[:, 0] @ slow_W[:, 0] == pytest.approx(17.0, rel=0.02)
+    assert slow.with_values(slow.values).slow == 4.0
+
+
+def test_a_law_that_may_bend_farther_is_the_same_law_and_its_bend_is_cheaper():
+    law = bent(TABLE_4, 2)
+    freer = law.freer(2.0)
+    np.testing.assert_allclose(freer.modulus(OMEGA), law.modulus(OMEGA), rtol=1e-12)
+    np.testing.assert_allclose(np.log(freer.bend), np.log(law.bend) / 2)
+
+
+def test_where_a_law_has_next_to_no_loss_its_loss_bends_farther_and_derivatives_say_so():
+    law = bent(TABLE_4, 4)
+    count = len(law.knots_hz)
+    faint = replace(law, faint=tuple(np.linspace(1.0, 4.0, count)))
+    plain = TABLE_4.storage_and_loss(OMEGA)
+    usual, more = (np.log(one.storage_and_loss(OMEGA)[1] / plain[1]) for one in (law, faint))
+    at = np.interp(np.log(OMEGA / (2 * np.pi)), np.log(law.knots_hz), np.log(faint.faint))
+    np.testing.assert_allclose(more, usual * np.exp(at), rtol=1e-9)
+    np.testing.assert_allclose(faint.storage_and_loss(OMEGA)[0], law.storage_and_loss(OMEGA)[0])
+    logs, J = np.log(faint.values), faint.jacobian(OMEGA) * faint.values[:, None]
+    for k in range(len(logs) - count, len(logs)):
+        step = np.eye(len(logs))[k] * 1e-5
+        up, down = (faint.with_logs(logs + s * step).modulus(OMEGA) for s in (1, -1))
+        np.testing.assert_allclose(J[k], (up - down) / 2e-5, atol=1e-4 * np.abs(J[k]).max())
+    np.testing.assert_allclose(faint.moduli(logs[None], OMEGA)[0], faint.modulus(OMEGA), rtol=1e-9)

@@ -3,7 +3,7 @@
 from types import SimpleNamespace
 
 from fitting.diagnosis.of_files import Place
-from fitting.diagnosis.sharing import CHANNELS, OF_EACH_FILE, OF_EACH_PLATE, OF_EACH_SPOT, shared
+from fitting.diagnosis.sharing import shared
 from fitting.nuisance import Nuisance
 from fitting.specimen import Specimen
 
@@ -17,24 +17,24 @@ def member(length_m=0.3):
     return SimpleNamespace(specimen=specimen, nuisances=nuisances, points=SimpleNamespace(drive="base"))
 
 
-def names(members, of, apart):
-    return [n.name for n in shared(members, of, apart, tuple(range(len(members))))[0]]
+def names(members, of, stays=None):
+    return [n.name for n in shared(members, of, stays or tuple(range(len(members))), stays)[0]]
 
 
-def test_of_one_mounting_only_the_channels_are_apart():
+def test_of_what_stays_where_it_is_only_the_channels_are_apart():
     two = [member(), member()]
-    assert names(two, [Place(1), Place(2)], CHANNELS) == ["gain [1]", "length", "gain [2]"]
+    assert names(two, [Place(1), Place(2)], (0, 0)) == ["gain [1]", "length", "gain [2]"]
 
 
 def test_mounted_anew_a_plate_has_another_length_in_each_file():
     two = [member(), member()]
-    said = names(two, [Place(1), Place(2)], (*OF_EACH_SPOT, *OF_EACH_FILE, *OF_EACH_PLATE))
+    said = names(two, [Place(1), Place(2)])
     assert said == ["gain [1]", "length [1]", "gain [2]", "length [2]"]
 
 
 def test_spots_of_one_file_share_its_plate_and_not_their_gain():
     two = [member(), member()]
-    numbers, places, owners = shared(two, [Place(1, 0), Place(1, 1)], OF_EACH_SPOT, (0, 0))
+    numbers, places, owners = shared(two, [Place(1, 0), Place(1, 1)], (0, 0))
     assert [n.name for n in numbers] == ["gain [pickup 0]", "length", "gain [pickup 1]"]
     assert [p.tolist() for p in places] == [[0, 1], [2, 1]]
     assert owners == ((0,), (0, 1), (1,))
@@ -42,4 +42,10 @@ def test_spots_of_one_file_share_its_plate_and_not_their_gain():
 
 def test_what_is_stated_otherwise_is_another_number():
     two = [member(), member(0.25)]
-    assert names(two, [Place(1), Place(2)], CHANNELS) == ["gain [1]", "length [1]", "gain [2]", "length [2]"]
+    assert names(two, [Place(1), Place(2)]) == ["gain [1]", "length [1]", "gain [2]", "length [2]"]
+
+
+def test_specimens_that_stay_apart_have_each_its_own_numbers_at_all_their_temperatures():
+    four = [member() for _ in range(4)]
+    said = names(four, [Place(k + 1) for k in range(4)], (0, 1, 0, 1))
+    assert said == ["gain [1]", "length [1, 3]", "gain [2]", "length [2, 4]", "gain [3]", "gain [4]"]

@@ -8,6 +8,7 @@ from shear_pair_temperatures import LOG_A, POINTS, REFERENCE, T, begun, fitted, 
 from fitting.bent_law import BentLaw
 from fitting.temperature.joint import TemperatureProblem
 from fitting.temperature.shifts import Shift
+from fitting.temperature.sweeps import Sweeps
 
 
 @pytest.fixture(scope="module")
@@ -92,13 +93,10 @@ def test_sweeps_stand_one_after_the_other_with_their_own_errors(found):
 
 def test_what_sweeps_say_of_one_plate_is_their_mean_and_a_channel_s_own_stays():
     pair = cases.pair(0.2533)
-    task = TemperatureProblem.of(
-        [begun(k, law, pair=pair) for k, law in enumerate(shifted())],
-        Shift("free", T, REFERENCE),
-        vertical=False,
-    )
-    names = [n.name for n in task.problem.nuisances.each]
-    each = [np.full(len(at), float(k)) for k, at in enumerate(task.problem.places)]
+    each = [begun(k, law, pair=pair) for k, law in enumerate(shifted())]
+    task = TemperatureProblem(Sweeps.of(each), Shift("free", T, REFERENCE), vertical=False)
+    names = [n.name for n in task.joined.each]
+    each = [np.full(len(at), float(k)) for k, at in enumerate(task.joined.places)]
     said = dict(zip(names, task.stated(each), strict=True))
     assert said["mass"] == said["core_thickness"] == 1.0
     assert sorted(v for n, v in said.items() if n.startswith("gain")) == [0.0, 1.0, 2.0]
@@ -107,7 +105,7 @@ def test_what_sweeps_say_of_one_plate_is_their_mean_and_a_channel_s_own_stays():
 def test_a_law_bends_where_the_specimen_is_not_exact_over_all_reduced_frequencies():
     pair = cases.pair(0.2533)
     each = [begun(k, law, pair=pair) for k, law in enumerate(shifted())]
-    task = TemperatureProblem.of(each, Shift("free", T, REFERENCE), vertical=False)
+    task = TemperatureProblem(Sweeps.of(each), Shift("free", T, REFERENCE), vertical=False)
     start = task.one_law([b.none.law for b in each])
     assert isinstance(start.law, BentLaw)
     np.testing.assert_allclose(start.log_shift, LOG_A, atol=0.3)

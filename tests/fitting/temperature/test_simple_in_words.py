@@ -28,7 +28,7 @@ def fit(p=0.4, own=1.0, *, noise_known=True, off=1.0):
 
     return SimpleNamespace(
         p_value=p,
-        own=SimpleNamespace(chi2_per_dof=own),
+        own_chi2_per_dof=own,
         noise_known=noise_known,
         chi2=110.0,
         chi2_own=100.0,

@@ -47,6 +47,15 @@ def test_right_temperatures_too_few_and_two_wrong_ones_name_nobody():
     )
 
 
+def test_specimens_that_were_wrong_together_are_named_by_the_first_of_them():
+    two, true = np.tile(T, 2), np.tile(T, 2)
+    true[[3, 8]] = 18.0
+    log_a = Shift("wlf", two, 20.0).log_shift(FORMS["wlf"], true)
+    found = misread(Shift("wlf", two, 20.0, 0.3), own(log_a - log_a[0]))
+    assert (found.sweep, found.further, found.stated_c) == (3, 1, 30.0)
+    assert found.read_c == pytest.approx(18.0, abs=0.5)
+
+
 def test_every_sweep_has_a_factor_of_its_own_two_of_one_temperature_too():
     shift = each_its_own(Shift("wlf", np.array([10.0, 20.0, 20.0]), 20.0, 0.3))
     assert shift.kind == "free"
@@ -58,3 +67,13 @@ def test_a_factor_that_rises_with_the_temperature_is_seen():
     shift = Shift("free", np.array([0.0, 10.0, 40.0, 30.0]), 10.0)
     assert rising(shift, np.array([2.5, 0.0, -2.1, -3.8])) == (30.0, 40.0)
     assert rising(shift, np.array([2.5, 0.0, -3.9, -3.8])) is None
+
+
+def test_what_shares_a_free_factor_may_be_a_little_warmer_or_colder_and_what_has_its_own_may_not():
+    shared = Shift("free", np.array([10.0, 10.0, 20.0, 40.0]), 20.0, 0.3)
+    assert shared.moves_temperatures
+    assert not Shift("free", np.array([10.0, 20.0, 40.0]), 20.0, 0.3).moves_temperatures
+    p = np.array([2.0, -3.0])
+    moved = shared.log_shift(p, np.array([9.0, 11.0, 20.0, 42.0]))
+    np.testing.assert_allclose(moved, [2.2, 1.8, 0.0, -3.3])
+    np.testing.assert_allclose(shared.by_temperature(p, shared.temperature_c), [-0.2, -0.2, -0.175, -0.15])

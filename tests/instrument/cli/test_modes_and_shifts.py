@@ -2,6 +2,7 @@
 
 import json
 import runpy
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -9,7 +10,7 @@ import click
 import numpy as np
 import pytest
 from beam_tables import BEAM, LAW, read
-from shear_pair_temperatures import T, fitted, shifted
+from shear_pair_temperatures import T, alone, fitted, shifted
 
 from fitting.errors import OutsideModel
 from fitting.identification.result import LawBand
@@ -141,9 +142,8 @@ FILES = [Path(f"{t:g}.csv") for t in T]
 
 
 def given(zn1, k, *, modes=None, session=False):
-    return SimpleNamespace(
-        specimen=zn1, sweep=f"sweep {k}", temperature_c=float(T[k]), modes=modes, session=session
-    )
+    sweep = SimpleNamespace(pickup=None)
+    return SimpleNamespace(specimen=zn1, sweep=sweep, temperature_c=float(T[k]), modes=modes, session=session)
 
 
 @pytest.fixture
@@ -153,18 +153,20 @@ def found(monkeypatch):
     f = np.geomspace(50, 4000, 18)
     G, eta = fit.law.storage_and_loss(2 * np.pi * f)
     band = LawBand(f, G, eta, 0.01 * G, 0.01 * eta)
-    asked = []
+    asked, told = [], []
 
     def make(simple=True):
         verdict = Verdict(simple, 0.4, 1.2, 30.0, "one law serves" if simple else "no one law serves")
 
-        def identify(sweeps, plate, kind, reference_c, progress, *, vertical, hammer, temperature_k):
+        def identify(sweeps, specimens, kind, reference_c, progress, *, vertical, hammer, temperature_k):
             asked.append(([s.name for s in sweeps], kind, reference_c, vertical, hammer))
-            return Shifted(fit, verdict, band, tuple(each), None, 2.0)
+            told.append(([s.specimen for s in sweeps], specimens))
+            return Shifted(fit, verdict, band, alone(each), None, 2.0)
 
         monkeypatch.setattr(shifting, "identify_at_temperatures", identify)
         return asked
 
+    make.told = told
     return make
 
 
@@ -212,15 +214,27 @@ def test_sweeps_that_make_no_shift_are_refused(zn1, found):
     found()
     with pytest.raises(click.UsageError, match="--shift: 1 file, expected sweeps at two temperatures"):
         shift([given(zn1, 0)], files=FILES[:1])
-    others = [given(zn1, 0), given(zn1.with_law(LAW), 1), given(zn1, 2)]
-    with pytest.raises(BadInput, match="expected sweeps of one plate"):
+    longer = replace(zn1, length_m=1.01 * zn1.length_m)
+    others = [given(zn1, 0, modes="modes"), given(longer, 1), given(zn1, 2)]
+    with pytest.raises(BadInput, match="a hammer test with several plates, expected one plate"):
         shift(others)
-    with pytest.raises(BadInput, match="the specimen is a beam, expected a plate"):
-        shift([given(BEAM, k) for k in range(3)])
+    roving = given(zn1, 1)
+    roving.sweep = SimpleNamespace(pickup=np.array([0, 1]))
+    with pytest.raises(BadInput, match=r"20\.csv: rows of several pickups with --shift"):
+        shift([given(zn1, 0), roving, given(zn1, 2)])
     cold = given(zn1, 1)
     cold.temperature_c = None
     with pytest.raises(BadInput, match=r"20\.csv: no temperature, expected a column temperature_c"):
         shift([given(zn1, 0), cold, given(zn1, 2)])
+
+
+def test_a_specimen_stays_one_whatever_law_its_file_begins_with_and_another_is_another(zn1, found):
+    found()
+    longer = replace(zn1, length_m=1.01 * zn1.length_m)
+    shift([given(zn1, 0), given(zn1.with_law(LAW), 1), given(longer, 2)])
+    assert found.told[-1] == ([1, 1, 2], [zn1, longer])
+    shift([given(BEAM, k) for k in range(3)])
+    assert found.told[-1] == ([1, 1, 1], [BEAM])
 
 
 # Without its script

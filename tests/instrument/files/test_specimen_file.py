@@ -5,7 +5,7 @@ import pytest
 
 from fitting.laws import LAWS
 from fitting.specimen import Glue, Orthotropy, Patch
-from fitting.tolerances import STATED, tolerance
+from fitting.tolerances import OF_TEMPERATURE, STATED, tolerance
 from instrument.errors import BadInput
 from instrument.files.specimen_file import read_specimen
 from instrument.paper_case import case_file
@@ -115,7 +115,7 @@ def test_a_number_that_only_a_shear_pair_has_is_refused(tmp_path):
 
 def test_tolerances_are_read_in_their_units_and_the_others_are_typical(tmp_path):
     units = {"1": ("percent", 1e-2), "m": ("mm", 1e-3), "s": ("us", 1e-6), "rad": ("deg", np.pi / 180)}
-    keys = {name: units[one.unit] for name, one in STATED.items() if name != "area"}
+    keys = {name: units[one.unit] for name, one in STATED.items() if name not in ("area", *OF_TEMPERATURE)}
     table = "".join(f"{name}_{unit} = {n + 1}.5\n" for n, (name, (unit, _)) in enumerate(keys.items()))
     s = read_specimen(write(tmp_path, f"{STATED_ALONE}\n[tolerances]\n{table}"))
     expected = {name: (n + 1.5) * factor for n, (name, (_, factor)) in enumerate(keys.items())}
@@ -272,3 +272,9 @@ def test_a_bare_plate_has_no_patches(tmp_path):
     text = GOOD[: GOOD.index("[constraining]")] + LAYERS[LAYERS.index("[[patch]]") :]
     with pytest.raises(BadInput, match="treated plate"):
         read_specimen(write(tmp_path, text))
+
+
+def test_what_a_metal_does_with_temperature_is_stated_of_beams_alone(tmp_path):
+    warm = STATED_ALONE.replace("[constraining]", "young_percent_per_k = -0.05\n[constraining]")
+    with pytest.raises(BadInput, match=r"substrate\.young_percent_per_k of a plate, expected it of a beam"):
+        read_specimen(write(tmp_path, warm))

@@ -35,7 +35,7 @@ def asked(plate, laws, spoiled=as_it_is, kind="arrhenius", measured_on=None, eve
     """Some of the temperatures, thirty points each."""
     made = sweeps(measured_on or plate, laws, points=30)
     return identify_shifted(
-        [replace(one, sweep=spoiled(one.sweep)) for one in made[::every]], plate, kind, REFERENCE
+        [replace(one, data=spoiled(one.data)) for one in made[::every]], plate, kind, REFERENCE
     )
 
 

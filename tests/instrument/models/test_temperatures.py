@@ -78,7 +78,7 @@ def test_a_form_finds_its_own_parameters(kind):
 def write(folder, plate, laws):
     paths = []
     for one in sweeps(plate, laws, points=40, noise=NOISE):
-        s = one.sweep
+        s = one.data
         rows = [
             f"{f!r},{v.real!r},{v.imag!r},{e!r},{one.temperature_c}"
             for f, v, e in zip(
@@ -155,7 +155,7 @@ def test_temperatures_a_little_off_are_no_fault_of_the_material(plate):
 def test_one_wrong_temperature_is_named_and_the_material_is_not_blamed(plate):
     made = stated_otherwise(sweeps(plate, [OneProcess(a) for a in wlf()]), [0, 0, 0, 15.0, 0])
     words = identify_shifted(made, plate, "wlf", REFERENCE).verdict.words
-    assert "28.csv is stated at 43 degC, its sweep is that of 28." in words
+    assert "28.csv is stated at 43 degC, its readings are those of 28." in words
     assert "loss factor" not in words
     free = identify_shifted(made, plate, "free", REFERENCE)
     assert any("the factor of 43 degC is above that of 36 degC" in one for one in free.warnings)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from beam_tables import BEAM, FACE, LAW, read
 from result_cases import identification
-from shear_pair_temperatures import LOG_A, REFERENCE, T, fitted, shifted
+from shear_pair_temperatures import LOG_A, REFERENCE, T, alone, fitted, shifted
 
 from fitting.diagnosis.result import FoundEffect, ParameterEstimate
 from fitting.identification.result import LawBand
@@ -84,7 +84,7 @@ def at_temperatures(*, vertical=False, cause=None):
     band = LawBand(*(np.array([50.0, 4000.0]) for _ in range(5)))
     verdict = Verdict(True, 0.4, 1.2, 30.0, "simple")
     sweeps = [AtTemperature(b.problem.sweep, t, f"{t:g}.csv") for b, t in zip(each, T.tolist(), strict=True)]
-    found = Shifted(fit, verdict, band, tuple(each), cause, 2.0)
+    found = Shifted(fit, verdict, band, alone(each), cause, 2.0)
     return fit, shifted_from(found, sweeps)
 
 

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from shear_pair_temperatures import LOG_A, REFERENCE, T, fitted, shifted
+from shear_pair_temperatures import LOG_A, REFERENCE, T, alone, fitted, shifted
 
 from fitting.identification.result import LawBand
 from fitting.pointwise import PointwiseLaw
@@ -143,7 +143,7 @@ def temperatures():
     f = np.geomspace(50, 4000, 9)
     G, eta = fit.law.storage_and_loss(2 * np.pi * f)
     band = LawBand(f, G, eta, 0.01 * G, 0.01 * eta)
-    return Shifted(fit, None, band, tuple(each), None, 1.0)
+    return Shifted(fit, None, band, alone(each), None, 1.0)
 
 
 def test_the_nomogram_has_a_diagonal_for_each_temperature(temperatures, saved, tmp_path):

@@ -1,0 +1,183 @@
+"""Sweeps as members of a fit over temperatures: of a plate, a beam or a shear pair."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.arrays import Array, Complex
+from fitting.diagnosis.begin import Begun
+from fitting.diagnosis.candidates import CandidateFit
+from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.executor import Executor
+from fitting.diagnosis.looks import Start, look
+from fitting.diagnosis.model_error import model_error
+from fitting.diagnosis.refit import refit
+from fitting.diagnosis.refitted import Refitted
+from fitting.diagnosis.response import SweepResponse
+from fitting.diagnosis.responses import response_of
+from fitting.diagnosis.search import Search
+from fitting.diagnosis.several import SeveralProblem
+from fitting.diagnosis.singles import Singles
+from fitting.diagnosis.thresholds import SEARCH
+from fitting.effects.base import Effect, Points
+from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.identification.adjusted import Adjusted
+from fitting.laws import CoreLaw
+from fitting.noise import Noise
+from fitting.nuisance import Nuisance
+from fitting.reduced import ReducedPlate
+
+
+@dataclass(frozen=True)
+class AloneSweep:
+    """One sweep by itself, and what its fit was made with."""
+
+    begun: Begun
+    reduced: ReducedPlate | None
+    """None of what is no plate."""
+    noise: Noise
+
+    @property
+    def frequency_hz(self) -> Array:
+        """Of its points. Shape (points,)."""
+        return self.begun.problem.sweep.frequency_hz
+
+    def leading(self, effects: Sequence[Effect], executor: Executor) -> list[Effect]:
+        """As `members.Alone`."""
+        b = self.begun
+        search = Search(b.problem, b.evidence, b.none, effects, executor)
+        singles = Singles(search, lambda fraction: None).best()
+        near = [s for s in singles if s.cost < singles[0].cost + SEARCH.near]
+        return [s.fitted.effects[0] for s in near]
+
+    def beside(self, effect: Effect) -> "AloneSweep":
+        """As `members.Alone`, the model's error made for what it then predicts."""
+        b = self.begun
+        candidate = CandidateFit(b.problem, b.evidence, b.none, effect)
+        rough = min([*candidate.near[:1], *candidate.far[:1]], key=lambda f: f.chi2)
+        found = candidate.finished(rough)
+        problem, v = b.problem.around(found.law), found.velocity_m_s
+        wrong = model_error(problem, self.reduced, found.law, v)
+        evidence = Evidence.of(problem.sweep, self.noise, wrong, v, b.evidence.bare)
+        none = refit(response_of(problem, [effect]), evidence, found.law, found.u)
+        return replace(self, begun=replace(b, problem=problem, evidence=evidence, none=none))
+
+
+@dataclass(frozen=True)
+class Sweeps:
+    """Sweeps side by side, each with its model's error already."""
+
+    problem: SeveralProblem
+    evidence: Evidence
+
+    @classmethod
+    def of(cls, begun: Sequence[Begun], specimens: Sequence[int] | None = None) -> Self:
+        """From the fits of each by itself; `specimens` are their numbers, one for all by default."""
+        numbers = [1] * len(begun) if specimens is None else list(specimens)
+        stays = [numbers.index(k) for k in numbers]
+        problem = SeveralProblem.of_members([b.problem for b in begun], [None] * len(begun), stays=stays)
+        return cls(problem, _alike(_side_by_side(begun), begun))
+
+    @property
+    def lengths(self) -> tuple[int, ...]:
+        """Points of each sweep."""
+        return tuple(len(m.sweep) for m in self.problem.members)
+
+    @property
+    def bands_hz(self) -> list[tuple[float, float]]:
+        """Of each sweep."""
+        f = [m.sweep.frequency_hz for m in self.problem.members]
+        return [(float(one.min()), float(one.max())) for one in f]
+
+    @property
+    def exact(self) -> bool:
+        """Of all specimens alike."""
+        return self.problem.specimen.exact
+
+    @property
+    def each(self) -> tuple[Nuisance, ...]:
+        """As `members.Joined`."""
+        return self.problem.nuisances.each
+
+    @property
+    def places(self) -> tuple[NDArray[np.intp], ...]:
+        """As `members.Joined`. Shape (its own,) each."""
+        return self.problem.places
+
+    @property
+    def points(self) -> Points:
+        """As `members.Joined`."""
+        return self.problem.points
+
+    @property
+    def plate(self) -> EnrichedReducedPlate:
+        """Of the first sweep."""
+        return self.problem.plate
+
+    def around(self, law: CoreLaw) -> Self:
+        """Grids made for a law."""
+        return replace(self, problem=self.problem.around(law))
+
+    def erring_at(self, law: CoreLaw) -> Self:
+        """Itself: each has its model's error from its own law, which a sweep tells well."""
+        return self
+
+    def response(self, effects: Sequence[Effect]) -> SweepResponse:
+        """Phasors of all sweeps."""
+        return response_of(self.problem, effects)
+
+    def starts(self, effect: Effect, before: Refitted) -> list[Start]:
+        """As `members.Joined`."""
+        return look(self.problem, self.evidence, before, effect)
+
+    def adjusted(self, z: Array, errors: Array) -> tuple[Adjusted, ...]:
+        """As `members.Joined`."""
+        return self.problem.adjusted(z, errors)
+
+    def modes(self, read: Complex) -> tuple[Array, Array]:
+        """None."""
+        return np.zeros(0), np.zeros(0)
+
+
+def _alike(evidence: Evidence, begun: Sequence[Begun]) -> Evidence:
+    """With a gain and a delay that all sweeps have in common, besides each one's own: one rig read them."""
+    v = np.concatenate([b.none.velocity_m_s for b in begun])
+    gain, delay = ([_sigma(b, kind) for b in begun] for kind in ("gain", "delay"))
+    omega = np.concatenate([b.problem.sweep.omega for b in begun])
+    points = [len(b.problem.sweep) for b in begun]
+    rows = [np.repeat(gain, points) * v, -1j * omega * np.repeat(delay, points) * v]
+    felt = np.array([row for row in rows if row.any()])
+    if not len(felt) or not evidence.scale_known:
+        return evidence
+    return replace(evidence, B=np.hstack([evidence.B, evidence.over_sigma(v, felt).T]))
+
+
+def _sigma(begun: Begun, kind: str) -> float:
+    return sum(n.sigma for n in begun.problem.nuisances.each if n.kind == kind)
+
+
+def _side_by_side(begun: Sequence[Begun]) -> Evidence:
+    """What all readings are worth; the hammer test, which is the same for all, once."""
+    each = [b.evidence for b in begun]
+    parts = 2 if each[0].has_phase else 1
+    points = [len(e.sigma_m_s) for e in each]
+    starts = np.concatenate([[0], np.cumsum(points)])
+    B = np.zeros((parts * starts[-1], sum(e.B.shape[1] for e in each)))
+    column = 0
+    for e, start in zip(each, starts, strict=False):
+        n, m = len(e.sigma_m_s), e.B.shape[1]
+        for part in range(parts):
+            rows = slice(part * starts[-1] + start, part * starts[-1] + start + n)
+            B[rows, column : column + m] = e.B[part * n : (part + 1) * n]
+        column += m
+    return Evidence(
+        np.concatenate([e.measured_m_s for e in each]),
+        np.concatenate([e.sigma_m_s for e in each]),
+        np.concatenate([e.noise_m_s for e in each]),
+        B,
+        all(e.scale_known for e in each),
+        each[0].bare,
+    )

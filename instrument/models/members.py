@@ -1,0 +1,146 @@
+"""One specimen at one temperature, fitted by itself: what a fit over temperatures begins with."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
+from typing import Any
+
+from fitting.diagnosis.begin import begin
+from fitting.diagnosis.several import SeveralProblem
+from fitting.effects.base import Effect
+from fitting.effects.enriching import reach_over
+from fitting.errors import OutsideModel
+from fitting.laws import CoreLaw
+from fitting.mode_tables.build import member_of
+from fitting.mode_tables.fit import start_of
+from fitting.mode_tables.member import Member
+from fitting.mode_tables.standing import standing
+from fitting.mode_tables.table import ModalTable
+from fitting.noise import noise_of
+from fitting.specimen import Specimen
+from fitting.structures import AnySpecimen, Beam
+from fitting.sweep import Sweep
+from fitting.temperature.members import Alone, Joined
+from fitting.temperature.sweeps import AloneSweep, Sweeps
+from fitting.temperature.tables import Tables, alone
+from instrument.models.diagnosis import effects_among
+from instrument.models.files import File
+from instrument.models.files_at_work import FilesAtWork
+from instrument.models.modal import widened
+from instrument.models.set_up import Hammer, set_up
+from instrument.progress import quiet
+
+Report = Callable[[float], None]
+
+
+@dataclass(frozen=True)
+class AtTemperature:
+    """What was measured of one specimen at one temperature of its core."""
+
+    data: Sweep | ModalTable
+    temperature_c: float
+    name: str = ""
+    specimen: int = 1
+    """Its number: what has one number is one thing that stayed where it is."""
+
+
+@dataclass
+class Members:
+    """All of them, with what each was measured on."""
+
+    every: Sequence[AtTemperature]
+    specimens: Sequence[AnySpecimen]
+    """By their numbers, from 1."""
+    hammer: Hammer | None = None
+    remarks: list[str] = field(default_factory=list)
+    """What is to be said of the data."""
+
+    @property
+    def are_tables(self) -> bool:
+        """Whether they are modes."""
+        return isinstance(self.every[0].data, ModalTable)
+
+    @property
+    def scale_known(self) -> bool:
+        """Whether every table states how well its numbers are known; a sweep's noise knows itself."""
+        tables = [one.data for one in self.every if isinstance(one.data, ModalTable)]
+        return all(t.states_its_noise for t in tables)
+
+    @property
+    def numbers(self) -> list[int]:
+        """Of each member's specimen."""
+        return [one.specimen for one in self.every]
+
+    def specimen(self, one: AtTemperature) -> AnySpecimen:
+        """What one was measured on, as warm as it was."""
+        stated = self.specimens[one.specimen - 1]
+        return stated.at_temperature(one.temperature_c) if isinstance(stated, Beam) else stated
+
+    def alone(self, report: Report, *, with_effects: bool) -> list[Alone]:
+        """Each by itself; with models that effects can change, or without."""
+        self.remarks.clear()
+        fit = self._table if self.are_tables else self._sweep
+        found = []
+        for k, one in enumerate(self.every):
+            found.append(fit(one, with_effects=with_effects))
+            report((k + 1) / len(self.every))
+        return found
+
+    def joined(self, begun: Sequence[Any]) -> Joined:
+        """Fits of each by itself, side by side."""
+        kind = Tables if self.are_tables else Sweeps
+        return kind.of(begun, self.numbers)
+
+    @property
+    def effects(self) -> list[Effect]:
+        """The forms that effects have on all of them."""
+        if self.are_tables:
+            return standing(self.specimens[0])
+        return [effect for effect, _ in effects_among(self.specimens)]
+
+    def _sweep(self, one: AtTemperature, *, with_effects: bool) -> AloneSweep:
+        specimen, sweep = self.specimen(one), one.data
+        assert isinstance(sweep, Sweep)
+        assert specimen.core is not None
+        if isinstance(specimen, Specimen):
+            noise = noise_of(sweep)
+            ready = set_up(sweep, specimen, self.hammer, with_effects=with_effects)
+            found = begin(ready.problem, ready.reduced, noise, ready.bare, specimen.core.law)
+            return AloneSweep(found, ready.reduced, noise)
+        files = [File(sweep, specimen, one.name)]
+        work = FilesAtWork(files, quiet, with_effects=with_effects)
+        found, noise = work.without_glitches()
+        self.remarks += [aside.words(files) for aside in work.aside]
+        assert isinstance(found.problem, SeveralProblem)
+        return AloneSweep(replace(found, problem=found.problem.members[0]), None, noise)
+
+    def _table(self, one: AtTemperature, *, with_effects: bool) -> Alone:
+        assert isinstance(one.data, ModalTable)
+        try:
+            return alone(self._member(one, with_effects=with_effects), self._start)
+        except OutsideModel as error:
+            raise OutsideModel(f"{one.name} at {one.temperature_c:g} degC: {error}") from None
+
+    @property
+    def _start(self) -> CoreLaw:
+        tables = [one.data for one in self.every if isinstance(one.data, ModalTable)]
+        return start_of(tables, [self.specimens[one.specimen - 1] for one in self.every])
+
+    def _member(self, one: AtTemperature, *, with_effects: bool) -> Member:
+        assert isinstance(one.data, ModalTable)
+        specimen = self.specimen(one)
+        if not isinstance(specimen, Specimen):
+            return member_of(one.data, specimen)
+        # A plate's motions are dear, and the same at all of its temperatures.
+        key = one.specimen, with_effects
+        if key not in self._plates:
+            its = [
+                o.data for o in self.every if o.specimen == one.specimen and isinstance(o.data, ModalTable)
+            ]
+            most = max(its, key=lambda table: float(table.mode.max()))
+            reach = reach_over(max(its, key=lambda table: float(table.frequency_hz.max())).frequency_hz)
+            widen = partial(widened, report=lambda fraction: None, reach_hz=reach) if with_effects else None
+            self._plates[key] = member_of(most, specimen, widen)
+        return replace(self._plates[key], table=one.data)
+
+    _plates: dict[tuple[int, bool], Member] = field(default_factory=dict)
