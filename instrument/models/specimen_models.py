@@ -23,6 +23,8 @@ from instrument.progress import Progress, quiet
 
 CERTIFIED = 1e-4
 """Estimated relative error above which the reduced model is not believed."""
+_WORST = 3
+"""Points that are solved in full where the estimate says so: 50 ms each."""
 
 
 @dataclass(frozen=True)
@@ -127,6 +129,18 @@ class Models:
         return velocity(omega, x, self.specimen.reads) * self.specimen.drive_amplitude
 
     def uncertified(self, law: CoreLaw, frequency_hz: Array) -> bool:
-        """Whether some point of a law is beyond what the reduced model is certified for. Shape (points,)."""
+        """Whether some point of a law is beyond what the reduced model is certified for. Shape (points,).
+
+        Estimated by residuals, an error is a thousand times too large on a plate that is held nowhere:
+        where it is large the worst points are solved in full.
+        """
         omega = 2 * np.pi * frequency_hz
-        return bool(np.any(self.reduced.estimated_error(omega, law.modulus(omega)) > CERTIFIED))
+        G = law.modulus(omega)
+        estimate = self.reduced.estimated_error(omega, G)
+        worst = np.argsort(estimate)[-_WORST:]
+        worst = worst[estimate[worst] > CERTIFIED]
+        if not len(worst):
+            return False
+        exact = displacement_direct(self.plate, self.damping, omega[worst], G[worst])
+        reduced = self.reduced.displacement(omega[worst], G[worst])
+        return bool(np.any(np.abs(reduced - exact) > CERTIFIED * np.abs(exact)))
