@@ -15,7 +15,7 @@ class PhaseOffsetEffect(Effect):
     name = "phase_offset"
     enters = "channel"
     source = "conditioners of two accelerometers, an integrator: matched to a degree, not better"
-    structures = frozenset({"beam", "shear-pair"})
+    structures = frozenset({"plate", "beam", "shear-pair"})
     parameters = (EffectParameter("phase", "rad", -0.5, 0.5, 0.02, spread=0.026),)
     chance = 0.02
     discriminating_test = "both sensors on one spot, or exchanged"
