@@ -16,17 +16,16 @@ import numpy as np
 from fitting.arrays import Array, Complex
 from fitting.diagnosis.channels import Channels
 from fitting.diagnosis.plate_answer import Asked, Motions, PlateAnswer, motions
+from fitting.diagnosis.plate_changes import PlateChanges
 from fitting.diagnosis.plate_poles import PLAIN
+from fitting.diagnosis.point_modulus import PointModulus
 from fitting.diagnosis.problem import DiagnosisProblem, NodeGrid, spans_of
-from fitting.diagnosis.strains import Reference, Strains
+from fitting.diagnosis.strains import Reference
 from fitting.diagnosis.unknowns import Unknowns, stepped
-from fitting.effects.base import Effect, ModulusAt, Strain
+from fitting.effects.base import Effect
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
-
-_H = 1e-4
-"""Step of differences, of the logarithm of a law's parameter."""
 
 
 class SweepResponse:
@@ -61,25 +60,21 @@ class SweepResponse:
         self.plate: EnrichedReducedPlate = plate or problem.plate.take(spans)
         if grid is problem.coarse and grid is not problem.fine:
             self.plate = self.plate.roughly
-        self._changing = [k for k, e in enumerate(self.effects) if type(e).change is not Effect.change]
+        self._changes = PlateChanges(problem, self._unknowns, self.plate)
+        self._modulus = PointModulus(problem, self._unknowns, self._changes, spans, reference or Reference())
         self._pitching = [k for k, e in enumerate(self.effects) if type(e).pitch is not Effect.pitch]
-        self._shifting = [k for k, e in enumerate(self.effects) if type(e).modulus is not Effect.modulus]
         each = self._unknowns.slices
         self._fitted = [n for n, q in enumerate(self.parameters) if every or not q.fixed]
-        moving_it = [n for k in self._changing for n in range(each[k].start, each[k].stop)]
+        moving_it = [n for k in self._changes.effects for n in range(each[k].start, each[k].stop)]
         self._moving_it = [n for n in moving_it if n in self._fitted]
         grid = grid or problem.fine
-        if self._shifting and (self._changing or self._pitching or not self.nuisances.change_nothing):
+        if self._modulus.effects and self._moves:
             # The modulus is another one in every pass.
             grid = problem.passes
         self.grid = grid
         self._last: tuple[bytes, _OfPlate] | None = None
         self._latest: tuple[CoreLaw, Array, _At] | None = None
         self._ready: tuple[Array, Asked, Motions] | None = None
-        self._latest_change: tuple[bytes, Change] | None = None
-        self._latest_law: tuple[CoreLaw, Complex] | None = None
-        self._strains = Strains(problem, self.plate, reference or Reference())
-        self._strained = bool(self._shifting) and any(s.name == "strain" for s in spans)
 
     def velocity(self, law: CoreLaw, u: Array) -> Complex:
         """Phasors in m/s. Shape (points,)."""
@@ -88,7 +83,7 @@ class SweepResponse:
     def with_derivatives(self, law: CoreLaw, u: Array) -> tuple[Complex, Complex]:
         """Phasors, and their derivatives to log parameters and then to `u`. Shape (parameters, points)."""
         at = self._with_slopes(law, u)
-        by_law = self._modulus_by_law(law, u) * (at.plate.slope * at.per_x)
+        by_law = self._modulus.by_law(law, u) * (at.plate.slope * at.per_x)
         count = len(self.nuisances)
         by_z = self._by_stated(at) if count else np.zeros((0, len(at.raw)))
         of_effects = [k for k in self._fitted if k >= count]
@@ -114,12 +109,10 @@ class SweepResponse:
         others = SweepResponse(self.problem, self.effects[:-1], self.grid)
         at = others._at(law, known)
         nodes, last = self.grid.nodes, self.effects[-1]
-        found = [others._change(k, known, self.plate) for k in others._changing]
-        if not self.nuisances.change_nothing:
-            found.append(self._stated_change(known[self._unknowns.stated]))
-        G, _ = others._bearing(law, others._of_law(law), at.plate.G)
-        asked = self._asked(G, reduce(Change.and_then, found, Change()))
-        by_start = [(self._moving(last.change(self.plate, u)), Change(), 1.0) for u in starts]
+        found = [others._changes.of(k, known, self.plate) for k in others._changes.effects]
+        G, _ = others._bearing(law, others._modulus.of_law(law), at.plate.G)
+        asked = self._asked(G, reduce(Change.and_then, [*found, *self._changes.stated(known)], Change()))
+        by_start = [(self._changes.moving(last.change(self.plate, u)), Change(), 1.0) for u in starts]
         solved = PlateAnswer(asked, motions([asked])[0], by_start)
         by_u = nodes.spread(np.stack([solved.heave_by_u, solved.pitch_by_u]), solved.poles, solved.poles)
         raw = at.per_x * (by_u[0] + at.pitch * by_u[1])
@@ -160,20 +153,14 @@ class SweepResponse:
 
     def _of_plate(self, law: CoreLaw, u: Array) -> "_OfPlate":
         """What goes with the plate and its core: one for all that only turns its base or reads it."""
-        G_law = self._of_law(law)
+        G_law = self._modulus.of_law(law)
         key = self._key(G_law, u)
         if self._last is None or self._last[0] != key:
             self._last = key, self._of_plate_anew(law, u, G_law)
         return self._last[1]
 
-    def _of_law(self, law: CoreLaw) -> Complex:
-        """Its modulus at every point; the latest is kept, for the starts of an effect beside one law."""
-        if self._latest_law is None or self._latest_law[0] is not law:
-            self._latest_law = law, law.modulus(self.problem.points.omega)
-        return self._latest_law[1]
-
     def _of_plate_anew(self, law: CoreLaw, u: Array, G_law: Complex) -> "_OfPlate":
-        G = self._modulus(law, u, G_law)
+        G = self._modulus.at(law, u)
         x, slope = self.problem.rational.with_derivative(G)
         if not self._moves:
             return _OfPlate(G, x, slope, np.zeros(len(G), complex), None, None)
@@ -183,7 +170,7 @@ class SweepResponse:
         changed = np.array([solved.heave - self.grid.rational.displacement(G_nodes), solved.pitch])
         more, turned = nodes.spread(changed, self.grid.unchanged_poles(G_nodes), solved.poles)
         x = x + more
-        if self._shifting:
+        if self._modulus.effects:
             _, plain_slope = self.problem.rational.with_derivative(smooth)
             slope = nodes.spread(solved.heave_by_G, solved.poles, solved.poles)
             x = x + (slope - plain_slope) * (G - smooth)
@@ -196,7 +183,7 @@ class SweepResponse:
         nearby = []
         for n in self._moving_it:
             k, h = self._unknowns.owner(n), self._unknowns.step(n, u)
-            up, down = (self._change(k, stepped(u, n, s * h), self.plate) for s in (1, -1))
+            up, down = (self._changes.of(k, stepped(u, n, s * h), self.plate) for s in (1, -1))
             nearby.append((up, down, 2 * h))
         stated = (self.nuisances, u[self._unknowns.stated]) if self.nuisances else None
         solved = PlateAnswer(asked, moved, nearby, stated)
@@ -214,7 +201,7 @@ class SweepResponse:
         """The modulus at the nodes, and the smooth one at every point that goes through it."""
         nodes = self.grid.nodes
         at_nodes = law.modulus(nodes.omega)
-        if not self._shifting:
+        if not self._modulus.effects:
             return at_nodes, G_law
         share = nodes.fit @ (G / G_law)
         return at_nodes * share, G_law * (nodes.plain @ share)
@@ -224,16 +211,17 @@ class SweepResponse:
         ready, self._ready = self._ready, None
         if ready is not None and np.array_equal(ready[0], u) and np.array_equal(ready[1].G, G):
             return ready[1:]
-        asked = self._asked(G, self._changes(u))
+        asked = self._asked(G, self._changes.every(u))
         return asked, motions([asked])[0]
 
     @property
     def _moves(self) -> bool:
         """Whether anything changes the plate or the base's motion."""
-        return bool(self._changing or self._pitching or not self.nuisances.change_nothing)
+        return bool(self._changes.effects or self._pitching or not self.nuisances.change_nothing)
 
     def _key(self, G_law: Complex, u: Array) -> bytes:
-        own = [u[self._unknowns.stated], *(self._unknowns.of(k, u) for k in self._changing + self._shifting)]
+        moving = self._changes.effects + self._modulus.effects
+        own = [u[self._unknowns.stated], *(self._unknowns.of(k, u) for k in moving)]
         return b"".join(part.tobytes() for part in (G_law, *own))
 
     def _asked(self, G: Complex, change: Change) -> Asked:
@@ -246,74 +234,15 @@ class SweepResponse:
         """What has to be solved there; None: nothing. `u` of shape (unknowns,)."""
         if not self._moves:
             return None
-        G_law = self._of_law(law)
+        G_law = self._modulus.of_law(law)
         if self._last is not None and self._last[0] == self._key(G_law, u):
             return None
-        G, _ = self._bearing(law, G_law, self._modulus(law, u, G_law))
-        return self._asked(G, self._changes(u))
+        G, _ = self._bearing(law, G_law, self._modulus.at(law, u))
+        return self._asked(G, self._changes.every(u))
 
     def know(self, asked: Asked, moved: Motions, u: Array) -> None:
         """The motions asked for there. `u` of shape (unknowns,)."""
         self._ready = u, asked, moved
-
-    def _changes(self, u: Array) -> Change:
-        found = [self._change(k, u, self.plate) for k in self._changing]
-        if not self.nuisances.change_nothing:
-            found.append(self._stated_change(u[self._unknowns.stated]))
-        return reduce(Change.and_then, found, Change())
-
-    def _stated_change(self, z: Array) -> Change:
-        """Of the stated numbers; the latest is kept, for the starts of an effect beside them."""
-        key = z.tobytes()
-        if self._latest_change is None or self._latest_change[0] != key:
-            self._latest_change = key, self.nuisances.change(self.plate, z)
-        return self._latest_change[1]
-
-    def _change(self, k: int, u: Array, plate: EnrichedReducedPlate) -> Change:
-        own = self._unknowns.of(k, u)
-        change = self._moving(self.effects[k].change(plate, own))
-        longer = self.effects[k].longer_m(own)
-        if longer and self.nuisances.masses:
-            moved = self.nuisances.masses_moved(plate, u[self._unknowns.stated], longer)
-            change = change.and_then(self._moving(moved))
-        return change
-
-    def _moving(self, change: Change | None) -> Change:
-        change = change or Change()
-        return change if self.problem.points.drive == "base" else change.at_rest
-
-    def _modulus(
-        self, law: CoreLaw, u: Array, G_law: Complex, strain: Strain | None = None, logs: Array | None = None
-    ) -> Complex:
-        """G* at every point; `strain` where something is a step away from what strains are known of.
-
-        Of many laws where their `logs` are given: shape (laws, points), as `G_law` then.
-        """
-        G = G_law
-        for k in self._shifting:
-            at = ModulusAt(law, self.problem.points, strain or self._strain(law, u), logs)
-            shifted = self.effects[k].modulus(at, self.problem.points, self._unknowns.of(k, u))
-            if shifted is not None:
-                G = G * (shifted / G_law)
-        return G
-
-    def _modulus_by_law(self, law: CoreLaw, u: Array) -> Complex:
-        omega = self.problem.points.omega
-        if not self._shifting:
-            return np.asarray(law.jacobian(omega) * law.values[:, None])
-        logs = np.log(law.values)
-        h = np.where(logs + _H < law.log_limits[1], _H, -_H)
-        others = np.vstack([logs, logs + np.diag(h)])
-        G = self._modulus(law, u, law.moduli(others, omega), self._strain(law, u), others)
-        return (G[1:] - G[0]) / h[:, None]
-
-    def _strain(self, law: CoreLaw, u: Array) -> Strain:
-        """Of the core at every point, softened by a share, over the reference."""
-        return self._strains.under(law, self._strain_key(u), lambda: self._changes(u))
-
-    def _strain_key(self, u: Array) -> bytes:
-        changing = b"".join(self._unknowns.of(k, u).tobytes() for k in self._changing)
-        return changing + u[self._unknowns.stated].tobytes()
 
     # Derivatives to unknown n.
 
@@ -323,7 +252,7 @@ class SweepResponse:
         found = np.zeros(len(omega), complex)
         h = self._unknowns.step(n, u)
         up, down = stepped(u, n, h), stepped(u, n, -h)
-        if k in self._changing and at.plate.by is not None:
+        if k in self._changes.effects and at.plate.by is not None:
             place = len(self.nuisances) + self._moving_it.index(n)
             by = at.plate.by.heave[place]
             found = found + at.per_x * (by + at.pitch * at.plate.by.turned[place] if self._pitching else by)
@@ -335,15 +264,12 @@ class SweepResponse:
             )
             if above is not None and below is not None:
                 found = found + (above - below) / (2 * h) * (at.per_x * at.plate.turned + at.lever)
-        if k in self._changing and self._strained:
-            # A changed plate strains its core otherwise.
-            nearby = self._change(k, up, self.plate), self._change(k, down, self.plate), 2 * h
-            strain = self._strains.along(law, self._strain_key(u), lambda: self._changes(u), nearby, h)
-            dG = (self._modulus(law, u, self._of_law(law), strain) - at.plate.G) / h
+        if k in self._changes.effects and self._modulus.strained:
+            nearby = self._changes.of(k, up, self.plate), self._changes.of(k, down, self.plate), 2 * h
+            dG = (self._modulus.along(law, u, nearby, h) - at.plate.G) / h
             found = found + at.per_x * at.plate.slope * dG
-        if k in self._shifting:
-            G_law = self._of_law(law)
-            dG = (self._modulus(law, up, G_law) - self._modulus(law, down, G_law)) / (2 * h)
+        if k in self._modulus.effects:
+            dG = (self._modulus.at(law, up) - self._modulus.at(law, down)) / (2 * h)
             found = found + at.per_x * at.plate.slope * dG
         return found
 

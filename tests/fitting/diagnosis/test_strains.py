@@ -8,8 +8,11 @@ import pytest
 
 from fitting.damping import viscous_damping
 from fitting.diagnosis.plate_answer import StrainedCore
+from fitting.diagnosis.plate_changes import PlateChanges
+from fitting.diagnosis.point_modulus import PointModulus
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.strains import Reference, Strains
+from fitting.diagnosis.unknowns import Unknowns
 from fitting.domain import domain_of
 from fitting.effects import CATALOGUE
 from fitting.effects.added_mass import PointMass
@@ -73,3 +76,44 @@ def test_strain_a_step_further_over_a_sharp_resonance_is_what_the_changed_plate_
     found = np.log(along / strains.under(*here)(softened))
     expected = np.log(exact(clamped.plate, 0.1, up) / exact(clamped.plate, 0.1, down)) / 2
     assert np.abs(found - expected).max() < 0.01 * np.abs(expected).max()
+
+
+def parts(clamped, *names):
+    effects = [CATALOGUE[name] for name in names]
+    unknowns = Unknowns(0, effects)
+    changes = PlateChanges(clamped.problem, unknowns, clamped.plate)
+    spans = [span for effect in effects for span in effect.spans]
+    return changes, PointModulus(clamped.problem, unknowns, changes, spans, Reference())
+
+
+def test_only_effects_that_change_a_plate_do_and_only_those_that_shift_a_modulus(clamped):
+    changes, modulus = parts(clamped, "added_mass", "amplitude_softening", "gain_error")
+    assert (changes.effects, modulus.effects, modulus.strained) == ([0], [1], True)
+    u = np.array([*MASS, 0.0, 1.0])
+    expected = with_mass(clamped.plate, MASS)
+    np.testing.assert_array_equal(changes.every(u).M, expected.M)
+    assert changes.key(u) == changes.key(u + np.array([0, 0, 0, 0.1, 0.1]))
+    assert changes.key(u) != changes.key(u + np.array([1e-3, 0, 0, 0, 0]))
+    assert changes.stated(u) == []
+    at_rest = parts(SimpleNamespace(problem=struck(clamped.problem), plate=clamped.plate), "added_mass")[0]
+    assert np.all(at_rest.every(MASS).load == 0)
+    assert np.any(expected.load != 0)
+
+
+def struck(problem):
+    return replace(problem, points=replace(problem.points, drive="force"))
+
+
+def test_a_softened_modulus_is_below_the_law_s_where_strain_is_largest_and_moves_with_the_law(clamped):
+    _, modulus = parts(clamped, "amplitude_softening")
+    k = np.array([0.1])
+    assert modulus.of_law(LAW) is modulus.of_law(LAW)
+    np.testing.assert_array_equal(modulus.at(LAW, 0 * k), LAW.modulus(OMEGA))
+    share = (modulus.at(LAW, k) / LAW.modulus(OMEGA)).real
+    strain = exact(clamped.plate, 0.0, Change())
+    # Told for 1 g, and driven at 1 m/s^2.
+    assert share.min() == pytest.approx(1 - 0.1 / 9.81, abs=5e-4)
+    assert abs(F_HZ[share.argmin()] - F_HZ[strain.argmax()]) < 0.5
+    # Softening goes by strain, the same under laws a step apart: a modulus moves as its law does.
+    by_law = modulus.by_law(LAW, k)
+    np.testing.assert_allclose(by_law[0], modulus.at(LAW, k), rtol=1e-3)
