@@ -17,8 +17,9 @@ from fitting.diagnosis.result import FoundEffect
 from fitting.diagnosis.stage import found_effects
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.effects.base import Effect
-from fitting.temperature.joint import ShiftedFit, TemperatureProblem, fit_shifted
+from fitting.temperature.joint import TemperatureProblem, fit_shifted
 from fitting.temperature.members import Alone, Begun, Joined
+from fitting.temperature.shifted_fit import ShiftedFit
 
 REFUSED = 1e-3
 """Tail probability below which one law is refused."""

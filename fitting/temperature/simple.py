@@ -11,7 +11,7 @@ import numpy as np
 
 from fitting.digits import two_digits
 from fitting.temperature.causes import REFUSED, Cause, explains
-from fitting.temperature.joint import ShiftedFit
+from fitting.temperature.shifted_fit import ShiftedFit
 from fitting.temperature.thermometers import misread, rising
 
 _POINTS = 25

@@ -13,7 +13,7 @@ from scipy.optimize import brentq, least_squares
 
 from fitting.arrays import Array
 from fitting.chances import chi2_above
-from fitting.temperature.joint import ShiftedFit
+from fitting.temperature.shifted_fit import ShiftedFit
 from fitting.temperature.shifts import Shift
 
 _APART_K = 1e-6

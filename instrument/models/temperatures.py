@@ -15,8 +15,9 @@ from fitting.identification.uncertainty import Uncertainty
 from fitting.structures import AnySpecimen
 from fitting.sweep import Sweep
 from fitting.temperature.causes import Cause, causes_of, common, explains
-from fitting.temperature.joint import ShiftedFit, TemperatureProblem, fit_shifted
+from fitting.temperature.joint import TemperatureProblem, fit_shifted
 from fitting.temperature.members import Alone
+from fitting.temperature.shifted_fit import ShiftedFit
 from fitting.temperature.shifts import Kind, Shift
 from fitting.temperature.simple import Verdict, in_doubt, judge, serving
 from fitting.temperature.thermometers import each_its_own, rising

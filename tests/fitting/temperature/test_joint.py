@@ -7,6 +7,7 @@ from shear_pair_temperatures import LOG_A, POINTS, REFERENCE, T, begun, fitted, 
 
 from fitting.bent_law import BentLaw
 from fitting.temperature.joint import TemperatureProblem
+from fitting.temperature.shifted_fit import ShiftedFit
 from fitting.temperature.shifts import Shift
 from fitting.temperature.sweeps import Sweeps
 
@@ -26,6 +27,7 @@ def apart():
 
 def test_shifts_and_the_law_at_the_reference_are_found_within_their_errors(found):
     _, fit, _ = found
+    assert isinstance(fit, ShiftedFit)
     assert fit.converged
     assert fit.log_shift[1] == fit.log_shift_errors[1] == 0.0
     off = (fit.log_shift - LOG_A)[[0, 2]] / fit.log_shift_errors[[0, 2]]
