@@ -1,4 +1,14 @@
-"""What can be done for one candidate without knowing of the others: any process can do it."""
+"""Fits of one candidate, an effect or two, that need nothing of the others: any process can make them.
+
+What the words mean here:
+
+    form          one variant of an effect: its name and the variant's number
+    start         the unknowns that a fit begins from
+    rough fit     some steps from a start; it may be followed to its end, or dismissed
+    wide valley   the same fit with readings taken for a few percent and stated numbers at their word: far
+                  starts find their way there (`wide_valley.py`)
+    goal          chi-square that a rival must come down to, or it is given up
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -33,7 +43,7 @@ State = list[Known]
 
 @dataclass(frozen=True)
 class FirstLook:
-    """A first look at an effect."""
+    """A first look at an effect: its rough fits, and what is known of its forms by them."""
 
     name: str
     fits: list[Refitted]
@@ -53,7 +63,7 @@ class CandidateFits:
         }
 
     def form(self, form: Form) -> Effect:
-        """The effect itself."""
+        """The effect that a form stands for."""
         name, number = form
         return self.effects[name].variants()[number]
 
@@ -66,7 +76,7 @@ class CandidateFits:
         return [c.known for c in self.candidates[name]]
 
     def learn(self, name: str, state: State) -> None:
-        """What another process has found."""
+        """Take over what another process has found of an effect."""
         for candidate, known in zip(self.candidates[name], state, strict=True):
             candidate.learn(known)
 
@@ -80,7 +90,7 @@ class CandidateFits:
         return self._best_laws(self.none, effect, laws)
 
     def other_laws_beside(self, one: tuple[Refitted, str, float]) -> list[Refitted]:
-        """The same beside a fit of another effect.
+        """Fits with each of the laws of an effect beside a fit of another effect.
 
         None where the law that is freest to bend does not come down to `goal`.
         """
@@ -101,7 +111,7 @@ class CandidateFits:
         laws: Sequence[CoreLaw],
         begun: Sequence[Refitted] = (),
     ) -> list[Refitted]:
-        """To the end; some have `begun` roughly."""
+        """The best of some laws, fitted to the end; those in `begun` have been fitted roughly."""
         response = response_of(self.problem, [*before.effects, effect])
         coarse = response_of(self.problem, [*before.effects, effect], self.problem.coarse)
         rough = [refit(coarse, self.evidence, law, before.u, tolerance=ROUGH) for law in laws]
@@ -135,7 +145,7 @@ class CandidateFits:
         return FirstLook(name, fits, self.state(name))
 
     def beside_the_best(self, one: tuple[str, State, Refitted]) -> "FirstLook":
-        """The same, where another effect explains everything: from its law, if it can do the same there."""
+        """`begun` where another effect explains everything: from its law, if this one can do so there."""
         name, state, best = one
         if self.effects[name].laws(self.none.law, self.problem.points):
             return FirstLook(name, self.other_laws(self.effects[name]), [])
@@ -195,17 +205,17 @@ class CandidateFits:
         return [((name, k), s, rival) for k, c in each if c.known.elsewhere is None for s in c.further_starts]
 
     def set_out(self, one: tuple[Form, Start, float]) -> Refitted:
-        """A few steps from one start."""
+        """A fit that has gone a few steps from one start."""
         (name, number), start, _ = one
         return self.candidates[name][number].set_out(start)
 
     def gone_on(self, one: tuple[Form, Refitted, float]) -> Refitted:
-        """The same followed roughly; `rival` as `refit` takes it."""
+        """What has set out, followed roughly; `rival` as `refit` takes it."""
         (name, number), begun, rival = one
         return self.candidates[name][number].gone_on(begun, rival)
 
     def far(self, one: tuple[Form, Known]) -> Known:
-        """Rough fits of a form in wide valleys; of what is known of it nothing else, for that is known."""
+        """Rough fits of a form in wide valleys, and nothing else of it: the rest is known already."""
         (name, number), known = one
         candidate = self.candidates[name][number]
         candidate.learn(known)
@@ -229,14 +239,14 @@ class CandidateFits:
         return _best_first([(form, f) for form, c in forms for f in c.far])[: SEARCH.finished]
 
     def everywhere(self, one: tuple[str, State]) -> list[Refitted]:
-        """From starts not followed so far; the best to the end."""
+        """An effect from all starts not followed so far; the best of them to the end."""
         name, state = one
         self.learn(name, state)
         fits = [(c, f) for c in self.candidates[name] for f in [*c.elsewhere, *c.everywhere]]
         return [c.finished(f) for c, f in _best_first(fits)[: SEARCH.finished]]
 
     def look(self, one: tuple[Refitted, Sequence[Form]]) -> list[list[Start]]:
-        """Starts of second effects beside a fit, of each."""
+        """Starts of second effects beside a fit, a list for each."""
         return self._looks(one, self.evidence)
 
     def _looks(self, one: tuple[Refitted, Sequence[Form]], evidence: Evidence) -> list[list[Start]]:
@@ -251,7 +261,7 @@ class CandidateFits:
         return rough and self.ended((rough, one[3]))
 
     def near(self, one: tuple[Refitted, Form, list[Start], float]) -> Refitted | None:
-        """The same roughly."""
+        """A second effect beside a fit, followed roughly."""
         before, form, starts, goal = one
         effect = self.form(form)
         candidate = CandidateFit(self.problem, self.evidence, before, effect, starts, goal, one=True)
@@ -265,7 +275,7 @@ class CandidateFits:
         return kept(response, self.evidence, pair.law, u)
 
     def look_wide(self, one: tuple[Refitted, Sequence[Form]]) -> list[list[Array]]:
-        """Where second effects are to begin beside a fit in a wide valley, of each.
+        """Starts of second effects beside a fit in a wide valley, a list for each.
 
         By a linear step weighed as the readings are; where a place is to be found, as it is there too. Shape
         (parameters,) each.
@@ -311,7 +321,7 @@ class CandidateFits:
         return self._from(wide, brief=True)
 
     def roughly(self, brief: Refitted) -> Refitted:
-        """The same followed roughly."""
+        """What has gone a few steps, followed roughly as the readings are."""
         return self._from(brief)
 
     def _from(self, fitted: Refitted, *, brief: bool = False) -> Refitted:

@@ -1,6 +1,6 @@
 """Whether what a fit leaves is random: its size, its signs, its memory along frequency.
 
-Thresholds are those that clean sweeps of a solid plate pass (docs/diagnosis.md says how they were found).
+Thresholds are those that clean sweeps of a solid plate stay below (`fitting.diagnosis.thresholds`).
 """
 
 from collections.abc import Iterator

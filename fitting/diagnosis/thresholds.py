@@ -1,7 +1,8 @@
 """Every number that a diagnosis is decided by, and why it is what it is.
 
 `VERDICT` decides what is said, `SEARCH` only what is looked at on the way: more of it costs time and finds no
-other verdict, unless the cause was missed. How the verdict's numbers were found: docs/diagnosis.md.
+other verdict, unless the cause was missed. What each is for: docs/diagnosis-method.md; how often the verdicts
+are right: docs/evidence/diagnosis.md.
 """
 
 from dataclasses import dataclass

@@ -1,7 +1,8 @@
 """The reduced plate widened so that it can carry every effect: small matrices, columns in named groups.
 
-The first columns are the unchanged plate's own (`ReducedPlate`). Each `Span` adds the few motions
-that its effects need beside them. A fit takes the columns of its effects alone.
+A column is one motion of the plate; motions are sums of columns. The first columns are the unchanged
+plate's own (`ReducedPlate`). Each `Span` adds the few motions that its effects need beside them. A fit takes
+the plate's own columns and those of its effects alone.
 """
 
 from collections.abc import Iterable, Sequence

@@ -32,7 +32,7 @@ WEIGHT_OF_PARAMETERS = 0.25
 CRITERION = 0.05
 """Largest relative difference at which the paper stops."""
 MOST_STEPS = 1000
-"""A bound: Table 5 comes to rest in about 150 (docs/paper.md)."""
+"""A bound: Table 5 comes to rest in 292 (docs/paper.md)."""
 PLAIN_STEPS = 60
 """So many steps are exactly the printed ones; later every `_HURRY_EVERY`-th is extrapolated."""
 _HURRY_EVERY = 10

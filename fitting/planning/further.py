@@ -2,7 +2,8 @@
 
 The unknowns of a rival are those of its fit and the model's own errors in each segment, which it shares with
 further passes of the same segments: what a fit took for the plate's error at one level it expects at another.
-Everything is linear about the rival's mode.
+Everything is linear about the rival's likeliest values. A *rival* is one explanation of a diagnosis; a
+*member* is one file's sweep among those that were diagnosed together.
 """
 
 from dataclasses import dataclass

@@ -1,10 +1,14 @@
 """A beam's matrices on a basis of its modes, and what effects ask for, on motions beside them.
 
-What the fit of a sound beam needs are modes at a few moduli of the core. Where a held end yields it moves as
-it cannot there: those motions are columns of their own (`root`), and so are those of a treatment that the
-clamp does not hold (`treatment`). In all modes the faces stretch against each other in the proportion of
-their stiffness: faces of another one stretch apart (`faces`). Matrices go by the names that a plate's have
-(`fitting.effects`).
+A sound beam is fitted on its modes at a few moduli of the core. Effects let it move as those modes do not, so
+further columns stand beside them, in groups:
+
+    root        motions of a held end that yields
+    treatment   those of a treatment that the clamp does not hold
+    faces       the faces stretching against each other otherwise than in the proportion of their stated
+                stiffness, as they do where one of them is stiffer than stated
+
+Matrices go by the names that a plate's have (`fitting.effects`).
 """
 
 from dataclasses import dataclass, replace

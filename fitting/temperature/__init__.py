@@ -1,1 +1,1 @@
-"""One law in reduced frequency from sweeps at several temperatures."""
+"""One law in reduced frequency from sweeps or tables of modes at several temperatures."""

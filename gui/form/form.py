@@ -1,4 +1,4 @@
-"""One file as a form: a tree of its tables, a field for each value, what is wrong beside it as one types."""
+"""One file as a form: a tree of its tables, a field for each value, and faults beside them as one types."""
 
 from collections.abc import Callable
 from functools import partial

@@ -106,7 +106,7 @@ def counted(line, group, method, only):
 
 
 def table(lines):
-    """Rows of docs/uncertainty.md: percent that hold the truth, by method and quantity."""
+    """Rows of docs/evidence/uncertainty.md: percent that hold the truth, by method and quantity."""
     fitted = [line for line in lines if "methods" in line]
     said = [f"{len(lines)} specimens, {len(lines) - len(fitted)} refused"]
     names = list(fitted[0]["methods"]) if fitted else []
