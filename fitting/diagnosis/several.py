@@ -38,7 +38,7 @@ from fitting.laws import CoreLaw
 from fitting.nuisances import Nuisances
 from fitting.reduced import ReducedPlate
 
-KELVIN = 0.3
+KELVIN = 0.1
 """Standard deviation of how much warmer a core is in one file than in another where nobody took care."""
 
 
