@@ -113,7 +113,10 @@ class CandidateFit:
             ]
             heard = {self._form(u) for _, u in promising}
             promising += [s for s in self._one_a_form() if self._form(s[1]) not in heard]
-            self._known.near = self._from([*promising, *self._decades_off(promising)])
+            near = self._from([*promising, *self._decades_off(promising)])
+            if self.effect.from_afar:
+                near = sorted([*near, *self.quick], key=_chi2)
+            self._known.near = near
         return self._known.near
 
     def _decades_off(self, followed: Sequence[Start]) -> list[Start]:

@@ -1,6 +1,6 @@
 """An effect among several files or spots: common to all of them, or of one."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -20,12 +20,6 @@ _ALONE = 1 / 30
 """Chance that what would be in all data is in a part of them alone, over that it is there at all: one channel
 reads all spots of a file, and one plate has on it, and one rig does, in every file what they do in one. A
 judgement."""
-_OF_A_SPOT = ("observation", "channel")
-"""Where an effect enters that may be of one spot alone."""
-_OF_THE_PLATE = ("stiffness", "damping", "core law")
-"""Where it enters that is of the plate itself, however it is driven."""
-_STAYS = ("mass", "load")
-"""Where it enters that is on the plate, or of the rig that shakes it: seldom of one file alone."""
 
 
 class Place(NamedTuple):
@@ -35,27 +29,6 @@ class Place(NamedTuple):
     """From 1."""
     pickup: int | None = None
     """From 0; None where the file has one spot."""
-
-
-def among(
-    effect: Effect,
-    files: int,
-    spots: Sequence[int],
-    *,
-    one_plate: bool = False,
-    mounted: Sequence[int] = (),
-) -> Effect:
-    """An effect among so many files, of which some have several spots.
-
-    Of `one_plate`, measured again in every file, what is of the plate itself is of all of them, and what is
-    on it, or of the rig, seldom of one alone. `mounted` as `OfFiles` has it.
-    """
-    if files == 1 and not (spots and effect.enters in _OF_A_SPOT):
-        return effect
-    by_spot = tuple(spots) if effect.enters in _OF_A_SPOT else ()
-    apart = not (one_plate and effect.enters in _OF_THE_PLATE)
-    stays = one_plate and effect.enters in _STAYS
-    return OfFiles(effect, files, spots=by_spot, apart=apart, stays=stays, mounted=tuple(mounted))
 
 
 class OfFiles(Effect):
@@ -87,7 +60,7 @@ class OfFiles(Effect):
         self.apart, self.stays = apart, stays
         self.mounted = mounted or tuple(range(1, files + 1))
         self.inner, self.files, self.file, self.spots, self.spot = inner, files, file, spots, spot
-        own = self._own
+        own = self.own
         where = [EffectParameter(FILE, "1", float(EACH), float(files), float(file), neutral=None, fixed=True)]
         self.copies = len(own) if file == EACH else 1
         """How many times it has the unknowns of `inner`."""
@@ -119,14 +92,14 @@ class OfFiles(Effect):
         return mounted if self.needs_mounting or not mounted else file
 
     @property
-    def _own(self) -> list[int]:
-        """The numbers it goes by."""
+    def own(self) -> list[int]:
+        """The numbers it goes by, each with a size of its own where they have one."""
         return sorted({of for k in range(1, self.files + 1) if (of := self._of(k)) > 0})
 
     def places(self, place: Place) -> NDArray[np.intp]:
         """Which of its unknowns are those of `inner` for some data. Shape (parameters of inner,)."""
         count = len(self.inner.parameters)
-        copy = self._own.index(self._of(place.file)) if self.file == EACH else 0
+        copy = self.own.index(self._of(place.file)) if self.file == EACH else 0
         return copy * count + np.arange(count)
 
     def bare_shift(self, bare: BarePlateModes, u: Array) -> Array:
@@ -155,7 +128,7 @@ class OfFiles(Effect):
         each = [self.inner.within(one) for one in np.split(u[: -len(self._where)], self.copies)]
         found = []
         for parts in zip(*each, strict=True):
-            form = self._with(parts[0][0], self.file, self.spots, self.spot)
+            form = self.form(parts[0][0], self.file, self.spots, self.spot)
             found.append((form, np.concatenate([*(part for _, part in parts), self._where])))
         return tuple(found)
 
@@ -175,7 +148,7 @@ class OfFiles(Effect):
         return self.inner.needs >= CLAMP
 
     def variants(self) -> tuple[Effect, ...]:
-        forms, own = self.inner.variants(), self._own
+        forms, own = self.inner.variants(), self.own
         several = len(own) > 1
         numbers = [ALIKE, *own] if several and self.apart else [ALIKE]
         if several and self.needs_mounting:
@@ -183,14 +156,14 @@ class OfFiles(Effect):
         elif not several and 0 in self.mounted:
             # It has a meaning there alone: that is its only form.
             numbers = own
-        found: list[Effect] = [self._with(form, k, self.spots, _ALL) for k in numbers for form in forms]
-        found += [self._with(form, ALIKE, self.spots, k) for k in self.spots for form in forms]
+        found: list[Effect] = [self.form(form, k, self.spots, _ALL) for k in numbers for form in forms]
+        found += [self.form(form, ALIKE, self.spots, k) for k in self.spots for form in forms]
         if several and self.spots and self.inner.enters == "observation":
             # A laser that was aimed once more is off once.
-            found += [self._with(form, own[0], self.spots, self.spots[0]) for form in forms]
+            found += [self.form(form, own[0], self.spots, self.spots[0]) for form in forms]
         return tuple(found)
 
-    def _with(self, inner: Effect, file: int, spots: tuple[int, ...], spot: int) -> "OfFiles":
+    def form(self, inner: Effect, file: int, spots: tuple[int, ...], spot: int) -> "OfFiles":
         """Another form of it."""
         return OfFiles(
             inner,

@@ -167,6 +167,12 @@ class DiagnosisProblem:
         """
         return None
 
+    def feels(self, law: CoreLaw, v: Complex) -> Complex:
+        """How the reading feels the core, d ln v / d ln G*, the specimen as stated. Shape (points,)."""
+        G = law.modulus(self.sweep.omega)
+        _, by_G = self.rational.with_derivative(G)
+        return np.asarray(1j * self.sweep.omega * by_G * G * self.points.acceleration_m_s2 / v)
+
     def adjusted(self, z: Array, errors: Array) -> tuple[Adjusted, ...]:
         """The stated numbers as a fit has them, and their errors, in standard deviations of tolerances.
 

@@ -30,12 +30,16 @@ from fitting.diagnosis.strains import Reference
 from fitting.diagnosis.unknowns import STATED_NUMBER
 from fitting.diagnosis.wandering import Wandering
 from fitting.effects.base import Effect
+from fitting.effects.temperature_drift import time_scale
 from fitting.errors import OutsideModel
 from fitting.identification.adjusted import Adjusted
 from fitting.identification.validation import rms
 from fitting.laws import CoreLaw
 from fitting.nuisances import Nuisances
 from fitting.reduced import ReducedPlate
+
+KELVIN = 0.1
+"""Standard deviation of how much warmer a core is in one file than in another where nobody took care."""
 
 
 @dataclass(frozen=True)
@@ -166,12 +170,28 @@ class SeveralProblem(DiagnosisProblem):
             block = np.zeros((len(own), len(v)), complex)
             block[:, part] = own
             rows.append(block)
+        rows.append(self.own_temperatures(law, v) * v)
         if self.wandering is not None:
             rows.append(self.wandering.rows(np.log(self.sweep.frequency_hz), self.file_of_points, v))
             rows.append(self.own_cores(law, v) * v)
         elif (alike := self.alike) > 0:
             rows.append(alike * np.array([v, 1j * v]))
         return np.concatenate(rows)
+
+    def own_temperatures(self, law: CoreLaw, v: Complex) -> Complex:
+        """What a core by `KELVIN` warmer in one file than in the others does to ln of the reading.
+
+        Shape (files, points); none of specimens that are exactly as stated.
+        """
+        files = sorted({b.file for b in self.belongs})
+        rows = np.zeros((len(files), len(v)), complex)
+        if self.specimen.exact or len(files) < 2:
+            return rows[:0]
+        for k, (m, b, part) in enumerate(zip(self.members, self.belongs, self.starts_at, strict=True)):
+            own, omega = law_at(law, k), m.sweep.omega
+            change = np.log(own.modulus(omega * time_scale(KELVIN)) / own.modulus(omega))
+            rows[files.index(b.file), part] = change * m.feels(own, v[part])
+        return rows
 
     def own_cores(self, law: CoreLaw, v: Complex) -> Complex:
         """What a core a little stiffer in one file than in the others does to ln of the reading, by `LEVEL`.

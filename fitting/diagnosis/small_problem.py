@@ -105,12 +105,6 @@ class SmallProblem(DiagnosisProblem):
         """More where no law of the usual freedom will do."""
         return BENT_MORE if self.misfit else 1.0
 
-    def feels(self, law: CoreLaw, v: Complex) -> Complex:
-        """How the reading feels the core, d ln v / d ln G*. Shape (points,)."""
-        G = law.modulus(self.sweep.omega)
-        _, by_G = self.rational.with_derivative(G)
-        return np.asarray(1j * self.sweep.omega * by_G * G * self.points.acceleration_m_s2 / v)
-
     def noise(self, noise: Noise) -> Noise:
         """With the misfit: of one size over `REACH`, however many points are there."""
         if not self.misfit:

@@ -164,6 +164,15 @@ class Effect:
     causes: ClassVar[int] = 1
     """How many things it supposes at once."""
 
+    between_files: ClassVar[bool] = False
+    """Whether it says how one file differs from the others: one alone cannot show it."""
+
+    from_afar: bool = False
+    """Whether it is looked for in a wide valley too, however well a fit without it does.
+
+    Law and stated numbers may have found a valley of their own to do its work.
+    """
+
     extends: ClassVar[str | None] = None
     """A simpler effect that this one contains."""
 

@@ -12,6 +12,11 @@ C_1, C_2_K = 9.0, 120.0
 """Of a damping polymer well above its glass transition; another pair scales the kelvins found."""
 
 
+def time_scale(warmer_k: Array | float) -> Array:
+    """a_T: what a core's times shorten by where it is so much warmer. Of the shape of `warmer_k`."""
+    return np.asarray(10 ** (-C_1 * warmer_k / (C_2_K + warmer_k)))
+
+
 class TemperatureDriftEffect(Effect):
     """tau times a_T, log10 a_T = -C_1 T / (C_2 + T), T = warming (1 - exp(-t / time_constant))."""
 
@@ -37,7 +42,7 @@ class TemperatureDriftEffect(Effect):
 
     def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex:
         kelvin = -u[0] * np.expm1(-points.time_s / u[1])
-        return G(10 ** (-C_1 * kelvin / (C_2_K + kelvin)))
+        return G(time_scale(kelvin))
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"the core warms by {u['warming']:.2g} K in the end, within {u['time_constant'] / 60:.2g} min"

@@ -7,11 +7,11 @@ from time import perf_counter
 import numpy as np
 from threadpoolctl import threadpool_limits
 
+from fitting.diagnosis.among import among
 from fitting.diagnosis.confounded import last_word
 from fitting.diagnosis.diagnose import diagnose_task, seen_in_channels
 from fitting.diagnosis.joining import joined
 from fitting.diagnosis.joint import fit_of
-from fitting.diagnosis.of_files import among
 from fitting.diagnosis.prediction import held_out
 from fitting.diagnosis.result import FoundEffect, ParameterEstimate
 from fitting.errors import OutsideModel

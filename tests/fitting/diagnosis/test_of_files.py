@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from fitting.diagnosis.of_files import EACH, OfFiles, Place, among
+from fitting.diagnosis.among import among
+from fitting.diagnosis.of_files import EACH, OfFiles, Place
 from fitting.effects import CATALOGUE
 
 CLAMP, GAIN, STIFFNESS = (CATALOGUE[n] for n in ("clamp_compliance", "gain_error", "substrate_stiffness"))

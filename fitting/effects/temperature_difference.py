@@ -1,0 +1,36 @@
+"""The core of one file was at another temperature than that of the others."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from fitting.arrays import Array, Complex
+from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter, ModulusAt, Points
+from fitting.effects.enriched_plate import EnrichedReducedPlate
+from fitting.effects.temperature_drift import time_scale
+
+
+class TemperatureDifferenceEffect(Effect):
+    """G*(omega a_T) in the file that is warmer, one temperature in all of it.
+
+    One file alone has a law of its own temperature: nothing shows there.
+    """
+
+    name = "temperature_difference"
+    enters = "time"
+    source = "Williams, Landel and Ferry, J. Am. Chem. Soc. 77 (1955)"
+    structures = EVERY_STRUCTURE
+    between_files = True
+    parameters = (EffectParameter("warmer", "K", -25.0, 25.0, 2.0, spread=3.0),)
+    chance = 0.05
+    discriminating_test = "the first file measured again, a thermocouple at the core in each"
+
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
+        return "it lies between files, and there is one"
+
+    def modulus(self, G: ModulusAt, points: Points, u: Array) -> Complex:
+        return G(np.full(len(points.omega), time_scale(u[0])))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        warmer = u["warmer"]
+        return f"the core is {abs(warmer):.2g} K {'warmer' if warmer > 0 else 'colder'} than in the others"
