@@ -68,6 +68,7 @@ STATED: dict[str, StatedNumber] = {s.name: s for s in _STATED}
 """Every kind of stated number by its name, in the order in which results list them."""
 OF_THEORY = {
     "held_width": StatedNumber("held_width", "m", 0.0, "what clamps do to a beam's width, as a shorter span"),
+    "core_stretch": StatedNumber("core_stretch", "1", 0.0, "how far a beam's core lets its faces move apart"),
     "free_edges": StatedNumber("free_edges", "1", 0.0, "what free edges of a pair's discs take of G A/t"),
 }
 """Numbers that a theory leaves open: nobody states them, and no file names them."""

@@ -1,7 +1,8 @@
 """What the theory of a small structure gets wrong, as changes of its response of known size.
 
 Its resonances lie a little elsewhere and are damped a little otherwise, each by itself: another one about
-every octave. What its width does is one number for all of them.
+every octave. What its width does is one number for all of them. It is read, and driven, on one of two faces
+that move apart, nobody says which.
 """
 
 from dataclasses import replace
@@ -9,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from fitting.arrays import Array, Complex
+from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.laws import CoreLaw
 from fitting.structures.small import SmallSpecimen, SmallSystem, displacement
 
@@ -39,7 +41,17 @@ def theory_rows(
     rows = [error.frequency * share * dv for share in shares]
     rows += [shift * dv for shift in error.together]
     rows += [error.loss * share * by_loss for share in shares]
-    return rows
+    return rows + [per_x * displacement(side, omega, G) for side in _other_sides(system, own)]
+
+
+def _other_sides(system: SmallSystem, own: EnrichedReducedPlate) -> list[EnrichedReducedPlate]:
+    """Itself, read or driven by what a face moves apart, one standard deviation."""
+    found = []
+    for name in ("observe", "load"):
+        if f"apart.{name}" in system.vector_names:
+            row = system.vector(f"apart.{name}")[system.group == "plate"]
+            found.append(replace(own, **{name: row}))
+    return found
 
 
 def octaves(omega: Array) -> Array:

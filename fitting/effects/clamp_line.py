@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from fitting.arrays import Array, Complex
-from fitting.effects.base import CLAMP, ONE_PIECE, ROOT, Effect, EffectParameter, Points
+from fitting.effects.base import CLAMP, ROOT, Effect, EffectParameter, Points
 from fitting.effects.change import Change
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.effects.full_plate import FullPlate, Snapshot
@@ -102,10 +102,10 @@ class ClampLineEffect(Effect):
 
 
 class ClampLineOfBeamEffect(ClampLineEffect):
-    """Of a beam, whose matrices know its free length."""
+    """Of a beam, whose matrices know its free length; of one driven in its centre, both halves alike."""
 
     spans = ()
-    needs = CLAMP | ONE_PIECE
+    needs = CLAMP
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return None
@@ -115,7 +115,7 @@ class ClampLineOfBeamEffect(ClampLineEffect):
         x, y = plate.pickup
         place = (x + float(u[0] * u[1])) * plate.length_m / length
         observe = plate.row(place, y) - plate.pickup_row
-        return replace(moved(plate, {"length": float(u[0])}), observe=observe)
+        return replace(moved(plate, {"span": float(u[0])}), observe=observe)
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"the beam is free over {1e3 * u['dlength']:+.1f} mm more than its stated length"

@@ -19,8 +19,9 @@ from fitting.arrays import Array, Complex
 from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.model_error import ModelError
 from fitting.specimen import METAL_PER_K, Core, Drive, Face, Reading, Specimen
+from fitting.structures.beam_apart import APART_WITHIN, open_by_poisson
 from fitting.structures.beam_error import HELD_WIDTH_WITHIN, free_layer_error, sandwich_error, shortened_m
-from fitting.structures.beam_parts import BeamSection, parts_of
+from fitting.structures.beam_parts import PARTS, BeamSection, parts_of
 from fitting.structures.small import Parts
 from fitting.tolerances import OF_TEMPERATURE, STATED, STATED_PER_K
 
@@ -140,7 +141,14 @@ class Beam:
         # A base drives a wider beam by as much more.
         wide = ("width",) if self.force_m is not None else ()
         held = ("held_width",) if _HELD_ENDS[self.boundary] and not self.slender else ()
-        return (*(f"{layer}_{n}" for layer, numbers in layers for n in numbers), "length", *wide, *held)
+        across = ("core_stretch",) if self.parts_faces else ()
+        each = (f"{layer}_{n}" for layer, numbers in layers for n in numbers)
+        return (*each, "length", *wide, *held, *across)
+
+    @property
+    def parts_faces(self) -> bool:
+        """Whether a core lets two faces move apart."""
+        return self.core is not None and self.constraining is not None and not self.slender
 
     def parts(self) -> Parts:
         """For unit coefficients, on the basis of modes."""
@@ -163,11 +171,22 @@ class Beam:
             copies=self.copies,
             thickness_m=tuple(0.0 if x is None else x.thickness_m for x in layers),  # type: ignore[arg-type]
             both_sides=self.both_sides,
-            coefficients=tuple(replace(self, temperature_c=None).coefficients({}).real[:18].tolist()),
+            coefficients=tuple(replace(self, temperature_c=None).coefficients({}).real[:-1].tolist()),
             rigidity=self._rigidity,
             poisson=tuple(0.0 if x is None else x.poisson for x in layers),  # type: ignore[arg-type]
+            share=self._share,
             is_slender=self.slender,
         )
+
+    @property
+    def _share(self) -> float:
+        """Of the substrate in how far faces move apart: w is then where the mass is."""
+        b, v, c = self.substrate, self.core, self.constraining
+        if v is None or c is None:
+            return 0.0
+        m_b, m_v, m_c = (x.density_kg_m3 * x.thickness_m for x in (b, v, c))
+        twice = 2 if self.is_doubled else 1
+        return twice * (m_c + m_v / 2) / (m_b + twice * (m_c + m_v))
 
     @property
     def copies(self) -> int:
@@ -175,13 +194,14 @@ class Beam:
         return 2 if self.boundary == "centre-driven" else 1
 
     def coefficients(self, by: Mapping[str, float]) -> Complex:
-        """Three of the faces' stiffness, as much of it as clamps hold, three of slip, three of a free layer.
+        """Of the parts of `beam_shapes.BeamMatrices`, and the load. Shape (36,).
 
-        Then six of inertia, and the load. Shape (19,).
+        Four of the faces' stiffness, as much of it as clamps hold, 14 of the core, 13 of inertia.
         """
         b, c, v = (self._moved(name, by) for name in ("substrate", "constraining", "core"))
         span = self.span_m
-        L = span + by.get("length", 0.0) * (span / self.length_m)
+        # `span` is of one piece, where a clamp's line is elsewhere.
+        L = span + by.get("length", 0.0) * (span / self.length_m) + by.get("span", 0.0)
         held = (1.0 if self.held_width else 0.0) + by.get("held_width", 0.0) / (self.held_width_m or 1.0)
         width = (self.width_m + by.get("width", 0.0)) * self.copies
         E_b, h_b, m_b = _of_face(b)
@@ -191,14 +211,34 @@ class Beam:
         # Bending of a beam alike on both sides: its middle does not stretch, and every coating counts twice.
         twice = 2 if self.is_doubled else 1
         m_c, m_v = twice * m_c, (twice if c else 1) * m_v
-        K_0 = np.array(
-            [E_b * h_b / L, twice * E_c * h_c / L, (E_b * h_b**3 + twice * E_c * h_c**3) / 12 / L**3]
-        )
-        slip, free = np.zeros(3), np.zeros(3)
+        bending = np.array([E_b * h_b**3, twice * E_c * h_c**3]) / 12 / L**3
+        K_0 = np.array([E_b * h_b / L, twice * E_c * h_c / L, *bending])
+        slip, free, apart, moved_apart = np.zeros(3), np.zeros(3), np.zeros(8), [0.0] * 7
         d, e = H + (h_b + h_c) / 2, (h_c - h_b) / 2
         if v and c:
             slip = twice * np.array([L / H, d / H, d**2 / H / L])
-            inertia = [m_v / 4 * L, m_v / 4 * e, (m_v / 4 * e**2 + self._turning(b, c, v)) / L]
+            # What w_b = w - share a and w_c = w + (1 - share) a add to it: the mean, and the change across.
+            share = self._share
+            more = (h_c + H) / 2 * (1 - share) - (h_b + H) / 2 * share
+            stretch = L / H * np.exp(-by.get("core_stretch", 0.0))
+            apart = twice * np.array(
+                [
+                    *(more / H, more * d / H / L, (more**2 / H + H / 12) / L),
+                    # m rises as a parabola between the faces: two thirds on the average, 8/15 its square.
+                    *(2 / 3, 2 / 3 * d / L, 2 / 3 * more / L, 8 / 15 * H / L),
+                    0 if self.slender else stretch,
+                ]
+            )
+            # What its two faces differ by turns it.
+            turned = 0.0 if self.slender else m_v / 12
+            turning = m_v / 4 * e**2 + turned * (d - H) ** 2 + self._turning(b, c, v)
+            inertia = [m_v / 4 * L, m_v / 4 * e, turning / L]
+            moved_apart = [
+                (1 - share) * m_c - share * m_b + (1 / 2 - share) * m_v,
+                (1 - share) ** 2 * m_c + share**2 * m_b + ((1 / 2 - share) ** 2 + 1 / 12) * m_v,
+                *(2 / 3 * m_v, 2 / 3 * (1 / 2 - share) * m_v, 8 / 15 * m_v),
+                *(turned, turned * (d - H) / L),
+            ]
             mass = m_b + m_c + m_v
         else:
             sides = 2 if self.both_sides else 1
@@ -208,9 +248,11 @@ class Beam:
             free = self._young_per_shear * moments / np.array([L, L**2, L**3])
             inertia = [0.0, 0.0, self._turning(b, c, v) / L]
             mass = m_b + sides * m_v
-        M = np.array([mass * L, m_b * L, m_c * L, *inertia])
+        M = np.array([mass * L, m_b * L, m_c * L, *inertia, *(x * L for x in moved_apart)])
         load = width * mass * L if self.force_m is None else 1.0
-        return np.append(width * np.concatenate([K_0, held * K_0, slip, free, M]), load).astype(complex)
+        return np.append(width * np.concatenate([K_0, held * K_0, slip, free, apart, M]), load).astype(
+            complex
+        )
 
     def _turning(self, b: dict[str, float], c: dict[str, float], v: dict[str, float]) -> float:
         """Inertia of what turns with the sections, per area: of layers about their own middles, in kg."""
@@ -272,9 +314,10 @@ class Beam:
         if layers is not None:
             return sandwich_error(layers, self._poisson * self.width_m, frequency_hz, G)
         c = self.coefficients({})
-        L, mass = self.span_m, float(c[12].real / self.span_m)
-        axial = c[0] * L + G * c[9] * L
-        bending = c[2] * L**3 + G * c[11] * L**3 - (G * c[10] * L**2) ** 2 / axial
+        K_0, K_1, M = (c[PARTS[name]] for name in ("K_0", "K_1", "M"))
+        L, mass = self.span_m, float(M[0].real / self.span_m)
+        axial = K_0[0] * L + G * K_1[3] * L
+        bending = (K_0[2] + K_0[3]) * L**3 + G * K_1[5] * L**3 - (G * K_1[4] * L**2) ** 2 / axial
         return free_layer_error(bending, mass, self._poisson * self.width_m, frequency_hz)
 
     def _moved(self, name: str, by: Mapping[str, float]) -> dict[str, float]:
@@ -295,6 +338,8 @@ class Beam:
         """Named, else typical; of `held_width` what the theory leaves open, however exact the beam is."""
         if name == "held_width":
             return self.held_width_m * (HELD_WIDTH_WITHIN if self.held_width else 1.0)
+        if name == "core_stretch":
+            return self._stretch_open
         if self.exact:
             return 0.0
         typical = STATED[name].typical
@@ -302,11 +347,20 @@ class Beam:
             typical *= STATED_PER_K
         return float(self.tolerances.get(name, typical))
 
+    @property
+    def _stretch_open(self) -> float:
+        """Of how a core stretches, in the logarithm: by the theory, and by Poisson's ratio as stated."""
+        v = self.core
+        assert v is not None
+        stated = 0.0 if self.exact else self.tolerances.get("core_poisson", STATED["core_poisson"].typical)
+        return float(np.hypot(APART_WITHIN, open_by_poisson(v.thickness_m, self.width_m, v.poisson, stated)))
+
     def stated_number(self, kind: str) -> tuple[float, float, str]:
         """In SI, with the factor to the unit of results."""
         others = {"gain": (1.0, 1.0, "1"), "delay": (0.0, 1e6, "us"), "length": (self.length_m, 1e3, "mm")}
         others["width"] = self.width_m, 1e3, "mm"
         others |= {name: (x, 1e3, "mm") for name, x in self.places.items()}
+        others["core_stretch"] = 1.0, 1.0, "1"
         others["held_width"] = (self.held_width_m if self.held_width else 0.0, 1e3, "mm")
         if kind in others:
             return others[kind]

@@ -19,6 +19,7 @@ import scipy.linalg as la
 from numpy.typing import NDArray
 
 from fitting.arrays import Array
+from fitting.structures.beam_apart import ODD, Squeezed, stretched
 from fitting.structures.beam_shapes import (
     ORDER,
     BeamMatrices,
@@ -50,12 +51,16 @@ _NEGLIGIBLE = 1e-9
 """Of the basis' vectors, relative: what is in the others."""
 _APART = 1e-5
 """Of the faces' own stretching: what their modes have already."""
+_PARTED = 1e-5
+"""Of how far faces part by themselves."""
 _ELEMENTS = 200
 """Along the beam, w a cubic on each: of any column off by 1e-5, of ten modes by 1e-7."""
 
 
-PARTS = {"K_0": slice(0, 6), "K_1": slice(6, 12), "M": slice(12, 18)}
-"""Where their coefficients are."""
+PARTS = {"K_0": slice(0, 8), "K_1": slice(8, 22), "M": slice(22, 35)}
+"""Where their coefficients are; that of the load is the last."""
+_SLIP = slice(8, 11)
+"""Those of the core's shear."""
 
 
 @dataclass(frozen=True)
@@ -76,8 +81,10 @@ class BeamSection:
     """Of substrate and constraining layers in bending, by any common measure."""
     poisson: tuple[float, float, float]
     """Of substrate, core and constraining layer."""
+    share: float = 0.0
+    """Of the substrate in how far the faces move apart."""
     is_slender: bool = False
-    """Whether nothing of its width, nor of its faces' own shear, is counted."""
+    """Whether nothing of its width, nor of its faces' own shear and how they move apart, is counted."""
 
     @property
     def is_sandwich(self) -> bool:
@@ -103,7 +110,15 @@ class BeamSection:
             found[s.place["c"]] = False
         if self.is_doubled:
             found[s.place["b"]] = False
+        if not self.is_sandwich or self.is_slender:
+            found[s.place["a"]] = found[s.place["m"]] = False
         return found
+
+    @property
+    def of_core(self) -> NDArray[np.bool_]:
+        """Which are of how the core stretches across. Shape (size,)."""
+        place = self.shapes.place
+        return np.arange(self.shapes.size) >= min(place["a"].start, place["m"].start)
 
     def summed(self, which: str) -> Array:
         """K_0, K_1 or M over all unknowns, K_1 for a modulus of one. Shape (size, size)."""
@@ -112,15 +127,16 @@ class BeamSection:
 
 @lru_cache(maxsize=64)
 def sectioned(section: BeamSection) -> BeamMatrices:
-    """Those of its ends with what its width does, and of K_0 three more: how much more where that is held."""
-    plain = matrices_of(section.ends)
+    """Those of its ends with what its width does, and of K_0 four more: how much more where that is held."""
+    plain = matrices_of(section.ends, section.share)
     if section.is_slender:
         return replace(plain, K_0=np.concatenate([plain.K_0, np.zeros_like(plain.K_0)]))
     free, held = (_across(section, held=held) for held in (False, True))
-    bend, L = section.shapes.rows("w", PLACES, 2), section.length_m
+    L = section.length_m
     K_0 = plain.K_0 + free
-    for share, k, nu in _faces(section):
-        K_0[2] -= share * sheared(bend, bend, give_of_face(section.thickness_m[k] / L, nu), section.ends)
+    for n, k, nu in _faces(section):
+        bend = _bend(section, n)
+        K_0[2 + n] -= sheared(bend, bend, give_of_face(section.thickness_m[k] / L, nu), section.ends)
     return replace(plain, K_0=np.concatenate([K_0, held - free]), K_1=plain.K_1 + _core_across(section))
 
 
@@ -137,6 +153,7 @@ def _core_across(section: BeamSection) -> Array:
         crossed = (apart * WEIGHT) @ bend.T
         slip = np.array([square(apart, WEIGHT), crossed + crossed.T, square(bend, WEIGHT)])
         found[:3] = (nu * section.width_m / L) ** 2 / 12 * slip
+        found[13] = _core_stretched(section)
     elif h_v:
         stretch, give = s.rows("b", PLACES, 1), give_of_layer(h_v / L, nu_v)
         crossed = sheared(stretch, bend, give, section.ends)
@@ -148,10 +165,28 @@ def _core_across(section: BeamSection) -> Array:
     return found
 
 
-def _faces(section: BeamSection) -> list[tuple[float, int, float]]:
-    """Share of the bending rigidity, place among the layers, Poisson's ratio."""
-    share = np.array(section.rigidity) / sum(section.rigidity)
-    return [(float(share[n]), k, section.poisson[k]) for n, k in enumerate((0, 2)) if share[n] > 0]
+def _core_stretched(section: BeamSection) -> Array:
+    """Of one side's core: e_z = a/H - 8 m z/H^2, and e_x as its two faces have it. As K_1, times H/L."""
+    s, L = section.shapes, section.length_m
+    h_b, h_v, h_c = section.thickness_m
+    nu_f = float(np.average(section.poisson[::2], weights=section.rigidity))
+    core = Squeezed(h_v / L, section.width_m / L, section.poisson[1], nu_f, section.ends)
+    below = s.rows("b", PLACES, 1) - h_b / 2 / L * _bend(section, 0)
+    above = s.rows("c", PLACES, 1) + h_c / 2 / L * _bend(section, 1)
+    mean = stretched(s.rows("a", PLACES), h_v / L * (above + below) / 2, core)
+    # Over its thickness z^2 is a twelfth on the average.
+    return mean + stretched(-8 * s.rows("m", PLACES), h_v / L * (above - below), core, ODD) / 12
+
+
+def _bend(section: BeamSection, face: int) -> Array:
+    """Curvature of one of the two faces at the places of quadrature. Shape (size, places)."""
+    s = section.shapes
+    return s.rows("w", PLACES, 2) + (face - section.share) * s.rows("a", PLACES, 2)
+
+
+def _faces(section: BeamSection) -> list[tuple[int, int, float]]:
+    """Which of the two, place among the layers, Poisson's ratio."""
+    return [(n, 2 * n, section.poisson[2 * n]) for n in (0, 1) if section.rigidity[n] > 0]
 
 
 def _reach(section: BeamSection, layer: int) -> float:
@@ -160,16 +195,16 @@ def _reach(section: BeamSection, layer: int) -> float:
 
 
 def _across(section: BeamSection, *, held: bool) -> Array:
-    """What a width adds to stretching of u_b and u_c and to bending. Shape (3, size, size)."""
-    s, found = section.shapes, np.zeros((3, section.shapes.size, section.shapes.size))
-    for share, k, nu in _faces(section):
+    """What a width adds to stretching of u_b and u_c and to bending of both. Shape (4, size, size)."""
+    s, found = section.shapes, np.zeros((4, section.shapes.size, section.shapes.size))
+    for n, k, nu in _faces(section):
         stretch = s.rows("c" if k else "b", PLACES, 1)
         stiffer = nu**2 / (1 - nu**2)
         if section.is_sandwich:
             width = section.width_m / section.length_m
-            found[1 if k else 0] = stiffer * narrowed(stretch, width, nu, section.ends, held=held)
-        bent = curved_across(s.rows("w", PLACES, 2), _reach(section, k), section.ends, held=held)
-        found[2] += share * stiffer * bent
+            found[n] = stiffer * narrowed(stretch, width, nu, section.ends, held=held)
+        bent = curved_across(_bend(section, n), _reach(section, k), section.ends, held=held)
+        found[2 + n] = stiffer * bent
     return found
 
 
@@ -197,8 +232,22 @@ def parts_of(section: BeamSection, pickup: float | None, force: float | None) ->
         group=group,
         gram=scaled.T @ scaled,
         pitch=-V.T @ section.summed("M") @ _turned(section) if s.held_ends else np.zeros(V.shape[1]),
-        vectors={"air.load": _air_kg_m(section) * section.length_m * lifted},
+        vectors={"air.load": _air_kg_m(section) * section.length_m * lifted}
+        | _sides(section, V, pickup, force),
     )
+
+
+def _sides(section: BeamSection, V: Array, pickup: float | None, force: float | None) -> dict[str, Array]:
+    """What a face where it is read, or driven, moves apart from w: nobody says which one. Shape (k,) each."""
+    if not section.is_sandwich or section.is_slender:
+        return {}
+    size = np.hypot(section.share, 1 - section.share) / np.sqrt(2)
+    places = {"apart.observe": pickup, "apart.load": force}
+    return {
+        name: size * V.T @ section.shapes.rows("a", np.array([min(at, 1.0)]))[:, 0]
+        for name, at in places.items()
+        if at is not None
+    }
 
 
 def _row(s: Shapes, V: Array, at: float) -> Array:
@@ -256,7 +305,16 @@ def _modes(section: BeamSection) -> Array:
         found.append(V)
     whole = np.hstack(found)
     Q, values, _ = np.linalg.svd(whole / np.linalg.norm(whole, axis=0), full_matrices=False)
-    return np.asarray(Q[:, values > _NEGLIGIBLE * values[0]])
+    Q = np.asarray(Q[:, values > _NEGLIGIBLE * values[0]])
+    # How far faces part goes with 1/G, beside what moves with it.
+    return np.hstack([Q, _alone(Q, section.of_core[kept], _PARTED)])
+
+
+def _alone(Q: Array, which: NDArray[np.bool_], above: float) -> Array:
+    """What some unknowns by themselves add to the columns that they are part of. Shape (size, any)."""
+    alone = np.where(which[:, None], Q, 0.0)
+    apart, values, _ = np.linalg.svd(alone - Q @ (Q.T @ alone), full_matrices=False)
+    return np.asarray(apart[:, values > above])
 
 
 def _own(section: BeamSection, size: Array) -> Array:
@@ -272,11 +330,8 @@ def _faces_apart(section: BeamSection, own: Array, size: Array) -> Array:
     if not section.is_sandwich or section.is_doubled:
         return np.zeros((len(own), 0))
     Q = own / np.where(size > 0, size, 1.0)[:, None]
-    alone = np.zeros_like(Q)
-    place = section.shapes.place["b"]
-    alone[place] = Q[place]
-    apart, values, _ = np.linalg.svd(alone - Q @ (Q.T @ alone), full_matrices=False)
-    return np.asarray(size[:, None] * apart[:, values > _APART])
+    below = np.isin(np.arange(len(Q)), np.arange(len(Q))[section.shapes.place["b"]])
+    return size[:, None] * _alone(Q, below, _APART)
 
 
 def _asked_for(section: BeamSection) -> dict[str, Array]:
@@ -297,7 +352,7 @@ def _asked_for(section: BeamSection) -> dict[str, Array]:
         found["treatment.hold"] = sides * width * ends @ ends.T
     if section.is_doubled:
         return found
-    by_pieces = np.einsum("p,kpij->kij", section.coefficients[6:9], slip_by_pieces(section.ends))
+    by_pieces = np.einsum("p,kpij->kij", section.coefficients[_SLIP], slip_by_pieces(section.ends))
     found |= {f"strips_x.{k:03d}": A for k, A in enumerate(by_pieces)}
     found["grading_x.K_1"] = _slip(section, x - 0.5)
     return found
@@ -306,7 +361,7 @@ def _asked_for(section: BeamSection) -> dict[str, Array]:
 def _slip(section: BeamSection, share: Array | float = 1.0) -> Array:
     """The core's shear for a modulus of one, times a share at every place of quadrature."""
     x, weight = gauss(2 * ORDER)
-    return np.tensordot(section.coefficients[6:9], section.shapes.slip(x, weight * share), axes=1)
+    return np.tensordot(section.coefficients[_SLIP], section.shapes.slip(x, weight * share), axes=1)
 
 
 def _root_springs(section: BeamSection) -> dict[str, Array]:

@@ -1,7 +1,8 @@
 """Matrices of a beam of unit length over polynomials of its deflection and of its layers' stretching.
 
-Unknowns are the coefficients of u_b, u_c and w over 0 < x < 1: first those that meet the conditions at the
-ends, then those that a held end lets go where it yields.
+Unknowns are the coefficients of u_b, u_c, w and a over 0 < x < 1, a how far the faces move apart across the
+core: of each first those that meet the conditions at the ends, then those that a held end lets go where it
+yields. There the faces move as one.
 """
 
 from dataclasses import dataclass
@@ -45,13 +46,13 @@ class Shapes:
 
     @cached_property
     def _each(self) -> dict[str, tuple[Polynomial, list[Polynomial]]]:
-        """Of u_b, u_c and w the factor that meets the conditions, and what a held end lets go."""
+        """Of u_b, u_c, w and a the factor that meets the conditions, and what a held end lets go."""
         (w, u), (loose_w, loose_u) = _HELD[self.ends], _RELEASED[self.ends]
-        return {"b": (u, loose_u), "c": (u, loose_u), "w": (w, loose_w)}
+        return {"b": (u, loose_u), "c": (u, loose_u), "w": (w, loose_w), "a": (w, []), "m": (w, [])}
 
     @cached_property
     def place(self) -> dict[str, slice]:
-        """Of u_b, u_c and w among the unknowns."""
+        """Of u_b, u_c, w and a among the unknowns."""
         found, start = {}, 0
         for name, (_, loose) in self._each.items():
             found[name] = slice(start, start + ORDER + len(loose))
@@ -61,7 +62,7 @@ class Shapes:
     @property
     def size(self) -> int:
         """How many unknowns there are."""
-        return self.place["w"].stop
+        return self.place["m"].stop
 
     @cached_property
     def is_held(self) -> NDArray[np.bool_]:
@@ -110,11 +111,11 @@ class BeamMatrices:
     """Over all unknowns. Shapes (parts, size, size), (size,)."""
 
     K_0: Array
-    """Stretching of u_b and u_c, and bending."""
+    """Stretching of u_b and u_c, and bending of both."""
     K_1: Array
-    """Three of slip, three of a free layer."""
+    """Three of slip, three of a free layer, three of what moving apart adds to slip, and stretch across."""
     M: Array
-    """Of w, u_b and u_c, and three of the core between."""
+    """Of w, u_b and u_c, three of the core between, and two of moving apart."""
     load: Array
     """Of a base that lifts with unit acceleration."""
 
@@ -125,13 +126,19 @@ def shapes_of(ends: str) -> Shapes:
     return Shapes(ends)
 
 
-@lru_cache(maxsize=8)
-def matrices_of(ends: str) -> BeamMatrices:
-    """For unit coefficients."""
+@lru_cache(maxsize=64)
+def matrices_of(ends: str, share: float = 0.0) -> BeamMatrices:
+    """For unit coefficients; the substrate takes `share` of what the faces move apart.
+
+    How a core stretches across is left out: it is one of its sizes.
+    """
     s = shapes_of(ends)
     x, weight = gauss(2 * ORDER)
     w, b, c = (s.rows(name, x) for name in ("w", "b", "c"))
     slope, bend, stretch = s.rows("w", x, 1), s.rows("w", x, 2), s.rows("b", x, 1)
+    a, parting, bent_apart = (s.rows("a", x, d) for d in (0, 1, 2))
+    m, rising = (s.rows("m", x, d) for d in (0, 1))
+    across = c - b
 
     def squared(a: Array) -> Array:
         return square(a, weight)
@@ -142,9 +149,29 @@ def matrices_of(ends: str) -> BeamMatrices:
 
     total = c + b
     return BeamMatrices(
-        K_0=np.array([squared(stretch), squared(s.rows("c", x, 1)), squared(bend)]),
-        K_1=np.array([*s.slip(x, weight), squared(stretch), -mixed(stretch, bend), squared(bend)]),
-        M=np.array([squared(w), squared(b), squared(c), squared(total), mixed(total, slope), squared(slope)]),
+        K_0=np.array(
+            [
+                squared(stretch),
+                squared(s.rows("c", x, 1)),
+                squared(bend - share * bent_apart),
+                squared(bend + (1 - share) * bent_apart),
+            ]
+        ),
+        K_1=np.array(
+            [
+                *(*s.slip(x, weight), squared(stretch), -mixed(stretch, bend), squared(bend)),
+                *(mixed(across, parting), mixed(slope, parting), squared(parting)),
+                *(mixed(across, rising), mixed(slope, rising), mixed(parting, rising), squared(rising)),
+                np.zeros((s.size, s.size)),
+            ]
+        ),
+        M=np.array(
+            [
+                *(squared(w), squared(b), squared(c), squared(total), mixed(total, slope), squared(slope)),
+                *(mixed(w, a), squared(a), mixed(w, m), mixed(a, m), squared(m)),
+                *(squared(across), mixed(across, slope)),
+            ]
+        ),
         load=-(w @ weight),
     )
 

@@ -76,6 +76,17 @@ def followed(curvature: Array, reach: float, ends: str) -> Array:
     return np.asarray(np.linalg.solve(A, (V * WEIGHT) @ curvature.T).T @ V)
 
 
+def flowing(strain: Array, reach: float, ends: str) -> Array:
+    """Integral of strain times V, V - l^2 V'' = strain: zero at free ends, V' zero at clamped ones.
+
+    `strain` of shape (k, places); returns (k, k).
+    """
+    V, slope = _field(ends, False, shut=True)
+    A = square(V, WEIGHT) + reach**2 * square(slope, WEIGHT)
+    C = (V * WEIGHT) @ strain.T
+    return np.asarray(C.T @ np.linalg.solve(A, C))
+
+
 def give_of_face(thickness: float, poisson: float) -> float:
     """What E I is over G times the area that shears: how far a face gives way by its own shear, squared."""
     return thickness**2 * (1 + poisson) / 6 / _SHEAR
@@ -103,15 +114,20 @@ def _left(A: Array, C: Array, whole: Array) -> Array:
 
 
 @lru_cache(maxsize=8)
-def _field(ends: str, held: bool) -> tuple[Array, Array]:
-    """Polynomials, zero at clamped ends where they are held, and their slopes. Shape (order, places) each."""
+def _field(ends: str, held: bool, *, shut: bool = False) -> tuple[Array, Array]:
+    """Polynomials, and their slopes: zero at clamped ends where `held`, at free ones where `shut`.
+
+    Shape (order, places) each.
+    """
     t, each = 2 * PLACES - 1, np.eye(_ORDER)
     P = legendre.legval(t, each)
     slope = legendre.legval(t, legendre.legder(each, scl=2.0))
     none = np.ones_like(PLACES), np.zeros_like(PLACES)
-    factors = {
-        "clamped-free": (PLACES, none[0]),
-        "clamped-clamped": (PLACES * (1 - PLACES), 1 - 2 * PLACES),
-    }
-    f, f_slope = factors.get(ends, none) if held else none
+    one, both = (PLACES, none[0]), (PLACES * (1 - PLACES), 1 - 2 * PLACES)
+    factors = {}
+    if held:
+        factors = {"clamped-free": one, "clamped-clamped": both}
+    if shut:
+        factors = {"clamped-free": (1 - PLACES, -none[0]), "free-free": both}
+    f, f_slope = factors.get(ends, none)
     return f * P, f * slope + f_slope * P

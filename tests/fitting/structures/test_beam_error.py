@@ -32,21 +32,22 @@ def test_a_clamp_holds_the_width_as_if_the_beam_were_shorter():
 
 
 def test_where_it_is_counted_every_mode_is_higher_the_first_one_as_if_it_were_so_much_shorter():
-    counted = replace(SANDWICH, held_width=True)
-    pairs = zip(small_modes(SANDWICH, None, 4), small_modes(counted, None, 4), strict=True)
+    bare = replace(SANDWICH, core=None, constraining=None)
+    counted = replace(bare, held_width=True)
+    pairs = zip(small_modes(bare, None, 4), small_modes(counted, None, 4), strict=True)
     higher = [b.frequency_hz / a.frequency_hz - 1 for a, b in pairs]
-    # Without the core's shear only the faces bend: f goes with 1/L^2. Short waves curve across in its reach.
+    # f of a bare one goes with 1/L^2. Short waves curve across in its reach.
     assert higher[0] == pytest.approx(2 * 5.55e-4 / 0.2, rel=0.1)
     assert np.all(np.diff(higher) < 0)
     assert 0.3 < higher[3] / higher[0] < 0.6
-    open_yet = SANDWICH.tolerance("held_width")
-    assert open_yet == pytest.approx(SANDWICH.held_width_m)
+    open_yet = bare.tolerance("held_width")
+    assert open_yet == pytest.approx(bare.held_width_m)
     assert counted.tolerance("held_width") == pytest.approx(HELD_WIDTH_WITHIN * open_yet)
 
 
 def test_a_fit_may_move_it_however_exact_the_beam_is():
     each = nuisances_of(replace(SANDWICH, exact=True, pickup_m=0.15), SANDWICH.parts(), has_phase=True).each
-    assert [n.name for n in each] == ["held_width"]
+    assert [n.name for n in each] == ["held_width", "core_stretch"]
     free = replace(SANDWICH, boundary="free-free")
     assert "held_width" not in free.numbers
     assert "held_width" not in replace(SANDWICH, slender=True).numbers
@@ -62,7 +63,7 @@ def test_of_halves_about_a_driven_centre_it_is_that_of_one_clamp():
         small_modes(replace(SANDWICH, held_width=True), LAW, 3),
         strict=True,
     ):
-        assert a.frequency_hz == pytest.approx(b.frequency_hz, rel=1e-9)
+        assert a.frequency_hz == pytest.approx(b.frequency_hz, rel=1e-7)
 
 
 def test_the_theory_is_the_less_certain_the_shorter_the_wave():
