@@ -23,6 +23,7 @@ from fitting.half_plate import HalfPlate
 from fitting.linear import times
 from fitting.part_matrices import moving_part, on_motions, projected_parts, stated_steps
 from fitting.plate import Plate
+from fitting.resonance_parts import Answers
 
 Point = tuple[float, complex]
 
@@ -107,16 +108,12 @@ class ReducedPlate:
         """
         return np.asarray(self._solve(omega, G)[1])
 
-    def by_frequency(self, omega: Array, G: Complex) -> Complex:
-        """Derivative of `displacement` to the logarithm of all natural frequencies. Shape (points,)."""
+    def answers(self, omega: Array, G: Complex) -> Answers:
+        """To what drives it and to the pickup. Shape (points,) of `omega` and `G`."""
         rhs = np.stack([self.load, self.observe], axis=1).astype(complex)
         both = np.broadcast_to(rhs, (len(omega), *rhs.shape))
         q, z = np.moveaxis(np.linalg.solve(self.matrices(omega, G), both), 2, 0)
-
-        def between(A: Array | Complex) -> Complex:
-            return np.asarray(np.einsum("pi,ij,pj->p", z, A, q, optimize=True))
-
-        return np.asarray(-2 * (between(self.K_0) + G * between(self.K_1)))
+        return Answers(self.K_0, self.K_1, self.M, self.observe, q, z, G)
 
     def _solve(self, omega: Array, G: Complex) -> tuple[Complex, Array]:
         displacement, error = [], []

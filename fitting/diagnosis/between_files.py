@@ -10,6 +10,7 @@ from fitting.effects.base import Effect, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 
 _PAIR = 2
+"""Files of which either may as well be the odd one."""
 _SIGNS = 4
 """Patterns of signs that sizes begin with: a fit changes them."""
 

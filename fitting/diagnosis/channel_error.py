@@ -4,7 +4,7 @@ Gain and phase of a segment are off alike in all passes over it. Instruments dri
 and from one to the next, so two levels are never read by quite the same instrument.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -13,12 +13,14 @@ from fitting.model_error import DRIFT, GAIN
 from fitting.sweep import Sweep
 
 
-def channel_rows(sweep: Sweep, inside: Mask, v: Complex, *, has_phase: bool) -> list[Complex]:
+def channel_rows(
+    sweep: Sweep, inside: Mask, v: Complex, *, has_phase: bool, parts: Sequence[Complex] | None = None
+) -> list[Complex]:
     """Changes of the velocity `v`, one standard deviation each, in one segment: the points `inside`.
 
-    Shapes (points,), each row too.
+    `parts` add up to it: each is read by a gain of its own. Shapes (points,), each row too.
     """
-    rows = [GAIN * v * inside]
+    rows = [GAIN * part * inside for part in ([v] if parts is None else parts)]
     passes = list(_passes(sweep, inside))
     for here in passes:
         f = sweep.frequency_hz[here]

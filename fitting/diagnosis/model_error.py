@@ -1,7 +1,7 @@
 """What the model gets wrong, as changes of the response of known size, marginalised in every fit.
 
-Of each segment: its resonances a little off, their damping, and what the instruments read wrongly
-(`channel_error`). Sizes are the specimen's own (`fitting.model_error`).
+Of each resonance of a segment: itself a little off, its damping, and how much is read of it; and what the
+instruments read wrongly (`channel_error`). Sizes are the specimen's own (`fitting.model_error`).
 """
 
 import numpy as np
@@ -14,6 +14,7 @@ from fitting.effects.change import Change
 from fitting.laws import CoreLaw
 from fitting.model_error import model_error_at
 from fitting.reduced import ReducedPlate
+from fitting.resonance_parts import Answers, parts_of
 from fitting.specimen import Specimen
 
 
@@ -29,27 +30,35 @@ def model_error(problem: DiagnosisProblem, reduced: ReducedPlate | None, law: Co
     assert reduced is not None
     assert isinstance(problem.specimen, Specimen)
     omega, index = np.unique(problem.points.omega, return_inverse=True)
-    dx = _by_frequency(problem, reduced, omega, law.modulus(omega))
-    dv = (1j * omega * dx)[index.ravel()] * problem.points.acceleration_m_s2
+    answers = _answers(problem, reduced, omega, law.modulus(omega))
+
+    def velocity(x: Complex) -> Complex:
+        return np.asarray((1j * omega * x)[index.ravel()] * problem.points.acceleration_m_s2)
+
     rows = []
     for number in np.unique(problem.sweep.segment):
         inside = problem.sweep.segment == number
         f = problem.sweep.frequency_hz[inside]
-        middle = np.array([np.sqrt(f.min() * f.max())])
+        parts = parts_of(answers, law, float(f.min()), float(f.max()))
+        middle = np.array([p.frequency_hz for p in parts])
         size = model_error_at(problem.specimen, middle, law.modulus(2 * np.pi * middle))
-        # d ln f = 1/2 d ln K, and a loss is the imaginary part of ln K.
-        by_loss = 0.5j * float(size.modal_loss[0]) * dv
-        rows += [size.frequency[0] * dv * inside, size.loss[0] * by_loss * inside]
-        rows += channel_rows(problem.sweep, inside, v, has_phase=problem.points.has_phase)
+        for k, part in enumerate(parts):
+            dv = velocity(part.by_frequency)
+            # d ln f = 1/2 d ln K, and a loss is the imaginary part of ln K.
+            by_loss = 0.5j * float(size.modal_loss[k]) * dv
+            rows += [size.frequency[k] * dv * inside, size.loss[k] * by_loss * inside]
+        each = [velocity(p.displacement) for p in parts[:-1]]
+        # The rest has the base's motion too, where the laser reads it.
+        gains = [*each, v - sum(each, np.zeros(len(v)))]
+        rows += channel_rows(problem.sweep, inside, v, has_phase=problem.points.has_phase, parts=gains)
     return np.array(rows)
 
 
-def _by_frequency(problem: DiagnosisProblem, reduced: ReducedPlate, omega: Array, G: Complex) -> Complex:
-    """Derivative of the displacement to the logarithm of all natural frequencies. Shape (points,)."""
+def _answers(problem: DiagnosisProblem, reduced: ReducedPlate, omega: Array, G: Complex) -> Answers:
+    """Of the plate without any effect. Shape (frequencies,) of `omega` and `G`."""
     if not len(problem.plate.shares):
-        return reduced.by_frequency(omega, G)
+        return reduced.answers(omega, G)
     # Half as many columns: a third of the time, and 1e-6 off.
-    asked = Asked(problem.plate.take([]), omega, G, Change(), None, with_pitch=False)
-    (moved,) = motions([asked])
-    K_0, K_1 = asked.matrices[:2]
-    return np.asarray(-2 * (moved.z * (moved.q @ K_0.T + G[:, None] * (moved.q @ K_1.T))).sum(axis=1))
+    plate = problem.plate.take([])
+    (moved,) = motions([Asked(plate, omega, G, Change(), None, with_pitch=False)])
+    return Answers(plate.K_0, plate.K_1, plate.M, plate.observe, moved.q, moved.z, G)

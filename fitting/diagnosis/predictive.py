@@ -68,7 +68,8 @@ def checks(sweep: Sweep, evidence: Evidence, none: Refitted, fitted: Refitted) -
         found["the model's own error"] = float(chi2_above(along @ along / t, len(along)))
     if fitted.stated:
         found["tolerances"] = float(chi2_above(fitted.unexplained / t, fitted.stated))
-    runs, memory = along_frequency(sweep, whitened, parts=2 if evidence.has_phase else 1)
+    parts = 2 if evidence.has_phase else 1
+    runs, memory = along_frequency(sweep, whitened, parts, VERDICT.longest_trace)
     excess = may_leave / dof
     found["signs"] = float(normal_above(runs / (VERDICT.wider_along * (1 + VERDICT.formula_along * excess))))
     found["memory"] = float(

@@ -62,20 +62,24 @@ def roughness(sweep: Sweep, whitened: Array, parts: int) -> float:
     return float(np.mean(np.concatenate(jumps) ** 2) / 6) if jumps else float("nan")
 
 
-def along_frequency(sweep: Sweep, whitened: Array, parts: int) -> tuple[float, float]:
+def along_frequency(
+    sweep: Sweep, whitened: Array, parts: int, longest: int | None = None
+) -> tuple[float, float]:
     """Fewer runs than chance, and Ljung-Box's statistic above its mean, both in standard deviations.
 
-    Of whitened residuals, `parts` of every point one after the other. Shape (data,).
+    Of whitened residuals, `parts` of every point one after the other. Shape (data,). What is beyond chance
+    grows with the readings, however little they have in common: a trace counts as `longest` at most.
     """
-    runs_short, runs_variance, box, box_count = 0.0, 0.0, 0.0, 0
+    runs_short, runs_variance, box, expected, traces = 0.0, 0.0, 0.0, 0.0, 0
     for r in _traces(sweep, whitened, parts):
         if len(r) < _FEWEST:
             continue
         short, variance = _runs(r)
-        runs_short, runs_variance = runs_short + short, runs_variance + variance
-        box, box_count = box + _ljung_box(r), box_count + 1
+        counted = 1.0 if longest is None else min(1.0, longest / len(r))
+        runs_short, runs_variance = runs_short + counted * short, runs_variance + counted * variance
+        box, expected, traces = box + counted * _ljung_box(r), expected + counted * LAGS, traces + 1
     runs = runs_short / np.sqrt(runs_variance) if runs_variance > 0 else 0.0
-    memory = (box - LAGS * box_count) / np.sqrt(2 * LAGS * box_count) if box_count else 0.0
+    memory = (box - expected) / np.sqrt(2 * LAGS * traces) if traces else 0.0
     return float(runs), float(memory)
 
 

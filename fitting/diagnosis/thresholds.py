@@ -42,6 +42,12 @@ class VerdictThresholds:
     """Relative standard deviation of the noise itself, as local scatter or an instrument states it."""
     wider_along: float = 1.5
     """The model's error is marginalised, not gone: statistics along frequency scatter more than noise's."""
+    longest_trace: int = 180
+    """Readings that a trace counts for along frequency: a choice, as three segments of a hundred together.
+
+    Instruments wander by a tenth of a percent over some twenty readings. In a thousand of one piece that is
+    plain, and no explanation leaves less.
+    """
     overstated: float = 0.75
     """Times the noise's variance: where the best fit leaves less, local scatter was more than noise."""
     size: float = 1.35

@@ -59,6 +59,7 @@ from instrument.progress import bar
 )
 @click.option("--exact", is_flag=True, help="With --plates or --beams: what is stated is exact.")
 @click.option("--without-truth", is_flag=True, help="With --plates: what is hidden is not in the catalogue.")
+@click.option("--one-piece", is_flag=True, help="With --plates: one segment through many resonances.")
 @click.option("--law-alone", is_flag=True, help="With --plates or --beams: identify, and diagnose nothing.")
 @click.option(
     "--count", type=click.IntRange(min=1), default=300, show_default=True, help="Sweeps to diagnose."
@@ -94,6 +95,7 @@ def bench(
     apart_folder: Path | None,
     exact: bool,
     without_truth: bool,
+    one_piece: bool,
     law_alone: bool,
     count: int,
     seed: int,
@@ -114,6 +116,8 @@ def bench(
         )
     if shows is not None and (law_alone or plates_folder is beams_folder):
         raise BadInput("--shows is of diagnoses with --plates or --beams, expected one of them")
+    if one_piece and plates_folder is None:
+        raise BadInput("--one-piece is of solid plates, expected --plates beside it")
     if json_path is not None:
         raise BadInput("--json and a campaign: the outcomes are in the folder, a line of JSON each")
     of_each = ((plates_folder, PLATE_KINDS), (beams_folder, BEAM_KINDS), (apart_folder, WEAK))
@@ -127,7 +131,9 @@ def bench(
         return
     if plates_folder is not None:
         jobs = plate_jobs(count, seed, kinds)
-        run = partial(run_plates, jobs, plates_folder, exact=exact, workers=workers, progress=bar)
+        run = partial(
+            run_plates, jobs, plates_folder, exact=exact, one_piece=one_piece, workers=workers, progress=bar
+        )
         judged = diagnosed_without_the_truth if without_truth else diagnosed
         found = (
             run(identify=identified) if law_alone else run(diagnose=judged, visible=visible_chi2, least=shows)

@@ -21,10 +21,12 @@ from instrument.campaign.plates.schedule import (
     Resonance,
     draw_schedule,
     measured_resonances,
+    resonances,
     widest_band_hz,
 )
 from instrument.campaign.plates.simulate import ChannelError, built, moduli_of, peaks_hz, reading, struck
 from instrument.campaign.plates.stated import CAREFUL, draw_stated, specimen_from, toml
+from instrument.campaign.plates.whole import draw_whole, in_one_piece, judged_of, of_one_range
 from instrument.campaign.schedule import Schedule
 
 NONE, PAIR = "none", "pair"
@@ -50,7 +52,7 @@ class PlateTruth:
     noise: PlateNoise
     channel: ChannelError
     resonances_hz: tuple[float, ...]
-    """Middle of the three segments: where the law is judged."""
+    """Middle of the three segments, or three resonances of one piece: where the law is judged."""
     lowest_share: float
     """Least share that the core has in the stiffness, d ln f^2 / d ln G', of the three resonances."""
 
@@ -122,11 +124,18 @@ class PlateCase:
 
 
 def draw_case(
-    kind: str, seed: int, exact: bool = False, *, plate: str | None = None, law: str | None = None
+    kind: str,
+    seed: int,
+    exact: bool = False,
+    *,
+    plate: str | None = None,
+    law: str | None = None,
+    one_piece: bool = False,
 ) -> PlateCase:
     """A random case of one of `KINDS`, always the same for the same arguments.
 
     `exact`: the specimen says the truth, and says so. `plate` and `law` ask for one plate or kind of law.
+    `one_piece`: one segment through five or six resonances, in place of three about one each.
     Law, segments, noise and effects of a seed are the same for exact and stated cases. Raises `ValueError`
     for another kind.
     """
@@ -143,17 +152,21 @@ def draw_case(
     true = plate_named(plate) if plate else able[int(chance.integers(len(able)))]
     alone = min((_ONE_LEVEL_SHARE.get(name, _ONE_LEVEL_ELSE) for name in names), default=_ONE_LEVEL_ELSE)
     levels = (1.0,) if chance.random() < alone else _THREE_LEVELS
-    found, chosen, schedule = _law_and_schedule(rng("law"), true, law, levels)
-    at = Setting(true, _middles(schedule), float(schedule.time_s.max()))
+    drawn = _law_in_one_piece if one_piece else _law_and_schedule
+    found, chosen, schedule = drawn(rng("law"), true, law, levels)
+    middle = tuple(r.frequency_hz for r in chosen) if one_piece else _middles(schedule)
+    at = Setting(true, middle, float(schedule.time_s.max()))
     hidden = draw_hidden(names, rng("effects"), at)
     plate_built = built(true, hidden, moduli_of(found, schedule.frequency_hz))
-    if any(h.changes_solid for h in hidden):
+    if any(h.changes_solid for h in hidden) and not one_piece:
         # A lab measures around the peaks that it sees.
         seen = peaks_hz(plate_built, true, hidden, found, [r.frequency_hz for r in chosen])
         moved = [replace(r, frequency_hz=f) for r, f in zip(chosen, seen, strict=True)]
         schedule = draw_schedule(rng("schedule"), moved, levels)
-    middle = _middles(schedule)
+        middle = _middles(schedule)
     noise, chance = draw_noise(rng("noise figures")), rng("stated")
+    if one_piece:
+        noise = of_one_range(rng("floor"), noise)
     stated = draw_stated(chance, true)
     off = chance.standard_normal(2)
     channel = (
@@ -194,6 +207,21 @@ def _law_and_schedule(
         if fits(law, schedule.frequency_hz) and max(r.loss_factor for r in chosen) < _LARGEST_LOSS:
             return law, chosen, schedule
     raise ArithmeticError(f"no law found that leaves three resonances on plate {true.name}")
+
+
+def _law_in_one_piece(
+    rng: np.random.Generator, true: TruePlate, kind: str | None, levels: tuple[float, ...]
+) -> tuple[PlateMaterialLaw, list[Resonance], Schedule]:
+    """The same over one piece; of its resonances those that are judged."""
+    clean = clean_plate(true)
+    band = widest_band_hz(clean, true)
+    for _ in range(_MOST_LAWS):
+        law = draw_law(rng, band, kind)
+        chosen = in_one_piece(rng, resonances(clean, true.spot_m, law))
+        schedule = draw_whole(rng, chosen, levels)
+        if fits(law, schedule.frequency_hz) and max(r.loss_factor for r in chosen) < _LARGEST_LOSS:
+            return law, judged_of(chosen), schedule
+    raise ArithmeticError(f"no law found that serves one piece on plate {true.name}")
 
 
 def _middles(schedule: Schedule) -> tuple[float, ...]:

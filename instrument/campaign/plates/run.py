@@ -35,9 +35,11 @@ def judge_plate(
     diagnose: Diagnose | None,
     visible: Visible | None,
     least: float | None = None,
+    one_piece: bool = False,
 ) -> dict[str, Any]:
     """Draw, identify, diagnose, compare. What raises leaves no answer and is tried again."""
-    return judged(draw_case(job.kind, job.seed, exact), identify, diagnose, visible, least)
+    case = draw_case(job.kind, job.seed, exact, one_piece=one_piece)
+    return judged(case, identify, diagnose, visible, least)
 
 
 def run_plates(
@@ -49,20 +51,28 @@ def run_plates(
     diagnose: Diagnose | None = None,
     visible: Visible | None = None,
     least: float | None = None,
+    one_piece: bool = False,
     workers: int = 2,
     progress: Progress = quiet,
 ) -> list[dict[str, Any]]:
     """Lines of all jobs, with those an earlier run left. Raises `BadInput`, `StoppedByUser`.
 
     `visible` says how plainly what is hidden shows; where that is less than `least`, nothing else is asked.
-    All three go to other processes: functions of a module.
+    All three go to other processes: functions of a module. `one_piece`: sweeps of one segment each.
     """
     judged_by = partial(
-        judge_plate, exact=exact, identify=identify, diagnose=diagnose, visible=visible, least=least
+        judge_plate,
+        exact=exact,
+        identify=identify,
+        diagnose=diagnose,
+        visible=visible,
+        least=least,
+        one_piece=one_piece,
     )
     options = {
         "exact": exact,
         "least": least,
+        "one_piece": one_piece,
         "by": [f.__name__ for f in (identify, diagnose) if f is not None],
     }
     return run_campaign(

@@ -24,10 +24,11 @@ _HALF_WIDTHS = 1.3
 _SHARE = (0.08, 0.22)
 _STILL = 1e-3
 _SETTLED, _MOST_STEPS = 1e-6, 12
-_CYCLES = 30
-_SECONDS = 1.2
+CYCLES = 30
+SECONDS = 1.2
 """A point takes this and so many cycles."""
-_LATE_S = 0.05
+LATE_S = 0.05
+"""Mean of what a point takes beyond that, exponentially distributed."""
 _BETWEEN_S = (40.0, 160.0)
 
 
@@ -102,12 +103,12 @@ def draw_schedule(
         for k in order:
             f = segments[k]
             count = len(f)
-            taken = _taken(rng, count, along)
-            takes = _SECONDS + _CYCLES / f[taken] + rng.exponential(_LATE_S, count)
+            order_of_time = taken(rng, count, along)
+            takes = SECONDS + CYCLES / f[order_of_time] + rng.exponential(LATE_S, count)
             when = now + np.cumsum(takes)
-            now = float(when[-1]) + float(rng.uniform(*_BETWEEN_S))
+            now = float(when[-1]) + between_s(rng)
             time = np.empty(count)
-            time[taken] = when
+            time[order_of_time] = when
             segment, number = np.full(count, k + 1, np.intp), np.full(count, len(parts) + 1, np.intp)
             parts.append((f, segment, number, np.full(count, level), np.round(time, 3)))
     return Schedule(*(np.concatenate(column) for column in zip(*parts, strict=True)))
@@ -120,12 +121,17 @@ def _around(rng: np.random.Generator, r: Resonance, points: tuple[int, int]) -> 
     return np.round(np.linspace(r.frequency_hz * (1 - low), r.frequency_hz * (1 + high), count), 3)
 
 
-def _taken(rng: np.random.Generator, count: int, along: str) -> Integers:
-    """Indices of the points in the order of time."""
+def taken(rng: np.random.Generator, count: int, along: str) -> Integers:
+    """Indices of the points in the order of time. Shape (count,)."""
     up = np.arange(count, dtype=np.intp)
     if along == "random":
         return rng.permutation(up)
     return up[::-1] if along == "down" else up
+
+
+def between_s(rng: np.random.Generator) -> float:
+    """From one pass to the next."""
+    return float(rng.uniform(*_BETWEEN_S))
 
 
 def widest_band_hz(plate: ReducedSolid, true: TruePlate) -> tuple[float, float]:

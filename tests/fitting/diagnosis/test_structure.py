@@ -1,7 +1,9 @@
 import numpy as np
 
+from fitting.chances import normal_exceeded
 from fitting.diagnosis.evidence import Evidence
-from fitting.diagnosis.structure import roughness, structure
+from fitting.diagnosis.structure import along_frequency, roughness, structure
+from fitting.diagnosis.thresholds import VERDICT
 from fitting.sweep import Sweep
 
 N = 118
@@ -64,6 +66,37 @@ def test_a_slow_wave_as_large_as_the_noise_is_structure():
     said = " ".join(structure(data, evidence(data), r, float(r @ r / len(r))))
     assert "runs" in said
     assert "Ljung-Box" in said
+
+
+def one_piece(count):
+    ones = np.ones(count)
+    number = ones.astype(int)
+    return Sweep(np.linspace(14, 600, count), ones + 0j, 9.81 * ones, segment=number, sweep=number)
+
+
+def wandering(count, share):
+    """White residuals, a share of whose variance goes on for some twenty readings."""
+    rng, keep = np.random.default_rng(1), np.exp(-1 / 20)
+    white, kicks = rng.normal(size=(2, 2 * count))
+    walk = np.zeros(2 * count)
+    for k in range(1, 2 * count):
+        walk[k] = keep * walk[k - 1] + np.sqrt(1 - keep**2) * kicks[k]
+    return np.sqrt(1 - share) * white + np.sqrt(share) * walk
+
+
+def test_a_long_trace_counts_as_a_hundred_or_two():
+    """A tenth of the noise that goes on is nothing to refuse for, however many readings; all of it is."""
+    data = one_piece(1200)
+    counted, plain = (
+        along_frequency(data, wandering(1200, 0.1), 2, n) for n in (VERDICT.longest_trace, None)
+    )
+    assert plain[1] > 8.0
+    assert counted[1] < 4.0
+    refused = VERDICT.wider_along * normal_exceeded(VERDICT.check_level)
+    assert all(z > refused for z in along_frequency(data, wandering(1200, 0.6), 2, VERDICT.longest_trace))
+    short = one_piece(120)
+    r = wandering(120, 0.3)
+    assert along_frequency(short, r, 2, VERDICT.longest_trace) == along_frequency(short, r, 2)
 
 
 def test_nothing_is_said_where_the_noise_is_unknown():

@@ -11,7 +11,7 @@ from fitting.diagnosis.model_error import model_error
 from fitting.identification.result import law_band
 from fitting.identification.uncertainty import uncertainty_of
 from fitting.laws.fractional_zener import FractionalZener
-from fitting.model_error import FREQUENCY, LOSS, model_error_at
+from fitting.model_error import FREQUENCY, GAIN, LOSS, model_error_at
 from fitting.noise import noise_of
 from fitting.tolerances import STATED, moved
 from instrument.files.sweep_file import read_sweep
@@ -78,10 +78,27 @@ def test_held_out_segments_are_predicted_to_their_noise(found):
 def test_each_segment_has_errors_of_its_own(practice, zn1, found):
     ready = set_up(practice, zn1, with_effects=False)
     rows = model_error(ready.problem, ready.reduced, found.result.law, found.result.fit.velocity_m_s)
-    # Of each of three a shift, a loss, a gain, a phase, and how the last two drift.
-    assert rows.shape == (18, len(practice))
+    # Of each resonance a shift, a loss, a gain, a phase, and how the last two drift along the segment. The
+    # third has two, at 253 and 278 Hz, and what it has from all others.
+    assert rows.shape == (6 + 6 + 3 * 4 + 2, len(practice))
     for row in rows:
         assert len(np.unique(practice.segment[np.abs(row) > 0])) == 1
+
+
+def test_each_resonance_of_one_piece_has_errors_of_its_own(practice, zn1, found):
+    """Together they are what one number for the whole piece would move."""
+    one = np.ones_like(practice.segment)
+    whole = replace(practice, segment=one, sweep=one)
+    ready = set_up(whole, zn1, with_effects=False)
+    law = found.result.law
+    v = ready.problem.rational.displacement(law.modulus(whole.omega)) * 1j * whole.omega
+    v = v * whole.commanded_m_s2
+    rows = model_error(ready.problem, ready.reduced, law, v)
+    # Four resonances and the rest.
+    assert rows.shape == (5 * 4 + 2, len(practice))
+    peaks = whole.frequency_hz[np.argmax(np.abs(rows[0:8:2]), axis=1)]
+    np.testing.assert_allclose(peaks, [18.7, 98.9, 252.6, 278.1], rtol=0.05)
+    np.testing.assert_allclose(rows[10:15].sum(axis=0), GAIN * v, rtol=1e-9)
 
 
 def test_noise_alone_makes_a_narrower_band(practice, zn1, found):

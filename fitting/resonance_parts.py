@@ -1,0 +1,104 @@
+"""A plate's response by its resonances: what each of them has in it, and what all beyond a band have.
+
+With phi_r a real mode at the core's modulus of its own frequency, phi_r^T M phi_r = 1, and q, z the answers
+to the load and to a unit force at the pickup (observe = the row that reads)
+
+    x_r = (observe . phi_r) (phi_r^T M q),   d x / d ln f_r = -2 (z^T M phi_r) (phi_r^T K q)
+
+with K = K_0 + G K_1. The parts of all modes add up to x and to its derivative to all natural frequencies.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import eigh
+
+from fitting.arrays import Array, Complex
+from fitting.laws import CoreLaw
+
+_NEAR = 1.5
+"""Ratio by which a resonance may move from the modulus of a band's middle to that of its own: a choice."""
+
+
+@dataclass(frozen=True)
+class Answers:
+    """Of a plate with the law's modulus, at some frequencies."""
+
+    K_0: Complex
+    K_1: Array
+    M: Array
+    observe: Array
+    """Shape (k,)."""
+    q: Complex
+    """To its load. Shape (points, k)."""
+    z: Complex
+    """To a unit force at its pickup. Shape (points, k)."""
+    G: Complex
+    """Shape (points,)."""
+
+    @property
+    def displacement(self) -> Complex:
+        """Read at the pickup. Shape (points,)."""
+        return self.q @ self.observe
+
+    def by_frequency(self, shape: Array | None = None) -> Complex:
+        """Derivative of the displacement to the logarithm of all natural frequencies, or of one mode's.
+
+        Shape (points,), of a mode's shape (k,).
+        """
+        strained = self.q @ self.K_0.T + self.G[:, None] * (self.q @ self.K_1.T)
+        if shape is None:
+            return np.asarray(-2 * (self.z * strained).sum(axis=1))
+        return np.asarray(-2 * (self.z @ (self.M @ shape)) * (strained @ shape))
+
+
+@dataclass(frozen=True)
+class Part:
+    """Of a response: one resonance of a band, or what it has from all others."""
+
+    frequency_hz: float
+    displacement: Complex
+    """Shape (points,)."""
+    by_frequency: Complex
+    """Derivative of the displacement to ln of its natural frequency. Shape (points,)."""
+
+
+def parts_of(answers: Answers, law: CoreLaw, low_hz: float, high_hz: float) -> list[Part]:
+    """The resonances of a band in ascending order, then the rest; with one or none all is one part.
+
+    What lies beyond is as uncertain as at the band's upper end; where all is one part its frequency is the
+    band's middle.
+    """
+    whole = answers.displacement, answers.by_frequency()
+    modes = _modes(answers, law, low_hz, high_hz)
+    if len(modes) < 2:
+        return [Part(float(np.sqrt(low_hz * high_hz)), *whole)]
+    found = [
+        Part(f, (answers.observe @ y) * (answers.q @ (answers.M @ y)), answers.by_frequency(y))
+        for f, y in modes
+    ]
+    rest = (all_ - sum(some) for all_, some in zip(whole, _columns(found), strict=True))
+    return [*found, Part(high_hz, *rest)]
+
+
+def _columns(parts: list[Part]) -> tuple[list[Complex], list[Complex]]:
+    return [p.displacement for p in parts], [p.by_frequency for p in parts]
+
+
+def _modes(answers: Answers, law: CoreLaw, low_hz: float, high_hz: float) -> list[tuple[float, Array]]:
+    """Frequency in Hz and shape of those in a band, each at the modulus of its own frequency."""
+    omega_r, _ = _at(answers, law, np.sqrt(low_hz * high_hz))
+    found = []
+    for r in np.flatnonzero((omega_r > 2 * np.pi * low_hz / _NEAR) & (omega_r < 2 * np.pi * high_hz * _NEAR)):
+        own, shapes = _at(answers, law, omega_r[r] / (2 * np.pi))
+        f = float(own[r] / (2 * np.pi))
+        if low_hz < f < high_hz:
+            found.append((f, shapes[:, r]))
+    return found
+
+
+def _at(answers: Answers, law: CoreLaw, frequency_hz: float) -> tuple[Array, Array]:
+    """Natural frequencies in rad/s and shapes under the modulus of one frequency. Shapes (k,), (k, k)."""
+    G = law.modulus(np.array([2 * np.pi * frequency_hz]))[0]
+    squared, shapes = eigh(np.real(answers.K_0) + G.real * answers.K_1, answers.M)
+    return np.sqrt(np.maximum(squared, 0.0)), shapes

@@ -1,0 +1,64 @@
+"""Sweeps in one piece: one segment through every resonance of a band, as FRFs are handed in."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from instrument.campaign.noise import NoiseFigures
+from instrument.campaign.plates.noise import PlateNoise
+from instrument.campaign.plates.schedule import CYCLES, LATE_S, SECONDS, Resonance, between_s, taken
+from instrument.campaign.schedule import Schedule
+
+FEWEST = 5
+"""Resonances of a band that is worth a sweep in one piece."""
+_MOST = 6
+"""The seventh of the solid is up to 0.16 % off a finer one, the sixth 0.06 % at most."""
+_LINES = (400, 3200)
+"""Of a sweep at one level; each number as likely in its logarithm."""
+_BEGINS, _ENDS = (0.4, 0.8), (1.04, 1.1)
+"""Of the first resonance, and of the last one."""
+_FLOOR = (3e-4, 2e-3)
+"""Of the largest peak: one range serves all resonances, so what is read has 54 to 70 dB."""
+
+
+def in_one_piece(rng: np.random.Generator, every: list[Resonance]) -> list[Resonance]:
+    """Those of a band, from the first on; five or six. Raises `ArithmeticError` if fewer."""
+    count = int(rng.integers(FEWEST, _MOST + 1))
+    if len(every) < FEWEST:
+        raise ArithmeticError(f"{len(every)} resonances are excited, expected {FEWEST}")
+    return every[:count]
+
+
+def judged_of(chosen: list[Resonance]) -> list[Resonance]:
+    """The first, a middle one and the last: where the law is judged."""
+    return [chosen[0], chosen[(len(chosen) - 1) // 2], chosen[-1]]
+
+
+def draw_whole(rng: np.random.Generator, chosen: list[Resonance], levels_g: tuple[float, ...]) -> Schedule:
+    """Even lines from below the first to above the last; one pass at each level, from low to high."""
+    count = int(np.exp(rng.uniform(*np.log(_LINES))) / len(levels_g))
+    low, high = chosen[0].frequency_hz * rng.uniform(*_BEGINS), chosen[-1].frequency_hz * rng.uniform(*_ENDS)
+    f = np.round(np.linspace(low, high, count), 4)
+    along = str(rng.choice(["up", "down"], p=[0.8, 0.2]))
+    times, now = [], 0.0
+    for _ in levels_g:
+        order = taken(rng, count, along)
+        when = now + np.cumsum(SECONDS + CYCLES / f[order] + rng.exponential(LATE_S, count))
+        now = float(when[-1]) + between_s(rng)
+        time = np.empty(count)
+        time[order] = when
+        times.append(np.round(time, 3))
+    passes = len(levels_g)
+    return Schedule(
+        frequency_hz=np.tile(f, passes),
+        segment=np.ones(count * passes, np.intp),
+        sweep=np.repeat(np.arange(1, passes + 1, dtype=np.intp), count),
+        level_g=np.repeat(np.array(levels_g, dtype=float), count),
+        time_s=np.concatenate(times),
+    )
+
+
+def of_one_range(rng: np.random.Generator, noise: PlateNoise) -> PlateNoise:
+    """The same drifts, over a floor that the largest peak alone decides."""
+    floor = float(np.exp(rng.uniform(*np.log(_FLOOR))))
+    return replace(noise, white=NoiseFigures(floor, noise.white.repeat_scatter))
