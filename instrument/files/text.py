@@ -8,11 +8,16 @@ from instrument.errors import BadInput
 LARGEST_BYTES = 200_000_000
 
 
+def refuse_endless(path: Path) -> None:
+    """Raise `BadInput` for a pipe or a device: who opens it may wait for ever, and who reads it find no end."""
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        raise BadInput(f"{path}: a pipe or a device, expected a file")
+
+
 def read_content(path: Path) -> bytes:
-    """The file's bytes. Raises `BadInput`, where it is none too: a pipe or a device may have no end."""
+    """The file's bytes. Raises `BadInput`."""
+    refuse_endless(path)
     try:
-        if path.exists() and not (path.is_file() or path.is_dir()):
-            raise BadInput(f"{path}: a pipe or a device, expected a file")
         if path.stat().st_size > LARGEST_BYTES:
             raise BadInput(f"{path}: {path.stat().st_size} bytes, expected at most {LARGEST_BYTES}")
         return path.read_bytes()
