@@ -9,7 +9,7 @@ LARGEST_BYTES = 200_000_000
 
 
 def refuse_endless(path: Path) -> None:
-    """Raise `BadInput` for a pipe or a device: who opens it may wait for ever, and who reads it find no end."""
+    """Raise `BadInput` for a pipe or a device: opening it may take for ever, and reading it have no end."""
     if path.exists() and not (path.is_file() or path.is_dir()):
         raise BadInput(f"{path}: a pipe or a device, expected a file")
 

@@ -85,7 +85,7 @@ def result_of_events(
 
 
 def recorded_result(contents: Contents) -> SessionResult:
-    """Of a session, from what was recorded; why there is no law, or no diagnosis, where the run ended early."""
+    """Of a session, from what was recorded; where the run ended early, that and how to go on."""
     fit, diagnosis = contents.fit, contents.diagnosis
     if diagnosis is not None or (fit is not None and fit.message) or not (early := _ended_early(contents)):
         return result_of_events(fit, diagnosis, contents.measured)

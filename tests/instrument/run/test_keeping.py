@@ -127,7 +127,8 @@ def test_what_is_complete_is_kept_and_can_be_carried_on(begin, tmp_path):
     add(journal, point(1), point(2), point(3))
     path = tmp_path / "a.h5"
     said = kept(journal, path, ("sweep", "my plate.toml"))
-    assert said == f"2 hits and 3 steps kept in {path}; to go on: viscorig sweep 'my plate.toml' --resume {journal.folder}"
+    again = f"viscorig sweep 'my plate.toml' --resume {journal.folder}"
+    assert said == f"2 hits and 3 steps kept in {path}; to go on: {again}"
     assert path.is_file()
     assert len(journal.entries()) == 2
 
