@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from fitting.arrays import Array
 from fitting.bent_law import BentLaw
 from fitting.digits import written_out
+from fitting.identification.as_stated import is_unlikely, pulled_together
 from fitting.identification.fit import Fit
 from fitting.identification.uncertainty import Uncertainty, uncertainty_of
 from fitting.identification.validation import Validation, rms
@@ -29,6 +30,8 @@ some 100 MPa in their transition, where they damp; a glass of 1 GPa does not (th
 and Henderson, Vibration Damping, 1985). What lies outside is nearly always a wrong unit."""
 _PULLED = 3.0
 """Tolerances that a stated number may be moved without a word."""
+_NAMED = 3
+"""Numbers that are named of those moved together: a choice."""
 _MISFIT = 1.5
 """Chi-square per degree of freedom that noise alone does not explain."""
 
@@ -160,6 +163,8 @@ def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: 
             f"limit {_PULLED:g}): they are stated wrongly or the model lacks something, and the law may be "
             "biased beyond its band; see 'viscorig diagnose'"
         )
+    else:
+        said.extend(_together(fit))
     if noise_is_known and uncertainty.chi2_per_dof > _MISFIT:
         said.append(
             f"the residual is {uncertainty.chi2_per_dof:.3g} times what the noise explains "
@@ -167,6 +172,24 @@ def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: 
             "and the law may be biased beyond its band"
         )
     return [*said, *_law_warnings(fit.law, uncertainty)]
+
+
+def _together(fit: Fit) -> list[str]:
+    """Of numbers each within its tolerance that hardly belong together."""
+    if fit.posterior is None or not fit.adjusted:
+        return []
+    z = np.array([one.pull for one in fit.adjusted])
+    chi_square, directions = pulled_together(z, fit.posterior[-len(z) :, -len(z) :])
+    if not is_unlikely(chi_square, directions):
+        return []
+    most = sorted(fit.adjusted, key=lambda one: -abs(one.pull))[:_NAMED]
+    named = ", ".join(f"{one.name} by {one.pull:+.1f}" for one in most)
+    return [
+        "stated numbers had to be moved together further than data as these move them (chi-square "
+        f"{chi_square:.3g} of {directions} directions; most {named} standard deviations): one of them is "
+        "stated wrongly or the model lacks something, and the law may be biased beyond its band; see "
+        "'viscorig diagnose'"
+    ]
 
 
 def _law_warnings(fitted: CoreLaw, uncertainty: Uncertainty) -> list[str]:

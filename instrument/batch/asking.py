@@ -53,7 +53,7 @@ def _task(data: Path, specimen: Path | None, hammer: Path | None) -> BatchTask:
 
 def _is_table(path: Path) -> bool:
     """A CSV with a column `data`; what cannot be read is none, and fails as a row."""
-    if path.suffix.lower() != ".csv":
+    if path.suffix.lower() != ".csv" or not path.is_file():
         return False
     try:
         with open(path, encoding="utf-8-sig") as file:

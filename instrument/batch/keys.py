@@ -10,6 +10,8 @@ import numpy as np
 import scipy
 
 from instrument.batch.task import BatchTask
+from instrument.errors import BadInput
+from instrument.files.text import refuse_endless
 
 _ROOMS = ("fitting", "instrument")
 _DIGITS = 32
@@ -30,13 +32,14 @@ class Keys:
         for path in (task.data, task.specimen, task.hammer, task.like):
             try:
                 said.append([Path(path).name, self._digest(path)] if path else None)
-            except OSError:
+            except (BadInput, OSError):
                 return None
         return hashlib.sha256(json.dumps(said).encode()).hexdigest()[:_DIGITS]
 
 
 def digest_of(path: str) -> str:
-    """Of a file's content. Raises `OSError`."""
+    """Of a file's content. Raises `BadInput`, `OSError`."""
+    refuse_endless(Path(path))
     with open(path, "rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 

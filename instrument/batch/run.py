@@ -11,7 +11,8 @@ from instrument.batch.journal import OutcomeJournal
 from instrument.batch.keys import Keys
 from instrument.batch.task import BatchTask
 from instrument.batch.work import Outcome, failure, lost, outcome_of
-from instrument.errors import StoppedByUser
+from instrument.errors import BadInput, StoppedByUser
+from instrument.files.text import refuse_endless
 from instrument.models.processes import in_processes
 from instrument.progress import Progress, quiet
 
@@ -116,8 +117,11 @@ def _unread(task: BatchTask) -> Outcome:
     for path in (task.data, task.specimen, task.hammer):
         if path is not None:
             try:
+                refuse_endless(Path(path))
                 with open(path, "rb") as file:
                     file.read(1)
+            except BadInput as error:
+                return failure(str(error).replace(path, Path(path).name), again=True)
             except OSError as error:
                 return failure(f"{Path(path).name}: {error.strerror or error}", again=True)
     return failure("its files changed while the batch went on", again=True)

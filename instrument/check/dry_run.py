@@ -28,6 +28,7 @@ from instrument.files.devices import ranges_of
 from instrument.files.experiment_file import experiment_faults, read_experiment
 from instrument.files.rig_file import RigDocument
 from instrument.files.structure_file import read_structure
+from instrument.files.text import read_text
 from instrument.files.toml import document_faults
 from instrument.models.theory import theory_remark
 from instrument.models.tolerance_words import tolerances_used
@@ -188,8 +189,8 @@ def _warnings(s: SegmentForecast, settings: SweepSettings) -> list[str]:
 def _faults_of_named(path: Path) -> list[str]:
     """Of the rig and the specimen, where the experiment is well enough to name them."""
     try:
-        named = tomllib.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        named = tomllib.loads(read_text(path))
+    except (BadInput, RecursionError, ValueError):
         return []
     found = []
     if isinstance(named.get("rig"), str):

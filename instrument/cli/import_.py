@@ -17,15 +17,21 @@ from instrument.interchange.importing import import_file
     type=click.Path(path_type=Path, dir_okay=False),
     help="Where it goes (.csv); the file's own name in the current folder otherwise.",
 )
+@click.option(
+    "--columns",
+    metavar="NAMES",
+    help="Of a text: names in the place of its own, with their units: 'Frequency [Hz],FRF real "
+    "[(m/s)/g],FRF imag [(m/s)/g],-'; - for a column to pass over.",
+)
 @json_option
-def import_(file: Path, out: Path | None, json_path: str | None) -> None:
-    """FILE (.uff, .unv, .mat, .lvm, .csv) as CSV for 'viscorig identify' and 'viscorig damping'.
+def import_(file: Path, out: Path | None, columns: str | None, json_path: str | None) -> None:
+    """FILE (.uff, .unv, .mat, .lvm, or text) as CSV for 'viscorig identify' and 'viscorig damping'.
 
-    Velocity over base acceleration becomes a sweep, motion over force an FRF, a force with its responses an
-    impact record. What is found is listed.
+    Text is .csv, .txt, .asc, .dat, .prn or .tsv. Velocity over base acceleration becomes a sweep, motion over
+    force an FRF, a force with its responses an impact record. What is found is listed.
     """
     output = Output(json_path)
-    imported = import_file(file, out)
+    imported = import_file(file, out, None if columns is None else [c.strip() for c in columns.split(",")])
     for line in imported.said:
         output.say(line)
     for path in imported.files:

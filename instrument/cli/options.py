@@ -1,5 +1,6 @@
 """Options and arguments shared by commands."""
 
+import os
 import re
 from functools import partial
 from pathlib import Path
@@ -24,7 +25,7 @@ def file_argument(name: str) -> Any:
 def _each_once(_: click.Context, __: click.Parameter, files: tuple[Path, ...]) -> tuple[Path, ...]:
     """What is counted twice seems to be known better than it is."""
     for k, path in enumerate(files):
-        if path.resolve() in [before.resolve() for before in files[:k]]:
+        if os.path.realpath(path) in map(os.path.realpath, files[:k]):
             raise BadInput(f"{path}: named twice, expected every file once")
     return files
 

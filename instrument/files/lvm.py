@@ -80,6 +80,11 @@ def _segments(
         step = steps[0]
     except (KeyError, ValueError, IndexError):
         raise BadInput(f"{path}: line {start}: segment without Channels or Delta_X") from None
+    axis = header.get("X_Dimension", [""])[0]
+    if axis.lower() not in ("", "time"):
+        raise BadInput(
+            f"{path}: line {start}: X_Dimension {axis!r}, expected Time: spectra are not read of it"
+        )
     if not 1 <= count <= len(lines[start].split(separator)):
         raise BadInput(f"{path}: line {start}: {count} channels, expected as many as the names below")
     if step <= 0:

@@ -80,7 +80,12 @@ def number(path: Path, line: int, name: str, text: str) -> float:
 
 def stated_rate_hz(path: Path) -> float | None:
     """By a comment `# sample_rate_hz: ...`, where there is one. Raises `BadInput`."""
-    found = _RATE.search(read_text(path))
+    return rate_stated_in(path, read_text(path))
+
+
+def rate_stated_in(path: Path, text: str) -> float | None:
+    """The same of a file's text. Raises `BadInput`."""
+    found = _RATE.search(text)
     if found is None:
         return None
     rate = number(path, 1, "sample_rate_hz", found[1])

@@ -8,12 +8,27 @@ from instrument.errors import BadInput
 LARGEST_BYTES = 200_000_000
 
 
-def read_text(path: Path, encoding: str = "utf-8-sig") -> str:
-    """The file as text (UTF-8, a byte order mark dropped). Raises `BadInput`."""
+def refuse_endless(path: Path) -> None:
+    """Raise `BadInput` for a pipe or a device: opening it may take for ever, and reading it have no end."""
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        raise BadInput(f"{path}: a pipe or a device, expected a file")
+
+
+def read_content(path: Path) -> bytes:
+    """The file's bytes. Raises `BadInput`."""
+    refuse_endless(path)
     try:
         if path.stat().st_size > LARGEST_BYTES:
             raise BadInput(f"{path}: {path.stat().st_size} bytes, expected at most {LARGEST_BYTES}")
-        content = path.read_bytes()
+        return path.read_bytes()
+    except OSError as error:
+        raise BadInput(f"{path}: {error.strerror or error}") from None
+
+
+def read_text(path: Path, encoding: str = "utf-8-sig") -> str:
+    """The file as text (UTF-8, a byte order mark dropped). Raises `BadInput`."""
+    content = read_content(path)
+    try:
         if content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
             raise BadInput(f'{path}: UTF-16 text, expected UTF-8: save it as such ("CSV UTF-8")')
         text = content.decode(encoding)
@@ -21,8 +36,6 @@ def read_text(path: Path, encoding: str = "utf-8-sig") -> str:
         raise BadInput(
             f"{path}: byte {error.start}: not UTF-8 text ({error.reason}), expected UTF-8: save it as such"
         ) from None
-    except OSError as error:
-        raise BadInput(f"{path}: {error.strerror or error}") from None
     if "\0" in text:
         raise BadInput(f"{path}: byte {text.index(chr(0))}: a NUL byte, expected a text file")
     if not text.strip():

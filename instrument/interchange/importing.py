@@ -1,6 +1,7 @@
 """Foreign data to this program's CSV files: sweeps, FRFs, impact records."""
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -26,12 +27,14 @@ class Imported:
     said: tuple[str, ...]
 
 
-def import_file(path: Path, out: Path | None) -> Imported:
+def import_file(path: Path, out: Path | None, columns: Sequence[str] | None = None) -> Imported:
     """Read a foreign file and write what it holds. Raises `BadInput` where there is nothing of use in it.
+
+    `columns` are names in the place of a text's own, empty or `-` for what is passed over.
 
     One kind of thing goes to `out` itself; several get its name with `-sweep`, `-frf` or `-hits` behind it.
     """
-    found = read_foreign(path)
+    found = read_foreign(path, columns)
     target = out if out is not None else Path(f"{path.stem}.csv")
     if target.suffix.lower() != ".csv":
         raise BadInput(f"{target}: ending {target.suffix!r}, expected .csv")

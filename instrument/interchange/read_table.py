@@ -16,12 +16,15 @@ from instrument.files.units import DERIVATIVE, KNOWN, Quantity, Unit
 from instrument.interchange.found import Columns, Found, Ratio
 from instrument.interchange.said_by_name import (
     BASE,
+    NotSaid,
     Part,
     amplitude_factor,
     axis_of,
     bracketed,
+    of_decibels,
     part_in,
     radians,
+    reference_of_db,
     refuse_unknown,
     stem_of,
     unit_in,
@@ -30,8 +33,11 @@ from instrument.interchange.said_by_name import (
 Named = dict[str, NDArray[Any]]
 """Arrays of one length; matrices (samples, hits) for hits side by side; single numbers as arrays of one."""
 _RATES = ("sample_rate_hz", "sampling_rate_hz", "fs", "fs_hz", "sample_rate", "sampling_frequency")
-_FREQUENCIES, _TIMES = ("frequency", "freq", "f"), ("time", "t")
+_FREQUENCIES = ("frequency", "freq", "f", "frequenz", "frequence")
+_TIMES = ("time", "t", "zeit", "temps")
 _LONGEST = 200
+_SAME = 0.02
+"""Magnitude and phase beside real and imaginary part are written with few digits."""
 _CARRIED = ("mass_kg", "mounting", "temperature_c")
 """Columns of ours that say of which plate, or at what temperature, a row is: whoever fits asks about them."""
 _AXIS_HZ = {"Hz": 1.0, "kHz": 1e3, "rad/s": 1 / (2 * np.pi), "": 1.0}
@@ -77,8 +83,14 @@ def read_table(source: str, table: Named, found: Found) -> bool:
 def _say_left(source: str, table: Named, used: list[_Signal], found: Found) -> None:
     """Of what was not taken, its names: nobody else would miss them."""
     taken = {name for signal in used for name in signal.names}
-    words = (*_FREQUENCIES, *_TIMES, *_RATES, "coherence", "accepted", "hit", *_others(), *_CARRIED)
-    left = [n for n in table if n not in taken and not any(n.lower().startswith(w) for w in words)]
+    words = (*_RATES, "coherence", "accepted", "hit", *_others(), *_CARRIED)
+    left = [
+        n
+        for n in table
+        if n not in taken
+        and not any(n.lower().startswith(w) for w in words)
+        and bracketed(n)[1][:1] not in ([axis] for axis in (*_FREQUENCIES, *_TIMES))
+    ]
     if used and left:
         found.said.append(f"passed over: {source}: {', '.join(left)[:_LONGEST]}")
 
@@ -146,15 +158,17 @@ def _signal(source: str, table: Named, stem: tuple[str, ...], names: dict[Part, 
         raise BadInput(f"{source}: {' and '.join(names.values())}: expected both in one unit")
     if ("re" in names) != ("im" in names):
         raise BadInput(f"{source}: {label}: its other part is missing, expected re and im")
+    size = names.get("magnitude") or names.get("whole")
     if "re" in names:
-        values: NDArray[Any] = table[names["re"]] + 1j * table[names["im"]]
+        values: NDArray[Any] = _from_parts(source, table, names["re"], names["im"])
+        if size is not None:
+            _check_agree(source, table, names, size, values)
+    elif size is None:
+        return None
     elif "phase" in names:
-        size = names.get("magnitude") or names.get("whole")
-        if size is None:
-            return None
-        values = table[size] * np.exp(1j * radians(source, names["phase"], table[names["phase"]]))
+        values = _size(table, size) * np.exp(1j * radians(source, names["phase"], table[names["phase"]]))
     else:
-        values = table[names.get("whole") or names["magnitude"]]
+        values = _size(table, size)
     # Of a ratio both are stated alike.
     peak = (
         1.0 if unit.per is not None else max(map(amplitude_factor, names.values()), key=lambda x: abs(x - 1))
@@ -162,6 +176,36 @@ def _signal(source: str, table: Named, stem: tuple[str, ...], names: dict[Part, 
     return _Signal(
         label, unit, bool(BASE & set(stem)), values * (unit.factor * peak), peak, tuple(names.values())
     )
+
+
+def _from_parts(source: str, table: Named, re: str, im: str) -> NDArray[Any]:
+    for name in (re, im):
+        if reference_of_db(name) is not None:
+            raise NotSaid(f"{source}: {name}: dB of a part of a phasor, expected dB of its magnitude")
+    return np.asarray(table[re] + 1j * table[im])
+
+
+def _size(table: Named, name: str) -> NDArray[Any]:
+    """As it stands, of dB what it is a level of."""
+    reference = reference_of_db(name)
+    return table[name] if reference is None else of_decibels(table[name], reference)
+
+
+def _check_agree(source: str, table: Named, names: dict[Part, str], size: str, values: NDArray[Any]) -> None:
+    """Raise `BadInput` where a magnitude, or magnitude and phase, are not those of the parts beside them."""
+    other = _size(table, size)
+    if np.iscomplexobj(other) or other.shape != values.shape:
+        return
+    own = np.abs(values)
+    if "phase" in names:
+        other = other * np.exp(1j * radians(source, names["phase"], table[names["phase"]]))
+        own = values
+    most = float(np.nanmax(np.abs(values), initial=0.0))
+    if not np.allclose(own, other, atol=_SAME * most, rtol=_SAME, equal_nan=True):
+        raise BadInput(
+            f"{source}: {', '.join(names.values())}: magnitude and phase are not those of real and imaginary "
+            "part, expected one of both"
+        )
 
 
 # What they make together

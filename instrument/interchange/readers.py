@@ -1,6 +1,7 @@
 """Readers of other programs' files, by the ending of the file's name; other packages add theirs."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,8 @@ Reader = Callable[[Path], Found]
 
 _OURS = ("csv", "txt")
 """Endings of sweeps as this program writes them, too."""
+_TEXTS = (*_OURS, "asc", "dat", "prn", "tsv")
+"""Endings of tables as text."""
 
 
 def _judge(name: str, found: Any) -> Reader:
@@ -35,20 +38,25 @@ READERS: Registry[Reader] = Registry(
         **dict.fromkeys(("uff", "unv"), "instrument.interchange.read_uff:read_uff"),
         "lvm": "instrument.interchange.read_lvm:read_lvm_hits",
         "mat": "instrument.interchange.read_mat:read_mat",
-        **dict.fromkeys(("csv", "txt"), "instrument.interchange.read_csv:read_csv"),
+        **dict.fromkeys(_TEXTS, "instrument.interchange.read_csv:read_csv"),
     },
     _judge,
 )
 """By the ending without its dot, in small letters."""
 
 
-def read_foreign(path: Path) -> Found:
-    """What a file holds, by its ending. Raises `BadInput`."""
+def read_foreign(path: Path, columns: Sequence[str] | None = None) -> Found:
+    """What a file holds, by its ending; `columns` are names in the place of a text's. Raises `BadInput`."""
     if not path.is_file():
-        raise BadInput(f"{path}: no such file")
+        raise BadInput(f"{path}: {'no file' if path.exists() else 'no such file'}")
     reader = READERS.get(_ending(path))
     if reader is None:
         raise BadInput(f"{path}: unknown ending {path.suffix!r}, {READERS.expected(_ending(path))}")
+    if columns is not None:
+        if _ending(path) not in _TEXTS:
+            raise BadInput(f"{path}: --columns names those of a table as text, expected {', '.join(_TEXTS)}")
+        text_reader: Callable[..., Found] = reader
+        reader = partial(text_reader, columns=columns)
     found = _read(reader, path)
     if not (found.sweeps or found.frfs or found.hits):
         said = "; ".join(found.said) or "no array that says what it is"

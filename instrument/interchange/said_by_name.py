@@ -4,12 +4,14 @@
 """
 
 import re
+import unicodedata
 from collections.abc import Iterable
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from fitting.arrays import Array
 from instrument.errors import BadInput
 from instrument.files.units import KNOWN, Unit, unit_of
 
@@ -18,22 +20,28 @@ Part = Literal["whole", "re", "im", "magnitude", "phase"]
 BASE = {"base", "reference", "ref", "clamp", "excitation", "shaker", "input"}
 """Words of a motion of the base."""
 _PARTS: dict[str, Part] = {
-    **dict.fromkeys(("re", "real"), "re"),
-    **dict.fromkeys(("im", "imag", "imaginary"), "im"),
-    **dict.fromkeys(("mag", "magnitude", "amp", "amplitude", "abs", "modulus"), "magnitude"),
+    **dict.fromkeys(("re", "real", "realteil", "reel", "reelle"), "re"),
+    **dict.fromkeys(("im", "imag", "imaginary", "imaginarteil", "imaginaire"), "im"),
+    **dict.fromkeys(
+        ("mag", "magnitude", "amp", "amplitude", "abs", "modulus", "betrag", "module"), "magnitude"
+    ),
     **dict.fromkeys(("phase", "phi", "arg", "angle"), "phase"),
 }
+"""Accents are taken off before."""
 _MEASURED = {"velocity", "vel", "acceleration", "accel", "acc", "displacement", "disp", "force", "frf"}
 """Words of what is wanted: without its unit it is not passed over in silence."""
+_OF_BASE = {"base", "clamp", "reference", "ref"}
+"""Of a measured base: left out, its commanded level would stand in its place."""
 _RATIOS = {"frf", "tf", "transfer", "ratio", "h", "h1", "h2", "hv"}
 """Words of one signal over another: velocity over acceleration is in seconds, as times are."""
 _STEMS = {"accelerance": "(m/s^2)/N", "inertance": "(m/s^2)/N", "mobility": "(m/s)/N", "receptance": "m/N"}
+_LENGTHS = ("cm", "mm", "um", "nm", "in", "ft", "m")
 _SUFFIXES = (
-    ("_mm_s2", "mm/s^2"),
-    ("_m_s2", "m/s^2"),
-    ("_mm_s", "mm/s"),
-    ("_m_s", "m/s"),
+    *((f"_{length}_s2", f"{length}/s^2") for length in _LENGTHS),
+    *((f"_{length}_s", f"{length}/s") for length in _LENGTHS),
     ("_mm", "mm"),
+    ("_cm", "cm"),
+    ("_um", "um"),
     ("_kn", "kN"),
     ("_m", "m"),
     ("_n", "N"),
@@ -49,6 +57,12 @@ _PEAKS = (
 _ANGLES = {"deg": np.pi / 180, "degree": np.pi / 180, "degrees": np.pi / 180, "°": np.pi / 180, "rad": 1.0}
 _TURN_RAD = 2 * np.pi
 _LAST_GROUP = re.compile(r"\(((?:[^()]|\([^()]*\))*)\)\s*$")
+_DECIBELS = re.compile(r"dB\b\s*(?:re[lf]?\b[.:]?)?\s*([\d.]+(?:e[-+]?\d+)?)?\s*(.*)", re.I)
+_HALF_DECADE_DB = 20.0
+
+
+class NotSaid(BadInput):
+    """A name does not say enough, or nothing that is known."""
 
 
 def bracketed(name: str) -> tuple[str, list[str]]:
@@ -59,13 +73,39 @@ def bracketed(name: str) -> tuple[str, list[str]]:
         # (m/s)/(m/s^2): the first of the two groups is part of the unit.
         match = re.search(r"(\(.*)$", plain)
     before = plain[: match.start()] if match else plain
-    return (match[1] if match else ""), [w for w in re.split(r"[^a-z0-9]+", before.lower()) if w]
+    return (match[1] if match else ""), [w for w in re.split(r"[^a-z0-9]+", _plain(before)) if w]
+
+
+def _plain(text: str) -> str:
+    """In small letters without accents."""
+    return "".join(c for c in unicodedata.normalize("NFKD", text.lower()) if not unicodedata.combining(c))
+
+
+def reference_of_db(name: str) -> float | None:
+    """What 0 dB stand for in the unit of `unit_in`, where a name's unit is in dB; else None.
+
+    `FRF [dB re 1 (m/s)/N]`, `Velocity [dB re 1e-9 m/s]`.
+    """
+    match = _in_db(name)
+    return None if match is None or unit_of(match[2]) is None else float(match[1] or 1.0)
+
+
+def _in_db(name: str) -> re.Match[str] | None:
+    return _DECIBELS.fullmatch(bracketed(name)[0].strip())
+
+
+def of_decibels(values: Array, reference: float) -> Array:
+    """Sizes of levels: 20 dB are a factor of ten. Shape as given."""
+    return np.asarray(reference * 10 ** (values / _HALF_DECADE_DB))
 
 
 def unit_in(name: str) -> Unit | None:
     """What it is in; None where the name does not say, or nothing known."""
     unit, words = bracketed(name)
-    if unit.strip() == "s" and not _RATIOS & set(words):
+    level = _in_db(name)
+    if level is not None:
+        return unit_of(level[2])
+    if unit.strip().lower() == "s" and not _RATIOS & set(words):
         return None
     if unit:
         return unit_of(_without_size(unit))
@@ -88,7 +128,7 @@ def part_in(name: str) -> Part:
 def stem_of(name: str) -> tuple[str, ...]:
     """What the parts of one quantity have in common."""
     bracket, words = bracketed(name)
-    lower = name.strip().lower()
+    lower = _plain(name.strip())
     if not bracket:
         tail = next((suffix for suffix, _ in _SUFFIXES if lower.endswith(suffix)), "")
         words = [w for w in re.split(r"[^a-z0-9]+", lower.removesuffix(tail)) if w]
@@ -110,14 +150,14 @@ def _without_size(unit: str) -> str:
 def radians(source: str, name: str, values: NDArray[np.float64]) -> NDArray[np.float64]:
     """Phases in rad; without a unit they are in degrees. Shape as given.
 
-    Raises `BadInput` where that is in doubt.
+    Raises `NotSaid` where that is in doubt.
     """
     unit, words = bracketed(name)
     said = unit.strip().lower() or next((w for w in words if w in _ANGLES), "")
     if said and said not in _ANGLES:
-        raise BadInput(f"{source}: {name}: in {unit!r}, expected deg or rad")
+        raise NotSaid(f"{source}: {name}: in {unit!r}, expected deg or rad")
     if not said and np.any(values) and np.max(np.abs(values)) <= _TURN_RAD:
-        raise BadInput(
+        raise NotSaid(
             f"{source}: {name}: no more than {np.max(np.abs(values)):.3g} in size, are these rad? "
             "expected deg or rad in its name"
         )
@@ -129,7 +169,7 @@ def axis_of(
 ) -> tuple[str, float] | None:
     """The axis among some names and its factor, by its first word and unit; None where there is none.
 
-    Raises `BadInput` where one is `needed` and the only one is in another unit.
+    Raises `NotSaid` where one is `needed` and the only one is in another unit.
     """
     found: list[tuple[int, str, float]] = []
     unknown, plain = "", {unit.lower(): factor for unit, factor in units.items()}
@@ -144,7 +184,7 @@ def axis_of(
             unknown = unknown or name
     if not found and unknown and needed:
         known = ", ".join(unit for unit in units if unit)
-        raise BadInput(f"{source}: {unknown}: in which unit? expected one of {known} in its name")
+        raise NotSaid(f"{source}: {unknown}: in which unit? expected one of {known} in its name")
     return min(found, key=lambda one: one[0])[1:] if found else None
 
 
@@ -154,15 +194,19 @@ def _last_unit(words: list[str], units: dict[str, float]) -> str:
 
 
 def refuse_unknown(source: str, name: str, unit: Unit | None) -> None:
-    """Raise `BadInput` for what decides a law, in no known unit, or for a ratio in that of one signal."""
+    """Raise `NotSaid` for what decides a law, in no known unit, or for a ratio in that of one signal."""
     said, words = bracketed(name)
     if unit is not None:
         if _RATIOS & set(words):
-            raise BadInput(f"{source}: {name}: a ratio in one unit, expected one over another")
+            raise NotSaid(f"{source}: {name}: a ratio in one unit, expected one over another")
         return
     decides = bool(_MEASURED & {word.rstrip("0123456789") for word in words})
-    part = part_in(name) in ("re", "im", "magnitude") or bool(BASE & set(words))
-    if said and decides:
-        raise BadInput(f"{source}: {name}: in {said!r}, expected one of {KNOWN}, or one over another")
-    if not said and decides and part:
-        raise BadInput(f"{source}: {name}: no unit, expected one in its name: {KNOWN}, or one over another")
+    is_part = part_in(name) in ("re", "im", "magnitude")
+    part = is_part or bool(BASE & set(words))
+    base = bool(_OF_BASE & set(words)) and (is_part or (bool(said) and set(words) <= BASE))
+    if _in_db(name) is not None and (decides or part):
+        raise NotSaid(f"{source}: {name}: dB of what? expected as in 'dB re 1 (m/s)/N'")
+    if said and (decides or base):
+        raise NotSaid(f"{source}: {name}: in {said!r}, expected one of {KNOWN}, or one over another")
+    if not said and ((decides and part) or base):
+        raise NotSaid(f"{source}: {name}: no unit, expected one in its name: {KNOWN}, or one over another")

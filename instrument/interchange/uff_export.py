@@ -233,4 +233,7 @@ def _write(path: Path, sets: Iterable[dict[str, Any]]) -> None:
     # The library's "overwrite" wipes a binary set's header; closing its file it leaves to the collector.
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ResourceWarning)
-        pyuff.UFF(str(path)).write_sets(list(sets), mode="add")
+        try:
+            pyuff.UFF(str(path)).write_sets(list(sets), mode="add")
+        except Exception as error:  # the library says of a full disk no more than that it failed
+            raise OSError(f"{path.name}: {error}: is the disk full?") from error

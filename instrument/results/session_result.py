@@ -85,8 +85,25 @@ def result_of_events(
 
 
 def recorded_result(contents: Contents) -> SessionResult:
-    """Of a session, from what was recorded."""
-    return result_of_events(contents.fit, contents.diagnosis, contents.measured)
+    """Of a session, from what was recorded; where the run ended early, that and how to go on."""
+    fit, diagnosis = contents.fit, contents.diagnosis
+    if diagnosis is not None or (fit is not None and fit.message) or not (early := _ended_early(contents)):
+        return result_of_events(fit, diagnosis, contents.measured)
+    return result_of(fit.result if fit else None, None, Conditions.of_points(contents.measured), early)
+
+
+def _ended_early(contents: Contents) -> str:
+    """What happened and what to do; empty for a run that was done."""
+    ended, points = contents.ended, Conditions.of_points(contents.measured).points
+    if ended is not None and ended.why == "done":
+        return ""
+    happened = "the run was killed" if ended is None else f"the run was {ended.why}"
+    more = f" ({' '.join(ended.message.split())})" if ended is not None and ended.message else ""
+    folder = f"{contents.configuration.name}.running"
+    return (
+        f"{happened}{more} after {points} point{'' if points == 1 else 's'}; to go on: viscorig run "
+        f"EXPERIMENT.toml --resume {folder}; a law of what is there: viscorig identify {contents.path.name}"
+    )
 
 
 def _said(

@@ -115,21 +115,22 @@ def _run(
     session = SessionRun(
         experiment, journal, forecast, control, earlier, parts, fit, diagnose, companion, progress
     )
+    begun = (parts[0] if len(parts) == 1 else "run", str(experiment.path))
     try:
         with Recorder(journal, entries, watch) as recorder:
             session.run(recorder)
         recorder.check()
         finish_session(journal, path)
     except (RigStopped, DriverError, OSError) as error:
-        raise RigStopped(f"{' '.join(str(error).split())}; {kept(journal, path)}") from error
+        raise RigStopped(f"{' '.join(str(error).split())}; {kept(journal, path, begun)}") from error
     except KeyboardInterrupt:
-        raise StoppedByUser(kept(journal, path)) from None
+        raise StoppedByUser(kept(journal, path, begun)) from None
     except BadInput as error:
-        raise BadInput(f"{error}; {kept(journal, path)}") from error
+        raise BadInput(f"{error}; {kept(journal, path, begun)}") from error
     except Exception as error:  # a fault of this program: what was measured is kept all the same
         log.debug("internal error", exc_info=True)
         said = f"internal error, {type(error).__name__}: {' '.join(str(error).split())}"
-        raise RigStopped(f"{said}; {kept(journal, path)}") from error
+        raise RigStopped(f"{said}; {kept(journal, path, begun)}") from error
     finally:
         journal.unlock()
     points = tuple(session.analysis.points)

@@ -1,6 +1,8 @@
 """The folder of a running session: begun, taken up again, put together at the end, whatever the end is."""
 
 import re
+import shlex
+from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -43,8 +45,11 @@ def finish_session(journal: SessionJournal, path: Path) -> int:
     return len(entries)
 
 
-def kept(journal: SessionJournal, path: Path) -> str:
-    """Put together what is complete, and say where it is. A run without anything complete leaves nothing."""
+def kept(journal: SessionJournal, path: Path, begun: Sequence[str] = ("run", "EXPERIMENT.toml")) -> str:
+    """Put together what is complete, and say where it is and how to go on.
+
+    `begun` is the command and its experiment. A run without anything complete leaves nothing.
+    """
     try:
         entries = journal.entries()
         events = [e for entry in entries for e in part_events(journal.folder / entry.file)]
@@ -55,7 +60,8 @@ def kept(journal: SessionJournal, path: Path) -> str:
         steps = sum(len(e.steps) for e in entries)
         hits = sum(isinstance(e, HitJudged) for e in events)
         done = " and ".join(f"{n} {what}" for n, what in ((hits, "hits"), (steps, "steps")) if n)
-        return f"{done} kept in {path}; to go on: --resume {journal.folder}"
+        again = shlex.join(["viscorig", *begun, "--resume", str(journal.folder)])
+        return f"{done} kept in {path}; to go on: {again}"
     except (OSError, ValueError, RuntimeError):
         return f"what is complete is in {journal.folder}: viscorig recover {journal.folder}"
 

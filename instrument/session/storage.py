@@ -27,6 +27,7 @@ from pydantic import ValidationError
 
 from instrument.errors import BadInput
 from instrument.files.point_columns import stored
+from instrument.files.text import refuse_endless
 from instrument.files.toml import one_line
 from instrument.session.configuration import Configuration
 from instrument.stream.derived import CalibrationFound, PointMeasured
@@ -88,6 +89,7 @@ class SessionFile:
 
     def __init__(self, path: Path) -> None:
         self.path = path
+        refuse_endless(path)
         try:
             self._file = h5py.File(path, "r")
         except OSError as error:

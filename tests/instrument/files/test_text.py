@@ -1,10 +1,13 @@
 """Text files are read whole or refused in one line; a misspelt name finds the one that was meant."""
 
+import os
+
 import pytest
 
 from instrument.errors import BadInput
 from instrument.files.nearest import nearest
 from instrument.files.text import read_text
+from instrument.session.storage import SessionFile
 
 
 def test_a_byte_order_mark_is_no_part_of_the_text(tmp_path):
@@ -39,3 +42,17 @@ def test_a_misspelt_name_finds_the_one_meant_and_a_strange_one_none():
     assert nearest("frequncy_hz", known) == "frequency_hz"
     assert nearest("velocity_ms", known) == "velocity_m_s"
     assert nearest("colour", known) is None
+
+
+def test_a_pipe_is_refused_and_not_waited_for(tmp_path):
+    os.mkfifo(tmp_path / "a.csv")
+    with pytest.raises(BadInput, match=r"a\.csv: a pipe or a device, expected a file"):
+        read_text(tmp_path / "a.csv")
+    with pytest.raises(BadInput, match="expected a file"):
+        SessionFile(tmp_path / "a.csv")
+
+
+def test_a_link_to_itself_is_no_file(tmp_path):
+    (tmp_path / "a.csv").symlink_to("a.csv")
+    with pytest.raises(BadInput, match=r"a\.csv: "):
+        read_text(tmp_path / "a.csv")

@@ -26,6 +26,14 @@ G = STANDARD_GRAVITY_M_S2
         ("mm/s/g", "velocity", 1e-3 / G, "acceleration"),
         ("(m/s)/(m/s^2)", "velocity", 1.0, "acceleration"),
         ("s", "velocity", 1.0, "acceleration"),
+        ("cm/s", "velocity", 1e-2, None),
+        ("mm/s^2", "acceleration", 1e-3, None),
+        ("in/s²", "acceleration", 0.0254, None),
+        ("ips", "velocity", 0.0254, None),
+        ("mil", "displacement", 2.54e-5, None),
+        ("MM/S2", "acceleration", 1e-3, None),
+        ("(M/S)/G", "velocity", 1 / G, "acceleration"),
+        ("LBF", "force", 4.4482216152605, None),
     ],
 )
 def test_known_units(text, quantity, factor, per):
@@ -34,6 +42,6 @@ def test_known_units(text, quantity, factor, per):
     assert unit.factor == pytest.approx(factor, rel=1e-12)
 
 
-@pytest.mark.parametrize("text", ["", "V", "Pa", "furlong/s", "m/s/V", "dB", "g/g/g"])
+@pytest.mark.parametrize("text", ["", "V", "Pa", "furlong/s", "m/s/V", "dB", "g/g/g", "MN", "Gm"])
 def test_unknown_units_are_not_guessed(text):
     assert unit_of(text) is None

@@ -11,6 +11,7 @@ from scipy.io import loadmat
 from session_cases import LEVEL_G, RATE, SyntheticSession, configuration
 
 from instrument.cli.main import run
+from instrument.errors import BadInput
 from instrument.files.impact_csv import read_impact_csv
 from instrument.files.specimen_file import SpecimenDocument
 from instrument.files.sweep_file import read_sweep
@@ -296,3 +297,12 @@ def test_a_folder_that_cannot_be_made_is_refused(capsys, session_path, tmp_path)
     status = run(["export", str(session_path), "--to", "mat", "--out", str(tmp_path / "taken" / "below")])
     assert status == 2
     assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_a_universal_file_that_cannot_be_written_is_said_in_a_line(contents, tmp_path, monkeypatch):
+    def fails(*_, **__):
+        raise Exception("Error writing data-set #58")
+
+    monkeypatch.setattr("pyuff.UFF.write_sets", fails)
+    with pytest.raises(BadInput, match=r"\.uff: Error writing data-set #58: is the disk full"):
+        export_session(contents, "uff", tmp_path)

@@ -36,3 +36,10 @@ def test_channels_at_unlike_rates_are_refused(tmp_path):
 def test_a_file_without_a_force_says_what_it_has(tmp_path):
     with pytest.raises(BadInput, match=r"found hammer \[V\], plate \[g\], expected a force"):
         read_lvm_hits(written(tmp_path, units="V\tg"))
+
+
+def test_a_spectrum_is_no_record_in_time(tmp_path):
+    path = written(tmp_path)
+    path.write_text(path.read_text().replace("Delta_X", "X_Dimension\tFrequency\tFrequency\nDelta_X"))
+    with pytest.raises(BadInput, match="X_Dimension 'Frequency', expected Time"):
+        read_lvm_hits(path)

@@ -85,7 +85,9 @@ def test_what_is_made_of_an_rms_value_is_said():
 @pytest.mark.parametrize(
     ("column", "said"),
     [
-        ({"Base accel [cm/s^2]": F}, "in 'cm/s\\^2', expected one of"),
+        ({"Base accel [ell/s^2]": F}, "in 'ell/s\\^2', expected one of"),
+        ({"Base real [V]": F, "Base imag [V]": F}, "Base real .V.: in 'V', expected one of"),
+        ({"Reference [counts]": F}, "in 'counts', expected one of"),
         ({"Base accel real": F, "Base accel imag": F}, "Base accel real: no unit, expected one in its name"),
         ({"Force2 [V]": F}, "Force2 .V.: in 'V', expected one of"),
         ({"Base accel real [g]": F, "Base accel imag [m/s^2]": F}, "expected both in one unit"),
@@ -204,3 +206,7 @@ def test_a_single_row_is_no_sweep(tmp_path):
 def test_thousands_that_are_parted_are_no_decimals(tmp_path, row):
     with pytest.raises(BadInput, match=r"line 3: .* expected one decimal mark"):
         csv(tmp_path, f"Frequency [Hz];Velocity real [m/s];Velocity imag [m/s]\n10;1;1\n{row}\n")
+
+
+def test_a_column_is_no_axis_for_its_first_letter():
+    assert of(PARTS | {"fan speed": F, "tip": F, "f [Hz]": F}).said[1:] == ["passed over: a: fan speed, tip"]

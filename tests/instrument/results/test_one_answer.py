@@ -13,6 +13,7 @@ from instrument.results.diagnosis_words import verdict_line
 from instrument.results.session_result import Conditions, recorded_result, result_of
 from instrument.session.contents import contents_of
 from instrument.session.storage import SessionFile
+from instrument.stream.raw import SessionEnded
 
 UNKNOWN = diagnosis(verdict="unknown").but(effects=(), equivalent={})
 NOTHING = diagnosis(verdict="none").but(effects=(), equivalent={})
@@ -136,3 +137,27 @@ def test_temperature_and_level_are_those_of_the_points():
     result = result_of(None, found, Conditions(30, (4.903325, 9.80665), (21.0, 23.5)))
     assert "at 4.903 to 9.807 m/s^2 (0.5 to 1 g), 21 to 23.5 degC" in result.words
     assert result.temperature_range_c == (21.0, 23.5)
+
+
+@pytest.mark.parametrize(
+    ("ended", "happened"),
+    [
+        (None, "the run was killed after 31 points"),
+        (SessionEnded("stopped by the user", ""), "the run was stopped by the user after 31 points"),
+        (SessionEnded("stopped safely", "too hot"), "the run was stopped safely (too hot) after 31 points"),
+    ],
+)
+def test_a_run_that_ended_early_says_so_and_how_to_go_on(tmp_path, ended, happened):
+    early = contents(whole_session(tmp_path))
+    early.fit, early.ended = None, ended
+    result = recorded_result(early)
+    assert result.standing == "no law"
+    assert happened in result.words
+    assert f"--resume {early.configuration.name}.running" in result.words
+    assert f"viscorig identify {early.path.name}" in result.words
+
+
+def test_a_law_of_a_part_of_a_run_says_that_the_run_ended_early(tmp_path):
+    early = contents(whole_session(tmp_path))
+    early.ended = SessionEnded("stopped by the user", "")
+    assert "not diagnosed: the run was stopped by the user after 31 points" in recorded_result(early).words

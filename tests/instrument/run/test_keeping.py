@@ -126,8 +126,9 @@ def test_what_is_complete_is_kept_and_can_be_carried_on(begin, tmp_path):
     add(journal, HIT, HIT)
     add(journal, point(1), point(2), point(3))
     path = tmp_path / "a.h5"
-    said = kept(journal, path)
-    assert said == f"2 hits and 3 steps kept in {path}; to go on: --resume {journal.folder}"
+    said = kept(journal, path, ("sweep", "my plate.toml"))
+    again = f"viscorig sweep 'my plate.toml' --resume {journal.folder}"
+    assert said == f"2 hits and 3 steps kept in {path}; to go on: {again}"
     assert path.is_file()
     assert len(journal.entries()) == 2
 
