@@ -138,3 +138,13 @@ def next_item(reader, kind, until_s=float("inf")):
         time.sleep(0.001)
     assert isinstance(item, kind), item
     return item
+
+
+@pytest.mark.pages("run")
+def test_a_session_opened_alone_shows_its_specimen_until_it_is_closed(qtbot, opened):
+    drawing = opened.pages[0].drawing
+    qtbot.waitUntil(lambda: drawing.currentWidget() is drawing.structure)
+    assert any(mark.kind == "spot" for view in drawing.structure.views for mark in view.marks)
+    opened.controller.leave()
+    qtbot.waitUntil(lambda: drawing.currentWidget() is drawing.plate)
+    assert drawing.plate.size_mm is None
