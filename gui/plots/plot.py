@@ -9,7 +9,7 @@ from typing import Any
 
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, Signal
-from PySide6.QtGui import QResizeEvent
+from PySide6.QtGui import QContextMenuEvent, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from fitting.arrays import Array
@@ -159,6 +159,13 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         return {n: (c.columns[""], c.columns[n]) for n, c in self._curves.items() if n in c.columns}
 
     # How
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        """The menu key opens what a right click does."""
+        if event.reason() == QContextMenuEvent.Reason.Keyboard:
+            self.plotItem.vb.getMenu().popup(self.mapToGlobal(self.rect().center()))
+        else:
+            super().contextMenuEvent(event)
 
     def changeEvent(self, event: QEvent) -> None:
         """Colours and type follow the window's."""
