@@ -15,7 +15,7 @@ from PySide6.QtCore import (
     QTimer,
     Signal,
 )
-from PySide6.QtGui import QBrush, QFocusEvent, QKeyEvent, QPainter
+from PySide6.QtGui import QBrush, QFocusEvent, QKeyEvent, QPainter, QResizeEvent
 from PySide6.QtWidgets import (
     QApplication,
     QComboBox,
@@ -50,6 +50,8 @@ _OPEN = (
 )
 """Tables shown unfolded from the start; one with a fault is too."""
 _FAULTY = "\u2716 "
+_LEAST_LETTERS, _LETTERS, _FAULT_LETTERS = 20, 42, 4
+"""Width of a field, at least and at most, and what is left beside it for the sign of a fault."""
 
 
 class Form(QTreeWidget):
@@ -188,8 +190,8 @@ class Form(QTreeWidget):
             header = self.header()
             for column in (_NAME, _UNIT):
                 header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
-            header.resizeSection(_VALUE, self.fontMetrics().averageCharWidth() * 42)
             header.setStretchLastSection(True)
+            self._fit_values()
         self.verticalScrollBar().setValue(at)
         self.judge()
         if here:
@@ -220,6 +222,18 @@ class Form(QTreeWidget):
             if typed is not None and typed in self._items:
                 self.setCurrentItem(self._items[typed], _NAME)
             self.setFocus()
+
+    def _fit_values(self) -> None:
+        """Fields as wide as leaves room for what stands beside them; not narrower than a number."""
+        letter = self.fontMetrics().averageCharWidth()
+        beside = sum(self.sizeHintForColumn(column) for column in (_NAME, _UNIT))
+        room = self.viewport().width() - beside - _FAULT_LETTERS * letter
+        self.header().resizeSection(_VALUE, max(_LEAST_LETTERS * letter, min(_LETTERS * letter, room)))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """More room for the fields, or less."""
+        super().resizeEvent(event)
+        self._fit_values()
 
     def _section(self, above: QTreeWidgetItem | None, place: Place, section: FormSection) -> None:
         item = self._row(above, place, section.label, section.tip)
