@@ -43,6 +43,8 @@ _OPEN = (
     "core",
     "law",
     "plate",
+    "beam",
+    "shear-pair",
     "sweep",
     "shaker",
     "front_end",
