@@ -30,7 +30,7 @@ from PySide6.QtWidgets import (
 
 from gui.asking import ask_open
 from gui.form.draft import Draft
-from gui.form.fields import FILES, Field, FormSection, Place, device_fields, law_fields, section_of
+from gui.form.fields import FILES, Field, FormSection, Place, device_fields, form_of, law_fields
 from gui.theme import current_theme
 from gui.widgets import tool
 from instrument.files.acceleration import said_beside
@@ -52,8 +52,8 @@ _OPEN = (
 )
 """Tables shown unfolded from the start; one with a fault is too."""
 _FAULTY = "\u2716 "
-_LEAST_LETTERS, _LETTERS, _FAULT_LETTERS = 20, 42, 4
-"""Width of a field, at least and at most, and what is left beside it for the sign of a fault."""
+_LEAST_LETTERS, _LETTERS, _FAULT_LETTERS, _WORDS = 20, 42, 4, 38
+"""Width of a field, at least and at most, and what is left beside it: a little, or room for a fault."""
 
 
 class Form(QTreeWidget):
@@ -128,6 +128,7 @@ class Form(QTreeWidget):
                 if words:
                     self._unfold(item)
         self.headerItem().setText(_FAULT, f"{_FAULTY}{said[()]}" if () in said else "")
+        self._fit_values()
 
     def show_fault(self) -> None:
         """Go to the first one, and let it be mended."""
@@ -181,7 +182,7 @@ class Form(QTreeWidget):
         with QSignalBlocker(self):
             self._items, self._editors, self._fields = {}, {}, {}
             self.clear()
-            whole = section_of(self.draft.model)
+            whole = form_of(self.draft.model)
             for field in whole.fields:
                 self._field(None, (field.key,), field)
             for section in whole.sections:
@@ -229,7 +230,9 @@ class Form(QTreeWidget):
         """Fields as wide as leaves room for what stands beside them; not narrower than a number."""
         letter = self.fontMetrics().averageCharWidth()
         beside = sum(self.sizeHintForColumn(column) for column in (_NAME, _UNIT))
-        room = self.viewport().width() - beside - _FAULT_LETTERS * letter
+        faulty = any(item.text(_FAULT) for item in self._items.values())
+        # What is wrong needs words; a number needs little.
+        room = self.viewport().width() - beside - (_WORDS if faulty else _FAULT_LETTERS) * letter
         self.header().resizeSection(_VALUE, max(_LEAST_LETTERS * letter, min(_LETTERS * letter, room)))
 
     def resizeEvent(self, event: QResizeEvent) -> None:
