@@ -47,8 +47,6 @@ QTableView, QTreeView, QListWidget, QTextEdit { border: 1px solid $grid; border-
 QTableView:focus, QTreeView:focus, QListWidget:focus, QTextEdit:focus { border-color: $accent; }
 QPlainTextEdit:focus { border-color: $accent; }
 QTabBar::tab:selected:focus { color: $accent; }
-QGraphicsView { border: 1px solid transparent; }
-QGraphicsView:focus { border: 1px solid $accent; }
 QTableView { gridline-color: $grid; }
 QPlainTextEdit { border: 1px solid $grid; border-radius: 4px; }
 QLineEdit { background: $base; border: 1px solid $grid; border-radius: 4px; padding: 1px 4px; }

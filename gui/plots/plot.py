@@ -9,7 +9,7 @@ from typing import Any
 
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, Signal
-from PySide6.QtGui import QContextMenuEvent, QResizeEvent
+from PySide6.QtGui import QContextMenuEvent, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from fitting.arrays import Array
@@ -175,6 +175,15 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
             self.plotItem.vb.getMenu().popup(self.mapToGlobal(self.rect().center()))
         else:
             super().contextMenuEvent(event)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """A frame where the keyboard is; inside, because the library counts on all of the widget's room."""
+        super().paintEvent(event)
+        if self.hasFocus():
+            painter = QPainter(self.viewport())
+            painter.setPen(current_theme().color("data"))
+            painter.drawRect(self.viewport().rect().adjusted(0, 0, -1, -1))
+            painter.end()
 
     def changeEvent(self, event: QEvent) -> None:
         """Colours and type follow the window's."""
