@@ -38,7 +38,7 @@ def _of(part: QWidget) -> Iterator[QWidget]:
         yield from _of(child)
 
 
-def _inside(part: QWidget) -> Sequence[QObject]:
+def _inside(part: QWidget) -> Sequence[QObject | None]:
     if isinstance(part, QSplitter):
         # Its children are in the order of drawing.
         return [part.widget(k) for k in range(part.count())]

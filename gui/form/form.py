@@ -142,8 +142,9 @@ class Form(QTreeWidget):
     def focusInEvent(self, event: QFocusEvent) -> None:
         """The keyboard is at some row, always."""
         super().focusInEvent(event)
-        if self.currentItem() is None:
-            self.setCurrentItem(self.topLevelItem(0), _NAME)
+        first = self.topLevelItem(0)
+        if self.currentItem() is None and first is not None:
+            self.setCurrentItem(first, _NAME)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Enter goes into the row's field; Escape there comes back."""
