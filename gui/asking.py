@@ -75,7 +75,8 @@ def ask_word(owner: QWidget, title: str, question: str, yes: str, then: Callable
     """For a yes, whose words are given; anything else changes nothing."""
     box = QMessageBox(QMessageBox.Icon.Question, title, question, parent=owner)
     agreed = box.addButton(yes, QMessageBox.ButtonRole.AcceptRole)
-    box.addButton(QMessageBox.StandardButton.Cancel)
+    # Enter pressed in haste changes nothing either.
+    box.setDefaultButton(box.addButton(QMessageBox.StandardButton.Cancel))
     agreed.clicked.connect(then)
     show(box, owner, title)
     return box

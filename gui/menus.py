@@ -23,7 +23,8 @@ F12, or Esc twice\tstop the shaker at once
 F9\thold, resume
 Ctrl+F9\tend the run in order
 Ctrl+Return\twhat the run asks for is done
-Ctrl+N\ta new experiment
+Ctrl+N, Ctrl+S\ta new experiment, save it
+F7, F5\tcheck it, start it
 Ctrl+O\topen a session, an experiment or other data
 Ctrl+R, Ctrl+Shift+P\tsave the report as a page, as a PDF
 Ctrl+P\tprint the report
@@ -31,7 +32,9 @@ Ctrl+Space\tplay, pause
 Ctrl+Left, Ctrl+Right\tto the mark before, to the next
 Ctrl++, Ctrl+-, Ctrl+0\tlarger, smaller, usual type
 F11\tfull screen
-right mouse button\ta plot's menu: ranges, cursors, export
+Tab, Shift+Tab\tto what stands next, before
+up, down, space, Enter\tin a form: to a row, tick its table, into its field (Esc: back)
+right mouse button, menu key\ta plot's menu: ranges, cursors, export
 """.strip()
 
 

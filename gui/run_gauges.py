@@ -6,6 +6,7 @@ from PySide6.QtWidgets import QWidget
 from gui.controller import AppController
 from gui.gauge import Gauge
 from gui.state import SessionState
+from gui.state.run import Run
 from gui.theme import Role, current_theme
 from instrument.files.acceleration import acceleration_unit
 from instrument.stepped_sine.settings import Limits
@@ -15,9 +16,19 @@ _LOOKS_MS = 100
 """A value grows older also where nothing comes."""
 
 
-def state_color(state: str) -> str:
-    """As style sheets write it."""
-    return current_theme().color(_COLORS.get(state, "data")).name()
+_VERDICTS: dict[str, Role] = {"unknown": "bad", "ambiguous": "fair"}
+"""Of a run that is done: what it found is not as good as done sounds."""
+
+
+def state_color(state: str, verdict: str = "") -> str:
+    """As style sheets write it; `verdict` of the diagnosis of a run that is done."""
+    role = _VERDICTS.get(verdict) if state == "done" else None
+    return current_theme().color(role or _COLORS.get(state, "data")).name()
+
+
+def run_color(run: Run) -> str:
+    """Of how a run stands, as style sheets write it."""
+    return state_color(run.state, run.found.verdict if run.found is not None else "")
 
 
 class RunGauges(QObject):

@@ -14,19 +14,23 @@ _SHEET = Template(
 QPushButton { background: $button; border: 1px solid $grid; border-radius: 4px; padding: 3px 10px; }
 QPushButton { min-height: 18px; }
 QPushButton:hover { border-color: $accent; }
-QPushButton:focus { border-color: $accent; }
+QPushButton:focus { border: 2px solid $accent; padding: 2px 9px; }
 QPushButton:pressed { background: $grid; }
 QPushButton:disabled { color: $faint; background: $window; border-color: $grid; }
 QPushButton::menu-indicator { subcontrol-position: right center; right: 4px; }
 QPushButton#primary { background: $accent; color: $accent_text; border-color: $accent; font-weight: bold; }
 QPushButton#primary:hover { border-color: $text; }
+QPushButton#primary:focus { border: 2px solid $text; }
 QPushButton#primary:pressed { background: $text; color: $base; }
 QPushButton#primary:disabled { background: $window; color: $faint; border-color: $grid; }
 QPushButton#stop { background: $stop; color: $stop_text; border: 1px solid $stop; font-weight: bold; }
 QPushButton#stop:hover { border-color: $stop_text; }
+QPushButton#stop:focus { border: 2px solid $text; }
 QPushButton#stop:pressed { background: $text; color: $base; }
 QPushButton#stop:disabled { background: $window; color: $faint; border-color: $grid; }
 QToolButton:hover { background: $grid; border-radius: 4px; }
+QToolButton:focus { background: $grid; border: 2px solid $accent; border-radius: 4px; }
+QCheckBox::indicator:focus { border: 2px solid $accent; }
 QCheckBox::indicator, QTreeView::indicator { border: 1px solid $faint; border-radius: 3px; }
 QCheckBox::indicator, QTreeView::indicator { background: $base; width: 12px; height: 12px; }
 QCheckBox::indicator:checked, QTreeView::indicator:checked { image: url("$tick"); }
@@ -40,6 +44,9 @@ QHeaderView { background: $window; border: none; }
 QHeaderView::section { background: $window; color: $faint; border: none; padding: 3px 4px; }
 QHeaderView::section { border-bottom: 1px solid $grid; }
 QTableView, QTreeView, QListWidget, QTextEdit { border: 1px solid $grid; border-radius: 4px; }
+QTableView:focus, QTreeView:focus, QListWidget:focus, QTextEdit:focus { border-color: $accent; }
+QPlainTextEdit:focus { border-color: $accent; }
+QTabBar::tab:selected:focus { color: $accent; }
 QTableView { gridline-color: $grid; }
 QPlainTextEdit { border: 1px solid $grid; border-radius: 4px; }
 QLineEdit { background: $base; border: 1px solid $grid; border-radius: 4px; padding: 1px 4px; }

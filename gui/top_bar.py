@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
 
 from gui.channels import ClipLights
 from gui.controller import AppController
-from gui.run_gauges import RunGauges, state_color
+from gui.run_gauges import RunGauges, run_color, state_color
 from gui.state import SessionState
 from gui.state.run import WORDS
 from gui.stop_button import StopButton
@@ -26,6 +26,7 @@ from instrument.results.typeset import typeset
 
 _PERMILLE = 1000
 _EDGE_PX = 2
+_GO_ON = "; Run says how to go on"
 
 
 class TopBar(QFrame):
@@ -66,14 +67,15 @@ class TopBar(QFrame):
             one.setEnabled(running)
         self.stop.setEnabled(running or self._controller.starting)
         if state is None:
-            self._say("idle", WORDS["idle"], "no session")
+            self._say(state_color("idle"), WORDS["idle"], "no session")
             self.left.clear()
             self.progress.hide()
             self._show_gauges(None)
             return
         run = state.run
         self.hold.setText("Resume" if run.state == "held" else "Hold")
-        self._say(run.state, run.word, run.next_words)
+        more = _GO_ON if run.state == "stopped" and self._controller.recorded is not None else ""
+        self._say(run_color(run), run.word, run.next_words + more)
         self._show_progress(state)
         self._show_gauges(state)
 
@@ -100,10 +102,10 @@ class TopBar(QFrame):
         ):
             label.setFixedWidth(self.fontMetrics().horizontalAdvance(longest) * 6 // 5)
 
-    def _say(self, state: str, word: str, words: str) -> None:
+    def _say(self, color: str, word: str, words: str) -> None:
         recorded = self._controller.recorded is not None
         sign = "RECORDED" if recorded else "\u25cf"
-        self.state.setText(f"<b style='color:{state_color(state)}'>{sign} {word}</b>")
+        self.state.setText(f"<b style='color:{color}'>{sign} {word}</b>")
         self._look(recorded)
         self._words = typeset(words)
         self.next.setToolTip(self._words)

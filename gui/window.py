@@ -29,6 +29,7 @@ from gui.replay_bar import ReplayBar
 from gui.settings import Arrangement, Settings
 from gui.shell import Shell
 from gui.stop_guard import StopGuard
+from gui.tab_order import neighbour
 from gui.theme import Appearance
 from gui.top_bar import TopBar
 from instrument.files.acceleration import show_acceleration_in
@@ -178,6 +179,16 @@ class Window(Shell):
         if event.key() == Qt.Key.Key_Escape and not self.controller.running:
             self.notice.hide()
         super().keyPressEvent(event)
+
+    def focusNextPrevChild(self, forward: bool) -> bool:
+        """Tab goes through what is seen from above to below: bar, page, recording, log."""
+        parts = (self.bar, self.tabs.tabBar(), self.tabs.currentWidget(), self.replay, self.log)
+        found = neighbour(parts, self.focusWidget(), forward=forward)
+        if found is None:
+            return False
+        reason = Qt.FocusReason
+        found.setFocus(reason.TabFocusReason if forward else reason.BacktabFocusReason)
+        return True
 
     # Inside
 

@@ -11,7 +11,7 @@ from fitting.arrays import Array
 from fitting.chances import chi2_exceeded
 from fitting.diagnosis.evidence import Evidence
 from fitting.diagnosis.thresholds import VERDICT
-from fitting.digits import two_digits
+from fitting.digits import two_digits, written_out
 from fitting.sweep import Sweep
 
 LAGS = 8
@@ -31,7 +31,9 @@ def structure(
         return ()
     said = []
     if chi2_per_dof > VERDICT.size:
-        said.append(f"the residual is {chi2_per_dof:.3g} times what noise and model error explain")
+        said.append(
+            f"the residual is {written_out(chi2_per_dof, 3)} times what noise and model error explain"
+        )
     runs, memory = along_frequency(sweep, whitened, parts=2 if evidence.has_phase else 1)
     if runs > VERDICT.runs_sigma:
         said.append(f"its signs keep together along frequency ({runs:.1f} sigma, runs test)")

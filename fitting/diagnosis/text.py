@@ -11,7 +11,7 @@ from fitting.diagnosis.several import SeveralProblem
 from fitting.diagnosis.structure import in_words
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.diagnosis.verdict import NONE, Judgement
-from fitting.digits import two_digits
+from fitting.digits import two_digits, written_out
 from fitting.effects.base import Effect
 
 
@@ -126,9 +126,8 @@ def _left(problem: DiagnosisProblem, before: Stage) -> str:
     kind = in_words(problem.specimen.kind)
     text = f"The stated {kind} with its best law leaves {two_digits(before.rms_percent)} % rms in amplitude"
     if np.isfinite(before.chi2_per_dof):
-        text += (
-            f", {before.chi2_per_dof:.3g} times what noise and model error explain (chi-square per degree)"
-        )
+        times = written_out(before.chi2_per_dof, 3)
+        text += f", {times} times what noise and model error explain (chi-square per degree)"
     return text + "."
 
 
@@ -174,7 +173,9 @@ def _whose(problem: DiagnosisProblem, point: int) -> str:
 def _chi2(before: Stage, after: Stage) -> str:
     if not np.isfinite(after.chi2_per_dof):
         return ""
-    return f", {after.chi2_per_dof:.3g} instead of {before.chi2_per_dof:.3g} times noise"
+    return (
+        f", {written_out(after.chi2_per_dof, 3)} instead of {written_out(before.chi2_per_dof, 3)} times noise"
+    )
 
 
 def _held_out(before: Stage, after: Stage) -> str:

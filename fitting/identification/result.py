@@ -167,7 +167,7 @@ def _warnings(sweep: Sweep, fit: Fit, uncertainty: Uncertainty, noise_is_known: 
         said.extend(_together(fit))
     if noise_is_known and uncertainty.chi2_per_dof > _MISFIT:
         said.append(
-            f"the residual is {uncertainty.chi2_per_dof:.3g} times what the noise explains "
+            f"the residual is {written_out(uncertainty.chi2_per_dof, 3)} times what the noise explains "
             "(chi-square per degree of freedom): the model lacks something, "
             "and the law may be biased beyond its band"
         )

@@ -31,7 +31,7 @@ EDGE = 0.1153
 solids, to 0.4 % up to a thickness of half their width (`tests/drivers/simulated/plant/test_solid_pad.py`)."""
 MOST_BY_EDGES = 0.5
 """Of G A/t: thicker discs are blocks that bend and tip, of which no formula here holds."""
-_TYPICAL = {"mass": 2e-3}
+TYPICAL = {"mass": 2e-3}
 """Of a moving mass, weighed."""
 
 
@@ -132,7 +132,7 @@ class ShearPair(BaseDriven):
             return 0.0
         if name == "free_edges":
             return self.softer_by_edges**2 if self.edges else self.left_out_by_edges
-        return float(self.tolerances.get(name, _TYPICAL.get(name, STATED[name].typical)))
+        return float(self.tolerances.get(name, TYPICAL.get(name, STATED[name].typical)))
 
     def theory_error(self, frequency_hz: Array, G: Complex) -> None:
         """The wave in the pad is exact; what its edges do is stated. Shape (points,) each."""

@@ -1,6 +1,7 @@
 """A file while it is being edited: its text with every comment, its values, its faults. No Qt."""
 
 import os
+import re
 import tempfile
 from dataclasses import dataclass
 from itertools import pairwise
@@ -25,6 +26,7 @@ from instrument.files.toml import faults
 Faults = dict[Place, str]
 """What is wrong where, in words; `()` is the whole file."""
 _YES = {"yes": True, "no": False}
+_COMMA = re.compile(r"[+-]?\d+,\d+")
 
 
 class Draft:
@@ -291,6 +293,9 @@ def _by_place(error: ValidationError) -> Faults:
     for fault, said in zip(error.errors(), faults(error), strict=True):
         place = ".".join(str(part) for part in fault["loc"])
         words = said.removeprefix(f"{place}: ") if place else said
+        given = fault["input"]
+        if isinstance(given, str) and _COMMA.fullmatch(given):
+            words = f"'{given}': the decimal sign is a point, {given.replace(',', '.')}"
         found.setdefault(tuple(fault["loc"]), words)
     return found
 

@@ -1,5 +1,6 @@
 """What a form asks for, read off a model. No Qt."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from types import NoneType, UnionType
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
@@ -16,6 +17,8 @@ from gui.form.labels import LABELS
 from instrument.facts.docstrings import docstrings_of
 from instrument.files.devices import DEVICES, options_of
 from instrument.files.law_table import COLUMNS
+from instrument.files.new_file import SPECIMENS
+from instrument.files.specimen_file import TolerancesSection, typical_tolerances
 
 Place = tuple[str | int, ...]
 """Where a value stands in a file: keys, and numbers of tables in a list."""
@@ -25,6 +28,7 @@ Off = Literal["never", "left out", "false"]
 
 _UNITS = {
     "_mv_per_unit": "mV a unit", "_m_s2": "m/s²", "_m_s": "m/s", "_kg_m3": "kg/m³", "_n_m": "N m",
+    "_us": "µs", "_deg": "°",
     "_percent": "%", "_gpa": "GPa", "_mpa": "MPa", "_rad_s": "rad/s", "_mm": "mm", "_hz": "Hz", "_kg": "kg",
     "_c": "°C", "_s": "s", "_g": "g", "_v": "V", "_m": "m",
 }  # fmt: skip
@@ -115,6 +119,28 @@ def section_of(
             counts = getattr(default, field_name, info.get_default(call_default_factory=True))
             fields.append(_field(name, info, schema[name], counts, said.get(field_name)))
     return FormSection(key, _first_line(model), tuple(fields), tuple(sections), off, repeated)
+
+
+def form_of(model: type[BaseModel]) -> FormSection:
+    """What the form of a file asks for: of `[tolerances]` what its specimen has, typical ones shown."""
+    whole = section_of(model)
+    kind = next((section.key for section in whole.sections if section.key in SPECIMENS), None)
+    if kind is None:
+        return whole
+    typical = typical_tolerances(kind)
+    sections = (_narrowed(s, typical) if s.key == "tolerances" else s for s in whole.sections)
+    return replace(whole, sections=tuple(sections))
+
+
+def _narrowed(tolerances: FormSection, typical: Mapping[str, float | None]) -> FormSection:
+    fields = []
+    for field in tolerances.fields:
+        if field.key in typical:
+            counts = typical[field.key]
+            fields.append(replace(field, default="" if counts is None else f"{counts:g}"))
+        elif not any(field.key == key for key in TolerancesSection.model_fields) or field.key == "exact":
+            fields.append(field)
+    return replace(tolerances, fields=tuple(fields))
 
 
 def law_kind() -> Field:

@@ -5,13 +5,24 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from PySide6.QtCore import QEvent, QObject, QSignalBlocker, Qt, QTimer, Signal
-from PySide6.QtGui import QBrush
+from PySide6.QtCore import (
+    QEvent,
+    QModelIndex,
+    QObject,
+    QPersistentModelIndex,
+    QSignalBlocker,
+    Qt,
+    QTimer,
+    Signal,
+)
+from PySide6.QtGui import QBrush, QFocusEvent, QKeyEvent, QPainter, QResizeEvent
 from PySide6.QtWidgets import (
+    QApplication,
     QComboBox,
     QHBoxLayout,
     QHeaderView,
     QLineEdit,
+    QStyleOptionViewItem,
     QTreeWidget,
     QTreeWidgetItem,
     QWidget,
@@ -19,7 +30,7 @@ from PySide6.QtWidgets import (
 
 from gui.asking import ask_open
 from gui.form.draft import Draft
-from gui.form.fields import FILES, Field, FormSection, Place, device_fields, law_fields, section_of
+from gui.form.fields import FILES, Field, FormSection, Place, device_fields, form_of, law_fields
 from gui.theme import current_theme
 from gui.widgets import tool
 from instrument.files.acceleration import said_beside
@@ -32,6 +43,8 @@ _OPEN = (
     "core",
     "law",
     "plate",
+    "beam",
+    "shear-pair",
     "sweep",
     "shaker",
     "front_end",
@@ -39,6 +52,8 @@ _OPEN = (
 )
 """Tables shown unfolded from the start; one with a fault is too."""
 _FAULTY = "\u2716 "
+_LEAST_LETTERS, _LETTERS, _FAULT_LETTERS, _WORDS = 20, 42, 4, 38
+"""Width of a field, at least and at most, and what is left beside it: a little, or room for a fault."""
 
 
 class Form(QTreeWidget):
@@ -61,7 +76,8 @@ class Form(QTreeWidget):
         self.setColumnCount(4)
         self.setHeaderLabels(["", "value", "unit", ""])
         self.setSelectionMode(QTreeWidget.SelectionMode.NoSelection)
-        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        # Arrow keys walk along the rows and fold them, space ticks a table, Enter goes into a field.
+        self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.setVerticalScrollMode(QTreeWidget.ScrollMode.ScrollPerPixel)
         self.setIndentation(self.fontMetrics().averageCharWidth() * 2)
         self.itemChanged.connect(self._switched)
@@ -112,6 +128,7 @@ class Form(QTreeWidget):
                 if words:
                     self._unfold(item)
         self.headerItem().setText(_FAULT, f"{_FAULTY}{said[()]}" if () in said else "")
+        self._fit_values()
 
     def show_fault(self) -> None:
         """Go to the first one, and let it be mended."""
@@ -121,6 +138,31 @@ class Form(QTreeWidget):
                 if place in self._editors:
                     self._editors[place].setFocus()
                 return
+
+    def focusInEvent(self, event: QFocusEvent) -> None:
+        """The keyboard is at some row, always."""
+        super().focusInEvent(event)
+        first = self.topLevelItem(0)
+        if self.currentItem() is None and first is not None:
+            self.setCurrentItem(first, _NAME)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Enter goes into the row's field; Escape there comes back."""
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            editor = self._editors.get(self._place_of(self.currentItem()))
+            if editor is not None:
+                editor.setFocus(Qt.FocusReason.TabFocusReason)
+                return
+        super().keyPressEvent(event)
+
+    def drawRow(
+        self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
+    ) -> None:
+        """The row that keys act on has a frame."""
+        super().drawRow(painter, option, index)
+        if self.hasFocus() and self.itemFromIndex(index) is self.currentItem():
+            painter.setPen(current_theme().color("data"))
+            painter.drawRect(option.rect.adjusted(0, 0, -1, -1))
 
     def changeEvent(self, event: QEvent) -> None:
         """Colours follow the window's."""
@@ -133,10 +175,15 @@ class Form(QTreeWidget):
     def _build(self) -> None:
         folded = {place for place, item in self._items.items() if item.childCount() and not item.isExpanded()}
         known, at = bool(self._items), self.verticalScrollBar().value()
+        row, typed = self._place_of(self.currentItem()), self._place_with_keyboard()
+        here = self.hasFocus() or typed is not None
+        if typed is not None:
+            # A field that goes while it has the keyboard hands it to the next one that goes.
+            self.setFocus()
         with QSignalBlocker(self):
-            self.clear()
             self._items, self._editors, self._fields = {}, {}, {}
-            whole = section_of(self.draft.model)
+            self.clear()
+            whole = form_of(self.draft.model)
             for field in whole.fields:
                 self._field(None, (field.key,), field)
             for section in whole.sections:
@@ -147,10 +194,52 @@ class Form(QTreeWidget):
             header = self.header()
             for column in (_NAME, _UNIT):
                 header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
-            header.resizeSection(_VALUE, self.fontMetrics().averageCharWidth() * 42)
             header.setStretchLastSection(True)
+            self._fit_values()
         self.verticalScrollBar().setValue(at)
         self.judge()
+        if here:
+            self._give_keyboard_back(row, typed)
+
+    def _place_of(self, item: QTreeWidgetItem | None) -> Place:
+        return next((place for place, one in self._items.items() if one is item), ())
+
+    def _place_with_keyboard(self) -> Place | None:
+        """Of the field, or the row of the button, that has it; None where that is elsewhere."""
+        held = QApplication.focusWidget()
+        if held is None or held is self or not self.isAncestorOf(held):
+            return None
+        inside = self.viewport()
+        for place, item in self._items.items():
+            row = self.itemWidget(item, _VALUE)
+            if row is not None and inside.isAncestorOf(row) and (row is held or row.isAncestorOf(held)):
+                return place
+        return None
+
+    def _give_keyboard_back(self, row: Place, typed: Place | None) -> None:
+        """To what is where it was: a table that is ticked makes all rows anew."""
+        if row in self._items:
+            self.setCurrentItem(self._items[row], _NAME)
+        if typed is not None and typed in self._editors:
+            self._editors[typed].setFocus()
+        else:
+            if typed is not None and typed in self._items:
+                self.setCurrentItem(self._items[typed], _NAME)
+            self.setFocus()
+
+    def _fit_values(self) -> None:
+        """Fields as wide as leaves room for what stands beside them; not narrower than a number."""
+        letter = self.fontMetrics().averageCharWidth()
+        beside = sum(self.sizeHintForColumn(column) for column in (_NAME, _UNIT))
+        faulty = any(item.text(_FAULT) for item in self._items.values())
+        # What is wrong needs words; a number needs little.
+        room = self.viewport().width() - beside - (_WORDS if faulty else _FAULT_LETTERS) * letter
+        self.header().resizeSection(_VALUE, max(_LEAST_LETTERS * letter, min(_LETTERS * letter, room)))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """More room for the fields, or less."""
+        super().resizeEvent(event)
+        self._fit_values()
 
     def _section(self, above: QTreeWidgetItem | None, place: Place, section: FormSection) -> None:
         item = self._row(above, place, section.label, section.tip)
@@ -200,7 +289,6 @@ class Form(QTreeWidget):
             editor = QComboBox()
             # A wheel turned over the form scrolls it and changes nothing.
             editor.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-            editor.installEventFilter(self)
             editor.addItems([*choices] if given in choices or not given else [given, *choices])
             editor.setCurrentText(given or field.default)
             if not given and field.default not in choices:
@@ -211,6 +299,7 @@ class Form(QTreeWidget):
             editor.setCursorPosition(0)
             editor.setPlaceholderText(field.default or ("needed" if field.needed else ""))
             editor.textEdited.connect(partial(self._typed, place, field))
+        editor.installEventFilter(self)
         editor.setToolTip(field.tip)
         editor.setAccessibleName(".".join(str(key) for key in place))
         self.setItemWidget(item, _VALUE, self._with_picker(place, editor) if field.kind == "file" else editor)
@@ -281,11 +370,30 @@ class Form(QTreeWidget):
     # What a person does
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """The wheel is the form's."""
-        if event.type() == QEvent.Type.Wheel:
+        """The wheel is the form's, Escape goes back to the rows, and Tab scrolls to where it goes."""
+        if event.type() == QEvent.Type.Wheel and isinstance(watched, QComboBox):
             event.ignore()
             return True
+        if isinstance(event, QFocusEvent) and event.type() == QEvent.Type.FocusIn:
+            self._see(watched, event.reason())
+        elif isinstance(event, QKeyEvent) and _is_escape(event):
+            self._leave_field(watched)
+            return True
         return False
+
+    def _see(self, editor: QObject, why: Qt.FocusReason) -> None:
+        item = self._items.get(self._place_of_editor(editor))
+        if item is not None and why in (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason):
+            self.scrollToItem(item)
+
+    def _leave_field(self, editor: QObject) -> None:
+        item = self._items.get(self._place_of_editor(editor))
+        if item is not None:
+            self.setCurrentItem(item, _NAME)
+        self.setFocus(Qt.FocusReason.TabFocusReason)
+
+    def _place_of_editor(self, editor: QObject) -> Place:
+        return next((place for place, one in self._editors.items() if one is editor), ())
 
     def _typed(self, place: Place, field: Field, text: str) -> None:
         self.draft.write(place, field, text)
@@ -298,7 +406,7 @@ class Form(QTreeWidget):
         self._tell()
 
     def _switched(self, item: QTreeWidgetItem, column: int) -> None:
-        place = next((p for p, i in self._items.items() if i is item), ())
+        place = self._place_of(item)
         off = item.data(_NAME, Qt.ItemDataRole.UserRole)
         if column == _NAME and place and off:
             self.draft.switch(place, item.checkState(_NAME) == Qt.CheckState.Unchecked, off == "false")
@@ -323,6 +431,10 @@ class Form(QTreeWidget):
         self.judge()
         self.say_units()
         self.edited.emit()
+
+
+def _is_escape(event: QKeyEvent) -> bool:
+    return event.type() == QEvent.Type.KeyPress and event.key() == Qt.Key.Key_Escape
 
 
 def _number_of(value: Any, field: Field) -> Any:

@@ -9,7 +9,7 @@ from typing import Any
 
 import pyqtgraph as pg
 from PySide6.QtCore import QEvent, Signal
-from PySide6.QtGui import QResizeEvent
+from PySide6.QtGui import QContextMenuEvent, QPainter, QPaintEvent, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from fitting.arrays import Array
@@ -28,9 +28,11 @@ _LEGEND_ALPHA = 0.6
 _BELOW = -1
 """What is faint lies below everything else, whenever it came."""
 _TITLE_ROOM_PX = 44
-"""Of a plot's side that its axis does not have: the other axis, and the edge."""
+"""Of a plot's side that its axis does not have: the other axis, before it is laid out, and the edge."""
 _EDGE_PX = 12
-"""The edge alone, where the other axis has no numbers."""
+"""The edge alone."""
+_LEAST_LETTERS, _LEAST_LINES = 15, 5
+"""Width and height below which a plot shows nothing, in letters and lines of its numbers."""
 
 
 class Plot(pg.PlotWidget):  # type: ignore[misc]
@@ -48,16 +50,18 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         super().__init__(parent, axisItems={at: LogAxis(at) for at in ("bottom", "left")}, viewBox=View())
         self.x, self.y = x, y
         self._curves: dict[str, Curve] = {}
+        self.least_lines: float = _LEAST_LINES
         self.marks = Marks(self)
         self._legend = self.addLegend(offset=(-8, 8)) if legend else None
         self.setLogMode(x.log, y.log)
         for side in ("bottom", "left", "top", "right"):
             self.getAxis(side).enableAutoSIPrefix(False)
         self.showGrid(x=True, y=True, alpha=0.25)
-        self.setMinimumSize(120, 80)
         self._readout, self.cursors = Readout(self), Cursors(self)
         add_export_menu(self)
         self._paint()
+        # Its axes take what room their numbers need, once these are known.
+        self.getViewBox().sigResized.connect(self._say_titles)
 
     # What is shown
 
@@ -158,7 +162,28 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
         """Shown, by name, without bands: x and y. Shape (points,) each."""
         return {n: (c.columns[""], c.columns[n]) for n, c in self._curves.items() if n in c.columns}
 
+    def need_lines(self, lines: float) -> None:
+        """Be no lower than so many lines of the plot's numbers, however large these are."""
+        self.least_lines, letters = lines, self.fontMetrics()
+        self.setMinimumSize(_LEAST_LETTERS * letters.averageCharWidth(), round(lines * letters.lineSpacing()))
+
     # How
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        """The menu key opens what a right click does."""
+        if event.reason() == QContextMenuEvent.Reason.Keyboard:
+            self.plotItem.vb.getMenu().popup(self.mapToGlobal(self.rect().center()))
+        else:
+            super().contextMenuEvent(event)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """A frame where the keyboard is; inside, because the library counts on all of the widget's room."""
+        super().paintEvent(event)
+        if self.hasFocus():
+            painter = QPainter(self.viewport())
+            painter.setPen(current_theme().color("data"))
+            painter.drawRect(self.viewport().rect().adjusted(0, 0, -1, -1))
+            painter.end()
 
     def changeEvent(self, event: QEvent) -> None:
         """Colours and type follow the window's."""
@@ -191,6 +216,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
 
     def _paint(self) -> None:
         theme = current_theme()
+        self.need_lines(self.least_lines)
         self.setBackground(theme.base)
         size = f"{self.font().pointSizeF():g}pt"
         for side, shown in (("bottom", self.x), ("left", self.y)):
@@ -215,8 +241,10 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
     def resizeEvent(self, event: QResizeEvent | None) -> None:
         """A title that has not room enough beside its axis is shortened to the unit."""
         super().resizeEvent(event)
-        if event is None or not hasattr(self, "cursors") or self.plotItem is None:
-            return
+        if event is not None and hasattr(self, "cursors") and self.plotItem is not None:
+            self._say_titles()
+
+    def _say_titles(self) -> None:
         for side, shown in (("bottom", self.x), ("left", self.y)):
             axis, title = self.getAxis(side), self._title(side, shown)
             if axis.labelText != title:
@@ -226,7 +254,8 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
     def _title(self, side: str, shown: Axis) -> str:
         room = self.width() if side == "bottom" else self.height()
         beside = self.getAxis("left" if side == "bottom" else "bottom")
-        room -= _TITLE_ROOM_PX if beside.style["showValues"] else _EDGE_PX
+        laid_out = beside.width() if side == "bottom" else beside.height()
+        room -= max(_TITLE_ROOM_PX, laid_out + _EDGE_PX) if beside.style["showValues"] else _EDGE_PX
         for title in (shown.title, shown.unit if shown.titled else ""):
             if self.fontMetrics().horizontalAdvance(title) <= room:
                 return title

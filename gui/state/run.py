@@ -3,11 +3,13 @@
 from dataclasses import dataclass, field
 from typing import Literal
 
+from instrument.facts.diagnosis import DiagnosisResult
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.hammer_test.struck import FEWEST_HITS
+from instrument.results.diagnosis_words import UNRELIABLE, verdict_line
 from instrument.results.next_words import apart_words
 from instrument.stepped_sine.soak import Soak
-from instrument.stream.derived import HitJudged, HitRevised, StepsChosen
+from instrument.stream.derived import DiagnosisFound, FitUpdated, HitJudged, HitRevised, StepsChosen
 from instrument.stream.event import Event
 from instrument.stream.raw import (
     AcquisitionBegan,
@@ -86,6 +88,9 @@ class Run:
     _hits: dict[int, bool] = field(default_factory=dict)
     proposed: FollowUpProposed | None = None
     """What would tell the explanations of the last diagnosis apart, as far as the run can do it."""
+    found: DiagnosisResult | None = None
+    """The last diagnosis; None where there is none, or none was possible."""
+    _fitted: bool = False
     _following: bool = False
     _segments_ended: int = 0
 
@@ -131,6 +136,10 @@ class Run:
                 self.state = "identifying"
             case DiagnosisStarted():
                 self.state = "diagnosing"
+            case DiagnosisFound():
+                self.found = event.result
+            case FitUpdated() if event.result is not None:
+                self._fitted = True
             case SessionEnded():
                 self.end(event.why, event.message)
             case SegmentEnded():
@@ -178,7 +187,7 @@ class Run:
             case "calibration" | "sweep":
                 return self._step_words()
             case "done":
-                return self.message or "what was found stands on Material and Diagnosis"
+                return self.message or self._found_words
             case "stopped":
                 return self.ending
             case "preparing":
@@ -188,6 +197,16 @@ class Run:
             case "diagnosing":
                 return "tracing what the fit cannot explain"
         return ""
+
+    @property
+    def _found_words(self) -> str:
+        """What the run gave, and where it stands."""
+        if self.found is None:
+            return f"what was found stands on {'Material' if self._fitted else 'Hammer'}"
+        if self.found.verdict == "unknown":
+            return f"{UNRELIABLE}; Diagnosis says what to measure next"
+        said = verdict_line(self.found).removeprefix("verdict: ")
+        return f"{said}; see Material and Diagnosis"
 
     @property
     def strikes(self) -> bool:

@@ -10,18 +10,21 @@ TEMPLATES = {
     "beam": Path(__file__).parent / "templates" / "beam.toml",
     "shear-pair": Path(__file__).parent / "templates" / "shear-pair.toml",
     "experiment": Path(__file__).parent / "templates" / "experiment.toml",
+    "experiment-beam": Path(__file__).parent / "templates" / "experiment-beam.toml",
     "rig": Path(__file__).parents[1] / "simulated_case" / "rig.toml",
     "sensors": Path(__file__).parent / "templates" / "sensors.toml",
     "real-rig": Path(__file__).parent / "templates" / "rig.toml",
 }
 """Kind of file, and where it is. A rig begins as the simulated one, which says how it becomes a real one."""
-EXPERIMENT = {"specimen.toml": "plate", "rig.toml": "real-rig", "experiment.toml": "experiment"}
-"""Files of an experiment on a real rig, by the names they have there."""
+EXPERIMENT = ("specimen.toml", "rig.toml", "experiment.toml")
+"""Files of an experiment on a real rig."""
+SPECIMENS = {"plate": "experiment", "beam": "experiment-beam", "shear-pair": "experiment-beam"}
+"""Kinds of specimen, and the experiment that each begins with: only a plate is struck while it is bare."""
 
 
-def write_real(folder: Path) -> Path:
+def write_real(folder: Path, specimen: str = "plate") -> Path:
     """The files of an experiment on a real rig; the experiment's path. Raises `BadInput`."""
-    for name, kind in EXPERIMENT.items():
+    for name, kind in zip(EXPERIMENT, (specimen, "real-rig", SPECIMENS[specimen]), strict=True):
         write_new(kind, folder / name)
     return folder / "experiment.toml"
 

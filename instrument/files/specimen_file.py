@@ -12,6 +12,7 @@ from fitting.gravity import PUBLISHED_G_M_S2
 from fitting.laws import LAWS, CoreLaw
 from fitting.laws.table import Tabulated
 from fitting.specimen import Core, Drive, PlacedMass, Reading, Specimen
+from fitting.structures.shear_pair import TYPICAL as OF_PAIR
 from fitting.tolerances import OF_FEW, OF_TEMPERATURE, STATED
 from instrument.errors import BadInput
 from instrument.files.law_table import with_rows
@@ -273,6 +274,22 @@ def specimen_of(d: SpecimenDocument) -> Specimen:
         patches=tuple(p.patch() for p in d.patch or ()),
         both_sides=bool(d.plate.both_sides),
     )
+
+
+def typical_tolerances(kind: str) -> dict[str, float | None]:
+    """Keys of `[tolerances]` that a kind of specimen has, and what counts where one is left out, in its unit.
+
+    None where that depends on what else is stated.
+    """
+    found: dict[str, float | None] = {}
+    for key in TolerancesSection.model_fields:
+        name, _, unit = key.rpartition("_")
+        if key == "exact" or name in _NOT_OF[kind]:
+            continue
+        own = OF_PAIR.get(name) if kind == "shear-pair" else None
+        typical = own if own is not None else STATED[name].typical
+        found[key] = None if name in OF_TEMPERATURE else typical / _UNITS[unit]
+    return found
 
 
 def tolerances_of(table: TolerancesSection | None, kind: str = "plate") -> dict[str, float]:

@@ -14,7 +14,7 @@ from instrument.report.fitted import ReportedFit
 from instrument.report.law_figures import law_figure, residual_figures
 from instrument.report.measured import segments_of
 from instrument.results.adjusted_words import COLUMNS, adjusted_rows
-from instrument.results.diagnosis_words import UNKNOWN
+from instrument.results.diagnosis_words import UNKNOWN, with_verdict
 from instrument.results.error_words import is_below_floor, percent_words
 from instrument.results.numbers import format_number, with_error
 from instrument.results.session_result import (
@@ -54,9 +54,12 @@ def identification_section(contents: Contents, fitted: ReportedFit) -> ReportSec
         ),
         *_doubt(contents),
         *(Sentence(note(warning), "note") for warning in r.warnings),
-        FigureBlock(law_figure(fit), f"Shear modulus and loss factor in the measured band, {_banded(r)}"),
-        _band(r),
-        _parameters(r),
+        FigureBlock(
+            law_figure(fit, doubted("identified", contents)),
+            doubted(f"Shear modulus and loss factor in the measured band, {_banded(r)}", contents),
+        ),
+        _band(r, contents),
+        _parameters(r, contents),
         _correlations(r),
         *_adjusted(fit),
         _live(contents, r),
@@ -158,7 +161,13 @@ def _banded(r: Identification) -> str:
     return "with 95 % bands" if known else "without bands: these points carry no standard error"
 
 
-def _band(r: Identification) -> TableBlock:
+def doubted(title: str, contents: Contents) -> str:
+    """The title of what shows the law: it says so where nothing explains the data."""
+    found = contents.diagnosis.result if contents.diagnosis is not None else None
+    return with_verdict(title, found) if found is not None else title
+
+
+def _band(r: Identification, contents: Contents) -> TableBlock:
     b = r.band
     every = max(1, -(-len(b.frequency_hz) // _ROWS))
     shown = sorted({*range(0, len(b.frequency_hz), every), len(b.frequency_hz) - 1})
@@ -171,10 +180,10 @@ def _band(r: Identification) -> TableBlock:
         for k in shown
     )
     title = "The law in the band, ± one standard error (noise, model error, tolerances)"
-    return TableBlock(title, ("f / Hz", "G' / MPa", "loss factor"), rows)
+    return TableBlock(doubted(title, contents), ("f / Hz", "G' / MPa", "loss factor"), rows)
 
 
-def _parameters(r: Identification) -> TableBlock:
+def _parameters(r: Identification, contents: Contents) -> TableBlock:
     errors = r.standard_errors
     rows = []
     for name, value in zip(r.law.names, r.law.values, strict=True):
@@ -185,7 +194,7 @@ def _parameters(r: Identification) -> TableBlock:
         percent = percent_words(error, value)
         rows.append((quantity(name), said, percent, f"at its {bound} bound" if bound else ""))
     return TableBlock(
-        "Parameters, ± one standard error",
+        doubted("Parameters, ± one standard error", contents),
         ("parameter", "value", "error / %", "remark"),
         tuple(rows),
     )

@@ -22,8 +22,8 @@ from instrument.results.drawing import (
 )
 
 
-def law_figure(fit: SessionFit) -> Figure:
-    """G' and eta over the measured range with 95 % bands, ticks where it was measured."""
+def law_figure(fit: SessionFit, name: str = "identified") -> Figure:
+    """G' and eta over the measured range with 95 % bands, ticks where it was measured; `name` of the law."""
     figure, ((left, right),) = panels(1, 2, 3.9)
     b = fit.identified.result.band
     for ax, value, error, scale, y in (
@@ -33,7 +33,7 @@ def law_figure(fit: SessionFit) -> Figure:
         low, high = (value - BAND_95 * error) * scale, (value + BAND_95 * error) * scale
         if np.isfinite(error).all():
             ax.fill_between(b.frequency_hz, low, high, color=DATA, alpha=0.2, linewidth=0, label="95 % band")
-        ax.plot(b.frequency_hz, value * scale, color=DATA, label="identified")
+        ax.plot(b.frequency_hz, value * scale, color=DATA, label=name)
         ax.plot(
             fit.sweep.frequency_hz,
             np.full(len(fit.sweep), 0.015),

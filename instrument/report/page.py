@@ -21,6 +21,8 @@ from instrument.report.pdf import save_pdf, save_pictures
 from instrument.report.setting import rig_section, specimen_section, versions_section
 from instrument.report.struck import struck_sections
 from instrument.report.sweep import sweep_section
+from instrument.results.diagnosis_words import UNRELIABLE
+from instrument.results.typeset import capitalised
 from instrument.session.contents import Contents
 
 _PACKAGES = ("viscorig", "numpy", "scipy", "h5py", "matplotlib")
@@ -58,9 +60,18 @@ def report_of(contents: Contents, progress: Progress = quiet) -> Report:
         ("date", c.created_utc.replace("T", " ").replace("+00:00", " UTC")),
         ("session", c.name),
         ("specimen file", c.experiment.specimen),
+        *_warned(contents),
         ("result", result_in_short(contents, fitted)),
     )
     return Report(c.experiment.title or c.name, header, tuple(sections))
+
+
+def _warned(contents: Contents) -> list[tuple[str, str]]:
+    """Above numbers that nobody should take: what they are worth."""
+    found = contents.diagnosis.result if contents.diagnosis is not None else None
+    if found is None or found.verdict != "unknown":
+        return []
+    return [("warning", f"{capitalised(UNRELIABLE)}.")]
 
 
 def sections_of(contents: Contents, fitted: ReportedFit) -> list[ReportSection]:

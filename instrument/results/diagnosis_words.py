@@ -14,6 +14,8 @@ from instrument.results.standing import none_is_likelier
 
 _MOST_PARAMETERS = 4
 UNKNOWN = "verdict unknown"
+UNRELIABLE = f"{UNKNOWN}: no law here is to be relied on"
+"""Said beside a law that stands although nothing explains the data."""
 _LEAST = 1e-3
 """Probability below which, or above one less which, no digits are said."""
 _OUTSIDE_GROUP = 0.05

@@ -2,6 +2,11 @@
 
 import math
 
+from fitting.digits import written_out
+
+_OUT = 1e5
+"""Below it a number needs no exponent: 1770 and not 1.77e+03."""
+
 
 def with_error(value: float | None, error: float | None, scale: float = 1.0) -> str:
     """A value and its standard error, two digits of the error: `0.2700 ± 0.0013`; `scale` multiplies both."""
@@ -23,7 +28,7 @@ def format_number(value: float | None, digits: int = 4) -> str:
     """Some significant digits; a dash for nothing."""
     if value is None or not math.isfinite(value):
         return "-"
-    return f"{value:.{digits}g}"
+    return written_out(value, digits) if abs(value) < _OUT else f"{value:.{digits}g}"
 
 
 def signed(value: float, places: int = 2) -> str:

@@ -40,6 +40,20 @@ def test_nothing_is_cut_and_nothing_overlaps(qtbot, opened, size):
     assert faults == []
 
 
+@pytest.mark.long
+def test_type_half_as_large_again_cuts_nothing_on_a_small_screen(qtbot, opened, appearance):
+    opened.resize(1366, 768)
+    appearance.resize(1.5)
+    faults = []
+    for place in places(opened):
+        qtbot.waitUntil(lambda: at_rest(opened), timeout=240_000)
+        # Tabs that have no room are scrolled to.
+        faults += [f"{place}: {fault}" for fault in layout_faults(opened) if "'tabs' has" not in fault]
+    appearance.resize(1.0)
+    assert faults == []
+    assert (opened.width(), opened.height()) == (1366, 768)
+
+
 @pytest.mark.pages("run")
 def test_every_place_has_a_name_of_its_own(opened):
     found = list(places(opened))

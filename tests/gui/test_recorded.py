@@ -138,3 +138,31 @@ def next_item(reader, kind, until_s=float("inf")):
         time.sleep(0.001)
     assert isinstance(item, kind), item
     return item
+
+
+def test_a_session_opened_alone_shows_its_specimen_until_it_is_closed(qtbot, opened):
+    drawing = opened.pages[0].drawing
+    qtbot.waitUntil(lambda: drawing.currentWidget() is drawing.structure)
+    assert any(mark.kind == "spot" for view in drawing.structure.views for mark in view.marks)
+    opened.controller.leave()
+    qtbot.waitUntil(lambda: drawing.currentWidget() is drawing.plate)
+    assert drawing.plate.size_mm is None
+
+
+def test_a_recorded_run_that_was_stopped_says_what_can_be_done(qtbot, window, tmp_path):
+    synthetic = SyntheticSession(configuration())
+    synthetic.begin()
+    synthetic.sweep((1,))
+    synthetic.end("stopped safely", "the front-end fell silent")
+    window.open(synthetic.save(tmp_path))
+    qtbot.waitUntil(lambda: window.controller.recorded is not None)
+    pages = {page.objectName(): page for page in window.pages}
+    run, diagnosis = pages["run"], pages["diagnosis"]
+    said = "stopped safely: the front-end fell silent; Run says how to go on"
+    qtbot.waitUntil(lambda: window.bar.next.toolTip() == said)
+    window.show_page("run")
+    qtbot.waitUntil(run.now.path.isVisible)
+    assert "cannot be carried on" in run.now.path.text()
+    window.show_page("diagnosis")
+    assert diagnosis.finding.verdict.said == "The run was stopped before a diagnosis was made"
+    assert diagnosis.diagnose.isVisible()

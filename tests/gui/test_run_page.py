@@ -322,6 +322,24 @@ def test_an_experiment_on_a_real_rig_begins_as_valid_commented_files(qtbot, wind
     assert page.files.drafts.fault_count == 0
 
 
+@pytest.mark.parametrize("kind", ["beam", "shear-pair"])
+def test_other_specimens_than_plates_begin_as_valid_files_too(qtbot, window, page, tmp_path, kind):
+    dialog = NewCase(tmp_path / "case", page)
+    qtbot.addWidget(dialog)
+    assert not dialog.specimen.isEnabled()
+    dialog.rig.setCurrentText(REAL)
+    dialog.specimen.setCurrentIndex(dialog.specimen.findData(kind))
+    with qtbot.waitSignal(page.files.opened, timeout=PATIENCE_MS):
+        page.files.make(*dialog.order())
+    assert page.files.drafts.fault_count == 0
+    assert page.files.drafts.parts() == ("sweep",)
+    assert page.files.forms["specimen"].item(kind).isExpanded()
+    assert page.drawing.currentWidget() is page.drawing.structure
+    assert page.drawing.structure.views
+    dialog.rig.setCurrentIndex(0)
+    assert dialog.specimen.currentData() == "plate"
+
+
 def test_a_file_is_picked_and_named_as_seen_from_the_file_that_names_it(
     qtbot, window, page, tmp_path, monkeypatch
 ):

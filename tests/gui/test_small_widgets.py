@@ -108,6 +108,14 @@ def test_a_stopped_run_has_the_colour_of_what_is_bad(appearance):
     assert state_color("sweep") == LIGHT.color("data").name()
 
 
+def test_a_run_that_is_done_without_a_law_to_rely_on_is_not_green(appearance):
+    assert state_color("done") == LIGHT.color("good").name()
+    assert state_color("done", "effect") == LIGHT.color("good").name()
+    assert state_color("done", "ambiguous") == LIGHT.color("fair").name()
+    assert state_color("done", "unknown") == LIGHT.color("bad").name()
+    assert state_color("diagnosing", "unknown") == LIGHT.color("data").name()
+
+
 def test_a_click_beside_the_handle_goes_there(made):
     slider = made(Scrubber(Qt.Orientation.Horizontal))
     slider.setMaximum(1000)

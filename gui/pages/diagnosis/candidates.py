@@ -152,6 +152,7 @@ class Candidates(QWidget):
         buttons = QHBoxLayout()
         for one in (self.accept, self.decline, self.compute, self.what_to_do):
             buttons.addWidget(one, 100 * (one is self.what_to_do))
+        self.what_to_do.setWordWrap(True)
         buttons.addStretch(1)
         self.groups.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         column = QVBoxLayout(self)

@@ -9,9 +9,10 @@ from gui.pages.law.plots import LawLine, LawPlots
 from gui.tables import Cell, ReadTable
 from gui.theme import Role
 from instrument.facts.diagnosis import DiagnosisResult
-from instrument.results.diagnosis_words import UNKNOWN, with_verdict
+from instrument.results.diagnosis_words import UNRELIABLE, with_verdict
 from instrument.results.numbers import format_number, with_error
 from instrument.results.standing import law_words, stage_before
+from instrument.results.typeset import capitalised
 
 _ERRORS = {
     "what the fit leaves": "Held-out data: a segment predicted by law and effects fitted to the others",
@@ -59,7 +60,7 @@ class LawChange(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.plots, self.table = LawPlots(), ReadTable(_LAW)
-        self.doubt = QLabel(f"{UNKNOWN[0].upper()}{UNKNOWN[1:]}: no law here is to be relied on.")
+        self.doubt = QLabel(f"{capitalised(UNRELIABLE)}.")
         split = QSplitter(Qt.Orientation.Vertical)
         split.addWidget(self.plots)
         split.addWidget(self.table)
@@ -77,7 +78,7 @@ class LawChange(QWidget):
         self.doubt.setVisible(found.verdict == "unknown")
         lines = [LawLine(with_verdict("before", found), before, "model", dashed=True)]
         if stage_before(found) is not None:
-            lines.append(LawLine(f"after: with {law_words(found)}", after, "data"))
+            lines.append(LawLine(with_verdict(f"after: with {law_words(found)}", found), after, "data"))
         self.plots.show_lines(lines)
         rows = []
         for f in references_hz(found):

@@ -147,6 +147,8 @@ class DiagnosisPage(Page):
         found = state.contents.diagnosis
         if found is not None:
             return f"No diagnosis was possible: {found.message}", _HERE
+        if state.run.state == "stopped":
+            return "The run was stopped before a diagnosis was made", _HERE
         return "This session holds no diagnosis", _HERE
 
     # What a person does

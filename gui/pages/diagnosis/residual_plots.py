@@ -3,9 +3,19 @@
 from typing import Any
 
 from PySide6.QtCore import QEvent, QObject, QTimer
-from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
+from PySide6.QtWidgets import (
+    QComboBox,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QScrollArea,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
 
 from fitting.digits import two_digits
+from gui.elided import ElidedLabel
 from gui.pages.diagnosis.residual import NAMES, Panel, limit, panel, quantities, segments
 from gui.plots import Axis, Plot
 from gui.plots.curve import Symbol
@@ -14,7 +24,7 @@ from instrument.facts.diagnosis import STAGES, DiagnosisResult, StageName
 from instrument.results.standing import law_words
 
 _ROOM = 1.12
-_LEAST_HEIGHT_PX = 100
+_LEAST_LINES = 7
 _LOOKS: dict[str, tuple[Role, Symbol]] = {
     "real part": ("data", "o"),
     "imaginary part": ("third", "s"),
@@ -109,7 +119,7 @@ class ResidualPlots(QWidget):
         """Before and after are linked in frequency."""
         if (number, stage) not in self.plots:
             plot = Plot(Axis("Frequency", "Hz"), Axis(f"Segment {number}"), legend=False)
-            plot.setMinimumHeight(_LEAST_HEIGHT_PX)
+            plot.need_lines(_LEAST_LINES)
             plot.setToolTip(f"Segment {number}, {stage}")
             if stage == "after":
                 _Twins(self.plots[number, "before"], plot)
@@ -125,8 +135,13 @@ class ResidualPlots(QWidget):
             above.addWidget(QLabel(text))
             above.addWidget(box)
         above.addStretch(1)
-        band = QLabel("own scales; grey: noise alone, ± 2 std")
-        band.setToolTip("What is left may be larger: chi² counts the model error too.")
+        band = ElidedLabel(
+            "own scales; grey: noise alone, ± 2 std",
+            "What is left may be larger: chi² counts the model error too.",
+        )
+        # The boxes beside it keep their words.
+        for box in (self.quantity, self.segment):
+            box.setSizePolicy(QSizePolicy.Policy.Fixed, QSizePolicy.Policy.Fixed)
         above.addWidget(band)
         titles = QHBoxLayout()
         for label in (self._before, self._after):

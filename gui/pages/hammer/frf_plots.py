@@ -24,6 +24,8 @@ _BEYOND = 1.1
 _EXPECTED_AT, *_LABELS_AT = 0.36, 0.08, 0.22
 """Heights of the labels "expected", f₁ and f₂, so that none lies upon another."""
 _HEIGHTS = (46, 24, 30)
+_LEAST_LINES = 3.2
+"""Of a plot without its axis below; the last one has it."""
 _AXIS_LETTERS = 3.6
 """Width of the axis beside the plots, in heights of a letter."""
 _BESIDE: tuple[Role, ...] = ("second", "fourth")
@@ -201,7 +203,7 @@ class FrfPlots(QWidget):
         rows = QSplitter(Qt.Orientation.Vertical)
         for plot in (self.magnitude, self.phase, self.coherence):
             rows.addWidget(plot)
-            plot.setMinimumHeight(56)
+            plot.need_lines(_LEAST_LINES + 2.4 * (plot is self.coherence))
         for plot in (self.phase, self.coherence):
             plot.setXLink(self.magnitude)
         for plot in (self.magnitude, self.phase):

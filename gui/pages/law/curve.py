@@ -116,5 +116,5 @@ def together(points: Sequence[P]) -> list[P]:
 def places_hz(resonances: dict[int, float], curve: LawCurve) -> list[tuple[float, str]]:
     """Where the law is stated in numbers: frequency, and what is there."""
     places = [(f, "") for f in REFERENCE_FREQUENCIES_HZ]
-    places += [(f, f"resonance {n}") for n, f in resonances.items()]
+    places += [(f, f"peak of segment {n}") for n, f in resonances.items()]
     return sorted(p for p in places if curve.at(p[0]) is not None)

@@ -19,7 +19,7 @@ from gui.state import SessionState
 from instrument.facts.diagnosis import StageFitted
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.session_result import SessionResult
-from instrument.results.diagnosis_words import UNKNOWN, with_verdict
+from instrument.results.diagnosis_words import UNKNOWN, UNRELIABLE, with_verdict
 from instrument.results.session_result import (
     BEFORE_DIAGNOSIS,
     Conditions,
@@ -27,7 +27,7 @@ from instrument.results.session_result import (
     result_of,
 )
 from instrument.results.standing import law_words, stage_before
-from instrument.results.typeset import note, typeset
+from instrument.results.typeset import capitalised, note, typeset
 from instrument.stream.derived import FitUpdated
 
 _NOTHING = (
@@ -46,7 +46,7 @@ class MaterialPage(Page):
 
     def __init__(self, controller: AppController) -> None:
         super().__init__(controller)
-        self.said, self.origin = QLabel(_NOTHING), Mark()
+        self.said, self.origin, self.doubt = QLabel(_NOTHING), Mark(), Mark(large=True)
         self.plots, self.comparison = LawPlots(), LawComparison()
         self.places, self.parameters, self.correlations = Places(), Parameters(), Correlations()
         self.notes = QTextBrowser()
@@ -130,6 +130,8 @@ class MaterialPage(Page):
             )
         self.notes.setPlainText("\n\n".join(map(note, notes)) or "Nothing to note.")
         self.tabs.setTabText(self.tabs.indexOf(self.notes), f"Notes ({len(notes)})" if notes else "Notes")
+        self.doubt.say(f"{capitalised(UNRELIABLE)}." if self._is_unknown else "", "bad", bold=True)
+        self.doubt.setVisible(self._is_unknown)
         made_here = shown is not None and shown.asked is not None
         self.origin.say(f"● diagnosis {shown.origin}" if shown and made_here else "", "fair", bold=True)
 
@@ -206,6 +208,7 @@ class MaterialPage(Page):
         above.addWidget(self.origin)
         column = QVBoxLayout(self)
         column.setContentsMargins(8, 6, 8, 4)
+        column.addWidget(self.doubt)
         column.addLayout(above)
         column.addWidget(whole, 1)
 
@@ -228,7 +231,11 @@ def diagnosed_lines(shown: ShownDiagnosis) -> list[LawLine]:
         return [LawLine(with_verdict(f"result{by_hand}", shown.found), _curve(shown.found.after), "model")]
     return [
         LawLine(BEFORE_DIAGNOSIS, _curve(shown.found.before), "model", dashed=True, width=1.5),
-        LawLine(f"result: with {law_words(shown.found)}{by_hand}", _curve(shown.found.after), "data"),
+        LawLine(
+            with_verdict(f"result: with {law_words(shown.found)}{by_hand}", shown.found),
+            _curve(shown.found.after),
+            "data",
+        ),
     ]
 
 

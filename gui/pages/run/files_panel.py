@@ -96,9 +96,9 @@ class FilesPanel(QWidget):
         """Read an experiment and the files it names."""
         self._begin(partial(_read, path), self._take)
 
-    def make(self, folder: Path, effect: str | None, seed: int) -> None:
+    def make(self, folder: Path, effect: str | None, seed: int, specimen: str = "plate") -> None:
         """Write the files of a new experiment and open them; without an `effect` of a real rig."""
-        self._begin(partial(_make, folder, effect, seed), self._made)
+        self._begin(partial(_make, folder, effect, seed, specimen), self._made)
 
     def save(self) -> None:
         """Every changed file."""
@@ -262,8 +262,8 @@ def _read(path: Path, _: Progress) -> Drafts:
     return Drafts.of(path)
 
 
-def _make(folder: Path, effect: str | None, seed: int, _: Progress) -> Path:
-    return write(folder, effect, seed)
+def _make(folder: Path, effect: str | None, seed: int, specimen: str, _: Progress) -> Path:
+    return write(folder, effect, seed, specimen)
 
 
 def _save(drafts: Drafts, path: Path | None, _: Progress) -> Path:

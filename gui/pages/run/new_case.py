@@ -17,15 +17,15 @@ from PySide6.QtWidgets import (
 from gui.asking import ask_folder
 from gui.widgets import button
 from instrument.errors import BadInput
-from instrument.files.new_file import EXPERIMENT, write_real
+from instrument.files.new_file import EXPERIMENT, SPECIMENS, write_real
 from instrument.simulated_case import DEFAULT_EFFECT, EFFECTS, FILES, chosen_effect, write_case
 
 SIMULATED, REAL = "simulated instruments", "real instruments"
 _SAID = {
     SIMULATED: "The published plate behind simulated instruments. What its plate hides stays in the rig "
     "file: neither the fit nor the session is told.",
-    REAL: "Commented files for a plate on instruments of your own: put addresses, sensors and sizes in, then "
-    "Check. Nothing is connected before Start.",
+    REAL: "Commented files for a specimen on instruments of your own: put addresses, sensors and sizes in, "
+    "then Check. Nothing is connected before Start.",
 }
 
 
@@ -42,6 +42,10 @@ class NewCase(QDialog):
         self.folder.setMinimumWidth(360)
         browse = button("", "Choose a folder", "open")
         browse.clicked.connect(self._browse)
+        self.specimen = QComboBox()
+        for kind in SPECIMENS:
+            self.specimen.addItem(kind.replace("-", " "), kind)
+        self.specimen.setToolTip("A simulated rig begins with the published plate")
         self.effect = QComboBox()
         self.effect.addItems(["random", "none", *EFFECTS])
         self.effect.setCurrentText(DEFAULT_EFFECT)
@@ -64,20 +68,26 @@ class NewCase(QDialog):
         form.addRow("Rig", self.rig)
         form.addRow(self.said)
         form.addRow("Folder", row)
+        form.addRow("Specimen", self.specimen)
         form.addRow("Hidden effect", self.effect)
         form.addRow("Seed", self.seed)
         form.addRow(self.buttons)
         self._rig_chosen()
 
-    def order(self) -> tuple[Path, str | None, int]:
-        """Folder, effect and seed; no effect for a real rig."""
+    def order(self) -> tuple[Path, str | None, int, str]:
+        """Folder, effect, seed and kind of specimen; no effect for a real rig."""
         effect = self.effect.currentText() if self.rig.currentText() == SIMULATED else None
-        return Path(self.folder.text()).expanduser(), effect, self.seed.value()
+        kind = str(self.specimen.currentData())
+        return Path(self.folder.text()).expanduser(), effect, self.seed.value(), kind
 
     def _rig_chosen(self) -> None:
         self.said.setText(_SAID[self.rig.currentText()])
+        simulated = self.rig.currentText() == SIMULATED
+        self.specimen.setEnabled(not simulated)
+        if simulated:
+            self.specimen.setCurrentIndex(0)
         for one in (self.effect, self.seed):
-            one.setEnabled(self.rig.currentText() == SIMULATED)
+            one.setEnabled(simulated)
 
     def _browse(self) -> None:
         ask_folder(self, "Folder", self.folder.text(), self._chosen)
@@ -86,10 +96,10 @@ class NewCase(QDialog):
         self.folder.setText(str(folder))
 
 
-def write(folder: Path, effect: str | None, seed: int) -> Path:
+def write(folder: Path, effect: str | None, seed: int, specimen: str = "plate") -> Path:
     """The files; the experiment's path. Raises `BadInput`, also where there are such files already.
 
-    Without an `effect` they are of a real rig: commented templates, to be filled in.
+    Without an `effect` they are of a real rig and such a `specimen`: commented templates, to be filled in.
     """
     there = [name for name in (*FILES, *EXPERIMENT) if (folder / name).exists()]
     if there:
@@ -99,5 +109,5 @@ def write(folder: Path, effect: str | None, seed: int) -> Path:
     except OSError as error:
         raise BadInput(f"{folder}: {error.strerror or error}") from None
     if effect is None:
-        return write_real(folder)
+        return write_real(folder, specimen)
     return write_case(folder, seed=seed, effect=chosen_effect(effect, seed))

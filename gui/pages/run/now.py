@@ -1,5 +1,7 @@
 """How a run or a recorded session stands: large enough to be read from the rig."""
 
+from pathlib import Path
+
 from PySide6.QtCore import QEvent, Qt
 from PySide6.QtWidgets import QGridLayout, QLabel, QVBoxLayout, QWidget
 
@@ -8,7 +10,7 @@ from gui.controller import AppController
 from gui.feeds.live import LiveFeed
 from gui.gauge import Gauge
 from gui.pages.run.overrule import OverruleRow
-from gui.run_gauges import RunGauges, state_color
+from gui.run_gauges import RunGauges, run_color
 from gui.state import SessionState
 from gui.tables import Cell, ReadTable
 from gui.theme import Role
@@ -24,6 +26,8 @@ _COLUMNS = {
     "to / Hz": "Highest frequency",
     "steps": "Measured, of those planned",
 }
+BROKEN_OFF = ".running"
+"""Of the folder of a run that was not completed, beside its session."""
 _NOTHING = "No run and no session. How a run stands appears here: state, level, drive and limits, segments."
 
 
@@ -52,7 +56,10 @@ class NowPane(QWidget):
         self._whole.hide()
 
     def show_state(self, state: SessionState, live: LiveFeed | None, ending: Ended | None) -> None:
-        """As it stands now; `ending` of the run whose recording this is."""
+        """As it stands now; `ending` of the run whose recording this is.
+
+        A recording of another one says itself what is left of it.
+        """
         self.nothing.hide()
         self._whole.show()
         run = state.run
@@ -60,7 +67,7 @@ class NowPane(QWidget):
         self.next.setText(typeset(run.next_words))
         self.overrule.show_state(state)
         self._show_gauges(state)
-        words = path_words(live) if live is not None else ending_words(ending)
+        words = path_words(live) if live is not None else ending_words(ending) or self._how_to_go_on(state)
         self.path.setText(words)
         self.path.setVisible(bool(words))
 
@@ -72,8 +79,13 @@ class NowPane(QWidget):
             self._say_state(state)
 
     def _say_state(self, state: SessionState) -> None:
-        style = f"font-size:x-large; color:{state_color(state.run.state)}"
+        style = f"font-size:x-large; color:{run_color(state.run)}"
         self.state.setText(f"<span style='{style}'><b>{state.run.word}</b></span>")
+
+    def _how_to_go_on(self, state: SessionState) -> str:
+        recorded = self._controller.recorded
+        stopped = recorded is not None and state.run.state == "stopped"
+        return go_on_words(recorded.path) if recorded is not None and stopped else ""
 
     def show_segments(self, state: SessionState) -> None:
         """How far each segment is."""
@@ -131,6 +143,20 @@ def ending_words(ending: Ended | None) -> str:
     if ending.folder is not None:
         said += f"\nBroken off: to go on, choose {ending.folder.name} beside Begin."
     return said
+
+
+def go_on_words(session: Path) -> str:
+    """What can be done about a recorded run that was stopped: its folder would lie beside its file."""
+    folder = session.with_suffix(BROKEN_OFF)
+    if folder.is_dir():
+        return (
+            f"Broken off. To go on: open its experiment, set \u201cSession to\u201d to {session.parent}, "
+            f"choose {folder.name} beside Begin, and Start. What it completed is not measured again."
+        )
+    return (
+        f"Broken off. It cannot be carried on: {folder.name} is not beside it. "
+        "What was measured can be diagnosed on Diagnosis."
+    )
 
 
 def path_words(live: LiveFeed) -> str:

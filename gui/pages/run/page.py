@@ -24,6 +24,7 @@ from gui.state import SessionState
 from gui.widgets import button
 from instrument.engine.messages import Ended, OperatorAsked
 from instrument.facts.check import CheckResult
+from instrument.session.configuration import Configuration
 
 _FORMATS = (("csv", "CSV..."), ("uff", "Universal file..."), ("mat", "MATLAB..."))
 
@@ -48,6 +49,8 @@ class RunPage(Page):
         self._forecast: CheckResult | None = None
         """Of the experiment as it is on the disk; None where it is not known."""
         self._looking: BackgroundTask[list[Path]] | None = None
+        self._drawn_of: Configuration | None = None
+        """Of the session whose specimen is drawn; None where it is that of the forms."""
         self._arrange()
         self._connect()
         self._show_what_may_be_done()
@@ -56,11 +59,14 @@ class RunPage(Page):
 
     def refresh(self, state: SessionState) -> None:
         """Draw what has changed."""
-        if self.news("run", "step", "samples", "log"):
+        # What has been asked for once is no news any more.
+        runs, points = self.news("run"), self.news("points")
+        if self.news("step", "samples", "log") or runs:
             self.now.show_state(state, self.controller.live, self._ending)
-        if self.news("run", "points"):
+        if runs or points:
             self.now.show_segments(state)
-        if self.files.drafts is None and self.news("run"):
+        if self.files.drafts is None and self._drawn_of is not state.configuration:
+            self._drawn_of = state.configuration
             self.drawing.show_specimen(state.configuration.the_specimen())
         self._show_question(state)
 
@@ -68,6 +74,9 @@ class RunPage(Page):
         """There is no session any more."""
         self.now.clear()
         self.banner.ask("")
+        self._drawn_of = None
+        if self.files.drafts is None:
+            self.drawing.show_drafts(None)
 
     # What a person does
 

@@ -17,7 +17,7 @@ _NEAR_PX = 14
 """A press so near a mark takes it."""
 _ABOVE_PX = 4
 _HATCH_PX = 8
-_NOTHING = "The plate of the experiment appears here, drawn to scale: clamp, laser spot, hit, sensor."
+_NOTHING = "The specimen of the experiment appears here, drawn to scale: clamp, laser spot, hit, sensor."
 
 
 @dataclass(frozen=True)

@@ -68,7 +68,7 @@ def draw_phase(plot: Pointed, seen: PaneContents) -> None:
 
 
 def _model_name(seen: PaneContents) -> str:
-    return f"model, fit {seen.fit}, \u00b1{STANDARD_ERRORS:g} s.e."
+    return f"model, {seen.fit_name}, \u00b1{STANDARD_ERRORS:g} s.e."
 
 
 def _stretches(curve: Curve | None, seen: PaneContents) -> list[CurveStretch]:
@@ -143,6 +143,6 @@ def _predicted_amplitude(plot: Pointed, seen: PaneContents) -> list[str]:
     order = np.lexsort((f, breaks))
     f, y, breaks = f[order], y[order], breaks[order]
     gaps = np.flatnonzero(np.diff(breaks)) + 1
-    name = f"model at the points, fit {seen.fit}"
+    name = f"model at the points, {seen.fit_name}"
     plot.line(name, joined(np.split(f, gaps)), joined(np.split(y, gaps)))
     return [name]

@@ -60,6 +60,6 @@ class NyquistPane(QWidget):
         gap = np.array([complex(np.nan, np.nan)])
         drawn = [f * s.over_base_s for s in stretches for f in seen.way.factor(seen.levels(s.segment))]
         z = np.concatenate([part for one in drawn for part in (one, gap)])
-        name = f"model, fit {seen.fit}"
+        name = f"model, {seen.fit_name}"
         self.plot.line(name, z.real, z.imag)
         return [name]

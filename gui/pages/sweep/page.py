@@ -28,6 +28,7 @@ from gui.pages.sweep.step import StepPane
 from gui.state import SessionState
 from gui.widgets import hint
 from instrument.check.piece import Region
+from instrument.results.diagnosis_words import UNKNOWN
 from instrument.results.session_result import BEFORE_DIAGNOSIS
 from instrument.results.standing import stage_before
 from instrument.session.configuration import Configuration
@@ -162,6 +163,7 @@ class SweepPage(Page):
             chosen=points.of_step(self._looked_at) if self._looked_at is not None else None,
             predicted=predicted,
             fit=fit.number if fit is not None else 0,
+            doubt=self._doubt(state),
             curve=self.model.curve,
             foreseen=self.foreseen.curve,
             planned_m_s2=sweep.level_g * PUBLISHED_G_M_S2 if sweep is not None else PUBLISHED_G_M_S2,
@@ -244,9 +246,16 @@ class SweepPage(Page):
         diagnosed = state.contents.diagnosis
         if diagnosed is not None and diagnosed.result is not None and stage_before(diagnosed.result):
             said = f"rms {rms} % {BEFORE_DIAGNOSIS}"
+        if self._doubt(state):
+            said += f", {UNKNOWN}"
         if self.model.failure:
             return f"{said}; no curve: {self.model.failure}"
         return f"{said} ..." if self.model.busy else said
+
+    def _doubt(self, state: SessionState) -> str:
+        """Of the law whose response is drawn."""
+        shown = self.controller.rediagnosis.shown(state)
+        return UNKNOWN if shown is not None and shown.found.verdict == "unknown" else ""
 
     @property
     def _session(self) -> Path | None:

@@ -53,7 +53,7 @@ class ResonancePanes(QWidget):
             (g.name, g.role, SIGNS[g.symbol]) for g in seen.points.groups(seen.wanted)
         ]
         if seen.curve is not None:
-            entries.append((f"fit {seen.fit}", "model", "\u2500"))
+            entries.append((seen.fit_name, "model", "\u2500"))
         if seen.foreseen is not None:
             entries.append((FORESEEN, "faint", "- -"))
         entries += [(one.name, "third", "\u25c7") for one in seen.beside]

@@ -69,6 +69,8 @@ class PaneContents:
     """Of the specimen as it is stated, known before anything is measured."""
     fit: int = 0
     """Number of the fit `curve` and `predicted` are of."""
+    doubt: str = ""
+    """Why what is drawn of the fit is not to be relied on; empty where it may be."""
     beside: tuple[OverlaidSweep, ...] = ()
     chosen: int | None = None
     """Number of the point looked at."""
@@ -77,6 +79,11 @@ class PaneContents:
     """Level of the sweep as its file has it."""
     reads: str = "relative"
     """What the laser reads: velocity relative to the base, or absolute."""
+
+    @property
+    def fit_name(self) -> str:
+        """Of what is drawn of the fit."""
+        return f"fit {self.fit}" + (f", {self.doubt}" if self.doubt else "")
 
     @property
     def wanted(self) -> Mask:

@@ -47,14 +47,16 @@ def _standing(
     plan = state.plan
     runs = {key: run for key, run in plan.begun.items() if key[0] > 0 and key[1] == number}
     adaptive = plan.sweep is not None and plan.sweep.plan == "adaptive"
-    turns = plan.sweep.sweeps if plan.sweep is not None and not adaptive else max(1, len(runs))
+    stated = plan.sweep.sweeps if plan.sweep is not None and not adaptive else 1
+    # What was measured because of a diagnosis is a pass that no file asks for.
+    turns = max(stated, len(runs))
     mine = (points.segment == number) & ~points.sentinel
     done = sum(plan.done.get(key, 0) for key in runs)
-    wanted = planned.points if planned is not None else None
-    for run in runs.values():
-        # How many an adaptive sweep makes of a region nobody knows.
-        wanted = None if adaptive else run.steps
-    most = f" of {wanted * turns}" if wanted is not None else ""
+    begun = [run.steps for run in runs.values()]
+    each = begun[-1] if begun else planned.points if planned is not None else None
+    # How many an adaptive sweep makes of a region nobody knows.
+    known = each is not None and not (adaptive and begun)
+    most = f" of {sum(begun) + (turns - len(begun)) * (each or 0)}" if known else ""
     passes = f", pass {len(runs)} of {turns}" if turns > 1 and runs else ""
     levels = np.unique(np.round(points.level_m_s2[mine], 6)).tolist()
     given = [sweep.level_g * PUBLISHED_G_M_S2] if (sweep := plan.sweep) is not None else []

@@ -5,6 +5,7 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QGridLayout, QLabel, QSplitter, QVBoxLayout, QWidget
 
 from fitting.digits import two_digits
+from gui.elided import ElidedLabel
 from gui.pages.sweep.following import Following, latest_cycles, words
 from gui.pages.sweep.panes import Key, align, hide_foot, keyed, span
 from gui.plots import Axis, Plot
@@ -43,7 +44,7 @@ class StepPane(QWidget):
         super().__init__()
         self.words = QLabel()
         self.words.setWordWrap(True)
-        self.facts = {name: QLabel("\u2013") for name in _FACTS}
+        self.facts = {name: ElidedLabel("\u2013", tip) for name, tip in _FACTS.items()}
         self.base = Plot(_TIME, Axis("Base", acceleration_unit().symbol), legend=False)
         self.velocity = Plot(_TIME, Axis("Velocity", "mm/s"), legend=False)
         self.settling = Plot(
@@ -146,7 +147,7 @@ class StepPane(QWidget):
             said["Light"] = f"{state.signal_level:.2f} (least {limits.least_signal_level:g})"
         said["Corrections"] = str(len(step.asked))
         for name, label in self.facts.items():
-            label.setText(said.get(name, "\u2013"))
+            label.say(said.get(name, "\u2013"))
 
     def _arrange(self) -> None:
         grid = QGridLayout()
@@ -154,10 +155,7 @@ class StepPane(QWidget):
             row, column = k % 3, 2 * (k // 3)
             heading = QLabel(name)
             heading.setEnabled(False)
-            # What does not fit is cut off, and does not make the window wider.
-            label.setMinimumWidth(1)
-            for one in (heading, label):
-                one.setToolTip(_FACTS[name])
+            heading.setToolTip(_FACTS[name])
             grid.addWidget(heading, row, column)
             grid.addWidget(label, row, column + 1)
         grid.setColumnStretch(1, 2)

@@ -5,9 +5,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gui.form.draft import Draft, Drafts
-from gui.form.fields import Field, FormSection, law_fields, section_of
+from gui.form.fields import Field, FormSection, form_of, law_fields, section_of
 from instrument.errors import BadInput
 from instrument.files.experiment_file import ExperimentDocument
+from instrument.files.new_file import write_new
 from instrument.files.rig_file import RigDocument
 from instrument.files.specimen_file import SpecimenDocument
 from instrument.simulated_case import case_file, write_case
@@ -167,3 +168,33 @@ def test_of_several_spots_the_form_shows_and_writes_the_first(tmp_path):
     edited.write(("pickup", "x_mm"), Field("x_mm", "number"), "61.0")
     assert edited.shown(("pickup", "x_mm"), "number") == "61.0"
     assert [p["x_mm"] for p in edited.plain()["pickup"]] == [61.0, 200.0]
+
+
+@pytest.mark.parametrize(
+    ("kind", "has", "has_not"),
+    [
+        ("plate", {"substrate_young_percent": "1", "patch_mm": "0.5", "delay_us": "2"}, "area_percent"),
+        ("beam", {"length_mm": "0.3", "mass_percent": "2"}, "patch_mm"),
+        ("shear-pair", {"mass_percent": "0.2", "area_percent": "1"}, "substrate_young_percent"),
+    ],
+)
+def test_tolerances_are_those_of_the_specimen_with_what_counts_where_one_is_left_out(
+    tmp_path, kind, has, has_not
+):
+    found = Draft.of_specimen(write_new(kind, tmp_path / "specimen.toml"))
+    (tolerances,) = (s for s in form_of(found.model).sections if s.key == "tolerances")
+    fields = {field.key: field for field in tolerances.fields}
+    assert {key: fields[key].default for key in has} == has
+    assert has_not not in fields
+    assert "exact" in fields
+    # Every key that the form asks for is one that the file may have.
+    for key in fields:
+        if key != "exact":
+            found.write(("tolerances", key), fields[key], "0.1")
+    assert found.faults() == {}
+
+
+def test_a_decimal_comma_is_said_to_be_one():
+    changed = draft("specimen")
+    changed.write(("core", "thickness_mm"), NUMBER, "0,5")
+    assert changed.faults()[("core", "thickness_mm")] == "'0,5': the decimal sign is a point, 0.5"

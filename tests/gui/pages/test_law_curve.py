@@ -64,7 +64,7 @@ def test_a_resonance_is_a_peak_inside_its_segment():
 
 def test_numbers_are_stated_where_it_was_measured():
     assert places_hz({1: 19.0, 2: 250.0}, curve(15.0, 120.0)) == [
-        (19.0, "resonance 1"),
+        (19.0, "peak of segment 1"),
         (20.0, ""),
         (100.0, ""),
     ]

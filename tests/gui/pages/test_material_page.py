@@ -3,6 +3,7 @@ import threading
 import numpy as np
 import pytest
 from diagnosed_session import diagnosed_session
+from diagnosis_cases import diagnosis
 from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent
 from result_cases import identification
@@ -102,7 +103,7 @@ def test_numbers_stand_at_the_references_and_the_resonances(looked_at):
     page = looked_at
     assert page.places.texts(0)[-2:] != page.places.texts(0)[:2]
     assert {"20", "100"} < set(page.places.texts(0))
-    assert "resonance 1" in page.places.texts(1)
+    assert "peak of segment 1" in page.places.texts(1)
     row = page.places.texts(0).index("100")
     at_100 = next(r for r in diagnosis_of(page).after.law if r.frequency_hz == 100.0)
     assert float(page.places.cell(row, 2).text.split(" ± ")[0]) == pytest.approx(
@@ -129,6 +130,20 @@ def test_a_note_on_the_law_before_the_diagnosis_says_so_and_names_no_keys(looked
     notes = looked_at.notes.toPlainText()
     assert notes.startswith("Before the diagnosis: ")
     assert "_pa" not in notes
+
+
+def test_a_law_that_nothing_explains_is_doubted_in_large_and_another_one_is_not(qtbot, window, tmp_path):
+    window.open(diagnosed_session(tmp_path, diagnosis(verdict="unknown")))
+    qtbot.waitUntil(lambda: window.controller.recorded is not None)
+    window.show_page("material")
+    page = next(page for page in window.pages if page.objectName() == "material")
+    qtbot.waitUntil(page.doubt.isVisible)
+    assert page.doubt.said == "Verdict unknown: no law here is to be relied on."
+    assert page.plots.names[-1].endswith("(verdict unknown)")
+
+
+def test_a_law_that_is_explained_is_not_doubted(looked_at):
+    assert looked_at.doubt.isHidden()
 
 
 def test_a_fit_without_a_diagnosis_says_what_it_is_made_of(qtbot, window, page, session_path):

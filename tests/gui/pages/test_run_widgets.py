@@ -10,7 +10,7 @@ from gui.form.form import Form
 from gui.form.labels import LABELS
 from gui.pages.run.banner import Banner
 from gui.pages.run.files_panel import FilesPanel
-from gui.pages.run.now import ending_words, path_words
+from gui.pages.run.now import ending_words, go_on_words, path_words
 from gui.pages.run.start_panel import StartPanel
 from instrument.engine.messages import Ended
 from instrument.files.experiment_file import ExperimentDocument
@@ -42,6 +42,15 @@ def test_a_run_that_was_broken_off_says_where_it_goes_on():
     ]
     assert ending_words(Ended("done")) == "There is no session."
     assert ending_words(None) == ""
+
+
+def test_a_recording_of_a_run_that_was_stopped_says_how_it_goes_on_and_whether_it_can(tmp_path):
+    session = tmp_path / "one.h5"
+    assert "cannot be carried on: one.running is not beside it" in go_on_words(session)
+    assert "diagnosed on Diagnosis" in go_on_words(session)
+    (tmp_path / "one.running").mkdir()
+    said = go_on_words(session)
+    assert f"to {tmp_path}, choose one.running beside Begin" in said
 
 
 @pytest.mark.parametrize(

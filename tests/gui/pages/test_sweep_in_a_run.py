@@ -74,8 +74,8 @@ def test_a_step_is_followed_to_its_rest(qtbot, alone):
     fed(page, state, index.events[: settled + 1])
     page.tabs.setCurrentWidget(page.step)
     qtbot.waitUntil(lambda: "dwelling" in page.step.words.text())
-    assert page.step.facts["Level"].text().startswith("4.91")
-    assert page.step.facts["Drive"].text() == "0.5 V of 5 V"
+    assert page.step.facts["Level"].said.startswith("4.91")
+    assert page.step.facts["Drive"].said == "0.5 V of 5 V"
     seconds, left = shown(page.step.settling, "left")
     event = index.events[settled]
     assert seconds[-1] == pytest.approx(event.seconds)

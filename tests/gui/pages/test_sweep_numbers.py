@@ -211,6 +211,18 @@ def test_a_segment_is_done_only_after_its_last_pass():
     assert standings(state, none)[0].state == "done"
 
 
+def test_a_pass_that_a_diagnosis_asked_for_breaks_no_segment_off():
+    """Of other steps than the file's; it is done with them."""
+    state, none = SessionState(configuration()), of()
+    state.take(SessionBegan("2026-04-01T08:00:05+00:00", "0", {}, ()))
+    for turn, steps in ((1, 25), (2, 20)):
+        state.take(SegmentBegan(1, turn, 18.0, 22.0, steps))
+        state.take(SegmentEnded(1, turn))
+    state.take(SessionEnded("done", ""))
+    first = standings(state, none)[0]
+    assert (first.state, first.points) == ("done", "0 of 45 points, pass 2 of 2")
+
+
 def test_drift_begins_with_the_first_sentinel_at_zero():
     points = of(point(1, purpose="sentinel"), point(2), point(3, purpose="sentinel"))
     drift = drifted(points, [SentinelCompared(3, 20.0, -0.4, 0.1)])

@@ -3,6 +3,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from diagnosed_session import diagnosed_session
+from diagnosis_cases import diagnosis
 from PySide6.QtCore import Qt
 from sweep_views import LEFT, click_point, click_segment, shown, value
 
@@ -303,7 +304,7 @@ def test_the_foreseen_curve_is_what_predict_says_of_the_stated_specimen(qtbot, p
     qtbot.waitUntil(lambda: page.foreseen.curve is not None, timeout=PATIENCE_MS)
     assert page.foreseen.failure == ""
     assert all(np.isnan(s.amplitude_std_s).all() for s in page.foreseen.curve.stretches)
-    assert FORESEEN in page.response.amplitude.names
+    qtbot.waitUntil(lambda: FORESEEN in page.response.amplitude.names)
 
 
 def test_another_sessions_sweep_is_laid_beside_this_one_and_taken_away(qtbot, opened, page, session_path):
@@ -326,6 +327,18 @@ def test_a_fit_that_lacks_what_the_diagnosis_found_is_said_to_be_before_it(qtbot
     page = window.pages[1]
     qtbot.waitUntil(lambda: "rms" in page.response.model.text(), timeout=PATIENCE_MS)
     assert "% before the diagnosis" in page.response.model.text()
+
+
+def test_a_fit_that_nothing_explains_says_so_wherever_it_is_drawn(qtbot, window, tmp_path):
+    window.open(diagnosed_session(tmp_path, diagnosis(verdict="unknown")))
+    qtbot.waitUntil(lambda: window.controller.recorded is not None)
+    window.show_page("sweep")
+    page = window.pages[1]
+    qtbot.waitUntil(lambda: "verdict unknown" in page.response.model.text(), timeout=PATIENCE_MS)
+    qtbot.waitUntil(lambda: page.model.curve is not None, timeout=PATIENCE_MS)
+    page.chooser.choose(1)
+    for plot in (page.response.amplitude, page.response.phase):
+        qtbot.waitUntil(lambda plot=plot: any("fit 2, verdict unknown" in n for n in plot.names))
 
 
 @pytest.mark.parametrize(("over", "said"), [(False, "no fit yet"), (True, "no fit")])

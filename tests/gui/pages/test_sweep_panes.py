@@ -153,4 +153,4 @@ def test_samples_are_shown_once_there_is_a_file_of_them(made):
 def test_without_a_step_its_pane_says_what_will_be_there(made):
     pane = made(StepPane())
     assert not pane.none.isHidden()
-    assert {label.text() for label in pane.facts.values()} == {"\u2013"}
+    assert {label.said for label in pane.facts.values()} == {"\u2013"}

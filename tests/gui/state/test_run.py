@@ -1,13 +1,15 @@
 """What a run is said to do."""
 
 import pytest
+from diagnosis_cases import diagnosis
 from session_cases import configuration as configuration_of
 
 from gui.state import SessionState
 from gui.state.run import Run
 from instrument.files.experiment_file import read_experiment
 from instrument.simulated_case import case_file
-from instrument.stream.raw import OperatorDid
+from instrument.stream.derived import DiagnosisFound
+from instrument.stream.raw import OperatorDid, SessionEnded
 
 
 @pytest.fixture
@@ -32,3 +34,19 @@ def test_a_run_on_its_way_is_not_idle_before_its_stream_says_anything(configurat
     assert (state.run.word, state.run.next_words) == ("preparing", "starting")
     state.work("", None)
     assert (state.run.word, state.run.next_words) == ("preparing", "what comes next is made ready")
+
+
+@pytest.mark.parametrize(
+    ("found", "said"),
+    [
+        (None, "what was found stands on Hammer"),
+        (diagnosis(), "effect: added_mass"),
+        (diagnosis(verdict="unknown"), "verdict unknown: no law here is to be relied on; Diagnosis says"),
+    ],
+)
+def test_what_is_done_says_what_was_found(configuration, found, said):
+    run = Run(configuration.experiment)
+    if found is not None:
+        run.take(DiagnosisFound(1, 1, found))
+    run.take(SessionEnded("done", ""))
+    assert run.next_words.startswith(said)

@@ -10,6 +10,7 @@ from instrument.files.toml import read_document
 
 READERS = {
     "experiment": read_experiment,
+    "experiment-beam": read_experiment,
     "rig": lambda path: read_document(path, RigDocument),
     "sensors": lambda path: read_document(path, SensorsDocument),
     "real-rig": lambda path: read_document(path, RigDocument),
@@ -38,6 +39,16 @@ def test_a_new_plate_stands_on_a_new_rig_and_a_new_experiment_goes(tmp_path, mon
         assert run(["new", kind, name]) == 0
     assert run(["check", "experiment.toml"]) == 0
     assert "fault" not in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("kind", ["beam", "shear-pair"])
+def test_a_new_beam_and_a_new_pair_have_an_experiment_that_goes(tmp_path, monkeypatch, capsys, kind):
+    monkeypatch.chdir(tmp_path)
+    for what, name in ((kind, "specimen.toml"), ("rig", "rig.toml"), ("experiment-beam", "experiment.toml")):
+        assert run(["new", what, name]) == 0
+    with open("rig.toml", "a") as rig:
+        rig.write('specimen = "specimen.toml"\n')
+    assert run(["check", "experiment.toml"]) == 0, capsys.readouterr().err
 
 
 def test_a_file_that_is_there_is_kept(tmp_path, capsys):

@@ -225,6 +225,17 @@ def test_the_result_is_the_law_after_the_diagnosis(tmp_path):
     assert "the law before the diagnosis" in section(page, "Identification of the core, before the diagnosis")
 
 
+def test_a_law_that_nothing_explains_is_doubted_at_the_head_and_wherever_it_is_shown(tmp_path):
+    page = page_of(diagnosed_session(tmp_path, diagnosis=diagnosis(verdict="unknown")))
+    head = text_of("<body>" + page[page.index("<header>") : page.index("</header>")])
+    warned = head.index("Verdict unknown: no law here is to be relied on.")
+    assert warned < head.index("loss factor")
+    words = section(page, "Identification of the core, before the diagnosis")
+    for title in ("The law in the band", "Parameters", "Shear modulus and loss factor in the measured band"):
+        at = words.index(title)
+        assert "(verdict unknown)" in words[at : at + 110]
+
+
 # Sessions with something missing
 
 

@@ -29,3 +29,10 @@ def test_two_digits_of_the_error_decide(value, error, scale, text):
 def test_plain_and_signed():
     assert (format_number(0.123456), format_number(None), format_number(math.inf)) == ("0.1235", "-", "-")
     assert signed(0.5) == "+0.50"
+
+
+@pytest.mark.parametrize(
+    ("value", "text"), [(1772.18, "1770"), (0.597, "0.597"), (12345.0, "12300"), (2.645e13, "2.64e+13")]
+)
+def test_what_people_read_has_an_exponent_only_where_it_must(value, text):
+    assert format_number(value, 3) == text
