@@ -14,6 +14,7 @@ from fitting.diagnosis.response import SweepResponse
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.thresholds import SEARCH
 from fitting.effects.base import Effect, Points
+from fitting.errors import OutsideModel
 from fitting.laws import CoreLaw
 
 Start = tuple[float, Array]
@@ -188,7 +189,15 @@ def moves(
         # Many places to be tried: one adjoint serves all of them.
         return response.signatures(law, known, starts)
     with np.errstate(all="ignore"):
-        return np.array([response.velocity(law, np.concatenate([known, u])) - v for u in starts])
+        return np.array([_moved(response, law, np.concatenate([known, u]), v) for u in starts])
+
+
+def _moved(response: SweepResponse, law: CoreLaw, u: Array, v: Complex) -> Complex:
+    try:
+        return response.velocity(law, u) - v
+    except OutsideModel:
+        # A table's modes may be more than such a structure has: that start is not followed.
+        return np.full_like(v, np.nan)
 
 
 def by_adjoint(effect: Effect) -> bool:

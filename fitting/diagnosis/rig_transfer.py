@@ -18,6 +18,7 @@ from scipy.optimize import minimize
 
 from fitting.arrays import Array, Complex, Mask
 from fitting.diagnosis.evidence import Evidence
+from fitting.diagnosis.refit import kept
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
 from fitting.diagnosis.several import SeveralProblem
@@ -32,6 +33,8 @@ _TYPICAL, _SPREAD = 0.01, 2.2
 """Of a size: its median, and the standard deviation of its logarithm."""
 _LEAST, _MOST = 1e-5, 0.3
 """Of a size, where a search may go: rounding, and what no channel does. A choice."""
+_STEPS, _SETTLED = 6, 0.5
+"""Steps of law and stated numbers at most, and the gain in nats from which on they rest. A choice."""
 _EVALUATIONS = 250
 """A bound on time."""
 
@@ -106,12 +109,36 @@ def rig_transfer(problem: SeveralProblem, evidence: Evidence, none: Refitted) ->
     both, best = _likeliest(task, common=True)
     if both - own < NATS:
         return None
+    task, both, best = _settled(problem, evidence, none, taken, (task, both, best))
     solved = np.linalg.solve(task.covariance(best), task.data)
     across = best.common(t, t[taken])
     n = len(taken)
     ln_g = across @ solved[:n] + 1j * (across @ solved[n:])
     off = _from_the_others(task, best, problem.sweep.segment[taken])
     return RigTransfer(best, both - own, ln_g, off, taken)
+
+
+def _settled(
+    problem: SeveralProblem,
+    evidence: Evidence,
+    none: Refitted,
+    taken: NDArray[np.intp],
+    first: tuple[_Linear, float, Wandering],
+) -> tuple[_Linear, float, Wandering]:
+    """What is linear asked anew where it ends, the likeliest kept.
+
+    The fit without any transfer may be far off: a first step goes too far and comes back.
+    """
+    likeliest = latest = first
+    there = none
+    for _ in range(_STEPS):
+        there = _moved(problem, evidence, there, latest[0], latest[2])
+        task = _linear(problem, evidence, there, taken)
+        before, latest = latest, (task, *_likeliest(task, common=True))
+        likeliest = max(likeliest, latest, key=lambda one: one[1])
+        if abs(latest[1] - before[1]) < _SETTLED:
+            break
+    return likeliest
 
 
 def validation_of(found: RigTransfer, segment: NDArray[np.intp], noise_percent: Array) -> Validation:
@@ -143,6 +170,22 @@ def _linear(
     by = np.concatenate([by, problem.own_cores(none.law, v)[:, taken]])
     t = np.log(problem.sweep.frequency_hz[taken])
     return _Linear(r, by, noise, t, problem.file_of_points[taken])
+
+
+def _moved(
+    problem: SeveralProblem, evidence: Evidence, none: Refitted, task: _Linear, w: Wandering
+) -> Refitted:
+    """Where law and stated numbers go by a linear step, the transfer allowed for."""
+    J = np.concatenate([task.by_x.real, task.by_x.imag], axis=1)
+    x = J @ np.linalg.solve(task.covariance(w), task.data)
+    plain, bend = none.law.search_widths, none.law.bend_count
+    n = len(plain)
+    logs = np.log(none.law.values)
+    logs[:n] += plain * x[:n]
+    logs[n:] = x[n : n + bend]
+    low, high = none.law.log_limits
+    law = none.law.with_logs(np.clip(logs, low, high))
+    return kept(response_of(problem, none.effects), evidence, law, x[n + bend : n + bend + len(none.u)])
 
 
 def _likeliest(task: _Linear, *, common: bool) -> tuple[float, Wandering]:

@@ -6,9 +6,9 @@ stays near 0, and a pull of 1 there is many standard deviations.
 """
 
 import numpy as np
-from scipy.stats import chi2
 
 from fitting.arrays import Array
+from fitting.chances import chi2_above
 
 INFORMED = 0.05
 """Part of the prior's variance that data have to take away for a direction to count: below, rounding and the
@@ -27,4 +27,4 @@ def pulled_together(z: Array, C: Array) -> tuple[float, int]:
 
 def is_unlikely(chi_square: float, directions: int) -> bool:
     """Whether numbers stated rightly are hardly ever moved so."""
-    return directions > 0 and bool(chi2.sf(chi_square, directions) < UNLIKELY)
+    return directions > 0 and bool(chi2_above(chi_square, directions) < UNLIKELY)

@@ -31,7 +31,7 @@ SUMMARIES = {
         "Where the laws in FILES differ beyond their joint uncertainties: two or more, each with each."
     ),
     "export": "SESSION.h5 as universal files, CSV or MATLAB: sweep, hits, damping.",
-    "import": "FILE (.uff, .unv, .mat, .lvm, .csv) as CSV for 'viscorig identify' and 'viscorig damping'.",
+    "import": "FILE (.uff, .unv, .mat, .lvm, or text) as CSV for 'viscorig identify' and 'viscorig damping'.",
     "bench": (
         "Time the reduced model against direct solves and the paper's procedure, in this run on this machine."
     ),

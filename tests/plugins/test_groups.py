@@ -215,14 +215,14 @@ def test_a_form_asks_what_the_driver_asks(vibrometers):
 
 
 def test_another_packages_reader_reads_its_ending(package, monkeypatch, tmp_path):
-    package("reader-one", READER, readers={"dat": "read", "bad": "fail"})
+    package("reader-one", READER, readers={"dax": "read", "bad": "fail"})
     anew(monkeypatch, readers, "READERS")
-    for ending in ("DAT", "bad", "none"):
+    for ending in ("DAX", "bad", "none"):
         (tmp_path / f"x.{ending}").write_text("anything")
-    assert readers.is_foreign(tmp_path / "x.DAT")
-    assert ".dat" in readers.foreign_endings()
-    assert readers.read_foreign(tmp_path / "x.DAT").said == ["a sweep"]
+    assert readers.is_foreign(tmp_path / "x.DAX")
+    assert ".dax" in readers.foreign_endings()
+    assert readers.read_foreign(tmp_path / "x.DAX").said == ["a sweep"]
     with pytest.raises(BadInput, match=r"x\.bad: its reader failed: RuntimeError: of its own"):
         readers.read_foreign(tmp_path / "x.bad")
-    with pytest.raises(BadInput, match=r"unknown ending '\.none', expected one of bad, csv, dat, lvm, mat"):
+    with pytest.raises(BadInput, match=r"unknown ending '\.none', expected one of asc, bad, csv, dat, dax, lvm, mat"):
         readers.read_foreign(tmp_path / "x.none")
