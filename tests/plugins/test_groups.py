@@ -224,5 +224,7 @@ def test_another_packages_reader_reads_its_ending(package, monkeypatch, tmp_path
     assert readers.read_foreign(tmp_path / "x.DAX").said == ["a sweep"]
     with pytest.raises(BadInput, match=r"x\.bad: its reader failed: RuntimeError: of its own"):
         readers.read_foreign(tmp_path / "x.bad")
-    with pytest.raises(BadInput, match=r"unknown ending '\.none', expected one of asc, bad, csv, dat, dax, lvm, mat"):
+    with pytest.raises(
+        BadInput, match=r"unknown ending '\.none', expected one of asc, bad, csv, dat, dax, lvm, mat"
+    ):
         readers.read_foreign(tmp_path / "x.none")
