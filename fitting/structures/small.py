@@ -8,11 +8,13 @@ unknowns themselves, in groups where some are for an effect alone.
 """
 
 from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Protocol
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array, Complex
 from fitting.effects.change import Change
@@ -25,6 +27,8 @@ from fitting.placed import Placed
 from fitting.rational import RationalSweep
 from fitting.specimen import StatedSpecimen
 
+_SHARED = 100
+"""Points from which on two threads share them: a millisecond's work."""
 _STILL = 1e-9
 """A reading below this reads nothing but rounding."""
 _WIDE, _STEP = 0.1, 1e-3
@@ -268,10 +272,22 @@ def rational_of(system: EnrichedReducedPlate, omega: Array, size_pa: float) -> R
     C_1 = (system.U * system.d) @ system.U.T
     A = system.K_0 + G_ref * system.K_1 - w**2 * system.M + 1j * w * C_1
     sides = np.concatenate([system.K_1, system.load[:, None]], axis=1).astype(complex)
-    solved = np.linalg.solve(A, np.broadcast_to(sides, (len(omega), *sides.shape)))
+    sides = np.broadcast_to(sides, (len(omega), *sides.shape))
+    if len(omega) < _SHARED:
+        c, mu = _terms(A, sides, system.observe)
+    else:
+        with threadpool_limits(1, "blas"), ThreadPoolExecutor(2) as pool:
+            halves = pool.map(_terms, np.array_split(A, 2), np.array_split(sides, 2), [system.observe] * 2)
+            c, mu = (np.concatenate(both) for both in zip(*halves, strict=True))
+    return RationalSweep(np.asarray(omega, dtype=float), G_ref, c, mu)
+
+
+def _terms(A: Complex, sides: Complex, observe: Array) -> tuple[Complex, Complex]:
+    """c and mu of the sum at each point; shapes (n, k, k), (n, k, k + 1), (k,) to (n, k) each."""
+    solved = np.linalg.solve(A, sides)
     mu, Y = np.linalg.eig(solved[:, :, :-1])
     weights = np.linalg.solve(Y, solved[:, :, -1:])[:, :, 0]
-    return RationalSweep(np.asarray(omega, dtype=float), G_ref, (system.observe @ Y) * weights, mu)
+    return (observe @ Y) * weights, mu
 
 
 def displacement(system: EnrichedReducedPlate, omega: Array, G: Complex) -> Complex:
