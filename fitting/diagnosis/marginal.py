@@ -147,7 +147,8 @@ def _prior(q: EffectParameter, lower: float, upper: float, u: float) -> tuple[fl
         return float(-np.log(width)), float(width / np.sqrt(_UNIFORM))
     # Cauchy's: most are small, some are not, and no size is ruled out.
     s = expected_size(q)
-    sides = 1 if lower < q.neutral < upper else 2
+    share = q.below if u < q.neutral else 1 - q.below
+    sides = 2 * share if lower < q.neutral < upper else 2
     return float(np.log(sides / (np.pi * s * (1 + ((u - q.neutral) / s) ** 2)))), s
 
 

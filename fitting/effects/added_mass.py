@@ -93,9 +93,12 @@ class MassOnBeamEffect(AddedMassEffect):
 
 
 class MassOfPairEffect(AddedMassEffect):
-    """The moving mass of a shear pair is so much heavier than stated: a screw, half a fixture, a cable."""
+    """The moving mass of a shear pair is so much heavier than stated: a screw, half a fixture, a cable.
 
-    parameters = (EffectParameter("mass", "kg", -0.5, 5.0, 3e-3, spread=0.02),)
+    Seldom lighter: something was weighed that does not move.
+    """
+
+    parameters = (EffectParameter("mass", "kg", -0.5, 5.0, 3e-3, spread=0.02, below=0.05),)
     spans = ()
     discriminating_test = "a balance; other masses on the same discs: mass and modulus then part"
 

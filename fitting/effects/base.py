@@ -79,6 +79,8 @@ class EffectParameter:
     An unknown without a neutral value is as likely anywhere within its limits, one with a logarithm in its
     logarithm.
     """
+    below: float = 0.5
+    """How likely it is to lie below its neutral value, where it may lie on both sides."""
     mounting: float | None = None
     """Standard deviation of how much it differs once the specimen was clamped anew with another torque: in
     its logarithm, or in `unit`. None for what a mounting leaves as it is.

@@ -22,7 +22,7 @@ class TemperatureDifferenceEffect(Effect):
     structures = EVERY_STRUCTURE
     between_files = True
     parameters = (EffectParameter("warmer", "K", -25.0, 25.0, 2.0, spread=3.0),)
-    chance = 0.05
+    chance = 0.15
     discriminating_test = "the first file measured again, a thermocouple at the core in each"
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:

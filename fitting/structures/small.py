@@ -283,7 +283,7 @@ def rational_of(system: EnrichedReducedPlate, omega: Array, size_pa: float) -> R
 
 
 def _terms(A: Complex, sides: Complex, observe: Array) -> tuple[Complex, Complex]:
-    """c and mu of the sum at each point; shapes (n, k, k), (n, k, k + 1), (k,) to (n, k) each."""
+    """Terms c and mu of the sum at each point; shapes (n, k, k), (n, k, k + 1), (k,) to (n, k) each."""
     solved = np.linalg.solve(A, sides)
     mu, Y = np.linalg.eig(solved[:, :, :-1])
     weights = np.linalg.solve(Y, solved[:, :, -1:])[:, :, 0]
