@@ -21,7 +21,8 @@ from gui.plots import Axis, Plot
 from gui.plots.curve import Symbol
 from gui.theme import Role, current_theme
 from instrument.facts.diagnosis import STAGES, DiagnosisResult, StageName
-from instrument.results.standing import law_words
+from instrument.results.numbers import format_number
+from instrument.results.standing import law_words, one_fit_words, stages_apart
 
 _ROOM = 1.12
 _LEAST_LINES = 7
@@ -88,12 +89,14 @@ class ResidualPlots(QWidget):
         if found is None or chosen is None:
             return
         self._numbers = [n for n in segments(found) if chosen in (_ALL, n)]
-        for (n, _), plot in self.plots.items():
-            plot.setVisible(n in self._numbers)
+        stages = stages_apart(found)
+        for (n, stage), plot in self.plots.items():
+            plot.setVisible(n in self._numbers and stage in stages)
         for label, stage in zip((self._before, self._after), STAGES, strict=True):
             label.setText(_title(found, stage))
+            label.setVisible(stage in stages)
         # One plot a turn: the window stays quick.
-        self._waiting = [(n, stage) for n in self._numbers for stage in STAGES]
+        self._waiting = [(n, stage) for n in self._numbers for stage in stages]
         self._timer.start()
 
     def _draw_next(self) -> None:
@@ -205,10 +208,10 @@ def _title(found: DiagnosisResult, stage: StageName) -> str:
         if stage == "before"
         else f"after: with {accepted}"
     )
-    if stage == "after" and not found.equivalent:
-        said = "after: the same, no effect is accepted"
+    if len(stages_apart(found)) == 1:
+        said = f"without any effect: {one_fit_words(found)}"
     chi2, rms = found.stage(stage).chi2_per_dof, found.stage(stage).rms_percent
-    noise = "" if chi2 is None else f", chi² per degree {chi2:.3g}"
+    noise = "" if chi2 is None else f", chi² per degree {format_number(chi2, 3)}"
     return f"<b>{said}</b><br>{two_digits(rms)} % rms in amplitude{noise}"
 
 
