@@ -81,4 +81,5 @@ def sweep_of(points: list[PointMeasured], times_s: Sequence[float] | None = None
         std_m_s=reading_std_m_s(points),
         time_s=None if times_s is None else np.array(times_s) - min(times_s),
         pickup=np.array([p.pickup for p in points], dtype=np.intp) if any(p.pickup for p in points) else None,
+        std_of_dwells=True,
     )
