@@ -40,13 +40,16 @@ def open_journal(experiment: Experiment, out: Path, resume: Path | None) -> tupl
 def finish_session(journal: SessionJournal, path: Path) -> int:
     """Put a session file together from what is sealed and remove the folder; how many parts there were.
 
-    Raises `BadInput` where nothing is sealed.
+    Where a sealed part is damaged the folder stays. Raises `BadInput` where nothing is sealed.
     """
     entries = journal.entries()
     if not entries:
         raise BadInput(f"{journal.folder}: nothing was completed, there is no session to put together")
     write_session(path, journal.configuration(), [journal.folder / e.file for e in entries])
-    journal.remove()
+    if (lost := journal.damage()) is None:
+        journal.remove()
+    else:
+        log.warning("%s: lost is %s: the folder stays as it is", journal.folder, lost.words)
     return len(entries)
 
 

@@ -134,6 +134,16 @@ def test_a_session_is_put_together_of_all_its_parts_and_its_folder_goes(begin, t
         assert [p.step for p in contents_of(file).measured] == [1, 2, 3]
 
 
+def test_the_folder_of_a_session_with_a_damaged_part_stays(begin, tmp_path, caplog):
+    journal, _ = begin()
+    add(journal, point(1), point(2))
+    add(journal, point(3))
+    (journal.folder / "part-000002.h5").write_bytes(b"damaged")
+    assert finish_session(journal, tmp_path / "a.h5") == 1
+    assert (journal.folder / "part-000002.h5").exists()
+    assert "part-000002.h5 is damaged" in caplog.text
+
+
 def test_what_is_complete_is_kept_and_can_be_carried_on(begin, tmp_path):
     journal, _ = begin()
     add(journal, HIT, HIT)
