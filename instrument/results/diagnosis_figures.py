@@ -14,7 +14,7 @@ from fitting.sweep import segments_by_gap
 from instrument.errors import BadInput
 from instrument.facts.diagnosis import DiagnosisResult, PointLeft, StageName
 from instrument.facts.result import Result
-from instrument.results.diagnosis_words import log_odds, probability_words, with_verdict
+from instrument.results.diagnosis_words import log_odds, probability_words, segment_place, with_verdict
 from instrument.results.drawing import (
     BAND_95,
     DATA,
@@ -62,7 +62,8 @@ def residual_figure(found: DiagnosisResult) -> Figure:
     Each has a scale of its own: on the other's, what the effects leave would be a line.
     """
     points = found.points
-    numbers = sorted({p.segment for p in points})[:_MOST_SEGMENTS]
+    every = sorted({p.segment for p in points})
+    numbers = every[:_MOST_SEGMENTS]
     rows = len(numbers)
     figure = Figure(figsize=(WIDTH_IN, 1.2 + 1.75 * rows), layout="constrained")
     stages = stages_apart(found)
@@ -77,7 +78,11 @@ def residual_figure(found: DiagnosisResult) -> Figure:
                 f"{named}: {two_digits(rms)} % rms in amplitude, own scale" if number == numbers[0] else ""
             )
             label(ax, title=first, x="Frequency / Hz" if number == numbers[-1] else "")
-        label(pair[0], y=f"Segment {number}\nresidual / %")
+        place = segment_place(found, number)
+        label(pair[0], y=f"Segment {number}{f', {place}' if place else ''}\nresidual / %")
+    if len(every) > len(numbers):
+        said = f"the first {len(numbers)} of {len(every)} segments"
+        axes[-1, 0].annotate(said, (0.0, -0.42), xycoords="axes fraction", fontsize=8)
     legend_above(figure, axes[0, 0])
     return figure
 

@@ -21,6 +21,7 @@ from gui.plots import Axis, Plot
 from gui.plots.curve import Symbol
 from gui.theme import Role, current_theme
 from instrument.facts.diagnosis import STAGES, DiagnosisResult, StageName
+from instrument.results.diagnosis_words import segment_place
 from instrument.results.numbers import format_number
 from instrument.results.standing import law_words, one_fit_words, stages_apart
 
@@ -70,8 +71,13 @@ class ResidualPlots(QWidget):
         _offer(self.quantity, {NAMES[q]: q for q in quantities(found)})
         numbers = segments(found)
         every = {"all segments": _ALL} if len(numbers) > 1 else {}
-        _offer(self.segment, {**every, **{f"segment {n}": n for n in numbers}})
+        _offer(self.segment, {**every, **{f"segment {n}{self._place(n)}": n for n in numbers}})
         self._draw()
+
+    def _place(self, number: int) -> str:
+        """File and pickup of a segment, after a comma, where there are several."""
+        place = segment_place(self._found, number) if self._found is not None else ""
+        return f", {place}" if place else ""
 
     @property
     def drawn(self) -> bool:
@@ -106,6 +112,7 @@ class ResidualPlots(QWidget):
             return
         number, stage = self._waiting.pop(0)
         plot = self._plot(number, stage)
+        plot.setToolTip(f"Segment {number}{self._place(number)}, {stage}")
         titled, unit = number == self._numbers[-1], "" if quantity == "whitened" else "%"
         plot.show_axes(Axis("Frequency", "Hz", titled=titled), Axis(f"Segment {number}", unit))
         shown = panel(self._found, number, stage, quantity)
@@ -123,7 +130,6 @@ class ResidualPlots(QWidget):
         if (number, stage) not in self.plots:
             plot = Plot(Axis("Frequency", "Hz"), Axis(f"Segment {number}"), legend=False)
             plot.need_lines(_LEAST_LINES)
-            plot.setToolTip(f"Segment {number}, {stage}")
             if stage == "after":
                 _Twins(self.plots[number, "before"], plot)
             self._grid.addWidget(plot, number, STAGES.index(stage))

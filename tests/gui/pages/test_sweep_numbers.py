@@ -313,6 +313,14 @@ def test_the_time_signal_ends_with_the_latest_sample(state):
 # Other files
 
 
+def test_a_sweep_over_a_force_is_no_ratio_to_a_base_and_is_not_drawn():
+    f, one = np.array([20.0, 21.0]), np.ones(2)
+    struck = {"frequency_hz": f, "velocity_re_m_s": one, "velocity_im_m_s": one}
+    struck |= {"force_re_n": one, "force_im_n": 0 * one}
+    shaken = {"frequency_hz": f, "velocity_m_s": one}
+    assert [one.name for one in besides({Path("a.csv"): Found(sweeps=[struck, shaken])})] == ["a.csv, 2"]
+
+
 def test_a_sweep_of_another_file_is_brought_to_the_same_quantity():
     f = np.array([21.0, 20.0])
     columns = {

@@ -167,6 +167,15 @@ def test_where_no_effect_is_accepted_nothing_is_drawn_after_it(result):
     assert len(law_figure(result).axes[0].lines) == 2
 
 
+def test_of_several_files_a_segment_is_named_by_file_and_pickup(result):
+    points = [p.but(file=p.segment, pickup=p.segment - 1) for p in result.points]
+    more = [p.but(segment=p.segment + 3) for p in points]
+    axes = residual_figure(result.but(points=(*points, *more))).axes
+    assert axes[2].get_ylabel().startswith("Segment 2, file 2, pickup 1")
+    assert [text.get_text() for text in axes[8].texts] == ["the first 5 of 6 segments"]
+    assert residual_figure(result).axes[2].get_ylabel().startswith("Segment 2\n")
+
+
 def test_a_sentinel_far_off_does_not_stretch_its_segment(result):
     away = result.points[-1].but(frequency_hz=20.0)
     axes = residual_figure(result.but(points=(*result.points, away))).axes
