@@ -79,7 +79,7 @@ def residual_figure(found: DiagnosisResult) -> Figure:
             )
             label(ax, title=first, x="Frequency / Hz" if number == numbers[-1] else "")
         place = segment_place(found, number)
-        label(pair[0], y=f"Segment {number}{f', {place}' if place else ''}\nresidual / %")
+        label(pair[0], y="\n".join(part for part in (f"Segment {number}", place, "residual / %") if part))
     if len(every) > len(numbers):
         said = f"the first {len(numbers)} of {len(every)} segments"
         axes[-1, 0].annotate(said, (0.0, -0.42), xycoords="axes fraction", fontsize=8)

@@ -34,6 +34,7 @@ _ONE_LAW = {
     "f / Hz": "Frequency",
     "G' / MPa": "Storage modulus, ± one standard error",
     "η": "Loss factor, ± one standard error",
+    "": "",
 }
 _BARS = "Bars of percent share one scale; noise alone is what a perfect model would leave."
 

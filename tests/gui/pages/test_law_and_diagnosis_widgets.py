@@ -69,7 +69,7 @@ def test_what_effects_change_is_said_in_numbers_and_doubted_where_nothing_fits(m
     assert "after" not in change.table.text
     assert "+0.00" not in change.table.text
     assert change.table.texts(0) == ["20", "100", "280"]
-    assert change.table.model().columnCount() == 3
+    assert change.table.model().columnCount() == 4
     bars.show_diagnosis(unknown)
     assert set(bars.table.texts(3)) == {"-"}
     assert "No effect is accepted" in bars.said.text()

@@ -171,9 +171,9 @@ def test_of_several_files_a_segment_is_named_by_file_and_pickup(result):
     points = [p.but(file=p.segment, pickup=p.segment - 1) for p in result.points]
     more = [p.but(segment=p.segment + 3) for p in points]
     axes = residual_figure(result.but(points=(*points, *more))).axes
-    assert axes[2].get_ylabel().startswith("Segment 2, file 2, pickup 1")
+    assert axes[2].get_ylabel().startswith("Segment 2\nfile 2, pickup 1\n")
     assert [text.get_text() for text in axes[8].texts] == ["the first 5 of 6 segments"]
-    assert residual_figure(result).axes[2].get_ylabel().startswith("Segment 2\n")
+    assert residual_figure(result).axes[2].get_ylabel().startswith("Segment 2\nresidual")
 
 
 def test_a_sentinel_far_off_does_not_stretch_its_segment(result):
