@@ -37,6 +37,8 @@ class Sweep:
     time_s: Array | None = None
     pickup: Integers | None = None
     """Which of several spots each point is of, from 0; None where there is one."""
+    std_of_dwells: bool = False
+    """Whether `std_m_s` was seen within each dwell by whoever measured, not stated in a file."""
 
     def __len__(self) -> int:
         return len(self.frequency_hz)
@@ -69,8 +71,9 @@ class Sweep:
     def take(self, points: Integers | NDArray[np.bool_]) -> "Sweep":
         """Some of the points."""
         arrays: dict[str, Any] = {
-            name: None if value is None else value[points]
+            name: value[points]
             for name, value in ((f, getattr(self, f)) for f in self.__dataclass_fields__)
+            if isinstance(value, np.ndarray)
         }
         return replace(self, **arrays)
 

@@ -286,7 +286,10 @@ class AppController(QObject):
         self.beside[work.path] = found
         counts = ((len(found.sweeps), "sweep"), (len(found.frfs), "FRF"), (len(found.hits), "hit"))
         said = ", ".join(f"{n} {what}{'s' if n > 1 else ''}" for n, what in counts if n)
-        self.said.emit(f"{work.path.name}: {said} laid beside the session")
+        where = "laid beside the session"
+        if found.sweeps and all("force_re_n" in columns for columns in found.sweeps):
+            where += "; over a force, so not drawn on Sweep: Diagnosis takes it"
+        self.said.emit(f"{work.path.name}: {said} {where}")
         self.beside_changed.emit()
 
     def _not_read(self, message: str) -> None:

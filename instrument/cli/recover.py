@@ -27,9 +27,10 @@ def recover(folder: Path, json_path: str | None) -> None:
     folder = _of_run(folder)
     journal = SessionJournal(folder)
     configuration = journal.configuration()
-    entries = journal.entries()
+    entries, lost = journal.entries(), journal.damage()
     if not entries:
-        raise BadInput(f"{folder}: nothing was completed, there is no session to put together")
+        why = f"nothing is whole, lost is {lost.words}" if lost is not None else "nothing was completed"
+        raise BadInput(f"{folder}: {why}, there is no session to put together")
     path = folder.parent / f"{folder.name.removesuffix('.running')}.h5"
     if path.exists():
         with SessionFile(path) as file:
@@ -43,8 +44,22 @@ def recover(folder: Path, json_path: str | None) -> None:
     steps = [step for e in entries for step in e.steps]
     hits = sum(isinstance(e, HitJudged) for entry in entries for e in part_events(folder / entry.file))
     out.say(f"{hits} hits and {len(steps)} completed steps in {len(entries)} parts, all whole: {path}")
+    if lost is not None:
+        out.say(f"lost: {lost.words}: what comes after a damaged part is not put together")
+        out.say(
+            "--resume removes these parts and measures their steps again: copy the folder first to keep them"
+        )
     out.say(f"to go on: viscorig run EXPERIMENT.toml --resume {folder}")
-    out.result(RecoverResult(session=str(path), parts=len(entries), hits=hits, steps=tuple(steps)))
+    out.result(
+        RecoverResult(
+            session=str(path),
+            parts=len(entries),
+            hits=hits,
+            steps=tuple(steps),
+            lost_parts=lost.parts if lost is not None else 0,
+            lost_steps=lost.steps if lost is not None else (),
+        )
+    )
 
 
 def _of_run(folder: Path) -> Path:

@@ -47,3 +47,7 @@ class RecoverResult(Result):
     hits: int
     steps: tuple[int, ...]
     """Numbers of those that are complete."""
+    lost_parts: int = 0
+    """Sealed once, but damaged, or after a damaged one."""
+    lost_steps: tuple[int, ...] = ()
+    """Numbers of those that were complete in them."""

@@ -90,7 +90,7 @@ def _checked(device: str, given: Any, *, as_json: bool) -> DeviceOptions:
     if isinstance(given, DeviceOptions):
         return given
     if not isinstance(given, dict):
-        raise ValueError("input should be a table")
+        raise ValueError("expected a table")
     options = options_of(device, given.get("kind"))
     if options is None:
         raise _unknown(device, given["kind"])

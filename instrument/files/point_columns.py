@@ -41,7 +41,7 @@ def _spot(row: ColumnPoint) -> str:
 
 def _place(row: ColumnPoint) -> str:
     p = row.point
-    return "sentinel" if p.purpose == "sentinel" else f"{p.sweep}.{p.segment}"
+    return "sentinel" if p.purpose == "sentinel" else f"{p.segment}, {p.sweep}"
 
 
 _PHASOR = "Phasor of e^{+i omega t}, zero to peak, time from the acquisition's first sample"
@@ -59,7 +59,7 @@ COLUMNS: tuple[Column, ...] = (
         "if known",
         whole=True,
         identity=True,
-        report=ShownQuantity("sweep.segment", _place),
+        report=ShownQuantity("segment, pass", _place),
         record=ShownQuantity("Segment, pass", lambda r: f"{r.point.segment}, {r.point.sweep}"),
     ),
     Column(

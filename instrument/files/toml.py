@@ -21,6 +21,20 @@ _MOST_SHOWN = 3
 _LONGEST = 80
 _NO_TABLE = ("model_type", "model_attributes_type", "dict_type")
 """Faults of what is no table where one is expected."""
+_PLAIN = {
+    "float_type": "a number",
+    "float_parsing": "a number",
+    "finite_number": "a finite number",
+    "int_type": "a whole number",
+    "int_parsing": "a whole number",
+    "int_from_float": "a whole number",
+    "bool_type": "true or false",
+    "bool_parsing": "true or false",
+    "string_type": "text in quotes",
+    "list_type": "a list",
+    "tuple_type": "a list",
+}
+"""What a file should say where pydantic speaks of valid inputs, by the type of its fault."""
 _COMMA = re.compile(r"(?m)^\s*[\w.-]+\s*=\s*(-?\d+,\d+)\s*(?:#.*)?$")
 
 
@@ -105,9 +119,21 @@ def _models_in(annotation: Any) -> Iterator[type[BaseModel]]:
         yield from _models_in(part)
 
 
+def _expected(fault: dict[str, Any]) -> str:
+    """What a value should have been, in this program's words."""
+    if (plain := _PLAIN.get(str(fault["type"]))) is not None:
+        return f"expected {plain}"
+    message = str(fault["msg"]).removeprefix("Value error, ")
+    wanted = message.removeprefix("Input should be ")
+    if wanted == message:
+        return message
+    number = "a number " if wanted.startswith(("greater than", "less than")) else ""
+    return f"expected {number}{wanted}"
+
+
 def _said(fault: dict[str, Any], prefix: str, model: type[BaseModel] | None = None) -> str:
     place = prefix + ".".join(str(part) for part in fault["loc"])
-    message = str(fault["msg"]).removeprefix("Value error, ")
+    message = _expected(fault)
     found = "" if isinstance(fault["input"], dict | list) else f"{fault['input']!r}"[:_LONGEST] + ", "
     if fault["type"] == "missing":
         return f"{place}: missing"

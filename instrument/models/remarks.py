@@ -32,13 +32,33 @@ def remarks_on_law(law: CoreLaw, sweep_hz: Array) -> tuple[str, ...]:
 
 
 def remarks_on_noise(sweep: Sweep) -> tuple[str, ...]:
-    """Where a sweep scatters otherwise than its file says."""
+    """Where a sweep scatters otherwise than its file says, or than each of its dwells does."""
     ratio = scatter_over_stated(sweep)
     if ratio is None or 1 / _DIFFERS < ratio < _DIFFERS:
         return ()
+    if sweep.std_of_dwells:
+        return (_beside_dwells(ratio),)
     off = "too small" if ratio > 1 else "too large"
     return (
         f"neighbouring points scatter by {ratio:.2g} times the noise that velocity_std_m_s states (median, "
         f"limit {_DIFFERS:g} either way): errors follow what is stated and may be {off}; correct it or leave "
         "the column out",
+    )
+
+
+def _beside_dwells(ratio: float) -> str:
+    """Of a recorded session: its noise is what the readings of each dwell scatter by, nobody stated it."""
+    said = (
+        f"neighbouring points scatter by {ratio:.2g} times the noise seen within each dwell (median, limit "
+        f"{_DIFFERS:g} either way): "
+    )
+    if ratio > 1:
+        return said + (
+            "something changes from point to point that a dwell does not show, as a drift, hum or a narrow "
+            "resonance between the steps; errors follow the dwells and may be too small; see Drift and "
+            "Quality on Sweep, and measure the segments again in finer steps"
+        )
+    return said + (
+        "something changes within a dwell, as a transient left or hum; errors follow the dwells and may be "
+        "too large; longer dwells average it"
     )

@@ -21,6 +21,7 @@ from instrument.results.next_words import NEXT_COLUMNS, NEXT_TITLE, next_row, se
 from instrument.results.numbers import format_number, with_error
 from instrument.results.offer_sketch import offer_view
 from instrument.results.sketch_figure import sketch_figure
+from instrument.results.standing import one_fit_words, stage_before, stages_apart
 from instrument.results.typeset import capitalised, heading, note
 from instrument.results.unseen_words import UNSEEN_COLUMNS, UNSEEN_TITLE, unseen_row
 from instrument.session.contents import Contents
@@ -37,7 +38,8 @@ def diagnosis_sections(contents: Contents) -> list[ReportSection]:
     if found is None:
         why = contents.diagnosis.message
         return [ReportSection(_TITLE, (Sentence(f"No diagnosis was possible: {why}.", "warning"),))]
-    verdict = verdict_line(found)
+    verdict, changed = verdict_line(found), stage_before(found) is not None
+    when = "before and after" if changed else f"without any effect: {one_fit_words(found)}"
     blocks: list[Block] = [Sentence(f"{capitalised(verdict)}.")]
     blocks += [Sentence(text) for text in found.explanation]
     blocks += _followed(contents)
@@ -52,13 +54,11 @@ def diagnosis_sections(contents: Contents) -> list[ReportSection]:
     blocks += [Sentence(f"By resampling: {resampled}.")] if resampled else []
     blocks += [
         _before_after(found),
-        FigureBlock(residual_figure(found), "Residual before and after: predicted over measured, less one"),
+        FigureBlock(residual_figure(found), f"Residual {when}; predicted over measured, less one"),
         _candidates(found),
         FigureBlock(evidence_figure(found), "Evidence for each candidate"),
         _law(found),
-        FigureBlock(
-            law_figure(found), with_verdict("The core's law before and after, with 95 % bands", found)
-        ),
+        FigureBlock(law_figure(found), with_verdict(f"The core's law {when}; with 95 % bands", found)),
     ]
     return [ReportSection(_TITLE, tuple(blocks))]
 
@@ -114,6 +114,9 @@ def _before_after(found: DiagnosisResult) -> TableBlock:
         )
         for b, a in zip(before.held_out, after.held_out, strict=False)
     ]
+    if stage_before(found) is None:
+        one = tuple((row[0], row[1], row[3]) for row in rows)
+        return TableBlock("What the fit leaves", ("", "without any effect", "noise alone"), one)
     return TableBlock("What the fit leaves", ("", "before", "after", "noise alone"), tuple(rows))
 
 
@@ -133,14 +136,16 @@ def _candidates(found: DiagnosisResult) -> TableBlock:
 
 
 def _law(found: DiagnosisResult) -> TableBlock:
-    rows = []
+    rows, stages = [], [found.stage(name) for name in stages_apart(found)]
     for f in REFERENCE_FREQUENCIES_HZ:
-        pair = [law_at(stage.law, f) for stage in found.stages]
+        pair = [law_at(stage.law, f) for stage in stages]
         known = [r for r in pair if r is not None]
-        if len(known) < 2:
+        if len(known) < len(stages):
             continue
         G = (with_error(r.storage_modulus_pa, r.storage_modulus_standard_error_pa, 1e-6) for r in known)
         eta = (with_error(r.loss_factor, r.loss_factor_standard_error) for r in known)
         rows.append((f"{f:g}", *G, *eta))
-    columns = ("f / Hz", "G' / MPa before", "after", "loss factor before", "after")
+    columns: tuple[str, ...] = ("f / Hz", "G' / MPa before", "after", "loss factor before", "after")
+    if len(stages) == 1:
+        columns = ("f / Hz", "G' / MPa", "loss factor")
     return TableBlock(with_verdict("The core's law, ± one standard error", found), columns, tuple(rows))

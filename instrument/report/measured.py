@@ -10,6 +10,7 @@ from fitting.arrays import Array, Complex
 from instrument.facts.diagnosis import DiagnosisResult, PointLeft
 from instrument.results.standing import none_is_likelier
 from instrument.session.contents import Contents
+from instrument.session.points import elsewhere
 from instrument.stream.derived import PointMeasured
 
 
@@ -97,14 +98,7 @@ def _segment(steps: list[tuple[Which, PointMeasured]]) -> Measured:
     base, v = np.array([p.base_m_s2 for p in mine]), np.array([p.velocity_m_s for p in mine])
     noise = np.hypot(noise_of(mine, "velocity"), noise_of(mine, "base"))
     f = np.array([p.frequency_hz for p in mine])
-    return Measured(mine[0].segment, f, v / base, noise * np.abs(v / base), which, _elsewhere(mine[0]))
-
-
-def _elsewhere(p: PointMeasured) -> str:
-    said = [f"spot {p.spot_mm[0]:g}, {p.spot_mm[1]:g} mm"] if p.spot_mm is not None else []
-    if p.mass_at_mm is not None:
-        said.append(f"{1e3 * p.mass_kg:g} g at {p.mass_at_mm[0]:g}, {p.mass_at_mm[1]:g} mm")
-    return ", ".join(said)
+    return Measured(mine[0].segment, f, v / base, noise * np.abs(v / base), which, elsewhere(mine[0]))
 
 
 def noise_of(points: Sequence[PointMeasured], channel: str) -> Array:

@@ -19,6 +19,8 @@ _GROUNDS = {"note": ("#f4f7fa", "#0b63a5"), "warning": ("#fdf1e3", "#c2571a")}
 _PAPER_DPI = 300
 """What a laser printer shows."""
 _NOTES_MM, _SIGN_MM = 60.0, 14.0
+_HAIR_MM = 0.1
+"""That a column is wider than its text."""
 
 
 def save_pdf(
@@ -157,16 +159,22 @@ def _widths(cells: Sequence[Sequence[str]]) -> tuple[float, list[float]]:
         if size <= _LEAST_PT:
             break
         size -= 0.5
+    # No head is broken within a word, where there is room for that.
+    least = [
+        max(_HAIR_MM + width_mm(word, size, bold=True) for word in text.split() or [""]) for text in cells[0]
+    ]
+    if sum(least) > room:
+        least = [0.0] * len(natural)
     most = max(natural)
-    while sum(min(w, most) for w in natural) > room:
+    while sum(widths := [min(w, max(most, low)) for w, low in zip(natural, least, strict=True)]) > room:
         most *= 0.97
-    return size, [min(w, most) for w in natural]
+    return size, widths
 
 
 def _natural(cells: Sequence[Sequence[str]], size: float) -> list[float]:
     """Of columns in one line each. A hair wider, or rounding breaks what fits."""
     return [
-        0.1 + max(width_mm(text, size, bold=k == 0) for k, text in enumerate(column))
+        _HAIR_MM + max(width_mm(text, size, bold=k == 0) for k, text in enumerate(column))
         for column in zip(*cells, strict=True)
     ]
 

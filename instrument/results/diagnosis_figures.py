@@ -12,9 +12,9 @@ from fitting.arrays import Array
 from fitting.digits import two_digits
 from fitting.sweep import segments_by_gap
 from instrument.errors import BadInput
-from instrument.facts.diagnosis import STAGES, DiagnosisResult, PointLeft, StageName
+from instrument.facts.diagnosis import DiagnosisResult, PointLeft, StageName
 from instrument.facts.result import Result
-from instrument.results.diagnosis_words import log_odds, probability_words, with_verdict
+from instrument.results.diagnosis_words import log_odds, probability_words, segment_place, with_verdict
 from instrument.results.drawing import (
     BAND_95,
     DATA,
@@ -26,7 +26,7 @@ from instrument.results.drawing import (
     label,
     legend_above,
 )
-from instrument.results.standing import Standing, standing
+from instrument.results.standing import Standing, one_fit_words, stages_apart, standing
 
 _MOST_BARS = 12
 _PARTS = (
@@ -57,25 +57,32 @@ def save_diagnosis_figures(found: DiagnosisResult, folder: Path) -> list[Path]:
 
 
 def residual_figure(found: DiagnosisResult) -> Figure:
-    """What is left over frequency: a row a segment, before on the left, after on the right.
+    """What is left over frequency: a row a segment, before on the left, after on the right where it differs.
 
     Each has a scale of its own: on the other's, what the effects leave would be a line.
     """
     points = found.points
-    numbers = sorted({p.segment for p in points})[:_MOST_SEGMENTS]
+    every = sorted({p.segment for p in points})
+    numbers = every[:_MOST_SEGMENTS]
     rows = len(numbers)
     figure = Figure(figsize=(WIDTH_IN, 1.2 + 1.75 * rows), layout="constrained")
-    axes = figure.subplots(rows, 2, squeeze=False, sharex="row")
+    stages = stages_apart(found)
+    axes = figure.subplots(rows, len(stages), squeeze=False, sharex="row")
     for number, pair in zip(numbers, axes, strict=True):
         mine = _together([p for p in points if p.segment == number])
-        for ax, stage in zip(pair, STAGES, strict=True):
+        for ax, stage in zip(pair, stages, strict=True):
             _draw_residual(ax, mine, stage)
             rms = found.stage(stage).rms_percent
+            named = stage if len(stages) > 1 else "without any effect"
             first = (
-                f"{stage}: {two_digits(rms)} % rms in amplitude, own scale" if number == numbers[0] else ""
+                f"{named}: {two_digits(rms)} % rms in amplitude, own scale" if number == numbers[0] else ""
             )
             label(ax, title=first, x="Frequency / Hz" if number == numbers[-1] else "")
-        label(pair[0], y=f"Segment {number}\nresidual / %")
+        place = segment_place(found, number)
+        label(pair[0], y="\n".join(part for part in (f"Segment {number}", place, "residual / %") if part))
+    if len(every) > len(numbers):
+        said = f"the first {len(numbers)} of {len(every)} segments"
+        axes[-1, 0].annotate(said, (0.0, -0.42), xycoords="axes fraction", fontsize=8)
     legend_above(figure, axes[0, 0])
     return figure
 
@@ -138,11 +145,12 @@ def evidence_figure(found: DiagnosisResult) -> Figure:
 
 
 def law_figure(found: DiagnosisResult) -> Figure:
-    """G' and eta before and after with 95 % bands."""
+    """G' and eta before and after with 95 % bands; one law where no effect is accepted."""
     figure = Figure(figsize=(WIDTH_IN, 4.2), layout="constrained")
     left, right = figure.subplots(1, 2)
     stages: list[tuple[StageName, str, str]] = [("before", MODEL, "--"), ("after", DATA, "-")]
-    for stage, colour, style in stages:
+    apart = stages_apart(found)
+    for stage, colour, style in stages[: len(apart)]:
         law = found.stage(stage).law
         f = _column(law, "frequency_hz")
         for ax, key, error, scale in (
@@ -150,13 +158,15 @@ def law_figure(found: DiagnosisResult) -> Figure:
             (right, "loss_factor", "loss_factor_standard_error", 1.0),
         ):
             value, spread = scale * _column(law, key), BAND_95 * scale * _column(law, error)
-            ax.plot(f, value, style, color=colour, label=stage)
+            name = stage if len(apart) > 1 else one_fit_words(found)
+            ax.plot(f, value, style if len(apart) > 1 else "-", color=colour, label=name)
             if np.isfinite(spread).all():
                 ax.fill_between(f, value - spread, value + spread, color=colour, alpha=0.2, linewidth=0)
     for ax, y in ((left, "Storage modulus G' / MPa"), (right, "Loss factor η")):
         label(ax, x="Frequency / Hz", y=y)
         ax.set_ylim(bottom=min(0.0, ax.get_ylim()[0]))
-    title = with_verdict("The core's law without and with the effects found, 95 % bands", found)
+    which = "without and with the effects found" if len(apart) > 1 else "without any effect"
+    title = with_verdict(f"The core's law {which}, 95 % bands", found)
     left.set_title(title, fontsize=10, loc="left")
     left.legend(fontsize=8, frameon=False)
     return figure

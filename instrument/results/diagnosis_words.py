@@ -26,6 +26,18 @@ _FILES = {EACH: "in each file its own", ALIKE: "in every file"}
 _SAID = {"none": "nothing beyond noise", "unknown": "structure that nothing in the catalogue explains"}
 
 
+def segment_place(found: DiagnosisResult, segment: int) -> str:
+    """Of which of several files and pickups a segment is, `file 3, pickup 1`; empty where there is one."""
+    first = next((p for p in found.points if p.segment == segment), None)
+    if first is None:
+        return ""
+    files = len({p.file for p in found.points}) > 1
+    said = [f"file {first.file}"] if files else []
+    if first.pickup is not None:
+        said.append(f"pickup {first.pickup}")
+    return ", ".join(said)
+
+
 def verdict_line(found: DiagnosisResult) -> str:
     """Verdict, what was found with its size, what cannot be told from it, and what the channels show."""
     groups = found.equivalent

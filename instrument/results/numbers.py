@@ -21,7 +21,8 @@ def with_error(value: float | None, error: float | None, scale: float = 1.0) -> 
         places = max(0, digits + exponent)
         return f"({v / 10**exponent:.{places}f} ± {e / 10**exponent:.{places}f})e{exponent}"
     places = max(0, digits)
-    return f"{v:.{places}f} ± {e:.{places}f}"
+    # Of an error above a hundred the digits before the point are rounded too.
+    return f"{round(v, digits):.{places}f} ± {round(e, digits):.{places}f}"
 
 
 def format_number(value: float | None, digits: int = 4) -> str:

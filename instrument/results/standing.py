@@ -6,7 +6,7 @@ from math import isnan
 from typing import Literal
 
 from fitting.diagnosis.verdict import holding
-from instrument.facts.diagnosis import DiagnosisResult, StageFitted
+from instrument.facts.diagnosis import STAGES, DiagnosisResult, StageFitted, StageName
 
 Standing = Literal["found", "equal", "none", "other"]
 
@@ -54,6 +54,16 @@ def stage_before(found: DiagnosisResult) -> StageFitted | None:
     if not found.equivalent or (none_is_likelier(found) and found.before.law == found.after.law):
         return None
     return found.before
+
+
+def stages_apart(found: DiagnosisResult) -> tuple[StageName, ...]:
+    """The fits that differ: before and after what is accepted, or before alone where that is nothing."""
+    return STAGES if stage_before(found) is not None else STAGES[:1]
+
+
+def one_fit_words(found: DiagnosisResult) -> str:
+    """Why there is one fit where nothing comes after it."""
+    return "no effect is the likeliest" if found.equivalent else "no effect is accepted"
 
 
 def _group(found: DiagnosisResult) -> set[str] | None:

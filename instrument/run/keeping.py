@@ -1,5 +1,6 @@
 """The folder of a running session: begun, taken up again, put together at the end, whatever the end is."""
 
+import logging
 import re
 import shlex
 from collections.abc import Sequence
@@ -12,6 +13,8 @@ from instrument.session.journal import SessionJournal
 from instrument.session.storage import part_events, write_session
 from instrument.stream.derived import HitJudged, PointMeasured
 
+log = logging.getLogger(__name__)
+
 
 def open_journal(experiment: Experiment, out: Path, resume: Path | None) -> tuple[SessionJournal, str]:
     """The folder of a new session, or of one to carry on, locked; and its name. Raises `BadInput`."""
@@ -22,6 +25,8 @@ def open_journal(experiment: Experiment, out: Path, resume: Path | None) -> tupl
         before = journal.configuration()
         _refuse_another(before, experiment.configuration(before.name, before.created_utc))
         journal.lock()
+        if (lost := journal.damage()) is not None:
+            log.warning("%s: lost is %s: measured again", resume, lost.words)
         journal.truncate(journal.entries())
         return journal, name
     stem = re.sub(r"[^A-Za-z0-9_-]+", "-", experiment.path.stem).strip("-") or "session"
@@ -35,13 +40,16 @@ def open_journal(experiment: Experiment, out: Path, resume: Path | None) -> tupl
 def finish_session(journal: SessionJournal, path: Path) -> int:
     """Put a session file together from what is sealed and remove the folder; how many parts there were.
 
-    Raises `BadInput` where nothing is sealed.
+    Where a sealed part is damaged the folder stays. Raises `BadInput` where nothing is sealed.
     """
     entries = journal.entries()
     if not entries:
         raise BadInput(f"{journal.folder}: nothing was completed, there is no session to put together")
     write_session(path, journal.configuration(), [journal.folder / e.file for e in entries])
-    journal.remove()
+    if (lost := journal.damage()) is None:
+        journal.remove()
+    else:
+        log.warning("%s: lost is %s: the folder stays as it is", journal.folder, lost.words)
     return len(entries)
 
 

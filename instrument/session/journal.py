@@ -37,6 +37,27 @@ class Entry:
     """Completed in it."""
 
 
+@dataclass(frozen=True)
+class Damage:
+    """Sealed parts that are no longer whole, or come after one that is not."""
+
+    part: int
+    """The first of them."""
+    why: str
+    """What is wrong with it."""
+    parts: int
+    """How many, with it."""
+    steps: tuple[int, ...]
+    """Completed in them, as far as the journal can be read."""
+
+    @property
+    def words(self) -> str:
+        """What is lost, in a line."""
+        after = self.parts - 1
+        also = f" and {after} {'part' if after == 1 else 'parts'} after it" if after else ""
+        return f"part {self.part} ({self.why}){also}, with {len(self.steps)} completed steps"
+
+
 class SessionJournal:
     """Of one session folder."""
 
@@ -105,23 +126,45 @@ class SessionJournal:
         A last line torn by the end of the program is left out. Raises `BadInput` where the journal cannot be
         read.
         """
+        return self._read()[0]
+
+    def damage(self) -> Damage | None:
+        """What `entries` leaves out of what was sealed; None where it is all there.
+
+        A last line torn by the end of the program is no damage: its part had not been told of. Raises
+        `BadInput` where the journal cannot be read.
+        """
+        good, why, left = self._read()
+        known = [entry for line in left if (entry := _entry(line)) is not None]
+        if not left or not (known or len(left) > 1):
+            return None
+        steps = tuple(step for entry in known for step in entry.steps)
+        return Damage(len(good) + 1, why, len(left), steps)
+
+    def _read(self) -> tuple[list[Entry], str, list[str]]:
+        """Whole parts, what is wrong with the next one, and the lines of the journal from it on."""
         path = self.folder / JOURNAL
         if not path.exists():
-            return []
+            return [], "", []
         good: list[Entry] = []
         try:
             lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
         except OSError as error:
             raise BadInput(f"{path}: {error.strerror or error}") from None
-        for line in lines:
-            entry = _entry(line)
-            if entry is None or entry.part != len(good) + 1:
-                break
-            part = self.folder / entry.file
-            if not part.is_file() or checksum(part) != entry.sha256:
-                break
-            good.append(entry)
-        return good
+        for k, line in enumerate(lines):
+            if why := self._fault(_entry(line), k + 1):
+                return good, why, lines[k:]
+            good.append(_ENTRY.validate_json(line))
+        return good, "", []
+
+    def _fault(self, entry: Entry | None, number: int) -> str:
+        """Of a part and its place in the journal; empty where it is whole."""
+        if entry is None or entry.part != number:
+            return f"line {number} of {JOURNAL} is damaged"
+        part = self.folder / entry.file
+        if not part.is_file():
+            return f"{entry.file} is missing"
+        return "" if checksum(part) == entry.sha256 else f"{entry.file} is damaged"
 
     def truncate(self, entries: list[Entry]) -> None:
         """Keep these and nothing else: what was torn goes, so that new parts can follow."""

@@ -41,6 +41,26 @@ def by_mounting(points: Sequence[PointMeasured], specimen: Specimen) -> list[tup
     return [(places, replace(specimen, masses=(*specimen.masses, *on))) for (_, on), places in groups.items()]
 
 
+def elsewhere(point: PointMeasured) -> str:
+    """Another spot or a known mass, in words; empty where the plate was read as the specimen file says."""
+    said = [f"spot {_millimetres(point.spot_mm)}"] if point.spot_mm is not None else []
+    if point.mass_at_mm is not None:
+        said.append(f"{1e3 * point.mass_kg:g} g at {_millimetres(point.mass_at_mm)}")
+    return ", ".join(said)
+
+
+def place_of(point: PointMeasured) -> str:
+    """The same, and whether it was clamped anew; empty where all is as in the specimen file, and as first."""
+    said = [where] if (where := elsewhere(point)) else []
+    if point.mounting:
+        said.append("clamped anew" + ("" if point.mounting == 1 else f" {point.mounting} times"))
+    return ", ".join(said)
+
+
+def _millimetres(at: tuple[float, float]) -> str:
+    return f"{round(at[0], 1):g}, {round(at[1], 1):g} mm"
+
+
 def is_one_mounting(points: Sequence[PointMeasured]) -> bool:
     """Whether all were read of the plate as it was mounted first, nothing put on it."""
     return not any(p.mounting or p.mass_at_mm is not None for p in points)
@@ -61,4 +81,5 @@ def sweep_of(points: list[PointMeasured], times_s: Sequence[float] | None = None
         std_m_s=reading_std_m_s(points),
         time_s=None if times_s is None else np.array(times_s) - min(times_s),
         pickup=np.array([p.pickup for p in points], dtype=np.intp) if any(p.pickup for p in points) else None,
+        std_of_dwells=True,
     )

@@ -73,5 +73,5 @@ SPECIMEN = [
     put("clamped", '"cantilever"', '"clamped"', "plate.boundary.*'cantilever'"),
     put("[core] twice", "[damping]", "[core]\n\n[damping]", "line 33"),
     put("no brackets", "[0.29, 0.13, 0.18, 0.21, 0.11, 0.07, 0.09, 0.04]", "0.29", "list"),
-    put("a number in quotes", "= 68.9", '= "68.9"', "young_gpa.*valid number"),
+    put("a number in quotes", "= 68.9", '= "68.9"', "young_gpa: '68.9', expected a number"),
 ]

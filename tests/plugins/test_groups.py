@@ -177,7 +177,7 @@ def test_they_are_kept_with_a_session(vibrometers, tmp_path):
     ("table", "fault"),
     [
         ('kind = "other"\n', "vibrometer.lens_mm: missing"),
-        ('kind = "other"\nlens_mm = "wide"\n', "vibrometer.lens_mm: 'wide', input should be a valid number"),
+        ('kind = "other"\nlens_mm = "wide"\n', "vibrometer.lens_mm: 'wide', expected a number"),
         ('kind = "other"\nlens_mm = 1.0\nbaud = 9600\n', "vibrometer.baud: unknown key"),
         ('kind = "nobody"\n', "vibrometer.kind: 'nobody', expected one of other, polytec"),
         ("kind = 3\n", "vibrometer.kind: 3, expected one of other, polytec"),

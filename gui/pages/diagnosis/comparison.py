@@ -11,7 +11,7 @@ from gui.theme import Role
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_words import UNRELIABLE, with_verdict
 from instrument.results.numbers import format_number, with_error
-from instrument.results.standing import law_words, stage_before
+from instrument.results.standing import law_words, one_fit_words, stage_before
 from instrument.results.typeset import capitalised
 
 _ERRORS = {
@@ -30,6 +30,13 @@ _LAW = {
     "η after": "Loss factor with the effects accepted, ± one standard error",
     "change ": "After over before, less one",
 }
+_ONE_LAW = {
+    "f / Hz": "Frequency",
+    "G' / MPa": "Storage modulus, ± one standard error",
+    "η": "Loss factor, ± one standard error",
+    "": "",
+}
+_BARS = "Bars of percent share one scale; noise alone is what a perfect model would leave."
 
 
 class HeldOutBars(QWidget):
@@ -41,17 +48,24 @@ class HeldOutBars(QWidget):
         column = QVBoxLayout(self)
         column.setContentsMargins(4, 4, 4, 0)
         column.addWidget(self.table, 1)
-        said = QLabel("Bars of percent share one scale; noise alone is what a perfect model would leave.")
-        said.setEnabled(False)
-        column.addWidget(said)
+        self.said = QLabel(_BARS)
+        self.said.setWordWrap(True)
+        self.said.setEnabled(False)
+        column.addWidget(self.said)
 
     def show_diagnosis(self, found: DiagnosisResult) -> None:
         """Before and after."""
-        rows = compared(found)
+        rows, after = compared(found), stage_before(found) is not None
         percents = [
-            v for r in rows if r.unit == "% rms" for v in (r.before, r.after, r.noise) if v is not None
+            v
+            for r in rows
+            if r.unit == "% rms"
+            for v in (r.before, r.after if after else None, r.noise)
+            if v is not None
         ]
-        self.table.show_rows([_error_cells(row, max(percents, default=1.0)) for row in rows])
+        self.said.setText(_BARS if after else f"{_BARS} {_one_fit(found)}")
+        cells = [_error_cells(row, max(percents, default=1.0)) for row in rows]
+        self.table.show_rows(cells if after else [[*r[:3], Cell("-"), r[4]] for r in cells])
 
 
 class LawChange(QWidget):
@@ -60,7 +74,8 @@ class LawChange(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.plots, self.table = LawPlots(), ReadTable(_LAW)
-        self.doubt = QLabel(f"{capitalised(UNRELIABLE)}.")
+        self.doubt = QLabel()
+        self.doubt.setWordWrap(True)
         split = QSplitter(Qt.Orientation.Vertical)
         split.addWidget(self.plots)
         split.addWidget(self.table)
@@ -75,9 +90,15 @@ class LawChange(QWidget):
     def show_diagnosis(self, found: DiagnosisResult) -> None:
         """Before and after."""
         before, after = laws(found)
-        self.doubt.setVisible(found.verdict == "unknown")
-        lines = [LawLine(with_verdict("before", found), before, "model", dashed=True)]
-        if stage_before(found) is not None:
+        changed = stage_before(found) is not None
+        said = [] if changed else [_one_fit(found)]
+        if found.verdict == "unknown":
+            said.insert(0, f"{capitalised(UNRELIABLE)}.")
+        self.doubt.setText(" ".join(said))
+        self.doubt.setVisible(bool(said))
+        name = "before" if changed else "without any effect"
+        lines = [LawLine(with_verdict(name, found), before, "model", dashed=changed)]
+        if changed:
             lines.append(LawLine(with_verdict(f"after: with {law_words(found)}", found), after, "data"))
         self.plots.show_lines(lines)
         rows = []
@@ -85,8 +106,12 @@ class LawChange(QWidget):
             b, a = before.at(f), after.at(f)
             assert b is not None
             assert a is not None
-            rows.append(_law_cells(f, b, a))
-        self.table.show_rows(rows)
+            rows.append(_law_cells(f, b, a) if changed else _one_law_cells(f, b))
+        self.table.show_rows(rows, _LAW if changed else _ONE_LAW)
+
+
+def _one_fit(found: DiagnosisResult) -> str:
+    return f"{capitalised(one_fit_words(found))}: there is one fit and one law."
 
 
 def _error_cells(row: ComparedMeasure, scale: float) -> list[Cell]:
@@ -105,6 +130,14 @@ def _error_cells(row: ComparedMeasure, scale: float) -> list[Cell]:
             )
             for v, role in values
         ),
+    ]
+
+
+def _one_law_cells(f: float, b: At) -> list[Cell]:
+    return [
+        Cell(f"{f:g}"),
+        Cell(with_error(b.storage_mpa, b.storage_error_mpa), bold=True),
+        Cell(with_error(b.loss, b.loss_error), bold=True),
     ]
 
 

@@ -21,7 +21,9 @@ from gui.plots import Axis, Plot
 from gui.plots.curve import Symbol
 from gui.theme import Role, current_theme
 from instrument.facts.diagnosis import STAGES, DiagnosisResult, StageName
-from instrument.results.standing import law_words
+from instrument.results.diagnosis_words import segment_place
+from instrument.results.numbers import format_number
+from instrument.results.standing import law_words, one_fit_words, stages_apart
 
 _ROOM = 1.12
 _LEAST_LINES = 7
@@ -69,8 +71,13 @@ class ResidualPlots(QWidget):
         _offer(self.quantity, {NAMES[q]: q for q in quantities(found)})
         numbers = segments(found)
         every = {"all segments": _ALL} if len(numbers) > 1 else {}
-        _offer(self.segment, {**every, **{f"segment {n}": n for n in numbers}})
+        _offer(self.segment, {**every, **{f"segment {n}{self._place(n)}": n for n in numbers}})
         self._draw()
+
+    def _place(self, number: int) -> str:
+        """File and pickup of a segment, after a comma, where there are several."""
+        place = segment_place(self._found, number) if self._found is not None else ""
+        return f", {place}" if place else ""
 
     @property
     def drawn(self) -> bool:
@@ -88,12 +95,14 @@ class ResidualPlots(QWidget):
         if found is None or chosen is None:
             return
         self._numbers = [n for n in segments(found) if chosen in (_ALL, n)]
-        for (n, _), plot in self.plots.items():
-            plot.setVisible(n in self._numbers)
+        stages = stages_apart(found)
+        for (n, stage), plot in self.plots.items():
+            plot.setVisible(n in self._numbers and stage in stages)
         for label, stage in zip((self._before, self._after), STAGES, strict=True):
             label.setText(_title(found, stage))
+            label.setVisible(stage in stages)
         # One plot a turn: the window stays quick.
-        self._waiting = [(n, stage) for n in self._numbers for stage in STAGES]
+        self._waiting = [(n, stage) for n in self._numbers for stage in stages]
         self._timer.start()
 
     def _draw_next(self) -> None:
@@ -103,6 +112,7 @@ class ResidualPlots(QWidget):
             return
         number, stage = self._waiting.pop(0)
         plot = self._plot(number, stage)
+        plot.setToolTip(f"Segment {number}{self._place(number)}, {stage}")
         titled, unit = number == self._numbers[-1], "" if quantity == "whitened" else "%"
         plot.show_axes(Axis("Frequency", "Hz", titled=titled), Axis(f"Segment {number}", unit))
         shown = panel(self._found, number, stage, quantity)
@@ -120,7 +130,6 @@ class ResidualPlots(QWidget):
         if (number, stage) not in self.plots:
             plot = Plot(Axis("Frequency", "Hz"), Axis(f"Segment {number}"), legend=False)
             plot.need_lines(_LEAST_LINES)
-            plot.setToolTip(f"Segment {number}, {stage}")
             if stage == "after":
                 _Twins(self.plots[number, "before"], plot)
             self._grid.addWidget(plot, number, STAGES.index(stage))
@@ -205,10 +214,10 @@ def _title(found: DiagnosisResult, stage: StageName) -> str:
         if stage == "before"
         else f"after: with {accepted}"
     )
-    if stage == "after" and not found.equivalent:
-        said = "after: the same, no effect is accepted"
+    if len(stages_apart(found)) == 1:
+        said = f"without any effect: {one_fit_words(found)}"
     chi2, rms = found.stage(stage).chi2_per_dof, found.stage(stage).rms_percent
-    noise = "" if chi2 is None else f", chi² per degree {chi2:.3g}"
+    noise = "" if chi2 is None else f", chi² per degree {format_number(chi2, 3)}"
     return f"<b>{said}</b><br>{two_digits(rms)} % rms in amplitude{noise}"
 
 

@@ -12,6 +12,7 @@ from instrument.check.piece import Region
 from instrument.facts.identification import PointFitted
 from instrument.facts.prediction import PredictionResult
 from instrument.session.contents import SegmentRun
+from instrument.stream.derived import PointMeasured
 
 STANDARD_ERRORS = 2.0
 """Half width of the band."""
@@ -34,7 +35,7 @@ class CurveStretch:
     def phase_deg(self, points: PointsMeasured) -> Array:
         """Without jumps, and as many whole turns as the points of its segment have."""
         phase = np.unwrap(np.degrees(np.angle(self.over_base_s)), period=360.0)
-        mine = (points.segment == self.segment) & ~points.sentinel
+        mine = (points.segment == self.segment) & ~points.sentinel & points.read_at("")
         if not mine.any():
             return phase
         off = points.phase_deg[mine] - np.interp(points.frequency_hz[mine], self.frequency_hz, phase)
@@ -93,10 +94,25 @@ def predictions(points: PointsMeasured, rows: Sequence[PointFitted], last_step: 
 
     Empty where the rows do not belong to these points. Shape (taken,) each.
     """
-    taken = [k for k, t in enumerate(points.timed) if t.point.step <= last_step]
+    taken = _as_fitted(points, last_step)
     fits = len(rows) == len(taken) and all(
-        row.frequency_hz == points.timed[k].point.frequency_hz for k, row in zip(taken, rows, strict=True)
+        _is_of(row, points.timed[k].point) for k, row in zip(taken, rows, strict=True)
     )
     if not fits:
         return np.zeros(0, dtype=np.intp), np.zeros(0)
     return np.array(taken, dtype=np.intp), np.array([row.predicted_m_s for row in rows], dtype=float)
+
+
+def _is_of(row: PointFitted, point: PointMeasured) -> bool:
+    return row.frequency_hz == point.frequency_hz and (row.pickup is None or row.pickup == point.pickup)
+
+
+def _as_fitted(points: PointsMeasured, last_step: int) -> list[int]:
+    """Numbers up to a step in the order of a fit: by mounting and mass as they came, then by spot."""
+    came: dict[tuple[int, float, tuple[float, float] | None], int] = {}
+    taken = []
+    for k, t in enumerate(points.timed):
+        p = t.point
+        if p.step <= last_step:
+            taken.append((came.setdefault((p.mounting, p.mass_kg, p.mass_at_mm), len(came)), p.pickup, k))
+    return [k for _, _, k in sorted(taken)]

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from gui.pages.sweep.curve import STANDARD_ERRORS, Curve, CurveStretch, joined
+from gui.pages.sweep.curve import STANDARD_ERRORS, CurveStretch, joined
 from gui.pages.sweep.panes import BESIDE, CHOSEN, Pointed
 from gui.pages.sweep.seen import PaneContents
 from gui.plots import Axis
@@ -39,10 +39,10 @@ def draw_phase(plot: Pointed, seen: PaneContents) -> None:
     """Over frequency, with the model's band."""
     plot.show_axes(replace(FREQUENCY, log=seen.way.log_frequency), plot.y)
     names = []
-    if stretches := _stretches(seen.foreseen, seen):
+    if stretches := seen.stretches(seen.foreseen):
         _phase_line(plot, FORESEEN, stretches, seen, foreseen=True)
         names.append(FORESEEN)
-    if stretches := _stretches(seen.curve, seen):
+    if stretches := seen.stretches(seen.curve):
         _phase_line(plot, _model_name(seen), stretches, seen)
         names.append(_model_name(seen))
         for number, s in _with_band(stretches):
@@ -68,11 +68,7 @@ def draw_phase(plot: Pointed, seen: PaneContents) -> None:
 
 
 def _model_name(seen: PaneContents) -> str:
-    return f"model, {seen.fit_name}, \u00b1{STANDARD_ERRORS:g} s.e."
-
-
-def _stretches(curve: Curve | None, seen: PaneContents) -> list[CurveStretch]:
-    return list(curve.of_segments(seen.segment)) if curve is not None else []
+    return f"model, {seen.fit_name}, \u00b1{STANDARD_ERRORS:g} s.e.{seen.whose}"
 
 
 def _with_band(stretches: list[CurveStretch]) -> list[tuple[int, CurveStretch]]:
@@ -93,7 +89,7 @@ def _phase_line(
 
 
 def _foreseen_amplitude(plot: Pointed, seen: PaneContents) -> list[str]:
-    stretches = _stretches(seen.foreseen, seen)
+    stretches = seen.stretches(seen.foreseen)
     if not stretches:
         return []
     drawn = [(s, f) for s in stretches for f in seen.way.factor(seen.levels(s.segment))]
@@ -108,10 +104,13 @@ def _foreseen_amplitude(plot: Pointed, seen: PaneContents) -> list[str]:
 
 
 def _model_amplitude(plot: Pointed, seen: PaneContents) -> list[str]:
-    """Names of what is drawn."""
-    if seen.curve is None:
-        return _predicted_amplitude(plot, seen)
-    stretches = _stretches(seen.curve, seen)
+    """The curve of the specimen file's spot; of others what the fit says at the points. Names it."""
+    here = _predicted_amplitude(plot, seen, "") if seen.curve is None else _curve_amplitude(plot, seen)
+    return here + [name for p in seen.points.places if p for name in _predicted_amplitude(plot, seen, p)]
+
+
+def _curve_amplitude(plot: Pointed, seen: PaneContents) -> list[str]:
+    stretches = seen.stretches(seen.curve)
     if not stretches:
         return []
     name = _model_name(seen)
@@ -132,17 +131,18 @@ def _model_amplitude(plot: Pointed, seen: PaneContents) -> list[str]:
     return names
 
 
-def _predicted_amplitude(plot: Pointed, seen: PaneContents) -> list[str]:
-    """Until there is a curve: what the fit itself says, at the points it took."""
+def _predicted_amplitude(plot: Pointed, seen: PaneContents, place: str) -> list[str]:
+    """Of one place, until there is a curve: what the fit itself says, at the points it took."""
     p, predicted = seen.points, seen.predicted
-    mine = seen.wanted[predicted.index] & ~p.sentinel[predicted.index]
+    mine = (seen.wanted & ~p.sentinel & p.read_at(place))[predicted.index]
     if not mine.any():
         return []
     k, size = predicted.index[mine], predicted.amplitude_m_s[mine] / p.level_m_s2[predicted.index[mine]]
-    f, y, breaks = p.frequency_hz[k], size * seen.way.factor(p.level_m_s2[k]), p.segment[k]
-    order = np.lexsort((f, breaks))
-    f, y, breaks = f[order], y[order], breaks[order]
-    gaps = np.flatnonzero(np.diff(breaks)) + 1
-    name = f"model at the points, {seen.fit_name}"
+    f, y = p.frequency_hz[k], size * seen.way.factor(p.level_m_s2[k])
+    line = np.stack([p.segment[k], np.round(p.level_m_s2[k], 6)])
+    order = np.lexsort((f, line[1], line[0]))
+    f, y, line = f[order], y[order], line[:, order]
+    gaps = np.flatnonzero(np.diff(line).any(axis=0)) + 1
+    name = f"model at the points, {seen.fit_name}{f', {place}' if place else ''}"
     plot.line(name, joined(np.split(f, gaps)), joined(np.split(y, gaps)))
     return [name]

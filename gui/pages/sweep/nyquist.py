@@ -54,12 +54,12 @@ class NyquistPane(QWidget):
         self.plot.enableAutoRange()
 
     def _draw_model(self, seen: PaneContents) -> list[str]:
-        stretches = list(seen.curve.of_segments(seen.segment)) if seen.curve is not None else []
+        stretches = seen.stretches(seen.curve)
         if not stretches:
             return []
         gap = np.array([complex(np.nan, np.nan)])
         drawn = [f * s.over_base_s for s in stretches for f in seen.way.factor(seen.levels(s.segment))]
         z = np.concatenate([part for one in drawn for part in (one, gap)])
-        name = f"model, {seen.fit_name}"
+        name = f"model, {seen.fit_name}{seen.whose}"
         self.plot.line(name, z.real, z.imag)
         return [name]

@@ -29,10 +29,12 @@ class OverlaidSweep:
 
 
 def besides(files: Mapping[Path, Found]) -> tuple[OverlaidSweep, ...]:
-    """Every sweep of some files, in order."""
+    """Every sweep of some files over a base's motion, in order: over a force it is another quantity."""
     found = []
     for path, file in files.items():
         for number, columns in enumerate(file.sweeps, start=1):
+            if "force_re_n" in columns:
+                continue
             sweep = SweepFile(path, columns, {}).sweep(REFERENCE_M_S2)
             order = np.argsort(sweep.frequency_hz, kind="stable")
             over_base = np.asarray(sweep.response_m_s / sweep.commanded_m_s2, dtype=complex)

@@ -181,7 +181,8 @@ class SweepPage(Page):
 
     def _beside_changed(self) -> None:
         self.seen = self.seen.but(beside=besides(self.controller.beside))
-        self._layers.setCurrentIndex(1)
+        if self._state is not None or self.seen.beside:
+            self._layers.setCurrentIndex(1)
         self._draw_all()
 
     def _segment_chosen(self) -> None:

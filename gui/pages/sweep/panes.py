@@ -95,7 +95,7 @@ class Key(QLabel):
         """Name, colour and sign of each."""
         theme = current_theme()
         said = [
-            f"<span style='color:{theme.color(role).name()}'>{sign}</span>&nbsp;{name.replace(' ', '&nbsp;')}"
+            f"<span style='color:{theme.color(role).name()}'>{_unbroken(sign)}</span>&nbsp;{_unbroken(name)}"
             for name, role, sign in entries
         ]
         self.setText("&ensp; ".join(said))
@@ -105,6 +105,10 @@ class Key(QLabel):
     def show_groups(self, groups: Iterable[Group]) -> None:
         """As plots draw them."""
         self.show_key((g.name, g.role, SIGNS[g.symbol]) for g in groups)
+
+
+def _unbroken(words: str) -> str:
+    return words.replace(" ", "&nbsp;")
 
 
 def keyed(key: Key, plot: Plot) -> QWidget:

@@ -13,6 +13,7 @@ from instrument.files.acceleration import acceleration_unit
 from instrument.files.point_columns import stored
 from instrument.results.quality import QUALITIES, quality_of
 from instrument.session.contents import TimedPoint
+from instrument.session.points import place_of
 from instrument.stepped_sine.settings import SweepSettings
 
 if TYPE_CHECKING:
@@ -31,6 +32,9 @@ _LOOKS: "tuple[tuple[Role, Symbol], ...]" = (
     ("fourth", "star"),
 )
 """Of the passes; they repeat after the last."""
+
+Pass = tuple[int, float, str]
+"""Number of the sweep, level in m/s^2, and where the plate was read where not as its file says."""
 
 
 @dataclass(frozen=True)
@@ -113,15 +117,36 @@ class PointsMeasured:
         return self.table[:, -1].astype(np.intp)
 
     @cached_property
+    def place(self) -> tuple[str, ...]:
+        """Of each point another spot, a known mass or another clamping, in words; empty: as the file says."""
+        return tuple(place_of(t.point) for t in self.timed)
+
+    @cached_property
+    def places(self) -> tuple[str, ...]:
+        """What `place` says of steps, each once, in the order of measuring."""
+        said = zip(self.place, self.sentinel, strict=True)
+        return tuple(dict.fromkeys(where for where, sentinel in said if not sentinel))
+
+    def read_at(self, place: str) -> Mask:
+        """Points of which `place` says this. Shape (points,)."""
+        return np.asarray(self._place == place)
+
+    @cached_property
+    def _place(self) -> NDArray[np.str_]:
+        return np.array(self.place, dtype=np.str_)
+
+    @cached_property
     def phase_deg(self) -> Array:
-        """Of velocity over base acceleration, without jumps along the steps of a segment."""
+        """Of velocity over base acceleration, without jumps along the steps of a segment at one place."""
         phase, f = np.degrees(np.angle(self.over_base_s)), self.frequency_hz
-        for number in np.unique(self.segment[~self.sentinel]):
-            mine = self.in_order((self.segment == number) & ~self.sentinel)
-            phase[mine] = np.unwrap(phase[mine], period=360.0)
-            beside = (self.segment == number) & self.sentinel
-            off = np.interp(f[beside], f[mine], phase[mine]) - phase[beside]
-            phase[beside] += 360.0 * np.round(off / 360.0)
+        for place in self.places:
+            here = self.read_at(place)
+            for number in np.unique(self.segment[here & ~self.sentinel]):
+                mine = self.in_order(here & (self.segment == number) & ~self.sentinel)
+                phase[mine] = np.unwrap(phase[mine], period=360.0)
+                beside = here & (self.segment == number) & self.sentinel
+                off = np.interp(f[beside], f[mine], phase[mine]) - phase[beside]
+                phase[beside] += 360.0 * np.round(off / 360.0)
         return phase
 
     def noise_percent(self, channel: Channel) -> Array:
@@ -131,17 +156,21 @@ class PointsMeasured:
         return 100 * self.column("base_accel_std_m_s2") / np.abs(self._phasor("base_accel_re_m_s2"))
 
     @cached_property
-    def passes(self) -> list[tuple[int, float]]:
-        """Sweep and level of each pass there is, in order."""
-        steps = np.unique(self._pass[~self.sentinel], axis=0)
-        return [(int(sweep), float(level)) for sweep, level in steps]
+    def passes(self) -> list[Pass]:
+        """Each there is: by sweep and level, then as they were measured."""
+        steps = dict.fromkeys(
+            one for one, sentinel in zip(self._pass, self.sentinel, strict=True) if not sentinel
+        )
+        return sorted(steps, key=lambda one: one[:2])
 
-    def named_pass(self, one: tuple[int, float]) -> str:
+    def named_pass(self, one: Pass) -> str:
         """What tells a pass from the others; empty where there is only one."""
-        sweep, level = one
-        said = [f"pass {sweep}"] if len({s for s, _ in self.passes}) > 1 else []
-        if len({v for _, v in self.passes}) > 1:
+        sweep, level, where = one
+        said = [f"pass {sweep}"] if len({s for s, _, _ in self.passes}) > 1 else []
+        if len({v for _, v, _ in self.passes}) > 1:
             said.append(acceleration_unit().said(level, ".3g"))
+        if where:
+            said.append(where)
         return ", ".join(said)
 
     def groups(self, wanted: Mask) -> list[Group]:
@@ -149,7 +178,11 @@ class PointsMeasured:
         step = wanted & ~self.sentinel
         good = step & (self.quality == _GOOD)
         found = [
-            Group(self._good_name(one), *_LOOKS[k % len(_LOOKS)], self._in_pass(one, good))
+            Group(
+                self._good_name(one),
+                *_LOOKS[k % len(_LOOKS)],
+                np.flatnonzero(good & (self._number_of_pass == k)),
+            )
             for k, one in enumerate(self.passes)
         ]
         found += [
@@ -170,14 +203,18 @@ class PointsMeasured:
         return int(place[0]) if place.size else None
 
     @cached_property
-    def _pass(self) -> Array:
-        """Sweep and level, as they are compared. Shape (points, 2)."""
-        return np.stack([self.column("sweep"), np.round(self.level_m_s2, 6)], axis=1)
+    def _pass(self) -> list[Pass]:
+        """Of each point, as they are compared."""
+        columns = self.column("sweep").astype(int).tolist(), np.round(self.level_m_s2, 6).tolist()
+        return list(zip(*columns, self.place, strict=True))
 
-    def _in_pass(self, one: tuple[int, float], wanted: Mask) -> Index:
-        return np.flatnonzero(wanted & (self._pass == one).all(axis=1))
+    @cached_property
+    def _number_of_pass(self) -> Index:
+        """Of each point: which of `passes`; -1 of a sentinel of none. Shape (points,)."""
+        numbers = {one: k for k, one in enumerate(self.passes)}
+        return np.array([numbers.get(one, -1) for one in self._pass], dtype=np.intp)
 
-    def _good_name(self, one: tuple[int, float]) -> str:
+    def _good_name(self, one: Pass) -> str:
         which = self.named_pass(one)
         return f"good, {which}" if which else "good"
 

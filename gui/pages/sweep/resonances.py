@@ -52,7 +52,7 @@ class ResonancePanes(QWidget):
         entries: list[tuple[str, Role, str]] = [
             (g.name, g.role, SIGNS[g.symbol]) for g in seen.points.groups(seen.wanted)
         ]
-        if seen.curve is not None:
+        if seen.curve is not None or seen.predicted.index.size:
             entries.append((seen.fit_name, "model", "\u2500"))
         if seen.foreseen is not None:
             entries.append((FORESEEN, "faint", "- -"))

@@ -7,7 +7,7 @@ import numpy as np
 
 from fitting.arrays import Array, Complex, Mask
 from fitting.gravity import PUBLISHED_G_M_S2
-from gui.pages.sweep.curve import Curve
+from gui.pages.sweep.curve import Curve, CurveStretch
 from gui.pages.sweep.overlay import OverlaidSweep
 from gui.pages.sweep.points import Index, PointsMeasured
 from instrument.check.piece import Region
@@ -86,6 +86,17 @@ class PaneContents:
         return f"fit {self.fit}" + (f", {self.doubt}" if self.doubt else "")
 
     @property
+    def whose(self) -> str:
+        """Of which spot a curve is, where there are points of others; begins with a comma."""
+        return ", spot of the specimen file" if any(self.points.places) else ""
+
+    def stretches(self, curve: Curve | None) -> list[CurveStretch]:
+        """Of the segment chosen, without those that have points only of other spots, masses or clampings."""
+        if curve is None:
+            return []
+        return [s for s in curve.of_segments(self.segment) if self.levels(s.segment).size]
+
+    @property
     def wanted(self) -> Mask:
         """Points of the segment chosen; a sentinel that lies elsewhere is left out. Shape (points,)."""
         p = self.points
@@ -112,15 +123,19 @@ class PaneContents:
         return np.asarray(self.points.over_base_s * self.way.factor(self.points.level_m_s2))
 
     def levels(self, segment: int) -> Array:
-        """Levels of a segment's points in m/s^2; of all, or the one planned, where it has none yet.
+        """Levels in m/s^2 of a segment's points that were read as the specimen file says.
 
-        Shape (levels,).
+        Where none of it are measured yet, of all, or the one planned. Shape (levels,): none where all of
+        its points were read elsewhere.
         """
         p = self.points
         mine = p.segment == segment
         if not len(p):
             return np.array([self.planned_m_s2])
-        return np.unique(np.round(p.level_m_s2[mine] if mine.any() else p.level_m_s2, 6))
+        if mine.any():
+            mine &= p.read_at("")
+            return np.unique(np.round(p.level_m_s2[mine], 6))
+        return np.unique(np.round(p.level_m_s2, 6))
 
     def neighbour(self, by: int) -> int | None:
         """The point so many places further along the frequency; the first or last where there is none."""

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache, reduce
+from typing import Any
 
 import numpy as np
 
@@ -286,4 +287,5 @@ def _columns(s: Schedule) -> tuple[np.ndarray[tuple[int], np.dtype[np.generic]],
 
 def _joined(a: Sweep, b: Sweep) -> Sweep:
     names = ("frequency_hz", "velocity_m_s", "commanded_m_s2", "segment", "sweep", "base_m_s2", "time_s")
-    return Sweep(**{n: np.concatenate([getattr(a, n), getattr(b, n)]) for n in names})
+    both: dict[str, Any] = {n: np.concatenate([getattr(a, n), getattr(b, n)]) for n in names}
+    return Sweep(**both)

@@ -65,7 +65,7 @@ def test_whatever_is_typed_the_file_says_what_the_form_shows(typed):
     ("name", "place", "text", "said"),
     [
         ("experiment", ("sweep", "level_g"), "-1", "greater than or equal"),
-        ("experiment", ("sweep", "level_g"), "much", "'much', input should be a valid number"),
+        ("experiment", ("sweep", "level_g"), "much", "'much', expected a number"),
         ("experiment", ("specimen",), "", "missing"),
         ("experiment", ("sweep", "segments", 0), None, "expected either low_hz and high_hz, or mode"),
         ("rig", ("channels",), None, "given to both"),

@@ -60,8 +60,19 @@ def test_what_effects_change_is_said_in_numbers_and_doubted_where_nothing_fits(m
     change.show_diagnosis(found)
     assert change.doubt.isHidden()
     assert change.plots.names == ("before", "after: with added_mass")
-    change.show_diagnosis(diagnosis(verdict="unknown"))
-    assert not change.doubt.isHidden()
+    assert change.table.model().columnCount() == 7
+    unknown = diagnosis(verdict="unknown").but(equivalent={}, effects=(), after=found.before)
+    change.show_diagnosis(unknown)
+    assert change.doubt.text().endswith("No effect is accepted: there is one fit and one law.")
+    assert change.doubt.text().startswith("Verdict unknown")
+    assert change.plots.names == ("without any effect (verdict unknown)",)
+    assert "after" not in change.table.text
+    assert "+0.00" not in change.table.text
+    assert change.table.texts(0) == ["20", "100", "280"]
+    assert change.table.model().columnCount() == 4
+    bars.show_diagnosis(unknown)
+    assert set(bars.table.texts(3)) == {"-"}
+    assert "No effect is accepted" in bars.said.text()
 
 
 def not_excluded():
@@ -76,7 +87,8 @@ def not_excluded():
 def test_what_is_less_likely_than_no_effect_is_not_drawn_as_found(made):
     found, change = not_excluded(), made(LawChange())
     change.show_diagnosis(found)
-    assert change.plots.names == ("before",)
+    assert change.plots.names == ("without any effect",)
+    assert "likeliest" in change.doubt.text()
     assert "found" not in [row.standing for row in ranked(found)]
     shown = ShownDiagnosis(found, "recorded")
     assert [line.name for line in diagnosed_lines(shown)] == ["result"]
@@ -97,6 +109,20 @@ def test_the_residual_of_every_segment_is_drawn_before_and_after(made, qtbot):
     before, after = plots.plots[1, "before"], plots.plots[1, "after"]
     before.setXRange(17.0, 19.0, padding=0)
     assert after.viewRange()[0] == before.viewRange()[0] == pytest.approx([17.0, 19.0])
+
+
+def test_what_is_accepted_as_nothing_has_no_residual_after_it(made, qtbot):
+    plots, found = made(ResidualPlots()), diagnosis()
+    plots.show_diagnosis(found)
+    qtbot.waitUntil(lambda: plots.drawn)
+    plots.show_diagnosis(found.but(verdict="none", equivalent={}, effects=(), after=found.before))
+    qtbot.waitUntil(lambda: plots.drawn)
+    assert all(plot.isHidden() == (stage == "after") for (_, stage), plot in plots.plots.items())
+    assert plots._after.isHidden()
+    assert "no effect is accepted" in plots._before.text()
+    plots.show_diagnosis(found)
+    qtbot.waitUntil(lambda: plots.drawn)
+    assert not any(plot.isHidden() for plot in plots.plots.values())
 
 
 def test_a_persons_word_is_not_said_to_be_the_datas(made):

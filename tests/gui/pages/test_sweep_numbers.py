@@ -167,6 +167,26 @@ def test_a_fits_predictions_are_taken_only_where_they_belong_to_the_points():
     assert not predictions(of(point(1, 20.5), point(2, 21.0)), rows, 2)[0].size
 
 
+def test_a_fits_rows_are_its_files_and_theirs_are_its_points_by_spot():
+    """Its own spot was measured again after another one: the rows have both of its passes first."""
+    there = {"pickup": 1, "spot_mm": (150.0, 24.0)}
+    points = of(point(1, 20.0), point(2, 20.0, **there), point(3, 20.0), point(4, 20.0, mounting=1))
+    rest = {"segment": 1, "frequency_hz": 20.0, "measured_m_s": 0.1, "difference_percent": 0.0}
+    rows = [PointFitted(predicted_m_s=v, pickup=k, **rest) for v, k in ((1, 0), (3, 0), (2, 1), (4, 0))]
+    index, predicted = predictions(points, rows, 4)
+    assert dict(zip(index.tolist(), predicted.tolist(), strict=True)) == {0: 1, 1: 2, 2: 3, 3: 4}
+
+
+def test_what_was_read_elsewhere_is_a_group_of_its_own_and_turns_no_phase():
+    opposite = {"velocity_re_m_s": -0.05, "velocity_im_m_s": 0.0195, "mounting": 1}
+    points = of(
+        *(point(k, 20.0 + k) for k in range(3)), *(point(9 + k, 20.5 + k, **opposite) for k in range(3))
+    )
+    assert groups(points) == {"good": [0, 1, 2], "good, clamped anew": [3, 4, 5]}
+    assert np.ptp(points.phase_deg[:3]) == np.ptp(points.phase_deg[3:]) == 0.0
+    assert points.read_at("").tolist() == [True] * 3 + [False] * 3
+
+
 def test_every_region_is_drawn_once_with_gaps_between():
     runs = {
         (1, 1): SegmentRun(1, 1, 18.0, 22.0, 9, True),
@@ -291,6 +311,14 @@ def test_the_time_signal_ends_with_the_latest_sample(state):
 
 
 # Other files
+
+
+def test_a_sweep_over_a_force_is_no_ratio_to_a_base_and_is_not_drawn():
+    f, one = np.array([20.0, 21.0]), np.ones(2)
+    struck = {"frequency_hz": f, "velocity_re_m_s": one, "velocity_im_m_s": one}
+    struck |= {"force_re_n": one, "force_im_n": 0 * one}
+    shaken = {"frequency_hz": f, "velocity_m_s": one}
+    assert [one.name for one in besides({Path("a.csv"): Found(sweeps=[struck, shaken])})] == ["a.csv, 2"]
 
 
 def test_a_sweep_of_another_file_is_brought_to_the_same_quantity():

@@ -260,6 +260,17 @@ def test_a_sweep_of_another_file_is_drawn_even_without_a_session(qtbot, window, 
     assert page._layers.currentIndex() == 1
 
 
+def test_a_sweep_over_a_force_is_not_drawn_but_can_be_diagnosed(qtbot, window, tmp_path):
+    path = tmp_path / "struck.csv"
+    head = "frequency_hz,velocity_re_m_s,velocity_im_m_s,force_re_n,force_im_n\n"
+    path.write_text(head + "".join(f"{f},0.1,0.02,1.0,0.0\n" for f in range(15, 25)))
+    window.show_page("sweep")
+    window.open(path)
+    qtbot.waitUntil(lambda: "over a force, so not drawn" in window.notice.text)
+    assert window.pages[1]._layers.currentIndex() == 0
+    assert list(window.controller.beside) == [path]
+
+
 def test_back_in_time_there_are_fewer_points(qtbot, kept, looked_at):
     page = looked_at
     feed = kept.controller.recorded

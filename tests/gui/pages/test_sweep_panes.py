@@ -5,6 +5,7 @@ import pytest
 from sessions import point
 
 from gui.pages.sweep.chooser import Chooser
+from gui.pages.sweep.curve import Curve, CurveStretch
 from gui.pages.sweep.drift import DriftPane
 from gui.pages.sweep.nyquist import NyquistPane
 from gui.pages.sweep.pane_scheduler import PaneScheduler
@@ -15,7 +16,7 @@ from gui.pages.sweep.record import RecordPane
 from gui.pages.sweep.resonances import ResonancePanes
 from gui.pages.sweep.response import ResponsePane
 from gui.pages.sweep.samples import SamplesPane
-from gui.pages.sweep.seen import PaneContents
+from gui.pages.sweep.seen import PaneContents, Predicted
 from gui.pages.sweep.segments import SegmentStatus
 from gui.pages.sweep.step import StepPane
 from gui.plots import Axis
@@ -131,6 +132,42 @@ def test_each_resonance_has_a_pane_with_its_own_points(made):
     assert list(panes.plots) == [1, 2]
     assert list(panes.plots[1].curves["good"][0]) == [18.0, 20.0, 22.0]
     assert "good" not in panes.plots[2].names or not len(panes.plots[2].curves["good"][0])
+
+
+def test_the_model_of_one_spot_is_not_drawn_through_the_points_of_another(made):
+    """A curve of 1 s at the file's spot; the fit says 2 m/s of what was read elsewhere, at its points."""
+    there = {"pickup": 1, "spot_mm": (150.1, 23.99), "mounting": 1, "sweep": 2}
+    here = [point(k, f) for k, f in enumerate((18.0, 20.0, 22.0), start=1)]
+    away = [point(k + 9, f, **there) for k, f in enumerate((18.0, 20.0, 22.0))]
+    alone = [point(k + 19, f, segment=2, **there) for k, f in enumerate((95.0, 105.0))]
+    every = [*here, *away, *alone]
+    curves = []
+    for number, low, high in SEEN.regions:
+        f, none = np.linspace(low, high, 5), np.full(5, np.nan)
+        curves.append(CurveStretch(number, f, np.ones(5, complex), none, none))
+    seen = SEEN.but(
+        points=PointsMeasured.of([TimedPoint(p, 1.0 * p.step) for p in every], SETTINGS),
+        curve=Curve(tuple(curves)),
+        predicted=Predicted(np.arange(8), np.array([7.0] * 3 + [2.0] * 5)),
+        fit=3,
+    )
+    own = "model, fit 3, ±2 s.e., spot of the specimen file"
+    other = "model at the points, fit 3, spot 150.1, 24 mm, clamped anew"
+    pane = made(ResponsePane())
+    pane.show_seen(seen.but(segment=1))
+    assert {own, other, "good, pass 2, spot 150.1, 24 mm, clamped anew"} <= set(pane.amplitude.names)
+    np.testing.assert_allclose(pane.amplitude.curves[own][1], 1e3)
+    f, size = pane.amplitude.curves[other]
+    assert list(f) == [18.0, 20.0, 22.0]
+    np.testing.assert_allclose(size, 1e3 * 2.0 / 9.81)
+    assert own in pane.phase.names
+    pane.show_seen(seen.but(segment=2))
+    assert own not in pane.amplitude.names
+    assert own not in pane.phase.names
+    assert other in pane.amplitude.names
+    plane = made(NyquistPane())
+    plane.show_seen(seen.but(segment=2))
+    assert not any(name.startswith("model") for name in plane.plot.names)
 
 
 def test_what_the_response_is_shown_as_is_what_was_chosen(made):

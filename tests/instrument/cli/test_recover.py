@@ -1,7 +1,11 @@
-from sessions import configuration
+import json
+
+from sessions import block, configuration, point
 
 from instrument.cli.main import run
 from instrument.session.journal import SessionJournal
+from instrument.session.recorder import Recorder
+from instrument.stream.raw import AcquisitionBegan
 
 
 def begun(folder):
@@ -22,3 +26,44 @@ def test_of_two_runs_in_a_folder_one_has_to_be_named(tmp_path, capsys):
     said = capsys.readouterr().err
     assert "one.running, two.running" in said
     assert len(said.splitlines()) == 1
+
+
+def recorded(folder, steps):
+    """A run of some steps, a part each."""
+    journal = SessionJournal(begun(folder))
+    with Recorder(journal, []) as recorder:
+        recorder.record(AcquisitionBegan(1, "sweep", 8192.0, ("base", "velocity")))
+        for k in range(steps):
+            recorder.record(block(8 * k))
+            recorder.record(point(k + 1))
+    recorder.check()
+    return folder
+
+
+def test_what_is_whole_is_put_together_and_nothing_is_said_to_be_lost(tmp_path, capsys):
+    folder = recorded(tmp_path / "one.running", 3)
+    assert run(["recover", str(folder)]) == 0
+    said = capsys.readouterr().out
+    assert "3 completed steps in 3 parts" in said
+    assert "lost" not in said
+
+
+def test_what_a_damaged_part_takes_with_it_is_said(tmp_path, capsys):
+    folder = recorded(tmp_path / "one.running", 4)
+    with (folder / "part-000002.h5").open("ab") as file:
+        file.write(b"x")
+    written = tmp_path / "recover.json"
+    assert run(["recover", str(folder), "--json", str(written)]) == 0
+    said = capsys.readouterr().out
+    assert "1 completed steps in 1 parts" in said
+    assert "lost: part 2 (part-000002.h5 is damaged) and 2 parts after it, with 3 completed steps" in said
+    assert "copy the folder first" in said
+    found = json.loads(written.read_text())
+    assert (found["steps"], found["lost_parts"], found["lost_steps"]) == ([1], 3, [2, 3, 4])
+
+
+def test_where_the_first_part_is_damaged_that_is_why_there_is_no_session(tmp_path, capsys):
+    folder = recorded(tmp_path / "one.running", 2)
+    (folder / "part-000001.h5").unlink()
+    assert run(["recover", str(folder)]) == 2
+    assert "part-000001.h5 is missing" in capsys.readouterr().err

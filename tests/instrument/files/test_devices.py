@@ -53,7 +53,7 @@ def test_every_key_of_a_table_that_is_wrong_has_a_line_of_its_own():
 def test_what_is_no_table_is_refused():
     ((place, said),) = refused("127.0.0.1:502")
     assert place == ("shaker",)
-    assert "should be a table" in said
+    assert "expected a table" in said
 
 
 def test_a_session_s_json_gives_back_the_table_of_its_kind():

@@ -39,6 +39,16 @@ def test_a_stated_noise_beside_the_scatter(times, said):
     assert (said in found[0]) if said else not found
 
 
+@pytest.mark.parametrize(("times", "said"), [(1.0, ""), (0.5, "too small"), (2.0, "too large")])
+def test_a_recorded_sessions_noise_is_that_of_its_dwells(times, said):
+    """Nobody stated it: there is no column to correct or to leave out."""
+    sweep = replace(practice(times), std_of_dwells=True)
+    found = remarks_on_noise(sweep.take(np.arange(len(sweep))))
+    assert bool(found) == bool(said)
+    assert all(said in text and "within each dwell" in text for text in found)
+    assert all("velocity_std_m_s" not in text and "column" not in text for text in found)
+
+
 def test_tolerances_not_named_are_typical(zn1):
     plain = replace(zn1, exact=False, tolerances={})
     (said,) = remarks_on_tolerances(plain)

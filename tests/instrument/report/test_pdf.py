@@ -68,6 +68,15 @@ def test_a_table_begins_where_its_first_row_has_room():
             assert ("why" in words) == ("row" in words)
 
 
+def test_a_head_is_not_broken_within_a_word_where_the_cells_are_long():
+    heads = ("step", "explanations_left", *(f"quantity{k} / (m/s)" for k in range(8)))
+    cells = ("44", "sentinel", *["1234567890123456789"] * 8)
+    section = ReportSection("Table", (TableBlock("Wide", heads, (cells,), words=()),))
+    (page,) = sheets_of("A title", (), (section,)).pages
+    said = {word for one in texts(page) for word in one.get_text().split()}
+    assert {"explanations_left", "quantity0", "quantity7", "(m/s)"} <= said
+
+
 def test_what_no_paper_shows_is_not_on_it(laid):
     assert not any("\x1b" in one.get_text() for page in laid.pages for one in texts(page))
 

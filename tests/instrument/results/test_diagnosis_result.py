@@ -9,7 +9,12 @@ from diagnosis_cases import AFTER, BEFORE, diagnosis
 from instrument.cli.output import Output
 from instrument.cli.print_diagnosis import print_diagnosis
 from instrument.errors import BadInput
-from instrument.results.diagnosis_figures import evidence_figure, residual_figure, save_diagnosis_figures
+from instrument.results.diagnosis_figures import (
+    evidence_figure,
+    law_figure,
+    residual_figure,
+    save_diagnosis_figures,
+)
 from instrument.results.diagnosis_words import verdict_line
 
 
@@ -150,6 +155,25 @@ def test_the_residual_is_drawn_before_and_after_each_on_its_own_scale(result):
         assert left.get_ylim() != right.get_ylim()
         assert left.get_xlim() == right.get_xlim()
     assert "10" in axes[0].get_title()
+
+
+def test_where_no_effect_is_accepted_nothing_is_drawn_after_it(result):
+    alone = result.but(verdict="unknown", equivalent={}, effects=(), after=result.before)
+    axes = residual_figure(alone).axes
+    assert len(axes) == 3
+    assert axes[0].get_title().startswith("without any effect")
+    left, _ = law_figure(alone).axes
+    assert [line.get_label() for line in left.lines] == ["no effect is accepted"]
+    assert len(law_figure(result).axes[0].lines) == 2
+
+
+def test_of_several_files_a_segment_is_named_by_file_and_pickup(result):
+    points = [p.but(file=p.segment, pickup=p.segment - 1) for p in result.points]
+    more = [p.but(segment=p.segment + 3) for p in points]
+    axes = residual_figure(result.but(points=(*points, *more))).axes
+    assert axes[2].get_ylabel().startswith("Segment 2\nfile 2, pickup 1\n")
+    assert [text.get_text() for text in axes[8].texts] == ["the first 5 of 6 segments"]
+    assert residual_figure(result).axes[2].get_ylabel().startswith("Segment 2\nresidual")
 
 
 def test_a_sentinel_far_off_does_not_stretch_its_segment(result):

@@ -3,7 +3,14 @@ from diagnosis_cases import diagnosis
 
 from instrument.facts.diagnosis import DiagnosisResult
 from instrument.results.diagnosis_words import verdict_line
-from instrument.results.standing import law_words, none_is_likelier, stage_before, standing
+from instrument.results.standing import (
+    law_words,
+    none_is_likelier,
+    one_fit_words,
+    stage_before,
+    stages_apart,
+    standing,
+)
 
 
 def stand(found):
@@ -63,6 +70,13 @@ def test_what_is_likelier_than_no_effect_is_found():
     assert stage_before(found) is found.before
     assert law_words(found) == "added_mass"
     assert "likelier" not in verdict_line(found)
+
+
+def test_where_nothing_is_accepted_there_is_one_fit():
+    found = diagnosis()
+    assert stages_apart(found) == ("before", "after")
+    alone = found.but(verdict="none", equivalent={})
+    assert (stages_apart(alone), one_fit_words(alone)) == (("before",), "no effect is accepted")
 
 
 def test_a_law_that_the_group_moves_is_not_the_one_before():

@@ -68,15 +68,28 @@ def test_a_new_session_is_called_by_its_experiment_and_the_time(begin, tmp_path)
     assert other.startswith("session-")
 
 
-def test_a_run_is_carried_on_in_its_own_folder_under_its_own_name_with_what_is_whole(begin):
+def test_a_run_is_carried_on_in_its_own_folder_under_its_own_name_with_what_is_whole(begin, caplog):
     journal, name = begin()
     add(journal, point(1), point(2))
     (journal.folder / "part-000002.h5").write_bytes(b"torn")
     journal.unlock()
     again, same = begin(resume=journal.folder)
     assert same == name
+    assert not caplog.text
     assert [e.steps for e in again.entries()] == [(1, 2)]
     assert not (journal.folder / "part-000002.h5").exists()
+
+
+def test_what_is_measured_again_because_a_part_is_damaged_is_said(begin, caplog):
+    journal, _ = begin()
+    for k in range(3):
+        add(journal, point(k + 1))
+    (journal.folder / "part-000002.h5").write_bytes(b"damaged")
+    journal.unlock()
+    again, _ = begin(resume=journal.folder)
+    said = "part 2 (part-000002.h5 is damaged) and 1 part after it, with 2 completed steps: measured again"
+    assert said in caplog.text
+    assert [e.steps for e in again.entries()] == [(1,)]
 
 
 def test_two_runs_do_not_go_on_in_one_folder(begin):
@@ -119,6 +132,16 @@ def test_a_session_is_put_together_of_all_its_parts_and_its_folder_goes(begin, t
     assert not journal.folder.exists()
     with SessionFile(tmp_path / "a.h5") as file:
         assert [p.step for p in contents_of(file).measured] == [1, 2, 3]
+
+
+def test_the_folder_of_a_session_with_a_damaged_part_stays(begin, tmp_path, caplog):
+    journal, _ = begin()
+    add(journal, point(1), point(2))
+    add(journal, point(3))
+    (journal.folder / "part-000002.h5").write_bytes(b"damaged")
+    assert finish_session(journal, tmp_path / "a.h5") == 1
+    assert (journal.folder / "part-000002.h5").exists()
+    assert "part-000002.h5 is damaged" in caplog.text
 
 
 def test_what_is_complete_is_kept_and_can_be_carried_on(begin, tmp_path):

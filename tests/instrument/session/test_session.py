@@ -11,7 +11,7 @@ from sessions import RIG, block, configuration, point
 
 from instrument.errors import BadInput, RigStopped
 from instrument.files.rig_file import RigDocument
-from instrument.session.journal import JOURNAL, SessionJournal
+from instrument.session.journal import JOURNAL, Damage, SessionJournal
 from instrument.session.recorder import Recorder
 from instrument.session.storage import SessionFile, part_events, write_part, write_session
 from instrument.stream.event import from_line, to_line
@@ -98,6 +98,7 @@ def test_a_torn_journal_line_and_a_torn_part_do_not_count(tmp_path):
         file.write('{"part": 3, "file": "part-000003.h5", "sha')
     (journal.folder / "part-000003.h5").write_bytes(b"torn")
     assert [e.part for e in journal.entries()] == [1, 2]
+    assert journal.damage() is None
     journal.truncate(journal.entries())
     assert not (journal.folder / "part-000003.h5").exists()
 
@@ -107,6 +108,17 @@ def test_a_part_changed_after_sealing_does_not_count_nor_what_follows(tmp_path):
     with (journal.folder / "part-000001.h5").open("ab") as file:
         file.write(b"x")
     assert journal.entries() == []
+    assert journal.damage() == Damage(1, "part-000001.h5 is damaged", 2, (1, 2))
+    (journal.folder / "part-000001.h5").unlink()
+    said = "part 1 (part-000001.h5 is missing) and 1 part after it, with 2 completed steps"
+    assert journal.damage().words == said
+
+
+def test_a_line_damaged_inside_the_journal_is_named(tmp_path):
+    journal = recorded(tmp_path / "s.running", EVENTS)
+    lines = (journal.folder / JOURNAL).read_text().splitlines()
+    (journal.folder / JOURNAL).write_text("\n".join(["{torn", *lines[1:]]) + "\n")
+    assert journal.damage() == Damage(1, f"line 1 of {JOURNAL} is damaged", 2, (2,))
 
 
 def test_a_journal_cannot_point_outside_its_folder(tmp_path):

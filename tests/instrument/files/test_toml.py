@@ -1,0 +1,33 @@
+"""Faults of a file in one line, in this program's words."""
+
+import pytest
+
+from instrument.errors import BadInput
+from instrument.files.toml import Positive, TomlTable, parse_document
+
+
+class Small(TomlTable):
+    number: Positive = 1.0
+    count: int = 1
+    on: bool = True
+    name: str = ""
+    several: tuple[float, ...] = ()
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('number = "0.3"', "number: '0.3', expected a number"),
+        ("number = -1.0", "number: -1.0, expected a number greater than 0"),
+        ("number = nan", "number: nan, expected a finite number"),
+        ("number = inf", "number: inf, expected a finite number"),
+        ("count = 1.5", "count: 1.5, expected a whole number"),
+        ("on = 1", "on: 1, expected true or false"),
+        ("name = 3", "name: 3, expected text in quotes"),
+        ("several = 3.0", "several: 3.0, expected a list"),
+    ],
+)
+def test_what_was_expected_is_said_plainly(tmp_path, text, said):
+    with pytest.raises(BadInput) as refused:
+        parse_document(tmp_path / "a.toml", text, Small)
+    assert str(refused.value) == f"{tmp_path / 'a.toml'}: {said}"
