@@ -51,9 +51,13 @@ class OutcomeJournal:
         self._file.seek(0, os.SEEK_END)
         begins = self._file.tell()
         line = json.dumps({"key": key, "outcome": outcome}, allow_nan=False)
-        self._file.write(line.encode() + b"\n")
-        self._file.flush()
-        os.fsync(self._file.fileno())
+        try:
+            self._file.write(line.encode() + b"\n")
+            self._file.flush()
+            os.fsync(self._file.fileno())
+        except OSError as error:
+            # Rows before it are kept: the same command goes on with the next one.
+            raise BadInput(f"{self.path}: {error.strerror or error}") from None
         self._begins[key] = begins
 
     def _look_through(self) -> None:

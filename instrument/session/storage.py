@@ -17,6 +17,7 @@ import hashlib
 import os
 import shutil
 from collections.abc import Iterator
+from contextlib import suppress
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -62,6 +63,19 @@ def write_session(path: Path, configuration: Configuration, parts: list[Path]) -
     if (free := shutil.disk_usage(path.parent).free) < needed:
         raise OSError(errno.ENOSPC, f"{free / 1e6:.0f} MB free, {needed / 1e6:.0f} MB needed for {path.name}")
     temporary = path.with_suffix(".tmp")
+    try:
+        _put_together(temporary, configuration, parts)
+        seal(temporary, path)
+    except (OSError, RuntimeError) as error:
+        # What is cut is no session: the parts are all that there is.
+        with suppress(OSError):
+            temporary.unlink(missing_ok=True)
+        if isinstance(error, OSError):
+            raise
+        raise OSError(errno.EIO, f"{' '.join(str(error).split())[:80]}: is the disk full?") from error
+
+
+def _put_together(temporary: Path, configuration: Configuration, parts: list[Path]) -> None:
     points: list[PointMeasured] = []
     calibrations: list[CalibrationFound] = []
     with h5py.File(temporary, "w") as file:
@@ -81,7 +95,6 @@ def write_session(path: Path, configuration: Configuration, parts: list[Path]) -
         for found in calibrations:
             group = file.require_group(f"calibration/{found.range_name.replace('/', ' per ')}")
             group.attrs.update({k: v for k, v in found.facts().items() if k != "range_name"})
-    seal(temporary, path)
 
 
 class SessionFile:
