@@ -2,7 +2,7 @@
 
     /                     format, layout_version
     /configuration        one string: JSON of `Configuration`
-    /parts/000001/events  one JSON line an event, in order
+    /parts/000001/events  one JSON line an event, in order, with `sha256` of the lines
     /parts/000001/samples int32 (channels, samples): the counts of the part's blocks, end to end
     /points/<quantity>    one value a point, with `units`
     /calibration/<range>  gain, delay_s, their standard deviations (attributes)
@@ -212,9 +212,11 @@ def sync_folder(folder: Path) -> None:
 
 def _write_events(group: Any, events: list[Event]) -> None:
     lines = [to_line(event) for event in events]
-    group.create_dataset(
+    written = group.create_dataset(
         "events", data=lines, dtype=h5py.string_dtype(), compression="gzip", compression_opts=1
     )
+    # HDF5's own sums do not cover strings of any length.
+    written.attrs["sha256"] = _digest(lines)
     counts = [e.counts for e in events if isinstance(e, BlockAcquired)]
     if counts:
         samples = np.concatenate(counts, axis=1)
@@ -227,8 +229,12 @@ def _write_events(group: Any, events: list[Event]) -> None:
 def _events(group: Any, with_samples: bool) -> Iterator[Event]:
     samples = _array(group, "samples", 2) if with_samples and "samples" in group else None
     at = 0
-    for line in _array(group, "events", 1):
-        event = from_line(_text(line))
+    lines = [_text(line) for line in _array(group, "events", 1)]
+    stated = group["events"].attrs.get("sha256")
+    if stated is not None and _text(stated) != _digest(lines):
+        raise ValueError("events: not as they were written")
+    for line in lines:
+        event = from_line(line)
         if isinstance(event, BlockAcquired) and samples is not None:
             counts = samples[:, at : at + event.samples]
             at += event.samples
@@ -257,6 +263,10 @@ def _write_points(file: Any, points: list[PointMeasured]) -> None:
         group[column.field] = np.array([np.nan if v is None else v for v in values], dtype=float)
         group[column.field].attrs["units"] = column.unit
     group.create_dataset("purpose", data=[p.purpose for p in points], dtype=h5py.string_dtype())
+
+
+def _digest(lines: list[str]) -> str:
+    return hashlib.sha256("\n".join(lines).encode()).hexdigest()
 
 
 def _text(value: Any) -> str:
