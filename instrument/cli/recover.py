@@ -43,7 +43,9 @@ def recover(folder: Path, json_path: str | None) -> None:
     steps = [step for e in entries for step in e.steps]
     hits = sum(isinstance(e, HitJudged) for entry in entries for e in part_events(folder / entry.file))
     out.say(f"{hits} hits and {len(steps)} completed steps in {len(entries)} parts, all whole: {path}")
-    out.say(f"to go on: viscorig run EXPERIMENT.toml --resume {folder}")
+    # A whole run sweeps only after its hammer test: without one it was begun as a sweep alone.
+    alone = configuration.experiment.hammer is not None and bool(steps) and hits == 0
+    out.say(f"to go on: viscorig {'sweep' if alone else 'run'} EXPERIMENT.toml --resume {folder}")
     out.result(RecoverResult(session=str(path), parts=len(entries), hits=hits, steps=tuple(steps)))
 
 
