@@ -24,6 +24,8 @@ NODES_A_DECADE = 4
 """Moduli a decade at which the sum is spanned; it then agrees with the reduced plate to 1e-8 or better."""
 _NODE_ANGLE = 0.5
 """Their argument in rad: lossy enough to be off the resonances, near enough to see them."""
+_PARTS, _MOST_AT_ONCE = 8, 512
+"""Of a grid, worked on two at a time; a part's matrices lie in memory together, 100 kB a frequency."""
 
 
 @dataclass(frozen=True)
@@ -99,7 +101,8 @@ def rational_sweeps(
     size = np.sqrt(plate.domain.modulus[0] * plate.domain.modulus[1])
     # A lossy reference: A_ref is then far from every resonance.
     G_ref = complex(size * (1 + 1j) / np.sqrt(2))
-    parts = np.array_split(np.asarray(omega, dtype=float), max(1, min(len(omega), 8)))
+    count = max(1, min(len(omega), _PARTS), -(-len(omega) // _MOST_AT_ONCE))
+    parts = np.array_split(np.asarray(omega, dtype=float), count)
     done = []
     with threadpool_limits(1, "blas"), ThreadPoolExecutor(2) as pool:
         for part in pool.map(lambda part: _diagonalise(plate, part, G_ref), parts):

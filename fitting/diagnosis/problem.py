@@ -29,6 +29,8 @@ _ANGLES = (0.2, 0.6, 1.0)
 """Of the modulus' argument, rad."""
 _EVERY = 2
 """Of the nodes, those that a condensed plate answers at."""
+_MOST = 500
+"""Frequencies that it answers at: of a small structure every point is a node, and its motions are few."""
 _SMALL = 40
 """Columns of a plate that is not condensed: a small structure, or one whose basis was never large."""
 _PLACES, _REACH, _PLACES_SEED = 4, 2.0, 5
@@ -123,6 +125,8 @@ class DiagnosisProblem:
             return self
         # With several sides each point has as many answers: fewer points have as much to say.
         omega = self.coarse.nodes.omega[:: _EVERY * max(2, len(sides)) // 2]
+        if len(omega) > _MOST:
+            omega = np.sort(omega)[np.linspace(0, len(omega) - 1, _MOST).astype(int)]
         size = np.abs(law.modulus(omega))
         factors = [s * np.exp(1j * angle) for s in _SIZES for angle in _ANGLES]
         G = np.concatenate([size * f for f in factors])

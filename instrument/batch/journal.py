@@ -3,6 +3,7 @@
 import json
 import os
 from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -36,7 +37,9 @@ class OutcomeJournal:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._file.close()
+        # Every row was flushed when it was kept; one that the disk did not take was said.
+        with suppress(OSError):
+            self._file.close()
 
     def __contains__(self, key: object) -> bool:
         return key in self._begins
@@ -47,13 +50,17 @@ class OutcomeJournal:
         return outcome
 
     def keep(self, key: str, outcome: Outcome) -> None:
-        """Append, and return once the disk has it."""
+        """Append, and return once the disk has it. Raises `BadInput` where it is full."""
         self._file.seek(0, os.SEEK_END)
         begins = self._file.tell()
         line = json.dumps({"key": key, "outcome": outcome}, allow_nan=False)
-        self._file.write(line.encode() + b"\n")
-        self._file.flush()
-        os.fsync(self._file.fileno())
+        try:
+            self._file.write(line.encode() + b"\n")
+            self._file.flush()
+            os.fsync(self._file.fileno())
+        except OSError as error:
+            # Rows before it are kept: the same command goes on with the next one.
+            raise BadInput(f"{self.path}: {error.strerror or error}") from None
         self._begins[key] = begins
 
     def _look_through(self) -> None:

@@ -10,8 +10,8 @@ from instrument.batch.columns import Cell, cells
 from instrument.batch.counted import Counted
 from instrument.batch.figure import MOST, laws_figure
 from instrument.batch.run import Rows
-from instrument.batch.table import beside
 from instrument.facts.comparison import SpreadSize
+from instrument.files.at_once import write_at_once
 from instrument.report.blocks import Block, FactsBlock, FigureBlock, ReportSection, Sentence, TableBlock
 from instrument.report.html import html_page
 from instrument.results.numbers import with_error
@@ -57,8 +57,7 @@ def write_page(rows: Rows, counted: Counted, between: Sequence[Between], folder:
         ReportSection("Rows", _rows(rows)),
     ]
     path = folder / HTML
-    with beside(path) as draft:
-        draft.write_text(html_page(title, head, sections), encoding="utf-8")
+    write_at_once(path, html_page(title, head, sections))
     return path
 
 

@@ -1,9 +1,7 @@
 """batch.csv, and batch.parquet where pyarrow is installed: written row by row, whole or not at all."""
 
 import csv
-import os
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from importlib.util import find_spec
 from itertools import islice
 from pathlib import Path
@@ -11,7 +9,7 @@ from typing import Any
 
 from instrument.batch.columns import Cell, cells, columns_of
 from instrument.batch.run import BatchRow
-from instrument.errors import BadInput
+from instrument.files.at_once import at_once
 
 CSV, PARQUET = "batch.csv", "batch.parquet"
 _AT_ONCE = 500
@@ -29,21 +27,8 @@ def write_tables(rows: Iterable[BatchRow], folder: Path) -> list[Path]:
     return written
 
 
-@contextmanager
-def beside(path: Path) -> Iterator[Path]:
-    """A name to write to, which becomes `path` at the end. Raises `BadInput`."""
-    draft = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        yield draft
-        os.replace(draft, path)
-    except OSError as error:
-        raise BadInput(f"{path}: {error.strerror or error}") from None
-    finally:
-        draft.unlink(missing_ok=True)
-
-
 def _write_csv(rows: Iterable[BatchRow], columns: list[str], path: Path) -> Path:
-    with beside(path) as draft, open(draft, "w", encoding="utf-8", newline="") as file:
+    with at_once(path) as draft, open(draft, "w", encoding="utf-8", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(columns)
         for row in rows:
@@ -67,7 +52,7 @@ def _write_parquet(rows: Iterable[BatchRow], columns: list[str], path: Path) -> 
     kinds |= dict.fromkeys(_WORDS, pa.string()) | dict.fromkeys(_WHETHER, pa.bool_())
     schema = pa.schema([(name, kinds.get(name, pa.float64())) for name in columns])
     left = iter(rows)
-    with beside(path) as draft, pq.ParquetWriter(draft, schema) as writer:
+    with at_once(path) as draft, pq.ParquetWriter(draft, schema) as writer:
         while some := [cells(row) for row in islice(left, _AT_ONCE)]:
             plain = [{name: found.get(name) for name in columns} for found in some]
             writer.write_table(pa.Table.from_pylist(plain, schema=schema))

@@ -12,6 +12,7 @@ from instrument.cli.options import file_argument, json_option
 from instrument.cli.output import Output
 from instrument.cli.printable import printable
 from instrument.errors import BadInput
+from instrument.files.at_once import write_at_once
 from instrument.files.structure_file import read_structure
 from instrument.material.found_law import read_law, stated_poisson
 from instrument.progress import bar
@@ -62,10 +63,7 @@ def card(
     if str(path) == "-":
         click.echo("\n".join(printable(line) for line in text.split("\n")), nl=False)
         return
-    try:
-        path.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise BadInput(f"{path}: {error.strerror or error}") from None
+    write_at_once(path, text)
     for line in made.header():
         output.say(line)
     output.say(made.about_series())

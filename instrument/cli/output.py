@@ -15,6 +15,7 @@ from rich.table import Table
 from instrument.cli.printable import printable
 from instrument.errors import BadInput
 from instrument.facts.result import Result
+from instrument.files.at_once import write_at_once
 
 
 class _Screen(Console):
@@ -84,10 +85,7 @@ class Output:
         if self._json_path == "-":
             click.echo(text)
             return
-        try:
-            Path(self._json_path).write_text(text + "\n", encoding="utf-8")
-        except OSError as error:
-            raise BadInput(f"{self._json_path}: {error.strerror or error}") from None
+        write_at_once(Path(self._json_path), text + "\n")
 
 
 def _numeric(rows: list[list[str]], column: int) -> bool:

@@ -49,7 +49,9 @@ def recover(folder: Path, json_path: str | None) -> None:
         out.say(
             "--resume removes these parts and measures their steps again: copy the folder first to keep them"
         )
-    out.say(f"to go on: viscorig run EXPERIMENT.toml --resume {folder}")
+    # A whole run sweeps only after its hammer test: without one it was begun as a sweep alone.
+    alone = configuration.experiment.hammer is not None and bool(steps) and hits == 0
+    out.say(f"to go on: viscorig {'sweep' if alone else 'run'} EXPERIMENT.toml --resume {folder}")
     out.result(
         RecoverResult(
             session=str(path),

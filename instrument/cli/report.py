@@ -8,6 +8,7 @@ from instrument.cli.options import acceleration_option, file_argument, json_opti
 from instrument.cli.output import Output
 from instrument.errors import BadInput
 from instrument.facts.written import ReportResult
+from instrument.files.at_once import write_at_once
 from instrument.progress import bar
 from instrument.report.page import report_of
 from instrument.session.contents import contents_of
@@ -53,7 +54,7 @@ def report(session: Path, out: Path | None, pdf: Path | None, json_path: str | N
             elif path is pdf or path.suffix.lower() == ".pdf":
                 made.save_pdf(path)
             else:
-                path.write_text(made.html(), encoding="utf-8")
+                write_at_once(path, made.html())
         except OSError as error:
             raise BadInput(f"{path}: {error.strerror or error}") from None
         for written in sheets if path is page and sheets else (path,):

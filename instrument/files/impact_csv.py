@@ -7,6 +7,7 @@ import numpy as np
 from fitting.arrays import Array
 from fitting.modal.frf import Frf, Motion
 from instrument.errors import BadInput
+from instrument.files.at_once import write_at_once
 from instrument.files.rates import CONTRADICTION
 from instrument.files.table import number, rate_of_times, read_rows, stated_rate_hz
 from instrument.impact.record import Hit, ResponseChannel
@@ -58,7 +59,7 @@ def write_impact_csv(path: Path, hits: list[Hit]) -> None:
     for k, hit in enumerate(hits, start=1):
         table = np.column_stack([hit.force_n, *(c.samples for c in hit.responses)])
         lines += [",".join([str(k), *(repr(float(v)) for v in row)]) for row in table]
-    path.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    write_at_once(path, "\n".join(lines) + "\n")
 
 
 def write_frf_csv(path: Path, frf: Frf, coherence: Array | None = None) -> None:
@@ -67,7 +68,7 @@ def write_frf_csv(path: Path, frf: Frf, coherence: Array | None = None) -> None:
     header = ["frequency_hz", f"{stem}_re", f"{stem}_im"] + (["coherence"] if coherence is not None else [])
     table = [frf.frequency_hz, frf.H.real, frf.H.imag] + ([coherence] if coherence is not None else [])
     rows = [",".join(repr(float(v)) for v in row) for row in np.column_stack(table)]
-    path.write_text("\n".join([",".join(header), *rows]) + "\n", encoding="utf-8")
+    write_at_once(path, "\n".join([",".join(header), *rows]) + "\n")
 
 
 def frfs_of(path: Path, header: list[str], rows: list[tuple[int, list[str]]]) -> dict[str, Frf]:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from instrument.files.at_once import write_at_once
 from instrument.interchange.identified import session_modes
 from instrument.interchange.point_table import PointColumn, columns
 from instrument.interchange.provenance import one_line, provenance, reading
@@ -34,7 +35,7 @@ def export_csv(contents: Contents, folder: Path) -> list[Path]:
         texts[f"{name}-struck-{k}-specimen.toml"] = struck_specimen_toml(contents, struck)
     texts[f"{name}-specimen.toml"] = specimen_toml(contents)
     for file, text in texts.items():
-        (folder / file).write_text(text, encoding="utf-8")
+        write_at_once(folder / file, text)
     return [folder / file for file in texts]
 
 

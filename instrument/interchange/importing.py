@@ -10,6 +10,7 @@ import numpy as np
 
 from fitting.sweep import segments_by_gap
 from instrument.errors import BadInput
+from instrument.files.at_once import write_at_once
 from instrument.files.impact_csv import write_frf_csv, write_impact_csv
 from instrument.files.point_columns import understood
 from instrument.files.sweep_file import read_sweep
@@ -90,7 +91,7 @@ def _names(target: Path, counts: dict[str, int]) -> dict[tuple[str, int], Path]:
 
 def _write(file: Path, kind: str, item: object) -> None:
     if isinstance(item, str):
-        file.write_text(item, encoding="utf-8")
+        write_at_once(file, item)
     elif isinstance(item, list):
         write_impact_csv(file, item)
     elif isinstance(item, tuple):
@@ -98,9 +99,7 @@ def _write(file: Path, kind: str, item: object) -> None:
 
 
 def _say_where_from(file: Path, source: Path) -> None:
-    file.write_text(
-        f"# imported from {one_line(source.name)}\n" + file.read_text(encoding="utf-8"), encoding="utf-8"
-    )
+    write_at_once(file, f"# imported from {one_line(source.name)}\n" + file.read_text(encoding="utf-8"))
 
 
 def _alike(hits: list[Hit]) -> list[list[Hit]]:

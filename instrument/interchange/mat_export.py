@@ -7,6 +7,7 @@ import numpy as np
 from scipy.io import savemat
 
 from instrument.facts.damping import METHODS
+from instrument.files.at_once import at_once
 from instrument.impact.spectra import spectra
 from instrument.interchange.point_table import PointColumn, columns
 from instrument.interchange.provenance import provenance, reading
@@ -31,7 +32,8 @@ def export_mat(contents: Contents, folder: Path) -> list[Path]:
         said.append(f"result: {recorded_result(contents).words}")
     content["about"] = np.array(said, dtype=object)
     path = folder / f"{contents.configuration.name}.mat"
-    savemat(path, content, oned_as="column", do_compression=True)
+    with at_once(path) as draft:
+        savemat(draft, content, oned_as="column", do_compression=True)
     return [path]
 
 

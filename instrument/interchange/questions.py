@@ -25,6 +25,10 @@ _APART_K = 2.0
 """Between files of one law: by more a polymer in its transition is another one by tenths."""
 _DRIFTED_K = 5.0
 """Within one sweep, from its coldest row to its warmest: no mean is that of all of it."""
+_MANY, _ENOUGH = 20_000, 2_000
+"""Lines of a sweep: more take more than a minute, and say hardly more of a law than as many as are enough."""
+_SECONDS_A_LINE = 3e-3
+"""Of a plate's fit on one processor."""
 _LOSSY = 3.0
 """More than a mode of any structure has."""
 
@@ -36,7 +40,8 @@ def question_data(given: Given, path: Path, progress: Progress = quiet, like: Sp
     """
     plate = given.specimen
     if not given.session:
-        _ask(kelvin_doubt(given.temperature_c) or _drifted(given.temperature_range_c), [path])
+        doubt = kelvin_doubt(given.temperature_c) or _drifted(given.temperature_range_c)
+        _ask(doubt or _many(len(given.sweep), isinstance(plate, Specimen)), [path])
     if given.session or not isinstance(plate, Specimen) or plate.core is None or plate.pickup_m is None:
         return
     if plate.force_m is not None or plate.further_pickups_m or plate.masses:
@@ -73,6 +78,18 @@ def question_temperatures(temperatures_c: Sequence[float | None], paths: Sequenc
             f"{first}: at {cold:g} degC, {last.name} at {warm:g} degC: one law is that of one temperature, "
             f"expected 'identify --shift', or files of one temperature; {INSIST}"
         )
+
+
+def _many(lines: int, of_plate: bool) -> str:
+    if lines <= _MANY:
+        return ""
+    every = -(-lines // _ENOUGH)
+    minutes = round(_SECONDS_A_LINE * lines / 60)
+    takes = f" (some {minutes} minutes)" if of_plate and minutes > 1 else ""
+    return (
+        f"{lines} lines make a fit long{takes}: a resonance needs some 50, expected every {every}th line or "
+        "so, closer where a resonance is narrow"
+    )
 
 
 def _drifted(range_c: tuple[float, float] | None) -> str:

@@ -15,6 +15,7 @@ import pyuff
 from numpy.typing import NDArray
 
 from fitting.modal.frf import Frf
+from instrument.files.at_once import at_once
 from instrument.files.uff58 import CODES, COHERENCE, FRF, TIME
 from instrument.impact.spectra import spectra
 from instrument.session.contents import Contents, RecordedHit, TimedPoint
@@ -229,11 +230,10 @@ def _line(text: str) -> str:
 
 
 def _write(path: Path, sets: Iterable[dict[str, Any]]) -> None:
-    path.unlink(missing_ok=True)
     # The library's "overwrite" wipes a binary set's header; closing its file it leaves to the collector.
-    with warnings.catch_warnings():
+    with at_once(path) as draft, warnings.catch_warnings():
         warnings.simplefilter("ignore", ResourceWarning)
         try:
-            pyuff.UFF(str(path)).write_sets(list(sets), mode="add")
+            pyuff.UFF(str(draft)).write_sets(list(sets), mode="add")
         except Exception as error:  # the library says of a full disk no more than that it failed
-            raise OSError(f"{path.name}: {error}: is the disk full?") from error
+            raise OSError(f"{error}: is the disk full?") from error

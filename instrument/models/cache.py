@@ -66,7 +66,11 @@ def _store(path: Path, digest: str, value: Any) -> None:
         # Written beside and renamed: a reader sees the whole file or none.
         with tempfile.NamedTemporaryFile(dir=path.parent, suffix=".tmp", delete=False) as file:
             arrays: dict[str, Any] = {"digest": np.asarray(digest), **pack(value)}
-            np.savez(file, **arrays)
+            try:
+                np.savez(file, **arrays)
+            except OSError:
+                os.unlink(file.name)
+                raise
         os.replace(file.name, path)
     except OSError:
         return

@@ -25,6 +25,8 @@ NEAR, FAR = 0.55, 1.1
 _BETTER = 0.4
 """A mistake taken back has to leave at most this part of the distance."""
 _LOWEST_HZ = 1.0
+_ENOUGH = 2000
+"""Points, spread over the sweep: the median of more is the same one."""
 _MODULI, _LOSSES = 25, (0.05, 0.3, 1.0)
 
 
@@ -74,6 +76,7 @@ def data_doubt(sweep: Sweep, specimen: Specimen, progress: Progress = quiet) -> 
 
     Raises `FittingError` where the plate cannot be modelled over these frequencies.
     """
+    sweep = _thinned(sweep)
     f = sweep.frequency_hz
     if f.max() < _LOWEST_HZ:
         return f"{f.min():g} to {f.max():g} Hz: the frequencies are in kHz, expected Hz"
@@ -104,6 +107,14 @@ def data_doubt(sweep: Sweep, specimen: Specimen, progress: Progress = quiet) -> 
             "layer, unit, level or pickup"
         )
     return ""
+
+
+def _thinned(sweep: Sweep) -> Sweep:
+    """As many points as tell, the lowest and the highest frequency among them."""
+    if len(sweep) <= _ENOUGH:
+        return sweep
+    order = np.argsort(sweep.frequency_hz, kind="stable")
+    return sweep.take(order[np.linspace(0, len(sweep) - 1, _ENOUGH).astype(int)])
 
 
 _RAD_S = "it looks as if the frequencies are in rad/s, expected Hz"

@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 from instrument.errors import BadInput
+from instrument.files.at_once import write_at_once
 from instrument.files.experiment_file import ExperimentDocument
 from instrument.files.new_file import TEMPLATES
 from instrument.files.text import read_text
@@ -30,10 +31,7 @@ def write_into(path: Path, text: str, sweep_toml: str) -> None:
     """Put a sweep in the place of that of `text`, which `begun` gave. Raises `BadInput`."""
     whole = without_sweep(text).rstrip("\n") + "\n\n" + sweep_toml
     parse_document(path, whole, ExperimentDocument)
-    try:
-        path.write_text(whole, encoding="utf-8")
-    except OSError as error:
-        raise BadInput(f"{path}: {error.strerror or error}") from None
+    write_at_once(path, whole)
 
 
 def without_sweep(text: str) -> str:

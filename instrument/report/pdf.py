@@ -6,6 +6,7 @@ from pathlib import Path
 import matplotlib as mpl
 from matplotlib.backends.backend_pdf import PdfPages
 
+from instrument.files.at_once import at_once
 from instrument.report.blocks import FactsBlock, FigureBlock, ReportSection, Sentence, TableBlock
 from instrument.report.paper import INSIDE_MM, MARGIN_MM, Sheets, broken, line_mm, width_mm
 from instrument.results.typeset import typeset
@@ -26,11 +27,12 @@ _HAIR_MM = 0.1
 def save_pdf(
     path: Path, title: str, header: Sequence[tuple[str, str]], sections: Sequence[ReportSection]
 ) -> None:
-    """Write the pages. Raises `OSError`."""
+    """Write the pages. Raises `BadInput`."""
     sheets = sheets_of(title, header, sections)
     with (
         mpl.rc_context({"pdf.fonttype": 42}),
-        PdfPages(path, metadata={"Title": title, "Creator": "viscorig"}) as pdf,
+        at_once(path) as draft,
+        PdfPages(draft, metadata={"Title": title, "Creator": "viscorig"}) as pdf,
     ):
         for page in sheets.pages:
             pdf.savefig(page)
@@ -39,14 +41,15 @@ def save_pdf(
 def save_pictures(
     path: Path, title: str, header: Sequence[tuple[str, str]], sections: Sequence[ReportSection]
 ) -> tuple[Path, ...]:
-    """The same pages as pictures for paper: NAME-01.png and so on. Raises `OSError`."""
+    """The same pages as pictures for paper: NAME-01.png and so on. Raises `BadInput`."""
     pages = sheets_of(title, header, sections).pages
     names = tuple(path.with_name(f"{path.stem}-{k:02d}{path.suffix}") for k in range(1, len(pages) + 1))
     # Letters fitted to the pixels would be wider than the lines they were broken into.
     with mpl.rc_context({"text.hinting": "no_hinting"}):
         for name, page in zip(names, pages, strict=True):
             # Kept for as long as printing takes: small is not worth the time.
-            page.savefig(name, format="png", dpi=_PAPER_DPI, pil_kwargs={"compress_level": 1})
+            with at_once(name) as draft:
+                page.savefig(draft, format="png", dpi=_PAPER_DPI, pil_kwargs={"compress_level": 1})
     return names
 
 

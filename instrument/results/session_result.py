@@ -100,9 +100,12 @@ def _ended_early(contents: Contents) -> str:
     happened = "the run was killed" if ended is None else f"the run was {ended.why}"
     more = f" ({' '.join(ended.message.split())})" if ended is not None and ended.message else ""
     folder = f"{contents.configuration.name}.running"
+    # A whole run sweeps only after its hammer test: without one it was begun as a sweep alone.
+    alone = contents.configuration.experiment.hammer is not None and contents.damping is None and points > 0
     return (
-        f"{happened}{more} after {points} point{'' if points == 1 else 's'}; to go on: viscorig run "
-        f"EXPERIMENT.toml --resume {folder}; a law of what is there: viscorig identify {contents.path.name}"
+        f"{happened}{more} after {points} point{'' if points == 1 else 's'}; to go on: viscorig "
+        f"{'sweep' if alone else 'run'} EXPERIMENT.toml --resume {folder}; a law of what is there: "
+        f"viscorig identify {contents.path.name}"
     )
 
 

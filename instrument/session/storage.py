@@ -2,7 +2,7 @@
 
     /                     format, layout_version
     /configuration        one string: JSON of `Configuration`
-    /parts/000001/events  one JSON line an event, in order
+    /parts/000001/events  one JSON line an event, in order, with `sha256` of the lines
     /parts/000001/samples int32 (channels, samples): the counts of the part's blocks, end to end
     /points/<quantity>    one value a point, with `units`
     /calibration/<range>  gain, delay_s, their standard deviations (attributes)
@@ -17,6 +17,7 @@ import hashlib
 import os
 import shutil
 from collections.abc import Iterator
+from contextlib import suppress
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -62,6 +63,19 @@ def write_session(path: Path, configuration: Configuration, parts: list[Path]) -
     if (free := shutil.disk_usage(path.parent).free) < needed:
         raise OSError(errno.ENOSPC, f"{free / 1e6:.0f} MB free, {needed / 1e6:.0f} MB needed for {path.name}")
     temporary = path.with_suffix(".tmp")
+    try:
+        _put_together(temporary, configuration, parts)
+        seal(temporary, path)
+    except (OSError, RuntimeError) as error:
+        # What is cut is no session: the parts are all that there is.
+        with suppress(OSError):
+            temporary.unlink(missing_ok=True)
+        if isinstance(error, OSError):
+            raise
+        raise OSError(errno.EIO, f"{' '.join(str(error).split())[:80]}: is the disk full?") from error
+
+
+def _put_together(temporary: Path, configuration: Configuration, parts: list[Path]) -> None:
     points: list[PointMeasured] = []
     calibrations: list[CalibrationFound] = []
     with h5py.File(temporary, "w") as file:
@@ -81,7 +95,6 @@ def write_session(path: Path, configuration: Configuration, parts: list[Path]) -
         for found in calibrations:
             group = file.require_group(f"calibration/{found.range_name.replace('/', ' per ')}")
             group.attrs.update({k: v for k, v in found.facts().items() if k != "range_name"})
-    seal(temporary, path)
 
 
 class SessionFile:
@@ -199,9 +212,11 @@ def sync_folder(folder: Path) -> None:
 
 def _write_events(group: Any, events: list[Event]) -> None:
     lines = [to_line(event) for event in events]
-    group.create_dataset(
+    written = group.create_dataset(
         "events", data=lines, dtype=h5py.string_dtype(), compression="gzip", compression_opts=1
     )
+    # HDF5's own sums do not cover strings of any length.
+    written.attrs["sha256"] = _digest(lines)
     counts = [e.counts for e in events if isinstance(e, BlockAcquired)]
     if counts:
         samples = np.concatenate(counts, axis=1)
@@ -214,8 +229,12 @@ def _write_events(group: Any, events: list[Event]) -> None:
 def _events(group: Any, with_samples: bool) -> Iterator[Event]:
     samples = _array(group, "samples", 2) if with_samples and "samples" in group else None
     at = 0
-    for line in _array(group, "events", 1):
-        event = from_line(_text(line))
+    lines = [_text(line) for line in _array(group, "events", 1)]
+    stated = group["events"].attrs.get("sha256")
+    if stated is not None and _text(stated) != _digest(lines):
+        raise ValueError("events: not as they were written")
+    for line in lines:
+        event = from_line(line)
         if isinstance(event, BlockAcquired) and samples is not None:
             counts = samples[:, at : at + event.samples]
             at += event.samples
@@ -244,6 +263,10 @@ def _write_points(file: Any, points: list[PointMeasured]) -> None:
         group[column.field] = np.array([np.nan if v is None else v for v in values], dtype=float)
         group[column.field].attrs["units"] = column.unit
     group.create_dataset("purpose", data=[p.purpose for p in points], dtype=h5py.string_dtype())
+
+
+def _digest(lines: list[str]) -> str:
+    return hashlib.sha256("\n".join(lines).encode()).hexdigest()
 
 
 def _text(value: Any) -> str:

@@ -80,6 +80,16 @@ def test_a_sweep_through_many_temperatures_is_asked_about():
     question_data(replace(given, temperature_range_c=(20.0, 22.0)), Path("sweep.csv"))
 
 
+def test_a_sweep_of_very_many_lines_is_asked_about_with_its_time_and_how_to_thin_it():
+    given = read_given(DATA / "practice-002.csv", case_file("zn1.toml"), None)
+    many = given.sweep.take(np.arange(100_000) % len(given.sweep))
+    asked = r"^sweep\.csv: 100000 lines .*\(some 5 minutes\).* every 50th line .*; --force"
+    with pytest.raises(BadInput, match=asked):
+        question_data(replace(given, sweep=many), Path("sweep.csv"))
+    with pytest.raises(BadInput, match=r"100000 lines make a fit long: a resonance"):
+        question_data(replace(given, specimen=None, sweep=many), Path("sweep.csv"))
+
+
 def test_a_law_says_at_which_temperature_it_was_found():
     given = read_given(DATA / "practice-002.csv", case_file("zn1.toml"), None)
     facts = IdentificationResult(

@@ -108,3 +108,18 @@ def test_what_no_core_and_no_mistake_explains_is_another_plate(monkeypatch, plat
     said = data_doubt(nonsense, plate)
     assert said.startswith("no core makes this plate answer so (typically ")
     assert said.endswith("another plate or layer, unit, level or pickup")
+
+
+def test_a_sweep_of_very_many_lines_is_looked_at_in_a_part_of_them(monkeypatch, plate, right):
+    seen = []
+
+    def sums(specimen, f, progress):
+        seen.append(f)
+        return known
+
+    known = quick_look._sums(plate, F, quick_look.quiet)
+    monkeypatch.setattr(quick_look, "_sums", sums)
+    monkeypatch.setattr(quick_look, "_ENOUGH", len(F))
+    many = right.take(np.repeat(np.arange(len(F)), 500)[::-1])
+    assert data_doubt(many, plate) == ""
+    np.testing.assert_allclose(seen, [F])

@@ -161,3 +161,11 @@ def test_a_law_of_a_part_of_a_run_says_that_the_run_ended_early(tmp_path):
     early = contents(whole_session(tmp_path))
     early.ended = SessionEnded("stopped by the user", "")
     assert "not diagnosed: the run was stopped by the user after 31 points" in recorded_result(early).words
+
+
+def test_a_sweep_that_ended_early_goes_on_as_a_sweep(tmp_path):
+    early = contents(whole_session(tmp_path))
+    early.fit, early.ended = None, None
+    assert "to go on: viscorig run EXPERIMENT.toml" in recorded_result(early).words
+    early.damping = None
+    assert "to go on: viscorig sweep EXPERIMENT.toml" in recorded_result(early).words

@@ -1,0 +1,40 @@
+"""A file that is written whole or not at all."""
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from instrument.errors import BadInput
+
+_LONGEST = 200
+"""Letters of a name that its draft keeps: a file system takes 255 bytes."""
+
+
+@contextmanager
+def at_once(path: Path) -> Iterator[Path]:
+    """A name to write to, which becomes `path` at the end and is no file where that fails. Raises `BadInput`.
+
+    A disk that is full leaves what was there before. A device or a pipe is written to itself.
+    """
+    try:
+        if path.exists() and not path.is_file():
+            yield path
+            return
+        # Of a link, what it leads to is written.
+        real = path.resolve()
+        draft = real.with_name(f".{os.getpid()}.{real.name[-_LONGEST:]}")
+        try:
+            yield draft
+            draft.replace(real)
+        finally:
+            with suppress(OSError):
+                draft.unlink(missing_ok=True)
+    except OSError as error:
+        raise BadInput(f"{path}: {error.strerror or error}") from None
+
+
+def write_at_once(path: Path, text: str) -> None:
+    """A text, in UTF-8. Raises `BadInput`."""
+    with at_once(path) as draft:
+        draft.write_text(text, encoding="utf-8")
