@@ -12,7 +12,7 @@ from fitting.effects.enriched_plate import EnrichedReducedPlate
 _PAIR = 2
 """Files of which either may as well be the odd one."""
 _SIGNS = 4
-"""Patterns of signs that sizes begin with: a fit changes them."""
+"""Patterns of signs that sizes begin with, less one, at most: a fit changes them."""
 
 
 class BetweenFiles(OfFiles):
@@ -23,7 +23,7 @@ class BetweenFiles(OfFiles):
     """
 
     def __init__(self, inner: Effect, files: int, file: int = _PAIR) -> None:
-        """Raises nothing; `files` is two or more."""
+        """`files` is two or more."""
         super().__init__(inner, files, file)
         self.from_afar = file == EACH or files == _PAIR
 
@@ -45,10 +45,12 @@ class BetweenFiles(OfFiles):
     def _patterns(self) -> Array:
         """Shares of a start in each file: growing from file to file, and some with either sign.
 
-        All alike would be the first file alone. Shape (patterns, files but the first).
+        Not all alike, which is the first file alone. Shape (patterns, files but the first).
         """
         ahead = np.arange(1, self.copies + 1)
-        signs = [np.where((number >> np.arange(self.copies)) & 1, -1.0, 1.0) for number in range(1, _SIGNS)]
+        # Both signs turned are the same start: the last file's stays.
+        numbers = range(1, min(_SIGNS, 2 ** (self.copies - 1)))
+        signs = [np.where((number >> np.arange(self.copies)) & 1, -1.0, 1.0) for number in numbers]
         return np.array([ahead / self.copies, *signs])
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
@@ -65,8 +67,7 @@ class BetweenFiles(OfFiles):
         )
 
     def variants(self) -> tuple[Effect, ...]:
-        one = [self.form(form, k) for form in self.inner.variants() for k in self._numbers]
-        return tuple(one)
+        return tuple(self.form(form, k) for form in self.inner.variants() for k in self._numbers)
 
     @property
     def _numbers(self) -> list[int]:
@@ -78,11 +79,11 @@ class BetweenFiles(OfFiles):
 
     def story(self, u: Mapping[str, float]) -> str:
         if u[FILE] != EACH:
-            return super().story(u)
+            return f"{super().story(u)} than in the others"
         # The first of the numbers has the plain key, the others theirs behind it.
         keys = [q.key for q in self.inner.parameters]
         parts = []
         for k in self.own:
             mine = {key: u[key if k == self.own[0] else f"{key}_{k}"] for key in keys}
-            parts.append(f"in file {k} {self.inner.story(mine)}")
-        return ", ".join(parts).replace("than in the others", "than in file 1")
+            parts.append(f"in file {k} {self.inner.story(mine)} than in file 1")
+        return ", ".join(parts)

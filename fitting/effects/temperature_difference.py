@@ -33,4 +33,4 @@ class TemperatureDifferenceEffect(Effect):
 
     def story(self, u: Mapping[str, float]) -> str:
         warmer = u["warmer"]
-        return f"the core is {abs(warmer):.2g} K {'warmer' if warmer > 0 else 'colder'} than in the others"
+        return f"the core is {abs(warmer):.2g} K {'warmer' if warmer > 0 else 'colder'}"

@@ -152,8 +152,7 @@ def draw_case(
     true = plate_named(plate) if plate else able[int(chance.integers(len(able)))]
     alone = min((_ONE_LEVEL_SHARE.get(name, _ONE_LEVEL_ELSE) for name in names), default=_ONE_LEVEL_ELSE)
     levels = (1.0,) if chance.random() < alone else _THREE_LEVELS
-    drawn = _law_in_one_piece if one_piece else _law_and_schedule
-    found, chosen, schedule = drawn(rng("law"), true, law, levels)
+    found, chosen, schedule = _law_and_schedule(rng("law"), true, law, levels, one_piece=one_piece)
     middle = tuple(r.frequency_hz for r in chosen) if one_piece else _middles(schedule)
     at = Setting(true, middle, float(schedule.time_s.max()))
     hidden = draw_hidden(names, rng("effects"), at)
@@ -192,36 +191,40 @@ def draw_case(
 
 
 def _law_and_schedule(
-    rng: np.random.Generator, true: TruePlate, kind: str | None, levels: tuple[float, ...]
+    rng: np.random.Generator, true: TruePlate, kind: str | None, levels: tuple[float, ...], *, one_piece: bool
 ) -> tuple[PlateMaterialLaw, list[Resonance], Schedule]:
-    """A law that keeps within the campaign's limits over the segments that it leads to."""
+    """A law that keeps within the campaign's limits where it is swept, and the resonances judged."""
     clean = clean_plate(true)
     band = widest_band_hz(clean, true)
     for _ in range(_MOST_LAWS):
         law = draw_law(rng, band, kind)
         try:
-            chosen = measured_resonances(clean, true.spot_m, law)
+            chosen, judged, schedule = _swept(rng, true, law, levels, one_piece=one_piece)
         except ArithmeticError:
             continue
-        schedule = draw_schedule(rng, chosen, levels)
         if fits(law, schedule.frequency_hz) and max(r.loss_factor for r in chosen) < _LARGEST_LOSS:
-            return law, chosen, schedule
-    raise ArithmeticError(f"no law found that leaves three resonances on plate {true.name}")
+            return law, judged, schedule
+    raise ArithmeticError(f"no law found that serves a sweep on plate {true.name}")
 
 
-def _law_in_one_piece(
-    rng: np.random.Generator, true: TruePlate, kind: str | None, levels: tuple[float, ...]
-) -> tuple[PlateMaterialLaw, list[Resonance], Schedule]:
-    """The same over one piece; of its resonances those that are judged."""
+def _swept(
+    rng: np.random.Generator,
+    true: TruePlate,
+    law: PlateMaterialLaw,
+    levels: tuple[float, ...],
+    *,
+    one_piece: bool,
+) -> tuple[list[Resonance], list[Resonance], Schedule]:
+    """Resonances of the sweep, those of them that are judged, and its points.
+
+    Raises `ArithmeticError` where a law leaves too few to sweep about.
+    """
     clean = clean_plate(true)
-    band = widest_band_hz(clean, true)
-    for _ in range(_MOST_LAWS):
-        law = draw_law(rng, band, kind)
+    if one_piece:
         chosen = in_one_piece(rng, resonances(clean, true.spot_m, law))
-        schedule = draw_whole(rng, chosen, levels)
-        if fits(law, schedule.frequency_hz) and max(r.loss_factor for r in chosen) < _LARGEST_LOSS:
-            return law, judged_of(chosen), schedule
-    raise ArithmeticError(f"no law found that serves one piece on plate {true.name}")
+        return chosen, judged_of(chosen), draw_whole(rng, chosen, levels)
+    chosen = measured_resonances(clean, true.spot_m, law)
+    return chosen, chosen, draw_schedule(rng, chosen, levels)
 
 
 def _middles(schedule: Schedule) -> tuple[float, ...]:

@@ -33,4 +33,4 @@ def test_one_file_cannot_show_it():
 
 @pytest.mark.parametrize(("warmer", "word"), [(1.5, "warmer"), (-1.5, "colder")])
 def test_it_says_which_way(warmer, word):
-    assert EFFECT.story({"warmer": warmer}) == f"the core is 1.5 K {word} than in the others"
+    assert EFFECT.story({"warmer": warmer}) == f"the core is 1.5 K {word}"
