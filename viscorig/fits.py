@@ -79,9 +79,9 @@ def identify(
         spots = spots_of(given.points, model)
         return Identification(identified_together_from(identify_together(spots, bar), spots), given.plate)
     found = identify_sweep(given.points, model, method, bar, given.modes)
-    result = identification_from(found, given.points, model)
+    result = identification_from(found, model)
     if pointwise:
-        result = with_second_look(result, pointwise_of(found, given.points))
+        result = with_second_look(result, pointwise_of(found))
     return Identification(given.said(result), given.plate)
 
 

@@ -43,9 +43,11 @@ def seen_in_channels(sweep: Sweep, effects: Sequence[Effect]) -> tuple[Mask, tup
     used, found = np.ones(len(sweep), bool), []
     noise = noise_of(sweep)
     for effect in effects:
-        seen = effect.seen(sweep, noise)
+        # What one has set aside is not asked of again.
+        left, noise_left = (sweep, noise) if used.all() else (sweep.take(used), noise_of(sweep.take(used)))
+        seen = effect.seen(left, noise_left)
         if seen is not None:
-            used &= ~seen.aside
+            used[np.flatnonzero(used)[seen.aside]] = False
             found.append(FoundEffect(effect.name, {k: ParameterEstimate(*v) for k, v in seen.values.items()}))
     return used, tuple(found), noise if used.all() else noise_of(sweep.take(used))
 

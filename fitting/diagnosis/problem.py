@@ -232,6 +232,7 @@ def points_of(sweep: Sweep, specimen: StatedSpecimen) -> Points:
         force_n=np.abs(sweep.base_m_s2)
         if specimen.drive == "force" and sweep.base_m_s2 is not None
         else None,
+        segment=sweep.segment,
     )
 
 

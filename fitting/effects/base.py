@@ -111,6 +111,8 @@ class Points:
     drive: Drive = "base"
     force_n: Array | None = None
     """Amplitude of the force that was measured, where one drives and its size is told."""
+    segment: NDArray[np.intp] | None = None
+    """Number of the segment each is of; None where nothing is known of segments."""
     at_rest: NDArray[np.bool_] | None = None
     """Which points have a base at rest, a force driving them; None where `drive` says it of all."""
 

@@ -164,7 +164,7 @@ def _identified(given: Given, like: Specimen | None) -> dict[str, Any]:
     files = _files(given)
     if not files:
         found = identify(given.sweep, given.plate, hammer=given.modes, like=like)
-        return _of_fit(identification_from(found, given.sweep, given.plate))
+        return _of_fit(identification_from(found, given.plate))
     return _of_fit(identified_together_from(identify_together(files, hammer=given.modes), files))
 
 

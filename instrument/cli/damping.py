@@ -143,7 +143,7 @@ def _print(out: Output, found: Damping) -> None:
         for m in found.modes
     ]
     columns = ["f/Hz", "rational fit/%", "half power/%", "LSCF/%", "lines", "channel", "remarks"]
-    out.table("damping ratio by three methods, +- one standard error", columns, rows)
+    out.table("damping ratio by three methods, +- one standard error by these hits' noise", columns, rows)
     for warning in found.warnings:
         out.say(f"note: {warning}")
 

@@ -17,17 +17,13 @@ def show_paper_case(out: Output, folder: Path) -> None:
     """Identify ZN_1 from its published tables, diagnose what is left; save results and figures."""
     out.say("The published case: Table 3's damping and Table 5's nine measured responses.\n")
     run = run_paper_case(bar)
-    print_identification(out, run.direct, run.sweep, run.specimen)
+    print_identification(out, run.direct, run.specimen)
     out.say()
     _print_beside_paper(out, run)
     out.say()
     _print_diagnosis(out, run)
-    Output(str(folder / "identify-direct.json")).result(
-        identification_from(run.direct, run.sweep, run.specimen)
-    )
-    Output(str(folder / "identify-paper.json")).result(
-        identification_from(run.paper, run.sweep, run.specimen)
-    )
+    Output(str(folder / "identify-direct.json")).result(identification_from(run.direct, run.specimen))
+    Output(str(folder / "identify-paper.json")).result(identification_from(run.paper, run.specimen))
     Output(str(folder / "diagnose-paper.json")).result(diagnosis_from(run.diagnosis, run.sweep))
     out.say()
     for path in save_figures(run, folder, bar):

@@ -236,8 +236,8 @@ def identify(
     found: Identified = identify_sweep(given.sweep, read, method, bar, given.modes)
     if given.recorded is not None:
         out.say(f"the law {BEFORE_DIAGNOSIS}, which the session's own result below is not:\n")
-    print_identification(out, found, given.sweep, read)
-    result = identification_from(found, given.sweep, read)
+    print_identification(out, found, read)
+    result = identification_from(found, read)
     if found.bare is not None:
         print_bare_plate(out, found.bare, read)
     if with_budget:
@@ -246,7 +246,7 @@ def identify(
         looked = [one for d in dict.fromkeys(depths) for one in _in_depth(out, found, d, samples)]
         result = result.but(uncertainty=tuple(looked))
     if pointwise:
-        bands = pointwise_of(found, given.sweep)
+        bands = pointwise_of(found)
         out.say(bands.words)
         result = with_second_look(result, bands)
         if figures is not None:
@@ -319,7 +319,7 @@ def _identify_together(
     only = every[0] if len(every) == 1 else None
     together = identify_together(files, bar, every[0].modes)
     found, plate = together.found, files[0].specimen
-    print_identification(out, found, together.sweep, plate)
+    print_identification(out, found, plate)
     if found.bare is not None and isinstance(plate, Specimen):
         print_bare_plate(out, found.bare, plate)
     result = identified_together_from(together, files)

@@ -14,9 +14,9 @@ from instrument.results.error_words import is_below_floor, percent_words
 _MOST_ROWS = 30
 
 
-def print_identification(out: Output, found: Identified, sweep: Sweep, specimen: StatedSpecimen) -> None:
+def print_identification(out: Output, found: Identified, specimen: StatedSpecimen) -> None:
     """What was found, how well it is known, and what the data do not say; `specimen` as stated."""
-    r = found.result
+    r, sweep = found.result, found.sweep
     errors = r.standard_errors
     rows = [[n, f"{v:.5g}", _relative(errors[n], v)] for n, v in zip(r.law.names, r.law.values, strict=True)]
     out.table(f"{r.law.kind} by {r.method}", ["parameter", "value", "standard error"], rows)

@@ -84,7 +84,7 @@ def print_damping(out: Output, found: DampingFound) -> None:
         for m in found.result.modes
     ]
     out.table(
-        "bare plate: damping ratio by three methods, +- one standard error",
+        "bare plate: damping ratio by three methods, +- one standard error by these hits' noise",
         ["f/Hz", "rational fit/%", "half power/%", "LSCF/%", "remarks"],
         rows,
     )

@@ -43,7 +43,7 @@ def identify_session(contents: Contents, progress: Progress = quiet) -> SessionF
     sweep = session_sweep(contents, specimen)
     if not isinstance(specimen, Specimen):
         together = identify_together([File(sweep, specimen)], progress)
-        return SessionFit(together.found, together.sweep, specimen, None, together)
+        return SessionFit(together.found, together.found.sweep, specimen, None, together)
     found = identify(sweep, specimen, "direct", progress, modes)
     return SessionFit(found, sweep, specimen, found.bare)
 
@@ -53,7 +53,7 @@ def result_of_fit(fit: SessionFit) -> IdentificationResult:
     if fit.together is not None:
         return identified_together_from(fit.together, [File(fit.sweep, fit.specimen)])
     plate = fit.specimen if isinstance(fit.specimen, Specimen) else None
-    return identification_from(fit.identified, fit.sweep, plate)
+    return identification_from(fit.identified, plate)
 
 
 def session_sweep(contents: Contents, specimen: AnySpecimen) -> Sweep:

@@ -10,7 +10,7 @@ from fitting.laws import CoreLaw
 from fitting.structures import AnySpecimen, Beam, ShearPair
 from fitting.structures.shear_pair import EDGE
 from instrument.models.files import File
-from instrument.models.remarks import remarks_on_law, remarks_on_noise
+from instrument.models.remarks import remarks_on_law, remarks_on_noise, remarks_on_strays
 
 _WORTH_SAYING = 0.01
 """Of the modulus: a correction that is left out."""
@@ -28,7 +28,12 @@ def remarks_on_files(files: Sequence[File]) -> tuple[str, ...]:
     """What is said, and of which files; of none by name where it is of the law."""
     for file in files:
         s = file.specimen
-        of_file = (*remarks_on_noise(file.sweep), *remarks_on_edges(s), *remarks_on_held_width(s))
+        of_file = (
+            *remarks_on_strays(file.sweep),
+            *remarks_on_noise(file.sweep),
+            *remarks_on_edges(s),
+            *remarks_on_held_width(s),
+        )
         for text in of_file:
             named.setdefault(text, {})[file.name] = None
         of_law = remarks_on_law(s.core.law, file.sweep.frequency_hz) if s.core is not None else ()

@@ -23,6 +23,7 @@ from fitting.laws import CoreLaw
 from fitting.noise import Noise, noise_of
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
+from fitting.strays import strays
 from fitting.structures import Beam, ShearPair
 from fitting.sweep import Sweep
 from instrument.models.files import File, name_of, numbers_of, plates_of
@@ -75,7 +76,7 @@ class FilesAtWork:
     """What fits begin with."""
 
     def __post_init__(self) -> None:
-        self.used = [np.ones(len(f.sweep), bool) for f in self.files]
+        self.used = [strays(f.sweep) == 0 for f in self.files]
         self.misfit = [0.0] * len(self.files)
         self.start = _start_of(self.files)
 

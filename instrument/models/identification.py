@@ -23,9 +23,15 @@ from fitting.laws import CoreLaw
 from fitting.noise import Noise, noise_of
 from fitting.reduced import ReducedPlate
 from fitting.specimen import Specimen
+from fitting.strays import strays
 from fitting.sweep import Sweep
 from fitting.theory_error import TheoryError
-from instrument.models.remarks import remarks_on_law, remarks_on_noise, remarks_on_tolerances
+from instrument.models.remarks import (
+    remarks_on_law,
+    remarks_on_noise,
+    remarks_on_strays,
+    remarks_on_tolerances,
+)
 from instrument.models.set_up import Hammer, SetUp, set_up
 from instrument.models.specimen_models import Models
 from instrument.models.theory import theory_over
@@ -51,6 +57,8 @@ class Identified:
     """An identification and how long its parts took."""
 
     result: Identification
+    sweep: Sweep
+    """What was fitted: stray readings are not in it."""
     setup_seconds: float
     """Models made or loaded."""
     seconds: float
@@ -81,6 +89,8 @@ def identify(
     """
     if specimen.core is None:
         raise OutsideModel("a bare plate has no core to identify, expected [core] and [constraining]")
+    further = remarks_on_strays(sweep)
+    sweep = sweep.take(strays(sweep) == 0)
     stated, noise = specimen.core.law, noise_of(sweep)
     start = stated.to_fit(sweep.frequency_hz)
     bare = fit_bare_plate(specimen, *hammer) if hammer is not None else None
@@ -88,7 +98,7 @@ def identify(
         specimen = with_bare_plate(specimen, bare)
     models: Models | None = Models.of(specimen, sweep.frequency_hz, progress) if method == "paper" else None
     setup = seconds = 0.0
-    further = (*remarks_on_law(stated, sweep.frequency_hz), *remarks_on_noise(sweep))
+    further += (*remarks_on_law(stated, sweep.frequency_hz), *remarks_on_noise(sweep))
     if method == "direct":
         further += remarks_on_tolerances(specimen)
     elif not specimen.exact:
@@ -119,7 +129,7 @@ def identify(
     with threadpool_limits(1, "blas"), progress("validating") as report:
         validation = problem.validated(sweep, noise, fit, report)
     result = summarise(method, sweep, noise, fit, validation, further)
-    return Identified(result, setup, seconds, perf_counter() - began, theory, problem.joint, bare)
+    return Identified(result, sweep, setup, seconds, perf_counter() - began, theory, problem.joint, bare)
 
 
 def _checked(specimen: Specimen, sweep: Sweep, fit: Fit) -> TheoryError:

@@ -39,26 +39,26 @@ class Pointwise:
         return f"{said}. {self.causal.words if self.causal is not None else self.why_not}"
 
 
-def pointwise_of(found: Identified, sweep: Sweep) -> Pointwise:
+def pointwise_of(found: Identified) -> Pointwise:
     """A second look at a direct fit.
 
     Raises `TooFewPoints` for amplitudes, `OutsideModel` without a joint fit.
     """
-    phase_is_kept(sweep)
+    phase_is_kept(found.sweep)
     if found.joint is None:
         raise OutsideModel("band by band: the paper's method has no joint fit, expected the direct one")
     if found.joint.begun.problem.nuisances.masses:
         raise OutsideModel("band by band: known masses are put on by the joint fit, expected no [[mass]]")
     with threadpool_limits(1, "blas"):
-        law = _law(found, found.joint, sweep)
+        law = _law(found, found.joint)
         try:
             return Pointwise(law, kramers_kronig(law), "")
         except TooFewPoints as error:
             return Pointwise(law, None, str(error))
 
 
-def _law(found: Identified, joint: Joint, sweep: Sweep) -> PointwiseLaw:
-    none, problem = joint.begun.none, joint.begun.problem
+def _law(found: Identified, joint: Joint) -> PointwiseLaw:
+    none, problem, sweep = joint.begun.none, joint.begun.problem, found.sweep
     v, dv = SweepResponse(problem, ()).with_derivatives(none.law, none.u)
     n = len(none.law.names)
     rows = model_error(problem, joint.reduced, none.law, v)

@@ -1,12 +1,17 @@
 """What is to be said of data and specimen as they were given, whatever is found in them."""
 
+import numpy as np
+
 from fitting.arrays import Array
 from fitting.laws import CoreLaw
 from fitting.noise import scatter_over_stated
 from fitting.specimen import Specimen
+from fitting.strays import BEYOND, strays
 from fitting.sweep import Sweep
 from instrument.models.tolerance_words import asked, not_named
 
+_NAMED = 6
+"""Frequencies in one sentence."""
 _DIFFERS = 1.5
 """Times, median over the points: a stated noise so far off the scatter is not this sweep's."""
 
@@ -43,6 +48,19 @@ def remarks_on_noise(sweep: Sweep) -> tuple[str, ...]:
         f"neighbouring points scatter by {ratio:.2g} times the noise that velocity_std_m_s states (median, "
         f"limit {_DIFFERS:g} either way): errors follow what is stated and may be {off}; correct it or leave "
         "the column out",
+    )
+
+
+def remarks_on_strays(sweep: Sweep, place: str = "") -> tuple[str, ...]:
+    """Which readings are so far off the curve of those beside them that they are set aside."""
+    f = np.unique(np.round(sweep.frequency_hz[strays(sweep) > 0], 4))
+    if not len(f):
+        return ()
+    named = ", ".join(f"{one:g}" for one in f[:_NAMED]) + (", ..." if len(f) > _NAMED else "")
+    what = "reading leaves the curve of those" if len(f) == 1 else "readings leave the curve of those"
+    return (
+        f"{place}{len(f)} {what} beside by more than {BEYOND:g} times what they scatter, set aside "
+        f"({named} Hz): a signal lost, an overload, or a resonance narrower than the steps; read them again",
     )
 
 

@@ -37,8 +37,6 @@ class Together:
     """An identification of all files."""
 
     found: Identified
-    sweep: Sweep
-    """The points that took part, file after file."""
     aside: tuple[SetAside, ...] = ()
 
 
@@ -86,8 +84,8 @@ def identify_together(
     result = summarise("direct", sweep, noise, fit, validation, further)
     result = replace(result, warnings=(*misfit, *result.warnings))
     validated = perf_counter() - checked
-    found = Identified(result, ready - began, seconds, validated, joint=Joint(begun, None), bare=bare)
-    return Together(found, sweep, tuple(work.aside))
+    found = Identified(result, sweep, ready - began, seconds, validated, joint=Joint(begun, None), bare=bare)
+    return Together(found, tuple(work.aside))
 
 
 def diagnose_together(

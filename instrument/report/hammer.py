@@ -71,7 +71,10 @@ def _modes(result: DampingResult) -> TableBlock:
     )
     columns = ("f / Hz", "rational fit / %", "half power / %", "LSCF / %", "lines in bandwidth", "remarks")
     return TableBlock(
-        "Damping ratios by three methods, ± one standard error; the rational fit is adopted", columns, rows
+        "Damping ratios by three methods, ± one standard error by these hits' noise (another mounting is "
+        "not in it); the rational fit is adopted",
+        columns,
+        rows,
     )
 
 

@@ -26,10 +26,8 @@ from instrument.models.identification import Identified
 from instrument.results.rows_from import adjusted_from, held_out_from, law_rows_from
 
 
-def identification_from(
-    found: Identified, sweep: Sweep, specimen: Specimen | None = None
-) -> IdentificationResult:
-    """The result of `identify` on `sweep`; `specimen` as stated, where a hammer test may have taken part."""
+def identification_from(found: Identified, specimen: Specimen | None = None) -> IdentificationResult:
+    """The result of `identify`; `specimen` as stated, where a hammer test may have taken part."""
     r = found.result
     names, v = r.law.names, r.validation
     result = IdentificationResult(
@@ -40,7 +38,7 @@ def identification_from(
         correlations={
             a: _named(names, row) for a, row in zip(names, r.uncertainty.correlations, strict=True)
         },
-        points=_points(r, sweep),
+        points=_points(r, found.sweep),
         rms_percent=r.rms_percent,
         max_percent=r.max_percent,
         chi2_per_dof=r.uncertainty.chi2_per_dof if r.chi2_means_something else None,

@@ -16,7 +16,7 @@ from instrument.results.identification_from import identification_from
 
 def identified_together_from(found: Together, files: Sequence[File]) -> IdentificationResult:
     """The result of `identify`, each point with its file (from 1), and what was set aside."""
-    result = identification_from(found.found, found.sweep)
+    result = identification_from(found.found)
     owned = zip(result.points, _owners(files, result.points), strict=True)
     return result.but(
         points=tuple(point.but(file=number, pickup=f.pickup) for point, (number, f) in owned),

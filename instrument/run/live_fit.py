@@ -55,7 +55,7 @@ def _result(
         result = identified_together_from(identify_together(files, progress, modes), files).untimed
     else:
         found = identify(sweep, specimen, progress=progress, hammer=modes)
-        result = identification_from(found, sweep, specimen).untimed
+        result = identification_from(found, specimen).untimed
     return _with_temperature(result.but(warnings=(*result.warnings, *uncalibrated(used))), used)
 
 

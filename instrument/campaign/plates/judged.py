@@ -23,7 +23,7 @@ _SEED, _MIDDLE_HZ, _RATIO = 7, 100.0, 2e-3
 def identified(case: PlateCase) -> Band:
     """The law with its errors."""
     found = identify(case.sweep, case.specimen, hammer=case.hammer, like=_like(case))
-    return band_from(identification_from(found, case.sweep, case.specimen).law)
+    return band_from(identification_from(found, case.specimen).law)
 
 
 def diagnosed(case: PlateCase) -> Answer:

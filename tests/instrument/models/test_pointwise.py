@@ -24,7 +24,7 @@ def found(request):
     specimen = replace(read_specimen(case_file("zn1.toml")), exact=request.param)
     sweep = read_sweep(DATA / "practice-002.csv").sweep(9.81)
     identified = identify(sweep, specimen)
-    return identified, pointwise_of(identified, sweep)
+    return identified, pointwise_of(identified)
 
 
 def test_it_agrees_with_the_law(found):
@@ -58,14 +58,13 @@ def test_what_tolerances_leave_open_is_common_to_all_bands(found):
 def test_amplitudes_are_refused(zn1):
     sweep = read_sweep(case_file("table5.csv")).sweep(9.81)
     with pytest.raises(TooFewPoints, match="9 amplitudes without phase, expected phasors"):
-        pointwise_of(identify(sweep, zn1), sweep)
+        pointwise_of(identify(sweep, zn1))
 
 
 def test_the_paper_s_method_has_none(found, zn1):
     identified, _ = found
-    sweep = read_sweep(DATA / "practice-002.csv").sweep(9.81)
     with pytest.raises(OutsideModel, match="expected the direct one"):
-        pointwise_of(replace(identified, joint=None), sweep)
+        pointwise_of(replace(identified, joint=None))
 
 
 def test_the_command_adds_it(capsys, tmp_path):

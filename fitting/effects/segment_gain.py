@@ -1,0 +1,64 @@
+"""One segment of a sweep was read with another gain: a range, an attenuator or a conversion of its own."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from fitting.arrays import Array, Complex
+from fitting.effects.base import EVERY_STRUCTURE, Effect, EffectParameter, Points
+from fitting.effects.enriched_plate import EnrichedReducedPlate
+
+_EVERY = 0.0
+"""In the place of a level: all of them."""
+_HZ = 1.0 / (2 * np.pi)
+
+
+class SegmentGainEffect(Effect):
+    """Velocity times a real factor from one frequency to another, at one level or at all.
+
+    A factor alike in all segments is `gain_error`.
+    """
+
+    name = "segment_gain"
+    enters = "channel"
+    source = "a vibrometer's ranges differ by 1 % and more, and are chosen anew with the velocity"
+    structures = EVERY_STRUCTURE
+    parameters = (
+        EffectParameter("factor", "1", 0.2, 5.0, 1.03, neutral=1.0, spread=0.05),
+        EffectParameter("from", "Hz", 0.0, np.inf, 0.0, neutral=None, fixed=True),
+        EffectParameter("to", "Hz", 0.0, np.inf, 0.0, neutral=None, fixed=True),
+        EffectParameter("level", "m/s^2", 0.0, np.inf, _EVERY, neutral=None, fixed=True),
+    )
+    chance = 0.015
+    discriminating_test = "one frequency read in every range that was used; the sweep repeated in one range"
+
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
+        return None if len(self._segments(points)) > 1 else "there is one segment"
+
+    def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
+        levels = [_EVERY, *(np.unique(points.acceleration_m_s2) if points.levels > 1 else ())]
+        return [
+            np.array([1.03, low, high, level]) for low, high in self._segments(points) for level in levels
+        ]
+
+    def reading(self, v: Complex, points: Points, u: Array) -> Complex:
+        f = points.omega * _HZ
+        here = (f >= u[1] * (1 - 1e-9)) & (f <= u[2] * (1 + 1e-9))
+        if u[3] != _EVERY:
+            here &= np.isclose(points.acceleration_m_s2, u[3], rtol=1e-9)
+        return np.asarray(v * np.where(here, u[0], 1.0))
+
+    def story(self, u: Mapping[str, float]) -> str:
+        at = "" if u["level"] == _EVERY else f" at {u['level']:.3g} m/s^2"
+        percent = 100 * (u["factor"] - 1)
+        return (
+            f"the velocity channel reads {percent:+.2g} % off from {u['from']:.4g} to {u['to']:.4g} Hz{at} "
+            "alone"
+        )
+
+    def _segments(self, points: Points) -> list[tuple[float, float]]:
+        """Their lowest and highest frequencies, Hz."""
+        if points.segment is None:
+            return []
+        each = (points.omega[points.segment == label] * _HZ for label in np.unique(points.segment))
+        return [(float(f.min()), float(f.max())) for f in each]

@@ -1,0 +1,188 @@
+"""Readings that leave the curve of their neighbours by far more than these scatter.
+
+A laser that lost its speckle, an overload, a contact that opened for a moment. Every reading is held against
+the local model of `fitting.noise` through the six beside it. The worst are taken out of the curves, and the
+rest judged anew: what is left must lie on its curves, also right beside a gap. A resonance bends its
+neighbours too and is none of these; where steps are too coarse to follow one, nothing is said.
+"""
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from fitting.arrays import Array, Complex, Mask
+from fitting.noise import FEWEST, WINDOW, groups_of, local_model
+from fitting.sweep import Sweep
+
+Places = NDArray[np.intp]
+
+BEYOND, LEAST = 8.0, 0.02
+"""Scatters, and share of the curve: a stray is off by more than both."""
+_BESIDE = 4.0
+"""Scatters that readings right beside a stray may be off their own curve."""
+_MOST = 0.15
+"""Of a curve: more of them are no strays."""
+_TOGETHER = 8
+"""That follow each other: more of them are something else. A choice."""
+_TURN = 0.7
+"""Radians from one reading to the next: two to three steps within a resonance's width. A choice."""
+_TURN_OVER = 2.0
+"""Over a gap: more than that is a resonance in it. A choice."""
+_SIDE = 4
+"""Readings on either side that a curve over a gap is drawn through: twice as many as it has unknowns."""
+_MEDIAN = 1.177
+"""Of a complex normal variable's size, in standard deviations of a part."""
+_NEAREST = 6
+"""Readings that the curve at a gap is drawn through."""
+
+
+def strays(sweep: Sweep) -> Array:
+    """By how much stray readings are off, m/s; zero for all others. Shape (points,).
+
+    Amplitudes without phase leave too little to judge by.
+    """
+    off = np.zeros(len(sweep))
+    if not sweep.has_phase:
+        return off
+    for group in groups_of(sweep):
+        f = sweep.frequency_hz[group]
+        if len(np.unique(f)) == len(f) >= FEWEST:
+            order = np.argsort(f)
+            off[group[order]] = _in_group(f[order], sweep.response_m_s[group[order]])
+    return off
+
+
+def _in_group(f: Array, v: NDArray[Any]) -> Array:
+    """Of one curve in ascending order. Shape (points,)."""
+    left = _leaves(f, v)
+    scatter = _scatter(left, np.abs(v))
+    suspect = left > BEYOND * scatter
+    out = _missing(f, v, scatter, suspect)
+    while True:
+        kept = np.flatnonzero(~out)
+        if len(kept) < FEWEST:
+            return np.zeros(len(f))
+        left = _leaves(f[kept], v[kept])
+        z = left / _scatter(left, np.abs(v[kept]))
+        worst = z > BEYOND
+        for k in range(1, WINDOW // 2 + 1):
+            # One that is off spoils the curves of those beside it.
+            worst[k:] &= z[k:] >= z[:-k]
+            worst[:-k] &= z[:-k] >= z[k:]
+        if not worst.any():
+            break
+        out[kept[worst]] = True
+        if out.mean() > _MOST:
+            return np.zeros(len(f))
+    clean = np.zeros(len(f), dtype=bool)
+    clean[kept] = z < _BESIDE
+    off = np.zeros(len(f))
+    for first, last in _runs(out):
+        beside = slice(max(first - 2, 0), last + 3)
+        lies = last - first < _TOGETHER and np.all(clean[beside] | out[beside])
+        if lies and _is_followed(v, out, first, last):
+            run = slice(first, last + 1)
+            curve = _curve(f[kept], v[kept], f[run])
+            far = np.abs(v[run] - curve)
+            off[run] = np.where(far > LEAST * np.abs(curve), far, 0.0)
+    return off
+
+
+def _is_followed(v: Complex, out: Mask, first: int, last: int) -> bool:
+    """Whether the phase turns little from step to step about a gap, and over it."""
+    near = np.arange(max(first - _SIDE, 0), min(last + _SIDE, len(v) - 1) + 1)
+    kept = near[~out[near]]
+    turns = np.abs(np.angle(v[kept[1:]] / v[kept[:-1]]))
+    return bool(np.all(turns < np.minimum(_TURN * np.diff(kept), _TURN_OVER)))
+
+
+def _missing(f: Array, v: Complex, scatter: Array, suspect: Mask) -> Mask:
+    """Readings that follow each other, or are at an end, and are off together, the curve running on beside.
+
+    Between themselves they may lie as smoothly as any: a laser that sees nothing reads its floor.
+    """
+    out, n = np.zeros(len(f), dtype=bool), len(f)
+    for count in range(1, _TOGETHER + 1):
+        width = count + 2 * _SIDE
+        if width > n or (count >= _SIDE and not suspect.any()):
+            break
+        at = np.arange(n - width + 1)[:, None] + np.arange(width)
+        # Between as many on either side where something is suspect; at an end, with what is there before it.
+        gaps = [_parted(at[suspect[at].any(axis=1)], _SIDE, count)] if count > 1 else []
+        for k in range(_SIDE - count + 1):
+            gaps += [_parted(at[:1], k, count), _parted(at[-1:], 2 * _SIDE - k, count)]
+        inner, outer = (np.concatenate(part) for part in zip(*gaps, strict=True))
+        off, beside = _over(f, v, scatter, inner, outer)
+        out[inner[(off > BEYOND) & (beside < _BESIDE)]] = True
+    return out
+
+
+def _parted(at: Places, first: int, count: int) -> tuple[Places, Places]:
+    """A gap's readings from the `first` on, and those beside. Shapes (gaps, readings) and (gaps, beside)."""
+    return at[:, first : first + count], np.delete(at, np.s_[first : first + count], axis=1)
+
+
+def _over(f: Array, v: Complex, scatter: Array, inner: Places, outer: Places) -> tuple[Array, Array]:
+    """How far gaps leave the curve through what is beside: the least in each; and how far that itself does.
+
+    `inner` has shape (gaps, readings), `outer` (gaps, beside). In scatters, the curve's doubt counted.
+    Shape (gaps,) each.
+    """
+    middle = f[outer].mean(axis=1, keepdims=True)
+    half = np.ptp(f[outer], axis=1)[:, None] / 2
+    t, t_outer = (f[inner] - middle) / half, (f[outer] - middle) / half
+    model = local_model(t_outer, v[outer])
+    solve = np.linalg.pinv(model)
+    a = np.einsum("pun,pn->pu", solve, v[outer])
+    beside = np.abs(v[outer] - np.einsum("pnu,pu->pn", model, a)) / scatter[outer]
+    numerator = np.stack([np.ones_like(t), t, t**2], axis=-1)
+    denominator = 1 - a[:, 3:] * t
+    curve = np.einsum("pnu,pu->pn", numerator, a[:, :3]) / denominator
+    # The neighbours' noise, as the linearised curve passes it on.
+    full = np.concatenate([numerator, (t * curve)[..., None]], axis=-1)
+    passed = np.einsum("pnu,pum->pnm", full, solve) / denominator[..., None]
+    doubt = np.sqrt(scatter[inner] ** 2 + np.sum(np.abs(passed * scatter[outer][:, None]) ** 2, axis=2))
+    off = np.abs(v[inner] - curve) / doubt
+    return np.asarray(off.min(axis=1)), np.asarray(beside.max(axis=1))
+
+
+def _leaves(f: Array, v: Complex) -> Array:
+    """By how much each reading leaves its curve, scaled to unit gain of noise; 0 for three at either end."""
+    half = WINDOW // 2
+    at = np.arange(half, len(f) - half)[:, None] + np.arange(-half, half + 1)
+    t = (f[at] - f[at[:, half : half + 1]]) / (f[at[:, -1:]] - f[at[:, :1]])
+    Q, _ = np.linalg.qr(local_model(t, v[at]))
+    row = Q[:, half]
+    left = v[at[:, half]] - np.einsum("pu,pwu,pw->p", row, Q.conj(), v[at])
+    gain = 1 - np.sum(np.abs(row) ** 2, axis=1)
+    z = np.zeros(len(f))
+    z[half:-half] = np.abs(left) / np.sqrt(np.maximum(gain, 1e-6))
+    return z
+
+
+def _scatter(left: Array, size: Array) -> Array:
+    """By medians, that strays hardly move: a floor by the smaller half, a share by the larger one."""
+    inner = slice(WINDOW // 2, -(WINDOW // 2))
+    small = size[inner] <= np.median(size[inner])
+    floor = np.median(left[inner][small])
+    share = np.median((left[inner] / size[inner])[~small]) if not small.all() else 0.0
+    return np.asarray(np.maximum(np.hypot(floor, share * size) / _MEDIAN, 1e-9 * size.max() + 1e-300))
+
+
+def _curve(f: Array, v: Complex, at: Array) -> Complex:
+    """Of the readings nearest to a gap, inside it. Shape of `at`."""
+    middle = at.mean()
+    near = np.sort(np.argsort(np.abs(f - middle))[:_NEAREST])
+    half = np.ptp(f[near]) / 2
+    t, there = (f[near] - middle) / half, (at - middle) / half
+    a, b, c, d = np.linalg.lstsq(local_model(t, v[near]), v[near], rcond=None)[0]
+    return np.asarray((a + b * there + c * there**2) / (1 - d * there))
+
+
+def _runs(out: Mask) -> list[tuple[int, int]]:
+    """First and last of those that follow each other."""
+    places = np.flatnonzero(out)
+    cuts = [0, *(np.flatnonzero(np.diff(places) > 1) + 1), len(places)]
+    return [(int(places[a]), int(places[b - 1])) for a, b in pairwise(cuts) if b > a]

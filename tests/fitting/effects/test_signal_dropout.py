@@ -1,0 +1,46 @@
+"""Readings that are none are said to be so, and set aside."""
+
+from dataclasses import replace
+
+import numpy as np
+from conftest import DATA
+
+from fitting.diagnosis.diagnose import seen_in_channels
+from fitting.effects import CATALOGUE
+from fitting.effects.signal_dropout import SignalDropoutEffect
+from instrument.files.sweep_file import read_sweep
+
+
+def spoilt(at, factor):
+    sweep = read_sweep(DATA / "practice-002.csv").sweep(9.81)
+    v = sweep.velocity_m_s.copy()
+    v[at] *= factor
+    return replace(sweep, velocity_m_s=v)
+
+
+def test_lost_readings_are_counted_and_set_aside():
+    at = np.array([40, 41, 42, 200])
+    used, (found,), noise = seen_in_channels(spoilt(at, 0.02), [SignalDropoutEffect()])
+    assert (np.flatnonzero(~used) == at).all()
+    assert found.parameters["readings"].value == 4
+    assert len(noise.std_m_s) == used.sum()
+    said = SignalDropoutEffect().story({"readings": 4.0, "size": 0.02})
+    assert said.startswith("4 readings leave the curve")
+
+
+def test_a_clean_sweep_has_none():
+    sweep = spoilt(np.array([], dtype=int), 1.0)
+    used, found, _ = seen_in_channels(sweep, [SignalDropoutEffect()])
+    assert used.all()
+    assert not found
+
+
+def test_what_hums_is_not_said_twice():
+    sweep = read_sweep(DATA / "practice-002.csv").sweep(9.81)
+    v = sweep.velocity_m_s.copy()
+    near = np.argmin(np.abs(sweep.frequency_hz - 100))
+    v[near] *= 1.5
+    both = [CATALOGUE["mains_hum"], CATALOGUE["signal_dropout"]]
+    used, found, _ = seen_in_channels(replace(sweep, velocity_m_s=v), both)
+    assert [one.name for one in found] == ["mains_hum"]
+    assert not used[near]

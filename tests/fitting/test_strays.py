@@ -1,0 +1,83 @@
+"""Readings that are none are found, and nothing that a structure does is taken for one."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fitting.strays import strays
+from fitting.sweep import Sweep
+
+F = np.linspace(14.0, 26.0, 121)
+
+
+def sweep(v, f=F):
+    ones = np.ones(len(f), dtype=int)
+    return Sweep(f, v, np.full(len(f), 9.81), segment=ones, sweep=ones)
+
+
+def modes(f, resonances, losses, seed=0):
+    rng = np.random.default_rng(seed)
+    each = zip(resonances, losses, strict=True)
+    return 1j * f * sum(rng.uniform(0.3, 1) / (p**2 * (1 + 1j * eta) - f**2) for p, eta in each)
+
+
+def noisy(v, rng, share=3e-3):
+    return v * (1 + share * (rng.normal(size=len(v)) + 1j * rng.normal(size=len(v))))
+
+
+def test_readings_off_by_a_third_are_found_with_how_far_they_are_off():
+    clean = noisy(modes(F, [19.0], [0.1]), np.random.default_rng(1))
+    v = clean.copy()
+    at = np.array([20, 70, 72, 100])
+    v[at] *= [1.4, 0.7, 1.5, 0.2]
+    off = strays(sweep(v))
+    assert (np.flatnonzero(off) == at).all()
+    assert off[at] == pytest.approx(np.abs(v - clean)[at], rel=0.1)
+
+
+@pytest.mark.parametrize("count", [2, 4, 8])
+def test_a_signal_lost_for_some_readings_is_found_however_smooth_its_floor(count):
+    v = noisy(modes(F, [19.0], [0.1]), np.random.default_rng(2))
+    v[60 : 60 + count] = 1e-2 * v[60 : 60 + count]
+    assert (np.flatnonzero(strays(sweep(v))) == np.arange(60, 60 + count)).all()
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    seed=st.integers(0, 10**6),
+    count=st.integers(1, 8),
+    loss=st.floats(2e-3, 0.5),
+    points=st.sampled_from([60, 200, 800]),
+    share=st.floats(1e-4, 2e-2),
+)
+def test_no_reading_of_any_structure_is_set_aside(seed, count, loss, points, share):
+    rng = np.random.default_rng(seed)
+    f = np.linspace(10.0, 400.0, points)
+    v = noisy(modes(f, rng.uniform(10, 400, count), np.full(count, loss), seed), rng, share)
+    floor = 2e-3 * np.median(np.abs(v))
+    v += floor * (rng.normal(size=points) + 1j * rng.normal(size=points))
+    assert not strays(sweep(v, f)).any()
+
+
+def test_what_is_off_in_a_fifth_of_a_curve_is_no_stray():
+    rng = np.random.default_rng(3)
+    v = noisy(modes(F, [19.0], [0.1]), rng)
+    at = rng.choice(121, 24, replace=False)
+    v[at] *= rng.uniform(1.3, 3, 24)
+    assert not strays(sweep(v)).any()
+
+
+def test_amplitudes_and_a_few_points_say_nothing():
+    v = noisy(modes(F, [19.0], [0.1]), np.random.default_rng(4))
+    v[50] *= 3
+    assert not strays(sweep(np.abs(v))).any()
+    assert not strays(sweep(v[45:55], F[45:55])).any()
+
+
+def test_the_order_of_points_carries_no_meaning():
+    rng = np.random.default_rng(5)
+    v = noisy(modes(F, [19.0], [0.1]), rng)
+    v[[30, 31, 32, 80]] *= 0.1
+    order = rng.permutation(121)
+    assert strays(sweep(v[order], F[order])) == pytest.approx(strays(sweep(v))[order])
