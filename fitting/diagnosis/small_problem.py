@@ -25,8 +25,8 @@ from fitting.structures.small import (
 )
 from fitting.sweep import Sweep
 
-_PLACES = 24
-"""Frequencies of a band that a beam's first sum is made to hold at: some four to each resonance."""
+_PLACES, _FEWEST = 24, 8
+"""Frequencies that a beam's first sum is made to hold at, four to each resonance; the least of a band."""
 _SIZES, _ANGLES = (0.01, 0.1, 0.5, 2.0, 10.0, 100.0), (0.1, 0.8, 1.4)
 """And moduli, over a size and by argument: a decade or less apart, from hardly any loss to mostly loss."""
 _LEFT_OUT = 1e-6
@@ -45,11 +45,14 @@ DEAF = 0.15
 """Where ln of the reading changes by less for a change of ln G*, a misfit leaves nothing of the core."""
 
 
-def _compact(own: EnrichedReducedPlate, omega: Array, size_pa: float) -> EnrichedReducedPlate:
-    """A beam as far as it answers in a band, for any core within two decades of a size."""
+def _compact(own: EnrichedReducedPlate, omega: Array, size_pa: float, share: float) -> EnrichedReducedPlate:
+    """A beam as far as it answers in a band, for any core within two decades of a size.
+
+    Shape (points,) of `omega`, rad/s: a `share` of all that there are.
+    """
     if len(own.load) <= FEW:
         return own
-    some = np.geomspace(omega.min(), omega.max(), _PLACES)
+    some = np.geomspace(omega.min(), omega.max(), max(_FEWEST, int(share * _PLACES)))
     G = [size_pa * a * np.exp(1j * b) for a in _SIZES for b in _ANGLES]
     return own.condensed(np.tile(some, len(G)), np.repeat(G, len(some)), left_out=_LEFT_OUT)
 
@@ -71,7 +74,11 @@ class SmallProblem(DiagnosisProblem):
         system = widened_system_of(specimen, parts)
         assert specimen.core is not None
         size = float(np.exp(np.mean(np.log(np.abs(specimen.core.law.modulus(sweep.omega))))))
-        rational = rational_of(_compact(system.take([]), sweep.omega, size), sweep.omega, size)
+
+        def compact(own: EnrichedReducedPlate, omega: Array) -> EnrichedReducedPlate:
+            return _compact(own, omega, size, len(omega) / len(sweep))
+
+        rational = rational_of(system.take([]), sweep.omega, size, compact)
         nodes = EveryPoint.at(sweep.omega)
         grid = NodeGrid(nodes, rational)
         points = points_of(sweep, specimen)

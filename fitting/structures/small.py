@@ -7,13 +7,14 @@ same kind of object as the widened reduced plate (`fitting.effects.enriched_plat
 unknowns themselves, in groups where some are for an effect alone.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Array, Complex
@@ -27,8 +28,8 @@ from fitting.placed import Placed
 from fitting.rational import RationalSweep
 from fitting.specimen import StatedSpecimen
 
-_SHARED = 100
-"""Points from which on two threads share them: a millisecond's work."""
+_SHARED, _BANDS = 100, 4
+"""Points from which on two threads share them, a millisecond's work, and the bands that they share."""
 _STILL = 1e-9
 """A reading below this reads nothing but rounding."""
 _WIDE, _STEP = 0.1, 1e-3
@@ -265,29 +266,47 @@ def _sum(c: Complex, P: Array, k: int) -> Complex:
     return np.asarray(np.tensordot(c, P, axes=1)) if len(P) else np.zeros((k, k), complex)
 
 
-def rational_of(system: EnrichedReducedPlate, omega: Array, size_pa: float) -> RationalSweep:
-    """The same system at some frequencies (rad/s) as a sum in G*, about a modulus of a size. Shape (n,)."""
+def rational_of(
+    system: EnrichedReducedPlate,
+    omega: Array,
+    size_pa: float,
+    condensed: Callable[[EnrichedReducedPlate, Array], EnrichedReducedPlate] | None = None,
+) -> RationalSweep:
+    """The same system at some frequencies (rad/s) as a sum in G*, about a modulus of a size. Shape (n,).
+
+    `condensed` gives what answers in a band, from the system and the band's frequencies: over many points few
+    bands are each answered by fewer motions than all of them need together.
+    """
+    omega = np.asarray(omega, dtype=float)
     G_ref = complex(size_pa * np.exp(1j * _LOSSY))
-    w = np.asarray(omega, dtype=float)[:, None, None]
+
+    def terms(band: NDArray[np.intp]) -> tuple[Complex, Complex]:
+        own = condensed(system, omega[band]) if condensed else system
+        return _terms(own, omega[band], G_ref)
+
+    if len(omega) < _SHARED:
+        return RationalSweep(omega, G_ref, *terms(np.arange(len(omega))))
+    bands = np.array_split(np.argsort(omega, kind="stable"), _BANDS)
+    # The upper ones take longest: they come first.
+    bands.reverse()
+    with threadpool_limits(1, "blas"), ThreadPoolExecutor(2) as pool:
+        found = list(pool.map(terms, bands))
+    c, mu = (np.zeros((len(omega), max(mu.shape[1] for _, mu in found)), complex) for _ in range(2))
+    for band, (some_c, some_mu) in zip(bands, found, strict=True):
+        c[band, : some_c.shape[1]], mu[band, : some_mu.shape[1]] = some_c, some_mu
+    return RationalSweep(omega, G_ref, c, mu)
+
+
+def _terms(system: EnrichedReducedPlate, omega: Array, G_ref: complex) -> tuple[Complex, Complex]:
+    """Terms c and mu of the sum at each frequency. Shape (n, k) each."""
+    w = omega[:, None, None]
     C_1 = (system.U * system.d) @ system.U.T
     A = system.K_0 + G_ref * system.K_1 - w**2 * system.M + 1j * w * C_1
     sides = np.concatenate([system.K_1, system.load[:, None]], axis=1).astype(complex)
-    sides = np.broadcast_to(sides, (len(omega), *sides.shape))
-    if len(omega) < _SHARED:
-        c, mu = _terms(A, sides, system.observe)
-    else:
-        with threadpool_limits(1, "blas"), ThreadPoolExecutor(2) as pool:
-            halves = pool.map(_terms, np.array_split(A, 2), np.array_split(sides, 2), [system.observe] * 2)
-            c, mu = (np.concatenate(both) for both in zip(*halves, strict=True))
-    return RationalSweep(np.asarray(omega, dtype=float), G_ref, c, mu)
-
-
-def _terms(A: Complex, sides: Complex, observe: Array) -> tuple[Complex, Complex]:
-    """Terms c and mu of the sum at each point; shapes (n, k, k), (n, k, k + 1), (k,) to (n, k) each."""
-    solved = np.linalg.solve(A, sides)
+    solved = np.linalg.solve(A, np.broadcast_to(sides, (len(omega), *sides.shape)))
     mu, Y = np.linalg.eig(solved[:, :, :-1])
     weights = np.linalg.solve(Y, solved[:, :, -1:])[:, :, 0]
-    return (observe @ Y) * weights, mu
+    return (system.observe @ Y) * weights, mu
 
 
 def displacement(system: EnrichedReducedPlate, omega: Array, G: Complex) -> Complex:

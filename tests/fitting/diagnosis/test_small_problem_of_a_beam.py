@@ -40,6 +40,19 @@ def test_its_first_sum_answers_as_all_of_the_beam_does_for_any_core(problem, siz
     assert problem.rational.mu.shape[1] < len(system_of(BEAM, BEAM.parts()).load)
 
 
+@pytest.mark.parametrize("size_pa", [3e4, 1e6, 5e7])
+def test_many_points_in_any_order_are_answered_band_by_band_on_fewer_motions_where_few_will_do(size_pa):
+    f = np.random.default_rng(2).permutation(np.geomspace(20, 2000, 320))
+    one = np.ones(320, int)
+    rational = SmallProblem.of_small(Sweep(f, np.ones(320, complex), 9.81 * one, one, one), BEAM).rational
+    G, omega = np.full(320, size_pa * np.exp(0.6j)), 2 * np.pi * f
+    off = np.abs(rational.displacement(G) / displacement(system_of(BEAM, BEAM.parts()), omega, G) - 1)
+    assert off.max() < 2e-4
+    assert np.median(off) < 1e-6
+    terms = np.count_nonzero(rational.c, axis=1)
+    assert terms[f < 60].max() < 0.7 * terms[f > 700].min()
+
+
 def test_condensed_to_a_law_it_keeps_what_effects_move(problem):
     few = problem.condensed(LAW)
     assert len(few.plate.load) < len(problem.plate.load)
