@@ -36,6 +36,7 @@ _CHARACTERS = 57
 """In a line of something to read."""
 _WIDE_PX, _HIGH_PX = 820, 460
 Then = Callable[[Path], object]
+ThenAll = Callable[[list[Path]], object]
 _FILES = QFileDialog.FileMode
 
 
@@ -59,6 +60,11 @@ def ask_open(owner: QWidget, title: str, start: str, kinds: str, then: Then) -> 
 def ask_open_many(owner: QWidget, title: str, start: str, kinds: str, then: Then) -> None:
     """For files; each is told."""
     _ask(owner, title, start, kinds, _FILES.ExistingFiles, then)
+
+
+def ask_open_all(owner: QWidget, title: str, start: str, kinds: str, then: ThenAll) -> None:
+    """For files, all told at once."""
+    _ask(owner, title, start, kinds, _FILES.ExistingFiles, then_all=then)
 
 
 def ask_save(owner: QWidget, title: str, start: str, kinds: str, then: Then) -> None:
@@ -98,8 +104,17 @@ def tell(owner: QWidget, title: str, text: str) -> None:
     show(box, owner, title)
 
 
-def _ask(owner: QWidget, title: str, start: str, kinds: str, mode: QFileDialog.FileMode, then: Then) -> None:
-    dialog = _Files(owner, title, then)
+def _ask(
+    owner: QWidget,
+    title: str,
+    start: str,
+    kinds: str,
+    mode: QFileDialog.FileMode,
+    then: Then | None = None,
+    *,
+    then_all: ThenAll | None = None,
+) -> None:
+    dialog = _Files(owner, title, then, then_all)
     # The system's own dialogs are modal, and keep the keyboard to themselves.
     dialog.setOption(QFileDialog.Option.DontUseNativeDialog)
     dialog.setFileMode(mode)
@@ -135,12 +150,15 @@ def _dress(dialog: QFileDialog) -> None:
 
 
 class _Files(QFileDialog):
-    def __init__(self, owner: QWidget, title: str, then: Then) -> None:
+    def __init__(self, owner: QWidget, title: str, then: Then | None, then_all: ThenAll | None) -> None:
         super().__init__(owner, title)
-        self._then = then
+        self._then, self._then_all = then, then_all
         self.accepted.connect(self._tell)
 
     def _tell(self) -> None:
-        for name in self.selectedFiles():
-            if name:
-                self._then(Path(name))
+        chosen = [Path(name) for name in self.selectedFiles() if name]
+        if self._then_all is not None and chosen:
+            self._then_all(chosen)
+        if self._then is not None:
+            for path in chosen:
+                self._then(path)

@@ -107,8 +107,9 @@ class BackgroundTask(QObject, Generic[T]):
 class BackgroundCommand(QObject):
     """A `viscorig` command in a process of its own; what it writes as JSON, a `result`, goes with `done`.
 
-    So the window has the same numbers as the command line. One of `done`, `failed`, `cancelled` comes.
-    `progressed` tells what is being worked at and the fraction of it that is done.
+    So the window has the same numbers as the command line. Of several kinds that its result may be of it is
+    the first that can be read. One of `done`, `failed`, `cancelled` comes. `progressed` tells what is being
+    worked at and the fraction of it that is done.
     """
 
     done = Signal(object)
@@ -116,9 +117,15 @@ class BackgroundCommand(QObject):
     cancelled = Signal()
     progressed = Signal(str, float)
 
-    def __init__(self, arguments: list[str], result: type[Result], parent: QObject | None = None) -> None:
+    def __init__(
+        self,
+        arguments: list[str],
+        result: type[Result] | tuple[type[Result], ...],
+        parent: QObject | None = None,
+    ) -> None:
         super().__init__(parent)
-        self._result, self._command = result, arguments[0]
+        self._results = result if isinstance(result, tuple) else (result,)
+        self._command = arguments[0]
         self._unwanted = False
         self.over = False
         self._process = QProcess(self)
@@ -176,15 +183,18 @@ class BackgroundCommand(QObject):
             return
         self._hear()
         if status != 0:
-            said = self._said[-1].removeprefix("viscorig: ") if self._said else "it failed"
-            self.failed.emit(self._without_option(said))
+            why = self._said[-1].removeprefix("viscorig: ") if self._said else "it failed"
+            self.failed.emit(self._without_option(why))
             return
-        try:
-            found = self._result.model_validate_json(bytes(self._process.readAllStandardOutput().data()))
-        except ValueError:
-            self.failed.emit("it gave no result")
+        said = bytes(self._process.readAllStandardOutput().data())
+        for kind in self._results:
+            try:
+                found = kind.model_validate_json(said)
+            except ValueError:
+                continue
+            self.done.emit(found)
             return
-        self.done.emit(found)
+        self.failed.emit("it gave no result")
 
     def _without_option(self, said: str) -> str:
         """A window has no options: what goes on all the same is the command line."""

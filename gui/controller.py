@@ -11,6 +11,7 @@ from gui.feeds.live import LiveFeed
 from gui.feeds.recorded import RecordedFeed
 from gui.rediagnosis import Rediagnosis
 from gui.state import SessionState
+from gui.together import Together
 from instrument.engine import Engine, Order, Stopped
 from instrument.engine.client import ENGINE
 from instrument.engine.messages import Ended
@@ -42,6 +43,8 @@ class AppController(QObject):
         Path of an experiment file, to be shown and run.
     comparison_wanted
         Path of a session whose law is to be laid beside this one's.
+    page_wanted
+        Name of a page to be shown, as `gui.pages` calls it.
     """
 
     changed = Signal()
@@ -51,6 +54,7 @@ class AppController(QObject):
     beside_changed = Signal()
     experiment_chosen = Signal(Path)
     comparison_wanted = Signal(Path)
+    page_wanted = Signal(str)
     engine: Sequence[str] = ENGINE
     """The program runs live in."""
 
@@ -60,6 +64,8 @@ class AppController(QObject):
         self.beside: dict[Path, Found] = {}
         """Other programs' data and other sessions' sweeps, to be drawn beside the session's."""
         self.rediagnosis = Rediagnosis(self)
+        self.together = Together(self.rediagnosis, self)
+        self.changed.connect(self.together.let_go)
         self.changed.connect(self.rediagnosis.forget)
         self.ending: Ended | None = None
         """Of the last run; None while one goes on."""
@@ -187,6 +193,7 @@ class AppController(QObject):
 
     def close(self) -> None:
         """Let go of everything."""
+        self.together.close()
         self.rediagnosis.close()
         for work in self._reading.values():
             work.close()

@@ -13,6 +13,7 @@ from gui.export import Export
 from gui.page_set import key_of
 from gui.printing import Printing
 from gui.shell import Shell
+from gui.taking_together import TOGETHER, ask_together
 from gui.theme import SCALES, Mode
 from instrument.files.acceleration import UNITS, acceleration_unit
 from instrument.interchange.readers import foreign_endings
@@ -26,6 +27,8 @@ Ctrl+Return\twhat the run asks for is done
 Ctrl+N, Ctrl+S\ta new experiment, save it
 F7, F5\tcheck it, start it
 Ctrl+O\topen a session, an experiment or other data
+Ctrl+Shift+O\tadd files that are fitted together
+Ctrl+I, Ctrl+D\tof several files: identify, diagnose
 Ctrl+R, Ctrl+Shift+P\tsave the report as a page, as a PDF
 Ctrl+P\tprint the report
 Ctrl+Space\tplay, pause
@@ -71,6 +74,7 @@ class Menus(QObject):
     def _file(self) -> None:
         menu = self._window.menuBar().addMenu("&File")
         self._add(menu, "&Open...", self._open, "Ctrl+O")
+        self._add(menu, "Add files to fit &together...", self._add_together, "Ctrl+Shift+O")
         self._recent = menu.addMenu("Open &recent")
         close = self._add(menu, "&Close session", self._window.controller.leave, "Ctrl+W")
         menu.addSeparator()
@@ -145,6 +149,10 @@ class Menus(QObject):
         endings = " ".join(f"*{e}" for e in (*SESSION_ENDINGS, EXPERIMENT_ENDING, *foreign_endings()))
         kinds = f"Sessions, experiments and data ({endings});;Everything (*)"
         ask_open(self._window, "Open", "", kinds, self._window.open)
+
+    def _add_together(self) -> None:
+        self._window.show_page(TOGETHER)
+        ask_together(self._window, self._window.controller.together)
 
     def _open_recent(self) -> None:
         self._window.open(Path(str(self._data())))

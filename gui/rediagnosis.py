@@ -10,6 +10,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal
 
 from gui.background_task import BackgroundCommand
+from gui.pairing import PairedFile, arguments_of
 from gui.state import SessionState
 from instrument.facts.diagnosis import DiagnosisResult
 
@@ -25,6 +26,18 @@ class DiagnosisAsked:
     """Fitted on a person's word, nothing searched for; empty for no effect at all."""
     decline: tuple[str, ...] = field(default=())
     """Left out of the search."""
+    further: tuple[PairedFile, ...] = ()
+    """Files that are diagnosed together with the first one."""
+
+    @property
+    def files(self) -> tuple[PairedFile, ...]:
+        """All of them, each with its specimen."""
+        return PairedFile(self.data, self.specimen), *self.further
+
+    @property
+    def of_session(self) -> bool:
+        """Whether it is of a session as it stands, and of nothing else."""
+        return self.specimen is None and not self.further
 
     @property
     def by_hand(self) -> bool:
@@ -34,9 +47,7 @@ class DiagnosisAsked:
     @property
     def arguments(self) -> list[str]:
         """Of the command line."""
-        said = ["diagnose", str(self.data)]
-        if self.specimen is not None:
-            said += ["--specimen", str(self.specimen)]
+        said = ["diagnose", *arguments_of(self.files)]
         if self.accept is not None:
             said += [f"--accept={name}" for name in self.accept or ("none",)]
         return said + [f"--without={name}" for name in self.decline]
@@ -73,8 +84,8 @@ class Rediagnosis(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.found: ShownDiagnosis | None = None
-        self._searched: dict[Path, DiagnosisResult] = {}
-        """The last whole search of each file made here."""
+        self._searched: dict[tuple[PairedFile, ...], DiagnosisResult] = {}
+        """The last whole search of each file, or of several, made here."""
         self._asked: DiagnosisAsked | None = None
         self._command: BackgroundCommand | None = None
 
@@ -82,6 +93,11 @@ class Rediagnosis(QObject):
     def running(self) -> bool:
         """Whether one is being made."""
         return self._command is not None
+
+    @property
+    def asked(self) -> DiagnosisAsked | None:
+        """The last that was asked for."""
+        return self._asked
 
     def shown(self, state: SessionState | None) -> ShownDiagnosis | None:
         """What pages show: the one made here, else the session's own; None where there is neither."""
@@ -95,8 +111,8 @@ class Rediagnosis(QObject):
         shown = self.shown(state)
         if shown is None or shown.asked is None:
             return shown.found if shown is not None else None
-        own = _recorded(state) if shown.asked.specimen is None else None
-        return self._searched.get(shown.asked.data) or own or shown.found
+        own = _recorded(state) if shown.asked.of_session else None
+        return self._searched.get(shown.asked.files) or own or shown.found
 
     def start(self, asked: DiagnosisAsked) -> None:
         """Make it; whatever was being made is let go of."""
@@ -115,6 +131,12 @@ class Rediagnosis(QObject):
             self._drop()
             self.changed.emit()
 
+    def show(self, shown: ShownDiagnosis) -> None:
+        """One that was made here before."""
+        self._drop()
+        self.found = shown
+        self.changed.emit()
+
     def forget(self) -> None:
         """Back to what is recorded."""
         self._drop()
@@ -131,7 +153,7 @@ class Rediagnosis(QObject):
         self._let_go()
         self.found = ShownDiagnosis(found, _origin(self._asked), self._asked)
         if self._asked.accept is None:
-            self._searched[self._asked.data] = found
+            self._searched[self._asked.files] = found
         self.changed.emit()
 
     def _failed(self, message: str) -> None:
@@ -159,9 +181,10 @@ def _recorded(state: SessionState | None) -> DiagnosisResult | None:
 
 
 def _origin(asked: DiagnosisAsked) -> str:
+    of = f"{len(asked.files)} files" if asked.further else asked.data.name
     if not asked.by_hand:
-        return f"made here of {asked.data.name}, not recorded"
-    return "by hand, not recorded" if asked.specimen is None else f"{asked.data.name}: by hand, not recorded"
+        return f"made here of {of}, not recorded"
+    return "by hand, not recorded" if asked.of_session else f"{of}: by hand, not recorded"
 
 
 def effects_of(names: Sequence[str]) -> tuple[str, ...]:

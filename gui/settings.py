@@ -10,6 +10,8 @@ from gui.theme import Appearance, Mode
 from instrument.files.acceleration import USUAL
 
 _MOST_RECENT = 10
+_MOST_PAIRS = 100
+"""Of data and specimens: a laboratory's last weeks."""
 
 
 @dataclass(frozen=True)
@@ -63,6 +65,24 @@ class Settings:
         path = session.resolve()
         newest = [path, *(p for p in self.recent if p != path)][:_MOST_RECENT]
         self._kept.setValue("recent", [str(p) for p in newest])
+
+    @property
+    def specimens(self) -> dict[Path, Path]:
+        """Of data that were fitted together, the specimens they had; the newest first."""
+        kept = self._kept.value("specimens", [])
+        names = kept if isinstance(kept, list) else []
+        if len(names) % 2:
+            return {}
+        return {
+            Path(str(data)): Path(str(specimen)) for data, specimen in zip(*[iter(names)] * 2, strict=True)
+        }
+
+    def remember_specimen(self, data: Path, specimen: Path) -> None:
+        """One was chosen for these data."""
+        newest = {data: specimen} | {d: s for d, s in self.specimens.items() if d != data}
+        self._kept.setValue(
+            "specimens", [str(p) for pair in list(newest.items())[:_MOST_PAIRS] for p in pair]
+        )
 
     def keep(self, arrangement: Arrangement, appearance: Appearance) -> None:
         """Of a window that closes."""

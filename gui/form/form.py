@@ -5,37 +5,19 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from PySide6.QtCore import (
-    QEvent,
-    QModelIndex,
-    QObject,
-    QPersistentModelIndex,
-    QSignalBlocker,
-    Qt,
-    QTimer,
-    Signal,
-)
-from PySide6.QtGui import QBrush, QFocusEvent, QKeyEvent, QPainter, QResizeEvent
-from PySide6.QtWidgets import (
-    QApplication,
-    QComboBox,
-    QHBoxLayout,
-    QHeaderView,
-    QLineEdit,
-    QStyleOptionViewItem,
-    QTreeWidget,
-    QTreeWidgetItem,
-    QWidget,
-)
+from PySide6.QtCore import QEvent, QSignalBlocker, Qt, QTimer, Signal
+from PySide6.QtGui import QBrush
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QHeaderView, QLineEdit, QTreeWidgetItem, QWidget
 
 from gui.asking import ask_open
 from gui.form.draft import Draft
 from gui.form.fields import FILES, Field, FormSection, Place, device_fields, form_of, law_fields
+from gui.form.keys import KeyedRows
+from gui.form.rows import FAULT, NAME, UNIT, VALUE, Editor
 from gui.theme import current_theme
 from gui.widgets import tool
 from instrument.files.acceleration import said_beside
 
-_NAME, _VALUE, _UNIT, _FAULT = range(4)
 _OPEN = (
     "mounting",
     "hammer",
@@ -52,11 +34,9 @@ _OPEN = (
 )
 """Tables shown unfolded from the start; one with a fault is too."""
 _FAULTY = "\u2716 "
-_LEAST_LETTERS, _LETTERS, _FAULT_LETTERS, _WORDS = 20, 42, 4, 38
-"""Width of a field, at least and at most, and what is left beside it: a little, or room for a fault."""
 
 
-class Form(QTreeWidget):
+class Form(KeyedRows):
     """Of one file.
 
     Signals
@@ -70,46 +50,22 @@ class Form(QTreeWidget):
     def __init__(self, draft: Draft, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.draft = draft
-        self._items: dict[Place, QTreeWidgetItem] = {}
-        self._editors: dict[Place, QLineEdit | QComboBox] = {}
         self._fields: dict[Place, tuple[QTreeWidgetItem, Field]] = {}
-        self.setColumnCount(4)
-        self.setHeaderLabels(["", "value", "unit", ""])
-        self.setSelectionMode(QTreeWidget.SelectionMode.NoSelection)
-        # Arrow keys walk along the rows and fold them, space ticks a table, Enter goes into a field.
-        self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self.setVerticalScrollMode(QTreeWidget.ScrollMode.ScrollPerPixel)
-        self.setIndentation(self.fontMetrics().averageCharWidth() * 2)
         self.itemChanged.connect(self._switched)
         self._build()
 
     @property
     def said(self) -> list[str]:
         """What is wrong, as it stands beside the fields."""
-        found = [item.text(_FAULT) for item in self._items.values() if item.text(_FAULT)]
+        found = [item.text(FAULT) for item in self._items.values() if item.text(FAULT)]
         return [said.removeprefix(_FAULTY) for said in found]
-
-    def editor(self, *place: str | int) -> QLineEdit | QComboBox:
-        """The field of a place. Raises `KeyError`."""
-        return self._editors[place]
-
-    def item(self, *place: str | int) -> QTreeWidgetItem:
-        """The row of a place. Raises `KeyError`."""
-        return self._items[place]
-
-    def type_into(self, place: Place, text: str) -> None:
-        """As a person would; nothing where there is no such field."""
-        editor = self._editors.get(place)
-        if isinstance(editor, QLineEdit):
-            editor.setText(text)
-            editor.textEdited.emit(text)
 
     def say_units(self) -> None:
         """Beside every field, with its value in the unit of acceleration that is shown elsewhere."""
         with QSignalBlocker(self):
             for place, (item, field) in self._fields.items():
                 said = said_beside(field.key, _number_of(self.draft.value(place), field))
-                item.setText(_UNIT, f"{field.unit} {said}".rstrip())
+                item.setText(UNIT, f"{field.unit} {said}".rstrip())
 
     def judge(self) -> None:
         """Say what is wrong, each fault at its place or at the next one around it."""
@@ -122,47 +78,20 @@ class Form(QTreeWidget):
         with QSignalBlocker(self):
             for place, item in self._items.items():
                 words = said.get(place, "")
-                item.setText(_FAULT, f"{_FAULTY}{words}" if words else "")
-                item.setToolTip(_FAULT, words)
-                item.setForeground(_FAULT, color)
+                item.setText(FAULT, f"{_FAULTY}{words}" if words else "")
+                item.setToolTip(FAULT, words)
+                item.setForeground(FAULT, color)
                 if words:
-                    self._unfold(item)
-        self.headerItem().setText(_FAULT, f"{_FAULTY}{said[()]}" if () in said else "")
-        self._fit_values()
+                    self.unfold(item)
+        self.headerItem().setText(FAULT, f"{_FAULTY}{said[()]}" if () in said else "")
+        self.fit_values()
 
     def show_fault(self) -> None:
         """Go to the first one, and let it be mended."""
         for place, item in self._items.items():
-            if item.text(_FAULT):
-                self.scrollToItem(item, QTreeWidget.ScrollHint.PositionAtCenter)
-                if place in self._editors:
-                    self._editors[place].setFocus()
+            if item.text(FAULT):
+                self.show_place(place)
                 return
-
-    def focusInEvent(self, event: QFocusEvent) -> None:
-        """The keyboard is at some row, always."""
-        super().focusInEvent(event)
-        first = self.topLevelItem(0)
-        if self.currentItem() is None and first is not None:
-            self.setCurrentItem(first, _NAME)
-
-    def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Enter goes into the row's field; Escape there comes back."""
-        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
-            editor = self._editors.get(self._place_of(self.currentItem()))
-            if editor is not None:
-                editor.setFocus(Qt.FocusReason.TabFocusReason)
-                return
-        super().keyPressEvent(event)
-
-    def drawRow(
-        self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
-    ) -> None:
-        """The row that keys act on has a frame."""
-        super().drawRow(painter, option, index)
-        if self.hasFocus() and self.itemFromIndex(index) is self.currentItem():
-            painter.setPen(current_theme().color("data"))
-            painter.drawRect(option.rect.adjusted(0, 0, -1, -1))
 
     def changeEvent(self, event: QEvent) -> None:
         """Colours follow the window's."""
@@ -175,7 +104,7 @@ class Form(QTreeWidget):
     def _build(self) -> None:
         folded = {place for place, item in self._items.items() if item.childCount() and not item.isExpanded()}
         known, at = bool(self._items), self.verticalScrollBar().value()
-        row, typed = self._place_of(self.currentItem()), self._place_with_keyboard()
+        row, typed = self.place_of(self.currentItem()), self.place_with_keyboard()
         here = self.hasFocus() or typed is not None
         if typed is not None:
             # A field that goes while it has the keyboard hands it to the next one that goes.
@@ -192,69 +121,29 @@ class Form(QTreeWidget):
                 item.setExpanded(place not in folded if known else str(place[-1]) in _OPEN or len(place) == 3)
             self.say_units()
             header = self.header()
-            for column in (_NAME, _UNIT):
+            for column in (NAME, UNIT):
                 header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
             header.setStretchLastSection(True)
-            self._fit_values()
+            self.fit_values()
         self.verticalScrollBar().setValue(at)
         self.judge()
         if here:
-            self._give_keyboard_back(row, typed)
-
-    def _place_of(self, item: QTreeWidgetItem | None) -> Place:
-        return next((place for place, one in self._items.items() if one is item), ())
-
-    def _place_with_keyboard(self) -> Place | None:
-        """Of the field, or the row of the button, that has it; None where that is elsewhere."""
-        held = QApplication.focusWidget()
-        if held is None or held is self or not self.isAncestorOf(held):
-            return None
-        inside = self.viewport()
-        for place, item in self._items.items():
-            row = self.itemWidget(item, _VALUE)
-            if row is not None and inside.isAncestorOf(row) and (row is held or row.isAncestorOf(held)):
-                return place
-        return None
-
-    def _give_keyboard_back(self, row: Place, typed: Place | None) -> None:
-        """To what is where it was: a table that is ticked makes all rows anew."""
-        if row in self._items:
-            self.setCurrentItem(self._items[row], _NAME)
-        if typed is not None and typed in self._editors:
-            self._editors[typed].setFocus()
-        else:
-            if typed is not None and typed in self._items:
-                self.setCurrentItem(self._items[typed], _NAME)
-            self.setFocus()
-
-    def _fit_values(self) -> None:
-        """Fields as wide as leaves room for what stands beside them; not narrower than a number."""
-        letter = self.fontMetrics().averageCharWidth()
-        beside = sum(self.sizeHintForColumn(column) for column in (_NAME, _UNIT))
-        faulty = any(item.text(_FAULT) for item in self._items.values())
-        # What is wrong needs words; a number needs little.
-        room = self.viewport().width() - beside - (_WORDS if faulty else _FAULT_LETTERS) * letter
-        self.header().resizeSection(_VALUE, max(_LEAST_LETTERS * letter, min(_LETTERS * letter, room)))
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        """More room for the fields, or less."""
-        super().resizeEvent(event)
-        self._fit_values()
+            self.give_keyboard_back(row, typed)
 
     def _section(self, above: QTreeWidgetItem | None, place: Place, section: FormSection) -> None:
-        item = self._row(above, place, section.label, section.tip)
-        font = item.font(_NAME)
+        item = self.add_row(above, place, section.label, section.tip)
+        font = item.font(NAME)
         font.setBold(True)
-        item.setFont(_NAME, font)
+        item.setFont(NAME, font)
         if section.repeated:
             self._tables(item, place, section)
             return
         if section.off != "never":
             item.setFlags(item.flags() | Qt.ItemFlag.ItemIsUserCheckable)
             item.setCheckState(
-                _NAME, Qt.CheckState.Checked if self._is_on(place, section) else Qt.CheckState.Unchecked
+                NAME, Qt.CheckState.Checked if self._is_on(place, section) else Qt.CheckState.Unchecked
             )
-            item.setData(_NAME, Qt.ItemDataRole.UserRole, section.off)
+            item.setData(NAME, Qt.ItemDataRole.UserRole, section.off)
             if not self._is_on(place, section):
                 return
         self._inside(item, place, section)
@@ -271,19 +160,19 @@ class Form(QTreeWidget):
             self._section(item, (*place, inner.key), inner)
 
     def _tables(self, item: QTreeWidgetItem, place: Place, section: FormSection) -> None:
-        self.setItemWidget(item, _VALUE, self._button("plus", "Another one, like the last", self._add, place))
+        self.setItemWidget(item, VALUE, self._button("plus", "Another one, like the last", self._add, place))
         given = self.draft.value(place)
         for number in range(len(given) if isinstance(given, list) else 0):
             one = (*place, number)
-            row = self._row(item, one, f"{section.label.removesuffix('s')} {number + 1}", section.tip)
-            self.setItemWidget(row, _VALUE, self._button("minus", "Take it away", self._take_away, one))
+            row = self.add_row(item, one, f"{section.label.removesuffix('s')} {number + 1}", section.tip)
+            self.setItemWidget(row, VALUE, self._button("minus", "Take it away", self._take_away, one))
             self._inside(row, one, section)
 
     def _field(self, above: QTreeWidgetItem | None, place: Place, field: Field) -> None:
-        item = self._row(above, place, field.label, field.tip)
+        item = self.add_row(above, place, field.label, field.tip)
         self._fields[place] = item, field
         given = self.draft.shown(place, field.kind)
-        editor: QLineEdit | QComboBox
+        editor: Editor
         choices = ("yes", "no") if field.kind == "switch" else field.choices
         if choices:
             editor = QComboBox()
@@ -299,10 +188,10 @@ class Form(QTreeWidget):
             editor.setCursorPosition(0)
             editor.setPlaceholderText(field.default or ("needed" if field.needed else ""))
             editor.textEdited.connect(partial(self._typed, place, field))
-        editor.installEventFilter(self)
+        self.hear_keys_of(editor)
         editor.setToolTip(field.tip)
         editor.setAccessibleName(".".join(str(key) for key in place))
-        self.setItemWidget(item, _VALUE, self._with_picker(place, editor) if field.kind == "file" else editor)
+        self.setItemWidget(item, VALUE, self._with_picker(place, editor) if field.kind == "file" else editor)
         self._editors[place] = editor
 
     def _with_picker(self, place: Place, editor: QWidget) -> QWidget:
@@ -335,16 +224,6 @@ class Form(QTreeWidget):
         inside = path.resolve().is_relative_to(folder)
         self.type_into(place, str(path.resolve().relative_to(folder) if inside else path.resolve()))
 
-    def _row(self, above: QTreeWidgetItem | None, place: Place, label: str, tip: str) -> QTreeWidgetItem:
-        item = QTreeWidgetItem([label, "", "", ""])
-        if above is None:
-            self.addTopLevelItem(item)
-        else:
-            above.addChild(item)
-        item.setToolTip(_NAME, tip)
-        self._items[place] = item
-        return item
-
     def _button(self, sign: str, tip: str, slot: Callable[[Place, bool], None], place: Place) -> QWidget:
         made = tool(sign, tip)
         made.clicked.connect(partial(slot, place))
@@ -360,40 +239,7 @@ class Form(QTreeWidget):
         given = self.draft.value(place)
         return given is not False if section.off == "false" else given is not None
 
-    @staticmethod
-    def _unfold(item: QTreeWidgetItem) -> None:
-        above = item.parent()
-        while above is not None:
-            above.setExpanded(True)
-            above = above.parent()
-
     # What a person does
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """The wheel is the form's, Escape goes back to the rows, and Tab scrolls to where it goes."""
-        if event.type() == QEvent.Type.Wheel and isinstance(watched, QComboBox):
-            event.ignore()
-            return True
-        if isinstance(event, QFocusEvent) and event.type() == QEvent.Type.FocusIn:
-            self._see(watched, event.reason())
-        elif isinstance(event, QKeyEvent) and _is_escape(event):
-            self._leave_field(watched)
-            return True
-        return False
-
-    def _see(self, editor: QObject, why: Qt.FocusReason) -> None:
-        item = self._items.get(self._place_of_editor(editor))
-        if item is not None and why in (Qt.FocusReason.TabFocusReason, Qt.FocusReason.BacktabFocusReason):
-            self.scrollToItem(item)
-
-    def _leave_field(self, editor: QObject) -> None:
-        item = self._items.get(self._place_of_editor(editor))
-        if item is not None:
-            self.setCurrentItem(item, _NAME)
-        self.setFocus(Qt.FocusReason.TabFocusReason)
-
-    def _place_of_editor(self, editor: QObject) -> Place:
-        return next((place for place, one in self._editors.items() if one is editor), ())
 
     def _typed(self, place: Place, field: Field, text: str) -> None:
         self.draft.write(place, field, text)
@@ -406,10 +252,10 @@ class Form(QTreeWidget):
         self._tell()
 
     def _switched(self, item: QTreeWidgetItem, column: int) -> None:
-        place = self._place_of(item)
-        off = item.data(_NAME, Qt.ItemDataRole.UserRole)
-        if column == _NAME and place and off:
-            self.draft.switch(place, item.checkState(_NAME) == Qt.CheckState.Unchecked, off == "false")
+        place = self.place_of(item)
+        off = item.data(NAME, Qt.ItemDataRole.UserRole)
+        if column == NAME and place and off:
+            self.draft.switch(place, item.checkState(NAME) == Qt.CheckState.Unchecked, off == "false")
             self._build_later()
             self._tell()
 
@@ -431,10 +277,6 @@ class Form(QTreeWidget):
         self.judge()
         self.say_units()
         self.edited.emit()
-
-
-def _is_escape(event: QKeyEvent) -> bool:
-    return event.type() == QEvent.Type.KeyPress and event.key() == Qt.Key.Key_Escape
 
 
 def _number_of(value: Any, field: Field) -> Any:

@@ -9,6 +9,7 @@ from gui.pages.hammer import HammerPage
 from gui.pages.material import MaterialPage
 from gui.pages.run import RunPage
 from gui.pages.sweep import SweepPage
+from gui.pages.together import TogetherPage
 
 
 def _judge(name: str, found: Any) -> type[Page]:
@@ -27,6 +28,7 @@ PAGES: Registry[type[Page]] = Registry(
         "hammer": HammerPage,
         "material": MaterialPage,
         "diagnosis": DiagnosisPage,
+        "together": TogetherPage,
     },
     _judge,
 )

@@ -66,10 +66,18 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]
     # What is shown
 
     def line(
-        self, name: str, x: Array, y: Array, role: Role = "model", *, width: float = 1.5, dashed: bool = False
+        self,
+        name: str,
+        x: Array,
+        y: Array,
+        role: Role = "model",
+        *,
+        width: float = 1.5,
+        dashed: bool = False,
+        listed: bool = True,
     ) -> None:
-        """A line through points in order of x."""
-        curve = self._curve(name, "line", role)
+        """A line through points in order of x; one that goes with points need not be `listed`."""
+        curve = self._curve(name, "line", role, listed=listed)
         curve.width, curve.dashed = width, dashed
         self._set(name, curve, x, y)
 

@@ -14,6 +14,7 @@ from instrument.interchange.questions import question_modes
 from instrument.models.modal import identify_tables
 from instrument.progress import bar
 from instrument.results.modal_from import modal_from
+from instrument.results.numbers import to_error
 
 
 def identify_modes(
@@ -35,7 +36,8 @@ def identify_modes(
     if not insist:
         question_modes(tables, found.fit, data)
     result = modal_from(found, tables, [path.name for path in data])
-    rows = [[n, f"{v:.5g}", f"{result.standard_errors[n]:.2g}"] for n, v in result.parameters.items()]
+    errors = result.standard_errors
+    rows = [[n, to_error(v, errors[n]), f"{errors[n]:.2g}"] for n, v in result.parameters.items()]
     out.table(f"{result.law_kind} by modes", ["parameter", "value", "standard error"], rows)
     out.say()
     print_modes(out, result.modes)

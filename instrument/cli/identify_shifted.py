@@ -20,6 +20,7 @@ from instrument.models.members import AtTemperature
 from instrument.models.temperatures import Shifted
 from instrument.models.temperatures import identify_shifted as identify_at_temperatures
 from instrument.progress import bar
+from instrument.results.numbers import to_error, with_error
 from instrument.results.shifted_from import shifted_from
 
 _ROWS = 9
@@ -114,7 +115,7 @@ def _tell(out: Output, found: Shifted, every: Sequence[AtTemperature]) -> None:
 def _print(out: Output, found: Shifted, every_one: Sequence[AtTemperature]) -> None:
     fit, b = found.fit, found.band
     rows = [
-        [n, f"{p:.5g}", f"{e:.2g}"]
+        [n, to_error(p, e), f"{e:.2g}"]
         for n, p, e in zip(fit.shift.names, fit.parameters, fit.parameter_errors, strict=True)
     ]
     out.table(f"shift: {fit.shift.kind}", ["parameter", "value", "standard error"], rows)
@@ -133,8 +134,8 @@ def _print(out: Output, found: Shifted, every_one: Sequence[AtTemperature]) -> N
     rows = [
         [
             f"{b.frequency_hz[k]:.4g}",
-            f"{b.storage_modulus_pa[k] / 1e6:.4f} +- {b.storage_modulus_standard_error_pa[k] / 1e6:.4f}",
-            f"{b.loss_factor[k]:.4f} +- {b.loss_factor_standard_error[k]:.4f}",
+            with_error(b.storage_modulus_pa[k], b.storage_modulus_standard_error_pa[k], 1e-6, "+-"),
+            with_error(b.loss_factor[k], b.loss_factor_standard_error[k], sign="+-"),
         ]
         for k in range(0, len(b.frequency_hz), every)
     ]

@@ -1,6 +1,5 @@
 """What a command prints: a table for people, the same facts as JSON."""
 
-import json
 import math
 import os
 import sys
@@ -15,7 +14,7 @@ from rich.table import Table
 from instrument.cli.printable import printable
 from instrument.errors import BadInput
 from instrument.facts.result import Result
-from instrument.files.at_once import write_at_once
+from instrument.files.result_file import result_text, write_result
 
 
 class _Screen(Console):
@@ -81,11 +80,10 @@ class Output:
         """
         if self._json_path is None:
             return
-        text = json.dumps(found.as_json(), indent=1, allow_nan=False)
         if self._json_path == "-":
-            click.echo(text)
+            click.echo(result_text(found))
             return
-        write_at_once(Path(self._json_path), text + "\n")
+        write_result(Path(self._json_path), found)
 
 
 def _numeric(rows: list[list[str]], column: int) -> bool:

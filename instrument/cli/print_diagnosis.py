@@ -16,6 +16,7 @@ from instrument.results.diagnosis_words import (
     with_verdict,
 )
 from instrument.results.next_words import NEXT_COLUMNS, NEXT_TITLE, next_row, separated_words
+from instrument.results.numbers import with_error
 from instrument.results.unseen_words import UNSEEN_COLUMNS, UNSEEN_TITLE, unseen_row
 
 _MOST_CANDIDATES = 8
@@ -137,8 +138,7 @@ def _print_law(out: Output, found: DiagnosisResult) -> None:
 
 
 def _banded(value: float, error: float, scale: float = 1.0) -> str:
-    said = f"{scale * value:.4f}"
-    return said if isnan(error) else f"{said} +- {scale * error:.4f}"
+    return with_error(value, error, scale, "+-")
 
 
 def _two(value: float | None) -> str:

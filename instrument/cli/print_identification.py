@@ -10,6 +10,7 @@ from instrument.cli.output import Output
 from instrument.models.identification import Identified
 from instrument.results.adjusted_words import COLUMNS, adjusted_rows, more_adjusted
 from instrument.results.error_words import is_below_floor, percent_words
+from instrument.results.numbers import to_error, with_error
 
 _MOST_ROWS = 30
 
@@ -18,7 +19,8 @@ def print_identification(out: Output, found: Identified, specimen: StatedSpecime
     """What was found, how well it is known, and what the data do not say; `specimen` as stated."""
     r, sweep = found.result, found.sweep
     errors = r.standard_errors
-    rows = [[n, f"{v:.5g}", _relative(errors[n], v)] for n, v in zip(r.law.names, r.law.values, strict=True)]
+    values = zip(r.law.names, r.law.values.tolist(), strict=True)
+    rows = [[n, to_error(v, errors[n]), _relative(errors[n], v)] for n, v in values]
     out.table(f"{r.law.kind} by {r.method}", ["parameter", "value", "standard error"], rows)
     out.say()
     _print_band(out, r)
@@ -65,8 +67,8 @@ def _print_band(out: Output, r: Identification) -> None:
     rows = [
         [
             f"{b.frequency_hz[k]:.1f}",
-            f"{b.storage_modulus_pa[k] / 1e6:.4f} +- {b.storage_modulus_standard_error_pa[k] / 1e6:.4f}",
-            f"{b.loss_factor[k]:.4f} +- {b.loss_factor_standard_error[k]:.4f}",
+            with_error(b.storage_modulus_pa[k], b.storage_modulus_standard_error_pa[k], 1e-6, "+-"),
+            with_error(b.loss_factor[k], b.loss_factor_standard_error[k], sign="+-"),
         ]
         for k in shown
     ]

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from instrument.cli.output import Output
 from instrument.facts.modal import FormulaRow, ModeFitted
 from instrument.facts.rows import LawRow
+from instrument.results.numbers import with_error
 
 _ROWS = 6
 
@@ -30,8 +31,8 @@ def print_modal_law(out: Output, law: Sequence[LawRow]) -> None:
     rows = [
         [
             f"{r.frequency_hz:.1f}",
-            f"{r.storage_modulus_pa / 1e6:.4f} +- {r.storage_modulus_standard_error_pa / 1e6:.4f}",
-            f"{r.loss_factor:.4f} +- {r.loss_factor_standard_error:.4f}",
+            with_error(r.storage_modulus_pa, r.storage_modulus_standard_error_pa, 1e-6, "+-"),
+            with_error(r.loss_factor, r.loss_factor_standard_error, sign="+-"),
         ]
         for r in every
     ]

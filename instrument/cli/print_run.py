@@ -14,6 +14,7 @@ from instrument.facts.run import RunResult
 from instrument.facts.session_result import SessionResult
 from instrument.results.error_words import ratio_words
 from instrument.results.followed import followed_lines, followed_of
+from instrument.results.numbers import with_error
 from instrument.results.session_result import BEFORE_DIAGNOSIS, result_of_events
 from instrument.stream.derived import DampingFound, DiagnosisFound, FitUpdated, PointMeasured
 
@@ -117,8 +118,8 @@ def print_fit(out: Output, fit: FitUpdated, which: str = "") -> None:
     rows = [
         [
             f"{r.frequency_hz:.4g}",
-            f"{r.storage_modulus_pa / 1e6:.4f} +- {r.storage_modulus_standard_error_pa / 1e6:.2g}",
-            f"{r.loss_factor:.4f} +- {r.loss_factor_standard_error:.2g}",
+            with_error(r.storage_modulus_pa, r.storage_modulus_standard_error_pa, 1e-6, "+-"),
+            with_error(r.loss_factor, r.loss_factor_standard_error, sign="+-"),
         ]
         for r in shown
     ]

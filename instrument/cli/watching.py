@@ -8,6 +8,7 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from instrument.files.acceleration import shown_quantity
 from instrument.results.diagnosis_words import verdict_line
 from instrument.results.next_words import apart_words
+from instrument.results.numbers import with_error
 from instrument.stepped_sine.soak import Soak
 from instrument.stream.derived import (
     CalibrationFound,
@@ -95,10 +96,9 @@ def said_of(event: Event) -> str | None:
             modes = event.result.accepted
             return f"bare plate: {len(modes)} modes, {modes[0].frequency_hz:.2f} Hz on" if modes else None
         case CalibrationFound():
-            return (
-                f"vibrometer in {event.range_name}: gain {event.gain:.5f} +- {event.gain_std:.1g}, "
-                f"delay {1e6 * event.delay_s:.2f} +- {1e6 * event.delay_std_s:.1g} us"
-            )
+            gain = with_error(event.gain, event.gain_std, sign="+-")
+            delay = with_error(event.delay_s, event.delay_std_s, 1e6, "+-")
+            return f"vibrometer in {event.range_name}: gain {gain}, delay {delay} us"
         case SentinelCompared():
             change = f"{event.change_percent:+.3f} %, {event.change_degree:+.3f} deg"
             return f"sentinel {event.frequency_hz:g} Hz: {change} since the first time"
@@ -154,5 +154,6 @@ def _fit_said(event: FitUpdated) -> str:
     eta, e = middle.loss_factor, middle.loss_factor_standard_error
     return (
         f"fit {event.number}, {len(event.result.points)} points: at {middle.frequency_hz:.4g} Hz "
-        f"G' {g:.4f} +- {s:.2g} MPa, eta {eta:.4f} +- {e:.2g}; rms {event.result.rms_percent:.2f} %"
+        f"G' {with_error(g, s, sign='+-')} MPa, eta {with_error(eta, e, sign='+-')}; "
+        f"rms {event.result.rms_percent:.2f} %"
     )

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from fitting.identification.adjusted import Adjusted
 from fitting.specimen import StatedSpecimen
 from fitting.tolerances import OF_THEORY, kind_of
+from instrument.results.numbers import to_error
 
 COLUMNS = ("stated number", "stated", "tolerance", "found", "standard error", "pull", "tolerance is")
 MOST = 8
@@ -18,7 +19,7 @@ def adjusted_rows(found: Sequence[Adjusted], specimen: StatedSpecimen, most: int
             one.name + ("" if one.unit == "1" else f" / {one.unit}"),
             f"{one.stated:.5g}",
             f"{one.tolerance:.2g}",
-            f"{one.found:.5g}",
+            to_error(one.found, one.standard_error),
             f"{one.standard_error:.2g}",
             f"{one.pull:+.2f}",
             _known_by(kind_of(one.name), specimen),

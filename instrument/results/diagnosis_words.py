@@ -10,6 +10,7 @@ from fitting.digits import two_digits
 from instrument.facts.diagnosis import CandidateFitted, DiagnosisResult, EffectFound, ParameterFound
 from instrument.facts.rows import LawRow, StretchSetAside
 from instrument.results.error_words import FLOOR_PERCENT, is_below_floor
+from instrument.results.numbers import with_error
 from instrument.results.standing import none_is_likelier
 
 _MOST_PARAMETERS = 4
@@ -151,11 +152,9 @@ def parameter_words(key: str, p: ParameterFound) -> str:
     if key == FILE:
         return _FILES.get(round(p.value), f"in file {p.value:.0f}")
     unit = "" if p.unit == "1" else f" {p.unit}"
-    spread = ""
-    if not isnan(p.standard_error):
-        below = p.value and is_below_floor(p.standard_error, p.value)
-        spread = f" (+- below {FLOOR_PERCENT:g} %)" if below else f" +- {p.standard_error:.2g}"
-    return f"{key} {p.value:.4g}{spread}{unit}"
+    if p.value and is_below_floor(p.standard_error, p.value):
+        return f"{key} {p.value:.4g} (+- below {FLOOR_PERCENT:g} %){unit}"
+    return f"{key} {with_error(p.value, p.standard_error, sign='+-')}{unit}"
 
 
 def law_at(law: Sequence[LawRow], frequency_hz: float) -> LawRow | None:

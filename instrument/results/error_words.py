@@ -3,6 +3,7 @@
 from math import isfinite
 
 from fitting.digits import two_digits
+from instrument.results.numbers import with_error
 
 FLOOR_PERCENT = 0.01
 """Of a parameter. Below it not noise limits it but the plate's theory, its mesh and its stated sizes."""
@@ -19,8 +20,11 @@ def percent_words(error: float, value: float) -> str:
 def ratio_words(ratio: float, error: float, sign: str = "+-") -> str:
     """A damping ratio in percent with its error; the floor where the error is below it."""
     least = FLOOR_PERCENT / 100 * abs(ratio)
-    said = f"<{100 * least:.1g}" if error < least else f"{100 * error:.1g}"
-    return f"{100 * ratio:.4f} {sign} {said}"
+    return (
+        f"{100 * ratio:.4f} {sign} <{100 * least:.1g}"
+        if error < least
+        else with_error(ratio, error, 100, sign)
+    )
 
 
 def is_below_floor(error: float, value: float) -> bool:

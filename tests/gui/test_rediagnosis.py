@@ -2,6 +2,7 @@ from pathlib import Path
 
 import pytest
 
+from gui.pairing import PairedFile
 from gui.rediagnosis import DiagnosisAsked, effects_of
 
 DATA = Path("s.h5")
@@ -15,6 +16,10 @@ DATA = Path("s.h5")
         (DiagnosisAsked(DATA, accept=()), ["diagnose", "s.h5", "--accept=none"]),
         (DiagnosisAsked(DATA, decline=("a",)), ["diagnose", "s.h5", "--without=a"]),
         (DiagnosisAsked(DATA, Path("p.toml")), ["diagnose", "s.h5", "--specimen", "p.toml"]),
+        (
+            DiagnosisAsked(DATA, Path("p.toml"), further=(PairedFile(Path("t.csv"), Path("q.toml")),)),
+            ["diagnose", "s.h5", "t.csv", "--specimen", "p.toml", "--specimen", "q.toml"],
+        ),
     ],
 )
 def test_it_is_asked_as_on_the_command_line(asked, said):

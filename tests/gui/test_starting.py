@@ -20,7 +20,7 @@ def fresh(qtbot, appearance, settings):
 def test_only_what_is_seen_is_made_before_the_first_picture(fresh):
     made = fresh._page_set.made
     assert list(made) == ["run"]
-    assert [fresh.tabs.tabText(k) for k in range(5)] == list(fresh.page_titles.values())
+    assert [fresh.tabs.tabText(k) for k in range(6)] == list(fresh.page_titles.values())
 
 
 def test_the_other_pages_are_made_while_nobody_waits(qtbot, fresh):

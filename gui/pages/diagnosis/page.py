@@ -1,5 +1,6 @@
 """What the model lacks: verdict, evidence, residual, and a person's word on it."""
 
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -105,7 +106,8 @@ class DiagnosisPage(Page):
             self.finding.show_diagnosis(shown)
             self.candidates.show_candidates(rediagnosis.ranking(self.controller.state) or shown.found)
             self.story.setPlainText("\n".join(_story(shown)))
-            self.next.specimen = state.contents.specimen if state is not None else None
+            of_session = state is not None and (shown.asked is None or shown.asked.of_session)
+            self.next.specimen = state.contents.specimen if state is not None and of_session else None
             self.views.setTabVisible(self.views.indexOf(self.next), bool(shown.found.next_measurements))
             self.views.setTabVisible(self.views.indexOf(self.unseen), bool(shown.found.unseen))
             self._show_view()
@@ -173,12 +175,13 @@ class DiagnosisPage(Page):
     def _recompute(self) -> None:
         decisions = self.candidates.decisions
         asked = self._shown.asked if self._shown is not None else None
-        data = asked.data if asked is not None else self._session
-        if data is None:
-            return
-        specimen = asked.specimen if asked is not None else None
+        if asked is None:
+            if self._session is None:
+                return
+            asked = DiagnosisAsked(self._session)
         declined = () if decisions.accept_argument is not None else decisions.declined
-        self.controller.rediagnosis.start(DiagnosisAsked(data, specimen, decisions.accept_argument, declined))
+        asked = replace(asked, accept=decisions.accept_argument, decline=declined)
+        self.controller.rediagnosis.start(asked)
 
     def _go_back(self) -> None:
         self.candidates.clear()

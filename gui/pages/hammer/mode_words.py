@@ -6,17 +6,21 @@ from math import isnan
 import numpy as np
 
 from fitting.arrays import Array
+from fitting.digits import two_digits
 from fitting.modal.frf import Refusal
 from gui.pages.hammer.findings import ModesFound
 from gui.tables import Cell, Row
 from instrument.facts.damping import METHODS, DampingResult, Method, ModeFound, RatioFound
 from instrument.impact.damping import Mode
 from instrument.impact.scatter import Scatter
+from instrument.results.numbers import with_error
 
 _ADOPTED = 0
 """Of these."""
 _MOST_DIGITS = 5
 """Behind the point of a damping ratio in percent."""
+_LEAST = 10.0**-_MOST_DIGITS
+"""Of an error in percent that is said."""
 _SAME = 0.05
 """Relative distance beyond which an expected mode is another one."""
 _AGREE = 1e-9
@@ -130,18 +134,14 @@ def _percent(estimate: RatioFound | None) -> str:
     ratio, error = 100 * estimate.ratio, estimate.standard_error
     if isnan(error):
         return f"{ratio:.4f}"
-    return f"{ratio:.{_digits(100 * error)}f} ± {_size(100 * error)}"
+    if 100 * error < _LEAST:
+        return f"{ratio:.{_MOST_DIGITS}f} ± {_size(100 * error)}"
+    return with_error(ratio, 100 * error)
 
 
 def _size(error: float) -> str:
-    """An error to its first digit."""
-    least = 10.0**-_MOST_DIGITS
-    return f"{error:.{_digits(error)}f}" if error >= least else f"<{least:.{_MOST_DIGITS}f}"
-
-
-def _digits(error: float) -> int:
-    """Decimals that an error leaves to its value."""
-    return _MOST_DIGITS if error <= 0 else int(np.clip(-np.floor(np.log10(error)), 1, _MOST_DIGITS))
+    """An error by itself."""
+    return two_digits(error) if error >= _LEAST else f"<{_LEAST:.{_MOST_DIGITS}f}"
 
 
 def _method_tip(estimate: RatioFound | None, method: Method, found: Mode | None) -> str:

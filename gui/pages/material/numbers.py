@@ -10,8 +10,8 @@ from fitting.digits import two_digits
 from fitting.identification.uncertainty import limits_reached
 from fitting.laws import CoreLaw
 from gui.pages.law.curve import At, LawCurve, places_hz
+from gui.together import Fitted
 from instrument.facts.diagnosis import StageFitted
-from instrument.facts.identification import IdentificationResult
 from instrument.results.numbers import format_number, with_error
 from instrument.stream.derived import FitUpdated
 
@@ -52,7 +52,7 @@ def places(law: LawCurve, resonances: dict[int, float], before: LawCurve | None 
 
 
 def parameters(
-    fit: IdentificationResult | StageFitted,
+    fit: Fitted | StageFitted,
     start: CoreLaw | None,
     correlations: Mapping[str, Mapping[str, float]],
     before: StageFitted | None = None,
@@ -112,7 +112,7 @@ def _limits_reached(values: Mapping[str, float], start: CoreLaw | None) -> dict[
     return limits_reached(start.with_values(np.array(list(values.values()))))
 
 
-def correlation_rows(fit: IdentificationResult) -> tuple[list[str], list[list[float]]]:
+def correlation_rows(fit: Fitted) -> tuple[list[str], list[list[float]]]:
     """Names, and the matrix; NaN for a parameter at a limit."""
     names = list(fit.correlations)
     return names, [[fit.correlations[a][b] for b in names] for a in names]

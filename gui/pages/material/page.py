@@ -14,8 +14,11 @@ from gui.pages.law.plots import LawLine, LawPlots
 from gui.pages.material.comparison import LawComparison
 from gui.pages.material.numbers import headline, parameters, places
 from gui.pages.material.tables import Correlations, Parameters, Places
+from gui.pages.together.numbers import count_of
+from gui.pages.together.numbers import headline as headline_together
 from gui.rediagnosis import ShownDiagnosis
 from gui.state import SessionState
+from gui.together import Fitted
 from instrument.facts.diagnosis import StageFitted
 from instrument.facts.identification import IdentificationResult
 from instrument.facts.session_result import SessionResult
@@ -58,6 +61,7 @@ class MaterialPage(Page):
         controller.comparison_wanted.connect(self.comparison.read)
         controller.changed.connect(self._another_session)
         controller.rediagnosis.changed.connect(self._show)
+        controller.together.changed.connect(self._show)
 
     def refresh(self, state: SessionState) -> None:
         """Draw what has changed."""
@@ -86,15 +90,15 @@ class MaterialPage(Page):
         state = self.controller.state
         self.said.setText(self._headline(state))
         self._draw_lines()
-        fit, shown = self._latest, self._shown
-        result = fit.result if fit is not None else None
+        result, shown = self._fitted, self._shown
         # Nothing is before a diagnosis that accepted no effect: its law is that one.
         before = stage_before(shown.found) if shown is not None else None
         stands = shown.found.after if shown is not None else result
-        resonances = resonances_hz(result.points) if result is not None else {}
+        resonances = self._resonances
         rows = places(_curve(stands), resonances, _curve(before)) if stands is not None else []
         self.places.show_places(rows, with_before=before is not None)
-        start = state.contents.specimen.core if state is not None else None
+        of_session = state is not None and self._together is None
+        start = state.contents.specimen.core if state is not None and of_session else None
         law = start.law if start is not None else None
         correlations = result.correlations if result is not None and shown is None else {}
         self.parameters.show_parameters(
@@ -109,20 +113,22 @@ class MaterialPage(Page):
         self._show_notes(result, shown)
 
     def _draw_lines(self) -> None:
-        fits = self._fits
-        lines = []
+        fits, lines = self._fits, []
         if len(fits) > 1:
             earlier = joined([self._curve(fit) for fit in fits[:-1]])
             lines.append(LawLine(f"earlier fits ({len(fits) - 1})", earlier, "faint", width=1.0))
         shown = self._shown
         if shown is not None:
             lines += diagnosed_lines(shown)
+        elif self._together is not None:
+            name = f"identified, {count_of(self._together)} files"
+            lines.append(LawLine(name, LawCurve.of(self._together.law), "model"))
         elif fits:
             lines.append(LawLine("identified", self._curve(fits[-1]), "model"))
         lines += self.comparison.lines
-        self.plots.show_lines(lines, self._resonances)
+        self.plots.show_lines(lines, list(self._resonances.values()))
 
-    def _show_notes(self, result: IdentificationResult | None, shown: ShownDiagnosis | None) -> None:
+    def _show_notes(self, result: Fitted | None, shown: ShownDiagnosis | None) -> None:
         notes = notes_of(result, shown)
         if self._is_unknown:
             notes.insert(
@@ -133,12 +139,17 @@ class MaterialPage(Page):
         self.doubt.say(f"{capitalised(UNRELIABLE)}." if self._is_unknown else "", "bad", bold=True)
         self.doubt.setVisible(self._is_unknown)
         made_here = shown is not None and shown.asked is not None
-        self.origin.say(f"● diagnosis {shown.origin}" if shown and made_here else "", "fair", bold=True)
+        said = f"● diagnosis {shown.origin}" if shown and made_here else ""
+        if self._together is not None and shown is None:
+            said = f"● identified here of {count_of(self._together)} files, not recorded"
+        self.origin.say(said, "fair", bold=True)
 
     def _headline(self, state: SessionState | None) -> str:
         shown = self._shown
         if shown is not None:
             return _in_words(result_of(None, shown.found, _conditions(state, shown)))
+        if self._together is not None:
+            return headline_together(self._together)
         if state is None:
             return _NOTHING
         if state.run.over and state.fit_running is None and state.contents.fit is not None:
@@ -150,7 +161,9 @@ class MaterialPage(Page):
     def _fits(self) -> list[FitUpdated]:
         """Those that gave a law."""
         state = self.controller.state
-        return [fit for fit in state.fits if fit.result is not None] if state is not None else []
+        if state is None or self._together is not None:
+            return []
+        return [fit for fit in state.fits if fit.result is not None]
 
     @property
     def _latest(self) -> FitUpdated | None:
@@ -158,8 +171,22 @@ class MaterialPage(Page):
         return fits[-1] if fits else None
 
     @property
+    def _together(self) -> Fitted | None:
+        """The fit of several files that is shown in place of the session's."""
+        return self.controller.together.shown
+
+    @property
+    def _fitted(self) -> Fitted | None:
+        """The fit that is shown: of several files, or the session's latest."""
+        if self._together is not None:
+            return self._together
+        return self._latest.result if self._latest is not None else None
+
+    @property
     def _shown(self) -> ShownDiagnosis | None:
-        """The diagnosis whose law stands: the recorded one, or one made here."""
+        """The diagnosis whose law stands: the recorded one, or one made here; of several files theirs."""
+        if self._together is not None:
+            return self.controller.together.diagnosed
         return self.controller.rediagnosis.shown(self.controller.state)
 
     @property
@@ -169,10 +196,12 @@ class MaterialPage(Page):
         return shown is not None and shown.found.verdict == "unknown"
 
     @property
-    def _resonances(self) -> list[float]:
-        latest = self._latest
-        points = latest.result.points if latest is not None and latest.result is not None else ()
-        return list(resonances_hz(points).values())
+    def _resonances(self) -> dict[int, float]:
+        """Of a session; several files have their peaks at many places."""
+        result = self._fitted
+        if self._together is not None or not isinstance(result, IdentificationResult):
+            return {}
+        return resonances_hz(result.points)
 
     def _curve(self, fit: FitUpdated) -> LawCurve:
         if fit.number not in self._curves:
@@ -213,7 +242,7 @@ class MaterialPage(Page):
         column.addWidget(whole, 1)
 
 
-def notes_of(result: IdentificationResult | None, shown: ShownDiagnosis | None) -> list[str]:
+def notes_of(result: Fitted | None, shown: ShownDiagnosis | None) -> list[str]:
     """What a fit and a diagnosis have to say of themselves, each once."""
     notes = list(result.warnings) if result is not None else []
     if shown is None:
@@ -241,7 +270,7 @@ def diagnosed_lines(shown: ShownDiagnosis) -> list[LawLine]:
 
 def _conditions(state: SessionState | None, shown: ShownDiagnosis) -> Conditions:
     """The session's; another file's by its points."""
-    if state is not None and (shown.asked is None or shown.asked.specimen is None):
+    if state is not None and (shown.asked is None or shown.asked.of_session):
         return Conditions.of_points(state.contents.measured)
     return Conditions.of_diagnosis(shown.found)
 
@@ -251,8 +280,8 @@ def _in_words(result: SessionResult) -> str:
 
 
 @overload
-def _curve(found: StageFitted | IdentificationResult) -> LawCurve: ...
+def _curve(found: StageFitted | Fitted) -> LawCurve: ...
 @overload
 def _curve(found: None) -> None: ...
-def _curve(found: StageFitted | IdentificationResult | None) -> LawCurve | None:
+def _curve(found: StageFitted | Fitted | None) -> LawCurve | None:
     return LawCurve.of(found.law) if found is not None else None

@@ -8,8 +8,8 @@ from gui.pages.law.curve import At
 from gui.pages.material.numbers import Parameter, Place, correlation_rows, labelled
 from gui.tables import Cell, ReadTable
 from gui.theme import Role
+from gui.together import Fitted
 from gui.widgets import hint
-from instrument.facts.identification import IdentificationResult
 from instrument.results.numbers import with_error
 
 _PLACES = {
@@ -72,7 +72,7 @@ class Correlations(QWidget):
         column.addWidget(self.table, 1)
         column.addWidget(hint(_CORRELATIONS_SAID))
 
-    def show_fit(self, fit: IdentificationResult | None) -> None:
+    def show_fit(self, fit: Fitted | None) -> None:
         """Its correlations; none without a fit."""
         names, matrix = correlation_rows(fit) if fit is not None else ([], [])
         short = [labelled(name)[0].split(" / ")[0] for name in names]

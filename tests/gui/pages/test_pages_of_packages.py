@@ -29,7 +29,7 @@ class Failing(Good):
 class Nameless(Page):
     pass
 """
-OURS = ["run", "sweep", "hammer", "material", "diagnosis"]
+OURS = ["run", "sweep", "hammer", "material", "diagnosis", "together"]
 
 
 @pytest.fixture
@@ -57,8 +57,8 @@ def names(window):
 def test_another_packages_page_comes_last_and_has_its_key(opened, qtbot):
     window = opened(another="Good")
     assert names(window) == [*OURS, "another"]
-    assert window.tabs.tabText(5) == "Another"
-    qtbot.keyClick(window, Qt.Key.Key_6, Qt.KeyboardModifier.ControlModifier)
+    assert window.tabs.tabText(6) == "Another"
+    qtbot.keyClick(window, Qt.Key.Key_7, Qt.KeyboardModifier.ControlModifier)
     assert window.tabs.currentWidget().objectName() == "another"
 
 
@@ -88,12 +88,12 @@ def test_a_page_that_fails_leaves_the_others_alone(opened, caplog):
     window.turn()
     said = [r.getMessage() for r in caplog.records if r.name == "fitting.plugins"]
     assert [line.rpartition(": ")[2] for line in said] == ["no more"]
-    failing, good = window.pages[5:]
+    failing, good = window.pages[6:]
     assert (failing.isEnabled(), good.isEnabled()) == (False, True)
 
 
 def test_keys_go_to_the_first_nine(opened):
     window = opened(**{f"p{k}": "Good" for k in range(6)})
-    assert len(window.pages) == 11
+    assert len(window.pages) == 12
     assert "(Ctrl+9)" in window.tabs.tabToolTip(8)
     assert "Ctrl" not in window.tabs.tabToolTip(9)

@@ -111,7 +111,7 @@ def test_a_law_of_modes_is_told_with_its_errors_modes_and_warnings(capsys, ident
     identifying.identify_modes(Output(None), [FILE], [Path("beam.toml")])
     lines = [line.split() for line in capsys.readouterr().out.splitlines()]
     assert lines[0] == ["constant", "by", "modes"]
-    assert ["g_pa", "4e+05", "1e+03"] in lines
+    assert ["g_pa", "400000", "1e+03"] in lines
     said = [" ".join(line) for line in lines]
     order = [
         "<print_modes modes>",

@@ -73,7 +73,7 @@ def test_of_a_long_law_a_few_rows_are_shown_from_its_lowest_frequency_on(capsys)
     print_modal_law(Output(None), law)
     body = lines(capsys)[2:]
     assert 6 <= len(body) <= 7
-    assert body[0] == ["100.0", "0.4000", "+-", "0.0010", "0.9000", "+-", "0.0100"]
+    assert body[0] == ["100.0", "0.4000", "+-", "0.0010", "0.900", "+-", "0.010"]
 
 
 def formula(**keys):
@@ -206,7 +206,7 @@ def test_a_table_outside_the_band_is_said_to_have_nothing_to_compare(capsys):
 
 def test_a_refused_damping_is_said_to_be_and_no_number():
     assert _percent(Refusal("too few lines")) == "refused"
-    assert _percent(DampingEstimate(100.0, 0.0123, 1e-4)) == "1.2300 +- 0.01"
+    assert _percent(DampingEstimate(100.0, 0.0123, 1e-4)) == "1.230 +- 0.010"
 
 
 def test_a_sweep_that_was_stopped_before_its_first_step_has_no_quality(capsys):

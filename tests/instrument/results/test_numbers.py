@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from instrument.results.numbers import format_number, signed, with_error
+from instrument.results.numbers import format_number, signed, to_error, with_error
 
 
 @pytest.mark.parametrize(
@@ -17,6 +17,11 @@ from instrument.results.numbers import format_number, signed, with_error
         (1.10015e-3, 1.1e-7, 1e6, "1100.15 ± 0.11"),
         (123456.0, 2345.0, 1.0, "123500 ± 2300"),
         (98812.0, 113996.0, 1.0, "100000 ± 110000"),
+        (0.3514962, 0.02, 1.0, "0.351 ± 0.020"),
+        (0.5, 0.0996, 1.0, "0.50 ± 0.10"),
+        (1e-6, 0.02, 1.0, "0.000 ± 0.020"),
+        (0.0, 2e-7, 1.0, "(0.0 ± 2.0)e-7"),
+        (1.2e6, 3e7, 1.0, "(0.1 ± 3.0)e7"),
         (0.9, math.nan, 1.0, "0.9"),
         (0.9, None, 1.0, "0.9"),
         (math.nan, 0.1, 1.0, "-"),
@@ -25,6 +30,25 @@ from instrument.results.numbers import format_number, signed, with_error
 )
 def test_two_digits_of_the_error_decide(value, error, scale, text):
     assert with_error(value, error, scale) == text
+
+
+def test_a_terminal_has_its_own_sign():
+    assert with_error(0.3514962, 0.02, sign="+-") == "0.351 +- 0.020"
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "text"),
+    [
+        (0.3514962, 0.02, "0.351"),
+        (4732400.0, 410000.0, "4.73e6"),
+        (1.2189e-4, 2.6e-5, "1.22e-4"),
+        (123456.0, 2345.0, "123500"),
+        (0.64832, math.nan, "0.6483"),
+        (math.nan, 0.1, "-"),
+    ],
+)
+def test_a_value_in_a_column_of_its_own_has_the_digits_its_error_leaves(value, error, text):
+    assert to_error(value, error) == text
 
 
 def test_plain_and_signed():

@@ -1,0 +1,197 @@
+"""The files that are fitted together: which is which, and with which specimen."""
+
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import QModelIndex, QObject, Qt, Signal
+from PySide6.QtGui import QKeySequence, QShortcut
+from PySide6.QtWidgets import QHBoxLayout, QVBoxLayout, QWidget
+
+from gui.background_task import BackgroundTask, Progress
+from gui.mark import Mark
+from gui.pages.together.looked import Looked, look
+from gui.pairing import SPECIMEN_ENDING, PairedFile, fault_of
+from gui.tables import Cell, ReadTable
+from gui.taking_together import ask_specimen, ask_together
+from gui.together import Together
+from gui.widgets import button, tool
+from instrument.interchange.given import is_session
+
+_COLUMNS = {
+    "": "Number that results call the file by",
+    "data": "A sweep, an FRF, a table of modes, or a session",
+    "specimen": "What it was measured on; double click or Enter: another one",
+    "holds": "What both files say of themselves",
+}
+_OWN = "its own"
+_FAULTY = "\u2716 "
+
+
+class ChosenFiles(QWidget):
+    """A row a file.
+
+    Signals
+    -------
+    failed
+        One line.
+    """
+
+    failed = Signal(str)
+
+    def __init__(self, together: Together, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.together = together
+        self.table = ReadTable(_COLUMNS, selects=True)
+        self.add = button(
+            "Add files...", "Sweeps, sessions, tables of modes of one core (Ctrl+Shift+O)", "plus"
+        )
+        self.specimen = button("Specimen...", "Of the file selected; of all files where none is")
+        self.up = tool("up", "Move the selected file up")
+        self.remove = button("Remove", "Take the selected file away (Del)")
+        self.fault = Mark()
+        self.fault.setWordWrap(True)
+        self._looked: dict[PairedFile, Looked | str] = {}
+        self._looking: dict[PairedFile, _Look] = {}
+        self._owned: dict[int, list[str]] = {}
+        self._arrange()
+        self.add.clicked.connect(self._ask_files)
+        self.specimen.clicked.connect(self._ask_specimen)
+        self.up.clicked.connect(self._move_up)
+        self.remove.clicked.connect(self._remove)
+        delete = QShortcut(QKeySequence.StandardKey.Delete, self.table)
+        delete.setContext(Qt.ShortcutContext.WidgetShortcut)
+        delete.activated.connect(self._remove)
+        self.table.activated.connect(self._row_activated)
+        self.table.selectionModel().selectionChanged.connect(self._show_buttons)
+        self._show_buttons()
+
+    def show_files(self, owned: dict[int, list[str]]) -> None:
+        """Those chosen; of each file, from 1, the effects that belong to it alone."""
+        self._owned = owned
+        for file in self.together.files:
+            if file not in self._looked and file not in self._looking and not _lacks(file):
+                self._look(file)
+        self._show_rows()
+
+    def take(self, paths: list[Path]) -> None:
+        """Files dropped here: data, or the specimen of the file selected, of all where none is."""
+        data = [path for path in paths if path.suffix.lower() != SPECIMEN_ENDING]
+        if data:
+            self.together.add(data)
+        for path in paths:
+            if path not in data and self.together.files:
+                self.together.pair(self.table.selected, path)
+
+    def _look(self, file: PairedFile) -> None:
+        self._looking[file] = work = _Look(file, self)
+        work.done.connect(self._seen)
+        work.failed.connect(self._not_seen)
+        work.start()
+
+    def _seen(self, found: object) -> None:
+        assert isinstance(found, Looked)
+        self._keep(self.sender(), found)
+
+    def _not_seen(self, message: str) -> None:
+        self._keep(self.sender(), message)
+
+    def _keep(self, work: QObject, found: Looked | str) -> None:
+        assert isinstance(work, _Look)
+        self._looking.pop(work.file, None)
+        self._looked[work.file] = found
+        work.deleteLater()
+        self._show_rows()
+
+    def _show_rows(self) -> None:
+        chosen = self.table.selected
+        files = self.together.files
+        self.table.show_rows([self._cells(k, file) for k, file in enumerate(files, start=1)])
+        if chosen is not None and chosen < len(files):
+            self.table.selectRow(chosen)
+        said = fault_of(files) or self._first_fault()
+        self.fault.say(said, "bad" if len(files) > 1 else "faint")
+        self.fault.setVisible(bool(said))
+        self._show_buttons()
+
+    def _first_fault(self) -> str:
+        """Of what was looked at, in whole: in the table there is room for some words only."""
+        found = ((k, self._looked.get(file)) for k, file in enumerate(self.together.files, start=1))
+        return next((f"File {k}: {said}" for k, said in found if isinstance(said, str)), "")
+
+    def _cells(self, number: int, file: PairedFile) -> list[Cell]:
+        looked = self._looked.get(file, "" if _lacks(file) else "...")
+        effects = self._owned.get(number, [])
+        named = file.specimen.name if file.specimen is not None else "" if _lacks(file) else _OWN
+        if isinstance(looked, Looked):
+            holds = Cell(f"{looked.specimen}; {looked.data}", left=True)
+        elif looked in ("", "..."):
+            holds = Cell(looked, left=True, faint=True)
+        else:
+            holds = Cell(f"{_FAULTY}{looked}", looked, left=True, fill="bad", alpha=0.2)
+        return [
+            Cell(str(number), ", ".join(effects), bold=bool(effects), edge="data" if effects else None),
+            Cell(file.data.name, str(file.data), left=True, bold=bool(effects)),
+            Cell(
+                named or f"{_FAULTY}none",
+                str(file.specimen or "The session's own" if named else "Choose one"),
+                left=True,
+                fill=None if named else "bad",
+                alpha=0.2,
+            ),
+            holds,
+        ]
+
+    def _show_buttons(self) -> None:
+        files, row = self.together.files, self.table.selected
+        self.specimen.setEnabled(bool(files))
+        self.specimen.setText("Specimen of all..." if row is None else f"Specimen of {row + 1}...")
+        self.remove.setEnabled(row is not None)
+        self.up.setEnabled(bool(row))
+
+    def _ask_files(self) -> None:
+        ask_together(self, self.together)
+
+    def _ask_specimen(self) -> None:
+        ask_specimen(self, self.together, self.table.selected)
+
+    def _row_activated(self, at: QModelIndex) -> None:
+        ask_specimen(self, self.together, at.row())
+
+    def _move_up(self) -> None:
+        row = self.table.selected
+        if row:
+            self.together.move(row, -1)
+            self.table.selectRow(row - 1)
+
+    def _remove(self) -> None:
+        row = self.table.selected
+        if row is not None:
+            self.together.remove(row)
+
+    def _arrange(self) -> None:
+        buttons = QHBoxLayout()
+        for one in (self.add, self.specimen, self.up, self.remove):
+            buttons.addWidget(one)
+        buttons.addStretch(1)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addLayout(buttons)
+        column.addWidget(self.table, 1)
+        column.addWidget(self.fault)
+
+
+class _Look(BackgroundTask[Looked]):
+    """At a file and its specimen."""
+
+    def __init__(self, file: PairedFile, parent: QObject) -> None:
+        super().__init__(partial(_look, file), parent)
+        self.file = file
+
+
+def _look(file: PairedFile, _: Progress) -> Looked:
+    return look(file)
+
+
+def _lacks(file: PairedFile) -> bool:
+    """Whether there is nothing to look at yet: no specimen."""
+    return file.specimen is None and not is_session(file.data)

@@ -1,0 +1,223 @@
+"""Several files under one law: identified, and diagnosed, in processes of their own.
+
+Nothing of it is recorded. Material and Diagnosis show it in place of a session's own while it leads.
+"""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+
+from gui.background_task import BackgroundCommand
+from gui.pairing import PairedFile, arguments_of, fault_of, paired, with_specimen
+from gui.rediagnosis import DiagnosisAsked, Rediagnosis, ShownDiagnosis
+from instrument.facts.identification import IdentificationResult
+from instrument.facts.modal import ModalResult
+
+Fitted = IdentificationResult | ModalResult
+"""Of sweeps and sessions, or of tables of modes."""
+
+
+class Together(QObject):
+    """The files chosen, and what was found of them.
+
+    Signals
+    -------
+    changed
+        Other files, another result, or work began or ended.
+    progressed
+        What is being worked at, and the fraction of it that is done.
+    failed
+        One line.
+    specimen_chosen
+        Data and the specimen that they are of, to be remembered.
+    """
+
+    changed = Signal()
+    progressed = Signal(str, float)
+    failed = Signal(str)
+    specimen_chosen = Signal(Path, Path)
+
+    def __init__(self, rediagnosis: Rediagnosis, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.files: tuple[PairedFile, ...] = ()
+        self.known: dict[Path, Path] = {}
+        """Specimens that data had before."""
+        self.identified: Fitted | None = None
+        self.diagnosed: ShownDiagnosis | None = None
+        self.leads = False
+        """Whether Material and Diagnosis show this."""
+        self._rediagnosis = rediagnosis
+        self._then_diagnose = False
+        self._command: BackgroundCommand | None = None
+        rediagnosis.changed.connect(self._diagnosis_changed)
+        rediagnosis.progressed.connect(self._diagnosis_progressed)
+
+    @property
+    def running(self) -> bool:
+        """Whether something of these files is being computed."""
+        return self._command is not None or self._diagnosing
+
+    @property
+    def work(self) -> str:
+        """What is being computed, in a word; empty for nothing."""
+        return "identifying" if self._command is not None else "diagnosing" if self._diagnosing else ""
+
+    @property
+    def shown(self) -> Fitted | None:
+        """The fit, where it leads."""
+        return self.identified if self.leads else None
+
+    def remember(self, known: Mapping[Path, Path]) -> None:
+        """Specimens that data had in earlier windows."""
+        self.known.update(known)
+
+    # The files
+
+    def add(self, data: Sequence[Path]) -> None:
+        """More of them, each once, with the specimen that is likeliest."""
+        self._choose(paired(data, self.files, self.known))
+
+    def pair(self, row: int | None, specimen: Path) -> None:
+        """A specimen for one file, or for all."""
+        files = with_specimen(self.files, row, specimen)
+        for one, before in zip(files, self.files, strict=True):
+            if one != before:
+                self.known[one.data.resolve()] = specimen.resolve()
+                self.specimen_chosen.emit(one.data.resolve(), specimen.resolve())
+        self._choose(files)
+
+    def remove(self, row: int) -> None:
+        """One of them."""
+        self._choose((*self.files[:row], *self.files[row + 1 :]))
+
+    def move(self, row: int, by: int) -> None:
+        """One of them up (-1) or down (1)."""
+        files, to = list(self.files), row + by
+        if 0 <= to < len(files):
+            files[row], files[to] = files[to], files[row]
+            self._choose(tuple(files))
+
+    # The work
+
+    def identify(self) -> None:
+        """One law of all of them."""
+        self._begin(then_diagnose=False)
+
+    def diagnose(self) -> None:
+        """What one law cannot explain; the law first, where it is not there yet."""
+        if self.identified is None:
+            self._begin(then_diagnose=True)
+        elif not fault_of(self.files):
+            self._diagnose()
+
+    def cancel(self) -> None:
+        """What is being computed is not wanted; what is there stays."""
+        self._then_diagnose = False
+        if self._diagnosing:
+            self._rediagnosis.cancel()
+        if self._command is not None:
+            self._drop()
+            self.changed.emit()
+
+    def lead(self) -> None:
+        """Show it on Material and Diagnosis again."""
+        if self.identified is None:
+            return
+        self.leads = True
+        if self.diagnosed is not None:
+            self._rediagnosis.show(self.diagnosed)
+        self.changed.emit()
+
+    def let_go(self) -> None:
+        """Another session is shown; what was found is kept here."""
+        self.leads = False
+        if self._diagnosing:
+            self._rediagnosis.cancel()
+            self.failed.emit("The diagnosis of several files was ended: another session is shown.")
+        self.changed.emit()
+
+    def close(self) -> None:
+        """Let go of everything."""
+        self._drop()
+
+    # Inside
+
+    @property
+    def _asked(self) -> DiagnosisAsked:
+        first, *further = self.files
+        return DiagnosisAsked(first.data, first.specimen, further=tuple(further))
+
+    @property
+    def _diagnosing(self) -> bool:
+        asked = self._rediagnosis.asked
+        return self._rediagnosis.running and asked is not None and asked.files == self.files
+
+    def _choose(self, files: tuple[PairedFile, ...]) -> None:
+        """Others than before: what was found is not theirs."""
+        if files == self.files:
+            return
+        self.cancel()
+        led = self.leads
+        self.files, self.identified, self.diagnosed, self.leads = files, None, None, False
+        if led:
+            self._rediagnosis.forget()
+        self.changed.emit()
+
+    def _begin(self, *, then_diagnose: bool) -> None:
+        if fault_of(self.files):
+            return
+        self.cancel()
+        self._then_diagnose = then_diagnose
+        results = (IdentificationResult, ModalResult)
+        self._command = BackgroundCommand(["identify", *arguments_of(self.files)], results, self)
+        self._command.done.connect(self._done)
+        self._command.failed.connect(self._failed)
+        self._command.progressed.connect(self.progressed)
+        self._command.start()
+        self.changed.emit()
+
+    def _diagnose(self) -> None:
+        self._rediagnosis.start(self._asked)
+
+    def _done(self, found: object) -> None:
+        assert isinstance(found, Fitted)
+        self._let_go_of_command()
+        self.identified, self.diagnosed, self.leads = found, None, True
+        # What was shown is of other data, or of the law before this one.
+        self._rediagnosis.forget()
+        if self._then_diagnose:
+            self._then_diagnose = False
+            self._diagnose()
+        self.changed.emit()
+
+    def _failed(self, message: str) -> None:
+        self._let_go_of_command()
+        self._then_diagnose = False
+        self.changed.emit()
+        self.failed.emit(message)
+
+    def _diagnosis_changed(self) -> None:
+        found = self._rediagnosis.found
+        if found is not None and found.asked is not None and found.asked.files == self.files:
+            self.diagnosed, self.leads = found, self.identified is not None
+        elif found is not None or (self.diagnosed is not None and not self._rediagnosis.running):
+            # Somebody looks at other data, or went back to what is recorded.
+            self.leads = False
+        self.changed.emit()
+
+    def _diagnosis_progressed(self, what: str, fraction: float) -> None:
+        if self._diagnosing:
+            self.progressed.emit(what, fraction)
+
+    def _drop(self) -> None:
+        command = self._let_go_of_command()
+        if command is not None:
+            command.close()
+
+    def _let_go_of_command(self) -> BackgroundCommand | None:
+        command, self._command = self._command, None
+        if command is not None:
+            command.disconnect(self)
+            command.deleteLater()
+        return command

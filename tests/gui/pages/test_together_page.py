@@ -1,0 +1,295 @@
+"""Several files in the window: real files, real commands, as a person presses."""
+
+import json
+
+import pytest
+from openers import press
+from pair_files import two_masses
+from PySide6.QtCore import QMimeData, QPointF, Qt, QUrl
+from PySide6.QtGui import QDropEvent
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QFileDialog
+from rivals import all_but
+
+from gui.pages.material import MaterialPage
+from gui.pages.together import TogetherPage
+from gui.pages.together.chosen import ChosenFiles
+from gui.pages.together.fit_plot import FitPlot
+from gui.pages.together.fits import fitted_files
+from gui.pages.together.saving import Saving
+from gui.pages.together.tables import CandidatesTable, LeftTable, NumbersTable
+from gui.rediagnosis import DiagnosisAsked, ShownDiagnosis
+from instrument.cli.main import run
+from instrument.facts.diagnosis import DiagnosisResult
+from instrument.facts.identification import IdentificationResult
+
+pytestmark = pytest.mark.pages("run", "material", "diagnosis", "together")
+
+LEFT = Qt.MouseButton.LeftButton
+ADDED_KG = 0.1
+
+
+@pytest.fixture(scope="module")
+def masses(tmp_path_factory):
+    """The heavy one carries what nobody stated."""
+    folder = tmp_path_factory.mktemp("masses")
+    light, _ = two_masses(folder)
+    _, heavy = two_masses(tmp_path_factory.mktemp("heavier"), more_kg=ADDED_KG)
+    return [light, heavy]
+
+
+def arguments(masses):
+    return [*map(str, masses), *(w for p in masses for w in ("--specimen", str(p.with_suffix(".toml"))))]
+
+
+@pytest.fixture(scope="module")
+def results(masses, tmp_path_factory, cache_of_this_run):
+    """What the commands find, among few rivals: the whole catalogue takes seconds."""
+    to = tmp_path_factory.mktemp("results")
+    without = [
+        f"--without={n}" for n in sorted(all_but("added_mass", "gain_error", "temperature_difference"))
+    ]
+    run(["identify", *arguments(masses), "--json", str(to / "identified.json")])
+    run(["diagnose", *arguments(masses), *without, "--json", str(to / "diagnosed.json")])
+    kinds = {"identified": IdentificationResult, "diagnosed": DiagnosisResult}
+    return {
+        name: kind.model_validate(json.loads((to / f"{name}.json").read_text()))
+        for name, kind in kinds.items()
+    }
+
+
+@pytest.fixture
+def page(window):
+    window.show_page("together")
+    return window.tabs.currentWidget()
+
+
+@pytest.fixture
+def chosen(qtbot, page, masses):
+    page.together.add(masses)
+    qtbot.waitUntil(lambda: "..." not in page.chosen.table.texts(3))
+    return page
+
+
+@pytest.fixture
+def diagnosed(chosen, results):
+    """As after both commands; that they run is looked at elsewhere."""
+    together = chosen.together
+    first, *further = together.files
+    asked = DiagnosisAsked(first.data, first.specimen, further=tuple(further))
+    together.identified = results["identified"]
+    chosen.controller.rediagnosis.show(ShownDiagnosis(results["diagnosed"], "made here of 2 files", asked))
+    return chosen
+
+
+def test_a_page_without_files_says_what_to_do(page):
+    assert isinstance(page, TogetherPage)
+    assert "two or more" in page.empty.text()
+    assert page.chosen.fault.said == "Add two files or more of one core."
+    assert not page.identify.isEnabled()
+
+
+def test_which_file_is_which_is_seen_before_anything_is_fitted(chosen):
+    assert isinstance(chosen.chosen, ChosenFiles)
+    table = chosen.chosen.table
+    assert table.texts(1) == ["light.csv", "heavy.csv"]
+    assert table.texts(2) == ["light.toml", "heavy.toml"]
+    assert table.texts(3)[1].startswith("shear pair, 1.196 kg; 24 points, ")
+    assert not chosen.chosen.fault.isVisible()
+    assert chosen.identify.isEnabled()
+
+
+def test_identified_by_the_button_it_shows_points_lines_and_the_law(qtbot, chosen, results):
+    qtbot.mouseClick(chosen.identify, LEFT)
+    assert chosen.bar.isVisible()
+    assert chosen.cancel.isVisible()
+    assert not chosen.chosen.isEnabled()
+    qtbot.waitUntil(lambda: not chosen.together.running)
+    assert chosen.together.identified.untimed == results["identified"].untimed
+    assert set(chosen.fit.plot.names) == {
+        "1 light.csv",
+        "1 light.csv, fitted",
+        "2 heavy.csv",
+        "2 heavy.csv, fitted",
+    }
+    assert chosen.fit.plot.y.title == "Velocity / m/s"
+    assert chosen.law.text().startswith("fractional-zener law of 2 files, 48 points")
+    qtbot.mouseClick(chosen.material, LEFT)
+    material = chosen.window().tabs.currentWidget()
+    assert isinstance(material, MaterialPage)
+    assert material.plots.names == ("identified, 2 files",)
+    assert "identified here of 2 files" in material.origin.said
+
+
+def test_a_computation_cancelled_leaves_the_page_as_it_was(qtbot, chosen):
+    qtbot.mouseClick(chosen.identify, LEFT)
+    qtbot.mouseClick(chosen.cancel, LEFT)
+    assert not chosen.bar.isVisible()
+    assert chosen.identify.isEnabled()
+    assert chosen.empty.isVisible()
+
+
+def test_a_diagnosis_says_of_which_file_an_effect_is(diagnosed, results):
+    found = results["diagnosed"]
+    assert diagnosed.finding.verdict.said
+    owned = [e for e in found.effects if e.parameters["file"].value == 2]
+    assert owned, "a mass that nobody stated is on the second file"
+    assert "heavy.csv" in diagnosed.finding.story.text()
+    assert diagnosed.chosen.table.cell(1, 0).edge == "data"
+    assert diagnosed.chosen.table.cell(0, 0).edge is None
+    assert isinstance(diagnosed.candidates, CandidatesTable)
+    assert diagnosed.candidates.texts(0)[0] == found.candidates[0].name
+    assert diagnosed.candidates.texts(1)[0] == "2 heavy.csv"
+    assert diagnosed.finding.next.text.endswith(found.next_measurement)
+
+
+def test_numbers_notes_and_what_is_left_follow_the_fit_chosen(diagnosed, results):
+    assert isinstance(diagnosed.numbers, NumbersTable)
+    assert isinstance(diagnosed.left, LeftTable)
+    assert diagnosed.stage.currentData() == "after"
+    after = diagnosed.numbers.texts(3)
+    left_after = diagnosed.left.row_count
+    diagnosed.stage.setCurrentIndex(0)
+    assert diagnosed.numbers.texts(3) != after
+    assert diagnosed.left.row_count >= left_after
+    assert set(diagnosed.numbers.texts(1)) == {"all", "1 light.csv", "2 heavy.csv"}
+    for text in results["diagnosed"].warnings:
+        assert text[:20].lower() in diagnosed.notes.toPlainText().lower()
+
+
+def test_the_diagnosis_page_has_all_of_it(qtbot, diagnosed, results):
+    qtbot.mouseClick(diagnosed.diagnosis, LEFT)
+    there = diagnosed.window().tabs.currentWidget()
+    assert there.title == "Diagnosis"
+    assert there.candidates.table.texts(0)[0] == results["diagnosed"].candidates[0].name
+    assert "2 files" in there.finding.origin.said
+
+
+def test_a_session_opened_is_shown_and_what_was_found_is_had_back(qtbot, diagnosed, session_path):
+    window = diagnosed.window()
+    window.open(session_path)
+    qtbot.waitUntil(lambda: window.controller.recorded is not None)
+    window.show_page("material")
+    material = window.tabs.currentWidget()
+    assert "files" not in "".join(material.plots.names)
+    window.show_page("together")
+    assert diagnosed.together.identified is not None
+    qtbot.mouseClick(diagnosed.material, LEFT)
+    assert "diagnosis made here of 2 files" in material.origin.said
+
+
+def test_one_file_by_itself_and_the_difference_are_drawn(made, results):
+    plot = made(FitPlot())
+    plot.show_files(fitted_files(results["identified"]), of_modes=False)
+    plot.file.setCurrentIndex(2)
+    assert plot.plot.names == ("2 heavy.csv", "2 heavy.csv, fitted")
+    plot.quantity.setCurrentIndex(1)
+    assert plot.plot.names == ("2 heavy.csv",)
+    assert plot.plot.y.title == "Difference / %"
+    plot.show_files(fitted_files(results["identified"]), of_modes=True)
+    plot.quantity.setCurrentIndex(0)
+    assert plot.file.currentText() == "2 heavy.csv"
+    assert plot.plot.y.title == "Loss factor"
+
+
+def test_what_is_saved_is_what_the_commands_write(qtbot, diagnosed, results, tmp_path, monkeypatch):
+    with qtbot.waitSignal(diagnosed.saving.done):
+        diagnosed.saving.save(results["identified"], tmp_path / "found")
+    said = json.loads((tmp_path / "found.json").read_text())
+    assert said == results["identified"].as_json()
+    assert (tmp_path / "found.json").read_text() == json.dumps(said, indent=1) + "\n"
+    for ask in (diagnosed.saving.identification, diagnosed.saving.diagnosis):
+        ask()
+    asked = [d.windowTitle() for d in diagnosed.findChildren(QFileDialog)]
+    assert asked == ["Save the identification", "Save the diagnosis"]
+
+
+def test_no_file_that_was_fitted_is_written_over(qtbot, diagnosed, masses, results, tmp_path):
+    assert isinstance(diagnosed.saving, Saving)
+    link = tmp_path / "same.json"
+    link.symlink_to(masses[0])
+    before = masses[0].read_bytes()
+    with qtbot.waitSignal(diagnosed.saving.failed) as told:
+        diagnosed.saving.save(results["identified"], link)
+    assert "expected another name" in told.args[0]
+    assert masses[0].read_bytes() == before
+
+
+def test_a_file_is_taken_away_and_moved_by_keys(qtbot, chosen, masses):
+    window, table = chosen.window(), chosen.chosen.table
+    window.activateWindow()
+    qtbot.waitUntil(window.isActiveWindow)
+    table.setFocus()
+    table.selectRow(0)
+    qtbot.keyClick(table, Qt.Key.Key_Down)
+    assert table.selected == 1
+    assert chosen.chosen.specimen.text() == "Specimen of 2..."
+    chosen.chosen.up.click()
+    assert table.texts(1) == ["heavy.csv", "light.csv"]
+    qtbot.keyClick(table, Qt.Key.Key_Return)
+    (dialog,) = chosen.findChildren(QFileDialog)
+    assert dialog.windowTitle() == "Specimen of file 1, heavy.csv"
+    dialog.close()
+    window.activateWindow()
+    table.setFocus()
+    qtbot.waitUntil(window.isActiveWindow)
+    press(table, Qt.Key.Key_Delete)
+    assert table.texts(1) == ["light.csv"]
+
+
+def test_the_work_begins_by_keys(qtbot, chosen):
+    window = chosen.window()
+    window.activateWindow()
+    qtbot.waitUntil(window.isActiveWindow)
+    for key in (Qt.Key.Key_I, Qt.Key.Key_D):
+        QTest.keyClick(window.windowHandle(), key, Qt.KeyboardModifier.ControlModifier)
+        # A button pressed by its key is seen to go down first.
+        qtbot.waitUntil(lambda: chosen.together.work == "identifying")
+        chosen.together.cancel()
+
+
+def test_what_is_dropped_is_added_and_a_specimen_goes_to_all(qtbot, page, masses, tmp_path):
+    for name in ("a.csv", "b.csv"):
+        (tmp_path / name).write_bytes(masses[0].read_bytes())
+    drop(page, [tmp_path / "a.csv", tmp_path / "b.csv"])
+    assert page.chosen.table.texts(2) == ["✖ none"] * 2
+    assert page.chosen.fault.said.startswith("File 1, a.csv: no specimen")
+    assert not page.identify.isEnabled()
+    drop(page, [masses[0].with_suffix(".toml")])
+    assert page.chosen.table.texts(2) == ["light.toml"] * 2
+    qtbot.waitUntil(lambda: "..." not in page.chosen.table.texts(3))
+    assert page.identify.isEnabled()
+
+
+def drop(page, paths):
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(path)) for path in paths])
+    none = Qt.KeyboardModifier.NoModifier
+    page.dropEvent(QDropEvent(QPointF(5, 5), Qt.DropAction.CopyAction, data, LEFT, none))
+
+
+def test_a_damaged_file_is_said_before_anything_is_fitted(qtbot, chosen, tmp_path):
+    bad = tmp_path / "bad.csv"
+    bad.write_text("frequency_hz\n10\n")
+    chosen.together.add([bad])
+    qtbot.waitUntil(lambda: "..." not in chosen.chosen.table.texts(3))
+    assert chosen.chosen.table.texts(3)[2].startswith("✖ ")
+    assert chosen.chosen.fault.said.startswith(f"File 3: {bad}: header")
+    assert "\n" not in chosen.chosen.fault.said
+
+
+def test_the_menu_asks_for_files_on_the_page(qtbot, window):
+    action = next(a for m in window.menuBar().actions() for a in m.menu().actions() if "together" in a.text())
+    action.trigger()
+    assert window.tabs.currentWidget().objectName() == "together"
+    (dialog,) = window.findChildren(QFileDialog)
+    assert dialog.windowTitle() == "Files to fit together"
+    dialog.close()
+
+
+def test_a_pairing_is_remembered_by_the_next_window(window, settings, masses, tmp_path):
+    other = tmp_path / "other.toml"
+    other.write_text(masses[0].with_suffix(".toml").read_text())
+    window.controller.together.add(masses)
+    window.controller.together.pair(1, other)
+    assert settings.specimens == {masses[1].resolve(): other.resolve()}
