@@ -171,6 +171,9 @@ class Effect:
     between_files: ClassVar[bool] = False
     """Whether it says how one file differs from the others: one alone cannot show it."""
 
+    of_a_segment: ClassVar[bool] = False
+    """Whether it is in one segment of a sweep alone: the others cannot foretell it."""
+
     from_afar: bool = False
     """Whether it is looked for in a wide valley too, however well a fit without it does.
 

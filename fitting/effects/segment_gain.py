@@ -30,6 +30,7 @@ class SegmentGainEffect(Effect):
         EffectParameter("level", "m/s^2", 0.0, np.inf, _EVERY, neutral=None, fixed=True),
     )
     chance = 0.015
+    of_a_segment = True
     discriminating_test = "one frequency read in every range that was used; the sweep repeated in one range"
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:

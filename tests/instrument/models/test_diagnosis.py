@@ -228,3 +228,34 @@ def test_unknown_names_and_bare_plates_are_refused():
         diagnose(sweep, plate_of_the_rig(), accept=["core_law"], without=["core_law"])
     with pytest.raises(OutsideModel, match="no core to diagnose"):
         diagnose(sweep, plate_of_the_rig().bare)
+
+
+def test_a_segment_in_another_range_is_named_with_its_frequencies():
+    sweep = every(3, practice("002"))
+    off = np.where(sweep.segment == 2, 1.05, 1.0)
+    off_there = replace(sweep, velocity_m_s=sweep.velocity_m_s * off)
+    rivals = all_but("segment_gain", "gain_error", "added_mass", "partial_debond", "fixture_resonance")
+    result = diagnose(off_there, as_a_laboratory_states_it(), without=rivals).result
+    (effect,) = result.effects
+    assert (result.verdict, effect.name) == ("effect", "segment_gain")
+    factor = effect.parameters["factor"]
+    assert abs(factor.value - 1.05) < 3 * factor.standard_error < 0.03
+    assert effect.parameters["from"].value == pytest.approx(85, abs=2)
+    told = " ".join(result.explanation)
+    assert "from 85 to 115 Hz alone" in told
+    assert "the others cannot foretell" in told
+
+
+def test_readings_that_were_lost_leave_law_and_verdict_as_they_are():
+    sweep, plate = every(2, practice("002")), as_a_laboratory_states_it()
+    v = sweep.velocity_m_s.copy()
+    v[[10, 11, 12, 13, 90, 150]] *= 0.02
+    among_few = all_but("signal_dropout", "gain_error", "fixture_resonance")
+    clean = diagnose(sweep, plate, without=among_few).result
+    spoilt = diagnose(replace(sweep, velocity_m_s=v), plate, without=among_few).result
+    assert (clean.verdict, spoilt.verdict) == ("none", "none")
+    (lost,) = spoilt.effects or spoilt.channels
+    assert lost.name == "signal_dropout"
+    assert lost.parameters["readings"].value == 6
+    one, other = (r.after.law.modulus(OMEGA) for r in (clean, spoilt))
+    assert np.abs(other / one - 1).max() < 0.01
