@@ -1,7 +1,7 @@
 """A layer is heavier or lighter than stated: another metal's density, or mass that nobody counted.
 
-All of a plate's motion but a sliver is across it, so it is the mass per area that counts: whose density is off
-is told by the hammer test of the bare plate alone, and by where a patch lies.
+Nearly all of a plate's motion is across it, so it is the mass per area that counts: whose density is off is
+told by the hammer test of the bare plate alone, and by where a patch lies.
 """
 
 from collections.abc import Mapping
@@ -64,6 +64,6 @@ class LayerDensityEffect(Effect):
         return replace(changed_to(plate, other), damping=float(np.sqrt(heavier)))
 
     def story(self, u: Mapping[str, float]) -> str:
-        layer = "constraining layer" if u["layer"] == CONSTRAINING else "substrate"
+        layer = "constraining layer" if u.get("layer") == CONSTRAINING else "substrate"
         off = 100 * (u["scale"] - 1)
         return f"the {layer} is {off:+.1f} % off its stated density, or as much mass is off elsewhere"

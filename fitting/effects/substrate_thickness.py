@@ -14,6 +14,7 @@ from fitting.effects.other_plates import changed_to
 from fitting.effects.substrate_stiffness import Substrate
 from fitting.specimen import Specimen
 
+
 def with_substrate(specimen: Specimen, scale: float) -> Specimen:
     """The plate with so many times its substrate's thickness."""
     face = specimen.substrate

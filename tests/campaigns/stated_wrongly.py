@@ -27,7 +27,10 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 import shear_pair_cases
 from conftest import DATA
 
+from fitting.chances import chi2_above
 from fitting.errors import FittingError
+from fitting.identification.as_stated import pulled_together
+from fitting.identification.fit import Fit
 from fitting.laws import LAWS
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
@@ -216,13 +219,22 @@ def of_metals(s: Any) -> Iterator[Changed]:
 
 def off(found: Band, one: Given) -> str:
     """Errors in standard errors, those of G', then those of eta."""
-    band, eta = found.at(one.at_hz), one.G.imag / one.G.real
-    z = [
-        *((np.array(band.storage_pa) - one.G.real) / np.array(band.storage_error_pa)),
-        *((np.array(band.loss) - eta) / np.array(band.loss_error)),
-    ]
+    x, at, eta = np.log(found.frequency_hz), np.log(one.at_hz), one.G.imag / one.G.real
+    storage, loss, of_storage, of_loss = (
+        np.interp(at, x, values)
+        for values in (found.storage_pa, found.loss, found.storage_error_pa, found.loss_error)
+    )
+    z = [*((storage - one.G.real) / of_storage), *((loss - eta) / of_loss)]
     mark = "WRONG" if np.nanmax(np.abs(z)) > FAR else "     "
     return mark + " " + " ".join(f"{v:+6.1f}" for v in z)
+
+
+def chance_of(fit: Fit) -> float:
+    """That numbers stated rightly are moved together so far."""
+    z = np.array([number.pull for number in fit.adjusted])
+    if not len(z) or fit.posterior is None:
+        return float("nan")
+    return float(chi2_above(*pulled_together(z, fit.posterior[-len(z) :, -len(z) :])))
 
 
 def remarked(warnings: tuple[str, ...]) -> str:
@@ -231,21 +243,21 @@ def remarked(warnings: tuple[str, ...]) -> str:
         "further than": "pulled",
         "together": "together",
         "what the noise explains": "misfit",
-        "does not follow": "lost",
+        "not follow the data": "lost",
         "cores have": "no core",
         "negative": "gains energy",
-        "every number": "factor",
+        "follow no law": "no law",
     }
     said = [short for words, short in known.items() if any(words in w for w in warnings)]
-    return ",".join(said) or "silent"
+    return " ".join([",".join(said) or "silent", *(w for w in warnings if w.startswith("p = "))])
 
 
 def identified(one: Given) -> tuple[Band, tuple[str, ...]]:
-    """The law, and the remarks."""
+    """The law, and the remarks; of a plate how likely stated numbers are moved together as far."""
     if isinstance(one.specimen, Specimen):
         found = identify(one.sweep, one.specimen, hammer=one.hammer)
         facts = identification_from(found, one.sweep, one.specimen)
-        return band_from(facts.law), found.result.warnings
+        return band_from(facts.law), (*found.result.warnings, f"p = {chance_of(found.result.fit):.2g}")
     files = [File(one.sweep, one.specimen)]
     together = identified_together_from(identify_together(files), files)
     return band_from(together.law), tuple(together.warnings)
@@ -286,7 +298,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--on", choices=SOURCES, default="practice")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--only", action="append", default=[], help="Cases whose name has this, or this, in it.")
+    parser.add_argument(
+        "--only", action="append", default=[], help="Cases whose name has this, or this, in it."
+    )
     parser.add_argument("--law-alone", action="store_true", help="Identify alone.")
     options = parser.parse_args()
     truth = SOURCES[options.on](options.seed)

@@ -114,7 +114,8 @@ def test_a_factor_on_a_number_is_a_beam_that_has_it(name, scale, layer, number):
     effect = CATALOGUE[name].standing_on(SANDWICH)
     assert isinstance(effect, NumberOffEffect)
     assert frequencies(SANDWICH, name, [scale, SUBSTRATE], law=LAW) == pytest.approx(expected, rel=1e-5)
-    assert effect.story({"scale": scale}) == CATALOGUE[name].story({"scale": scale, "layer": SUBSTRATE})
+    said = {"scale": scale, "layer": SUBSTRATE}
+    assert effect.story(said) == CATALOGUE[name].story(said)
 
 
 def test_nothing_moved_is_nothing_changed():
