@@ -28,6 +28,8 @@ SPANNED = (
     "base_roll",
     "constraining_stiffness",
     "constraining_thickness",
+    "core_thickness",
+    "substrate_stiffness",
     "clamp_line",
 )
 

@@ -33,7 +33,7 @@ class ConstrainingStiffnessEffect(Effect):
     name = "constraining_stiffness"
     enters = "stiffness"
     source = "the paper's Eq. (15c)"
-    parameters = (EffectParameter("scale", "1", 0.7, 1.4, 1.03, neutral=1.0, spread=0.05),)
+    parameters = (EffectParameter("scale", "1", 0.5, 2.0, 1.03, neutral=1.0, spread=0.05),)
     spans = (Constraining(),)
     chance = 0.015
     discriminating_test = (

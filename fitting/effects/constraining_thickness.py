@@ -40,7 +40,7 @@ class ConstrainingThicknessEffect(Effect):
     name = "constraining_thickness"
     enters = "stiffness"
     source = "the paper's Eq. (15) to (18) with another H_c"
-    parameters = (EffectParameter("scale", "1", 0.7, 1.3, 1.03, neutral=1.0, spread=0.05),)
+    parameters = (EffectParameter("scale", "1", 0.5, 2.0, 1.03, neutral=1.0, spread=0.05),)
     spans = (ConstrainingLayer(),)
     chance = 0.015
     discriminating_test = "a micrometer at the layer's edge; the plate weighed before and after treatment"

@@ -38,7 +38,7 @@ class CoreThicknessEffect(Effect):
     name = "core_thickness"
     enters = "stiffness"
     source = "the paper's Eq. (15) to (18) with another H_v"
-    parameters = (EffectParameter("scale", "1", 0.7, 1.3, 1.05, neutral=1.0, spread=0.08),)
+    parameters = (EffectParameter("scale", "1", 0.5, 2.0, 1.05, neutral=1.0, spread=0.08),)
     spans = (Thickness(),)
     chance = 0.04
     discriminating_test = "a gauge; a second specimen of another thickness"

@@ -15,7 +15,7 @@ class GainErrorEffect(Effect):
     enters = "channel"
     source = "calibration of the measuring chain"
     structures = EVERY_STRUCTURE
-    parameters = (EffectParameter("factor", "1", 0.5, 2.0, 1.02, neutral=1.0, spread=0.02),)
+    parameters = (EffectParameter("factor", "1", 0.4, 2.5, 1.02, neutral=1.0, spread=0.02),)
     chance = 0.04
     discriminating_test = "the laser on the base beside the accelerometer; a second spot"
 

@@ -50,7 +50,7 @@ class NumberOffEffect(Effect):
             discriminating_test=inner.discriminating_test,
             parameters=inner.parameters,
             needs=needs,
-            spans=() if number.startswith("core") else (FacesApart(),),
+            spans=() if number.startswith("core") or number.endswith("density") else (FacesApart(),),
         )
 
     def change(self, plate: EnrichedReducedPlate, u: Array) -> Change:

@@ -34,7 +34,7 @@ class SubstrateStiffnessEffect(Effect):
     name = "substrate_stiffness"
     enters = "stiffness"
     source = "the paper's Eq. (15a)"
-    parameters = (EffectParameter("scale", "1", 0.7, 1.4, 1.03, neutral=1.0, spread=0.05),)
+    parameters = (EffectParameter("scale", "1", 0.5, 2.0, 1.03, neutral=1.0, spread=0.05),)
     spans = (Substrate(),)
     chance = 0.03
     discriminating_test = "the bare plate's natural frequencies (hammer test)"

@@ -13,8 +13,9 @@ from fitting.chances import chi2_above
 INFORMED = 0.05
 """Part of the prior's variance that data have to take away for a direction to count: below, rounding and the
 curvature of the fit are as large."""
-UNLIKELY = 1e-6
-"""Probability below which a remark is due: a choice, far beyond what errors of a linear theory leave."""
+UNLIKELY = 1e-4
+"""Probability below which a remark is due: that of a check of the diagnosis. A choice; clean sweeps of solid
+plates have 0.04 and more."""
 
 
 def pulled_together(z: Array, C: Array) -> tuple[float, int]:

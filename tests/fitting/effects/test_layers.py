@@ -1,18 +1,24 @@
 """Layers that are not what is stated: reduced plate beside full solves."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import scipy.sparse as sp
 
+from fitting.damping import viscous_damping
 from fitting.effects import CATALOGUE
 from fitting.effects.clamp_line import ClampLineEffect
 from fitting.effects.constraining_stiffness import ConstrainingStiffnessEffect
 from fitting.effects.constraining_thickness import ConstrainingThicknessEffect, with_layer
+from fitting.effects.core_thickness import CoreThicknessEffect, with_core
 from fitting.effects.graded_core import GradedCoreEffect
+from fitting.effects.layer_density import CONSTRAINING, SUBSTRATE, LayerDensityEffect, with_density
 from fitting.effects.orthotropic_substrate import plane_stress, sheet, substrate_stiffness
 from fitting.effects.other_plates import changed_to, mixed
+from fitting.effects.substrate_stiffness import SubstrateStiffnessEffect
+from fitting.effects.substrate_thickness import SubstrateThicknessEffect, with_substrate
 from fitting.element import DOFS, THETA_Y, U_B, V_B, Shape, core_shear, face_stiffness
 from fitting.plate import Plate
 from fitting.specimen import Face
@@ -20,6 +26,7 @@ from fitting.specimen import Face
 ORTHOTROPIC, GRADED = CATALOGUE["orthotropic_substrate"], CATALOGUE["graded_core"]
 STIFFNESS, THICKNESS = ConstrainingStiffnessEffect(), ConstrainingThicknessEffect()
 LENGTH = ClampLineEffect()
+DENSITY, SHEET = LayerDensityEffect(), SubstrateThicknessEffect()
 
 
 def test_one_modulus_both_ways_is_the_plain_substrate(full):
@@ -98,6 +105,48 @@ def test_another_constraining_layer(full, scale):
     assert full.error(THICKNESS, [scale], loose=Plate(replace(other, boundary="free"))) < 5e-4
 
 
+@pytest.mark.parametrize("scale", [0.75, 0.94, 1.35])
+def test_another_substrate(full, scale):
+    other = with_substrate(full.specimen, scale)
+    assert full.error(SHEET, [scale], loose=Plate(replace(other, boundary="free"))) < 5e-4
+
+
+@pytest.mark.parametrize("scale", [0.5, 2.0])
+@pytest.mark.parametrize(
+    ("effect", "other"), [(THICKNESS, with_layer), (CoreThicknessEffect(), with_core)], ids=["foil", "core"]
+)
+def test_a_thickness_mistyped_by_a_factor_of_two(full, effect, other, scale):
+    loose = Plate(replace(other(full.specimen, scale), boundary="free"))
+    assert full.error(effect, [scale], loose=loose) < 5e-4
+
+
+@pytest.mark.parametrize("scale", [0.5, 2.0])
+def test_a_modulus_mistyped_by_a_factor_of_two(full, scale):
+    for effect, K in (
+        (SubstrateStiffnessEffect(), full.loose.K_substrate),
+        (STIFFNESS, full.loose.K_constraining),
+    ):
+        assert full.error(effect, [scale], K=(scale - 1) * K) < 5e-4
+
+
+@pytest.mark.parametrize("layer", [SUBSTRATE, CONSTRAINING])
+@pytest.mark.parametrize("scale", [0.34, 0.95, 1.2, 2.9])
+def test_another_density(full, layer, scale):
+    """From steel to aluminium and back, damped by the same ratios."""
+    other = with_density(full.specimen, scale, layer)
+    damping = viscous_damping(Plate(other))
+    U = (full.full.lift @ damping.U) * np.sqrt(damping.d / full.damping.d)
+    loose = Plate(replace(other, boundary="free"))
+    assert full.error(DENSITY, [scale, layer], loose=loose, U=U) < 1e-4
+
+
+def test_what_the_struck_bare_plate_feels_is_what_the_substrate_is():
+    bare = SimpleNamespace(lowering_per_density=np.zeros(3))
+    assert DENSITY.bare_shift(bare, np.array([1.21, SUBSTRATE])) == pytest.approx(-np.log(1.1))
+    assert DENSITY.bare_shift(bare, np.array([1.21, CONSTRAINING])) == pytest.approx(0.0)
+    assert SHEET.bare_shift(bare, np.array([1.1])) == pytest.approx(np.log(1.1))
+
+
 def test_another_plate_differs_in_the_parts_that_it_changes(full):
     change = changed_to(full.spanned, with_layer(full.specimen, 1.1))
     assert all(np.any(part) for part in (change.K, change.K_1, change.M, change.load))
@@ -132,7 +181,8 @@ def _all(effect, first):
 
 
 @pytest.mark.parametrize(
-    ("effect", "neutral"), [(ORTHOTROPIC, 1), (GRADED, 0), (STIFFNESS, 1), (THICKNESS, 1), (LENGTH, 0)]
+    ("effect", "neutral"),
+    [(ORTHOTROPIC, 1), (GRADED, 0), (STIFFNESS, 1), (THICKNESS, 1), (LENGTH, 0), (DENSITY, 1), (SHEET, 1)],
 )
 def test_without_it_nothing_changes(full, effect, neutral):
     assert effect.parameters[0].neutral == neutral
@@ -140,7 +190,11 @@ def test_without_it_nothing_changes(full, effect, neutral):
 
 
 @pytest.mark.parametrize(
-    ("effect", "at"), [(ORTHOTROPIC, 1.0), (GRADED, 0.0), (STIFFNESS, 1.0), (THICKNESS, 1.05), (LENGTH, 1e-3)]
+    ("effect", "at"),
+    [
+        *((ORTHOTROPIC, 1.0), (GRADED, 0.0), (STIFFNESS, 1.0), (THICKNESS, 1.05), (LENGTH, 1e-3)),
+        *((DENSITY, 1.1), (SHEET, 1.05)),
+    ],
 )
 def test_derivatives(full, effect, at):
     by, difference = full.slope(effect, _all(effect, at), 0)

@@ -7,6 +7,7 @@ import pytest
 from scipy.optimize import brentq
 
 from fitting.effects import CATALOGUE
+from fitting.effects.layer_density import SUBSTRATE
 from fitting.effects.number_off import NumberOffEffect, moved
 from fitting.laws.constant import ConstantModulus
 from fitting.specimen import Core, Face
@@ -102,6 +103,8 @@ def test_a_mount_that_bites_elsewhere_makes_both_halves_longer():
         ("substrate_stiffness", 1.1, "substrate", "young_pa"),
         ("constraining_stiffness", 0.9, "constraining", "young_pa"),
         ("constraining_thickness", 1.05, "constraining", "thickness_m"),
+        ("substrate_thickness", 0.9, "substrate", "thickness_m"),
+        ("layer_density", 1.3, "substrate", "density_kg_m3"),
     ],
 )
 def test_a_factor_on_a_number_is_a_beam_that_has_it(name, scale, layer, number):
@@ -110,8 +113,9 @@ def test_a_factor_on_a_number_is_a_beam_that_has_it(name, scale, layer, number):
     expected = [m.frequency_hz for m in small_modes(other, LAW, 3)]
     effect = CATALOGUE[name].standing_on(SANDWICH)
     assert isinstance(effect, NumberOffEffect)
-    assert frequencies(SANDWICH, name, [scale], law=LAW) == pytest.approx(expected, rel=1e-5)
-    assert effect.story({"scale": scale}) == CATALOGUE[name].story({"scale": scale})
+    assert frequencies(SANDWICH, name, [scale, SUBSTRATE], law=LAW) == pytest.approx(expected, rel=1e-5)
+    said = {"scale": scale, "layer": SUBSTRATE}
+    assert effect.story(said) == CATALOGUE[name].story(said)
 
 
 def test_nothing_moved_is_nothing_changed():
