@@ -65,7 +65,7 @@ def edge_softening(plate: Plate, modes: RealModes) -> Array:
     # kappa_xy along an edge is how fast the slope across it changes; the sign of a rotation does not matter.
     at_x0, at_y0, at_length, at_width = plate.specimen.edges
     lost = np.zeros(len(modes.omega))
-    if not plate.specimen.only_even:
+    if plate.specimen.lacks_edge_twist:
         # The plate has it in its stiffness.
         return lost
     for edge, along, step in (

@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import gammaincinv
 
 from fitting.arrays import Array
 from fitting.sweep import Sweep
@@ -19,6 +20,8 @@ WINDOW = 7
 amplitudes."""
 FEWEST = 15
 """Points a segment needs before its scatter says anything."""
+_LEAST = 0.15
+"""Of the points, that lie in no window of a resonance however sharp: a choice."""
 _SPLITS = 24
 """Of a floor's part in the variance at the peak, that are tried: a choice, fine beside what scatter tells."""
 _WIDE = 1e-4
@@ -55,16 +58,32 @@ def noise_of(sweep: Sweep) -> Noise:
 
 
 def scatter_over_stated(sweep: Sweep) -> float | None:
-    """Median over the points of local scatter over stated noise; None where either is not there."""
+    """Local scatter over stated noise, over all points; None where either is not there.
+
+    The median of `noise_of`'s, and what the seventh of the points says of which the local model leaves least:
+    the nearer to one of both. A resonance that is sharp beside the lines' spacing leaves much more than noise
+    in its windows, and so in all that is smoothed; it leaves those in between as they are.
+    """
     stated = sweep.response_std_m_s
     if stated is None:
         return None
-    ratios = [
-        _scatter(sweep.frequency_hz[group], sweep.response_m_s[group]) / stated[group]
-        for group in groups_of(sweep)
-        if len(np.unique(sweep.frequency_hz[group])) >= FEWEST
-    ]
-    return float(np.median(np.concatenate(ratios))) if ratios else None
+    ratios, squares = [], []
+    for group in groups_of(sweep):
+        f, v = sweep.frequency_hz[group], sweep.response_m_s[group]
+        if len(np.unique(f)) < FEWEST:
+            continue
+        ratios.append(_scatter(f, v) / stated[group])
+        order = np.argsort(f, kind="stable")
+        middle, left_over = _local_residuals(f[order], v[order])
+        squares.append(np.abs(left_over / stated[group][order][middle]) ** 2)
+    if not ratios:
+        return None
+    parts = 2 if sweep.has_phase else 1
+    least = np.quantile(np.concatenate(squares), _LEAST) / (2 * gammaincinv(parts / 2, _LEAST))
+    logs = np.log(np.median(np.concatenate(ratios))), np.log(max(float(least), 1e-300)) / 2
+    if logs[0] * logs[1] <= 0:
+        return 1.0
+    return float(np.exp(min(logs, key=abs)))
 
 
 def groups_of(sweep: Sweep) -> list[NDArray[np.intp]]:

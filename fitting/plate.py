@@ -22,10 +22,11 @@ from fitting.specimen import Face, Specimen
 _STILL = 1e-9
 """A reading row below this reads nothing but rounding."""
 EDGE_WIDTH = 0.63 / 2
-"""Of the thickness: so wide a strip carries no twist at a free edge (decision 13). In `K_0` where motions
-odd in y take part, which twist the plate."""
+"""Of the thickness: so wide a strip carries no twist at a free edge (decision 13)."""
 _SUPPORTED = {"x": (V_C, V_B, W, THETA_X, G_Y), "y": (U_C, U_B, W, THETA_Y, G_X)}
 """What a simple support holds of the nodes on an edge of constant x or y."""
+_WHOLE = 1e-9
+"""Share of the area that may be bare of a plate treated all over: rounding."""
 _RIGID = 1e-9
 """Share of a rigid motion at held degrees of freedom, below which it is not held."""
 
@@ -122,7 +123,7 @@ class Plate:
             faces = faces + 1j * (loss_b * self.K_substrate + loss_c * self.K_constraining)
         if s.has_glue:
             faces = faces + _sum([self.scatter(np.asarray(e.K_glue), of) for of, e in each])
-        if not s.only_even:
+        if s.lacks_edge_twist:
             faces = faces - self.edge_twist
         self.K_0 = faces.tocsc()
 
@@ -144,7 +145,7 @@ class Plate:
         )
         found = sp.csr_array((mesh.size,) * 2)
         faces = [face for face in (s.substrate, s.constraining) if face is not None]
-        if s.patches:
+        if s.treated_m2 < s.length_m * s.width_m * (1 - _WHOLE):
             faces = faces[:1]
         elif s.both_sides:
             faces += faces[1:]

@@ -305,6 +305,14 @@ class Specimen:
         return self.force_m is None and self.alike_in_y
 
     @property
+    def lacks_edge_twist(self) -> bool:
+        """Whether its stiffness has what free edges lack in twist (`Plate.edge_twist`).
+
+        A bare plate in its clamp has not: a hammer test's fit takes it off each mode, and doubts it.
+        """
+        return self.core is not None or not self.only_even
+
+    @property
     def treated_m2(self) -> float:
         """Area that is treated, of one side."""
         if not self.patches:

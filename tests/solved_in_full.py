@@ -66,6 +66,8 @@ class Full:
         r = self.full.heave if r is None else r
         row = loose.observe(*self.full.pickup_m) if row is None else row
         free = self.clamped if free is None else free
+        # What the held plate's own free edges lack in twist, not those of the loose one.
+        K = K + loose.edge_twist - self.full.lift @ self.full.held.edge_twist @ self.full.lift.T
         for w, g in zip(OMEGA, G, strict=True):
             load_w = load(w) if callable(load) else load
             A = sp.csc_array(loose.K_0 + K + g * (loose.K_1 + K_1) - w**2 * (loose.M + M), dtype=complex)

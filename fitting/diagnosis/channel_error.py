@@ -14,13 +14,19 @@ from fitting.sweep import Sweep
 
 
 def channel_rows(
-    sweep: Sweep, inside: Mask, v: Complex, *, has_phase: bool, parts: Sequence[Complex] | None = None
+    sweep: Sweep,
+    inside: Mask,
+    v: Complex,
+    *,
+    has_phase: bool,
+    parts: Sequence[Complex] | None = None,
+    gain: float = GAIN,
 ) -> list[Complex]:
     """Changes of the velocity `v`, one standard deviation each, in one segment: the points `inside`.
 
-    `parts` add up to it: each is read by a gain of its own. Shapes (points,), each row too.
+    `parts` add up to it: each is read by a gain of its own, off by `gain`. Shapes (points,), each row too.
     """
-    rows = [GAIN * part * inside for part in ([v] if parts is None else parts)]
+    rows = [gain * part * inside for part in ([v] if parts is None else parts)]
     passes = list(_passes(sweep, inside))
     for here in passes:
         f = sweep.frequency_hz[here]

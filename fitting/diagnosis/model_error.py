@@ -12,7 +12,7 @@ from fitting.diagnosis.plate_answer import Asked, motions
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.effects.change import Change
 from fitting.laws import CoreLaw
-from fitting.model_error import model_error_at
+from fitting.model_error import GAIN, STRUCK_GAIN, model_error_at
 from fitting.reduced import ReducedPlate
 from fitting.resonance_parts import Answers, parts_of
 from fitting.specimen import Specimen
@@ -50,7 +50,10 @@ def model_error(problem: DiagnosisProblem, reduced: ReducedPlate | None, law: Co
         each = [velocity(p.displacement) for p in parts[:-1]]
         # The rest has the base's motion too, where the laser reads it.
         gains = [*each, v - sum(each, np.zeros(len(v)))]
-        rows += channel_rows(problem.sweep, inside, v, has_phase=problem.points.has_phase, parts=gains)
+        gain = STRUCK_GAIN if len(parts) > 1 and problem.specimen.drive == "force" else GAIN
+        rows += channel_rows(
+            problem.sweep, inside, v, has_phase=problem.points.has_phase, parts=gains, gain=gain
+        )
     return np.array(rows)
 
 

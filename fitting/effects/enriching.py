@@ -166,7 +166,7 @@ def _project(
 
 def _edges(full: FullPlate, V: Array) -> Array | float:
     """What `Plate.K_0` lacks beside its parts. Shape (k, k)."""
-    if full.only_even:
+    if not full.specimen.lacks_edge_twist:
         return 0.0
     W = full.lift.T @ V
     return np.asarray(W.T @ (full.held.edge_twist @ W))

@@ -62,12 +62,18 @@ def mobility_of(hits: Sequence[Judged]) -> Mobility:
     steps = 1 - np.exp(-2j * np.pi * f / rate)
     F = np.array([np.fft.rfft(force_window(j) * j.hit.force_n)[1:] for j in hits])
     X = np.array([_differences(j) for j in hits]) / steps
+    return of_spectra(f, F, X)
+
+
+def of_spectra(frequency_hz: Array, F: Complex, X: Complex) -> Mobility:
+    """H1 of spectra of force and of velocity, with what the hits scatter by. Shapes (hits, lines)."""
+    hits, lines = F.shape
     power = np.maximum((np.abs(F) ** 2).sum(axis=0), 1e-300)
     H = (X * F.conj()).sum(axis=0) / power
-    scatter = (np.abs(X - H * F) ** 2).sum(axis=0) / (len(hits) - 1)
-    around = np.ones(min(_NEIGHBOURS, len(f)))
-    smooth = np.convolve(scatter, around, "same") / np.convolve(np.ones(len(f)), around, "same")
-    return Mobility(f, np.asarray(H), np.asarray(np.sqrt(smooth / power / 2)))
+    scatter = (np.abs(X - H * F) ** 2).sum(axis=0) / (hits - 1)
+    around = np.ones(min(_NEIGHBOURS, lines))
+    smooth = np.convolve(scatter, around, "same") / np.convolve(np.ones(lines), around, "same")
+    return Mobility(frequency_hz, np.asarray(H), np.asarray(np.sqrt(smooth / power / 2)))
 
 
 def _differences(judged: Judged) -> Complex:

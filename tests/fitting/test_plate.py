@@ -119,7 +119,9 @@ def test_edges_one_by_one_are_the_boundary_that_has_a_name(coarse):
             replace(coarse, boundary=nonsense)
 
 
-def test_default_mesh_is_within_a_thousandth_of_its_limit_and_errors_shrink_quadratically(zn1):
+def test_default_mesh_is_within_a_thousandth_of_its_limit_and_errors_shrink_quadratically(zn1, monkeypatch):
+    # Of the elements: what free edges lack in twist shrinks them from the other side.
+    monkeypatch.setattr("fitting.plate.EDGE_WIDTH", 0.0)
     finer, meshes = 1.5, [(16, 12), (24, 18), (36, 27), zn1.mesh]
     *f, default = (hertz(real_modes(Plate(replace(zn1, elements=m)), 0.5e6, 8)) for m in meshes)
     # Richardson: the limit from the two finer meshes at the rate the three show.
@@ -139,7 +141,8 @@ def test_vanishing_core_leaves_two_free_faces(coarse_plate, coarse):
     rigidity = sum(f.young_pa * f.thickness_m**3 / (12 * (1 - 0.3**2)) for f in faces)
     areal = sum(f.density_kg_m3 * f.thickness_m for f in faces) + 789.5 * 0.5e-3
     one = coarse.substrate
-    bare = hertz(real_modes(Plate(coarse.bare), 0.0, 1))[0]
+    # Struck, that it lacks twist at its free edges as both faces do.
+    bare = hertz(real_modes(Plate(replace(coarse.bare, force_m=(0.29, 0.02))), 0.0, 1))[0]
     D = one.young_pa * one.thickness_m**3 / (12 * (1 - 0.3**2))
     expected = bare * np.sqrt(rigidity / D * one.density_kg_m3 * one.thickness_m / areal)
     assert soft == pytest.approx(expected, rel=1e-4)

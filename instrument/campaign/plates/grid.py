@@ -22,6 +22,8 @@ class Fineness:
     """Distance from the clamp in plate thicknesses."""
     near_edge: tuple[float, ...] = (0.3, 1.2)
     """Distance from the long edges in plate thicknesses."""
+    near_tip: tuple[float, ...] = ()
+    """Distance from the far end in plate thicknesses: a free end carries no twist either."""
 
 
 @dataclass(frozen=True)
@@ -47,7 +49,10 @@ def grid_of(plate: TruePlate, fineness: Fineness, lines_x: Array, lines_y: Array
     """The grid of a plate, with lines at the places (m) that its effects ask for. Shape (n,) each."""
     thick = float(sum(plate.heights_m))
     edge = np.array(fineness.near_edge) * thick
-    x = _lines(plate.length_m, fineness.along_x, np.array(fineness.near_root) * thick, lines_x)
+    ends = np.concatenate(
+        [np.array(fineness.near_root) * thick, plate.length_m - np.array(fineness.near_tip) * thick]
+    )
+    x = _lines(plate.length_m, fineness.along_x, ends, lines_x)
     y = _lines(plate.width_m, fineness.along_y, np.concatenate([edge, plate.width_m - edge]), lines_y)
     return BrickGrid(x, y, np.cumsum([0.0, *plate.heights_m]))
 

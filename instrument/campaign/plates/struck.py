@@ -108,7 +108,7 @@ def lines_about(
     """
     found: list[Array] = []
     for r in range(_MODES):
-        f, loss = _resonance(plate, law, r, np.sqrt(low_hz * high_hz))
+        f, loss = resonance(plate, law, r, np.sqrt(low_hz * high_hz))
         if low_hz < f < high_hz and len(found) < most:
             reach = max(_REACH * loss / 2, _LEAST)
             found.append(f * np.linspace(1 - reach, 1 + reach, count))
@@ -117,7 +117,7 @@ def lines_about(
     return np.concatenate(found), np.repeat(np.arange(len(found)), count)
 
 
-def _resonance(plate: ReducedSolid, law: PlateMaterialLaw, r: int, near_hz: float) -> tuple[float, float]:
+def resonance(plate: ReducedSolid, law: PlateMaterialLaw, r: int, near_hz: float) -> tuple[float, float]:
     """Frequency and loss factor of the r-th mode, the modulus taken at its own frequency."""
     f, loss = near_hz, 0.0
     for _ in range(_ROUNDS):

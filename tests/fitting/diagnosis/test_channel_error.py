@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from fitting.diagnosis.channel_error import channel_rows
-from fitting.model_error import DRIFT, GAIN
+from fitting.model_error import DRIFT, GAIN, STRUCK_GAIN
 from fitting.sweep import Sweep
 
 F = np.tile(np.linspace(20.0, 30.0, 5), 2)
@@ -25,6 +25,15 @@ def test_one_pass_has_a_gain_a_drift_and_their_phases():
     assert rows[1, :5] / V[:5] == pytest.approx(DRIFT * np.linspace(-1, 1, 5))
     assert rows[2:] == pytest.approx(1j * rows[:2])
     assert len(channel_rows(sweep_of([1, 2], [1.0, 1.0]), first, V, has_phase=False)) == 2
+
+
+def test_parts_have_gains_of_their_own_of_a_size_that_is_said():
+    every, parts = np.ones(10, bool), [0.3 * V, 0.7 * V]
+    rows = channel_rows(
+        sweep_of([1, 1], [1.0, 1.0]), every, V, has_phase=False, parts=parts, gain=STRUCK_GAIN
+    )
+    assert np.array(rows[:2]) == pytest.approx(STRUCK_GAIN * np.array(parts))
+    assert len(rows) == 3
 
 
 @pytest.mark.parametrize(("passes", "levels"), [([1, 2], [1.0, 1.0]), ([1, 1], [0.5, 1.0])])

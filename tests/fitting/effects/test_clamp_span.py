@@ -27,15 +27,12 @@ class Rim(Full):
     """A plate on any edges."""
 
     def direct(self, **changes):
-        held, full = self.full.held, self.full
-        K = -(full.lift @ held.edge_twist @ full.lift.T) if not full.only_even else 0.0
-        if not self.loose.specimen.only_even:
-            K = K + self.loose.edge_twist
+        full = self.full
         load = 0.0
         if self.loose.specimen.boundary != "free":
             # The inertia of nodes that are still held.
             load = self.loose.base_load + self.loose.M @ full.heave
-        return super().direct(**{**changes, "K": K + changes.get("K", 0.0), "load": load})
+        return super().direct(**{**changes, "load": load})
 
     def freed(self, dofs):
         """Degrees of freedom that move once the clamps let some go."""
