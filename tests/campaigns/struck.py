@@ -44,7 +44,7 @@ def main() -> None:
         except FittingError as error:
             print(seed, case.truth.specimen_name, error, flush=True)
             continue
-        said = identification_from(found.found, found.sweep, case.specimen)
+        said = identification_from(found.found, case.specimen)
         each = pulls(case, band_from(said.law))
         every.append(each)
         print(
