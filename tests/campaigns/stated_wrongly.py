@@ -256,7 +256,7 @@ def identified(one: Given) -> tuple[Band, tuple[str, ...]]:
     """The law, and the remarks; of a plate how likely stated numbers are moved together as far."""
     if isinstance(one.specimen, Specimen):
         found = identify(one.sweep, one.specimen, hammer=one.hammer)
-        facts = identification_from(found, one.sweep, one.specimen)
+        facts = identification_from(found, one.specimen)
         return band_from(facts.law), (*found.result.warnings, f"p = {chance_of(found.result.fit):.2g}")
     files = [File(one.sweep, one.specimen)]
     together = identified_together_from(identify_together(files), files)
