@@ -34,6 +34,11 @@ class ModelError:
     loss: Array
     modal_loss: Array
     """The loss factor of a wave there: what `loss` is a share of."""
+    signed: tuple[Array, ...] = ()
+    """Of a plate: what its theory gets wrong of frequency and of loss by exact elasticity, with its sign.
+
+    Shape (points,) each.
+    """
     together: Array = field(default_factory=lambda: np.zeros((0, 1)))
     """Of all resonances by one cause each. Shape (causes, frequencies)."""
 
@@ -51,4 +56,5 @@ def model_error_at(specimen: Specimen, frequency_hz: Array, G: Complex) -> Model
         frequency=np.sqrt(FREQUENCY**2 + found.frequency_error**2 + (EDGE_FREQUENCY * edge) ** 2),
         loss=np.sqrt(LOSS**2 + found.loss_factor_error**2 + (EDGE_LOSS * edge) ** 2),
         modal_loss=found.loss_factor,
+        signed=(found.frequency_error, found.loss_factor_error),
     )

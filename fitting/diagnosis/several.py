@@ -16,7 +16,7 @@ from fitting.diagnosis import one_plate
 from fitting.diagnosis.every_point import EveryPoint
 from fitting.diagnosis.joining import joined, joined_points, side_by_side
 from fitting.diagnosis.member_laws import by_all, law_at
-from fitting.diagnosis.model_error import model_error
+from fitting.diagnosis.model_error import OfOnePlate, model_error, own_errors
 from fitting.diagnosis.mountings import mountings
 from fitting.diagnosis.of_files import OfFiles, Place
 from fitting.diagnosis.one_plate import Taken
@@ -37,6 +37,7 @@ from fitting.identification.validation import rms
 from fitting.laws import CoreLaw
 from fitting.nuisances import Nuisances
 from fitting.reduced import ReducedPlate
+from fitting.specimen import Specimen
 
 KELVIN = 0.1
 """Standard deviation of how much warmer a core is in one file than in another where nobody took care."""
@@ -162,15 +163,20 @@ class SeveralProblem(DiagnosisProblem):
         return replace(self, members=tuple(m.as_found(np.asarray(z)[at]) for m, at in each))
 
     def model_error(self, law: CoreLaw, v: Complex) -> Complex:
-        """Each member's own. Shape (any, points)."""
-        rows = []
+        """Each member's own, those of one plate's theory together. Shape (any, points)."""
+        rows, theory = [], OfOnePlate(len(v))
         each = zip(self.members, self.reduced, self.starts_at, strict=True)
         for k, (m, reduced, part) in enumerate(each):
-            own = model_error(m, reduced, law_at(law, k), v[part])
+            if reduced is not None and isinstance(m.specimen, Specimen):
+                found = own_errors(m, reduced, law_at(law, k), v[part])
+                theory.add(m.specimen, part, found)
+                own = found.of_channels
+            else:
+                own = model_error(m, reduced, law_at(law, k), v[part])
             block = np.zeros((len(own), len(v)), complex)
             block[:, part] = own
             rows.append(block)
-        rows.append(self.own_temperatures(law, v) * v)
+        rows += [theory.rows, self.own_temperatures(law, v) * v]
         if self.wandering is not None:
             rows.append(self.wandering.rows(np.log(self.sweep.frequency_hz), self.file_of_points, v))
             rows.append(self.own_cores(law, v) * v)
