@@ -57,8 +57,8 @@ def exchanged(files: Sequence[File]) -> Exchanged | None:
             left = _left(other)
         except OutsideModel:
             continue
-        names = (file.name or f"file {k + 1}" for k, file in ((a, files[a]), (b, files[b])))
-        found.append((left, *names))
+        first, second = (files[k].name or f"file {k + 1}" for k in (a, b))
+        found.append((left, first, second))
     best = min(found, default=None)
     if best is None or best[0] * _SO_MUCH_BETTER > given:
         return None
