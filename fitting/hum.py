@@ -30,7 +30,7 @@ _CORE_HZ = 0.3
 """Points so near to a multiple, or the nearest one, are where hum is looked for."""
 _REACH_HZ = 1.0
 """No curve takes points so near to a multiple, or to the point it judges."""
-_SPREAD_HZ = 10.0
+SPREAD_HZ = 10.0
 """Where hum is found, single points as far as this may be set aside."""
 _BEYOND = 0.01
 """Of its frequency: how far beyond its neighbours a point is judged by their curve. A resonance just beyond a
@@ -118,7 +118,7 @@ def mains_hum(sweep: Sweep, noise: Noise) -> HumSeen | None:
     seen = {line: p for line, p in least.items() if p < _ONCE_FOUND}
     mains = max(MAINS_HZ, key=lambda hz: -sum(np.log(max(p, 1e-300)) for s, p in seen.items() if s % hz == 0))
     lines = [line for line in seen if line % mains == 0]
-    reach = np.any([np.abs(f - line) <= _SPREAD_HZ for line in lines], axis=0)
+    reach = np.any([np.abs(f - line) <= SPREAD_HZ for line in lines], axis=0)
     more = np.any([cores[line] for line in lines], axis=0)
     # With the worst points gone from the curves and the scatter, the next ones show.
     while np.any(more & ~aside):

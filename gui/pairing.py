@@ -57,7 +57,7 @@ def fault_of(files: Sequence[PairedFile]) -> str:
     own = [k for k, one in enumerate(files, start=1) if one.specimen is None]
     if own and len(own) < len(files):
         said = ", ".join(map(str, own))
-        return f"File {said}: its own specimen beside chosen ones, expected one chosen for each: choose it."
+        return f"File {said}: a session with its own specimen beside chosen ones: choose one for it too."
     return ""
 
 

@@ -12,8 +12,11 @@ from fitting.diagnosis.several import SeveralProblem
 from fitting.diagnosis.structure import in_words
 from fitting.diagnosis.thresholds import VERDICT
 from fitting.diagnosis.verdict import NONE, Judgement
-from fitting.digits import two_digits, written_out
+from fitting.digits import all_digits, two_digits, written_out
 from fitting.effects.base import Effect
+
+_WORTH_SAYING = 0.01
+"""Of the largest change of a response: less is left out of the sentence."""
 
 
 def story(effect: Effect, found: FoundEffect) -> str:
@@ -160,6 +163,9 @@ def moved_words(problem: DiagnosisProblem, plain: Complex, velocity_m_s: Complex
         parts.append((float(changed[inside].max()), f"{most}{_whose(problem, int(peak))}"))
     if isinstance(problem, SeveralProblem) and len(problem.members) > 1:
         parts = [max(parts)]
+    # Beside what it changes elsewhere nobody wants the rest.
+    largest = max(parts)[0]
+    parts = [part for part in parts if part[0] > _WORTH_SAYING * largest] or parts
     return f"It changes the response by up to {', '.join(words for _, words in parts)}."
 
 
@@ -210,5 +216,6 @@ def _law(before: Stage, after: Stage) -> str:
             continue
         G = [b.storage_modulus_pa[k[0]] / 1e6 for b in (before.band, after.band)]
         eta = [b.loss_factor[k[0]] for b in (before.band, after.band)]
-        parts.append(f"at {f:g} Hz G' {G[0]:.4g} -> {G[1]:.4g} MPa, eta {eta[0]:.3g} -> {eta[1]:.3g}")
+        stiff, lossy = (" -> ".join(all_digits(v, n) for v in pair) for pair, n in ((G, 4), (eta, 3)))
+        parts.append(f"at {f:g} Hz G' {stiff} MPa, eta {lossy}")
     return f"The core without and with it: {'; '.join(parts)}." if parts else "The core's law follows."

@@ -100,7 +100,7 @@ class MassOfPairEffect(AddedMassEffect):
 
     parameters = (EffectParameter("mass", "kg", -0.5, 5.0, 3e-3, spread=0.02, below=0.05),)
     spans = ()
-    discriminating_test = "a balance; other masses on the same discs: mass and modulus then part"
+    discriminating_test = "the mass on a balance; other masses on the same discs, which part mass and modulus"
 
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [np.array([self.parameters[0].typical])]

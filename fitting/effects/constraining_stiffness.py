@@ -52,4 +52,4 @@ class ConstrainingStiffnessEffect(Effect):
         return changed_to(plate, replace(s, constraining=replace(s.constraining, young_pa=young)))
 
     def story(self, u: Mapping[str, float]) -> str:
-        return f"the constraining layer is {100 * (u['scale'] - 1):+.1f} % off its stated stiffness"
+        return f"the constraining layer is {100 * (u['scale'] - 1):+.3g} % off its stated stiffness"

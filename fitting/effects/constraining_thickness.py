@@ -56,4 +56,4 @@ class ConstrainingThicknessEffect(Effect):
         return changed_to(plate, with_layer(plate.specimen, float(u[0])))
 
     def story(self, u: Mapping[str, float]) -> str:
-        return f"the constraining layer is {100 * (u['scale'] - 1):+.1f} % off its stated thickness"
+        return f"the constraining layer is {100 * (u['scale'] - 1):+.3g} % off its stated thickness"

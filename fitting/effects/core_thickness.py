@@ -50,4 +50,4 @@ class CoreThicknessEffect(Effect):
         return changed_to(plate, with_core(plate.specimen, float(u[0])))
 
     def story(self, u: Mapping[str, float]) -> str:
-        return f"the core is {100 * (u['scale'] - 1):+.1f} % off its stated thickness"
+        return f"the core is {100 * (u['scale'] - 1):+.3g} % off its stated thickness"

@@ -66,4 +66,4 @@ class LayerDensityEffect(Effect):
     def story(self, u: Mapping[str, float]) -> str:
         layer = "constraining layer" if u.get("layer") == CONSTRAINING else "substrate"
         off = 100 * (u["scale"] - 1)
-        return f"the {layer} is {off:+.1f} % off its stated density, or as much mass is off elsewhere"
+        return f"the {layer} is {off:+.3g} % off its stated density, or as much mass is off elsewhere"

@@ -2,11 +2,18 @@
 
 from collections.abc import Mapping
 
+import numpy as np
+from scipy.special import bdtrc
+
 from fitting.effects.base import EVERY_STRUCTURE, ChannelFinding, Effect, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
-from fitting.hum import mains_hum
-from fitting.noise import Noise
+from fitting.hum import SPREAD_HZ, HumSeen, mains_hum
+from fitting.noise import Noise, noise_of
+from fitting.strays import strays
 from fitting.sweep import Sweep
+
+_BY_CHANCE = 0.01
+"""How likely stray readings must be to lie near multiples by chance, for no hum to be named. A choice."""
 
 
 class MainsHumEffect(Effect):
@@ -20,7 +27,7 @@ class MainsHumEffect(Effect):
 
     def seen(self, sweep: Sweep, noise: Noise) -> ChannelFinding | None:
         hum = mains_hum(sweep, noise)
-        if hum is None:
+        if hum is None or _are_strays(sweep, hum):
             return None
         nan = float("nan")
         return ChannelFinding(
@@ -32,3 +39,18 @@ class MainsHumEffect(Effect):
 
     def story(self, u: Mapping[str, float]) -> str:
         return f"the mains ({u['mains']:.0f} Hz) hums in a channel; the points at its multiples are set aside"
+
+
+def _are_strays(sweep: Sweep, hum: HumSeen) -> bool:
+    """Whether readings are lost far from any multiple too, and what is near one may be some of them.
+
+    Without them nothing may be left that hums.
+    """
+    f, stray = sweep.frequency_hz, strays(sweep) > 0
+    lines = [k * hum.mains_hz for k in hum.multiples]
+    near = np.any([np.abs(f - line) <= SPREAD_HZ for line in lines], axis=0)
+    count, here = int(stray.sum()), int((stray & near).sum())
+    if here in (0, count) or bdtrc(here - 1, count, near.mean()) < _BY_CHANCE:
+        return False
+    left = sweep.take(~stray)
+    return mains_hum(left, noise_of(left)) is None

@@ -51,4 +51,4 @@ class SubstrateStiffnessEffect(Effect):
         return changed_to(plate, replace(s, substrate=replace(s.substrate, young_pa=young)))
 
     def story(self, u: Mapping[str, float]) -> str:
-        return f"the substrate is {100 * (u['scale'] - 1):+.1f} % off its stated stiffness"
+        return f"the substrate is {100 * (u['scale'] - 1):+.3g} % off its stated stiffness"

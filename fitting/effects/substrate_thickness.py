@@ -43,4 +43,4 @@ class SubstrateThicknessEffect(Effect):
         return changed_to(plate, with_substrate(plate.specimen, float(u[0])))
 
     def story(self, u: Mapping[str, float]) -> str:
-        return f"the substrate is {100 * (u['scale'] - 1):+.1f} % off its stated thickness"
+        return f"the substrate is {100 * (u['scale'] - 1):+.3g} % off its stated thickness"

@@ -23,7 +23,7 @@ class TemperatureDifferenceEffect(Effect):
     between_files = True
     parameters = (EffectParameter("warmer", "K", -25.0, 25.0, 2.0, spread=3.0),)
     chance = 0.15
-    discriminating_test = "the first file measured again, a thermocouple at the core in each"
+    discriminating_test = "the first file measured again, with a thermometer at the core for each"
 
     def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
         return "it lies between files, and there is one"

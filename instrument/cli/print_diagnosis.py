@@ -15,7 +15,8 @@ from instrument.results.diagnosis_words import (
     verdict_line,
     with_verdict,
 )
-from instrument.results.next_words import NEXT_COLUMNS, NEXT_TITLE, next_row, separated_words
+from instrument.results.foretelling import is_foretold
+from instrument.results.next_words import NEXT_COLUMNS, NEXT_TITLE, kind_words, next_row, separated_words
 from instrument.results.numbers import with_error
 from instrument.results.unseen_words import UNSEEN_COLUMNS, UNSEEN_TITLE, unseen_row
 
@@ -64,7 +65,9 @@ def _print_next(out: Output, found: DiagnosisResult) -> None:
     out.table(NEXT_TITLE, list(NEXT_COLUMNS), [list(next_row(f)) for f in shown])
     # Of the first the sentence above says so already.
     for f in shown[1:]:
-        out.say(textwrap.fill(f"{f.kind}: {f.why} It separates {separated_words(f.between)}.", _WIDTH))
+        out.say(
+            textwrap.fill(f"{kind_words(f.kind)}: {f.why} It separates {separated_words(f.between)}.", _WIDTH)
+        )
 
 
 def _print_unseen(out: Output, found: DiagnosisResult) -> None:
@@ -88,7 +91,8 @@ def print_before_after(out: Output, found: DiagnosisResult) -> None:
         rows.append(
             [
                 f"segment {b.segment} from the others, rms/%",
-                *(_two(h.rms_percent) for h in (b, a)),
+                _two(b.rms_percent),
+                _two(a.rms_percent if is_foretold(found, a.segment) else None),
                 _two(b.noise_percent),
             ]
         )

@@ -10,7 +10,7 @@ from instrument.cli.output import Output
 from instrument.models.identification import Identified
 from instrument.results.adjusted_words import COLUMNS, adjusted_rows, more_adjusted
 from instrument.results.error_words import is_below_floor, percent_words
-from instrument.results.numbers import to_error, with_error
+from instrument.results.numbers import error_beside, to_error, with_error
 
 _MOST_ROWS = 30
 
@@ -54,10 +54,10 @@ def print_bare_plate(out: Output, bare: BarePlateFit, specimen: Specimen) -> Non
 
 
 def _relative(error: float, value: float) -> str:
-    if error != error:
+    if not np.isfinite(error) or error <= 0:
         return "-"
     percent = f"{percent_words(error, value)} %"
-    return percent if is_below_floor(error, value) else f"{error:.2g} ({percent})"
+    return percent if is_below_floor(error, value) else f"{error_beside(value, error)} ({percent})"
 
 
 def _print_band(out: Output, r: Identification) -> None:

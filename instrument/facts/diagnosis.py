@@ -167,7 +167,7 @@ class DiagnosisResult(Result):
     """Accepted or declined on someone's word."""
     points: tuple[PointLeft, ...]
     set_aside_hz: tuple[Number, ...] = ()
-    """Points that carry hum."""
+    """Points that carry hum, or whose signal was lost."""
     seconds: MaybeNumber = None
     """A run does not say."""
     setup_seconds: MaybeNumber = None

@@ -189,8 +189,8 @@ class FilesAtWork:
         if max(self.misfit) > _NO_RIG:
             return (
                 f"one law leaves {sizes} % of the readings, more than any rig is off: is every file with "
-                "its own specimen, and are mass, units and signs as the files have them? The law means "
-                "nothing else"
+                "its own specimen, and are mass, units and signs as the files have them? If not, the law "
+                "means nothing"
             )
         once = f"({sizes} %), once for every 0.12 in ln f, is taken for the error of"
         if not self._lawless:

@@ -21,6 +21,7 @@ from fitting.laws import CoreLaw
 from fitting.specimen import Specimen
 from fitting.sweep import Sweep
 from instrument.models.diagnosis import Diagnosed, effects_among
+from instrument.models.exchanged import exchanged
 from instrument.models.file_remarks import remarks_on_files, remarks_on_scale
 from instrument.models.files import File, mounted, numbers_of, one_plate
 from instrument.models.files_at_work import FilesAtWork, SetAside
@@ -69,7 +70,8 @@ def identify_together(
         if work.with_misfit(begun):
             for _ in range(2):
                 begun, noise = work.without_glitches()
-            misfit = (work.about_misfit(),)
+            other = exchanged(files)
+            misfit = (work.about_misfit(),) if other is None else (f"{other.words}. The law means nothing",)
         fit = fit_of(begun)
     seconds = perf_counter() - ready
     theory = _check_theories(files, fit.law)
@@ -121,6 +123,8 @@ def diagnose_together(
         work.problem()
         ready = perf_counter()
         with progress("tracing the residual") as report:
+            if accept is None and (other := exchanged(files)) is not None:
+                raise OutsideModel(other.words)
             work.without_glitches()
             channels += [_fixture(one, count) for one in work.aside]
             problem, noise = work.problem()

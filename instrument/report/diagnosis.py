@@ -17,6 +17,7 @@ from instrument.results.diagnosis_words import (
     with_verdict,
 )
 from instrument.results.followed import followed_of, measured_words
+from instrument.results.foretelling import is_foretold
 from instrument.results.next_words import NEXT_COLUMNS, NEXT_TITLE, next_row, separated_words
 from instrument.results.numbers import format_number, with_error
 from instrument.results.offer_sketch import offer_view
@@ -109,7 +110,8 @@ def _before_after(found: DiagnosisResult) -> TableBlock:
     rows += [
         (
             f"segment {b.segment} from the others, rms / %",
-            *(format_number(h.rms_percent, 3) for h in (b, a)),
+            format_number(b.rms_percent, 3),
+            format_number(a.rms_percent if is_foretold(found, a.segment) else None, 3),
             format_number(b.noise_percent, 3),
         )
         for b, a in zip(before.held_out, after.held_out, strict=False)

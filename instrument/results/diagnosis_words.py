@@ -24,6 +24,12 @@ _OUTSIDE_GROUP = 0.05
 _RANGE = 3
 """Neighbours from which only the first and the last are said."""
 _FILES = {EACH: "in each file its own", ALIKE: "in every file"}
+_MEANT = {
+    ("layer", 0.0): "of the substrate",
+    ("layer", 1.0): "of the constraining layer",
+    ("level", 0.0): "at every level",
+}
+"""Numbers that stand for words, by the key they have."""
 _SAID = {"none": "nothing beyond noise", "unknown": "structure that nothing in the catalogue explains"}
 
 
@@ -151,6 +157,10 @@ def parameter_words(key: str, p: ParameterFound) -> str:
     """Name, value, standard error where there is one, unit."""
     if key == FILE:
         return _FILES.get(round(p.value), f"in file {p.value:.0f}")
+    of, _, last = key.rpartition(".")
+    meant = _MEANT.get((last, p.value))
+    if meant is not None:
+        return f"{of} {meant}".strip()
     unit = "" if p.unit == "1" else f" {p.unit}"
     if p.value and is_below_floor(p.standard_error, p.value):
         return f"{key} {p.value:.4g} (+- below {FLOOR_PERCENT:g} %){unit}"

@@ -30,6 +30,11 @@ def advice(offer: FollowUp) -> str:
     return f"T{apart_words(offer.between)[1:]}, {what} {offer.why} {cost}"
 
 
+def kind_words(kind: FollowUpKind) -> str:
+    """What kind of measurement it is, as a person calls it."""
+    return _FOLLOWING[kind].capitalize()
+
+
 def next_row(offer: FollowUp) -> tuple[str, ...]:
     """One row under `NEXT_COLUMNS`."""
     return offer.todo, f"{offer.seconds:.0f}", _percent(offer), f"{offer.separation:.1f}"

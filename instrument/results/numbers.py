@@ -35,6 +35,14 @@ def to_error(value: float, error: float) -> str:
     return _to(value, _places(error))
 
 
+def error_beside(value: float, error: float) -> str:
+    """The standard error as it stands beside `to_error`: two digits, and the same exponent."""
+    exponent = math.floor(math.log10(max(abs(value), error)))
+    if exponent < -3 or exponent > 5:
+        return f"{error / 10**exponent:.{max(0, _places(error) + exponent)}f}e{exponent}"
+    return _to(error, _places(error))
+
+
 def _places(error: float) -> int:
     """After the point, of two digits of an error; negative where they stand before it."""
     # 0.0996 is 0.10 and not 0.100.

@@ -2,7 +2,7 @@
 
 import pytest
 
-from fitting.digits import two_digits, written_out
+from fitting.digits import all_digits, two_digits, written_out
 
 
 @pytest.mark.parametrize(
@@ -16,3 +16,12 @@ def test_a_number_has_two_digits_and_no_exponent(value, said):
 def test_a_number_of_five_figures_is_written_out_with_its_digits():
     assert written_out(97352.0, 3) == "97400"
     assert written_out(0.1384, 3) == "0.138"
+
+
+def test_zeros_at_the_end_are_kept_where_numbers_stand_beside_each_other():
+    assert [all_digits(v, 4) for v in (0.3275, 0.303, 7.0391, 1234.0)] == [
+        "0.3275",
+        "0.3030",
+        "7.039",
+        "1234",
+    ]

@@ -49,7 +49,7 @@ def test_a_specimen_chosen_for_one_file_is_given_to_all_that_lack_one():
         ((), "Add two files or more"),
         ((PairedFile(A, ONE),), "Add two files or more"),
         ((PairedFile(A, ONE), PairedFile(B)), "File 2, b.csv: no specimen"),
-        ((PairedFile(A, ONE), PairedFile(S)), "File 2: its own specimen beside chosen ones"),
+        ((PairedFile(A, ONE), PairedFile(S)), "File 2: a session with its own specimen beside chosen ones"),
         ((PairedFile(A, ONE), PairedFile(B, TWO)), ""),
         ((PairedFile(S), PairedFile(Path("t.h5"))), ""),
     ],

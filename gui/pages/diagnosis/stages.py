@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from fitting.identification.result import REFERENCE_FREQUENCIES_HZ
 from gui.pages.law.curve import LawCurve
 from instrument.facts.diagnosis import DiagnosisResult
+from instrument.results.foretelling import is_foretold
 
 
 @dataclass(frozen=True)
@@ -27,7 +28,7 @@ def compared(found: DiagnosisResult) -> list[ComparedMeasure]:
             f"segment {b.segment}, predicted from the others",
             "% rms",
             b.rms_percent,
-            a.rms_percent,
+            a.rms_percent if is_foretold(found, a.segment) else None,
             b.noise_percent,
             held_out=True,
         )

@@ -49,6 +49,7 @@ _NOTHING = (
     "its band. Diagnose says what one law cannot explain, and of which file that is."
 )
 _NOT_JUDGED = "Points are judged one by one where a diagnosis was made: it weighs each of them."
+_NOTHING_LEFT = "Nothing: nothing is set aside, and no point is further than 3 standard deviations off."
 
 
 class TogetherPage(Page):
@@ -147,12 +148,8 @@ class TogetherPage(Page):
         aside = () if isinstance(source, ModalResult) else source.set_aside or ()
         rows = left_rows(fitted, aside, judged=judged)
         self.left.show_left(rows)
-        self.left_said.setText(
-            ""
-            if judged
-            else "Points are judged one by one where a diagnosis was made: it weighs each of them."
-        )
-        self.left_said.setVisible(not judged)
+        self.left_said.setText(_NOTHING_LEFT if judged else _NOT_JUDGED)
+        self.left_said.setVisible(not judged or not rows)
         title = f"Unexplained ({len(rows)})" if rows else "Unexplained"
         self.views.setTabText(self.views.indexOf(self.left_view), title)
 

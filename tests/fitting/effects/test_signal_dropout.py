@@ -35,6 +35,16 @@ def test_a_clean_sweep_has_none():
     assert not found
 
 
+def test_one_of_several_lost_readings_near_a_multiple_is_no_hum():
+    sweep = spoilt(np.array([], dtype=int), 1.0)
+    near = int(np.argmin(np.abs(sweep.frequency_hz - 100)))
+    at = np.array([20, near, 300])
+    both = [CATALOGUE["mains_hum"], CATALOGUE["signal_dropout"]]
+    used, found, _ = seen_in_channels(spoilt(at, 0.02), both)
+    assert [one.name for one in found] == ["signal_dropout"]
+    assert (np.flatnonzero(~used) == at).all()
+
+
 def test_what_hums_is_not_said_twice():
     sweep = read_sweep(DATA / "practice-002.csv").sweep(9.81)
     v = sweep.velocity_m_s.copy()

@@ -121,6 +121,13 @@ def test_identified_by_the_button_it_shows_points_lines_and_the_law(qtbot, chose
     assert "identified here of 2 files" in material.origin.said
 
 
+def test_where_nothing_is_left_unexplained_it_says_so(diagnosed):
+    diagnosed.views.setCurrentWidget(diagnosed.left_view)
+    assert diagnosed.left.texts(0) == []
+    assert diagnosed.left_said.isVisible()
+    assert diagnosed.left_said.text().startswith("Nothing: ")
+
+
 def test_a_computation_cancelled_leaves_the_page_as_it_was(qtbot, chosen):
     qtbot.mouseClick(chosen.identify, LEFT)
     qtbot.mouseClick(chosen.cancel, LEFT)

@@ -61,6 +61,19 @@ def test_whose_file_an_effect_is_in_is_said_in_words(value, said):
     assert parameter_words("file", where) == said
 
 
+@pytest.mark.parametrize(
+    ("key", "value", "said"),
+    [
+        ("layer", 1.0, "of the constraining layer"),
+        ("layer_density.layer", 0.0, "layer_density of the substrate"),
+        ("level", 0.0, "at every level"),
+        ("level", 9.81, "level 9.81"),
+    ],
+)
+def test_a_number_that_stands_for_a_word_is_said_as_that_word(key, value, said):
+    assert parameter_words(key, ParameterFound(value=value, standard_error=float("nan"), unit="1")) == said
+
+
 def test_a_law_of_an_unknown_cause_says_so():
     assert with_verdict("the law", diagnosis(verdict="unknown")) == "the law (verdict unknown)"
     assert with_verdict("the law", diagnosis()) == "the law"

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from instrument.results.numbers import format_number, signed, to_error, with_error
+from instrument.results.numbers import error_beside, format_number, signed, to_error, with_error
 
 
 @pytest.mark.parametrize(
@@ -61,3 +61,16 @@ def test_plain_and_signed():
 )
 def test_what_people_read_has_an_exponent_only_where_it_must(value, text):
     assert format_number(value, 3) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "error", "text"),
+    [
+        (293100.0, 9312.0, "9300"),
+        (4.0e6, 3.96e5, "0.40e6"),
+        (2.44e-4, 2.5e-5, "0.25e-4"),
+        (0.9, 0.014, "0.014"),
+    ],
+)
+def test_an_error_in_a_column_of_its_own_has_its_value_s_exponent(value, error, text):
+    assert error_beside(value, error) == text
