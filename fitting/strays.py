@@ -3,7 +3,9 @@
 A laser that lost its speckle, an overload, a contact that opened for a moment. Every reading is held against
 the local model of `fitting.noise` through the six beside it. The worst are taken out of the curves, and the
 rest judged anew: what is left must lie on its curves, also right beside a gap. A resonance bends its
-neighbours too and is none of these; where steps are too coarse to follow one, nothing is said.
+neighbours too and is none of these; where steps are too coarse to follow one, nothing is said. At an end
+there are readings on one side only, and a resonance may begin there: what is off must be so at once, and
+from a freer curve as well.
 """
 
 from itertools import pairwise
@@ -36,6 +38,17 @@ _MEDIAN = 1.177
 """Of a complex normal variable's size, in standard deviations of a part."""
 _NEAREST = 6
 """Readings that the curve at a gap is drawn through."""
+_REACH = 2.5
+"""Of half of what the readings beside span: no end is judged further from their middle. Of even steps all
+are nearer."""
+_FREER = 12
+"""Readings that the curve of two poles at an end is drawn through: twice as many as it has unknowns."""
+_AGREE = 3.0
+"""Times the difference of both curves that a stray at an end is off by at least. A choice."""
+_AT_ONCE = 0.4
+"""Of the largest share by which readings at an end are off: none of them is off by less. A choice."""
+_REPEATED = 0.1
+"""Of the numbers: as many are there twice where they were read or written in steps."""
 
 
 def strays(sweep: Sweep) -> Array:
@@ -48,7 +61,7 @@ def strays(sweep: Sweep) -> Array:
         return off
     for group in groups_of(sweep):
         f = sweep.frequency_hz[group]
-        if len(np.unique(f)) == len(f) >= FEWEST:
+        if len(np.unique(f)) == len(f) >= FEWEST and sweep.response_m_s[group].any():
             order = np.argsort(f)
             off[group[order]] = _in_group(f[order], sweep.response_m_s[group[order]])
     return off
@@ -56,8 +69,9 @@ def strays(sweep: Sweep) -> Array:
 
 def _in_group(f: Array, v: NDArray[Any]) -> Array:
     """Of one curve in ascending order. Shape (points,)."""
-    left = _leaves(f, v)
-    scatter = _scatter(left, np.abs(v))
+    left, size = _leaves(f, v), np.abs(v)
+    finest = max(_steps(v.real), _steps(v.imag), _steps(size)) / np.sqrt(12)
+    scatter = _scatter(left, size, finest)
     suspect = left > BEYOND * scatter
     out = _missing(f, v, scatter, suspect)
     while True:
@@ -65,7 +79,7 @@ def _in_group(f: Array, v: NDArray[Any]) -> Array:
         if len(kept) < FEWEST:
             return np.zeros(len(f))
         left = _leaves(f[kept], v[kept])
-        z = left / _scatter(left, np.abs(v[kept]))
+        z = left / _scatter(left, size[kept], finest)
         worst = z > BEYOND
         for k in range(1, WINDOW // 2 + 1):
             # One that is off spoils the curves of those beside it.
@@ -84,7 +98,8 @@ def _in_group(f: Array, v: NDArray[Any]) -> Array:
         lies = last - first < _TOGETHER and np.all(clean[beside] | out[beside])
         if lies and _is_followed(v, out, first, last):
             run = slice(first, last + 1)
-            curve = _curve(f[kept], v[kept], f[run])
+            near = kept[np.sort(np.argsort(np.abs(f[kept] - f[run].mean()))[:_NEAREST])]
+            curve = _curve(f[near], v[near], f[run])
             far = np.abs(v[run] - curve)
             off[run] = np.where(far > LEAST * np.abs(curve), far, 0.0)
     return off
@@ -94,7 +109,9 @@ def _is_followed(v: Complex, out: Mask, first: int, last: int) -> bool:
     """Whether the phase turns little from step to step about a gap, and over it."""
     near = np.arange(max(first - _SIDE, 0), min(last + _SIDE, len(v) - 1) + 1)
     kept = near[~out[near]]
-    turns = np.abs(np.angle(v[kept[1:]] / v[kept[:-1]]))
+    over = v[kept[1:]] * v[kept[:-1]].conj()
+    # A reading of nothing has no phase to follow.
+    turns = np.where(over == 0, np.pi, np.abs(np.angle(over)))
     return bool(np.all(turns < np.minimum(_TURN * np.diff(kept), _TURN_OVER)))
 
 
@@ -111,12 +128,37 @@ def _missing(f: Array, v: Complex, scatter: Array, suspect: Mask) -> Mask:
         at = np.arange(n - width + 1)[:, None] + np.arange(width)
         # Between as many on either side where something is suspect; at an end, with what is there before it.
         gaps = [_parted(at[suspect[at].any(axis=1)], _SIDE, count)] if count > 1 else []
+        between = sum(len(inner) for inner, _ in gaps)
         for k in range(_SIDE - count + 1):
             gaps += [_parted(at[:1], k, count), _parted(at[-1:], 2 * _SIDE - k, count)]
+        if not gaps:
+            continue
         inner, outer = (np.concatenate(part) for part in zip(*gaps, strict=True))
         off, beside = _over(f, v, scatter, inner, outer)
-        out[inner[(off > BEYOND) & (beside < _BESIDE)]] = True
+        far = (off > BEYOND) & (beside < _BESIDE)
+        far[between:] = [
+            is_far and _at_once(f, v, inner[k], outer[k]) for k, is_far in enumerate(far[between:], between)
+        ]
+        out[inner[far]] = True
     return out
+
+
+def _at_once(f: Array, v: Complex, inner: Places, outer: Places) -> bool:
+    """Whether readings at an end leave the curve beside them as no structure does.
+
+    A resonance that begins or ends there takes each further than the one before, and a curve of two poles
+    through more readings goes some of the way. Shapes (readings,) and (beside,).
+    """
+    middle, half = f[outer].mean(), np.ptp(f[outer]) / 2
+    if np.abs(f[inner] - middle).max() > _REACH * half:
+        return False
+    every = np.setdiff1d(np.arange(len(f)), inner)
+    near = every[:_FREER] if inner[0] < every[len(every) // 2] else every[-_FREER:]
+    curve = _curve(f[outer], v[outer], f[inner])
+    freer = _curve(f[near], v[near], f[inner], poles=2)
+    off = np.abs(v[inner] - curve)
+    share = off * np.abs(curve).max() / np.maximum(np.abs(curve), 1e-9 * np.abs(curve).max())
+    return bool(np.all(off > _AGREE * np.abs(freer - curve)) and share.min() > _AT_ONCE * share.max())
 
 
 def _parted(at: Places, first: int, count: int) -> tuple[Places, Places]:
@@ -162,23 +204,35 @@ def _leaves(f: Array, v: Complex) -> Array:
     return z
 
 
-def _scatter(left: Array, size: Array) -> Array:
-    """By medians, that strays hardly move: a floor by the smaller half, a share by the larger one."""
+def _scatter(left: Array, size: Array, finest: float) -> Array:
+    """By medians, that strays hardly move: a floor by the smaller half, a share by the larger one.
+
+    None is below the `finest`, which is what steps of the reading itself leave.
+    """
     inner = slice(WINDOW // 2, -(WINDOW // 2))
     small = size[inner] <= np.median(size[inner])
     floor = np.median(left[inner][small])
-    share = np.median((left[inner] / size[inner])[~small]) if not small.all() else 0.0
-    return np.asarray(np.maximum(np.hypot(floor, share * size) / _MEDIAN, 1e-9 * size.max() + 1e-300))
+    share = np.median(left[inner][~small] / size[inner][~small]) if not small.all() else 0.0
+    least = max(finest, 1e-9 * size.max() + 1e-300)
+    return np.asarray(np.maximum(np.hypot(floor, share * size) / _MEDIAN, least))
 
 
-def _curve(f: Array, v: Complex, at: Array) -> Complex:
-    """Of the readings nearest to a gap, inside it. Shape of `at`."""
-    middle = at.mean()
-    near = np.sort(np.argsort(np.abs(f - middle))[:_NEAREST])
-    half = np.ptp(f[near]) / 2
-    t, there = (f[near] - middle) / half, (at - middle) / half
-    a, b, c, d = np.linalg.lstsq(local_model(t, v[near]), v[near], rcond=None)[0]
-    return np.asarray((a + b * there + c * there**2) / (1 - d * there))
+def _steps(x: Array) -> float:
+    """The least difference of numbers of which many are there more than once; 0 where they are not."""
+    values = np.unique(x)
+    repeated = len(values) < (1 - _REPEATED) * len(x)
+    return float(np.diff(values).min()) if repeated and len(values) > 1 else 0.0
+
+
+def _curve(f: Array, v: Complex, at: Array, *, poles: int = 1) -> Complex:
+    """Through these readings at other frequencies: `poles` over a polynomial, linearised. Shape of `at`."""
+    middle, half = f.mean(), np.ptp(f) / 2
+    t, there = (f - middle) / half, (at - middle) / half
+    powers = np.arange(poles + 2)
+    columns = np.concatenate([t[:, None] ** powers, v[:, None] * t[:, None] ** powers[1:-1]], axis=1)
+    a = np.linalg.lstsq(columns, v, rcond=None)[0]
+    above = there[:, None] ** powers @ a[: poles + 2]
+    return np.asarray(above / (1 - there[:, None] ** powers[1:-1] @ a[poles + 2 :]))
 
 
 def _runs(out: Mask) -> list[tuple[int, int]]:

@@ -1,5 +1,9 @@
-"""What is done, line by line on disk: a batch that was killed goes on after the last whole line."""
+"""What is done, line by line on disk: a batch that was killed goes on after the last whole line.
 
+A line carries a checksum: what was changed in it is no outcome, and its row is done again.
+"""
+
+import hashlib
 import json
 import os
 from collections.abc import Iterator
@@ -53,7 +57,8 @@ class OutcomeJournal:
         """Append, and return once the disk has it. Raises `BadInput` where it is full."""
         self._file.seek(0, os.SEEK_END)
         begins = self._file.tell()
-        line = json.dumps({"key": key, "outcome": outcome}, allow_nan=False)
+        said = {"key": key, "outcome": outcome, "sha256": _digest(key, outcome)}
+        line = json.dumps(said, allow_nan=False)
         try:
             self._file.write(line.encode() + b"\n")
             self._file.flush()
@@ -85,8 +90,16 @@ class OutcomeJournal:
     def _read(self, number: int, line: bytes) -> tuple[str, bool]:
         try:
             said: dict[str, Any] = json.loads(line)
-            return str(said["key"]), bool(said["outcome"]["again"])
-        except (ValueError, KeyError, TypeError):
+            key, outcome = str(said["key"]), said["outcome"]
+            again = bool(outcome["again"])
+        except (ValueError, KeyError, TypeError, RecursionError):
             raise BadInput(
-                f"{self.path}: line {number}: not a row of a batch, expected what 'viscorig batch' wrote"
+                f"{self.path}: line {number}: not a row of a batch, expected what 'viscorig batch' wrote; "
+                "where it is damaged, remove it: its rows are done again"
             ) from None
+        return key, again or said.get("sha256") != _digest(key, outcome)
+
+
+def _digest(key: str, outcome: Any) -> str:
+    """SHA-256 of a row, as it is written."""
+    return hashlib.sha256(json.dumps([key, outcome]).encode()).hexdigest()

@@ -81,3 +81,38 @@ def test_the_order_of_points_carries_no_meaning():
     v[[30, 31, 32, 80]] *= 0.1
     order = rng.permutation(121)
     assert strays(sweep(v[order], F[order])) == pytest.approx(strays(sweep(v))[order])
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_resonance_at_an_end_is_no_lost_signal(seed):
+    rng = np.random.default_rng(seed)
+    n = int(rng.choice([18, 31, 60]))
+    f = np.linspace(100.0, 300.0, n)
+    width = 6 * (f[1] - f[0])
+    end = rng.choice([100.0, 300.0]) + rng.uniform(-1, 1) * width
+    v = modes(f, [end, rng.uniform(120, 280)], [width / end] * 2, seed)
+    assert not strays(sweep(noisy(v, rng, 1e-5), f)).any()
+
+
+@pytest.mark.parametrize("at", [slice(0, 1), slice(0, 3), slice(119, 121), slice(117, 121)])
+def test_a_signal_lost_at_an_end_is_found(at):
+    v = noisy(modes(F, [19.0], [0.1]), np.random.default_rng(6))
+    v[at] *= 1e-2
+    assert (np.flatnonzero(strays(sweep(v))) == np.arange(121)[at]).all()
+
+
+@pytest.mark.parametrize("digits", [2, 3, 4])
+@pytest.mark.parametrize("of", [lambda v, d: np.round(v, d), lambda v, d: np.round(np.abs(v), d) + 0j * v])
+def test_a_reading_in_steps_of_its_last_digit_is_none(digits, of):
+    v = modes(F, [19.0], [0.02])
+    v = v / np.abs(v).max()
+    assert not strays(sweep(of(v, digits))).any()
+
+
+def test_readings_of_nothing_are_no_curve():
+    v = np.round(modes(F, [19.0], [0.02]) * 1e3)
+    v[:40] = 0
+    v[30] = 1.0
+    assert not strays(sweep(v))[:25].any()
+    assert not strays(sweep(np.zeros(121, complex))).any()
+    assert not strays(sweep(np.ones(121, complex))).any()

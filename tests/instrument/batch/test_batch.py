@@ -118,6 +118,24 @@ def test_started_again_nothing_is_repeated_and_the_table_is_the_same(tmp_path, w
     assert (tmp_path / "batch.jsonl").read_bytes() == journal
 
 
+@pytest.mark.parametrize("how", ["a number turned", "numbers lost"])
+def test_a_row_that_was_changed_in_the_journal_is_done_again(tmp_path, whole, sweeps, plate, capsys, how):
+    shutil.copytree(whole, tmp_path, dirs_exist_ok=True)
+    journal, table = tmp_path / "batch.jsonl", (tmp_path / "batch.csv").read_bytes()
+    lines = journal.read_text(encoding="utf-8").splitlines(keepends=True)
+    at = next(k for k, line in enumerate(lines) if '"law"' in line)
+    law = lines[at].index('"law"')
+    number = re.compile(r"\d\.\d+, ").search(lines[at], law)
+    new = number[0].replace(number[0][2], str((int(number[0][2]) + 1) % 10)) if "turned" in how else ""
+    lines[at] = lines[at][: number.start()] + new + lines[at][number.end() :]
+    json.loads(lines[at])
+    journal.write_text("".join(lines), encoding="utf-8")
+    capsys.readouterr()
+    assert batch(*sweeps, "--specimen", plate, "--out", tmp_path) == 0
+    assert "3 of them known before" in capsys.readouterr().out
+    assert (tmp_path / "batch.csv").read_bytes() == table
+
+
 def test_another_content_is_another_row(tmp_path, plate):
     (path,) = write_sweeps(tmp_path, plate, 1)
     batch(path, "--specimen", plate, "--out", tmp_path / "out")
