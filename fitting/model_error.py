@@ -19,9 +19,11 @@ LOSS = 1e-3
 GAIN = 2e-3
 """Of the response, in size and in phase."""
 STRUCK_GAIN = 1e-2
-"""Of each resonance of several that a force drives, in size and in phase: shapes of neighbours mix by what the
-theory's error is of their distance, and at points near the nodes of one little is left of it. A judgement: of
-solids without bounces 0.2 % did as well."""
+"""Of each resonance of several that a force drives, in size and in phase.
+
+Shapes of neighbours mix by what the theory's error is of their distance, and at points near the nodes of one
+little is left of it. A judgement: of solids struck without bounces 0.2 % did as well.
+"""
 DRIFT = 1e-3
 """Of an instrument's gain from one end of a segment to the other."""
 
