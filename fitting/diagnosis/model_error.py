@@ -98,7 +98,7 @@ class OfOnePlate:
         self._known: list[tuple[Specimen, float, str, Complex]] = []
 
     def add(self, specimen: Specimen, part: slice | NDArray[np.intp], found: OwnErrors) -> None:
-        """Those of a file, whose points are `part` of all."""
+        """Those of a file, whose points are `part` of all; of shape (points of all,) where it is no slice."""
         its = replace(specimen, force_m=None, pickup_m=None, further_pickups_m=())
         before = [(k, one) for k, one in enumerate(self._known) if one[0] == its]
         for (f, kind), row in zip(found.keys, found.of_plate, strict=True):
