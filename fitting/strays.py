@@ -60,10 +60,11 @@ def strays(sweep: Sweep) -> Array:
     if not sweep.has_phase:
         return off
     for group in groups_of(sweep):
-        f = sweep.frequency_hz[group]
-        if len(np.unique(f)) == len(f) >= FEWEST and sweep.response_m_s[group].any():
-            order = np.argsort(f)
-            off[group[order]] = _in_group(f[order], sweep.response_m_s[group[order]])
+        # Of a frequency that is there again the first reading lies on the curve, the others are as they are.
+        f, first = np.unique(sweep.frequency_hz[group], return_index=True)
+        at = group[first]
+        if len(f) >= FEWEST and sweep.response_m_s[at].any():
+            off[at] = _in_group(f, sweep.response_m_s[at])
     return off
 
 

@@ -116,3 +116,11 @@ def test_readings_of_nothing_are_no_curve():
     assert not strays(sweep(v))[:25].any()
     assert not strays(sweep(np.zeros(121, complex))).any()
     assert not strays(sweep(np.ones(121, complex))).any()
+
+
+def test_a_frequency_that_is_there_again_leaves_the_others_judged():
+    v = noisy(modes(F, [19.0], [0.1]), np.random.default_rng(6))
+    v[70] *= 1.5
+    again = np.append(F, F[30]), np.append(v, v[30])
+    off = strays(sweep(again[1], again[0]))
+    assert (np.flatnonzero(off) == [70]).all()
