@@ -79,9 +79,10 @@ def test_each_segment_has_errors_of_its_own(practice, zn1, found):
     ready = set_up(practice, zn1, with_effects=False)
     rows = model_error(ready.problem, ready.reduced, found.result.law, found.result.fit.velocity_m_s)
     # Of each resonance a shift, a loss, a gain, a phase, and how the last two drift along the segment. The
-    # third has two, at 253 and 278 Hz, and what it has from all others.
-    assert rows.shape == (6 + 6 + 3 * 4 + 2, len(practice))
-    for row in rows:
+    # third has two, at 253 and 278 Hz, and what it has from all others. And what all have by one cause.
+    assert rows.shape == (1 + 6 + 6 + 3 * 4 + 2, len(practice))
+    assert (np.abs(rows[0]) > 0).all()
+    for row in rows[1:]:
         assert len(np.unique(practice.segment[np.abs(row) > 0])) == 1
 
 
@@ -94,8 +95,9 @@ def test_each_resonance_of_one_piece_has_errors_of_its_own(practice, zn1, found)
     v = ready.problem.rational.displacement(law.modulus(whole.omega)) * 1j * whole.omega
     v = v * whole.commanded_m_s2
     rows = model_error(ready.problem, ready.reduced, law, v)
-    # Four resonances and the rest.
-    assert rows.shape == (5 * 4 + 2, len(practice))
+    # What all have by one cause, then four resonances and the rest.
+    assert rows.shape == (1 + 5 * 4 + 2, len(practice))
+    rows = rows[1:]
     peaks = whole.frequency_hz[np.argmax(np.abs(rows[0:8:2]), axis=1)]
     np.testing.assert_allclose(peaks, [18.7, 98.9, 252.6, 278.1], rtol=0.05)
     np.testing.assert_allclose(rows[10:15].sum(axis=0), GAIN * v, rtol=1e-9)
