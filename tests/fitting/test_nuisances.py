@@ -92,7 +92,7 @@ def test_each_stated_number_moves_the_plate_as_one_built_anew(moved, name):
     (k,) = (k for k, n in enumerate(moved.nuisances.each) if n.name == name)
     for by in (-3.0, 3.0):
         z = by * np.eye(len(moved.nuisances))[k]
-        # What free edges lack in twist is none of the parts that move: a thickness 1.5 % off misses 5 % of it.
+        # What free edges lack in twist is none of the parts that move: of 1.5 % in thickness it misses 5 %.
         np.testing.assert_allclose(moved.answer(z).heave, moved.anew(z), rtol=2e-4)
 
 
