@@ -6,7 +6,7 @@ The same numbers; but loading `scipy.stats` would be a sixth of the start of eve
 from typing import Any
 
 import numpy as np
-from scipy.special import chdtrc, chdtri, fdtrc, gammaincinv, gammaln, ndtr, ndtri, xlogy
+from scipy.special import bdtrc, chdtrc, chdtri, fdtrc, gammaincinv, gammaln, ndtr, ndtri, xlogy
 
 
 def normal_above(z: Any) -> Any:
@@ -46,3 +46,8 @@ def f_above(x: Any, above: Any, below: Any) -> Any:
     Numbers or arrays that broadcast.
     """
     return fdtrc(above, below, np.maximum(x, 0.0))
+
+
+def binomial_above(count: Any, tries: Any, share: Any) -> Any:
+    """P(X > count) of how many of some tries succeed, each with this chance. Numbers or arrays."""
+    return bdtrc(count, tries, share)

@@ -10,9 +10,9 @@ from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import gammaincinv
 
 from fitting.arrays import Array
+from fitting.chances import chi2_exceeded
 from fitting.sweep import Sweep
 
 WINDOW = 7
@@ -74,12 +74,12 @@ def scatter_over_stated(sweep: Sweep) -> float | None:
             continue
         ratios.append(_scatter(f, v) / stated[group])
         order = np.argsort(f, kind="stable")
-        middle, left_over = _local_residuals(f[order], v[order])
+        middle, left_over = local_residuals(f[order], v[order])
         squares.append(np.abs(left_over / stated[group][order][middle]) ** 2)
     if not ratios:
         return None
     parts = 2 if sweep.has_phase else 1
-    least = np.quantile(np.concatenate(squares), _LEAST) / (2 * gammaincinv(parts / 2, _LEAST))
+    least = np.quantile(np.concatenate(squares), _LEAST) / chi2_exceeded(1 - _LEAST, parts)
     logs = np.log(np.median(np.concatenate(ratios))), np.log(max(float(least), 1e-300)) / 2
     if logs[0] * logs[1] <= 0:
         return 1.0
@@ -96,7 +96,7 @@ def groups_of(sweep: Sweep) -> list[NDArray[np.intp]]:
 def _scatter(frequency_hz: Array, response: NDArray[np.complex128] | Array) -> Array:
     order = np.argsort(frequency_hz, kind="stable")
     f, v = frequency_hz[order], response[order]
-    middle, left_over = _local_residuals(f, v)
+    middle, left_over = local_residuals(f, v)
     parts = 2 if np.iscomplexobj(v) else 1
     square = np.abs(left_over) ** 2 / parts
     floor, share = _variance_model(np.abs(v[middle]) ** 2, square, parts)
@@ -105,19 +105,20 @@ def _scatter(frequency_hz: Array, response: NDArray[np.complex128] | Array) -> A
     return std
 
 
-def _local_residuals(f: Array, v: NDArray[Any]) -> tuple[NDArray[np.intp], NDArray[Any]]:
-    """Middle points of the windows and what the local model leaves there, scaled to unit gain of noise."""
+def local_residuals(f: Array, v: NDArray[Any]) -> tuple[NDArray[np.intp], NDArray[Any]]:
+    """Middle points of the windows and what the local model leaves there, scaled to unit gain of noise.
+
+    Of readings in ascending order. Shape (points - WINDOW + 1,) each.
+    """
     half = WINDOW // 2
     middles = np.arange(half, len(f) - half)
-    residuals = np.empty(len(middles), dtype=v.dtype)
-    for n, k in enumerate(middles):
-        window = slice(k - half, k + half + 1)
-        t = (f[window] - f[k]) / max(f[window][-1] - f[window][0], 1e-12)
-        Q, _ = np.linalg.qr(local_model(t, v[window]))
-        left_over = v[k] - Q[half] @ (Q.conj().T @ v[window])
-        gain = 1 - np.vdot(Q[half], Q[half]).real
-        residuals[n] = left_over / np.sqrt(max(gain, 1e-6))
-    return middles, residuals
+    at = middles[:, None] + np.arange(-half, half + 1)
+    span = np.maximum(f[at[:, -1]] - f[at[:, 0]], 1e-12)
+    Q, _ = np.linalg.qr(local_model((f[at] - f[middles][:, None]) / span[:, None], v[at]))
+    row = Q[:, half]
+    left_over = v[middles] - np.einsum("pu,pwu,pw->p", row, Q.conj(), v[at])
+    gain = 1 - np.sum(np.abs(row) ** 2, axis=1)
+    return middles, left_over / np.sqrt(np.maximum(gain, 1e-6))
 
 
 def local_model(t: Array, v: NDArray[Any]) -> NDArray[Any]:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fitting.arrays import Array, Complex, Mask
-from fitting.noise import FEWEST, WINDOW, groups_of, local_model
+from fitting.noise import FEWEST, WINDOW, groups_of, local_model, local_residuals
 from fitting.sweep import Sweep
 
 Places = NDArray[np.intp]
@@ -193,16 +193,10 @@ def _over(f: Array, v: Complex, scatter: Array, inner: Places, outer: Places) ->
 
 def _leaves(f: Array, v: Complex) -> Array:
     """By how much each reading leaves its curve, scaled to unit gain of noise; 0 for three at either end."""
-    half = WINDOW // 2
-    at = np.arange(half, len(f) - half)[:, None] + np.arange(-half, half + 1)
-    t = (f[at] - f[at[:, half : half + 1]]) / (f[at[:, -1:]] - f[at[:, :1]])
-    Q, _ = np.linalg.qr(local_model(t, v[at]))
-    row = Q[:, half]
-    left = v[at[:, half]] - np.einsum("pu,pwu,pw->p", row, Q.conj(), v[at])
-    gain = 1 - np.sum(np.abs(row) ** 2, axis=1)
-    z = np.zeros(len(f))
-    z[half:-half] = np.abs(left) / np.sqrt(np.maximum(gain, 1e-6))
-    return z
+    left = np.zeros(len(f))
+    middles, left_over = local_residuals(f, v)
+    left[middles] = np.abs(left_over)
+    return left
 
 
 def _scatter(left: Array, size: Array, finest: float) -> Array:

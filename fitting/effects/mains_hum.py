@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 
 import numpy as np
-from scipy.special import bdtrc
 
+from fitting.chances import binomial_above
 from fitting.effects.base import EVERY_STRUCTURE, ChannelFinding, Effect, Points
 from fitting.effects.enriched_plate import EnrichedReducedPlate
 from fitting.hum import SPREAD_HZ, HumSeen, mains_hum
@@ -50,7 +50,7 @@ def _are_strays(sweep: Sweep, hum: HumSeen) -> bool:
     lines = [k * hum.mains_hz for k in hum.multiples]
     near = np.any([np.abs(f - line) <= SPREAD_HZ for line in lines], axis=0)
     count, here = int(stray.sum()), int((stray & near).sum())
-    if here in (0, count) or bdtrc(here - 1, count, near.mean()) < _BY_CHANCE:
+    if here in (0, count) or binomial_above(here - 1, count, near.mean()) < _BY_CHANCE:
         return False
     left = sweep.take(~stray)
     return mains_hum(left, noise_of(left)) is None

@@ -7,6 +7,7 @@ from scipy import stats
 
 import fitting
 from fitting.chances import (
+    binomial_above,
     chi2_above,
     chi2_density,
     chi2_exceeded,
@@ -18,6 +19,14 @@ from fitting.chances import (
 
 RNG = np.random.default_rng(3)
 FREEDOM = RNG.integers(1, 300, 500)
+
+
+def test_tries_are_counted_as_scipy_does():
+    tries, share = RNG.integers(1, 30, 200), RNG.random(200)
+    count = RNG.integers(0, tries)
+    np.testing.assert_allclose(
+        binomial_above(count, tries, share), stats.binom.sf(count, tries, share), rtol=1e-9
+    )
 
 
 def test_they_are_scipys_to_the_bit():
