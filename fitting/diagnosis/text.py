@@ -3,7 +3,7 @@
 import numpy as np
 
 from fitting.arrays import Complex
-from fitting.diagnosis.of_files import ALIKE, FILE, PICKUP
+from fitting.diagnosis.parts_with import part_with
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.refitted import Refitted
 from fitting.diagnosis.responses import response_of
@@ -76,9 +76,7 @@ def explain(
         said.append(f"That there is no effect at all keeps {_percent(judgement.probability[()])}.")
     said.append(
         f"With it the fit leaves {two_digits(after.rms_percent)} % rms instead of "
-        f"{two_digits(before.rms_percent)} %"
-        + _chi2(before, after)
-        + _held_out(before, after, found, catalogue)
+        f"{two_digits(before.rms_percent)} %" + _chi2(before, after) + _held_out(before, after, found)
     )
     said.append(_law(before, after))
     return tuple(said)
@@ -187,10 +185,9 @@ def _chi2(before: Stage, after: Stage) -> str:
     )
 
 
-def _held_out(
-    before: Stage, after: Stage, found: tuple[FoundEffect, ...], catalogue: dict[str, Effect]
-) -> str:
-    if any(_is_of_a_part(one, catalogue[one.name]) for one in found):
+def _held_out(before: Stage, after: Stage, found: tuple[FoundEffect, ...]) -> str:
+    values = [(one.name, {key: p.value for key, p in one.parameters.items()}) for one in found]
+    if not all(part_with(*one).is_all for one in values):
         return "; what is in one part of the data alone, the others cannot foretell."
     pairs = [(s.validation.leave_one_out_rms_percent, "left out one by one") for s in (before, after)]
     if pairs[0][0] is None:
@@ -199,13 +196,6 @@ def _held_out(
     if a is None or b is None:
         return "."
     return f"; {what} {two_digits(a)} % instead of {two_digits(b)} %."
-
-
-def _is_of_a_part(found: FoundEffect, effect: Effect) -> bool:
-    """Whether it is of some segments, files or spots only, so that those held out may be all that show it."""
-    file, spot = (found.parameters.get(key) for key in (FILE, PICKUP))
-    alone = (file is not None and file.value != ALIKE) or (spot is not None and spot.value >= 0)
-    return effect.of_a_segment or alone
 
 
 def _law(before: Stage, after: Stage) -> str:
