@@ -65,7 +65,7 @@ def own_errors(problem: DiagnosisProblem, reduced: ReducedPlate, law: CoreLaw, v
         return np.asarray((1j * omega * x)[index.ravel()] * problem.points.acceleration_m_s2)
 
     keys: list[tuple[float, str]] = [(0.0, COMMON)]
-    rows, channels = [np.zeros(len(v), complex)], []
+    common, rows, channels = np.zeros(len(v), complex), [], []
     for number in np.unique(problem.sweep.segment):
         inside = problem.sweep.segment == number
         f = problem.sweep.frequency_hz[inside]
@@ -79,7 +79,7 @@ def own_errors(problem: DiagnosisProblem, reduced: ReducedPlate, law: CoreLaw, v
             keys += [(part.frequency_hz, "frequency"), (part.frequency_hz, "loss")]
             rows += [size.frequency[k] * dv * inside, size.loss[k] * by_loss * inside]
             f_off, loss_off = (float(one[k]) for one in size.signed)
-            rows[0] = rows[0] + (f_off * dv + loss_off * by_loss) * inside
+            common += (f_off * dv + loss_off * by_loss) * inside
         each = [velocity(p.displacement) for p in parts[:-1]]
         # The rest has the base's motion too, where the laser reads it.
         gains = [*each, v - sum(each, np.zeros(len(v)))]
@@ -87,7 +87,7 @@ def own_errors(problem: DiagnosisProblem, reduced: ReducedPlate, law: CoreLaw, v
         channels += channel_rows(
             problem.sweep, inside, v, has_phase=problem.points.has_phase, parts=gains, gain=gain
         )
-    return OwnErrors(tuple(keys), np.array(rows), np.array(channels))
+    return OwnErrors(tuple(keys), np.array([common, *rows]), np.array(channels))
 
 
 class OfOnePlate:

@@ -63,8 +63,6 @@ class SmallProblem(DiagnosisProblem):
 
     misfit: float = 0.0
     """Of the reading, relative: what a fit has left that nothing explains."""
-    found: Array | None = None
-    """Where a fit has its stated numbers, in standard deviations; None: as stated. Shape (numbers,)."""
 
     @classmethod
     def of_small(cls, sweep: Sweep, specimen: SmallSpecimen) -> "SmallProblem":
@@ -128,10 +126,6 @@ class SmallProblem(DiagnosisProblem):
     def errs_as_found(self) -> bool:
         """A beam's: a resonance is narrower than its stated numbers may be off."""
         return self.specimen.kind == "beam" and len(self.nuisances) > 0
-
-    def as_found(self, z: Array) -> "SmallProblem":
-        """The same, its model's error asked with its stated numbers there. `z` of shape (numbers,)."""
-        return replace(self, found=np.array(z))
 
     def _system(self) -> SmallSystem:
         """With its stated numbers where they were found."""

@@ -49,6 +49,9 @@ class LayerDensityEffect(Effect):
     def on(self, kind: str) -> Effect | None:
         return NumberOffEffect(self, "substrate_density") if kind == "beam" else super().on(kind)
 
+    def objection(self, points: Points, plate: EnrichedReducedPlate) -> str | None:
+        return None if plate.layers.any() else "the plate at hand does not know its layers"
+
     def starts(self, plate: EnrichedReducedPlate, points: Points) -> list[Array]:
         return [np.array([1.03, layer]) for layer in (SUBSTRATE, CONSTRAINING)]
 

@@ -51,7 +51,7 @@ def remarks_on_noise(sweep: Sweep) -> tuple[str, ...]:
     )
 
 
-def remarks_on_strays(sweep: Sweep, place: str = "") -> tuple[str, ...]:
+def remarks_on_strays(sweep: Sweep) -> tuple[str, ...]:
     """Which readings are so far off the curve of those beside them that they are set aside."""
     f = np.unique(np.round(sweep.frequency_hz[strays(sweep) > 0], 4))
     if not len(f):
@@ -59,7 +59,7 @@ def remarks_on_strays(sweep: Sweep, place: str = "") -> tuple[str, ...]:
     named = ", ".join(f"{one:g}" for one in f[:_NAMED]) + (", ..." if len(f) > _NAMED else "")
     what = "reading leaves the curve of those" if len(f) == 1 else "readings leave the curve of those"
     return (
-        f"{place}{len(f)} {what} beside by more than {BEYOND:g} times what they scatter, set aside "
+        f"{len(f)} {what} beside by more than {BEYOND:g} times what they scatter, set aside "
         f"({named} Hz): a signal lost, an overload, or a resonance narrower than the steps; read them again",
     )
 

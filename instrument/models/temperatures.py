@@ -209,8 +209,7 @@ class _Asked:
         effects, join = common(self.members.effects), self.members.joined
         with executor() as workers:
             with self.progress("a common cause in the channels") as report:
-                # What a layer weighs is asked of its parts, which a plate for channels does not carry.
-                plain = [e for e in effects if not e.spans and e.enters != "mass"]
+                plain = [e for e in effects if not e.spans]
                 found = causes_of(alone, task, fit, plain, join, workers, report)
             if any(c.serves for c in found):
                 return found
