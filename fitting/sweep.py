@@ -77,6 +77,13 @@ class Sweep:
         }
         return replace(self, **arrays)
 
+    def thinned(self, most: int) -> "Sweep":
+        """At most so many of the points, spread over all, the lowest and the highest frequency among them."""
+        if len(self) <= most:
+            return self
+        order = np.argsort(self.frequency_hz, kind="stable")
+        return self.take(order[np.linspace(0, len(self) - 1, most).astype(int)])
+
 
 def segments_by_gap(frequency_hz: Array) -> Integers:
     """Number the resonance regions where no segment is named. Shape (points,), counted from 1."""

@@ -16,6 +16,8 @@ from instrument.progress import quiet
 
 _WORTH_A_LOOK = 0.05
 """Of a reading, rms: files that are off by less have their own specimens. A choice."""
+_ENOUGH = 100
+"""Points of each file: more say the same of specimens exchanged, and two files of many take minutes."""
 _SO_MUCH_BETTER = 5.0
 """Times less must be left with two specimens exchanged. A choice."""
 
@@ -43,6 +45,7 @@ def exchanged(files: Sequence[File]) -> Exchanged | None:
     """The two files of shear pairs or beams that seem to be exchanged, if any. Raises `FittingError`."""
     if len(files) < 2 or not all(isinstance(f.specimen, Beam | ShearPair) for f in files):
         return None
+    files = [replace(file, sweep=file.sweep.thinned(_ENOUGH)) for file in files]
     given = _left(files)
     if given < _WORTH_A_LOOK:
         return None

@@ -76,7 +76,7 @@ def data_doubt(sweep: Sweep, specimen: Specimen, progress: Progress = quiet) -> 
 
     Raises `FittingError` where the plate cannot be modelled over these frequencies.
     """
-    sweep = _thinned(sweep)
+    sweep = sweep.thinned(_ENOUGH)
     f = sweep.frequency_hz
     if f.max() < _LOWEST_HZ:
         return f"{f.min():g} to {f.max():g} Hz: the frequencies are in kHz, expected Hz"
@@ -107,14 +107,6 @@ def data_doubt(sweep: Sweep, specimen: Specimen, progress: Progress = quiet) -> 
             "layer, unit, level or pickup"
         )
     return ""
-
-
-def _thinned(sweep: Sweep) -> Sweep:
-    """As many points as tell, the lowest and the highest frequency among them."""
-    if len(sweep) <= _ENOUGH:
-        return sweep
-    order = np.argsort(sweep.frequency_hz, kind="stable")
-    return sweep.take(order[np.linspace(0, len(sweep) - 1, _ENOUGH).astype(int)])
 
 
 _RAD_S = "it looks as if the frequencies are in rad/s, expected Hz"

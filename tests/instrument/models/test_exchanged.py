@@ -6,6 +6,7 @@ import pytest
 from shear_pair_cases import pair, sweep
 
 from fitting.errors import OutsideModel
+from instrument.models import exchanged as exchange
 from instrument.models.exchanged import exchanged
 from instrument.models.files import File
 from instrument.models.together import diagnose_together, identify_together
@@ -51,3 +52,18 @@ def test_identify_says_so_first():
 def test_diagnose_names_no_temperature_in_its_place():
     with pytest.raises(OutsideModel, match=r"each other's specimens.*exchange them"):
         diagnose_together(files((0, 2, 1)))
+
+
+def test_of_many_lines_some_are_looked_at(monkeypatch):
+    stated = [pair(m) for m in MASSES_KG[:2]]
+    many = [File(sweep(s, points=3000), other, "") for s, other in zip(stated, stated[::-1], strict=True)]
+    looked = []
+    begun = exchange.begin
+
+    def counted(problem, *more):
+        looked.append(len(problem.sweep))
+        return begun(problem, *more)
+
+    monkeypatch.setattr(exchange, "begin", counted)
+    assert exchanged(many) is not None
+    assert max(looked) <= 200
