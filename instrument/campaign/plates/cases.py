@@ -20,6 +20,7 @@ from instrument.campaign.plates.reduced import ReducedSolid
 from instrument.campaign.plates.schedule import (
     Resonance,
     draw_schedule,
+    known_to_hz,
     measured_resonances,
     resonances,
     widest_band_hz,
@@ -221,7 +222,7 @@ def _swept(
     """
     clean = clean_plate(true)
     if one_piece:
-        chosen = in_one_piece(rng, resonances(clean, true.spot_m, law))
+        chosen = in_one_piece(rng, resonances(clean, true.spot_m, law), known_to_hz(clean, law))
         return chosen, judged_of(chosen), draw_whole(rng, chosen, levels)
     chosen = measured_resonances(clean, true.spot_m, law)
     return chosen, chosen, draw_schedule(rng, chosen, levels)

@@ -21,12 +21,18 @@ _FLOOR = (3e-4, 2e-3)
 """Of the largest peak: one range serves all resonances, so what is read has 54 to 70 dB."""
 
 
-def in_one_piece(rng: np.random.Generator, every: list[Resonance]) -> list[Resonance]:
-    """Those of a band, from the first on; five or six. Raises `ArithmeticError` if fewer."""
+def in_one_piece(
+    rng: np.random.Generator, every: list[Resonance], known_to_hz: float = np.inf
+) -> list[Resonance]:
+    """Those of a band, from the first on; five or six. Raises `ArithmeticError` if fewer.
+
+    The sweep ends below `known_to_hz`: what is simulated is no plate beyond.
+    """
     count = int(rng.integers(FEWEST, _MOST + 1))
-    if len(every) < FEWEST:
-        raise ArithmeticError(f"{len(every)} resonances are excited, expected {FEWEST}")
-    return every[:count]
+    known = [r for r in every if _ENDS[1] * r.frequency_hz < known_to_hz]
+    if len(known) < FEWEST:
+        raise ArithmeticError(f"{len(known)} resonances are excited and known, expected {FEWEST}")
+    return known[:count]
 
 
 def judged_of(chosen: list[Resonance]) -> list[Resonance]:

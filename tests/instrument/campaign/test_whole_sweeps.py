@@ -11,7 +11,7 @@ from instrument.campaign.plates.answers import Band
 from instrument.campaign.plates.cases import NONE, draw_case
 from instrument.campaign.plates.kept import clean_plate
 from instrument.campaign.plates.noise import draw_noise
-from instrument.campaign.plates.schedule import Resonance, resonances
+from instrument.campaign.plates.schedule import Resonance, known_to_hz, resonances
 from instrument.campaign.plates.whole import draw_whole, in_one_piece, judged_of, of_one_range
 from instrument.cli.bench import bench
 from instrument.errors import BadInput
@@ -50,6 +50,15 @@ def test_the_law_is_judged_at_the_first_a_middle_and_the_last_resonance():
     assert 5 <= len(chosen) <= 6
     with pytest.raises(ArithmeticError, match="expected 5"):
         in_one_piece(np.random.default_rng(1), SIX[:4])
+    with pytest.raises(ArithmeticError, match="4 resonances"):
+        in_one_piece(np.random.default_rng(1), SIX, known_to_hz=1.05 * SIX[4].frequency_hz)
+
+
+def test_a_sweep_in_one_piece_ends_where_the_solid_is_known():
+    for plate, seed in (("P1", 5200003), ("P9", 5200007)):
+        case = draw_case(NONE, seed, plate=plate, one_piece=True)
+        known = known_to_hz(clean_plate(case.truth.plate), case.truth.law)
+        assert case.sweep.frequency_hz.max() < known
 
 
 def test_one_range_has_a_floor_of_its_own_and_the_same_drifts():
