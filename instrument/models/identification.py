@@ -10,6 +10,7 @@ from threadpoolctl import threadpool_limits
 
 from fitting.arrays import Mask
 from fitting.diagnosis.begin import Begun, begin
+from fitting.diagnosis.freer_law import loosened
 from fitting.diagnosis.joint import fit_of
 from fitting.diagnosis.prediction import held_out
 from fitting.digits import written_out
@@ -27,6 +28,7 @@ from fitting.strays import strays
 from fitting.sweep import Sweep
 from fitting.theory_error import TheoryError
 from instrument.models.remarks import (
+    remarks_on_bend,
     remarks_on_law,
     remarks_on_noise,
     remarks_on_strays,
@@ -124,6 +126,8 @@ def identify(
                 "the law found lies where the reduced model is not certified: take it as provisional",
             )
         models = replace(models, domain=models.domain.widened(fit.law, sweep.frequency_hz))
+    if problem.joint is not None:
+        further += remarks_on_bend(fit.law, problem.joint.begun.problem.freedom)
     theory = _checked(specimen, sweep, fit) if method == "direct" else None
     began = perf_counter()
     with threadpool_limits(1, "blas"), progress("validating") as report:
@@ -156,7 +160,8 @@ class _Direct:
         return Joint(self._begun, self._ready.reduced) if self._begun is not None else None
 
     def fit(self, start: CoreLaw, report: Report) -> Fit:
-        self._begun = begin(self._ready.problem, self._ready.reduced, self._noise, self._ready.bare, start)
+        begun = begin(self._ready.problem, self._ready.reduced, self._noise, self._ready.bare, start)
+        self._begun = loosened(begun)
         return fit_of(self._begun)
 
     def validated(self, sweep: Sweep, noise: Noise, fit: Fit, report: Report) -> Validation:

@@ -3,6 +3,7 @@
 import numpy as np
 
 from fitting.arrays import Array
+from fitting.bent_law import BentLaw
 from fitting.laws import CoreLaw
 from fitting.noise import scatter_over_stated
 from fitting.specimen import Specimen
@@ -33,6 +34,17 @@ def remarks_on_law(law: CoreLaw, sweep_hz: Array) -> tuple[str, ...]:
     return (
         f"[core.law] is a {law.kind}: fitted is a {fitted.kind} that begins at the one nearest to it; the "
         "rows are a start and weigh nothing against the data",
+    )
+
+
+def remarks_on_bend(found: CoreLaw, usual: float) -> tuple[str, ...]:
+    """Where the data asked for a law that bends further than `usual`."""
+    times = found.freedom / usual if isinstance(found, BentLaw) else 1.0
+    if times == 1.0:
+        return ()
+    return (
+        f"the law may bend {times:g} times as far from its formula as materials usually do, as the data ask: "
+        "the core follows another law, or something else is amiss; see 'viscorig diagnose'",
     )
 
 

@@ -10,6 +10,7 @@ from threadpoolctl import threadpool_limits
 from fitting.diagnosis.among import among
 from fitting.diagnosis.confounded import last_word
 from fitting.diagnosis.diagnose import diagnose_task, seen_in_channels
+from fitting.diagnosis.freer_law import loosened
 from fitting.diagnosis.joining import joined
 from fitting.diagnosis.joint import fit_of
 from fitting.diagnosis.prediction import held_out
@@ -26,6 +27,7 @@ from instrument.models.file_remarks import remarks_on_files, remarks_on_scale
 from instrument.models.files import File, mounted, numbers_of, one_plate
 from instrument.models.files_at_work import FilesAtWork, SetAside
 from instrument.models.identification import Identified, Joint
+from instrument.models.remarks import remarks_on_bend
 from instrument.models.second_process import executor
 from instrument.models.set_up import Hammer
 from instrument.models.theory import check_each_theory
@@ -72,6 +74,9 @@ def identify_together(
                 begun, noise = work.without_glitches()
             other = exchanged(files)
             misfit = (work.about_misfit(),) if other is None else (f"{other.words}. The law means nothing",)
+        else:
+            # What a misfit says of a law's form is a guess.
+            begun = loosened(begun)
         fit = fit_of(begun)
     seconds = perf_counter() - ready
     theory = _check_theories(files, fit.law)
@@ -82,7 +87,8 @@ def identify_together(
             validation = validation.without_noise
     sweep = begun.problem.sweep
     scale = remarks_on_scale(plate, fit.law, sweep.frequency_hz)
-    further = (*scale, *remarks_on_files(files), *theory, *(one.words(files) for one in work.aside))
+    bend = remarks_on_bend(fit.law, begun.problem.freedom)
+    further = (*scale, *bend, *remarks_on_files(files), *theory, *(one.words(files) for one in work.aside))
     result = summarise("direct", sweep, noise, fit, validation, further)
     result = replace(result, warnings=(*misfit, *result.warnings))
     validated = perf_counter() - checked
