@@ -23,6 +23,8 @@ _A_KNOT = 0.45
 """In ln f: what a law's error may follow."""
 _GROW, _GAP = 0.02, 0.06
 """In ln f: a stretch is taken a little wider; two that are nearer than that are one."""
+_BETWEEN = 0.5
+"""Of the narrower of two stretches: between its lobes a disturbance passes through nothing. A choice."""
 _SHORTEST = 4
 """Points that are off together: fewer are outliers of another kind."""
 _MOST = 0.5
@@ -110,6 +112,11 @@ def _stretches(f: Array) -> list[tuple[float, float]]:
     f = np.sort(f)
     cuts = np.flatnonzero(np.diff(np.log(f)) > _GAP)
     first, last = np.concatenate([[0], cuts + 1]), np.concatenate([cuts, [len(f) - 1]])
-    return [
-        (float(f[a] * np.exp(-_GROW)), float(f[b] * np.exp(_GROW))) for a, b in zip(first, last, strict=True)
-    ]
+    lobes = [(float(np.log(f[first[0]])), float(np.log(f[last[0]])))]
+    for low, high in np.log(np.column_stack([f[first], f[last]])[1:]).tolist():
+        before = lobes[-1]
+        if low - before[1] < _BETWEEN * min(high - low, before[1] - before[0]):
+            lobes[-1] = before[0], high
+        else:
+            lobes.append((low, high))
+    return [(float(np.exp(low - _GROW)), float(np.exp(high + _GROW))) for low, high in lobes]

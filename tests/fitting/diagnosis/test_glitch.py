@@ -39,6 +39,17 @@ def test_two_resonances_are_two_stretches():
     assert [round(g.low_hz < at < g.high_hz) for g, at in zip(found, (200.0, 500.0), strict=True)] == [1, 1]
 
 
+def test_lobes_of_one_disturbance_are_one_stretch():
+    def lobes(f):
+        # Off by as much to either side of 280 Hz, and by nothing within 3.5 % of it.
+        x = np.log(f / 280.0)
+        return 1 + 0.06 * np.sign(x) * ((np.abs(x) > 0.034) & (np.abs(x) < 0.22))
+
+    _, _, (found,) = looked_at(lobes, points=400)
+    assert found.low_hz < 230.0
+    assert found.high_hz > 340.0
+
+
 def test_what_law_gain_and_delay_may_leave_is_no_glitch():
     def smooth(f):
         return 1.03 * np.exp(-2j * np.pi * f * 5e-6) * (1 + 0.01 * (f / f.max()))
