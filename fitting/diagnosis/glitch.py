@@ -24,7 +24,7 @@ _A_KNOT = 0.45
 _GROW, _GAP = 0.02, 0.06
 """In ln f: a stretch is taken a little wider; two that are nearer than that are one."""
 _BETWEEN = 0.5
-"""Of the narrower of two stretches: between its lobes a disturbance passes through nothing. A choice."""
+"""Of the narrower of two stretches, that is between them where they are lobes of one. A choice."""
 _SHORTEST = 4
 """Points that are off together: fewer are outliers of another kind."""
 _MOST = 0.5
@@ -49,6 +49,15 @@ class Glitch:
     """Off by so much, of the reading."""
     rms: float
     """The same, all over it."""
+
+
+def are_one(a_hz: tuple[float, float], b_hz: tuple[float, float]) -> bool:
+    """Whether two stretches, by their ends, are one: they touch, or are lobes of one disturbance.
+
+    Between its lobes that passes through nothing.
+    """
+    (low, high), (further, highest) = sorted(np.log([a_hz, b_hz]).tolist())
+    return bool(further - high < max(_GAP, _BETWEEN * min(high - low, highest - further)))
 
 
 def glitches(problem: SmallProblem, law: CoreLaw, v: Complex) -> tuple[Mask, tuple[Glitch, ...]]:
@@ -112,11 +121,10 @@ def _stretches(f: Array) -> list[tuple[float, float]]:
     f = np.sort(f)
     cuts = np.flatnonzero(np.diff(np.log(f)) > _GAP)
     first, last = np.concatenate([[0], cuts + 1]), np.concatenate([cuts, [len(f) - 1]])
-    lobes = [(float(np.log(f[first[0]])), float(np.log(f[last[0]])))]
-    for low, high in np.log(np.column_stack([f[first], f[last]])[1:]).tolist():
-        before = lobes[-1]
-        if low - before[1] < _BETWEEN * min(high - low, before[1] - before[0]):
-            lobes[-1] = before[0], high
+    lobes = [(float(f[first[0]]), float(f[last[0]]))]
+    for one in zip(f[first[1:]].tolist(), f[last[1:]].tolist(), strict=True):
+        if are_one(lobes[-1], one):
+            lobes[-1] = lobes[-1][0], one[1]
         else:
-            lobes.append((low, high))
-    return [(float(np.exp(low - _GROW)), float(np.exp(high + _GROW))) for low, high in lobes]
+            lobes.append(one)
+    return [(low * float(np.exp(-_GROW)), high * float(np.exp(_GROW))) for low, high in lobes]

@@ -12,7 +12,7 @@ import numpy as np
 from fitting.arrays import Mask
 from fitting.diagnosis.begin import Begun, begin
 from fitting.diagnosis.evidence import BareModes
-from fitting.diagnosis.glitch import Glitch, glitches
+from fitting.diagnosis.glitch import Glitch, are_one, glitches
 from fitting.diagnosis.of_files import Place
 from fitting.diagnosis.problem import DiagnosisProblem
 from fitting.diagnosis.several import SeveralProblem
@@ -145,10 +145,10 @@ class FilesAtWork:
         return found
 
     def _add(self, one: SetAside) -> None:
-        """Stretches of a file that touch are one."""
+        """Stretches of a file that touch, or are lobes of one disturbance, are one."""
         for k, other in enumerate(self.aside):
             g, h = one.glitch, other.glitch
-            if other.file == one.file and g.low_hz <= 1.06 * h.high_hz and h.low_hz <= 1.06 * g.high_hz:
+            if other.file == one.file and are_one((g.low_hz, g.high_hz), (h.low_hz, h.high_hz)):
                 points = one.points + other.points
                 off = np.sqrt((one.points * g.rms**2 + other.points * h.rms**2) / points)
                 both = (min(g.low_hz, h.low_hz), max(g.high_hz, h.high_hz), max(g.largest, h.largest))

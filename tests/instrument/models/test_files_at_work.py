@@ -35,6 +35,13 @@ def test_a_stretch_between_two_joins_both():
     assert [(s.glitch.low_hz, s.glitch.high_hz, s.points) for s in work.aside] == [(100.0, 240.0, 30)]
 
 
+def test_two_lobes_of_one_disturbance_are_one_stretch():
+    work = FilesAtWork(FILES, quiet, with_effects=False)
+    for low_hz, high_hz in ((200.0, 264.0), (280.5, 373.6), (600.0, 700.0)):
+        work._add(SetAside(1, Glitch(low_hz, high_hz, 0.01, 0.001), 10))
+    assert [(s.glitch.low_hz, s.glitch.high_hz) for s in work.aside] == [(200.0, 373.6), (600.0, 700.0)]
+
+
 @pytest.mark.parametrize(
     ("misfit", "lawless", "said"),
     [
