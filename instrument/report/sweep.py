@@ -21,7 +21,7 @@ def sweep_section(contents: Contents, fitted: ReportedFit) -> ReportSection:
     if not contents.points:
         return ReportSection(title, (Sentence("There is no point of a sweep in this session.", "note"),))
     blocks: list[Block] = [Sentence(_summary(contents))]
-    segments = segments_of(contents)
+    segments = segments_of(contents, fitted.points_set_aside)
     reads = contents.configuration.rig.vibrometer.reads
     drawn = f"{reads.capitalize()} velocity v at the pickup over base acceleration a, by segment"
     drawn += "" if fitted.fit is not None else "; no model is drawn, as there is no fit"
