@@ -124,7 +124,7 @@ def diagnose(
     theory_over(specimen, result.after.law, sweep.frequency_hz)
     further = (
         *remarks_on_law(start, sweep.frequency_hz),
-        *remarks_on_noise(sweep),
+        *remarks_on_noise(sweep.take(why_aside == "")),
         *remarks_on_tolerances(specimen),
     )
     before = theory_remark(specimen, result.before.law, sweep.frequency_hz)

@@ -87,14 +87,18 @@ def explained(measured: Measured, found: DiagnosisResult | None) -> list[tuple[A
     return [(np.array([f for f, _ in line]), np.array([z for _, z in line])) for line in lines.values()]
 
 
+def points_set_aside(contents: Contents, by_fit: Sequence[PointSetAside]) -> tuple[PointSetAside, ...]:
+    """What a fit has left out, and what the recorded diagnosis has."""
+    found = contents.diagnosis.result if contents.diagnosis is not None else None
+    return (*by_fit, *(found.points_set_aside if found is not None else ()))
+
+
 def segments_of(contents: Contents, aside: Sequence[PointSetAside] = ()) -> list[Measured]:
     """Every segment with points in it, what was read elsewhere by itself; sentinels are not among them.
 
     A fit, or the recorded diagnosis, has set `aside` some.
     """
-    found = contents.diagnosis.result if contents.diagnosis is not None else None
-    both = (*aside, *(found.points_set_aside if found is not None else ()))
-    kept = (why_aside(contents.measured, both) == "").tolist()
+    kept = (why_aside(contents.measured, points_set_aside(contents, aside)) == "").tolist()
     every = zip(Which.of(contents.measured), contents.measured, kept, strict=True)
     steps = [(w, p, k) for w, p, k in every if p.purpose == "step"]
     places = sorted({(p.segment, p.pickup, p.mass_kg) for _, p, _ in steps})

@@ -10,13 +10,12 @@ from matplotlib.ticker import FuncFormatter, LogLocator, NullLocator
 from numpy.typing import NDArray
 
 from fitting.arrays import Array
+from instrument.results.set_aside import NAME
 
 T = TypeVar("T")
 
 DATA, MODEL, MARK, SECOND = "#0b63a5", "#c2571a", "#5b8c2a", "#7a4fa3"
 WIDTH_IN = 11.0
-SET_ASIDE_NAME = "set aside, not fitted"
-"""Of readings that take no part, in every legend."""
 _SET_ASIDE: dict[str, Any] = {"marker": "v", "color": "#b3261e", "mfc": "none", "ms": 6, "ls": "none"}
 _FOOT = 0.04
 """Of an axis's height: where what has no place on its scale is marked."""
@@ -74,9 +73,9 @@ def mark_set_aside(ax: Axes, x: Array, y: Array | None = None) -> None:
         return
     if y is None:
         at_foot = np.full(len(x), _FOOT)
-        ax.plot(x, at_foot, label=SET_ASIDE_NAME, transform=ax.get_xaxis_transform(), **_SET_ASIDE)
+        ax.plot(x, at_foot, label=NAME, transform=ax.get_xaxis_transform(), **_SET_ASIDE)
     else:
-        ax.plot(x, y, label=SET_ASIDE_NAME, **_SET_ASIDE)
+        ax.plot(x, y, label=NAME, **_SET_ASIDE)
 
 
 def legend(ax: Axes) -> None:

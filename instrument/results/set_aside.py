@@ -4,12 +4,26 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from fitting.aside import Reasons, reasons
+from fitting.aside import DISTURBED, INSENSITIVE, LOST, Reasons, reasons
 from instrument.facts.rows import PointSetAside
 from instrument.stream.derived import PointMeasured
 
+NAME = "set aside, not fitted"
+"""Of readings that take no part, in every legend."""
 _SAME = 1e-9
 """Relative: what a result has of a reading was computed of the same numbers."""
+
+_WORDS = {
+    LOST: "far off the readings beside it: a signal lost, or an overload",
+    "mains_hum": "the mains hums there",
+    DISTURBED: "in a stretch that a fixture's own resonance disturbs",
+    INSENSITIVE: "hardly depends on the core: it shows what the rig does wrong",
+}
+
+
+def words_of(why: str) -> str:
+    """Why a reading is set aside, in words; of another package's effect its name."""
+    return _WORDS.get(why, why)
 
 
 def why_aside(points: Sequence[PointMeasured], aside: Sequence[PointSetAside]) -> Reasons:

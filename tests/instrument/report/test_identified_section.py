@@ -27,7 +27,7 @@ from instrument.report.identification import (
 )
 from instrument.report.law_figures import law_figure, residual_figures
 from instrument.report.measured import Measured
-from instrument.results.drawing import SET_ASIDE_NAME
+from instrument.results.set_aside import NAME
 
 SWEEP = sweep()
 PLATE = SimpleNamespace(kind="plate")
@@ -253,8 +253,8 @@ def test_what_is_set_aside_has_no_residual_and_is_marked_at_the_foot():
     for ax in figure.axes:
         by_name = {line.get_label(): line for line in ax.lines}
         assert list(by_name["model less measured"].get_xdata()) == [20.0, 30.0]
-        assert list(by_name[SET_ASIDE_NAME].get_xdata()) == [25.0]
-    assert SET_ASIDE_NAME in [text.get_text() for text in figure.legends[0].get_texts()]
+        assert list(by_name[NAME].get_xdata()) == [25.0]
+    assert NAME in [text.get_text() for text in figure.legends[0].get_texts()]
 
 
 def test_a_section_has_the_law_s_picture_with_what_its_bands_are():
